@@ -1,0 +1,111 @@
+use super::probe::Source;
+use super::signals::{Field, Make, Role, Shape, Signals, Visit};
+use crate::logic::{Logic, Sim};
+use std::fmt;
+
+/// A clocked circuit as two pure functions.
+///
+/// [`comb`](Circuit::comb) settles the nets from registers and inputs and cannot touch state;
+/// [`next`](Circuit::next) makes all registers of the next tick at once. `&self` holds what is
+/// fixed at elaboration: contents of memories, gains, the chosen variant. Widths are const
+/// generics of the implementing type.
+///
+/// A circuit made of circuits keeps an [`Instance`] of each in its `Net` and the `Reg` of each in
+/// its `Reg`, and only wires them.
+pub trait Circuit {
+    /// The circuit's name: the outermost scope of its waves, the module of its HDL.
+    const NAME: &'static str;
+    /// What it does, in one line.
+    const ABOUT: &'static str;
+    /// Ports in.
+    type In<L: Logic>: Signals<L>;
+    /// Flip-flops and memories.
+    type Reg<L: Logic>: Signals<L>;
+    /// Combinational nets.
+    type Net<L: Logic>: Signals<L>;
+
+    /// The nets of this tick.
+    fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L>;
+
+    /// The registers of the next tick.
+    fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, i: &Self::In<L>) -> Self::Reg<L>;
+
+    /// The registers at power-on: unless overridden, what `signals!` says, memories zero.
+    ///
+    /// A circuit with contents in a memory overrides it, and so does one that contains such a
+    /// circuit.
+    fn power_on(&self) -> Self::Reg<Sim> {
+        struct PowerOn;
+        impl Source for PowerOn {
+            fn leaf(&mut self, field: &'static Field, _: Shape) -> u64 {
+                field.power_on as u64
+            }
+        }
+        Self::Reg::make(const { &Field::part(Role::Register) }, &mut PowerOn)
+    }
+}
+
+/// One circuit inside another: what goes into it and its nets, in one scope.
+pub struct Instance<C: Circuit, L: Logic> {
+    /// What the surrounding circuit applies to its ports in.
+    pub i: C::In<L>,
+    /// Its nets.
+    pub w: C::Net<L>,
+}
+
+impl<C: Circuit, L: Logic> Instance<C, L> {
+    /// Applies `i` and settles the nets.
+    #[inline(always)]
+    pub fn settle(circuit: &C, q: &C::Reg<L>, i: C::In<L>) -> Self {
+        let w = circuit.comb(q, &i);
+        Instance { i, w }
+    }
+
+    /// The registers of the next tick.
+    #[inline(always)]
+    pub fn next(&self, circuit: &C, q: C::Reg<L>) -> C::Reg<L> {
+        circuit.next(q, &self.w, &self.i)
+    }
+}
+
+// Written out because a derive would ask the circuit itself to be `Clone` and `Debug`.
+impl<C: Circuit, L: Logic> Clone for Instance<C, L> {
+    #[inline]
+    fn clone(&self) -> Self {
+        Instance {
+            i: self.i.clone(),
+            w: self.w.clone(),
+        }
+    }
+}
+
+impl<C: Circuit, L: Logic> fmt::Debug for Instance<C, L>
+where
+    C::In<L>: fmt::Debug,
+    C::Net<L>: fmt::Debug,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME)
+            .field("i", &self.i)
+            .field("w", &self.w)
+            .finish()
+    }
+}
+
+impl<C: Circuit, L: Logic> Signals<L> for Instance<C, L> {
+    #[inline(always)]
+    fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
+        visitor.enter(field);
+        self.i.visit(const { &Field::part(Role::Input) }, visitor);
+        self.w.visit(const { &Field::part(Role::Net) }, visitor);
+        visitor.leave();
+    }
+
+    fn make<M: Make<L>>(field: &'static Field, maker: &mut M) -> Self {
+        maker.enter(field);
+        let i = C::In::make(const { &Field::part(Role::Input) }, maker);
+        let w = C::Net::make(const { &Field::part(Role::Net) }, maker);
+        maker.leave();
+        Instance { i, w }
+    }
+}

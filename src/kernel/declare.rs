@@ -1,0 +1,167 @@
+use super::probe::{Probe, Words};
+use super::signals::{Field, Kind, Role, Shape};
+use super::{Circuit, Sample};
+
+/// Where a walk is: the scopes around the next leaf and the part of the circuit it belongs to.
+///
+/// Keep one in a [`Probe`] or [`Source`](super::Source) and pass it every `enter`, `leave` and
+/// `element`.
+#[derive(Debug, Clone, Default)]
+pub struct Path {
+    scopes: Vec<String>,
+    /// For every struct entered: whether it added a scope, and the role around it.
+    entered: Vec<(bool, Option<Role>)>,
+    role: Option<Role>,
+    element: Option<usize>,
+}
+
+impl Path {
+    /// A struct begins.
+    pub fn enter(&mut self, field: &'static Field) {
+        self.entered.push((!field.name.is_empty(), self.role));
+        if !field.name.is_empty() {
+            let name = self.name(field);
+            self.scopes.push(name);
+        }
+        if field.role.is_some() {
+            self.role = field.role;
+        }
+    }
+
+    /// The struct entered last ends.
+    pub fn leave(&mut self) {
+        if let Some((scoped, role)) = self.entered.pop() {
+            self.role = role;
+            if scoped {
+                self.scopes.pop();
+            }
+        }
+    }
+
+    /// What comes next is element `index` of an array.
+    pub fn element(&mut self, index: usize) {
+        self.element = Some(index);
+    }
+
+    /// The name of the leaf or scope that comes now.
+    pub fn name(&mut self, field: &'static Field) -> String {
+        match self.element.take() {
+            Some(index) => field.element(index).into_owned(),
+            None => field.name.to_owned(),
+        }
+    }
+
+    /// The scopes around it, outermost first.
+    pub fn scopes(&self) -> &[String] {
+        &self.scopes
+    }
+
+    /// The part of the circuit it belongs to.
+    pub fn role(&self) -> Role {
+        self.role.unwrap_or(Role::Net)
+    }
+}
+
+/// One leaf of a walk, without its value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Declaration {
+    /// The scopes around it, outermost first.
+    pub scopes: Vec<String>,
+    /// Its name in the innermost scope.
+    pub name: String,
+    /// Port in, register or net.
+    pub role: Role,
+    /// Kind and width.
+    pub shape: Shape,
+    /// What `signals!` says of it.
+    pub field: &'static Field,
+}
+
+impl Declaration {
+    /// Scopes and name joined by dots.
+    pub fn path(&self) -> String {
+        let mut path = self.scopes.join(".");
+        if !path.is_empty() {
+            path.push('.');
+        }
+        path + &self.name
+    }
+}
+
+/// A memory of a walk; its words are leaves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MemoryDeclaration {
+    /// The scopes around it, outermost first.
+    pub scopes: Vec<String>,
+    /// Its name in the innermost scope, and the scope of its words.
+    pub name: String,
+    /// The leaf that is its first word.
+    pub first: usize,
+    /// The number of its words.
+    pub words: usize,
+    /// Width of a word in bits.
+    pub width: usize,
+    /// What `signals!` says of it.
+    pub field: &'static Field,
+}
+
+/// Every leaf of a walk, in its order.
+#[derive(Debug, Clone, Default)]
+pub struct Declarations {
+    /// The leaves; the index is a leaf's identity.
+    pub leaves: Vec<Declaration>,
+    /// The memories, in the order of their first words.
+    pub memories: Vec<MemoryDeclaration>,
+    path: Path,
+}
+
+impl Declarations {
+    /// The signals of a circuit, in the order in which a [`Sample`] of it is walked.
+    pub fn of<C: Circuit>(circuit: &C) -> Self {
+        let mut declarations = Declarations::default();
+        Sample::at_power_on(circuit, |sample| sample.visit(&mut declarations));
+        declarations
+    }
+}
+
+impl Probe for Declarations {
+    fn enter(&mut self, field: &'static Field) {
+        self.path.enter(field);
+    }
+    fn leave(&mut self) {
+        self.path.leave();
+    }
+    fn element(&mut self, index: usize) {
+        self.path.element(index);
+    }
+    fn leaf(&mut self, field: &'static Field, shape: Shape, _: u64) {
+        let name = self.path.name(field);
+        self.leaves.push(Declaration {
+            scopes: self.path.scopes().to_vec(),
+            name,
+            role: self.path.role(),
+            shape,
+            field,
+        });
+    }
+    fn memory(&mut self, field: &'static Field, words: &dyn Words) {
+        let scopes = self.path.scopes().to_vec();
+        let first = self.leaves.len();
+        Probe::enter(self, field);
+        let name = self.path.scopes().last().cloned().unwrap_or_default();
+        let (kind, width) = (Kind::Unsigned, words.width());
+        for index in 0..words.len() {
+            Probe::element(self, index);
+            Probe::leaf(self, words.label(), Shape { kind, width }, 0);
+        }
+        Probe::leave(self);
+        self.memories.push(MemoryDeclaration {
+            scopes,
+            name,
+            first,
+            words: words.len(),
+            width,
+            field,
+        });
+    }
+}

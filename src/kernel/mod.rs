@@ -1,0 +1,22 @@
+//! What every circuit gets for free: signals that can be walked, the circuit as two pure
+//! functions, and the simulator with its observers.
+
+mod circuit;
+mod declare;
+mod macros;
+mod observe;
+mod pack;
+mod probe;
+mod signals;
+mod simulator;
+#[cfg(test)]
+mod tests;
+
+pub use circuit::{Circuit, Instance};
+pub use declare::{Declaration, Declarations, MemoryDeclaration, Path};
+pub use observe::{Observer, RunError, Sample, StopWhen};
+pub use pack::{Bits, pack, unpack, width, zero};
+pub use probe::{Changed, Probe, Source, Words};
+pub(crate) use probe::{STAGE, WORD};
+pub use signals::{Field, Format, Kind, Make, Nothing, Role, Shape, Signals, Visit};
+pub use simulator::Simulator;

@@ -1,0 +1,129 @@
+use super::signals::{Field, Role, Signals, Visit};
+use super::{Circuit, Instance};
+use crate::logic::Sim;
+use std::io;
+use std::ops::ControlFlow;
+
+/// All signals of a circuit at one tick, settled: what stands in the waves while `clk` is high.
+#[derive(Debug)]
+pub struct Sample<'a, C: Circuit> {
+    /// The tick, from 0.
+    pub tick: u64,
+    /// Ports in.
+    pub i: &'a C::In<Sim>,
+    /// Registers.
+    pub q: &'a C::Reg<Sim>,
+    /// Nets.
+    pub w: &'a C::Net<Sim>,
+}
+
+impl<C: Circuit> Sample<'_, C> {
+    /// Walks all signals: a scope with the circuit's name, in it ports in, registers and nets.
+    #[inline]
+    pub fn visit<V: Visit<Sim>>(&self, visitor: &mut V) {
+        visitor.enter(const { &Field::named(C::NAME) });
+        self.i.visit(const { &Field::part(Role::Input) }, visitor);
+        self.q
+            .visit(const { &Field::part(Role::Register) }, visitor);
+        self.w.visit(const { &Field::part(Role::Net) }, visitor);
+        visitor.leave();
+    }
+
+    /// Shows the circuit as it is at power-on with every port in at zero.
+    pub fn at_power_on<T>(circuit: &C, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
+        let i = super::zero();
+        let q = circuit.power_on();
+        let Instance::<C, Sim> { i, w } = Instance::settle(circuit, &q, i);
+        show(&Sample {
+            tick: 0,
+            i: &i,
+            q: &q,
+            w: &w,
+        })
+    }
+}
+
+/// Why a run ended before its time.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The waves could not be written.
+    #[error("the waves could not be written: {0}")]
+    Waves(#[from] io::Error),
+    /// A monitor saw what must not be.
+    #[error("tick {tick}: {message} (signals: {})", signals.join(", "))]
+    Violation {
+        /// The tick at fault.
+        tick: u64,
+        /// The signals at fault.
+        signals: Vec<String>,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+/// Looks at every tick of a run: writes waves, records, monitors, stops.
+///
+/// `()` observes nothing and costs nothing; a tuple observes with each of its parts in turn.
+pub trait Observer<C: Circuit> {
+    /// Sees one tick; `Break` ends the run after this tick's edge.
+    ///
+    /// # Errors
+    /// Ends the run with that error; the registers stay those of this tick.
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError>;
+}
+
+impl<C: Circuit> Observer<C> for () {
+    #[inline]
+    fn sample(&mut self, _: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+impl<C: Circuit, O: Observer<C>> Observer<C> for &mut O {
+    #[inline]
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        (**self).sample(now)
+    }
+}
+
+impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
+    #[inline]
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        match self {
+            Some(observer) => observer.sample(now),
+            None => Ok(ControlFlow::Continue(())),
+        }
+    }
+}
+
+macro_rules! together {
+    ($($part:ident $place:tt),+) => {
+        impl<C: Circuit, $($part: Observer<C>),+> Observer<C> for ($($part,)+) {
+            #[inline]
+            fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+                let mut stop = false;
+                $( stop |= self.$place.sample(now)?.is_break(); )+
+                Ok(if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+            }
+        }
+    };
+}
+
+together!(A 0, B 1);
+together!(A 0, B 1, D 2);
+together!(A 0, B 1, D 2, E 3);
+
+/// Ends a run at the first tick for which the condition holds; that tick still happens.
+#[derive(Debug, Clone)]
+pub struct StopWhen<F>(pub F);
+
+impl<C: Circuit, F: FnMut(&Sample<'_, C>) -> bool> Observer<C> for StopWhen<F> {
+    #[inline]
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        Ok(if (self.0)(now) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        })
+    }
+}

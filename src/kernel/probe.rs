@@ -1,0 +1,171 @@
+use super::signals::{Field, Kind, Make, Shape, Visit};
+use crate::logic::{Image, Signed, Sim, sim::*};
+
+/// What the last edge changed in a memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Changed {
+    /// Nothing.
+    None,
+    /// The word at this index.
+    One(usize),
+    /// Possibly every word.
+    All,
+}
+
+/// The words of a memory or shift register, for a [`Probe`].
+pub trait Words {
+    /// Width of a word in bits.
+    fn width(&self) -> usize;
+    /// The number of words.
+    fn len(&self) -> usize;
+    /// Whether there is no word.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// The word at `index`.
+    fn word(&self, index: usize) -> u64;
+    /// What the last edge changed.
+    fn changed(&self) -> Changed;
+    /// What a word is called.
+    fn label(&self) -> &'static Field;
+}
+
+/// A word of a RAM.
+pub(crate) static WORD: Field = Field::named("word");
+/// A word of a shift register.
+pub(crate) static STAGE: Field = Field::named("stage");
+
+/// A visitor of simulated signals: every leaf comes as its bits.
+pub trait Probe {
+    /// A struct or a memory begins.
+    fn enter(&mut self, _field: &'static Field) {}
+    /// The struct or memory entered last ends.
+    fn leave(&mut self) {}
+    /// What comes next is element `index` of an array or a memory.
+    fn element(&mut self, _index: usize) {}
+    /// A leaf; `bits` holds its value in the low `shape.width` bits, zeros above.
+    fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64);
+    /// A memory: unless overridden, a scope with a leaf for every word.
+    fn memory(&mut self, field: &'static Field, words: &dyn Words) {
+        self.enter(field);
+        let shape = Shape {
+            kind: Kind::Unsigned,
+            width: words.width(),
+        };
+        for index in 0..words.len() {
+            self.element(index);
+            self.leaf(words.label(), shape, words.word(index));
+        }
+        self.leave();
+    }
+}
+
+impl<P: Probe> Visit<Sim> for P {
+    #[inline]
+    fn enter(&mut self, field: &'static Field) {
+        Probe::enter(self, field);
+    }
+    #[inline]
+    fn leave(&mut self) {
+        Probe::leave(self);
+    }
+    #[inline]
+    fn element(&mut self, index: usize) {
+        Probe::element(self, index);
+    }
+    #[inline]
+    fn bit(&mut self, field: &'static Field, value: Wire) {
+        let kind = Kind::Bit;
+        self.leaf(field, Shape { kind, width: 1 }, value.get().into());
+    }
+    #[inline]
+    fn unsigned<const N: usize>(&mut self, field: &'static Field, value: UInt<N>) {
+        let kind = Kind::Unsigned;
+        self.leaf(field, Shape { kind, width: N }, value.get());
+    }
+    #[inline]
+    fn signed<const N: usize>(&mut self, field: &'static Field, value: Int<N>) {
+        let kind = Kind::Signed;
+        self.leaf(field, Shape { kind, width: N }, value.unsigned().get());
+    }
+    #[inline]
+    fn ram<const A: usize, const D: usize>(&mut self, field: &'static Field, ram: &SimRam<A, D>) {
+        self.memory(field, ram);
+    }
+    #[inline]
+    fn shift_register<const K: usize, const D: usize>(
+        &mut self,
+        field: &'static Field,
+        register: &SimShiftRegister<K, D>,
+    ) {
+        self.memory(field, register);
+    }
+}
+
+/// A maker of simulated signals: it gives every leaf its bits.
+pub trait Source {
+    /// A struct or a memory begins.
+    fn enter(&mut self, _field: &'static Field) {}
+    /// The struct or memory entered last ends.
+    fn leave(&mut self) {}
+    /// What comes next is element `index` of an array or a memory.
+    fn element(&mut self, _index: usize) {}
+    /// The bits of a leaf; those above `shape.width` are ignored.
+    fn leaf(&mut self, field: &'static Field, shape: Shape) -> u64;
+}
+
+/// The words of a memory, one leaf each.
+fn words<S: Source>(
+    source: &mut S,
+    field: &'static Field,
+    label: &'static Field,
+    len: usize,
+    width: usize,
+) -> Vec<u64> {
+    let kind = Kind::Unsigned;
+    source.enter(field);
+    let words = (0..len)
+        .map(|index| {
+            source.element(index);
+            source.leaf(label, Shape { kind, width })
+        })
+        .collect();
+    source.leave();
+    words
+}
+
+impl<S: Source> Make<Sim> for S {
+    fn enter(&mut self, field: &'static Field) {
+        Source::enter(self, field);
+    }
+    fn leave(&mut self) {
+        Source::leave(self);
+    }
+    fn element(&mut self, index: usize) {
+        Source::element(self, index);
+    }
+    #[inline]
+    fn bit(&mut self, field: &'static Field) -> Wire {
+        let kind = Kind::Bit;
+        (self.leaf(field, Shape { kind, width: 1 }) & 1 == 1).into()
+    }
+    #[inline]
+    fn unsigned<const N: usize>(&mut self, field: &'static Field) -> UInt<N> {
+        let kind = Kind::Unsigned;
+        self.leaf(field, Shape { kind, width: N }).into()
+    }
+    #[inline]
+    fn signed<const N: usize>(&mut self, field: &'static Field) -> Int<N> {
+        let kind = Kind::Signed;
+        (self.leaf(field, Shape { kind, width: N }) as i64).into()
+    }
+    fn ram<const A: usize, const D: usize>(&mut self, field: &'static Field) -> SimRam<A, D> {
+        Image::new(words(self, field, &WORD, Image::<A, D>::WORDS, D)).into()
+    }
+    fn shift_register<const K: usize, const D: usize>(
+        &mut self,
+        field: &'static Field,
+    ) -> SimShiftRegister<K, D> {
+        SimShiftRegister::new(words(self, field, &STAGE, K, D))
+    }
+}

@@ -1,0 +1,95 @@
+use super::{Circuit, Observer, RunError, Sample};
+use crate::logic::Sim;
+use std::ops::ControlFlow;
+
+/// A circuit in the meaning [`Sim`], clocked tick by tick.
+///
+/// At tick n inputs are applied, nets settle, everything is sampled; then the edge makes the
+/// registers of tick n + 1. So a register shows at n + 1 what was decided at n.
+#[derive(Debug)]
+pub struct Simulator<'c, C: Circuit> {
+    circuit: &'c C,
+    q: C::Reg<Sim>,
+    tick: u64,
+}
+
+impl<'c, C: Circuit> Simulator<'c, C> {
+    /// The circuit at power-on, before tick 0.
+    pub fn new(circuit: &'c C) -> Self {
+        Simulator {
+            q: circuit.power_on(),
+            circuit,
+            tick: 0,
+        }
+    }
+
+    /// The registers of the tick to come.
+    pub fn registers(&self) -> &C::Reg<Sim> {
+        &self.q
+    }
+
+    /// The tick to come.
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+
+    /// Runs `ticks` ticks, or until an observer stops.
+    ///
+    /// `stimulus` gives the inputs of a tick from its number and its registers. The state moves
+    /// through the call so that the compiler can hold it in machine registers; with `()` as
+    /// observer nothing but the circuit is executed.
+    ///
+    /// # Errors
+    /// The first error of an observer; the run is over then.
+    pub fn run(
+        self,
+        ticks: u64,
+        mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
+        mut observer: impl Observer<C>,
+    ) -> Result<Self, RunError> {
+        let Simulator {
+            circuit,
+            mut q,
+            tick: start,
+        } = self;
+        let mut tick = start;
+        let end = start.saturating_add(ticks);
+        while tick < end {
+            let i = stimulus(tick, &q);
+            let w = circuit.comb(&q, &i);
+            let flow = observer.sample(&Sample {
+                tick,
+                i: &i,
+                q: &q,
+                w: &w,
+            })?;
+            q = circuit.next(q, &w, &i);
+            tick += 1;
+            if let ControlFlow::Break(()) = flow {
+                break;
+            }
+        }
+        Ok(Simulator { circuit, q, tick })
+    }
+
+    /// Runs one tick and shows its sample.
+    pub fn step<T>(self, i: C::In<Sim>, show: impl FnOnce(&Sample<'_, C>) -> T) -> (Self, T) {
+        let Simulator { circuit, q, tick } = self;
+        let w = circuit.comb(&q, &i);
+        let shown = show(&Sample {
+            tick,
+            i: &i,
+            q: &q,
+            w: &w,
+        });
+        let q = circuit.next(q, &w, &i);
+        (
+            Simulator {
+                circuit,
+                q,
+                tick: tick + 1,
+            },
+            shown,
+        )
+    }
+}

@@ -1,0 +1,154 @@
+use super::{Sim, UInt, Wire};
+use crate::kernel::{Changed, Field, Make, STAGE, Signals, Visit, WORD, Words};
+use crate::logic::{Image, Ram, ShiftRegister};
+
+/// A RAM whose bits lie in a `bitvec`.
+#[derive(Debug, Clone)]
+pub struct SimRam<const A: usize, const D: usize> {
+    image: Image<A, D>,
+    changed: Changed,
+}
+
+/// A shift register as a ring: the head moves, the words stay; its stages are presented in order.
+#[derive(Debug, Clone)]
+pub struct SimShiftRegister<const K: usize, const D: usize> {
+    ring: Box<[UInt<D>]>,
+    head: usize,
+    changed: Changed,
+}
+
+impl<const A: usize, const D: usize> From<Image<A, D>> for SimRam<A, D> {
+    fn from(image: Image<A, D>) -> Self {
+        SimRam {
+            image,
+            changed: Changed::None,
+        }
+    }
+}
+
+impl<const A: usize, const D: usize> Ram<Sim, A, D> for SimRam<A, D> {
+    #[inline(always)]
+    fn read(&self, address: UInt<A>) -> UInt<D> {
+        self.image.get(address.get() as usize).into()
+    }
+
+    #[inline(always)]
+    fn read_when(&self, enable: Wire, address: UInt<A>, held: UInt<D>) -> UInt<D> {
+        if enable.get() {
+            self.read(address)
+        } else {
+            held
+        }
+    }
+
+    #[inline(always)]
+    fn write(mut self, enable: Wire, address: UInt<A>, data: UInt<D>) -> Self {
+        self.changed = Changed::None;
+        if enable.get() {
+            let address = address.get() as usize;
+            self.image.set(address, data.get());
+            self.changed = Changed::One(address);
+        }
+        self
+    }
+}
+
+impl<const A: usize, const D: usize> Words for SimRam<A, D> {
+    fn width(&self) -> usize {
+        D
+    }
+    fn len(&self) -> usize {
+        Image::<A, D>::WORDS
+    }
+    fn word(&self, index: usize) -> u64 {
+        self.image.get(index)
+    }
+    #[inline(always)]
+    fn changed(&self) -> Changed {
+        self.changed
+    }
+    fn label(&self) -> &'static Field {
+        &WORD
+    }
+}
+
+impl<const A: usize, const D: usize> Signals<Sim> for SimRam<A, D> {
+    #[inline(always)]
+    fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
+        visitor.ram(field, self);
+    }
+    fn make<M: Make<Sim>>(field: &'static Field, maker: &mut M) -> Self {
+        maker.ram(field)
+    }
+}
+
+impl<const K: usize, const D: usize> SimShiftRegister<K, D> {
+    /// A register that holds the given words, stage 0 first, zeros where they end.
+    pub fn new(stages: impl IntoIterator<Item = u64>) -> Self {
+        let mut ring = vec![UInt::default(); K].into_boxed_slice();
+        for (stage, word) in ring.iter_mut().zip(stages) {
+            *stage = word.into();
+        }
+        SimShiftRegister {
+            ring,
+            head: 0,
+            changed: Changed::None,
+        }
+    }
+}
+
+impl<const K: usize, const D: usize> ShiftRegister<Sim, K, D> for SimShiftRegister<K, D> {
+    #[inline(always)]
+    fn stage(&self, index: usize) -> UInt<D> {
+        if index >= K {
+            return UInt::default();
+        }
+        let place = self.head + index;
+        self.ring[if place < K { place } else { place - K }]
+    }
+
+    #[inline(always)]
+    fn tap<const T: usize>(&self, tap: UInt<T>) -> UInt<D> {
+        self.stage(usize::try_from(tap.get()).unwrap_or(usize::MAX))
+    }
+
+    #[inline(always)]
+    fn shift(mut self, enable: Wire, input: UInt<D>) -> Self {
+        self.changed = Changed::None;
+        if enable.get() && K > 0 {
+            self.head = if self.head == 0 { K - 1 } else { self.head - 1 };
+            self.ring[self.head] = input;
+            self.changed = Changed::All;
+        }
+        self
+    }
+}
+
+impl<const K: usize, const D: usize> Words for SimShiftRegister<K, D> {
+    fn width(&self) -> usize {
+        D
+    }
+    fn len(&self) -> usize {
+        K
+    }
+    fn word(&self, index: usize) -> u64 {
+        self.stage(index).get()
+    }
+    #[inline(always)]
+    fn changed(&self) -> Changed {
+        self.changed
+    }
+    fn label(&self) -> &'static Field {
+        &STAGE
+    }
+}
+
+impl<const K: usize, const D: usize> Signals<Sim> for SimShiftRegister<K, D> {
+    #[inline(always)]
+    fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
+        visitor.shift_register(field, self);
+    }
+    fn make<M: Make<Sim>>(field: &'static Field, maker: &mut M) -> Self {
+        maker.shift_register(field)
+    }
+}
