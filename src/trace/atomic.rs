@@ -1,0 +1,207 @@
+//! Files that appear whole or not at all.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// A file that takes its name only when it is complete.
+///
+/// What is written goes to a temporary file in the same directory; [`commit`](AtomicFile::commit)
+/// renames it, which replaces an older file in one step. Dropped before that, it leaves nothing.
+/// It does not buffer.
+#[derive(Debug)]
+pub struct AtomicFile {
+    file: NamedTempFile,
+    path: PathBuf,
+}
+
+impl AtomicFile {
+    /// Begins the file that will be called `path`.
+    ///
+    /// # Errors
+    /// The directory does not exist or cannot be written; the error names the path.
+    pub fn create(path: impl Into<PathBuf>) -> io::Result<Self> {
+        let path = path.into();
+        if path.is_dir() {
+            let taken = io::Error::new(io::ErrorKind::IsADirectory, "is a directory");
+            return Err(named(&path, &taken));
+        }
+        let directory = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".").suffix(".part");
+        // A temporary file is private; this one is to become an ordinary file.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let file = builder
+            .tempfile_in(directory)
+            // The kind alone: the rest would name the temporary file.
+            .map_err(|error| named(&path, &error.kind().into()))?;
+        Ok(AtomicFile { file, path })
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    /// The rename failed; nothing stays behind. The error names the path.
+    pub fn commit(self) -> io::Result<PathBuf> {
+        let AtomicFile { file, path } = self;
+        match file.persist(&path) {
+            Ok(_) => Ok(path),
+            Err(failed) => Err(named(&path, &failed.error)),
+        }
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.file.as_file_mut().write(bytes);
+        written.map_err(|error| named(&self.path, &error))
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.as_file_mut().flush()
+    }
+}
+
+/// A directory that is there from now on; dropped while it is still empty, it goes again.
+#[derive(Debug)]
+pub struct Directory {
+    /// What was not there before, innermost first.
+    made: Vec<PathBuf>,
+}
+
+impl Directory {
+    /// Creates the directory and those around it where they are missing.
+    ///
+    /// # Errors
+    /// It cannot be created; the error names the path.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        let missing =
+            |path: &&Path| !path.as_os_str().is_empty() && path.symlink_metadata().is_err();
+        let made = path.ancestors().take_while(missing).map(Path::to_owned);
+        // Made before the directories, so that it clears away what an error leaves.
+        let directory = Directory {
+            made: made.collect(),
+        };
+        fs::create_dir_all(path).map_err(|error| named(path, &error))?;
+        Ok(directory)
+    }
+}
+
+impl Drop for Directory {
+    fn drop(&mut self) {
+        for directory in &self.made {
+            // Fails where there is something in it, which is then to stay.
+            let _ = fs::remove_dir(directory);
+        }
+    }
+}
+
+/// Writes a whole file in one step, creating its directory where there is none.
+///
+/// # Errors
+/// The error names the path; an older file of that name is then untouched.
+pub fn write(path: impl Into<PathBuf>, contents: impl AsRef<[u8]>) -> io::Result<PathBuf> {
+    let path = path.into();
+    let _directory = path.parent().map(Directory::create).transpose()?;
+    let mut file = AtomicFile::create(path)?;
+    file.write_all(contents.as_ref())?;
+    file.commit()
+}
+
+fn named(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(directory: &Path) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(directory)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_has_its_name_only_when_committed() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("a.txt");
+        fs::write(&path, "old").unwrap();
+        let mut file = AtomicFile::create(&path).unwrap();
+        file.write_all(b"new").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(file.commit().unwrap(), path);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+        assert_eq!(names(directory.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn a_dropped_file_leaves_nothing() {
+        let directory = tempfile::tempdir().unwrap();
+        let mut file = AtomicFile::create(directory.path().join("a.txt")).unwrap();
+        file.write_all(b"half").unwrap();
+        assert_eq!(names(directory.path()).len(), 1);
+        drop(file);
+        assert!(names(directory.path()).is_empty());
+    }
+
+    #[test]
+    fn a_failed_rename_leaves_nothing_and_names_the_path() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("taken");
+        fs::create_dir_all(path.join("full")).unwrap();
+        let error = write(&path, "text").unwrap_err();
+        assert!(error.to_string().contains("taken"), "{error}");
+        assert_eq!(names(directory.path()), ["taken"]);
+    }
+
+    #[test]
+    fn whole_files_may_bring_their_directory() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("new/a.txt");
+        write(&path, "text").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "text");
+    }
+
+    #[test]
+    fn a_directory_goes_again_where_it_stays_empty() {
+        let outer = tempfile::tempdir().unwrap();
+        let deep = outer.path().join("a/b/c");
+        let directory = Directory::create(&deep).unwrap();
+        assert!(deep.is_dir());
+        drop(directory);
+        assert!(names(outer.path()).is_empty());
+
+        let directory = Directory::create(&deep).unwrap();
+        fs::write(outer.path().join("a/x"), "").unwrap();
+        drop(directory);
+        assert_eq!(names(&outer.path().join("a")), ["x"]);
+
+        let file = outer.path().join("a/x");
+        let error = Directory::create(&file.join("y/z")).unwrap_err();
+        assert!(error.to_string().contains("a/x/y/z: "), "{error}");
+        let before = fs::read_dir(outer.path()).unwrap().count();
+        drop(Directory::create(outer.path()).unwrap());
+        assert_eq!(fs::read_dir(outer.path()).unwrap().count(), before);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_is_as_readable_as_any_other() {
+        use std::os::unix::fs::PermissionsExt;
+        let directory = tempfile::tempdir().unwrap();
+        let ours = directory.path().join("ours");
+        let plain = directory.path().join("plain");
+        write(&ours, "").unwrap();
+        fs::write(&plain, "").unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(&ours), mode(&plain));
+    }
+}

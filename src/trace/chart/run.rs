@@ -1,0 +1,317 @@
+use super::{Cell, Chart, ChartError, Problem, Row};
+use crate::kernel::{
+    Circuit, Declaration, Declarations, Field, Format, Role, Shape, Signals, Simulator, Source,
+};
+use crate::logic::Sim;
+use crate::trace::record::near;
+use crate::trace::value::{mask, read, show};
+use crate::trace::{Options, Recorder};
+use std::fmt::{self, Write};
+
+/// Why a chart does not hold.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ChartFailure {
+    /// The chart does not fit the circuit.
+    #[error(transparent)]
+    Chart(#[from] ChartError),
+    /// The circuit does something else.
+    #[error(transparent)]
+    Mismatch(#[from] Box<Mismatch>),
+}
+
+/// The first cell, by tick, in which a circuit does not do what its chart says.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub struct Mismatch {
+    /// The line in the note, from 1.
+    pub line: usize,
+    /// The tick.
+    pub tick: u64,
+    /// The signal, by its path below the circuit.
+    pub signal: String,
+    /// What the chart says.
+    pub expected: String,
+    /// What the circuit does.
+    pub actual: String,
+    /// The chart of what the circuit does, ready for the note.
+    pub chart: String,
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Mismatch {
+            line,
+            tick,
+            signal,
+            expected,
+            actual,
+            chart,
+        } = self;
+        writeln!(
+            f,
+            "line {line}: tick {tick}: {signal} is {actual}, the chart says {expected}"
+        )?;
+        writeln!(f, "what the circuit does:")?;
+        write!(f, "{chart}")
+    }
+}
+
+impl Chart {
+    /// Runs the circuit from power-on on the chart's inputs and compares every expected cell.
+    ///
+    /// # Errors
+    /// The chart does not fit the circuit, or the circuit does something else.
+    pub fn run<C: Circuit>(&self, circuit: &C) -> Result<(), ChartFailure> {
+        if self.circuit != C::NAME {
+            let problem = Problem::Circuit {
+                chart: self.circuit.clone(),
+                circuit: C::NAME.to_owned(),
+            };
+            return Err(problem.at(self.line).into());
+        }
+        let leaves = Declarations::of(circuit).leaves;
+        let ports = &leaves[..port_count::<C>().min(leaves.len())];
+        let inputs = resolve(&self.inputs, ports, "port in")?;
+        let expected = resolve(&self.expected, &leaves, "signal")?;
+
+        let recorder = self.record(circuit, ports, &inputs)?;
+        let actual: Vec<&[u64]> = expected
+            .iter()
+            .map(|row| recorder.column(&row.leaf.path()).unwrap_or(&[]))
+            .collect();
+        for tick in 0..self.ticks {
+            for (row, values) in expected.iter().zip(&actual) {
+                if let (Some(wanted), Some(&bits)) = (row.values[tick], values.get(tick))
+                    && wanted != bits
+                {
+                    let mismatch = Mismatch {
+                        line: row.row.line,
+                        tick: tick as u64,
+                        signal: row.row.name.clone(),
+                        expected: cell(row.leaf, wanted),
+                        actual: cell(row.leaf, bits),
+                        chart: self.draw(&inputs, &expected, &actual),
+                    };
+                    return Err(Box::new(mismatch).into());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn record<C: Circuit>(
+        &self,
+        circuit: &C,
+        ports: &[Declaration],
+        inputs: &[Resolved<'_>],
+    ) -> Result<Recorder<C>, ChartError> {
+        // For every port its line, found once.
+        let lines: Vec<Option<&Resolved<'_>>> = ports
+            .iter()
+            .map(|port| inputs.iter().find(|row| std::ptr::eq(row.leaf, port)))
+            .collect();
+        let only = self
+            .expected
+            .iter()
+            .map(|row| format!("{}.{}", C::NAME, row.name));
+        let options = Options {
+            only: Some(only.collect()),
+            ..Options::default()
+        };
+        let failed = |problem: String| Problem::Run(problem).at(self.line);
+        let mut recorder = Recorder::new(circuit, &options).map_err(|e| failed(e.to_string()))?;
+        let stimulus = |tick: u64, _: &C::Reg<Sim>| {
+            let mut given = Given {
+                lines: lines.iter(),
+                tick: usize::try_from(tick).unwrap_or(usize::MAX),
+            };
+            C::In::make(const { &Field::part(Role::Input) }, &mut given)
+        };
+        Simulator::new(circuit)
+            .run(self.ticks as u64, stimulus, &mut recorder)
+            .map_err(|e| failed(e.to_string()))?;
+        Ok(recorder)
+    }
+
+    /// The chart with what the circuit does in place of what was expected.
+    fn draw(
+        &self,
+        inputs: &[Resolved<'_>],
+        expected: &[Resolved<'_>],
+        actual: &[&[u64]],
+    ) -> String {
+        let ticks = (0..self.ticks).map(|tick| tick.to_string());
+        let mut lines = vec![("tick".to_owned(), ticks.collect::<Vec<_>>())];
+        for row in inputs {
+            lines.push((
+                format!("> {}", row.row.name),
+                texts(row.leaf, row.values.iter().copied()),
+            ));
+        }
+        for (row, values) in expected.iter().zip(actual) {
+            let seen = row.values.iter().zip(values.iter());
+            let shown = seen.map(|(wanted, &bits)| wanted.map(|_| bits));
+            lines.push((format!("= {}", row.row.name), texts(row.leaf, shown)));
+        }
+        let names = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+        let width = lines
+            .iter()
+            .flat_map(|(_, cells)| cells)
+            .map(String::len)
+            .max()
+            .unwrap_or(1);
+
+        let mut text = format!("```chart {}", self.circuit);
+        if !self.args.is_empty() {
+            let args: Vec<_> = self.args.iter().map(u64::to_string).collect();
+            text += &format!("[{}]", args.join(", "));
+        }
+        if !self.title.is_empty() {
+            text += &format!(" {}", self.title);
+        }
+        text.push('\n');
+        for (name, cells) in lines {
+            let mut line = format!("{name:names$}");
+            for cell in cells {
+                // Writing to a string does not fail.
+                let _ = write!(line, "  {cell:width$}");
+            }
+            text += line.trim_end();
+            text.push('\n');
+        }
+        text + "```"
+    }
+}
+
+/// A line of a chart with the signal it means.
+struct Resolved<'a> {
+    row: &'a Row,
+    leaf: &'a Declaration,
+    /// One a tick; `None` is not checked.
+    values: Vec<Option<u64>>,
+}
+
+fn resolve<'a>(
+    rows: &'a [Row],
+    leaves: &'a [Declaration],
+    what: &'static str,
+) -> Result<Vec<Resolved<'a>>, ChartError> {
+    let below = |leaf: &Declaration| match leaf.path().split_once('.') {
+        Some((_, below)) => below.to_owned(),
+        None => leaf.path(),
+    };
+    let mut resolved = Vec::new();
+    for row in rows {
+        let Some(leaf) = leaves.iter().find(|leaf| below(leaf) == row.name) else {
+            let names: Vec<String> = leaves.iter().map(below).collect();
+            let problem = Problem::Unknown {
+                what,
+                name: row.name.clone(),
+                near: near(&row.name, names.iter().map(String::as_str)),
+            };
+            return Err(problem.at(row.line));
+        };
+        resolved.push(Resolved {
+            row,
+            leaf,
+            values: values(row, leaf)?,
+        });
+    }
+    Ok(resolved)
+}
+
+fn values(row: &Row, leaf: &Declaration) -> Result<Vec<Option<u64>>, ChartError> {
+    let one_bit = leaf.shape.width == 1;
+    let mut before = None;
+    let mut values = Vec::new();
+    for cell in &row.cells {
+        before = match cell {
+            Cell::Repeat => before,
+            Cell::Any => None,
+            Cell::Low if one_bit => Some(0),
+            Cell::High if one_bit => Some(1),
+            Cell::Low => return Err(no_value(row, leaf, "_")),
+            Cell::High => return Err(no_value(row, leaf, "#")),
+            Cell::Word(text) => match read(leaf.shape, leaf.field.format, text) {
+                Some(bits) => Some(bits),
+                None => return Err(no_value(row, leaf, text)),
+            },
+        };
+        values.push(before);
+    }
+    Ok(values)
+}
+
+fn no_value(row: &Row, leaf: &Declaration, cell: &str) -> ChartError {
+    let width = leaf.shape.width;
+    let bits = if width == 1 { "bit" } else { "bits" };
+    let allowed = match leaf.field.format {
+        Format::States(names) => format!("{width} {bits}: {}", names.join(", ")),
+        _ if leaf.shape.kind == crate::kernel::Kind::Signed => {
+            let half = 1i128 << (width - 1);
+            format!("{width} {bits}: {} to {}", -half, half - 1)
+        }
+        _ => format!("{width} {bits}: 0 to {}", mask(leaf.shape)),
+    };
+    let problem = Problem::Value {
+        signal: row.name.clone(),
+        cell: cell.to_owned(),
+        allowed,
+    };
+    problem.at(row.line)
+}
+
+/// A value as a cell: levels for bits.
+fn cell(leaf: &Declaration, bits: u64) -> String {
+    match (leaf.shape.width, bits) {
+        (1, 0) => "_".to_owned(),
+        (1, _) => "#".to_owned(),
+        _ => show(leaf.shape, leaf.field.format, bits),
+    }
+}
+
+/// The cells of a line: `-` where nothing is checked, `.` where a word repeats.
+fn texts(leaf: &Declaration, values: impl Iterator<Item = Option<u64>>) -> Vec<String> {
+    let mut before = None;
+    values
+        .map(|value| match value {
+            None => {
+                before = None;
+                "-".to_owned()
+            }
+            Some(bits) if leaf.shape.width > 1 && before == Some(bits) => ".".to_owned(),
+            Some(bits) => {
+                before = Some(bits);
+                cell(leaf, bits)
+            }
+        })
+        .collect()
+}
+
+/// The number of leaves of a circuit's ports in, which a walk visits first.
+fn port_count<C: Circuit>() -> usize {
+    struct Count(usize);
+    impl Source for Count {
+        fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
+            self.0 += 1;
+            0
+        }
+    }
+    let mut count = Count(0);
+    C::In::<Sim>::make(const { &Field::part(Role::Input) }, &mut count);
+    count.0
+}
+
+/// The inputs of one tick.
+struct Given<'a> {
+    /// The line of every port that is still to come.
+    lines: std::slice::Iter<'a, Option<&'a Resolved<'a>>>,
+    tick: usize,
+}
+
+impl Source for Given<'_> {
+    fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
+        let line = self.lines.next().copied().flatten();
+        let value = line.and_then(|line| line.values.get(self.tick).copied());
+        value.flatten().unwrap_or(0)
+    }
+}

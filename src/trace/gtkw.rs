@@ -1,0 +1,241 @@
+//! GTKWave save files: which signals of a dump are shown, in which order and how.
+
+use super::layout::{CLK, Layout, Scope, companion, is_word};
+use super::{Clock, LayoutError, Options};
+use crate::kernel::{Circuit, Declaration, Format, Kind, Role};
+use std::fmt::Write;
+use std::ops::Range;
+
+// The flags of a trace, as GTKWave's analyzer.h numbers them.
+const HEX: u32 = 1 << 1;
+const DECIMAL: u32 = 1 << 2;
+const BINARY: u32 = 1 << 3;
+const RIGHT: u32 = 1 << 5;
+const BLANK: u32 = 1 << 9;
+const SIGNED: u32 = 1 << 10;
+const ASCII: u32 = 1 << 11;
+const COLLAPSED: u32 = 1 << 12;
+const ANALOG_STEP: u32 = 1 << 15;
+const ANALOG_ROW: u32 = 1 << 17;
+const FULL_SCALE: u32 = 1 << 19;
+const CLOSED: u32 = 1 << 22;
+const GROUP_BEGIN: u32 = 1 << 23;
+const GROUP_END: u32 = 1 << 24;
+
+/// Signals up to which a group is open at first.
+const OPEN: usize = 16;
+/// Words up to which a memory is listed.
+const WORDS: usize = 64;
+/// Rows that an analog trace takes below its own.
+const ANALOG_ROWS: usize = 3;
+/// The window and the tree in it, in pixels.
+const WINDOW: (usize, usize) = (1600, 900);
+const TREE: usize = 220;
+/// A character of the names and values, and the least and the most that their column takes.
+const CHARACTER: usize = 9;
+const COLUMN: (usize, usize) = (180, 520);
+/// Pixels that GTKWave calls a frame; its zoom is the power of two of the time in one.
+const FRAME: f64 = 200.0;
+
+/// The save file `<stem>.gtkw` of the dump `<stem>.vcd` of a circuit.
+///
+/// `clk` comes first, then the ports in and out, then a group for everything else in the circuit
+/// and one for every scope in it; large groups and those below the first level are closed.
+/// Memories of more than 64 words are not listed. The window shows the ticks of `focus`. The two
+/// files may be moved together.
+///
+/// # Errors
+/// What [`Vcd::new`](super::Vcd::new) refuses.
+pub fn save_file<C: Circuit>(
+    circuit: &C,
+    clock: Clock,
+    options: &Options,
+    stem: &str,
+    focus: Range<u64>,
+) -> Result<String, LayoutError> {
+    let layout = Layout::of(circuit, options.only.as_deref())?;
+    let mut save = Save {
+        text: String::new(),
+        layout: &layout,
+        flags: None,
+    };
+    save.window(clock, stem, focus);
+    save.top();
+    Ok(save.text)
+}
+
+struct Save<'a> {
+    text: String,
+    layout: &'a Layout,
+    /// The flags in force: a save file says them where they change.
+    flags: Option<u32>,
+}
+
+impl Save<'_> {
+    fn line(&mut self, line: std::fmt::Arguments<'_>) {
+        // Writing to a string does not fail.
+        let _ = writeln!(self.text, "{line}");
+    }
+
+    fn window(&mut self, clock: Clock, stem: &str, focus: Range<u64>) {
+        // GTKWave counts time in whole s, ms, ... fs: a unit of 10 ns is ten to it.
+        let scale = u64::from(clock.timescale().0);
+        let from = clock.rise(focus.start).and_then(|t| t.checked_mul(scale));
+        let from = from.unwrap_or(0);
+        let ticks = focus.end.saturating_sub(focus.start).max(1);
+        let shown = (clock.period() * scale) as f64 * ticks as f64;
+        let names = self.column();
+        // Half a frame goes to scroll bars and borders.
+        let pane = (WINDOW.0 - TREE - names) as f64 - FRAME / 2.0;
+        let zoom = -(shown * FRAME / pane).max(1.0).log2();
+        self.line(format_args!("[*] {}", self.layout.top.name));
+        // GTKWave looks for the dump beside the save file if both are named without a directory.
+        self.line(format_args!("[dumpfile] \"{stem}.vcd\""));
+        self.line(format_args!("[savefile] \"{stem}.gtkw\""));
+        self.line(format_args!("[timestart] {from}"));
+        self.line(format_args!("[size] {} {}", WINDOW.0, WINDOW.1));
+        self.line(format_args!("[pos] -1 -1"));
+        self.line(format_args!("*{zoom:.6} -1{}", " -1".repeat(26)));
+        self.line(format_args!("[treeopen] {}.", self.layout.top.name));
+        self.line(format_args!("[sst_width] {TREE}"));
+        self.line(format_args!("[signals_width] {names}"));
+        self.line(format_args!("[sst_expanded] 1"));
+        self.line(format_args!("[sst_vpaned_height] 300"));
+    }
+
+    /// Room for the longest name and, right of it, the longest value, in pixels.
+    fn column(&self) -> usize {
+        let (mut names, mut values) = ("ports out".len(), 0);
+        for (leaf, selected) in self.layout.leaves.iter().zip(&self.layout.selected) {
+            if *selected {
+                let digits = match leaf.field.format {
+                    Format::Hex => leaf.shape.width.div_ceil(4),
+                    // Three bits and a third make a decimal digit; there may be a sign.
+                    _ => leaf.shape.width * 3 / 10 + 2,
+                };
+                names = names.max(leaf.name.len() + "[63:0]".len());
+                values = values.max(digits);
+            }
+        }
+        let characters = names + " = ".len() + values;
+        (characters * CHARACTER).clamp(COLUMN.0, COLUMN.1)
+    }
+
+    fn top(&mut self) {
+        let layout = self.layout;
+        let top = &layout.top;
+        self.trace(BINARY | RIGHT, format_args!("{}.{CLK}", top.name));
+        let leaves = |wanted: fn(&Declaration) -> bool| -> Vec<usize> {
+            let own = top.leaves.iter().copied();
+            own.filter(|&index| wanted(&layout.leaves[index])).collect()
+        };
+        let ports_in = leaves(|leaf| leaf.role == Role::Input);
+        let ports_out = leaves(|leaf| leaf.role != Role::Input && leaf.field.public);
+        let inside = leaves(|leaf| leaf.role != Role::Input && !leaf.field.public);
+        for (title, leaves) in [("ports in", ports_in), ("ports out", ports_out)] {
+            if !leaves.is_empty() {
+                self.comment("");
+                self.comment(title);
+                self.leaves(&leaves);
+            }
+        }
+        if !inside.is_empty() {
+            self.comment("");
+            self.group("inside", inside.len() > OPEN, |save| save.leaves(&inside));
+        }
+        for scope in &top.scopes {
+            self.comment("");
+            self.scope(scope, 1);
+        }
+    }
+
+    fn scope(&mut self, scope: &Scope, depth: usize) {
+        let layout = self.layout;
+        let words = scope
+            .leaves
+            .iter()
+            .filter(|&&index| is_word(&layout.leaves[index]))
+            .count();
+        if words > WORDS {
+            self.comment(&format!("{}: {words} words", scope.name));
+        }
+        let listed: Vec<usize> = scope
+            .leaves
+            .iter()
+            .copied()
+            .filter(|&index| words <= WORDS || !is_word(&layout.leaves[index]))
+            .collect();
+        if listed.is_empty() && scope.scopes.is_empty() {
+            return;
+        }
+        let closed = depth > 1 || words > 0 || listed.len() > OPEN;
+        self.group(&scope.name, closed, |save| {
+            save.leaves(&listed);
+            for inner in &scope.scopes {
+                save.scope(inner, depth + 1);
+            }
+        });
+    }
+
+    fn group(&mut self, title: &str, closed: bool, fill: impl FnOnce(&mut Self)) {
+        let (begin, end) = if closed {
+            (CLOSED, CLOSED | COLLAPSED)
+        } else {
+            (0, 0)
+        };
+        self.trace(GROUP_BEGIN | BLANK | begin, format_args!("-{title}"));
+        fill(self);
+        self.trace(GROUP_END | BLANK | end, format_args!("-{title}"));
+    }
+
+    fn leaves(&mut self, leaves: &[usize]) {
+        let layout = self.layout;
+        for &index in leaves {
+            self.leaf(&layout.leaves[index]);
+        }
+    }
+
+    fn leaf(&mut self, leaf: &Declaration) {
+        let flags = flags(leaf);
+        let width = leaf.shape.width;
+        if width == 1 {
+            self.trace(flags, format_args!("{}", leaf.path()));
+        } else {
+            self.trace(flags, format_args!("{}[{}:0]", leaf.path(), width - 1));
+        }
+        if flags & ANALOG_STEP != 0 {
+            for _ in 0..ANALOG_ROWS {
+                self.trace(ANALOG_ROW, format_args!("-"));
+            }
+        }
+        if let Some(name) = companion(leaf) {
+            let scope = leaf.scopes.join(".");
+            self.trace(ASCII | RIGHT, format_args!("{scope}.{name}"));
+        }
+    }
+
+    fn comment(&mut self, text: &str) {
+        self.trace(BLANK, format_args!("-{text}"));
+    }
+
+    fn trace(&mut self, flags: u32, line: std::fmt::Arguments<'_>) {
+        if self.flags != Some(flags) {
+            self.flags = Some(flags);
+            self.line(format_args!("@{flags:x}"));
+        }
+        self.line(line);
+    }
+}
+
+fn flags(leaf: &Declaration) -> u32 {
+    let number = match leaf.shape.kind {
+        Kind::Bit => return BINARY | RIGHT,
+        Kind::Unsigned => DECIMAL | RIGHT,
+        Kind::Signed => SIGNED | RIGHT,
+    };
+    match leaf.field.format {
+        Format::Hex => HEX | RIGHT,
+        Format::Analog => number | ANALOG_STEP | FULL_SCALE,
+        Format::Decimal | Format::States(_) | Format::Elements(_) => number,
+    }
+}

@@ -1,0 +1,219 @@
+use crate::kernel::{Circuit, Declaration, Declarations, Format, STAGE, WORD};
+use std::collections::HashSet;
+use std::io;
+use std::ops::Range;
+
+/// What of a run goes into a waveform.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Options {
+    /// The ticks, half-open: `10..20` is ten ticks. At the first of them everything is dumped.
+    pub ticks: Range<u64>,
+    /// The scopes and signals, by path from the circuit's name on (`machine.axis0`,
+    /// `machine.axis0.count`); `None` is all.
+    pub only: Option<Vec<String>>,
+}
+
+impl Default for Options {
+    /// The whole run, all signals.
+    fn default() -> Self {
+        Options {
+            ticks: 0..u64::MAX,
+            only: None,
+        }
+    }
+}
+
+/// Signals that cannot be laid out as a tree of scopes.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum LayoutError {
+    /// A name that is used twice in a scope.
+    #[error("{0} is declared twice")]
+    Duplicate(String),
+    /// A name that waveform files cannot carry.
+    #[error("{0}: a name is made of ASCII letters, digits and underscores")]
+    Name(String),
+    /// A state that waveform files cannot carry.
+    #[error("{path}: state {state:?}: the name of a state is made of visible ASCII characters")]
+    State {
+        /// The signal.
+        path: String,
+        /// The state's name.
+        state: String,
+    },
+    /// A selected path that is neither scope nor signal.
+    #[error("no scope or signal is called {wanted}; scopes: {}", scopes.join(", "))]
+    Unknown {
+        /// The path asked for.
+        wanted: String,
+        /// The scopes there are.
+        scopes: Vec<String>,
+    },
+}
+
+impl From<LayoutError> for io::Error {
+    fn from(error: LayoutError) -> Self {
+        io::Error::new(io::ErrorKind::InvalidInput, error)
+    }
+}
+
+/// The name of the clock in the circuit's own scope.
+pub(super) const CLK: &str = "clk";
+
+/// The signals of a circuit as a tree of scopes.
+///
+/// Ports in, registers and nets of a circuit share a scope, though a walk visits it three times.
+#[derive(Debug)]
+pub(super) struct Layout {
+    /// Every leaf of the walk, in its order.
+    pub leaves: Vec<Declaration>,
+    /// For every leaf, whether it is selected.
+    pub selected: Vec<bool>,
+    /// The circuit's scope with the selected leaves in it.
+    pub top: Scope,
+}
+
+/// A scope with what is selected in it.
+#[derive(Debug, Default)]
+pub(super) struct Scope {
+    pub name: String,
+    /// Indices of its own leaves, in the order of the walk.
+    pub leaves: Vec<usize>,
+    pub scopes: Vec<Scope>,
+}
+
+impl Layout {
+    pub fn of<C: Circuit>(circuit: &C, only: Option<&[String]>) -> Result<Self, LayoutError> {
+        let leaves = Declarations::of(circuit).leaves;
+        check(C::NAME, &leaves)?;
+        let selected = select(&leaves, only)?;
+        let mut top = Scope {
+            name: C::NAME.to_owned(),
+            ..Scope::default()
+        };
+        for (index, leaf) in leaves.iter().enumerate() {
+            if selected[index] {
+                // The first scope is the circuit's own.
+                top.descend(&leaf.scopes[1..]).leaves.push(index);
+            }
+        }
+        Ok(Layout {
+            leaves,
+            selected,
+            top,
+        })
+    }
+}
+
+impl Scope {
+    fn descend(&mut self, path: &[String]) -> &mut Scope {
+        let Some((name, rest)) = path.split_first() else {
+            return self;
+        };
+        // A walk stays in a scope for a while: look at the newest first.
+        let place = match self.scopes.iter().rposition(|scope| scope.name == *name) {
+            Some(place) => place,
+            None => {
+                self.scopes.push(Scope {
+                    name: name.clone(),
+                    ..Scope::default()
+                });
+                self.scopes.len() - 1
+            }
+        };
+        self.scopes[place].descend(rest)
+    }
+}
+
+/// The name of the string that shows a state by name, beside the state itself.
+pub(super) fn companion(leaf: &Declaration) -> Option<String> {
+    matches!(leaf.field.format, Format::States(_)).then(|| format!("{}_name", leaf.name))
+}
+
+/// Whether a leaf is a word of a memory or shift register.
+pub(super) fn is_word(leaf: &Declaration) -> bool {
+    std::ptr::eq(leaf.field, &WORD) || std::ptr::eq(leaf.field, &STAGE)
+}
+
+/// Which leaves the paths select, on the boundaries of their components.
+pub(super) fn select(
+    leaves: &[Declaration],
+    only: Option<&[String]>,
+) -> Result<Vec<bool>, LayoutError> {
+    let Some(only) = only else {
+        return Ok(vec![true; leaves.len()]);
+    };
+    let mut selected = vec![false; leaves.len()];
+    for wanted in only {
+        let mut any = false;
+        for (leaf, selected) in leaves.iter().zip(&mut selected) {
+            let path = leaf.path();
+            let rest = path.strip_prefix(wanted.as_str());
+            if rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.')) {
+                *selected = true;
+                any = true;
+            }
+        }
+        if !any {
+            return Err(LayoutError::Unknown {
+                wanted: wanted.clone(),
+                scopes: scopes(leaves),
+            });
+        }
+    }
+    Ok(selected)
+}
+
+/// The paths of all scopes, each once, in the order of the walk.
+fn scopes(leaves: &[Declaration]) -> Vec<String> {
+    let mut seen = HashSet::new();
+    let mut scopes = Vec::new();
+    for leaf in leaves {
+        for depth in 1..=leaf.scopes.len() {
+            let scope = &leaf.scopes[..depth];
+            if seen.insert(scope) {
+                scopes.push(scope.join("."));
+            }
+        }
+    }
+    scopes
+}
+
+fn is_plain(name: &str) -> bool {
+    !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+}
+
+/// Refuses names that are used twice or cannot be written.
+fn check(top: &str, leaves: &[Declaration]) -> Result<(), LayoutError> {
+    let scopes: HashSet<String> = scopes(leaves).into_iter().collect();
+    let mut taken = HashSet::from([format!("{top}.{CLK}")]);
+    if !is_plain(top) {
+        return Err(LayoutError::Name(top.to_owned()));
+    }
+    for leaf in leaves {
+        let path = leaf.path();
+        if !leaf
+            .scopes
+            .iter()
+            .chain([&leaf.name])
+            .all(|name| is_plain(name))
+        {
+            return Err(LayoutError::Name(path));
+        }
+        if let Format::States(states) = leaf.field.format {
+            let visible =
+                |state: &&str| !state.is_empty() && state.bytes().all(|b| b.is_ascii_graphic());
+            if let Some(state) = states.iter().find(|state| !visible(state)) {
+                let state = (*state).to_owned();
+                return Err(LayoutError::State { path, state });
+            }
+        }
+        let companion = companion(leaf).map(|name| format!("{}.{name}", leaf.scopes.join(".")));
+        for path in [Some(path), companion].into_iter().flatten() {
+            if scopes.contains(&path) || taken.contains(&path) {
+                return Err(LayoutError::Duplicate(path));
+            }
+            taken.insert(path);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,239 @@
+use super::layout::select;
+use super::{LayoutError, Options};
+use crate::kernel::{
+    Circuit, Declaration, Declarations, Field, Observer, Probe, RunError, Sample, Shape,
+};
+use std::collections::HashMap;
+use std::io;
+use std::marker::PhantomData;
+use std::ops::{ControlFlow, Range};
+
+/// Keeps what a run does in memory: a column of values for every chosen signal.
+///
+/// It costs eight bytes per signal and tick, and every word of a memory is a signal: choose the
+/// signals, or the ticks, of a long run.
+#[derive(Debug)]
+pub struct Recorder<C> {
+    options: Range<u64>,
+    leaves: Vec<Declaration>,
+    by_path: HashMap<String, usize>,
+    columns: Columns,
+    /// The ticks recorded.
+    ticks: Range<u64>,
+    circuit: PhantomData<fn(&C)>,
+}
+
+/// What was asked of a [`Recorder`] that it does not hold.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum RecordError {
+    /// No such signal, or one that was not chosen.
+    #[error("no signal {path} was recorded{}", did_you_mean(near))]
+    Unknown {
+        /// The path asked for.
+        path: String,
+        /// The recorded paths that resemble it most, the nearest first.
+        near: Vec<String>,
+    },
+    /// A tick that was not recorded.
+    #[error("tick {tick} was not recorded; recorded: {}..{}", recorded.start, recorded.end)]
+    Tick {
+        /// The tick asked for.
+        tick: u64,
+        /// The ticks there are, half-open.
+        recorded: Range<u64>,
+    },
+}
+
+impl<C: Circuit> Recorder<C> {
+    /// A recorder for the ticks and signals that `options` chooses.
+    ///
+    /// # Errors
+    /// A chosen path that does not exist.
+    pub fn new(circuit: &C, options: &Options) -> Result<Self, LayoutError> {
+        let leaves = Declarations::of(circuit).leaves;
+        let selected = select(&leaves, options.only.as_deref())?;
+        let mut columns = Columns::default();
+        let mut kept = Vec::new();
+        for (leaf, selected) in leaves.into_iter().zip(selected) {
+            columns.place.push(selected.then_some(kept.len()));
+            if selected {
+                kept.push(leaf);
+            }
+        }
+        columns.values = vec![Vec::new(); kept.len()];
+        Ok(Recorder {
+            options: options.ticks.clone(),
+            by_path: kept
+                .iter()
+                .enumerate()
+                .map(|(index, leaf)| (leaf.path(), index))
+                .collect(),
+            leaves: kept,
+            columns,
+            ticks: 0..0,
+            circuit: PhantomData,
+        })
+    }
+}
+
+impl<C> Recorder<C> {
+    /// The recorded signals, in the order of the walk.
+    pub fn leaves(&self) -> &[Declaration] {
+        &self.leaves
+    }
+
+    /// The recorded ticks, half-open.
+    pub fn ticks(&self) -> Range<u64> {
+        self.ticks.clone()
+    }
+
+    /// Where a signal stands in [`leaves`](Recorder::leaves).
+    ///
+    /// # Errors
+    /// No such signal was recorded.
+    pub fn index(&self, path: &str) -> Result<usize, RecordError> {
+        self.by_path
+            .get(path)
+            .copied()
+            .ok_or_else(|| RecordError::Unknown {
+                path: path.to_owned(),
+                near: near(path, self.by_path.keys().map(String::as_str)),
+            })
+    }
+
+    /// The values of a signal, one a tick; words of less than 64 bits have zeros above.
+    ///
+    /// # Errors
+    /// No such signal was recorded.
+    pub fn column(&self, path: &str) -> Result<&[u64], RecordError> {
+        Ok(self.column_at(self.index(path)?))
+    }
+
+    /// The values of the signal at `index` of [`leaves`](Recorder::leaves); none where the index
+    /// is past the end.
+    pub fn column_at(&self, index: usize) -> &[u64] {
+        self.columns.values.get(index).map_or(&[], Vec::as_slice)
+    }
+
+    /// The value of a signal at a tick.
+    ///
+    /// # Errors
+    /// No such signal, or not that tick, was recorded.
+    pub fn at(&self, tick: u64, path: &str) -> Result<u64, RecordError> {
+        let column = self.column(path)?;
+        let place = tick.checked_sub(self.ticks.start);
+        place
+            .and_then(|place| column.get(usize::try_from(place).ok()?))
+            .copied()
+            .ok_or_else(|| RecordError::Tick {
+                tick,
+                recorded: self.ticks(),
+            })
+    }
+}
+
+impl<C: Circuit> Observer<C> for Recorder<C> {
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        if self.options.contains(&now.tick) {
+            if self.ticks.is_empty() {
+                self.ticks = now.tick..now.tick;
+            }
+            if self.ticks.end != now.tick {
+                let message = format!(
+                    "tick {} does not follow tick {}",
+                    now.tick,
+                    self.ticks.end - 1
+                );
+                return Err(io::Error::new(io::ErrorKind::InvalidInput, message).into());
+            }
+            self.ticks.end += 1;
+            self.columns.cursor = 0;
+            now.visit(&mut self.columns);
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+#[derive(Debug, Default)]
+struct Columns {
+    /// For every leaf of the walk, its column.
+    place: Vec<Option<usize>>,
+    values: Vec<Vec<u64>>,
+    cursor: usize,
+}
+
+impl Probe for Columns {
+    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
+        if let Some(column) = self.place[self.cursor] {
+            self.values[column].push(bits);
+        }
+        self.cursor += 1;
+    }
+}
+
+fn did_you_mean(near: &[String]) -> String {
+    if near.is_empty() {
+        String::new()
+    } else {
+        format!("; near it: {}", near.join(", "))
+    }
+}
+
+/// The candidates that resemble `wanted` most, at most five, the nearest first.
+pub(super) fn near<'a>(wanted: &str, candidates: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let last = |path: &'a str| path.rsplit('.').next().unwrap_or(path);
+    let wanted_last = wanted.rsplit('.').next().unwrap_or(wanted);
+    let mut ranked: Vec<_> = candidates
+        .map(|path| {
+            (
+                distance(wanted_last, last(path)),
+                distance(wanted, path),
+                path,
+            )
+        })
+        .collect();
+    ranked.sort_unstable();
+    ranked.truncate(5);
+    ranked
+        .into_iter()
+        .map(|(.., path)| path.to_owned())
+        .collect()
+}
+
+/// The number of characters to insert, remove or replace (Levenshtein).
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_names_come_first() {
+        assert_eq!(distance("kitten", "sitting"), 3);
+        assert_eq!(distance("", "abc"), 3);
+        let paths = [
+            "top.count",
+            "top.a.counter",
+            "top.phase",
+            "top.x",
+            "top.y",
+            "top.z",
+        ];
+        let near = near("top.cuont", paths.into_iter());
+        assert_eq!(near[0], "top.count");
+        assert_eq!(near.len(), 5);
+    }
+}
