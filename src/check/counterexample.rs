@@ -1,0 +1,183 @@
+use super::Fault;
+use crate::kernel::{
+    Circuit, Declaration, Declarations, Field, Probe, Role, RunError, Sample, Shape, Signals,
+    Simulator,
+};
+use crate::logic::Sim;
+use crate::trace::value::show;
+use crate::trace::{self, Clock};
+use std::fmt::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+/// The ticks that the table shows, counted back from the violation.
+const TICKS: usize = 8;
+/// The signals that the table shows.
+const ROWS: usize = 40;
+
+/// A shortest input sequence that violates an invariant.
+///
+/// It prints as what is wrong at which tick, and a table of the last ticks.
+#[derive(Clone)]
+pub struct Counterexample<C: Circuit> {
+    /// The inputs from power-on, the last one those of the tick at fault.
+    pub inputs: Vec<C::In<Sim>>,
+    /// The tick at fault.
+    pub tick: u64,
+    /// The invariant that is violated.
+    pub invariant: String,
+    /// The signals at fault.
+    pub signals: Vec<String>,
+    /// What is wrong with them.
+    pub message: String,
+    table: String,
+}
+
+impl<C: Circuit> Counterexample<C> {
+    pub(super) fn new(
+        circuit: &C,
+        inputs: Vec<C::In<Sim>>,
+        invariant: String,
+        fault: Fault,
+    ) -> Self {
+        let Fault { signals, message } = fault;
+        Counterexample {
+            tick: (inputs.len() as u64).saturating_sub(1),
+            table: table(circuit, &inputs, &signals),
+            inputs,
+            invariant,
+            signals,
+            message,
+        }
+    }
+
+    /// Replays it on `circuit` and writes the waves and their save file into `dir`, named for the
+    /// circuit and the invariant. Returns their paths.
+    ///
+    /// # Errors
+    /// The files cannot be written.
+    pub fn save(&self, circuit: &C, clock: Clock, dir: &Path) -> Result<Vec<PathBuf>, RunError> {
+        let inputs = self.inputs.iter().cloned();
+        let stem: String = format!("{} {}", C::NAME, self.invariant)
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+            .collect();
+        trace::replay(circuit, inputs, clock, dir, &stem)
+    }
+}
+
+impl<C: Circuit> fmt::Display for Counterexample<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Counterexample {
+            tick,
+            invariant,
+            message,
+            ..
+        } = self;
+        let signals = self.signals.join(", ");
+        writeln!(
+            f,
+            "tick {tick}: {invariant}: {message} (signals: {signals})"
+        )?;
+        f.write_str(&self.table)
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Counterexample<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// The leaves of a walk.
+#[derive(Default)]
+struct Values(Vec<u64>);
+
+impl Probe for Values {
+    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
+        self.0.push(bits);
+    }
+}
+
+/// The last ticks, a signal a row, those at fault first and marked; in the last column the
+/// registers after the edge.
+fn table<C: Circuit>(circuit: &C, inputs: &[C::In<Sim>], at_fault: &[String]) -> String {
+    let leaves = Declarations::of(circuit).leaves;
+    let first = inputs.len().saturating_sub(TICKS);
+    let mut columns = Vec::new();
+    let mut simulator = Simulator::new(circuit);
+    for (tick, i) in inputs.iter().enumerate() {
+        let leaves_of = |now: &Sample<'_, C>| {
+            let mut values = Values::default();
+            now.visit(&mut values);
+            values.0
+        };
+        let (stepped, values) = simulator.step(i.clone(), leaves_of);
+        simulator = stepped;
+        if tick >= first {
+            columns.push(values);
+        }
+    }
+    let mut after = Values::default();
+    simulator
+        .registers()
+        .visit(const { &Field::part(Role::Register) }, &mut after);
+    let mut after = after.0.into_iter();
+
+    let text = |leaf: &Declaration, bits| show(leaf.shape, leaf.field.format, bits);
+    let mut head = vec!["tick".to_owned()];
+    head.extend((first..=inputs.len()).map(|tick| tick.to_string()));
+    let mut rows = Vec::new();
+    for (index, leaf) in leaves.iter().enumerate() {
+        let path = leaf.path();
+        let marked = at_fault.iter().any(|name| names(name, &path));
+        let path = path
+            .strip_prefix(C::NAME)
+            .and_then(|path| path.strip_prefix('.'))
+            .unwrap_or(&path);
+        let mut row = vec![format!("{} {path}", if marked { '*' } else { ' ' })];
+        row.extend(columns.iter().map(|values| text(leaf, values[index])));
+        let after = (leaf.role == Role::Register)
+            .then(|| after.next())
+            .flatten();
+        row.push(after.map_or_else(String::new, |bits| text(leaf, bits)));
+        rows.push((!marked, row));
+    }
+    rows.sort_by_key(|(unmarked, _)| *unmarked);
+    let left_out = rows.len().saturating_sub(ROWS);
+    rows.truncate(ROWS);
+    let rows = rows.into_iter().map(|(_, row)| row);
+    let mut table = aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>());
+    if left_out > 0 {
+        let _ = writeln!(table, "  and {left_out} more signals");
+    }
+    table
+}
+
+/// Whether `name` is `path` or its end from a dot on.
+fn names(name: &str, path: &str) -> bool {
+    path.strip_suffix(name)
+        .is_some_and(|rest| rest.is_empty() || rest.ends_with('.'))
+}
+
+/// Rows under each other: the first column flush left, the others flush right.
+fn aligned(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<_> = (0..columns).map(width).collect();
+    let mut lines = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
+            let _ = match column {
+                0 => write!(line, "{cell:<width$}"),
+                _ => write!(line, "  {cell:>width$}"),
+            };
+        }
+        lines.push_str(line.trim_end());
+        lines.push('\n');
+    }
+    lines
+}

@@ -1,0 +1,160 @@
+use crate::kernel::{Circuit, Observer, RunError, Sample};
+use crate::logic::Sim;
+use std::fmt;
+use std::ops::ControlFlow;
+
+/// What an invariant found wrong.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// The signals at fault.
+    pub signals: Vec<String>,
+    /// What is wrong with them.
+    pub message: String,
+}
+
+/// The answer of an invariant.
+pub type Verdict = Result<(), Fault>;
+
+/// `Ok` where `holds`; otherwise these signals are at fault, and `message` says why.
+///
+/// # Errors
+/// Where it does not hold.
+pub fn require<const N: usize>(
+    holds: bool,
+    signals: [&str; N],
+    message: impl FnOnce() -> String,
+) -> Verdict {
+    if holds {
+        return Ok(());
+    }
+    Err(Fault {
+        signals: signals.map(str::to_owned).into(),
+        message: message(),
+    })
+}
+
+type Always<'f, C> = dyn Fn(&Sample<'_, C>) -> Verdict + 'f;
+type Step<'f, C> = dyn Fn(&Sample<'_, C>, &<C as Circuit>::Reg<Sim>) -> Verdict + 'f;
+
+enum Property<'f, C: Circuit> {
+    Always(Box<Always<'f, C>>),
+    Step(Box<Step<'f, C>>),
+}
+
+/// Named properties that hold on every tick: proved by [`reach`](super::reach), watched by a
+/// [`Monitor`].
+///
+/// They are checked in the order in which they were added. A property must not depend on
+/// [`Sample::tick`]: `reach` comes to every transition once, on a shortest way.
+pub struct Invariants<'f, C: Circuit> {
+    named: Vec<(String, Property<'f, C>)>,
+}
+
+impl<'f, C: Circuit> Invariants<'f, C> {
+    /// None.
+    pub const fn new() -> Self {
+        Invariants { named: Vec::new() }
+    }
+
+    /// Adds a property of the settled signals of a tick.
+    #[must_use]
+    pub fn always(
+        mut self,
+        name: impl Into<String>,
+        holds: impl Fn(&Sample<'_, C>) -> Verdict + 'f,
+    ) -> Self {
+        let property = Property::Always(Box::new(holds));
+        self.named.push((name.into(), property));
+        self
+    }
+
+    /// Adds a property of the settled signals of a tick and the registers after its edge.
+    #[must_use]
+    pub fn step(
+        mut self,
+        name: impl Into<String>,
+        holds: impl Fn(&Sample<'_, C>, &C::Reg<Sim>) -> Verdict + 'f,
+    ) -> Self {
+        let property = Property::Step(Box::new(holds));
+        self.named.push((name.into(), property));
+        self
+    }
+
+    /// Their names, in order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.named.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Whether one of them looks at the registers after the edge.
+    fn look_ahead(&self) -> bool {
+        let step = |(_, property): &(_, Property<'_, C>)| matches!(property, Property::Step(_));
+        self.named.iter().any(step)
+    }
+
+    /// The first that is violated, and how. Without `next`, step properties are left out.
+    #[inline]
+    pub(super) fn check(
+        &self,
+        now: &Sample<'_, C>,
+        next: Option<&C::Reg<Sim>>,
+    ) -> Result<(), (&str, Fault)> {
+        for (name, property) in &self.named {
+            match (property, next) {
+                (Property::Always(holds), _) => holds(now),
+                (Property::Step(holds), Some(next)) => holds(now, next),
+                (Property::Step(_), None) => Ok(()),
+            }
+            .map_err(|fault| (name.as_str(), fault))?;
+        }
+        Ok(())
+    }
+}
+
+impl<C: Circuit> Default for Invariants<'_, C> {
+    fn default() -> Self {
+        Invariants::new()
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Invariants<'_, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.names()).finish()
+    }
+}
+
+/// Watches invariants during a simulated run and ends it at the first violation.
+#[derive(Debug)]
+pub struct Monitor<'a, C: Circuit> {
+    circuit: &'a C,
+    invariants: &'a Invariants<'a, C>,
+    look_ahead: bool,
+}
+
+impl<'a, C: Circuit> Monitor<'a, C> {
+    /// A monitor for runs of `circuit`.
+    ///
+    /// A step property costs a copy of all registers per tick, with the memories among them.
+    pub fn new(circuit: &'a C, invariants: &'a Invariants<'a, C>) -> Self {
+        Monitor {
+            circuit,
+            invariants,
+            look_ahead: invariants.look_ahead(),
+        }
+    }
+}
+
+impl<C: Circuit> Observer<C> for Monitor<'_, C> {
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        let next = self
+            .look_ahead
+            .then(|| self.circuit.next(now.q.clone(), now.w, now.i));
+        match self.invariants.check(now, next.as_ref()) {
+            Ok(()) => Ok(ControlFlow::Continue(())),
+            Err((name, fault)) => Err(RunError::Violation {
+                tick: now.tick,
+                signals: fault.signals,
+                message: format!("{name}: {}", fault.message),
+            }),
+        }
+    }
+}

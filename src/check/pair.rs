@@ -1,0 +1,159 @@
+use crate::kernel::{Circuit, Field, Make, Signals, Visit};
+use crate::logic::{Logic, Sim};
+use std::any::Any;
+use std::fmt;
+use std::marker::PhantomData;
+
+/// Two circuits side by side on the same inputs.
+///
+/// Each stands in a scope of its own name or, where both have the same name, in `left` and
+/// `right`.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair<A, B> {
+    /// The one.
+    pub left: A,
+    /// The other.
+    pub right: B,
+}
+
+impl<A: Circuit, B: Circuit> Pair<A, B> {
+    /// The scope of the left circuit.
+    pub const LEFT: &'static str = if same(A::NAME, B::NAME) {
+        "left"
+    } else {
+        A::NAME
+    };
+    /// The scope of the right circuit.
+    pub const RIGHT: &'static str = if same(A::NAME, B::NAME) {
+        "right"
+    } else {
+        B::NAME
+    };
+}
+
+/// `==` on strings is not yet `const`.
+const fn same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    if a.len() != b.len() {
+        return false;
+    }
+    let mut index = 0;
+    while index < a.len() {
+        if a[index] != b[index] {
+            return false;
+        }
+        index += 1;
+    }
+    true
+}
+
+/// The registers or the nets of the two circuits of a [`Pair`].
+pub struct Sides<A, B, T, U> {
+    /// Those of the left circuit.
+    pub left: T,
+    /// Those of the right circuit.
+    pub right: U,
+    pair: PhantomData<fn() -> Pair<A, B>>,
+}
+
+impl<A, B, T, U> Sides<A, B, T, U> {
+    fn new(left: T, right: U) -> Self {
+        Sides {
+            left,
+            right,
+            pair: PhantomData,
+        }
+    }
+}
+
+impl<A, B, T: Clone, U: Clone> Clone for Sides<A, B, T, U> {
+    #[inline]
+    fn clone(&self) -> Self {
+        Sides::new(self.left.clone(), self.right.clone())
+    }
+}
+
+impl<A, B, T: fmt::Debug, U: fmt::Debug> fmt::Debug for Sides<A, B, T, U> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Sides")
+            .field("left", &self.left)
+            .field("right", &self.right)
+            .finish()
+    }
+}
+
+impl<A, B, L, T, U> Signals<L> for Sides<A, B, T, U>
+where
+    A: Circuit,
+    B: Circuit,
+    L: Logic,
+    T: Signals<L>,
+    U: Signals<L>,
+{
+    #[inline]
+    fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
+        visitor.enter(field);
+        self.left
+            .visit(const { &Field::named(Pair::<A, B>::LEFT) }, visitor);
+        self.right
+            .visit(const { &Field::named(Pair::<A, B>::RIGHT) }, visitor);
+        visitor.leave();
+    }
+
+    fn make<M: Make<L>>(field: &'static Field, maker: &mut M) -> Self {
+        maker.enter(field);
+        let left = T::make(const { &Field::named(Pair::<A, B>::LEFT) }, maker);
+        let right = U::make(const { &Field::named(Pair::<A, B>::RIGHT) }, maker);
+        maker.leave();
+        Sides::new(left, right)
+    }
+}
+
+impl<A, B> Circuit for Pair<A, B>
+where
+    A: Circuit + 'static,
+    B: Circuit<In<Sim> = A::In<Sim>> + 'static,
+{
+    const NAME: &'static str = "pair";
+    const ABOUT: &'static str = "two circuits side by side on the same inputs";
+    type In<L: Logic> = A::In<L>;
+    type Reg<L: Logic> = Sides<A, B, A::Reg<L>, B::Reg<L>>;
+    type Net<L: Logic> = Sides<A, B, A::Net<L>, B::Net<L>>;
+
+    #[inline]
+    fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
+        let left = self.left.comb(&q.left, i);
+        let right = self.right.comb(&q.right, ports::<A, B, L>(i));
+        Sides::new(left, right)
+    }
+
+    #[inline]
+    fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, i: &Self::In<L>) -> Self::Reg<L> {
+        let left = self.left.next(q.left, &w.left, i);
+        let right = self.right.next(q.right, &w.right, ports::<A, B, L>(i));
+        Sides::new(left, right)
+    }
+
+    fn power_on(&self) -> Self::Reg<Sim> {
+        Sides::new(self.left.power_on(), self.right.power_on())
+    }
+}
+
+/// The ports in of `A` as those of `B`.
+///
+/// That they are the same type can only be asked for one meaning of the words, not for all: a
+/// bound cannot quantify over types. A struct of signals that is the same for [`Sim`] is the same
+/// for every meaning; the compiler knows the types and leaves nothing of the question.
+#[inline]
+fn ports<A, B, L>(i: &A::In<L>) -> &B::In<L>
+where
+    A: Circuit + 'static,
+    B: Circuit<In<Sim> = A::In<Sim>> + 'static,
+    L: Logic,
+{
+    let i: &dyn Any = i;
+    match i.downcast_ref() {
+        Some(i) => i,
+        None => unreachable!("ports in that are the same type only in simulation"),
+    }
+}

@@ -1,0 +1,14 @@
+use super::Invariants;
+use crate::kernel::Circuit;
+use crate::logic::Sim;
+
+/// A circuit that says what must hold of it, whatever comes in.
+pub trait Specified: Circuit + Sized {
+    /// What must hold on every transition.
+    fn invariants(&self) -> Invariants<'_, Self>;
+
+    /// Whether a proof applies this input: unless overridden, all bits are free.
+    fn applies(&self, _: &Self::In<Sim>) -> bool {
+        true
+    }
+}

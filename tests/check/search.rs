@@ -1,0 +1,183 @@
+//! Assumptions, limits, progress, what is too wide.
+
+use crate::circuits::*;
+use crate::reach::proof;
+use motion_rtl::check::{Invariants, Outcome, Progress, Proof, TooWide, all, reach, require};
+use motion_rtl::kernel::{Sample, pack};
+use motion_rtl::logic::Sim;
+use motion_rtl::logic::sim::UInt;
+use std::collections::HashSet;
+
+#[test]
+fn assumptions_are_honoured() {
+    let circuit = Up { n: 9 };
+    let low = Invariants::new().always("at most 4", |now: &Sample<Up>| {
+        require(now.q.count.get() <= 4, ["count"], || "above".into())
+    });
+    let assumed = reach(&circuit, &low)
+        .assume(|q, i| q.count.get() < 4 || !i.enable.get())
+        .run()
+        .unwrap();
+    // Counts 0 to 4, two inputs in each but the last.
+    assert_eq!(assumed.proof(), Some(proof(5, 9, 4)));
+
+    // Two assumptions that leave no input at 4, and only one at 0.
+    let stuck = reach(&circuit, &low)
+        .assume(|q, i| q.count.get() < 4 || !i.enable.get())
+        .assume(|q, i| (1..4).contains(&q.count.get()) || i.enable.get())
+        .run()
+        .unwrap();
+    let expected = Proof {
+        dead_ends: 1,
+        ..proof(5, 7, 4)
+    };
+    assert_eq!(stuck.proof(), Some(expected));
+    assert_eq!(
+        stuck.to_string(),
+        "proved: 5 states, 7 transitions, depth 4, 1 states without a possible input"
+    );
+
+    let free = reach(&circuit, &low).run().unwrap();
+    assert_eq!(free.counterexample().unwrap().tick, 5);
+}
+
+#[test]
+fn the_inputs_of_a_counterexample_obey_the_assumption() {
+    let circuit = Lock { code: [1, 2, 3] };
+    let shut = Invariants::new().always("shut", |now: &Sample<Lock>| {
+        require(now.q.right.get() < 3, ["right"], || "open".into())
+    });
+    let outcome = reach(&circuit, &shut)
+        .assume(|q, i| q.right.get() != 3 || i.digit.get() == 2)
+        .run()
+        .unwrap();
+    let tried = outcome.counterexample().unwrap().inputs;
+    let tried: Vec<_> = tried.iter().map(|i| i.digit.get()).collect();
+    assert_eq!(tried, [1, 2, 3, 2]);
+}
+
+#[test]
+fn a_limit_is_no_proof() {
+    let circuit = Up { n: 9 };
+    let none = Invariants::new();
+    for limit in 1..9 {
+        let outcome = reach(&circuit, &none).limit(limit).run().unwrap();
+        let Outcome::Limit(progress) = &outcome else {
+            panic!("{outcome}");
+        };
+        let limit = u64::from(limit);
+        let expected = Progress {
+            states: limit,
+            frontier: 1,
+            transitions: 2 * limit,
+            depth: limit - 1,
+        };
+        assert_eq!(*progress, expected);
+        assert_eq!(outcome.proof(), None);
+        assert!(outcome.to_string().starts_with("not decided: the limit of"));
+        assert!(outcome.counterexample().is_none());
+    }
+    let outcome = reach(&circuit, &none).limit(9).run().unwrap();
+    assert_eq!(outcome.proof(), Some(proof(9, 18, 8)));
+
+    // A violation before the limit counts.
+    let below = Invariants::new().always("below 3", |now: &Sample<Up>| {
+        require(now.q.count.get() < 3, ["count"], || "3".into())
+    });
+    let outcome = reach(&circuit, &below).limit(4).run().unwrap();
+    assert_eq!(outcome.counterexample().unwrap().tick, 3);
+}
+
+#[test]
+fn progress_is_reported_at_every_depth() {
+    let circuit = Up { n: 5 };
+    let none = Invariants::new();
+    let mut reports = Vec::new();
+    let report = |progress: &Progress| reports.push(*progress);
+    reach(&circuit, &none).progress(report).run().unwrap();
+    let expected: Vec<_> = (0..5)
+        .map(|depth| Progress {
+            states: depth + 1,
+            frontier: 1,
+            transitions: 2 * depth,
+            depth,
+        })
+        .collect();
+    assert_eq!(reports, expected);
+
+    // One edge leads to any first word, nothing is shifted by a zero; of the words that two edges
+    // make none, one or both were shifted.
+    let mut reports = Vec::new();
+    let report = |progress: &Progress| reports.push((progress.depth, progress.frontier));
+    let none = none_wide::<3, 2>();
+    let search = reach(&Wide::<3, 2>, &none).progress(report).limit(100);
+    assert!(matches!(search.run(), Ok(Outcome::Limit(_))));
+    assert_eq!(reports, [(0, 1), (1, 8), (2, 1 + 7 + 7 * 7)]);
+}
+
+fn none_wide<const W: usize, const K: usize>() -> Invariants<'static, Wide<W, K>> {
+    Invariants::new()
+}
+
+#[test]
+fn what_is_too_wide_is_refused() {
+    let found = reach(&Wide::<1, 5>, &none_wide()).run();
+    let what = "the registers";
+    let expected = TooWide {
+        what,
+        bits: 77,
+        most: 64,
+    };
+    assert_eq!(found.unwrap_err(), expected);
+    assert_eq!(
+        expected.to_string(),
+        "the registers have 77 bits, at most 64 can be enumerated"
+    );
+    let found = reach(&Wide::<21, 1>, &none_wide()).run();
+    let what = "the inputs";
+    assert_eq!(
+        found.unwrap_err(),
+        TooWide {
+            what,
+            bits: 21,
+            most: 20
+        }
+    );
+
+    // 64 and 20 bits are still possible, with the highest bits in use.
+    let found = reach(&Wide::<20, 4>, &none_wide()).limit(1 << 14).run();
+    assert!(matches!(found, Ok(Outcome::Limit(_))));
+    let invariants = none_wide::<1, 4>();
+    let outcome = reach(&Wide::<1, 4>, &invariants)
+        .assume(|_, i| pack(i)[0])
+        .run();
+    // The input shifts ones in: four stages fill, while the count runs through 2^12.
+    assert_eq!(
+        outcome.unwrap().proof(),
+        Some(proof(4 + 4096, 4 + 4096, 4 + 4095))
+    );
+}
+
+#[test]
+fn every_run_ends_the_same() {
+    let run = || {
+        let shut = Invariants::new().always("shut", |now: &Sample<Lock>| {
+            require(now.q.right.get() < 3, ["right"], || "open".into())
+        });
+        let found = reach(&Lock { code: [0, 3, 0] }, &shut).bitmap_bits(0).run();
+        found.unwrap().to_string()
+    };
+    let first = run();
+    assert!((0..10).all(|_| run() == first));
+}
+
+#[test]
+fn all_values_of_a_bundle_come_once() {
+    let bundles: HashSet<_> = all::<Port<Sim>>()
+        .unwrap()
+        .map(|port| pack(&port))
+        .collect();
+    assert_eq!(bundles.len(), 32);
+    assert!(all::<[UInt<32>; 2]>().is_err());
+    assert!(all::<[UInt<9>; 7]>().is_ok());
+}
