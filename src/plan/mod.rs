@@ -1,0 +1,135 @@
+//! Path planning: a [`Drawing`](crate::input::Drawing) as a position in time.
+//!
+//! A [`Plan`] gives every move a trapezoid of speed along the path, looking ahead over all moves:
+//! no faster than the feed (or the rapid rate), than the centripetal limit on arcs and than the
+//! corner speed at junctions, at rest at both ends, and with a bounded tangential acceleration.
+//! A [`Sampler`] then gives the position at any time.
+//!
+//! The tangential and the centripetal acceleration are limited one by one, so that their sum on an
+//! arc taken at its limit while braking may reach √2 times the setting.
+
+mod geometry;
+mod profile;
+mod sampler;
+#[cfg(test)]
+mod tests;
+
+pub use profile::{Plan, Segment};
+pub use sampler::{Sample, Sampler};
+
+use crate::input::REACH_MM;
+
+/// Slowest and fastest feed that is accepted, in mm/min.
+pub const FEED_RANGE: std::ops::RangeInclusive<f64> = 1e-3..=1e7;
+
+/// Smallest and largest acceleration that is accepted, in mm/s².
+pub const ACCELERATION_RANGE: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
+
+/// Farthest centre of an arc that is accepted, in millimetres on either side of zero.
+pub const CENTRE_REACH_MM: f64 = 1e3 * REACH_MM;
+
+/// How fast a path may be travelled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionLimits {
+    /// Feed of the moves that set none, in mm/min.
+    pub feed_mm_per_min: f64,
+    /// Speed of rapid moves, in mm/min.
+    pub rapid_mm_per_min: f64,
+    /// Largest sudden change of the velocity vector at a junction, in mm/min; 0 stops at every
+    /// corner.
+    pub corner_mm_per_min: f64,
+    /// Largest tangential and largest centripetal acceleration, in mm/s².
+    pub acceleration_mm_per_s2: f64,
+}
+
+impl Default for MotionLimits {
+    fn default() -> Self {
+        Self {
+            feed_mm_per_min: 1200.0,
+            rapid_mm_per_min: 3000.0,
+            corner_mm_per_min: 60.0,
+            acceleration_mm_per_s2: 500.0,
+        }
+    }
+}
+
+impl MotionLimits {
+    /// Checks every limit.
+    ///
+    /// # Errors
+    ///
+    /// [`PlanError::Limit`] names the first that is outside its range or not a number.
+    pub fn validate(&self) -> Result<(), PlanError> {
+        let corners = 0.0..=*FEED_RANGE.end();
+        let limits = [
+            ("feed_mm_per_min", self.feed_mm_per_min, FEED_RANGE),
+            ("rapid_mm_per_min", self.rapid_mm_per_min, FEED_RANGE),
+            ("corner_mm_per_min", self.corner_mm_per_min, corners),
+            (
+                "acceleration_mm_per_s2",
+                self.acceleration_mm_per_s2,
+                ACCELERATION_RANGE,
+            ),
+        ];
+        for (field, value, allowed) in limits {
+            if !allowed.contains(&value) {
+                return Err(PlanError::Limit {
+                    field,
+                    value,
+                    least: *allowed.start(),
+                    most: *allowed.end(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A path that cannot be planned.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// A setting is outside its range.
+    #[error("{field} = {value}: allowed are {least} to {most}")]
+    Limit {
+        /// Name of the setting.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// Smallest value allowed.
+        least: f64,
+        /// Largest value allowed.
+        most: f64,
+    },
+    /// A move's own feed is outside its range.
+    #[error(
+        "line {line}: feed {value} mm/min: allowed are {} to {}",
+        FEED_RANGE.start(),
+        FEED_RANGE.end()
+    )]
+    Feed {
+        /// Line of the input.
+        line: usize,
+        /// The feed in mm/min.
+        value: f64,
+    },
+    /// A coordinate is not a number or out of reach. Line 0 is the start of the drawing.
+    #[error("line {line}: {coordinate} = {value} mm: allowed are -{reach} to {reach}")]
+    Coordinate {
+        /// Line of the input.
+        line: usize,
+        /// Which coordinate: "X", "Y", "Z", "centre X" or "centre Y".
+        coordinate: &'static str,
+        /// Its value in millimetres.
+        value: f64,
+        /// Farthest value allowed.
+        reach: f64,
+    },
+    /// An arc starts or ends at its centre.
+    #[error("line {line}: arc of radius {radius_mm} mm: allowed is any above 0")]
+    Radius {
+        /// Line of the input.
+        line: usize,
+        /// The smaller of the radii at the start and at the end, in millimetres.
+        radius_mm: f64,
+    },
+}

@@ -1,0 +1,238 @@
+//! Look-ahead: the speed at every junction and the trapezoid of every move.
+
+use super::geometry::{self, Curve, norm};
+use super::sampler::Sampler;
+use super::{MotionLimits, PlanError};
+use crate::input::{Drawing, Move, Point};
+
+/// Directions that differ by no more than this (in radians) are taken for the same: a tangent
+/// computed from rounded coordinates must not stop a machine whose corner speed is 0.
+const TANGENT: f64 = 1e-6;
+
+/// One move that has a length, with its speeds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    /// Index into the drawing's moves.
+    pub index: usize,
+    /// Time it starts at, in seconds.
+    pub start_s: f64,
+    /// Length of the path before it, in millimetres.
+    pub start_mm: f64,
+    /// Its own length in millimetres.
+    pub length_mm: f64,
+    /// Speed at its start, in mm/s.
+    pub entry: f64,
+    /// Highest speed on it, in mm/s.
+    pub peak: f64,
+    /// Speed at its end, in mm/s.
+    pub exit: f64,
+}
+
+/// A segment's trapezoid: lengths and times of its three phases.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Phases {
+    pub(super) rising_mm: f64,
+    pub(super) rising_s: f64,
+    pub(super) steady_s: f64,
+    pub(super) falling_mm: f64,
+    pub(super) falling_s: f64,
+}
+
+impl Segment {
+    pub(super) fn phases(&self, acceleration: f64) -> Phases {
+        // Kept inside the length: the speeds come out of roots and may be off by a rounding.
+        let ramp = |end: f64, room: f64| {
+            ((self.peak - end) * (self.peak + end) / (2.0 * acceleration)).clamp(0.0, room)
+        };
+        let rising_mm = ramp(self.entry, self.length_mm);
+        let falling_mm = ramp(self.exit, self.length_mm - rising_mm);
+        let time = |mm: f64, speeds: f64| if mm > 0.0 { 2.0 * mm / speeds } else { 0.0 };
+        Phases {
+            rising_mm,
+            rising_s: time(rising_mm, self.entry + self.peak),
+            steady_s: time(self.length_mm - rising_mm - falling_mm, 2.0 * self.peak),
+            falling_mm,
+            falling_s: time(falling_mm, self.exit + self.peak),
+        }
+    }
+}
+
+/// A drawing with its timing.
+#[derive(Debug, Clone)]
+pub struct Plan<'d> {
+    pub(super) drawing: &'d Drawing,
+    pub(super) acceleration: f64,
+    segments: Vec<Segment>,
+    duration_s: f64,
+    length_mm: f64,
+}
+
+impl<'d> Plan<'d> {
+    /// Plans the drawing. Moves without length take no time and no part.
+    ///
+    /// # Errors
+    ///
+    /// [`PlanError`] where a limit or the drawing holds a value that cannot be planned with.
+    pub fn new(drawing: &'d Drawing, limits: &MotionLimits) -> Result<Self, PlanError> {
+        limits.validate()?;
+        geometry::check(drawing)?;
+        let acceleration = limits.acceleration_mm_per_s2;
+        let mut segments = limit_speeds(drawing, limits);
+        look_ahead(&mut segments, acceleration);
+        let (mut duration, mut length) = (Sum::default(), Sum::default());
+        for segment in &mut segments {
+            segment.start_s = duration.value();
+            segment.start_mm = length.value();
+            let phases = segment.phases(acceleration);
+            duration.add(phases.rising_s + phases.steady_s + phases.falling_s);
+            length.add(segment.length_mm);
+        }
+        Ok(Self {
+            drawing,
+            acceleration,
+            segments,
+            duration_s: duration.value(),
+            length_mm: length.value(),
+        })
+    }
+
+    /// Time from start to end, in seconds.
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.duration_s
+    }
+
+    /// Length of the path in millimetres.
+    #[must_use]
+    pub fn length_mm(&self) -> f64 {
+        self.length_mm
+    }
+
+    /// The moves that have a length, in order.
+    #[must_use]
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// Where the path starts.
+    #[must_use]
+    pub fn start(&self) -> Point {
+        self.drawing.start
+    }
+
+    /// Where the path ends.
+    #[must_use]
+    pub fn end(&self) -> Point {
+        self.drawing
+            .moves
+            .last()
+            .map_or(self.drawing.start, |m| m.to)
+    }
+
+    /// The position in time, from the start.
+    #[must_use]
+    pub fn sampler(&self) -> Sampler<'_, 'd> {
+        Sampler::new(self)
+    }
+
+    /// When a segment ends, in seconds.
+    pub(super) fn end_s(&self, segment: usize) -> f64 {
+        self.segments
+            .get(segment + 1)
+            .map_or(self.duration_s, |next| next.start_s)
+    }
+}
+
+/// The segments with the highest speed each allows by itself as peak and with the highest speed
+/// each junction allows by itself as entry.
+fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> Vec<Segment> {
+    let corner = limits.corner_mm_per_min / 60.0;
+    let mut segments: Vec<Segment> = Vec::with_capacity(drawing.moves.len());
+    let mut before: Option<(f64, Point)> = None;
+    for (index, step) in drawing.moves.iter().enumerate() {
+        let curve = Curve::of_move(drawing, index);
+        if curve.length <= 0.0 {
+            continue;
+        }
+        let peak = nominal_speed(step, limits).min(curve.fastest(limits.acceleration_mm_per_s2));
+        let [first, last] = curve.directions();
+        let entry = before.map_or(0.0, |(peak_before, direction)| {
+            let turn = norm(std::array::from_fn(|k| first[k] - direction[k]));
+            let junction = if turn <= TANGENT {
+                f64::INFINITY
+            } else {
+                corner / turn
+            };
+            junction.min(peak).min(peak_before)
+        });
+        before = Some((peak, last));
+        segments.push(Segment {
+            index,
+            start_s: 0.0,
+            start_mm: 0.0,
+            length_mm: curve.length,
+            entry,
+            peak,
+            exit: 0.0,
+        });
+    }
+    segments
+}
+
+/// Feed or rapid rate of a move, in mm/s.
+fn nominal_speed(step: &Move, limits: &MotionLimits) -> f64 {
+    let per_minute = if step.rapid {
+        limits.rapid_mm_per_min
+    } else {
+        step.feed_mm_per_min.unwrap_or(limits.feed_mm_per_min)
+    };
+    per_minute / 60.0
+}
+
+/// Lowers the junction speeds until each can be reached from the one before and left for the one
+/// after, then the peaks to what the lengths allow.
+fn look_ahead(segments: &mut [Segment], acceleration: f64) {
+    let gain = |segment: &Segment| 2.0 * acceleration * segment.length_mm;
+    let mut exit = 0.0;
+    for segment in segments.iter_mut().rev() {
+        segment.exit = exit;
+        segment.entry = segment.entry.min((exit * exit + gain(segment)).sqrt());
+        exit = segment.entry;
+    }
+    let mut entry = 0.0;
+    for segment in segments {
+        segment.entry = entry;
+        segment.exit = segment.exit.min((entry * entry + gain(segment)).sqrt());
+        entry = segment.exit;
+        let squares = segment.entry * segment.entry + segment.exit * segment.exit;
+        let reachable = ((squares + gain(segment)) / 2.0).sqrt();
+        segment.peak = segment
+            .peak
+            .min(reachable)
+            .max(segment.entry)
+            .max(segment.exit);
+    }
+}
+
+/// Compensated sum (Neumaier): a million tiny times after a huge one are not lost.
+#[derive(Default)]
+struct Sum {
+    sum: f64,
+    lost: f64,
+}
+
+impl Sum {
+    fn add(&mut self, x: f64) {
+        let sum = self.sum + x;
+        self.lost += if self.sum.abs() >= x.abs() {
+            (self.sum - sum) + x
+        } else {
+            (x - sum) + self.sum
+        };
+        self.sum = sum;
+    }
+
+    fn value(&self) -> f64 {
+        self.sum + self.lost
+    }
+}

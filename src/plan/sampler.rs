@@ -1,0 +1,148 @@
+//! The position at a time.
+
+use super::geometry::Curve;
+use super::profile::{Phases, Plan, Segment};
+use crate::input::Point;
+
+/// Where the tool is at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Position in millimetres.
+    pub position: Point,
+    /// Speed along the path in mm/s.
+    pub speed: f64,
+    /// Path travelled, in millimetres.
+    pub travelled_mm: f64,
+    /// Whether the move under way is an arc; at a junction the move that begins.
+    pub arc: bool,
+    /// Whether that move is a rapid one.
+    pub rapid: bool,
+    /// Line of the input that move stands in; 0 where the path has no length.
+    pub line: usize,
+}
+
+/// Gives the position of a [`Plan`] in time.
+///
+/// Times that do not decrease cost O(1) each, amortised over the segments passed; going back costs
+/// a binary search.
+#[derive(Debug, Clone)]
+pub struct Sampler<'p, 'd> {
+    plan: &'p Plan<'d>,
+    current: Option<Current>,
+}
+
+/// The segment under way, worked out once.
+#[derive(Debug, Clone, Copy)]
+struct Current {
+    /// Index into the plan's segments.
+    number: usize,
+    segment: Segment,
+    phases: Phases,
+    curve: Curve,
+    rapid: bool,
+    line: usize,
+}
+
+impl<'p, 'd> Sampler<'p, 'd> {
+    pub(super) fn new(plan: &'p Plan<'d>) -> Self {
+        let current = (!plan.segments().is_empty()).then(|| Current::enter(plan, 0));
+        Self { plan, current }
+    }
+
+    /// The sample at `time_s` seconds; the start before 0 and exactly the end from the plan's
+    /// duration on.
+    pub fn at(&mut self, time_s: f64) -> Sample {
+        let Some(current) = &mut self.current else {
+            return Sample {
+                position: self.plan.end(),
+                speed: 0.0,
+                travelled_mm: 0.0,
+                arc: false,
+                rapid: false,
+                line: 0,
+            };
+        };
+        let segments = self.plan.segments();
+        let mut number = current.number;
+        if time_s < current.segment.start_s {
+            number = segments
+                .partition_point(|s| s.start_s <= time_s)
+                .saturating_sub(1);
+        }
+        while number + 1 < segments.len() && time_s >= self.plan.end_s(number) {
+            number += 1;
+        }
+        if number != current.number {
+            *current = Current::enter(self.plan, number);
+        }
+        let ended = time_s >= self.plan.end_s(number);
+        current.sample(time_s, ended, self.plan.acceleration)
+    }
+}
+
+impl Current {
+    fn enter(plan: &Plan<'_>, number: usize) -> Self {
+        let segment = plan.segments()[number];
+        Self {
+            number,
+            segment,
+            phases: segment.phases(plan.acceleration),
+            curve: Curve::of_move(plan.drawing, segment.index),
+            rapid: plan.drawing.moves[segment.index].rapid,
+            line: plan.drawing.moves[segment.index].line,
+        }
+    }
+
+    fn sample(&self, time_s: f64, ended: bool, acceleration: f64) -> Sample {
+        let (along, speed) = if ended {
+            (self.segment.length_mm, self.segment.exit)
+        } else {
+            self.advance((time_s - self.segment.start_s).max(0.0), acceleration)
+        };
+        Sample {
+            position: self.curve.at(along),
+            speed,
+            travelled_mm: self.segment.start_mm + along,
+            arc: self.curve.is_arc(),
+            rapid: self.rapid,
+            line: self.line,
+        }
+    }
+
+    /// Length and speed `time` seconds into the segment. Each phase is held within its own length,
+    /// so that rounding cannot make the path go back.
+    fn advance(&self, time: f64, acceleration: f64) -> (f64, f64) {
+        let Segment {
+            length_mm,
+            entry,
+            peak,
+            exit,
+            ..
+        } = self.segment;
+        let Phases {
+            rising_mm,
+            rising_s,
+            steady_s,
+            falling_mm,
+            falling_s,
+        } = self.phases;
+        let braking_mm = length_mm - falling_mm;
+        if time < rising_s {
+            let along = (entry + 0.5 * acceleration * time) * time;
+            return (
+                along.min(rising_mm),
+                (entry + acceleration * time).min(peak),
+            );
+        }
+        let time = time - rising_s;
+        if time < steady_s {
+            return ((rising_mm + peak * time).min(braking_mm), peak);
+        }
+        let left = (falling_s - (time - steady_s)).max(0.0);
+        let to_go = (exit + 0.5 * acceleration * left) * left;
+        (
+            (length_mm - to_go).clamp(braking_mm, length_mm),
+            (exit + acceleration * left).min(peak),
+        )
+    }
+}

@@ -1,0 +1,91 @@
+//! The path in steps: the border between millimetres and what the interpolator counts.
+
+use super::error::TableError;
+use super::settings::Settings;
+use crate::input::{COORDINATES, Point};
+use crate::plan::{Plan, Sampler};
+use fixed::types::I48F16;
+
+/// A position in steps. Sixteen fraction bits are coarser than the rounding noise of the path's
+/// floating-point numbers, so that an axis resting on half a step does not flicker.
+pub(super) type Steps = I48F16;
+
+/// Names of the axes.
+pub(super) const AXES: [&str; COORDINATES] = ["X", "Y", "Z"];
+
+/// Where the axes are to be at a time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Demand {
+    /// Per axis; 0 for those not driven.
+    pub(super) steps: [Steps; COORDINATES],
+    /// Whether an arc is under way.
+    pub(super) arc: bool,
+    /// Line of the input under way.
+    pub(super) line: usize,
+}
+
+impl Demand {
+    /// The nearest whole step, which is known to fit 32 bits.
+    pub(super) fn rounded(&self, axis: usize) -> i64 {
+        self.steps[axis].round().to_num()
+    }
+}
+
+/// The demand by the tick.
+#[derive(Debug)]
+pub(super) struct Demands<'p, 'd> {
+    sampler: Sampler<'p, 'd>,
+    steps_per_mm: Vec<f64>,
+    duration_s: f64,
+    clock_hz: f64,
+}
+
+impl<'p, 'd> Demands<'p, 'd> {
+    pub(super) fn new(plan: &'p Plan<'d>, settings: &Settings) -> Self {
+        Self {
+            sampler: plan.sampler(),
+            steps_per_mm: settings.steps_per_mm.clone(),
+            duration_s: plan.duration_s(),
+            clock_hz: settings.clock_hz as f64,
+        }
+    }
+
+    /// A time in seconds.
+    pub(super) fn seconds(&self, ticks: u64) -> f64 {
+        ticks as f64 / self.clock_hz
+    }
+
+    /// Whether the path has ended.
+    pub(super) fn ended(&self, ticks: u64) -> bool {
+        self.seconds(ticks) >= self.duration_s
+    }
+
+    /// The demand after so many ticks; from the path's end on exactly the end.
+    pub(super) fn at(&mut self, ticks: u64) -> Result<Demand, TableError> {
+        let sample = self.sampler.at(self.seconds(ticks));
+        Ok(Demand {
+            steps: self.convert(sample.position, sample.line)?,
+            arc: sample.arc,
+            line: sample.line,
+        })
+    }
+
+    fn convert(&self, position: Point, line: usize) -> Result<[Steps; COORDINATES], TableError> {
+        let mut all = [Steps::ZERO; COORDINATES];
+        for (axis, scale) in self.steps_per_mm.iter().enumerate() {
+            let steps = position[axis] * scale;
+            all[axis] = Steps::checked_from_num(steps)
+                .filter(|s| {
+                    s.checked_round()
+                        .and_then(|r| r.checked_to_num::<i32>())
+                        .is_some()
+                })
+                .ok_or(TableError::Position {
+                    line,
+                    axis: AXES[axis],
+                    steps,
+                })?;
+        }
+        Ok(all)
+    }
+}

@@ -1,0 +1,24 @@
+//! From a drawing to the contents of the pattern memory.
+//!
+//! [`counts`] says how many pulses a half-period gives in a unit time and which counts exist;
+//! [`compile`] turns a drawing into a [`Table`] of half-periods and reports what came of it;
+//! [`Table::scaled`] is the text's scaling by multiplying the data.
+
+mod compile;
+mod count_table;
+pub mod counts;
+mod demand;
+mod error;
+mod remedy;
+mod report;
+mod scale;
+mod settings;
+mod words;
+
+pub use compile::compile;
+pub use count_table::{CountTable, Offer, PulseLimits, choose_half_period};
+pub use error::TableError;
+pub use report::{AxisReport, FollowingError, Remedy, Report};
+pub use scale::{AxisScaling, Ratio, Scaled};
+pub use settings::{CLOCK_RANGE_HZ, STEPS_PER_MM_RANGE, Settings, StepTiming, WIDTH_RANGE};
+pub use words::{MAX_UNITS, Pattern, Table, Word};

@@ -1,0 +1,281 @@
+//! What a table is compiled for: machine, clock and unit times.
+
+use super::count_table::PulseLimits;
+use super::error::TableError;
+use crate::input::COORDINATES;
+use crate::plan::MotionLimits;
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+
+/// Clocks that are accepted, in Hz.
+pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
+
+/// Magnitudes of steps per millimetre that are accepted.
+pub const STEPS_PER_MM_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
+
+/// Widths of the half-period and of the unit-time register that are accepted, in bits. The memory
+/// word keeps one of its 32 bits for the direction.
+pub const WIDTH_RANGE: RangeInclusive<u32> = 2..=31;
+
+/// Timing the motor driver asks of its step and direction inputs, in reference ticks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct StepTiming {
+    /// Shortest high time of the step signal.
+    pub min_high: u32,
+    /// Shortest low time of the step signal.
+    pub min_low: u32,
+    /// Shortest time from a change of direction to the next rising edge.
+    pub dir_setup: u32,
+    /// Shortest time from a rising edge to a change of direction.
+    pub dir_hold: u32,
+}
+
+/// Settings of [`compile`](super::compile()).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Reference clock in Hz.
+    pub clock_hz: u64,
+    /// Steps per millimetre of one to three axes: of X, or X and Y, or X, Y and Z. Negative where
+    /// the motor's positive direction is the coordinate's negative one.
+    pub steps_per_mm: Vec<f64>,
+    /// Feeds, corner speed and acceleration.
+    pub motion: MotionLimits,
+    /// Unit time T2 of lines (paragraph 0014), in ticks.
+    pub line_unit_ticks: u32,
+    /// Unit time T1 of arcs (paragraph 0014), in ticks.
+    pub arc_unit_ticks: u32,
+    /// Width of the half-period in the memory word, in bits.
+    pub half_period_bits: u32,
+    /// Width of the unit-time register, in bits.
+    pub period_bits: u32,
+    /// Limits of the motor driver.
+    pub timing: StepTiming,
+}
+
+impl Default for Settings {
+    /// Two axes of 80 steps/mm at 1 MHz, 1 ms of unit time, and a driver that wants 2 µs high and
+    /// low and 5 µs about a change of direction.
+    fn default() -> Self {
+        Self {
+            clock_hz: 1_000_000,
+            steps_per_mm: vec![80.0; 2],
+            motion: MotionLimits::default(),
+            line_unit_ticks: 1000,
+            arc_unit_ticks: 1000,
+            half_period_bits: 16,
+            period_bits: 24,
+            timing: StepTiming {
+                min_high: 2,
+                min_low: 2,
+                dir_setup: 5,
+                dir_hold: 5,
+            },
+        }
+    }
+}
+
+impl Settings {
+    /// Checks every field.
+    ///
+    /// # Errors
+    ///
+    /// [`TableError::Setting`] or [`TableError::Plan`] names the first field at fault, its value
+    /// and what is allowed.
+    pub fn validate(&self) -> Result<(), TableError> {
+        check("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
+        if !(1..=COORDINATES).contains(&self.steps_per_mm.len()) {
+            return Err(TableError::setting(
+                "steps_per_mm",
+                format!("{} axes", self.steps_per_mm.len()),
+                format!("1 to {COORDINATES} axes"),
+            ));
+        }
+        for value in &self.steps_per_mm {
+            if !STEPS_PER_MM_RANGE.contains(&value.abs()) {
+                let (least, most) = STEPS_PER_MM_RANGE.into_inner();
+                let allowed = format!("{least} to {most}, or the negative of that");
+                return Err(TableError::setting("steps_per_mm", value, allowed));
+            }
+        }
+        self.motion.validate()?;
+        check("half_period_bits", self.half_period_bits, &WIDTH_RANGE)?;
+        check("period_bits", self.period_bits, &WIDTH_RANGE)?;
+        self.check_period("line_unit_ticks", self.line_unit_ticks)?;
+        self.check_period("arc_unit_ticks", self.arc_unit_ticks)
+    }
+
+    /// A unit time must hold one pulse, also just after a change of direction: else a table could
+    /// not end on every position. One pulse needs a half-period of a third of T.
+    fn check_period(&self, field: &'static str, period: u32) -> Result<(), TableError> {
+        let StepTiming {
+            min_high,
+            min_low,
+            dir_setup,
+            dir_hold,
+        } = self.timing;
+        let max_half_period = self.pulse_limits().max_half_period;
+        let longest = ((1 << self.period_bits) - 1).min(max_half_period.saturating_mul(3));
+        check(field, period, &(2..=longest))?;
+        check(
+            "step_high_ticks",
+            min_high,
+            &(0..=max_half_period.min(period / 2)),
+        )?;
+        let room = 0..=max_half_period.min(period - min_high.max(1));
+        check("step_low_ticks", min_low, &room)?;
+        check("dir_setup_ticks", dir_setup, &room)?;
+        check("dir_hold_ticks", dir_hold, &(0..=period))
+    }
+
+    /// What a unit's pulses must keep to where the direction stays.
+    #[must_use]
+    pub fn pulse_limits(&self) -> PulseLimits {
+        let StepTiming {
+            min_high, min_low, ..
+        } = self.timing;
+        PulseLimits::new(self.half_period_bits, min_high, min_low)
+    }
+
+    /// The same settings with one unit time for lines and arcs alike.
+    #[must_use]
+    pub fn with_period(&self, period: u32) -> Self {
+        Self {
+            line_unit_ticks: period,
+            arc_unit_ticks: period,
+            ..self.clone()
+        }
+    }
+}
+
+fn check<T: PartialOrd + Display>(
+    field: &'static str,
+    value: T,
+    allowed: &RangeInclusive<T>,
+) -> Result<(), TableError> {
+    if allowed.contains(&value) {
+        return Ok(());
+    }
+    let range = format!("{} to {}", allowed.start(), allowed.end());
+    Err(TableError::setting(field, value, range))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::count_table::CountTable;
+    use super::*;
+
+    fn refusal(change: impl FnOnce(&mut Settings)) -> String {
+        let mut settings = Settings::default();
+        change(&mut settings);
+        settings.validate().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn every_field_is_refused_by_name_value_and_range() {
+        assert_eq!(Settings::default().validate(), Ok(()));
+        let cases = [
+            (
+                refusal(|s| s.clock_hz = 0),
+                "clock_hz = 0: allowed is 1 to 10000000000",
+            ),
+            (
+                refusal(|s| s.steps_per_mm.clear()),
+                "steps_per_mm = 0 axes: allowed is 1 to 3 axes",
+            ),
+            (
+                refusal(|s| s.steps_per_mm = vec![1.0; 4]),
+                "steps_per_mm = 4 axes",
+            ),
+            (
+                refusal(|s| s.steps_per_mm[1] = 0.0),
+                "steps_per_mm = 0: allowed is 0.000001 to",
+            ),
+            (
+                refusal(|s| s.steps_per_mm[0] = f64::NAN),
+                "steps_per_mm = NaN",
+            ),
+            (
+                refusal(|s| s.steps_per_mm[0] = -2e9),
+                "steps_per_mm = -2000000000",
+            ),
+            (
+                refusal(|s| s.motion.feed_mm_per_min = 0.0),
+                "feed_mm_per_min = 0: allowed are 0.001",
+            ),
+            (
+                refusal(|s| s.line_unit_ticks = 1),
+                "line_unit_ticks = 1: allowed is 2 to 196605",
+            ),
+            (
+                refusal(|s| s.arc_unit_ticks = 196_606),
+                "arc_unit_ticks = 196606: allowed is 2 to 196605",
+            ),
+            (
+                refusal(|s| s.period_bits = 9),
+                "line_unit_ticks = 1000: allowed is 2 to 511",
+            ),
+            (
+                refusal(|s| s.half_period_bits = 8),
+                "line_unit_ticks = 1000: allowed is 2 to 765",
+            ),
+            (
+                refusal(|s| s.half_period_bits = 32),
+                "half_period_bits = 32: allowed is 2 to 31",
+            ),
+            (
+                refusal(|s| s.period_bits = 1),
+                "period_bits = 1: allowed is 2 to 31",
+            ),
+            (
+                refusal(|s| s.timing.min_high = 501),
+                "step_high_ticks = 501: allowed is 0 to 500",
+            ),
+            (
+                refusal(|s| s.timing.min_low = 999),
+                "step_low_ticks = 999: allowed is 0 to 998",
+            ),
+            (
+                refusal(|s| s.timing.dir_setup = 999),
+                "dir_setup_ticks = 999: allowed is 0 to 998",
+            ),
+            (
+                refusal(|s| s.timing.dir_hold = 1001),
+                "dir_hold_ticks = 1001: allowed is 0 to 1000",
+            ),
+        ];
+        for (message, expected) in cases {
+            assert!(message.starts_with(expected), "{message}");
+        }
+    }
+
+    /// The closed form of the ranges above against the table itself.
+    #[test]
+    fn accepted_unit_times_are_those_that_hold_one_pulse() {
+        let sizes = [0, 1, 2, 3, 5, 9];
+        for bits in 2..=4 {
+            for period in 2..20 {
+                for (min_high, min_low) in sizes.iter().flat_map(|&h| sizes.map(|l| (h, l))) {
+                    for dir_setup in sizes {
+                        let timing = StepTiming {
+                            min_high,
+                            min_low,
+                            dir_setup,
+                            dir_hold: 0,
+                        };
+                        let settings = Settings {
+                            half_period_bits: bits,
+                            timing,
+                            ..Settings::default().with_period(period)
+                        };
+                        let limits = PulseLimits {
+                            lead: dir_setup,
+                            ..settings.pulse_limits()
+                        };
+                        let holds_one = CountTable::new(period, &limits).contains(1);
+                        assert_eq!(settings.validate().is_ok(), holds_one, "{settings:?}");
+                    }
+                }
+            }
+        }
+    }
+}

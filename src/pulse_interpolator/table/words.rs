@@ -1,0 +1,204 @@
+//! The memory of the interpolator: a word per axis and unit time.
+
+use super::error::TableError;
+
+/// The most unit times a table may have: 400 MB of words for three axes.
+pub const MAX_UNITS: usize = 1 << 25;
+
+/// A memory word: bit 31 is the direction (1 = negative), the rest the half-period in ticks
+/// (0 = no pulse).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Word(u32);
+
+impl Word {
+    const NEGATIVE: u32 = 1 << 31;
+
+    /// A word of `half_period` ticks, of which the low 31 bits count.
+    #[must_use]
+    pub const fn new(half_period: u32, negative: bool) -> Self {
+        let direction = if negative { Self::NEGATIVE } else { 0 };
+        Self(half_period & !Self::NEGATIVE | direction)
+    }
+
+    /// Half-period in ticks; 0 = no pulse.
+    #[must_use]
+    pub const fn half_period(self) -> u32 {
+        self.0 & !Self::NEGATIVE
+    }
+
+    /// Whether the direction is negative.
+    #[must_use]
+    pub const fn negative(self) -> bool {
+        self.0 & Self::NEGATIVE != 0
+    }
+
+    /// The word as it is stored.
+    #[must_use]
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+}
+
+/// A run of unit times of one length (paragraph 0014: T1 for arcs, T2 for lines).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pattern {
+    /// Unit time T in ticks.
+    pub period: u32,
+    /// Its first unit, from 0.
+    pub first_unit: usize,
+    /// How many units it has.
+    pub length: usize,
+}
+
+/// The memory's content: for every unit time one [`Word`] per axis, and the patterns that say how
+/// long the unit times are.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Table {
+    pub(super) clock_hz: u64,
+    pub(super) axes: usize,
+    pub(super) half_period_bits: u32,
+    pub(super) words: Vec<Word>,
+    pub(super) patterns: Vec<Pattern>,
+}
+
+impl Table {
+    pub(super) fn new(clock_hz: u64, axes: usize, half_period_bits: u32) -> Self {
+        Self {
+            clock_hz,
+            axes,
+            half_period_bits,
+            words: Vec::new(),
+            patterns: Vec::new(),
+        }
+    }
+
+    /// Opens a unit of `period` ticks; its words follow by [`Table::push`].
+    pub(super) fn open_unit(&mut self, period: u32) -> Result<(), TableError> {
+        let unit = self.units();
+        if unit >= MAX_UNITS {
+            return Err(TableError::TooLong {
+                units: unit as f64 + 1.0,
+                most: MAX_UNITS,
+            });
+        }
+        match self.patterns.last_mut() {
+            Some(pattern) if pattern.period == period => pattern.length += 1,
+            _ => self.patterns.push(Pattern {
+                period,
+                first_unit: unit,
+                length: 1,
+            }),
+        }
+        Ok(())
+    }
+
+    pub(super) fn push(&mut self, word: Word) {
+        self.words.push(word);
+    }
+
+    /// Reference clock in Hz.
+    #[must_use]
+    pub fn clock_hz(&self) -> u64 {
+        self.clock_hz
+    }
+
+    /// Number of axes.
+    #[must_use]
+    pub fn axes(&self) -> usize {
+        self.axes
+    }
+
+    /// Width of the half-period, in bits.
+    #[must_use]
+    pub fn half_period_bits(&self) -> u32 {
+        self.half_period_bits
+    }
+
+    /// Number of unit times.
+    #[must_use]
+    pub fn units(&self) -> usize {
+        self.words.len() / self.axes
+    }
+
+    /// All words: those of unit 0 (X first), those of unit 1, and so on.
+    #[must_use]
+    pub fn words(&self) -> &[Word] {
+        &self.words
+    }
+
+    /// The words of one unit, X first; `None` beyond the end.
+    #[must_use]
+    pub fn unit(&self, unit: usize) -> Option<&[Word]> {
+        self.words.chunks_exact(self.axes).nth(unit)
+    }
+
+    /// The patterns, in order; neighbours differ in their unit time.
+    #[must_use]
+    pub fn patterns(&self) -> &[Pattern] {
+        &self.patterns
+    }
+
+    /// Every unit in order: its unit time in ticks and its words.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, &[Word])> {
+        let periods = self
+            .patterns
+            .iter()
+            .flat_map(|p| std::iter::repeat_n(p.period, p.length));
+        periods.zip(self.words.chunks_exact(self.axes))
+    }
+
+    /// Length of the whole table in ticks.
+    #[must_use]
+    pub fn total_ticks(&self) -> u64 {
+        self.patterns
+            .iter()
+            .map(|p| u64::from(p.period) * p.length as u64)
+            .sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn word_packs_direction_and_half_period() {
+        for (n, negative) in [
+            (0, false),
+            (0, true),
+            (1, true),
+            (Word::NEGATIVE - 1, false),
+        ] {
+            let word = Word::new(n, negative);
+            assert_eq!((word.half_period(), word.negative()), (n, negative));
+        }
+        assert_eq!(Word::new(5, true).bits(), 0x8000_0005);
+    }
+
+    #[test]
+    fn units_of_one_period_share_a_pattern() {
+        let mut table = Table::new(1000, 2, 16);
+        for period in [10, 10, 7, 10] {
+            table.open_unit(period).unwrap();
+            table.push(Word::new(period, false));
+            table.push(Word::new(0, true));
+        }
+        let patterns: Vec<_> = table
+            .patterns()
+            .iter()
+            .map(|p| (p.period, p.first_unit, p.length))
+            .collect();
+        assert_eq!(patterns, [(10, 0, 2), (7, 2, 1), (10, 3, 1)]);
+        assert_eq!((table.units(), table.total_ticks()), (4, 37));
+        assert_eq!(
+            table.unit(2),
+            Some(&[Word::new(7, false), Word::new(0, true)][..])
+        );
+        assert_eq!(table.unit(4), None);
+        assert!(
+            table
+                .iter()
+                .all(|(period, words)| words[0].half_period() == period)
+        );
+    }
+}

@@ -1,0 +1,90 @@
+//! Unit-time counter 30 (¶0016): counts the reference clock and pulses RST once per unit time.
+//!
+//! ```text
+//!            ┌───────────────────┐
+//!  period ──▶│ unit-time counter ├──▶ rst
+//!            └───────────────────┘
+//! ```
+//!
+//! Departures: the text resets on "equal"; here a count at or past T resets too, so no T makes the
+//! counter run to its wrap. T = 0 counts as 1.
+
+use crate::check::{Invariants, Specified, require};
+use crate::kernel::Circuit;
+use crate::logic::{Bit, Logic, Unsigned};
+use crate::signals;
+
+signals! {
+    /// Ports in.
+    pub struct In<L, const T: usize> {
+        /// Unit time in ticks, constant from one RST to the next.
+        pub period: L::U<T>,
+    }
+}
+
+signals! {
+    /// Flip-flops.
+    pub struct Reg<L, const T: usize> {
+        /// Ticks since the unit time began.
+        pub(crate) count: L::U<T> as Analog = 0,
+    }
+}
+
+signals! {
+    /// Nets.
+    pub struct Net<L, const T: usize> {
+        /// Ticks of the unit time that are over after this one.
+        next: L::U<T>,
+        /// RST: this is the last tick of the unit time.
+        pub rst: L::Bit,
+    }
+}
+
+/// Unit-time counter 30 with a count of `T` bits; `rst` is high in the last tick of every
+/// `period` ticks.
+#[derive(Debug, Clone, Default)]
+pub struct UnitTimeCounter<const T: usize>;
+
+impl<const T: usize> Circuit for UnitTimeCounter<T> {
+    const NAME: &'static str = "unit_time_counter";
+    const ABOUT: &'static str = "counts the reference clock, pulses RST once per unit time";
+    type In<L: Logic> = In<L, T>;
+    type Reg<L: Logic> = Reg<L, T>;
+    type Net<L: Logic> = Net<L, T>;
+
+    #[inline(always)]
+    fn comb<L: Logic>(&self, q: &Reg<L, T>, i: &In<L, T>) -> Net<L, T> {
+        let next = q.count + 1;
+        Net {
+            next,
+            rst: !next.below(i.period),
+        }
+    }
+
+    #[inline(always)]
+    fn next<L: Logic>(&self, _: Reg<L, T>, w: &Net<L, T>, _: &In<L, T>) -> Reg<L, T> {
+        Reg {
+            count: w.rst.mux(0.into(), w.next),
+        }
+    }
+}
+
+impl<const T: usize> Specified for UnitTimeCounter<T> {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step("the count starts again after RST", |now, next| {
+                let clear = !now.w.rst.get() || next.count.get() == 0;
+                require(clear, ["count", "rst"], || {
+                    format!("{} after RST", next.count.get())
+                })
+            })
+            .step(
+                "between two RST the count goes up by one and stays below T",
+                |now, next| {
+                    let (count, next) = (now.q.count.get(), next.count.get());
+                    let up = now.w.rst.get() || next == count + 1 && next < now.i.period.get();
+                    require(up, ["count", "period"], || format!("{next} after {count}"))
+                },
+            )
+    }
+}
