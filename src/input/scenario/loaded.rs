@@ -1,0 +1,202 @@
+use super::Scenario;
+use crate::input::{Fault, file};
+use std::path::Path;
+use toml::{Table, Value};
+
+/// What faults call the file of an override.
+const SET: &str = "--set";
+
+/// A scenario together with the text it was read from, so that faults can name its lines.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// The scenario.
+    pub scenario: Scenario,
+    file: String,
+    text: String,
+    /// Keys that were overridden.
+    overridden: Vec<String>,
+}
+
+impl Loaded {
+    /// Reads a scenario file, with `key=value` overrides. The input is relative to the file; one
+    /// that an override gives is not.
+    ///
+    /// # Errors
+    /// The file cannot be read, is not TOML, has an unknown key, a value of the wrong type, or
+    /// lacks a key; or an override is none of `key=value`.
+    pub fn read(path: &Path, sets: &[String]) -> Result<Self, Fault> {
+        let name = path.display().to_string();
+        let bytes = file::bytes(&name, path)?;
+        let text = str::from_utf8(&bytes).map_err(|error| {
+            let line = line_at(&bytes, error.valid_up_to());
+            Fault::new(&name, line, "file", "not UTF-8", "a scenario in TOML")
+        })?;
+        let mut loaded = Self::parse(&name, text, sets)?;
+        let given = loaded.overrides("input");
+        if let (Some(input), Some(directory)) = (&mut loaded.scenario.input, path.parent())
+            && !given
+        {
+            *input = directory.join(&*input);
+        }
+        Ok(loaded)
+    }
+
+    /// Reads a scenario from text that is called `file` in faults.
+    ///
+    /// # Errors
+    /// As [`Loaded::read`].
+    pub fn parse(file: &str, text: &str, sets: &[String]) -> Result<Self, Fault> {
+        let refuse = |error| fault(file, text, &error);
+        let mut loaded = Loaded {
+            scenario: toml::from_str(text).map_err(refuse)?,
+            file: file.to_owned(),
+            text: text.to_owned(),
+            overridden: Vec::new(),
+        };
+        let mut table: Table = text.parse().map_err(refuse)?;
+        for set in sets {
+            let (key, value) = key_value(set)?;
+            table.insert(key.to_owned(), value);
+            loaded.scenario = table.clone().try_into().map_err(|error: toml::de::Error| {
+                let (problem, allowed) = split(error.message());
+                Fault::new(SET, 0, key, problem, allowed)
+            })?;
+            loaded.overridden.push(key.to_owned());
+        }
+        Ok(loaded)
+    }
+
+    /// Whether an override gave this key.
+    pub fn overrides(&self, key: &str) -> bool {
+        self.overridden.iter().any(|other| other == key)
+    }
+
+    /// A fault of the value of `key`, with the line it stands in.
+    pub fn fault(&self, key: &str, problem: String, allowed: String) -> Fault {
+        if self.overrides(key) {
+            return Fault::new(SET, 0, key, problem, allowed);
+        }
+        // An absent key has its default: the file as a whole is at fault.
+        let line = self.text.lines().position(|line| key_of(line) == key);
+        let line = line.map_or(0, |before| before + 1);
+        Fault::new(&self.file, line, key, problem, allowed)
+    }
+}
+
+fn key_value(set: &str) -> Result<(&str, Value), Fault> {
+    let Some((key, value)) = set.split_once('=') else {
+        let allowed = "key=value with a key of the scenario";
+        return Err(Fault::new(SET, 0, set, "no '='", allowed));
+    };
+    let (key, value) = (key.trim(), value.trim());
+    // A value that is no TOML is meant as a string: `--set variant=literal`.
+    let parsed = format!("x = {value}").parse::<Table>().ok();
+    let value = parsed
+        .filter(|table| table.len() == 1)
+        .and_then(|mut table| table.remove("x"))
+        .unwrap_or_else(|| Value::String(value.to_owned()));
+    Ok((key, value))
+}
+
+/// The key that a line gives a value to; the line where it gives none.
+fn key_of(line: &str) -> &str {
+    let key = line.split('=').next().unwrap_or(line);
+    key.trim().trim_matches(['"', '\''])
+}
+
+fn line_at(text: &[u8], place: usize) -> usize {
+    let before = &text[..place.min(text.len())];
+    before.iter().filter(|&&byte| byte == b'\n').count() + 1
+}
+
+/// A message of the TOML reader as problem and what is allowed.
+fn split(message: &str) -> (String, String) {
+    // What the parser expects next, where the text is no TOML, is rarely what was meant.
+    let of_a_value = message.starts_with("invalid ") || message.starts_with("unknown ");
+    let (problem, allowed) = message
+        .split_once(", expected ")
+        .filter(|_| of_a_value)
+        .unwrap_or((message, "lines of key = value, in TOML"));
+    let allowed = match allowed {
+        "u64" => "a whole number from 0",
+        "u32" => "a whole number from 0 to 4294967295",
+        "f64" => "a number",
+        "a sequence" => "a list of numbers, one for each axis",
+        "path string" => "a path",
+        other => other,
+    };
+    (problem.replace(" as i128", ""), allowed.to_owned())
+}
+
+fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
+    let message = error.message();
+    if let Some(key) = message.strip_prefix("missing field `") {
+        let key = key.trim_end_matches('`');
+        let allowed = "a value for it: it has no default";
+        return Fault::new(file, 0, key, "missing", allowed);
+    }
+    let line = line_at(text.as_bytes(), error.span().map_or(0, |span| span.start));
+    let mut upwards = text
+        .lines()
+        .take(line)
+        .collect::<Vec<_>>()
+        .into_iter()
+        .rev();
+    let written = upwards.clone().next().unwrap_or("");
+    let written = match message.starts_with("invalid ") {
+        // A value of the wrong type may stand lines below its key.
+        true => upwards.find(|line| line.contains('=')).unwrap_or(written),
+        false => written,
+    };
+    let field = match key_of(written) {
+        "" => "file",
+        key => key,
+    };
+    let (problem, allowed) = split(message);
+    Fault::new(file, line, field, problem, allowed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(text: &str, sets: &[&str]) -> String {
+        let sets: Vec<_> = sets.iter().map(|&set| set.to_owned()).collect();
+        Loaded::parse("s.toml", text, &sets)
+            .unwrap_err()
+            .to_string()
+    }
+
+    const BARE: &str = crate::input::scenario::BARE;
+
+    #[test]
+    fn a_fault_of_a_value_has_its_line_however_much_is_overridden() {
+        let text = format!("# first\n\n{BARE}# clock_hz = 1\n\"clock_hz\" = 0\n");
+        let sets = ["line_unit_ticks=500", "variant=literal"].map(str::to_owned);
+        let loaded = Loaded::parse("s.toml", &text, &sets).unwrap();
+        let shown = |key| loaded.fault(key, "is 0".into(), "more".into()).to_string();
+        assert_eq!(shown("clock_hz"), "s.toml:5: clock_hz: is 0; allowed: more");
+        assert_eq!(
+            shown("line_unit_ticks"),
+            "--set: line_unit_ticks: is 0; allowed: more"
+        );
+        assert_eq!(shown("vcd_ticks"), "s.toml: vcd_ticks: is 0; allowed: more");
+    }
+
+    #[test]
+    fn a_wrong_type_names_the_key_also_lines_below_it() {
+        assert_eq!(
+            refusal(
+                &format!("{BARE}steps_per_mm = [\n  80,\n  \"a\",\n]\n"),
+                &[]
+            ),
+            "s.toml:4: steps_per_mm: invalid type: string \"a\"; allowed: a number"
+        );
+    }
+
+    #[test]
+    fn an_override_holds_one_value() {
+        let set = "clock_hz=1\nline_unit_ticks=2";
+        assert!(refusal(BARE, &[set]).starts_with("--set: clock_hz: invalid type: string"));
+    }
+}

@@ -1,0 +1,187 @@
+//! What both readers build: the moves so far, the warnings, and the drawing at the end.
+
+use std::collections::HashMap;
+
+use super::{Course, Drawing, Fault, Move, Point, REACH_MM, Warning, ZERO_MM};
+
+/// The moves read so far and where the last one ended.
+pub(super) struct Track<'a> {
+    file: &'a str,
+    here: Point,
+    moves: Vec<Move>,
+    zero_length: usize,
+    notes: HashMap<String, Note>,
+}
+
+/// One warning in the making.
+struct Note {
+    /// Its place among the notes.
+    order: usize,
+    line: usize,
+    text: String,
+    times: usize,
+}
+
+impl<'a> Track<'a> {
+    pub(super) fn new(file: &'a str) -> Self {
+        Self {
+            file,
+            here: [0.0; 3],
+            moves: Vec::new(),
+            zero_length: 0,
+            notes: HashMap::new(),
+        }
+    }
+
+    /// Where the last recorded move ended.
+    pub(super) fn here(&self) -> Point {
+        self.here
+    }
+
+    /// Records a move, or counts it where it has zero length. Tiny moves do not get lost: the
+    /// next one starts from the last recorded end.
+    ///
+    /// # Errors
+    ///
+    /// Where the end or the centre is out of reach; `field` is the instruction to blame.
+    pub(super) fn push(&mut self, field: &str, next: Move) -> Result<(), Fault> {
+        for (axis, value) in ["X", "Y", "Z"].into_iter().zip(next.to) {
+            self.check_reach(field, next.line, axis, value)?;
+        }
+        if let Course::Arc { centre, .. } = next.course {
+            for (axis, value) in ["the centre's X", "the centre's Y"].into_iter().zip(centre) {
+                self.check_reach(field, next.line, axis, value)?;
+            }
+        }
+        let still = || {
+            let mut pairs = self.here.iter().zip(&next.to);
+            pairs.all(|(from, to)| (to - from).abs() < ZERO_MM)
+        };
+        if next.course == Course::Line && still() {
+            self.zero_length += 1;
+        } else {
+            self.here = next.to;
+            self.moves.push(next);
+        }
+        Ok(())
+    }
+
+    fn check_reach(&self, field: &str, line: usize, what: &str, mm: f64) -> Result<(), Fault> {
+        if mm.abs() <= REACH_MM {
+            return Ok(());
+        }
+        Err(self.fault(
+            line,
+            field,
+            format!("{what} would be {mm} mm"),
+            format!("-{REACH_MM} to {REACH_MM} mm"),
+        ))
+    }
+
+    /// Notes a warning. One `key` gives one warning, at its first line, with how often it came.
+    pub(super) fn note(&mut self, key: &str, line: usize, text: impl FnOnce() -> String) {
+        if let Some(note) = self.notes.get_mut(key) {
+            note.times += 1;
+            return;
+        }
+        let note = Note {
+            order: self.notes.len(),
+            line,
+            text: text(),
+            times: 1,
+        };
+        self.notes.insert(key.to_owned(), note);
+    }
+
+    pub(super) fn fault(
+        &self,
+        line: usize,
+        field: impl Into<String>,
+        problem: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Fault {
+        Fault::new(self.file, line, field, problem, allowed)
+    }
+
+    /// The drawing.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no move; `allowed` says what kind of file was wanted.
+    pub(super) fn finish(self, allowed: &str) -> Result<Drawing, Fault> {
+        if self.moves.is_empty() {
+            return Err(self.fault(0, "file", "no move in it", allowed));
+        }
+        let mut notes: Vec<Note> = self.notes.into_values().collect();
+        notes.sort_unstable_by_key(|note| note.order);
+        let warnings = notes
+            .into_iter()
+            .map(|note| Warning {
+                file: self.file.to_owned(),
+                line: note.line,
+                text: match note.times {
+                    1 => note.text,
+                    times => format!("{} ({times} times)", note.text),
+                },
+            })
+            .collect();
+        Ok(Drawing {
+            file: self.file.to_owned(),
+            start: [0.0; 3],
+            moves: self.moves,
+            zero_length: self.zero_length,
+            warnings,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn to(x: f64) -> Move {
+        Move {
+            to: [x, 0.0, 0.0],
+            course: Course::Line,
+            rapid: false,
+            feed_mm_per_min: None,
+            line: 1,
+        }
+    }
+
+    #[test]
+    fn tiny_moves_are_counted_and_add_up() {
+        let mut track = Track::new("t");
+        let step = 0.4 * ZERO_MM;
+        for n in 1..=6 {
+            track.push("X", to(f64::from(n) * step)).unwrap();
+        }
+        let drawing = track.finish("moves").unwrap();
+        assert_eq!(drawing.zero_length, 4);
+        assert_eq!(drawing.moves, [to(3.0 * step), to(6.0 * step)]);
+    }
+
+    #[test]
+    fn notes_keep_their_order_and_count() {
+        let mut track = Track::new("t");
+        track.note("b", 2, || "b skipped".to_owned());
+        track.note("a", 3, || "a skipped".to_owned());
+        track.note("b", 4, || "never built".to_owned());
+        track.push("X", to(1.0)).unwrap();
+        let warnings = track.finish("moves").unwrap().warnings;
+        let shown: Vec<String> = warnings.iter().map(Warning::to_string).collect();
+        assert_eq!(shown, ["t:2: b skipped (2 times)", "t:3: a skipped"]);
+    }
+
+    #[test]
+    fn the_reach_ends_where_it_says() {
+        let mut track = Track::new("t");
+        track.push("X", to(REACH_MM)).unwrap();
+        let fault = track.push("X", to(REACH_MM + 0.5)).unwrap_err();
+        assert_eq!(
+            fault.to_string(),
+            "t:1: X: X would be 1000000.5 mm; allowed: -1000000 to 1000000 mm"
+        );
+        assert!(track.push("X", to(f64::NAN)).is_err());
+    }
+}
