@@ -1,0 +1,78 @@
+//! The files of a run: they get their names together, when all of them are complete.
+
+use super::Failure;
+use motion_rtl::trace::atomic::{AtomicFile, Directory};
+use std::ffi::OsString;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Files that are complete but not yet named; dropped, they leave nothing.
+#[derive(Debug)]
+pub struct Files {
+    stem: PathBuf,
+    complete: Vec<AtomicFile>,
+    // Last, as it can go only when the files are gone.
+    _directory: Directory,
+}
+
+fn refuse(error: &io::Error) -> Failure {
+    Failure::Argument {
+        field: "--out",
+        problem: error.to_string(),
+        allowed: "a directory that can be written".into(),
+    }
+}
+
+impl Files {
+    /// Files called `stem` in `directory`.
+    pub fn begin(directory: &Path, stem: &str) -> Result<Self, Failure> {
+        let created = Directory::create(directory).map_err(|error| refuse(&error))?;
+        Ok(Files {
+            stem: directory.join(stem),
+            complete: Vec::new(),
+            _directory: created,
+        })
+    }
+
+    /// Begins the one with this extension.
+    pub fn create(&self, extension: &str) -> Result<AtomicFile, Failure> {
+        let mut path = OsString::from(&self.stem);
+        path.push(".");
+        path.push(extension);
+        AtomicFile::create(path).map_err(|error| refuse(&error))
+    }
+
+    /// Takes one that is complete.
+    pub fn push(&mut self, file: AtomicFile) {
+        self.complete.push(file);
+    }
+
+    /// Writes a whole one.
+    pub fn write(&mut self, extension: &str, text: &str) -> Result<(), Failure> {
+        let mut file = self.create(extension)?;
+        io::Write::write_all(&mut file, text.as_bytes())?;
+        self.push(file);
+        Ok(())
+    }
+
+    /// Names them all; returns the names. Where one cannot be named, none is there.
+    pub fn commit(self) -> io::Result<Vec<String>> {
+        let mut named = Vec::new();
+        for file in self.complete {
+            match file.commit() {
+                Ok(path) => named.push(path),
+                Err(error) => {
+                    for path in named {
+                        // The first error is the one to report.
+                        let _ = std::fs::remove_file(path);
+                    }
+                    return Err(error);
+                }
+            }
+        }
+        Ok(named
+            .iter()
+            .map(|path| path.display().to_string())
+            .collect())
+    }
+}

@@ -1,0 +1,133 @@
+//! `list`: circuits with ports and widths, and scenarios.
+
+use super::shipped::SHIPPED;
+use super::{Failure, print, print_json};
+use clap::Args;
+use motion_rtl::kernel::{Declaration, Role};
+use motion_rtl::registry::{CATALOGUE, Entry};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// How to list.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Prints the list as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Listing {
+    circuits: Vec<Circuit>,
+    scenarios: Vec<Scenario>,
+}
+
+#[derive(Debug, Serialize)]
+struct Circuit {
+    name: &'static str,
+    about: &'static str,
+    source: &'static str,
+    widths: BTreeMap<&'static str, usize>,
+    /// The numbers that proofs and charts make it with.
+    made_with: &'static str,
+    inputs: Vec<Port>,
+    outputs: Vec<Port>,
+    registers: usize,
+    nets: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Port {
+    name: String,
+    width: usize,
+    about: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct Scenario {
+    file: &'static str,
+    about: &'static str,
+}
+
+/// Lists.
+pub fn list(arguments: &Arguments) -> Result<(), Failure> {
+    let listing = Listing {
+        circuits: CATALOGUE.iter().map(circuit).collect(),
+        scenarios: SHIPPED
+            .iter()
+            .map(|shipped| Scenario {
+                file: shipped.file,
+                about: shipped.about,
+            })
+            .collect(),
+    };
+    match arguments.json {
+        true => print_json(&listing),
+        false => print(&text(&listing)),
+    }
+}
+
+fn circuit(entry: &Entry) -> Circuit {
+    let leaves = (entry.declarations)().leaves;
+    let port = |leaf: &Declaration| Port {
+        name: leaf.name.clone(),
+        width: leaf.shape.width,
+        about: leaf.field.doc.trim(),
+    };
+    // Ports are in the circuit's own scope; deeper ones belong to its blocks.
+    let own = leaves.iter().filter(|leaf| leaf.scopes.len() == 1);
+    let inputs = own
+        .clone()
+        .filter(|leaf| leaf.role == Role::Input)
+        .map(port);
+    let outputs = own.filter(|leaf| leaf.role != Role::Input && leaf.field.public);
+    let count = |role| leaves.iter().filter(|leaf| leaf.role == role).count();
+    Circuit {
+        name: entry.name,
+        about: entry.about,
+        source: entry.source,
+        widths: entry.widths.iter().copied().collect(),
+        made_with: entry.arguments,
+        inputs: inputs.collect(),
+        outputs: outputs.map(port).collect(),
+        registers: count(Role::Register),
+        nets: count(Role::Net),
+    }
+}
+
+fn text(listing: &Listing) -> String {
+    let mut text = String::from("circuits\n");
+    // Writing to a string does not fail.
+    for circuit in &listing.circuits {
+        let widths: Vec<_> = circuit
+            .widths
+            .iter()
+            .map(|(name, bits)| format!("{name} = {bits}"))
+            .collect();
+        let _ = writeln!(
+            text,
+            "\n  {} ({}): {}",
+            circuit.name, circuit.source, circuit.about
+        );
+        if !widths.is_empty() {
+            let _ = writeln!(text, "    widths  {}", widths.join(", "));
+        }
+        let _ = writeln!(text, "    made    {}", circuit.made_with);
+        let _ = writeln!(text, "    in      {}", ports(&circuit.inputs));
+        let _ = writeln!(text, "    out     {}", ports(&circuit.outputs));
+    }
+    text.push_str("\nscenarios\n\n");
+    for scenario in &listing.scenarios {
+        let _ = writeln!(text, "  {}: {}", scenario.file, scenario.about);
+    }
+    text
+}
+
+fn ports(ports: &[Port]) -> String {
+    let port = |port: &Port| match port.width {
+        1 => port.name.clone(),
+        width => format!("{}[{width}]", port.name),
+    };
+    ports.iter().map(port).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,70 @@
+//! The commands.
+
+pub mod check;
+mod files;
+mod job;
+pub mod list;
+mod picture;
+pub mod run;
+mod shipped;
+mod summary;
+pub mod table;
+mod verdict;
+
+use motion_rtl::input::Fault;
+use motion_rtl::kernel::RunError;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// Why a command failed, and with which exit code.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// Bad input: 2.
+    #[error(transparent)]
+    Input(#[from] Fault),
+    /// An argument of the command line that clap cannot judge: 2.
+    #[error("{field}: {problem}; allowed: {allowed}")]
+    Argument {
+        /// The argument.
+        field: &'static str,
+        /// What is wrong.
+        problem: String,
+        /// What would be right.
+        allowed: String,
+    },
+    /// A file that cannot be written: 2.
+    #[error("{0}")]
+    File(#[from] io::Error),
+    /// A run that a monitor ended, or whose waves cannot be written: 2 for the latter, else 1.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// What should hold does not: 1.
+    #[error("{0}")]
+    Check(String),
+}
+
+impl Failure {
+    /// The exit code.
+    pub fn code(&self) -> ExitCode {
+        match self {
+            Failure::Check(_) | Failure::Run(RunError::Violation { .. }) => ExitCode::from(1),
+            _ => ExitCode::from(2),
+        }
+    }
+}
+
+/// Prints to standard output; a reader that has gone away (`| head`) is no failure.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        done => Ok(done
+            .map_err(|error| io::Error::new(error.kind(), format!("standard output: {error}")))?),
+    }
+}
+
+/// Prints a value as JSON.
+fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
+    print(&(text + "\n"))
+}

@@ -1,0 +1,187 @@
+//! The picture of a run: the path as commanded and as pulsed, and the following error over time.
+
+use super::job::Job;
+use motion_rtl::input::{Course, Move, Point};
+use motion_rtl::picture::{Curve, Panel, Picture};
+use motion_rtl::plan::{Plan, PlanError};
+use motion_rtl::pulse_interpolator::job::Played;
+use motion_rtl::pulse_interpolator::{AXIS_NAMES, FollowingError};
+
+/// Chords of a full circle.
+const CHORDS: f64 = 180.0;
+
+/// Following errors at the end of every unit time, as the drivers saw them.
+#[derive(Debug)]
+pub struct Following {
+    /// The largest of each axis, X first.
+    pub largest: Vec<FollowingError>,
+    /// Time in seconds and error in steps, for each axis.
+    curves: Vec<Vec<(f64, f64)>>,
+    /// Of every unit time, whether a rapid move was under way at its end.
+    rapid: Vec<bool>,
+}
+
+impl Following {
+    /// Compares where the axes were with where the path demanded them.
+    ///
+    /// # Errors
+    /// The path cannot be planned, which a job that is compiled rules out.
+    pub fn new(job: &Job, played: &Played) -> Result<Self, PlanError> {
+        let plan = Plan::new(&job.drawing, &job.settings.motion)?;
+        let mut sampler = plan.sampler();
+        let axes = job.report.axes.len();
+        let mut largest = vec![FollowingError::default(); axes];
+        let mut curves = vec![Vec::with_capacity(job.table.units()); axes];
+        let mut rapid = Vec::with_capacity(job.table.units());
+        let mut ticks = 0;
+        let units = job.table.iter().zip(played.positions.chunks_exact(axes));
+        for (unit, ((period, _), positions)) in units.enumerate() {
+            ticks += u64::from(period);
+            let time_s = ticks as f64 / job.settings.clock_hz as f64;
+            let demand = sampler.at(time_s);
+            rapid.push(demand.rapid);
+            for (axis, position) in positions.iter().enumerate() {
+                let start = job.report.axes[axis].start_position;
+                let demanded = demand.position[axis] * job.settings.steps_per_mm[axis];
+                let error = demanded - f64::from(start) - f64::from(*position);
+                curves[axis].push((time_s, error));
+                if error.abs() > largest[axis].steps {
+                    let (steps, line) = (error.abs(), demand.line);
+                    largest[axis] = FollowingError {
+                        steps,
+                        unit,
+                        time_s,
+                        line,
+                    };
+                }
+            }
+        }
+        Ok(Following {
+            largest,
+            curves,
+            rapid,
+        })
+    }
+}
+
+/// The picture as SVG.
+pub fn draw(job: &Job, played: &Played, following: &Following) -> String {
+    let (drawn, rapid) = commanded(job);
+    let (pulsed, pulsed_rapid) = pulsed(job, played, &following.rapid);
+    let path = Panel::new("path", "x in mm", "y in mm")
+        .equal_scales()
+        .curve(
+            Curve::new("as commanded", drawn)
+                .colour("#f0c9a0")
+                .width(5.0),
+        )
+        .curve(
+            Curve::new("rapid, as commanded", rapid)
+                .colour("#e8e8e8")
+                .width(3.0),
+        )
+        .curve(
+            Curve::new("rapid, as pulsed", pulsed_rapid)
+                .colour("#9a9a9a")
+                .width(0.7)
+                .dashed(),
+        )
+        .curve(Curve::new("as pulsed", pulsed).colour("#0072b2"));
+    let picture = Picture::new(format!("{}: pulse interpolator", job.stem)).panel(path);
+    let curves = following.curves.iter().zip(AXIS_NAMES);
+    curves
+        .fold(picture, |picture, (curve, name)| {
+            let title = format!("following error of {name} at the end of each unit time");
+            let panel = Panel::new(title, "time in s", "error in steps");
+            picture.panel(panel.curve(Curve::new(name, curve.clone()).colour("#0072b2").width(0.6)))
+        })
+        .render()
+}
+
+/// Where the pulses took the axes at the end of each unit time, in millimetres: on moves that
+/// draw, and on rapid ones.
+fn pulsed(job: &Job, played: &Played, rapid: &[bool]) -> (Strokes, Strokes) {
+    let axes = job.report.axes.len();
+    let coordinate = |axis: usize, position: i32| {
+        let steps = f64::from(job.report.axes[axis].start_position) + f64::from(position);
+        steps / job.settings.steps_per_mm[axis]
+    };
+    let point = |unit: &[i32]| {
+        let y = unit.get(1).map_or(0.0, |y| coordinate(1, *y));
+        (coordinate(0, unit[0]), y)
+    };
+    let mut strokes = Pair::default();
+    let mut at = point(&vec![0; axes]);
+    for (unit, rapid) in played.positions.chunks_exact(axes).zip(rapid) {
+        let to = point(unit);
+        strokes.of(*rapid, at).push(to);
+        at = to;
+    }
+    (strokes.drawn, strokes.rapid)
+}
+
+/// A curve with gaps.
+type Strokes = Vec<(f64, f64)>;
+
+/// Strokes that draw and strokes that do not, one going on where the other stops.
+#[derive(Default)]
+struct Pair {
+    drawn: Strokes,
+    rapid: Strokes,
+}
+
+impl Pair {
+    /// The strokes of one kind, which go on at `at`; the other kind is interrupted.
+    fn of(&mut self, rapid: bool, at: (f64, f64)) -> &mut Strokes {
+        let (to, other) = match rapid {
+            true => (&mut self.rapid, &mut self.drawn),
+            false => (&mut self.drawn, &mut self.rapid),
+        };
+        let gap = (f64::NAN, f64::NAN);
+        if to.last().is_none_or(|point| point.0.is_nan()) {
+            to.push(at);
+        }
+        if other.last().is_some_and(|point| !point.0.is_nan()) {
+            other.push(gap);
+        }
+        to
+    }
+}
+
+/// The moves that draw and those that do not.
+fn commanded(job: &Job) -> (Strokes, Strokes) {
+    let mut strokes = Pair::default();
+    let mut at = job.drawing.start;
+    for step in &job.drawing.moves {
+        let to = strokes.of(step.rapid, (at[0], at[1]));
+        match step.course {
+            Course::Line => to.push((step.to[0], step.to[1])),
+            Course::Arc { centre, clockwise } => chords(to, at, step, centre, clockwise),
+        }
+        at = step.to;
+    }
+    (strokes.drawn, strokes.rapid)
+}
+
+fn chords(to: &mut Strokes, from: Point, step: &Move, centre: [f64; 2], clockwise: bool) {
+    let polar = |point: Point| {
+        let (x, y) = (point[0] - centre[0], point[1] - centre[1]);
+        (x.hypot(y), y.atan2(x))
+    };
+    let ((r0, a0), (r1, a1)) = (polar(from), polar(step.to));
+    let turn = std::f64::consts::TAU;
+    let full = from[..2] == step.to[..2];
+    let sweep = match (full, clockwise) {
+        (true, false) => turn,
+        (true, true) => -turn,
+        (false, false) => (a1 - a0).rem_euclid(turn),
+        (false, true) => -(a0 - a1).rem_euclid(turn),
+    };
+    let count = (sweep.abs() / turn * CHORDS).ceil().max(1.0) as u32;
+    for k in 1..count {
+        let part = f64::from(k) / f64::from(count);
+        let (r, a) = (r0 + (r1 - r0) * part, a0 + sweep * part);
+        to.push((centre[0] + r * a.cos(), centre[1] + r * a.sin()));
+    }
+    to.push((step.to[0], step.to[1]));
+}

@@ -1,0 +1,198 @@
+//! `run`: a job on the circuit, with waves, save file and picture.
+
+use super::files::Files;
+use super::job::{Input, Job};
+use super::picture::{Following, draw};
+use super::summary::Summary;
+use super::{Failure, print, print_json};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
+use motion_rtl::pulse_interpolator::job::{Played, group, play};
+use motion_rtl::trace::{Clock, LayoutError, Options, Vcd, gtkw};
+use std::io;
+use std::ops::{ControlFlow, Range};
+use std::path::{Path, PathBuf};
+
+/// Ticks between two looks at the progress bar.
+const PROGRESS: u64 = 1 << 18;
+/// Unit times that the save file's window shows.
+const UNITS_SHOWN: u64 = 6;
+
+/// What to run, and what to write.
+#[derive(Debug, Default, Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    input: Input,
+    /// Where the files go.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Writes no VCD and no save file.
+    #[arg(long, conflicts_with_all = ["from", "to", "only"])]
+    no_vcd: bool,
+    /// First tick in the VCD.
+    #[arg(long, value_name = "TICK")]
+    from: Option<u64>,
+    /// First tick that is no more in the VCD.
+    #[arg(long, value_name = "TICK")]
+    to: Option<u64>,
+    /// A scope or signal in the VCD, as `pulse_interpolator.x`; repeated for more. Without it all.
+    #[arg(long, value_name = "SCOPE")]
+    only: Vec<String>,
+    /// Prints the summary as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs a job.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let job = Job::prepare(&arguments.input)?;
+    let options = options(arguments, job.scenario().vcd_ticks)?;
+    let (played, mut files) = match job.table.axes() {
+        1 => simulate::<1>(arguments, &job, &options),
+        2 => simulate::<2>(arguments, &job, &options),
+        _ => simulate::<3>(arguments, &job, &options),
+    }?;
+    if options.ticks.start >= played.ticks {
+        return Err(Failure::Argument {
+            field: "--from",
+            problem: format!("is {}", options.ticks.start),
+            allowed: format!("0 to {}, the last tick of the run", played.ticks - 1),
+        });
+    }
+    let following =
+        Following::new(&job, &played).map_err(|error| Failure::Check(error.to_string()))?;
+    let mut summary = Summary::new(&job, &played, &following.largest);
+    files.write("svg", &draw(&job, &played, &following))?;
+    if !arguments.no_vcd {
+        let Range { start, end } = options.ticks;
+        summary.vcd_window = Some([start, end.min(played.ticks).max(start)]);
+    }
+    summary.files = files.commit()?;
+    match arguments.json {
+        true => print_json(&summary)?,
+        false => print(&summary.text())?,
+    }
+    if summary.exact {
+        return Ok(());
+    }
+    Err(Failure::Check(summary.complaints.join("\n")))
+}
+
+fn options(arguments: &Arguments, most: u64) -> Result<Options, Failure> {
+    let from = arguments.from.unwrap_or(0);
+    let to = arguments.to.unwrap_or_else(|| from.saturating_add(most));
+    if from >= to {
+        return Err(Failure::Argument {
+            field: "--from, --to",
+            problem: format!("no tick from {from} to {to}"),
+            allowed: "--from below --to".into(),
+        });
+    }
+    let only = (!arguments.only.is_empty()).then(|| arguments.only.clone());
+    Ok(Options {
+        ticks: from..to,
+        only,
+    })
+}
+
+fn simulate<const AXES: usize>(
+    arguments: &Arguments,
+    job: &Job,
+    options: &Options,
+) -> Result<(Played, Files), Failure> {
+    let group = group::<AXES>(&job.table, job.variant());
+    let clock = clock(arguments, job, options)?;
+    let directory = arguments.out.as_deref().unwrap_or(Path::new("waves"));
+    let mut files = Files::begin(directory, &job.stem)?;
+    let mut vcd = match arguments.no_vcd {
+        true => None,
+        false => {
+            let dump = Vcd::new(files.create("vcd")?, &group, clock, options);
+            Some(dump.map_err(|error| not_selected(&error))?)
+        }
+    };
+    let mut progress = Progress::new(job.table.total_ticks());
+    // Two calls, so that a run without waves is compiled without a trace of them.
+    let played = match vcd.as_mut() {
+        Some(vcd) => play(&group, &job.table, (vcd, &mut progress)),
+        None => play(&group, &job.table, &mut progress),
+    }?;
+    drop(progress);
+    if let Some(vcd) = vcd {
+        let units = u64::from(job.table.patterns().first().map_or(1, |first| first.period));
+        let Range { start, end } = options.ticks;
+        let action = played.first_step.unwrap_or(played.begun);
+        // A unit time before the first step, where that is in the dump.
+        let first = match action < end {
+            true => action.saturating_sub(units).max(start),
+            false => start,
+        };
+        let focus = first..(first + UNITS_SHOWN * units).min(played.ticks.max(first + 1));
+        let save = gtkw::save_file(&group, clock, options, &job.stem, focus);
+        files.push(vcd.finish()?);
+        files.write("gtkw", &save.map_err(io::Error::from)?)?;
+    }
+    Ok((played, files))
+}
+
+/// The clock of the waves, in which the last tick must have a time.
+fn clock(arguments: &Arguments, job: &Job, options: &Options) -> Result<Clock, Failure> {
+    let refuse = |problem: String, allowed: String| job.loaded.fault("clock_hz", problem, allowed);
+    let hz = job.settings.clock_hz;
+    let clock = Clock::from_hz(hz).map_err(|error| {
+        let allowed = format!("1 to {} Hz", Clock::MAX_HZ);
+        refuse(error.to_string(), allowed)
+    })?;
+    let last = options.ticks.end.min(job.table.total_ticks());
+    if clock.rise(last).is_none() && !arguments.no_vcd {
+        let (problem, allowed) = (
+            format!("is {hz}: tick {last} is 2^64 fs or more after tick 0"),
+            "a clock whose period is not rounded to 1 fs, an earlier --to, or --no-vcd",
+        );
+        return Err(refuse(problem, allowed.into()).into());
+    }
+    Ok(clock)
+}
+
+fn not_selected(error: &LayoutError) -> Failure {
+    let (problem, allowed) = match error {
+        LayoutError::Unknown { wanted, scopes } => (
+            format!("there is no {wanted}"),
+            format!("a signal, or a scope: {}", scopes.join(", ")),
+        ),
+        other => (other.to_string(), "other signals".into()),
+    };
+    Failure::Argument {
+        field: "--only",
+        problem,
+        allowed,
+    }
+}
+
+/// A bar on standard error, where that is a terminal.
+struct Progress {
+    bar: ProgressBar,
+}
+
+impl Progress {
+    fn new(ticks: u64) -> Self {
+        let bar = ProgressBar::new(ticks).with_finish(ProgressFinish::AndClear);
+        let style =
+            ProgressStyle::with_template("{bar:40} {percent:>3} %  {human_pos} ticks  {eta}");
+        if let Ok(style) = style {
+            bar.set_style(style);
+        }
+        Progress { bar }
+    }
+}
+
+impl<C: Circuit> Observer<C> for Progress {
+    #[inline]
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        if now.tick.is_multiple_of(PROGRESS) {
+            self.bar.set_position(now.tick);
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}

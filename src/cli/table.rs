@@ -1,0 +1,169 @@
+//! `table`: a drawing compiled into the pattern memory's contents.
+
+use super::job::{Input, Job};
+use super::summary::{TableSummary, warnings};
+use super::{Failure, print, print_json};
+use clap::Args;
+use motion_rtl::pulse_interpolator::{AXIS_NAMES, Ratio, Report, Scaled, Table};
+use motion_rtl::trace::atomic;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// What to compile.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    input: Input,
+    /// Writes the table as CSV: unit, T, then half-period and direction of each axis.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Multiplies the half-periods by a ratio, as 3/2: the drawing becomes smaller by it.
+    #[arg(long, value_name = "NUM/DEN")]
+    scale: Option<String>,
+    /// Prints the report as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Output<'a> {
+    input: &'a str,
+    clock_hz: u64,
+    patterns: usize,
+    #[serde(flatten)]
+    report: &'a Report,
+    scaling: Option<Vec<Scaling>>,
+    warnings: Vec<String>,
+    files: Vec<String>,
+}
+
+/// What scaling the data does to an axis.
+#[derive(Debug, Serialize)]
+struct Scaling {
+    largest_deviation_pulses_per_unit: f64,
+    drift_steps: f64,
+    rounded_units: usize,
+}
+
+/// Compiles.
+pub fn table(arguments: &Arguments) -> Result<(), Failure> {
+    let job = Job::prepare(&arguments.input)?;
+    let scaled = match &arguments.scale {
+        Some(text) => Some(scale(&job.table, text)?),
+        None => None,
+    };
+    let table = scaled.as_ref().map_or(&job.table, |scaled| &scaled.table);
+    let mut files = Vec::new();
+    if let Some(path) = &arguments.out {
+        let written = atomic::write(path, csv(table)).map_err(|error| Failure::Argument {
+            field: "--out",
+            problem: error.to_string(),
+            allowed: "a file that can be written".into(),
+        })?;
+        files.push(written.display().to_string());
+    }
+    let scaling = scaled.as_ref().map(|scaled| {
+        let axis = |axis: &motion_rtl::pulse_interpolator::AxisScaling| Scaling {
+            largest_deviation_pulses_per_unit: axis.largest_deviation,
+            drift_steps: axis.drift,
+            rounded_units: axis.rounded_units,
+        };
+        scaled.axes.iter().map(axis).collect()
+    });
+    let output = Output {
+        input: &job.drawing.file,
+        clock_hz: job.settings.clock_hz,
+        patterns: table.patterns().len(),
+        report: &job.report,
+        scaling,
+        warnings: warnings(&job),
+        files,
+    };
+    match arguments.json {
+        true => print_json(&output),
+        false => print(&text(&job, &output)),
+    }
+}
+
+fn scale(table: &Table, text: &str) -> Result<Scaled, Failure> {
+    let (num, den) = text.split_once('/').unwrap_or((text, "1"));
+    let number = |text: &str| text.trim().parse::<u32>().ok().filter(|number| *number > 0);
+    let (Some(num), Some(den)) = (number(num), number(den)) else {
+        return Err(Failure::Argument {
+            field: "--scale",
+            problem: format!("is {text}"),
+            allowed: "NUM/DEN, two whole numbers from 1 to 4294967295".into(),
+        });
+    };
+    table
+        .scaled(Ratio { num, den })
+        .map_err(|error| Failure::Argument {
+            field: "--scale",
+            problem: error.to_string(),
+            allowed: "a smaller ratio".into(),
+        })
+}
+
+fn csv(table: &Table) -> String {
+    let mut text = String::from("unit,period_ticks");
+    // Writing to a string does not fail.
+    for name in &AXIS_NAMES[..table.axes()] {
+        let _ = write!(text, ",{name}_half_period_ticks,{name}_down");
+    }
+    text.push('\n');
+    for (unit, (period, words)) in table.iter().enumerate() {
+        let _ = write!(text, "{unit},{period}");
+        for word in words {
+            let _ = write!(
+                text,
+                ",{},{}",
+                word.half_period(),
+                u8::from(word.negative())
+            );
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn text(job: &Job, output: &Output<'_>) -> String {
+    let mut text = format!(
+        "{}: {} ticks at {} Hz, {} patterns\n\n",
+        output.input, job.report.total_ticks, output.clock_hz, output.patterns
+    );
+    let _ = writeln!(
+        text,
+        "axis  steps demanded      up    down  end position  following error (unit, line)"
+    );
+    for (axis, name) in job.report.axes.iter().zip(AXIS_NAMES) {
+        let error = axis.following_error;
+        let _ = writeln!(
+            text,
+            "{name:<4}  {:>14}  {:>6}  {:>6}  {:>12}  {:>15} {:>12}",
+            axis.steps_demanded,
+            axis.pulses_forward,
+            axis.pulses_backward,
+            axis.end_position,
+            format!("{:.3} steps", error.steps),
+            format!("({}, {})", error.unit, error.line),
+        );
+    }
+    text.push('\n');
+    text.push_str(&TableSummary::new(job).text());
+    for (axis, name) in output.scaling.iter().flatten().zip(AXIS_NAMES) {
+        let _ = writeln!(
+            text,
+            "scaled, {name}: at most {:.3} pulses a unit time off the ideal, {:+.3} steps at the \
+             end, {} half-periods rounded",
+            axis.largest_deviation_pulses_per_unit, axis.drift_steps, axis.rounded_units
+        );
+    }
+    for warning in &output.warnings {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    for file in &output.files {
+        let _ = writeln!(text, "wrote {file}");
+    }
+    text
+}

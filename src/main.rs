@@ -1,0 +1,47 @@
+//! The command line of `motion-rtl`.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+mod cli;
+
+use clap::{Parser, Subcommand};
+use std::io::Write as _;
+use std::process::ExitCode;
+
+/// Motion-control patents as cycle-accurate RTL models: drawings in, pulses and waves out.
+#[derive(Debug, Parser)]
+#[command(version, about, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Runs a scenario, a drawing or a part program; writes waves, save file and picture.
+    Run(cli::run::Arguments),
+    /// Compiles a drawing or a part program into the pattern memory's table.
+    Table(cli::table::Arguments),
+    /// Proves the invariants of the circuits over every state and input at small widths.
+    Check(cli::check::Arguments),
+    /// Lists circuits with ports and widths, and scenarios.
+    List(cli::list::Arguments),
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        None => cli::run::run(&cli::run::Arguments::default()),
+        Some(Command::Run(arguments)) => cli::run::run(&arguments),
+        Some(Command::Table(arguments)) => cli::table::table(&arguments),
+        Some(Command::Check(arguments)) => cli::check::check(&arguments),
+        Some(Command::List(arguments)) => cli::list::list(&arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            // Where standard error is gone, the exit code is all there is to say.
+            let _ = writeln!(std::io::stderr(), "error: {failure}");
+            failure.code()
+        }
+    }
+}

@@ -1,0 +1,273 @@
+use super::scale::{Scale, label, range};
+use svg::node::element::path::Data;
+use svg::node::element::{Group, Line, Path, Rectangle, Text};
+
+/// Colours of curves without one of their own, told apart by colour-blind eyes too.
+const COLOURS: [&str; 6] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+];
+/// Space around the frame of a panel: left, right, above, below.
+const MARGIN: (f64, f64, f64, f64) = (80.0, 20.0, 34.0, 52.0);
+/// Height of a panel whose scales are free.
+const FREE_HEIGHT: f64 = 150.0;
+/// The frame of a panel with equal scales is not higher than this.
+const EQUAL_HEIGHT: f64 = 760.0;
+/// A curve with more points is thinned to the extremes of as many intervals.
+const POINTS_MAX: usize = 40_000;
+
+/// A curve of a panel.
+#[derive(Debug, Clone)]
+pub struct Curve {
+    name: String,
+    points: Vec<(f64, f64)>,
+    colour: Option<String>,
+    width: f64,
+    dashes: Option<&'static str>,
+}
+
+impl Curve {
+    /// A curve through the given points; a point that is not finite interrupts it.
+    pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Curve {
+            name: name.into(),
+            points,
+            colour: None,
+            width: 1.2,
+            dashes: None,
+        }
+    }
+
+    /// With a colour of its own, as SVG writes it.
+    #[must_use]
+    pub fn colour(mut self, colour: impl Into<String>) -> Self {
+        self.colour = Some(colour.into());
+        self
+    }
+
+    /// With a line of this width in pixels.
+    #[must_use]
+    pub fn width(mut self, width: f64) -> Self {
+        self.width = width;
+        self
+    }
+
+    /// With a dashed line.
+    #[must_use]
+    pub fn dashed(mut self) -> Self {
+        self.dashes = Some("4 3");
+        self
+    }
+
+    fn data(&self, x: Scale, y: Scale) -> Data {
+        let mut data = Data::new();
+        let mut pen_down = false;
+        for (px, py) in thin(&self.points) {
+            if !(px.is_finite() && py.is_finite()) {
+                pen_down = false;
+                continue;
+            }
+            let at = (hundredths(x.pixel(px)), hundredths(y.pixel(py)));
+            data = if pen_down {
+                data.line_to(at)
+            } else {
+                data.move_to(at)
+            };
+            pen_down = true;
+        }
+        data
+    }
+}
+
+fn hundredths(pixel: f64) -> f32 {
+    ((pixel * 100.0).round() / 100.0) as f32
+}
+
+/// At most about [`POINTS_MAX`] points that look the same: of each interval its first, lowest,
+/// highest and last point and its interruptions.
+fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    if points.len() <= POINTS_MAX {
+        return points.to_vec();
+    }
+    let interval = (4 * points.len()).div_ceil(POINTS_MAX);
+    let mut thinned = Vec::with_capacity(POINTS_MAX);
+    for chunk in points.chunks(interval) {
+        let mut keep = vec![0, chunk.len() - 1];
+        keep.extend((0..chunk.len()).filter(|k| !chunk[*k].1.is_finite()));
+        keep.extend((0..chunk.len()).min_by(|a, b| chunk[*a].1.total_cmp(&chunk[*b].1)));
+        keep.extend((0..chunk.len()).max_by(|a, b| chunk[*a].1.total_cmp(&chunk[*b].1)));
+        keep.sort_unstable();
+        keep.dedup();
+        thinned.extend(keep.into_iter().map(|k| chunk[k]));
+    }
+    thinned
+}
+
+/// A frame with axes, grid, legend and curves.
+#[derive(Debug, Clone)]
+pub struct Panel {
+    title: String,
+    x_label: String,
+    y_label: String,
+    equal: bool,
+    curves: Vec<Curve>,
+}
+
+impl Panel {
+    /// A panel without curves; labels name the quantity and its unit.
+    pub fn new(
+        title: impl Into<String>,
+        x_label: impl Into<String>,
+        y_label: impl Into<String>,
+    ) -> Self {
+        Panel {
+            title: title.into(),
+            x_label: x_label.into(),
+            y_label: y_label.into(),
+            equal: false,
+            curves: Vec::new(),
+        }
+    }
+
+    /// A millimetre in x is as long as a millimetre in y.
+    #[must_use]
+    pub fn equal_scales(mut self) -> Self {
+        self.equal = true;
+        self
+    }
+
+    /// Adds a curve on top of the others.
+    #[must_use]
+    pub fn curve(mut self, curve: Curve) -> Self {
+        self.curves.push(curve);
+        self
+    }
+
+    /// The panel from `top` down, and its height.
+    pub(super) fn draw(&self, width: f64, top: f64) -> (Group, f64) {
+        let (left, right, above, below) = MARGIN;
+        let (mut across, mut down) = (width - left - right, FREE_HEIGHT);
+        let points = || self.curves.iter().flat_map(|curve| &curve.points);
+        let margin_x = if self.equal { 0.04 } else { 0.0 };
+        let (x_least, x_most) = range(points().map(|point| point.0), margin_x);
+        let (y_least, y_most) = range(points().map(|point| point.1), 0.06);
+        if self.equal {
+            let scale = (across / (x_most - x_least)).min(EQUAL_HEIGHT / (y_most - y_least));
+            across = scale * (x_most - x_least);
+            down = scale * (y_most - y_least);
+        }
+        let x = Scale::new(x_least, x_most, left, across);
+        let y = Scale::new(y_least, y_most, top + above + down, -down);
+        let mut group = self.frame(x, y, across, down, top);
+        for (curve, colour) in self.curves.iter().zip(self.colours()) {
+            let mut path = Path::new()
+                .set("d", curve.data(x, y))
+                .set("fill", "none")
+                .set("stroke", colour)
+                .set("stroke-width", curve.width)
+                .set("stroke-linejoin", "round");
+            if let Some(dashes) = curve.dashes {
+                path = path.set("stroke-dasharray", dashes);
+            }
+            group = group.add(path);
+        }
+        (self.legend(group, left, top), above + down + below)
+    }
+
+    fn colours(&self) -> impl Iterator<Item = &str> {
+        let mut free = COLOURS.iter().cycle();
+        self.curves.iter().map(move |curve| match &curve.colour {
+            Some(colour) => colour.as_str(),
+            None => free.next().copied().unwrap_or("black"),
+        })
+    }
+
+    fn frame(&self, x: Scale, y: Scale, across: f64, down: f64, top: f64) -> Group {
+        let (left, _, above, _) = MARGIN;
+        let frame = top + above;
+        let line = |x1: f64, y1: f64, x2: f64, y2: f64| {
+            Line::new()
+                .set("x1", hundredths(x1))
+                .set("y1", hundredths(y1))
+                .set("x2", hundredths(x2))
+                .set("y2", hundredths(y2))
+                .set("stroke", "#e4e4e4")
+        };
+        let text = |words: &str, x: f64, y: f64| {
+            Text::new(words)
+                .set("x", hundredths(x))
+                .set("y", hundredths(y))
+                .set("font-size", 12)
+                .set("fill", "#333")
+        };
+        let mut group = Group::new();
+        for tick in x.ticks((across / 90.0).max(2.0)) {
+            let at = x.pixel(tick);
+            let words = text(&label(tick), at, frame + down + 16.0).set("text-anchor", "middle");
+            group = group.add(line(at, frame, at, frame + down)).add(words);
+        }
+        for tick in y.ticks((down / 45.0).max(2.0)) {
+            let at = y.pixel(tick);
+            let words = text(&label(tick), left - 6.0, at + 4.0).set("text-anchor", "end");
+            group = group.add(line(left, at, left + across, at)).add(words);
+        }
+        let border = Rectangle::new()
+            .set("x", hundredths(left))
+            .set("y", hundredths(frame))
+            .set("width", hundredths(across))
+            .set("height", hundredths(down))
+            .set("fill", "none")
+            .set("stroke", "#888");
+        let x_label = text(&self.x_label, left + across / 2.0, frame + down + 34.0)
+            .set("text-anchor", "middle");
+        let (y_x, y_y) = (hundredths(22.0), hundredths(frame + down / 2.0));
+        let y_label = text(&self.y_label, 22.0, frame + down / 2.0)
+            .set("text-anchor", "middle")
+            .set("transform", format!("rotate(-90 {y_x} {y_y})"));
+        let title = text(&self.title, left, top + 14.0).set("font-weight", "bold");
+        group.add(border).add(x_label).add(y_label).add(title)
+    }
+
+    /// The names of the curves, to the right of the title.
+    fn legend(&self, mut group: Group, left: f64, top: f64) -> Group {
+        let mut at = left + 7.5 * self.title.chars().count() as f64 + 30.0;
+        for (curve, colour) in self.curves.iter().zip(self.colours()) {
+            let mut sample = Line::new()
+                .set("x1", hundredths(at))
+                .set("x2", hundredths(at + 24.0))
+                .set("y1", hundredths(top + 10.0))
+                .set("y2", hundredths(top + 10.0))
+                .set("stroke", colour)
+                .set("stroke-width", curve.width.max(1.5));
+            if let Some(dashes) = curve.dashes {
+                sample = sample.set("stroke-dasharray", dashes);
+            }
+            let name = Text::new(curve.name.as_str())
+                .set("x", hundredths(at + 30.0))
+                .set("y", hundredths(top + 14.0))
+                .set("font-size", 12)
+                .set("fill", "#333");
+            group = group.add(sample).add(name);
+            at += 44.0 + 6.8 * curve.name.chars().count() as f64;
+        }
+        group
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{POINTS_MAX, thin};
+
+    #[test]
+    fn thinning_keeps_ends_peaks_and_gaps() {
+        let mut points: Vec<_> = (0..400_000).map(|k| (f64::from(k), 0.0)).collect();
+        points[123_456].1 = 9.0;
+        points[200_001].1 = -9.0;
+        points[300_007].1 = f64::NAN;
+        let thinned = thin(&points);
+        assert!(thinned.len() <= POINTS_MAX + 1);
+        for kept in [0, 123_456, 200_001, 399_999] {
+            assert!(thinned.contains(&points[kept]), "point {kept} is lost");
+        }
+        assert_eq!(thinned.iter().filter(|point| point.1.is_nan()).count(), 1);
+    }
+}

@@ -1,0 +1,105 @@
+/// A range of data mapped to a range of pixels.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scale {
+    pub(super) least: f64,
+    pub(super) most: f64,
+    start: f64,
+    /// Pixels per unit of data; negative where data grows against the pixels.
+    factor: f64,
+}
+
+impl Scale {
+    /// Maps `least..most` to the pixels from `start` on, `length` long; negative upwards.
+    pub(super) fn new(least: f64, most: f64, start: f64, length: f64) -> Self {
+        Scale {
+            least,
+            most,
+            start,
+            factor: length / (most - least),
+        }
+    }
+
+    pub(super) fn pixel(&self, value: f64) -> f64 {
+        self.start + (value - self.least) * self.factor
+    }
+
+    /// Round numbers in the range: 1, 2 or 5 times a power of ten apart, about `count` of them.
+    pub(super) fn ticks(&self, count: f64) -> Vec<f64> {
+        let raw = (self.most - self.least) / count;
+        let decade = 10f64.powf(raw.log10().floor());
+        let step = [1.0, 2.0, 5.0, 10.0]
+            .map(|m| m * decade)
+            .into_iter()
+            .find(|step| *step >= raw)
+            .unwrap_or(raw);
+        let first = (self.least / step).ceil() as i64;
+        let last = (self.most / step).floor() as i64;
+        (first..=last).map(|k| k as f64 * step).collect()
+    }
+}
+
+/// A number as short as it is exact enough for a tick.
+pub(super) fn label(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0" } else { text }.to_owned()
+}
+
+/// The range of some numbers, widened where it is empty, with a margin at both ends.
+pub(super) fn range(values: impl Iterator<Item = f64>, margin: f64) -> (f64, f64) {
+    let (least, most) = values.filter(|value| value.is_finite()).fold(
+        (f64::INFINITY, f64::NEG_INFINITY),
+        |(least, most), value| (least.min(value), most.max(value)),
+    );
+    if least > most {
+        return (0.0, 1.0);
+    }
+    if least == most {
+        let half = least.abs().max(1.0) / 2.0;
+        return (least - half, most + half);
+    }
+    let span = most - least;
+    (least - margin * span, most + margin * span)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Scale, label, range};
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        assert_eq!(
+            Scale::new(-0.3, 1.1, 0.0, 10.0).ticks(7.0),
+            [-0.2, 0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]
+        );
+        assert_eq!(
+            Scale::new(0.0, 99.0, 0.0, 10.0).ticks(5.0),
+            [0.0, 20.0, 40.0, 60.0, 80.0]
+        );
+    }
+
+    #[test]
+    fn labels_are_short() {
+        assert_eq!(
+            [0.2, -0.0, 250.0, 0.000001].map(label),
+            ["0.2", "0", "250", "0.000001"]
+        );
+    }
+
+    #[test]
+    fn an_empty_range_is_widened() {
+        assert_eq!(range([3.0, 3.0].into_iter(), 0.0), (1.5, 4.5));
+        assert_eq!(range([0.0].into_iter(), 0.5), (-0.5, 0.5));
+        assert_eq!(range([f64::NAN].into_iter(), 0.5), (0.0, 1.0));
+        assert_eq!(range([0.0, 10.0].into_iter(), 0.1), (-1.0, 11.0));
+    }
+
+    #[test]
+    fn pixels_are_linear() {
+        let scale = Scale::new(-1.0, 1.0, 100.0, -50.0);
+        assert_eq!(
+            [-1.0, 0.0, 1.0].map(|v| scale.pixel(v)),
+            [100.0, 75.0, 50.0]
+        );
+    }
+}

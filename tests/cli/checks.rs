@@ -1,0 +1,134 @@
+//! `check` and `list`.
+
+use super::support::{Bench, keys};
+use motion_rtl::registry::CATALOGUE;
+use predicates::prelude::*;
+
+#[test]
+fn a_proof_names_states_and_invariants() {
+    Bench::new()
+        .command(&["check", "sync_stage"])
+        .assert()
+        .code(0)
+        .stderr("")
+        .stdout(
+            predicate::str::is_match(r"(?m)^sync_stage +3 +2 +8 +1 +\d+\.\d\d s  proved:$")
+                .unwrap(),
+        )
+        .stdout(predicate::str::contains("low in the tick after RST"));
+}
+
+#[test]
+fn a_width_is_taken_up() {
+    let bench = Bench::new();
+    let text = bench.succeed(&["check", "unit_time_counter", "--width", "2"]);
+    assert!(text.contains("unit_time_counter        2 "), "{text}");
+    assert!(bench.names().is_empty(), "a proof writes nothing");
+}
+
+#[test]
+fn a_proof_that_is_given_up_fails() {
+    Bench::new()
+        .command(&["check", "unit_law", "--limit", "10"])
+        .assert()
+        .code(1)
+        .stdout(predicate::str::contains("not decided"))
+        .stderr("error: unit_law: not decided within 10 states; allowed: a larger --limit\n");
+}
+
+#[test]
+fn the_literal_variant_breaks_and_shows_how() {
+    let bench = Bench::new();
+    let arguments = ["check", "unit_law", "--with", "1", "--out", "found/here"];
+    bench
+        .command(&arguments)
+        .assert()
+        .code(1)
+        .stdout(predicate::str::contains("BROKEN"))
+        .stderr(predicate::str::starts_with(
+            "error: unit_law: tick 1: where the unit time stands",
+        ))
+        .stderr(predicate::str::contains(
+            "found/here/unit_law_where_the_unit_time_stands",
+        ));
+    let mut endings: Vec<_> = std::fs::read_dir(bench.path("found/here"))
+        .unwrap()
+        .map(|file| file.unwrap().path().extension().unwrap().to_owned())
+        .collect();
+    endings.sort();
+    assert_eq!(endings, ["gtkw", "vcd"]);
+}
+
+#[test]
+fn one_circuit_that_is_too_wide_does_not_hide_the_others() {
+    let text = "error: pulse_interpolator at width 4: ";
+    Bench::new()
+        .command(&["check", "pulse_interpolator", "--width", "4"])
+        .assert()
+        .code(1)
+        .stdout(predicate::str::contains("too wide"))
+        .stderr(predicate::str::starts_with(text));
+}
+
+#[test]
+fn what_cannot_be_proved_is_refused() {
+    let bench = Bench::new();
+    let names: Vec<_> = CATALOGUE.iter().map(|entry| entry.name).collect();
+    let names = names.join(", ");
+    bench.refuse(
+        &["check", "nonsense"],
+        &format!("CIRCUIT: there is no nonsense; allowed: {names}"),
+    );
+    for width in ["9", "1", "0", "18446744073709551615"] {
+        let text = format!("--width: is {width}; allowed: 2 to 4");
+        bench.refuse(&["check", "--width", width], &text);
+    }
+    for arguments in [["check", "--width", "wide"], ["check", "--limit", "-1"]] {
+        assert_eq!(bench.run(&arguments).code, 2);
+    }
+}
+
+#[test]
+fn the_list_has_every_circuit_with_ports_and_widths() {
+    let bench = Bench::new();
+    let list = bench.json(&["list"]);
+    assert_eq!(keys(&list), ["circuits", "scenarios"]);
+    let circuits = list["circuits"].as_array().unwrap();
+    let names: Vec<_> = circuits
+        .iter()
+        .map(|circuit| circuit["name"].as_str().unwrap())
+        .collect();
+    let expected: Vec<_> = CATALOGUE.iter().map(|entry| entry.name).collect();
+    assert_eq!(names, expected);
+    let find = |name: &str| &circuits[names.iter().position(|other| *other == name).unwrap()];
+    let port = |port: &serde_json::Value| {
+        let name = port["name"].as_str().unwrap().to_owned();
+        (name, port["width"].as_u64().unwrap())
+    };
+    let ports = |circuit: &serde_json::Value, way: &str| -> Vec<_> {
+        circuit[way].as_array().unwrap().iter().map(port).collect()
+    };
+    let generator = find("pulse_generator");
+    assert_eq!(generator["widths"]["N"], 16);
+    let half_period = ("half_period".to_owned(), 16);
+    assert!(
+        ports(generator, "inputs").contains(&half_period),
+        "{generator}"
+    );
+    let group = find("pulse_interpolator");
+    assert!(ports(group, "inputs").contains(&("period".to_owned(), 24)));
+    assert!(ports(group, "outputs").contains(&("step_x".to_owned(), 1)));
+    for circuit in circuits {
+        assert!(!ports(circuit, "inputs").is_empty(), "{circuit}");
+        assert!(!ports(circuit, "outputs").is_empty(), "{circuit}");
+        assert!(!circuit["about"].as_str().unwrap().is_empty());
+    }
+    let text = bench.succeed(&["list"]);
+    for name in names {
+        assert!(
+            text.contains(&format!("\n  {name} (JP3640909B2 ")),
+            "{name}"
+        );
+    }
+    assert!(bench.names().is_empty());
+}

@@ -1,0 +1,170 @@
+//! Drawings and part programs whose steps are known by hand, through `run`.
+
+use super::support::{Bench, LINE, SHORT, keys, whole};
+use serde_json::{Value, json};
+
+/// The summary of a run without waves.
+fn summary(name: &str, text: &str, arguments: &[&str]) -> Value {
+    let bench = Bench::with(name, text);
+    let run = ["run", name, "--no-vcd"];
+    bench.json(&[&run, &SHORT[..], arguments].concat())
+}
+
+/// Steps demanded, pulses up and down, and the end of an axis.
+fn steps(summary: &Value, axis: &str) -> [i64; 4] {
+    let field = |name| whole(summary, &format!("/axes/{axis}/{name}"));
+    assert_eq!(
+        field("pulses_emitted"),
+        field("pulses_up") - field("pulses_down")
+    );
+    assert_eq!(field("pulses_emitted"), field("steps_demanded"));
+    [
+        field("steps_demanded"),
+        field("pulses_up"),
+        field("pulses_down"),
+        field("end_position"),
+    ]
+}
+
+#[test]
+fn ten_millimetres_are_eight_hundred_steps() {
+    let summary = summary("line.hpgl", LINE, &[]);
+    assert_eq!(steps(&summary, "x"), [800, 800, 0, 800]);
+    assert_eq!(steps(&summary, "y"), [0; 4]);
+    assert_eq!(keys(&summary["axes"]), ["x", "y"]);
+}
+
+#[test]
+fn an_l_in_g_code() {
+    let text = "G21 G90\nG1 X10 F1200\nG1 Y-5\n";
+    let summary = summary("l.ngc", text, &[]);
+    assert_eq!(steps(&summary, "x"), [800, 800, 0, 800]);
+    assert_eq!(steps(&summary, "y"), [-400, 0, 400, -400]);
+}
+
+#[test]
+fn a_circle_ends_where_it_began() {
+    // From the left end of a circle of 10 mm: X goes 800 steps and comes back.
+    let summary = summary("circle.ngc", "G2 I5 F1200\n", &[]);
+    assert_eq!(steps(&summary, "x"), [0, 800, 800, 0]);
+    assert_eq!(steps(&summary, "y"), [0, 800, 800, 0]);
+}
+
+#[test]
+fn relative_moves_add_up_from_where_the_pen_is() {
+    let summary = summary("pr.plt", "PU40,40;PR;PD80,0,0,-120;", &[]);
+    assert_eq!(steps(&summary, "x"), [240, 240, 0, 240]);
+    // Up 1 mm, down 3 mm.
+    assert_eq!(steps(&summary, "y"), [-160, 80, 240, -160]);
+}
+
+#[test]
+fn a_move_in_z_brings_a_third_axis() {
+    let summary = summary("z.ngc", "G1 X1 Z-2 F1200\n", &[]);
+    assert_eq!(keys(&summary["axes"]), ["x", "y", "z"]);
+    assert_eq!(steps(&summary, "z"), [-160, 0, 160, -160]);
+    assert_eq!(steps(&summary, "x"), [80, 80, 0, 80]);
+}
+
+#[test]
+fn one_axis_by_itself() {
+    let summary = summary("x.ngc", "G1 X2 F1200\n", &["--set", "steps_per_mm=[-10]"]);
+    assert_eq!(keys(&summary["axes"]), ["x"]);
+    assert_eq!(steps(&summary, "x"), [-20, 0, 20, -20]);
+    assert_eq!(summary["warnings"], json!([]));
+}
+
+#[test]
+fn where_nothing_moves_the_summary_says_so() {
+    let summary = summary(
+        "z.ngc",
+        "G1 Z1 F1200\n",
+        &["--set", "steps_per_mm=[80, 80]"],
+    );
+    assert_eq!(steps(&summary, "x"), [0; 4]);
+    assert_eq!(steps(&summary, "y"), [0; 4]);
+    let expected = [
+        "z.ngc: the drawing moves in Z, which no axis drives",
+        "z.ngc: no axis makes a step",
+    ];
+    assert_eq!(summary["warnings"], json!(expected));
+    for axis in ["x", "y"] {
+        let minima = &summary["axes"][axis]["timing_min_ticks"];
+        assert_eq!(minima["high"], Value::Null);
+    }
+}
+
+#[test]
+fn every_field_has_its_type_and_value() {
+    let summary = summary("line.hpgl", LINE, &[]);
+    let expected = [
+        "appended_units",
+        "axes",
+        "circuit",
+        "clock_hz",
+        "complaints",
+        "exact",
+        "files",
+        "idle_units",
+        "input",
+        "remedy",
+        "seconds",
+        "ticks",
+        "unattainable_units",
+        "units",
+        "variant",
+        "vcd_window",
+        "warnings",
+    ];
+    assert_eq!(keys(&summary), expected);
+    assert_eq!(summary["circuit"], "pulse_interpolator");
+    assert_eq!(summary["input"], "line.hpgl");
+    assert_eq!(summary["variant"], "safe");
+    assert_eq!(summary["clock_hz"], 100_000);
+    assert_eq!(summary["exact"], true);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(summary["files"], json!(["waves/line.svg"]));
+    assert_eq!(summary["vcd_window"], Value::Null);
+    assert_eq!(summary["warnings"], json!([]));
+    assert_eq!(summary["remedy"], Value::Null);
+    assert_eq!(whole(&summary, "/idle_units"), 0);
+    assert_eq!(whole(&summary, "/unattainable_units"), 0);
+
+    // 10 mm at 1200 mm/min and 500 mm/s²: 0.04 s to 20 mm/s, 0.46 s of it, 0.04 s to rest.
+    let (units, ticks) = (whole(&summary, "/units"), whole(&summary, "/ticks"));
+    assert_eq!(units - whole(&summary, "/appended_units"), 108);
+    // The unit time at power-on comes before the table, and a tick after it.
+    assert_eq!(ticks, (units + 1) * 500 + 1);
+    assert_eq!(summary["seconds"].as_f64().unwrap(), ticks as f64 / 1e5);
+
+    let x = &summary["axes"]["x"];
+    let expected = [
+        "end_position",
+        "following_error_max",
+        "pulses_down",
+        "pulses_emitted",
+        "pulses_up",
+        "steps_demanded",
+        "timing_min_ticks",
+    ];
+    assert_eq!(keys(x), expected);
+    let error = &x["following_error_max"];
+    assert_eq!(keys(error), ["line", "steps", "time_s", "unit"]);
+    let most = error["steps"].as_f64().unwrap();
+    assert!(most > 0.0 && most <= 0.5 + 1e-9, "{most}");
+    assert_eq!(whole(error, "/line"), 1);
+    let (unit, time_s) = (whole(error, "/unit"), error["time_s"].as_f64().unwrap());
+    assert!((time_s - (unit + 1) as f64 * 500.0 / 1e5).abs() < 1e-12);
+
+    let minima = &x["timing_min_ticks"];
+    assert_eq!(keys(minima), ["high", "hold", "low", "setup"]);
+    // 20 mm/s are 8 pulses in 500 ticks. At half-period 32 the last rises at 15 * 32 = 480 and
+    // is cut short by the end of the unit time.
+    assert_eq!(whole(minima, "/high"), 20);
+    assert_eq!(whole(minima, "/low"), 32);
+    // X never turns: the direction line does not change.
+    assert_eq!(
+        (&minima["setup"], &minima["hold"]),
+        (&Value::Null, &Value::Null)
+    );
+}

@@ -1,0 +1,12 @@
+//! The command line: what it prints, writes, refuses and exits with.
+
+mod checks;
+mod drawings;
+mod files;
+mod refusals;
+mod runs;
+mod scenarios;
+mod settings;
+mod streams;
+mod support;
+mod tables;

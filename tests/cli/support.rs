@@ -1,0 +1,137 @@
+//! A directory of its own for each test, and the program in it.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// The program under test.
+pub const PROGRAM: &str = env!("CARGO_BIN_EXE_motion-rtl");
+
+/// 10 mm along X with the pen down.
+pub const LINE: &str = "PD400,0;";
+
+/// Settings that make a run short: at the usual unit time a tenth of the ticks.
+pub const SHORT: [&str; 4] = ["--set", "clock_hz=100000", "--set", "line_unit_ticks=500"];
+
+/// An empty directory in which the program runs.
+pub struct Bench {
+    directory: TempDir,
+}
+
+/// What a command came to.
+pub struct Done {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Bench {
+    pub fn new() -> Self {
+        Bench {
+            directory: tempfile::tempdir().unwrap(),
+        }
+    }
+
+    /// With one file in it.
+    pub fn with(name: &str, contents: impl AsRef<[u8]>) -> Self {
+        let bench = Self::new();
+        bench.write(name, contents);
+        bench
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, contents).unwrap();
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    pub fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(PROGRAM);
+        command.current_dir(&self.directory).args(arguments);
+        command
+    }
+
+    pub fn run(&self, arguments: &[&str]) -> Done {
+        let output = self.command(arguments).output().unwrap();
+        Done {
+            code: output.status.code().expect("ended by a signal"),
+            stdout: String::from_utf8(output.stdout).unwrap(),
+            stderr: String::from_utf8(output.stderr).unwrap(),
+        }
+    }
+
+    /// Runs what must succeed quietly; gives its standard output.
+    pub fn succeed(&self, arguments: &[&str]) -> String {
+        let done = self.run(arguments);
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{arguments:?}");
+        done.stdout
+    }
+
+    /// Runs with `--json` what must succeed quietly; its standard output must be one value.
+    pub fn json(&self, arguments: &[&str]) -> Value {
+        let text = self.succeed(&[arguments, &["--json"]].concat());
+        serde_json::from_str(&text).unwrap()
+    }
+
+    /// Runs what must be refused with exactly this text, and must leave no trace.
+    #[track_caller]
+    pub fn refuse(&self, arguments: &[&str], text: &str) {
+        let before = self.names();
+        let done = self.run(arguments);
+        assert_eq!(done.stderr, format!("error: {text}\n"), "{arguments:?}");
+        assert_eq!((done.code, done.stdout.as_str()), (2, ""), "{arguments:?}");
+        assert_eq!(self.names(), before, "{arguments:?} left something");
+    }
+
+    /// Everything in the directory, directories with a slash at the end.
+    pub fn names(&self) -> Vec<String> {
+        let mut names = Vec::new();
+        list(self.directory.path(), "", &mut names);
+        names.sort();
+        names
+    }
+}
+
+fn list(directory: &Path, prefix: &str, names: &mut Vec<String>) {
+    for entry in fs::read_dir(directory).unwrap() {
+        let entry = entry.unwrap();
+        let name = format!("{prefix}{}", entry.file_name().to_str().unwrap());
+        if entry.file_type().unwrap().is_dir() {
+            list(&entry.path(), &format!("{name}/"), names);
+            names.push(format!("{name}/"));
+        } else {
+            names.push(name);
+        }
+    }
+}
+
+/// The number at a JSON pointer.
+#[track_caller]
+pub fn whole(value: &Value, pointer: &str) -> i64 {
+    let found = value.pointer(pointer);
+    found
+        .and_then(Value::as_i64)
+        .unwrap_or_else(|| panic!("{pointer} is {found:?}"))
+}
+
+/// The keys of an object, sorted.
+pub fn keys(value: &Value) -> Vec<&str> {
+    let mut keys: Vec<_> = value
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect();
+    keys.sort_unstable();
+    keys
+}
