@@ -1,0 +1,47 @@
+//! The notes in rtl_notes: their charts run, their tables are those of the code.
+
+mod catalogue;
+mod charts;
+mod generated;
+mod miscounts;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A note.
+struct Note {
+    /// Its path from the root of the crate.
+    name: String,
+    path: PathBuf,
+    text: String,
+}
+
+/// Every note, in the order of their names.
+fn notes() -> Vec<Note> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders = vec![root.join("rtl_notes")];
+    let mut notes = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("rtl_notes can be read") {
+            let path = entry.expect("rtl_notes can be read").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "md") {
+                let name = path.strip_prefix(root).unwrap_or(&path);
+                notes.push(Note {
+                    name: name.display().to_string(),
+                    text: fs::read_to_string(&path).expect("a note is text"),
+                    path,
+                });
+            }
+        }
+    }
+    notes.sort_by(|a, b| a.name.cmp(&b.name));
+    assert!(!notes.is_empty(), "there is no note in rtl_notes");
+    notes
+}
+
+/// Fails with one line for each thing that is wrong.
+fn expect_none(wrong: &[String]) {
+    assert!(wrong.is_empty(), "\n{}\n", wrong.join("\n"));
+}
