@@ -41,7 +41,7 @@ impl<const AXES: usize> Observer<Group<AXES>> for Outputs {
     #[inline]
     fn sample(&mut self, now: &Sample<'_, Group<AXES>>) -> Result<ControlFlow<()>, RunError> {
         let lines = now.w.step.iter().chain(&now.w.dir);
-        let lines = lines.chain([&now.w.rst, &now.w.ready, &now.w.busy]);
+        let lines = lines.chain([&now.w.unit_rst, &now.w.ready, &now.w.busy]);
         self.0 += lines.filter(|line| line.get()).count() as u64;
         Ok(ControlFlow::Continue(()))
     }

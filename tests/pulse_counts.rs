@@ -100,7 +100,7 @@ fn the_literal_generator_takes_no_notice_of_rst() {
             for tick in 0..100u64 {
                 let i = In {
                     half_period: half_period.into(),
-                    rst: (tick % rst_every == rst_every - 1).into(),
+                    unit_rst: (tick % rst_every == rst_every - 1).into(),
                 };
                 let show = |now: &Sample<PulseGenerator<4>>| now.w.pulse.get();
                 let (next, pulse) = simulator.step(i, show);

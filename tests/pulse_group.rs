@@ -15,7 +15,7 @@ type Port = In<Sim, 4, 4, 3>;
 /// What one tick shows of the group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Seen {
-    rst: bool,
+    unit_rst: bool,
     busy: bool,
     ready: bool,
     address: u64,
@@ -29,7 +29,7 @@ fn run(group: &Small, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Vec<Seen> {
     let mut seen = Vec::new();
     let look = |now: &Sample<Small>| {
         seen.push(Seen {
-            rst: now.w.rst.get(),
+            unit_rst: now.w.unit_rst.get(),
             busy: now.w.busy.get(),
             ready: now.w.ready.get(),
             address: now.q.sequencer.address.get(),
@@ -76,7 +76,7 @@ fn units(seen: &[Seen]) -> Vec<u64> {
         if begins && tick.busy {
             units.push(tick.address);
         }
-        begins = tick.rst;
+        begins = tick.unit_rst;
     }
     units
 }
@@ -85,7 +85,7 @@ fn units(seen: &[Seen]) -> Vec<u64> {
 fn resets(seen: &[Seen]) -> Vec<u64> {
     (0..)
         .zip(seen)
-        .filter(|(_, tick)| tick.rst)
+        .filter(|(_, tick)| tick.unit_rst)
         .map(|(n, _)| n)
         .collect()
 }

@@ -55,7 +55,7 @@ impl Program {
         self.elapsed + 1 >= self.period
     }
 
-    /// Step, direction; then rst, ready, busy.
+    /// Step, direction; then unit_rst, ready, busy.
     fn outputs(&self) -> ([(bool, bool); 2], [bool; 3]) {
         let lines = self
             .words
@@ -170,7 +170,7 @@ proptest! {
         let mut seen = Vec::new();
         let look = |now: &Sample<Circuit>| {
             let lines = [0, 1].map(|axis| (now.w.step[axis].get(), now.w.dir[axis].get()));
-            seen.push((lines, [now.w.rst, now.w.ready, now.w.busy].map(|bit| bit.get())));
+            seen.push((lines, [now.w.unit_rst, now.w.ready, now.w.busy].map(|bit| bit.get())));
             false
         };
         let drive = |tick: u64, _: &_| ports.get(tick as usize).cloned().unwrap_or_else(idle);

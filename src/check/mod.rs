@@ -8,7 +8,7 @@
 //!
 //! # What is not in the state
 //!
-//! An invariant sees one transition. A property of the past ("two ticks of `rst` are never
+//! An invariant sees one transition. A property of the past ("two ticks of `unit_rst` are never
 //! adjacent") needs a memory of the past: a circuit that contains the circuit under test and, next
 //! to it, ghost registers that no hardware will have.
 //!
@@ -20,9 +20,9 @@
 //!
 //! signals! { pub struct In<L> { period: L::U<3> } }
 //! signals! { pub struct Reg<L> { count: L::U<3> } }
-//! signals! { pub struct Net<L> { next: L::U<3>, pub rst: L::Bit } }
+//! signals! { pub struct Net<L> { next: L::U<3>, pub unit_rst: L::Bit } }
 //!
-//! /// Pulses `rst` every `period` ticks.
+//! /// Pulses `unit_rst` every `period` ticks.
 //! pub struct Counter;
 //!
 //! impl Circuit for Counter {
@@ -33,10 +33,10 @@
 //!     type Net<L: Logic> = Net<L>;
 //!     fn comb<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Net<L> {
 //!         let next = q.count + 1;
-//!         Net { next, rst: !next.below(i.period) }
+//!         Net { next, unit_rst: !next.below(i.period) }
 //!     }
 //!     fn next<L: Logic>(&self, _: Reg<L>, w: &Net<L>, _: &In<L>) -> Reg<L> {
-//!         Reg { count: w.rst.mux(0.into(), w.next) }
+//!         Reg { count: w.unit_rst.mux(0.into(), w.next) }
 //!     }
 //! }
 //!
@@ -48,7 +48,7 @@
 //!
 //! impl Circuit for WithGhost {
 //!     const NAME: &'static str = "with_ghost";
-//!     const ABOUT: &'static str = "remembers the last rst";
+//!     const ABOUT: &'static str = "remembers the last pulse";
 //!     type In<L: Logic> = In<L>;
 //!     type Reg<L: Logic> = GhostReg<L>;
 //!     type Net<L: Logic> = GhostNet<L>;
@@ -56,13 +56,13 @@
 //!         GhostNet { counter: Instance::settle(&Counter, &q.counter, i.clone()) }
 //!     }
 //!     fn next<L: Logic>(&self, q: GhostReg<L>, w: &GhostNet<L>, _: &In<L>) -> GhostReg<L> {
-//!         GhostReg { counter: w.counter.next(&Counter, q.counter), rst_before: w.counter.w.rst }
+//!         GhostReg { counter: w.counter.next(&Counter, q.counter), rst_before: w.counter.w.unit_rst }
 //!     }
 //! }
 //!
 //! let invariants = Invariants::<WithGhost>::new().always("pulses stand alone", |now| {
-//!     let adjacent = now.q.rst_before.get() && now.w.counter.w.rst.get();
-//!     require(!adjacent, ["counter.rst", "rst_before"], || "two pulses side by side".into())
+//!     let adjacent = now.q.rst_before.get() && now.w.counter.w.unit_rst.get();
+//!     require(!adjacent, ["counter.unit_rst", "rst_before"], || "two pulses side by side".into())
 //! });
 //!
 //! // With a period of 0 or 1 it pulses on every tick: found at tick 1, the earliest possible …

@@ -4,7 +4,7 @@ use crate::signals;
 
 signals! { struct In<L, const W: usize> { pub period: L::U<W> } }
 signals! { struct Reg<L, const W: usize> { count: L::U<W> as Analog = 1, seen: [L::Bit; 2] } }
-signals! { struct Net<L, const W: usize> { next: L::U<W>, pub rst: L::Bit } }
+signals! { struct Net<L, const W: usize> { next: L::U<W>, pub unit_rst: L::Bit } }
 
 /// The counter of the design sketch.
 struct Counter<const W: usize>;
@@ -20,14 +20,14 @@ impl<const W: usize> Circuit for Counter<W> {
         let next = q.count + 1;
         Net {
             next,
-            rst: !next.below(i.period),
+            unit_rst: !next.below(i.period),
         }
     }
 
     fn next<L: Logic>(&self, q: Reg<L, W>, w: &Net<L, W>, _: &In<L, W>) -> Reg<L, W> {
         Reg {
-            count: w.rst.mux(0.into(), w.next),
-            seen: [w.rst, q.seen[0]],
+            count: w.unit_rst.mux(0.into(), w.next),
+            seen: [w.unit_rst, q.seen[0]],
         }
     }
 }
@@ -41,7 +41,7 @@ fn a_register_shows_a_tick_later_what_was_decided() {
             6,
             |_, _| In { period: 3.into() },
             StopWhen(|now: &Sample<Counter<3>>| {
-                seen.push((now.tick, now.q.count.get(), now.w.rst.get()));
+                seen.push((now.tick, now.q.count.get(), now.w.unit_rst.get()));
                 now.tick == 4
             }),
         )
@@ -71,7 +71,7 @@ fn declarations_name_every_leaf_once() {
         ("counter.seen0", Role::Register, 1),
         ("counter.seen1", Role::Register, 1),
         ("counter.next", Role::Net, 3),
-        ("counter.rst", Role::Net, 1),
+        ("counter.unit_rst", Role::Net, 1),
     ];
     assert_eq!(
         paths,

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!                  ┌───────────────────┐
-//!  rst ───────────▶│                   ├──▶ read, blank
+//!  unit_rst ──────▶│                   ├──▶ read, blank
 //!  pending ───────▶│ address sequencer ├──▶ next_address
 //!  base, last, … ─▶│                   ├──▶ take
 //!                  └───────────────────┘
@@ -29,7 +29,7 @@ signals! {
     /// Ports in.
     pub struct In<L, const A: usize> {
         /// Last tick of the unit time.
-        pub rst: L::Bit,
+        pub unit_rst: L::Bit,
         /// A command waits.
         pub pending: L::Bit,
         /// Its pattern's first address.
@@ -102,11 +102,11 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
         let started = (due & i.pending_run).mux(i.pending_base, counted);
         Net {
             at_end,
-            take: i.rst & due,
+            take: i.unit_rst & due,
             go_on,
             next_address: go_on.mux(started, q.address),
-            read: i.rst & go_on,
-            blank: i.rst & !go_on,
+            read: i.unit_rst & go_on,
+            blank: i.unit_rst & !go_on,
         }
     }
 
@@ -114,8 +114,8 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
     fn next<L: Logic>(&self, q: Reg<L, A>, w: &Net<L, A>, i: &In<L, A>) -> Reg<L, A> {
         let start = w.take & i.pending_run;
         Reg {
-            state: i.rst.mux(w.go_on.word(), q.state),
-            address: i.rst.mux(w.next_address, q.address),
+            state: i.unit_rst.mux(w.go_on.word(), q.state),
+            address: i.unit_rst.mux(w.next_address, q.address),
             base: start.mux(i.pending_base, q.base),
             last: start.mux(i.pending_last, q.last),
             repeat: start.mux(i.pending_repeat, q.repeat),
@@ -126,12 +126,12 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
 impl<const A: usize> Specified for AddressSequencer<A> {
     fn invariants(&self) -> Invariants<'_, Self> {
         let running = |q: &Reg<Sim, A>| q.state.get() == 1;
-        let taken = |now: &Sample<'_, Self>| now.i.rst.get() && now.w.take.get();
+        let taken = |now: &Sample<'_, Self>| now.i.unit_rst.get() && now.w.take.get();
         let ends = |q: &Reg<Sim, A>| q.address == q.last;
         Invariants::<Self>::new()
             .step("nothing changes but at RST", move |now, next| {
                 let kept = next.state == now.q.state && next.address == now.q.address;
-                require(now.i.rst.get() || kept, ["state", "address"], || {
+                require(now.i.unit_rst.get() || kept, ["state", "address"], || {
                     "changed in mid-unit".into()
                 })
             })
@@ -139,8 +139,9 @@ impl<const A: usize> Specified for AddressSequencer<A> {
                 "a command is taken at RST, at once or at the end of the pattern",
                 move |now| {
                     let end = !running(now.q) || ends(now.q);
-                    let due =
-                        now.i.rst.get() && now.i.pending.get() && (now.i.pending_now.get() || end);
+                    let due = now.i.unit_rst.get()
+                        && now.i.pending.get()
+                        && (now.i.pending_now.get() || end);
                     require(due == now.w.take.get(), ["take"], || {
                         format!("take is {:?}", now.w.take)
                     })
@@ -168,14 +169,14 @@ impl<const A: usize> Specified for AddressSequencer<A> {
                 },
             )
             .step("a running pattern skips no address", move |now, next| {
-                let on = now.i.rst.get() && !taken(now) && running(now.q) && !ends(now.q);
+                let on = now.i.unit_rst.get() && !taken(now) && running(now.q) && !ends(now.q);
                 let up = running(next) && next.address == now.q.address + 1;
                 require(!on || up, ["address"], || format!("{:?}", next.address))
             })
             .step(
                 "at its end a pattern starts again or holds",
                 move |now, next| {
-                    let end = now.i.rst.get() && !taken(now) && running(now.q) && ends(now.q);
+                    let end = now.i.unit_rst.get() && !taken(now) && running(now.q) && ends(now.q);
                     let good = match now.q.repeat.get() {
                         true => running(next) && next.address == now.q.base,
                         false => !running(next) && next.address == now.q.address,
@@ -186,7 +187,7 @@ impl<const A: usize> Specified for AddressSequencer<A> {
                 },
             )
             .step("idle holds the address", move |now, next| {
-                let idle = now.i.rst.get() && !taken(now) && !running(now.q);
+                let idle = now.i.unit_rst.get() && !taken(now) && !running(now.q);
                 let held = !running(next) && next.address == now.q.address;
                 require(!idle || held, ["state", "address"], || "moves".into())
             })
@@ -194,7 +195,7 @@ impl<const A: usize> Specified for AddressSequencer<A> {
                 "the memory reads the address to come, or goes blank",
                 move |now, next| {
                     let (read, blank) = (now.w.read.get(), now.w.blank.get());
-                    let one = (read ^ blank) == now.i.rst.get() && !(read && blank);
+                    let one = (read ^ blank) == now.i.unit_rst.get() && !(read && blank);
                     let right = !read || running(next) && next.address == now.w.next_address;
                     let right = right && (!blank || !running(next));
                     require(one && right, ["read", "blank", "next_address"], || {

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!                ┌──────┐
-//!  rst ─────────▶│      ├──▶ step
+//!  unit_rst ────▶│      ├──▶ step
 //!  read, blank ─▶│ axis ├──▶ dir
 //!  address ─────▶│      │
 //!  write… ──────▶│      │
@@ -20,7 +20,7 @@ signals! {
     /// Ports in.
     pub struct In<L, const N: usize, const A: usize> {
         /// Last tick of the unit time.
-        pub rst: L::Bit,
+        pub unit_rst: L::Bit,
         /// Reads the word at `address` for the unit time to come.
         pub read: L::Bit,
         /// The unit time to come has no pulses.
@@ -118,7 +118,7 @@ impl<const N: usize, const A: usize> Circuit for Axis<N, A> {
             &q.generator,
             pulse_generator::In {
                 half_period: q.memory.half_period,
-                rst: i.rst,
+                unit_rst: i.unit_rst,
             },
         );
         let sync = Instance::settle(
@@ -126,7 +126,7 @@ impl<const N: usize, const A: usize> Circuit for Axis<N, A> {
             &q.sync,
             sync_stage::In {
                 pulse: generator.w.pulse,
-                rst: i.rst,
+                unit_rst: i.unit_rst,
             },
         );
         Net {
@@ -160,8 +160,8 @@ impl<const N: usize, const A: usize> Specified for Axis<N, A> {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step("step is low in the tick after RST", |now, next| {
-                let low = !now.i.rst.get() || !next.sync.step.get();
-                require(low, ["sync.step", "rst"], || "high across RST".into())
+                let low = !now.i.unit_rst.get() || !next.sync.step.get();
+                require(low, ["sync.step", "unit_rst"], || "high across RST".into())
             })
             .step("dir changes only with a word read", |now, next| {
                 let kept = next.memory.direction == now.q.memory.direction;
@@ -185,6 +185,6 @@ impl<const N: usize, const A: usize> Specified for Axis<N, A> {
             && i.write_half_period.get() == 0
             && !i.write_direction.get();
         let change = i.read.get() || i.blank.get();
-        (i.write.get() || unused) && i.write_axis.get() < 2 && (i.rst.get() || !change)
+        (i.write.get() || unused) && i.write_axis.get() < 2 && (i.unit_rst.get() || !change)
     }
 }

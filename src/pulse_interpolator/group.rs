@@ -4,7 +4,7 @@
 //!                  ┌───────┐
 //!  command… ──────▶│       ├──▶ step_x, step_y, …
 //!  period, write ─▶│ group ├──▶ dir_x, dir_y, …
-//!  write… ────────▶│       ├──▶ ready, busy, rst
+//!  write… ────────▶│       ├──▶ ready, busy, unit_rst
 //!                  └───────┘
 //! ```
 //!
@@ -96,7 +96,7 @@ signals! {
         /// Directions; high counts down.
         pub dir: [L::Bit; AXES] as Elements(DIR),
         /// RST: this is the last tick of the unit time.
-        pub rst: L::Bit,
+        pub unit_rst: L::Bit,
         /// A command without `now` would be accepted.
         pub ready: L::Bit,
         /// A pattern runs.
@@ -164,12 +164,12 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
                 period: q.unit_time.active,
             },
         );
-        let rst = counter.w.rst;
+        let unit_rst = counter.w.unit_rst;
         let sequencer = Instance::settle(
             &self.sequencer,
             &q.sequencer,
             address_sequencer::In {
-                rst,
+                unit_rst,
                 pending: q.port.pending,
                 pending_base: q.port.pending_base,
                 pending_last: q.port.pending_last,
@@ -198,7 +198,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
             unit_time_register::In {
                 write: i.write_period,
                 period: i.period,
-                rst,
+                unit_rst,
                 take: sequencer.w.take,
                 take_period: q.port.pending_period,
             },
@@ -208,7 +208,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
                 &self.axes[axis],
                 &q.axes[axis],
                 axis::In {
-                    rst,
+                    unit_rst,
                     read: sequencer.w.read,
                     blank: sequencer.w.blank,
                     address: sequencer.w.next_address,
@@ -223,7 +223,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
         Net {
             step: from_fn(|axis| axes[axis].w.step),
             dir: from_fn(|axis| axes[axis].w.dir),
-            rst,
+            unit_rst,
             ready: port.w.ready,
             busy: q.sequencer.state.bit(0),
             unit_time,
@@ -282,7 +282,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Specifie
                         && next.sequencer.address == q.sequencer.address
                         && next.sequencer.state == q.sequencer.state;
                     let signals = ["unit_time.active", "sequencer.address", "sequencer.state"];
-                    require(now.w.rst.get() || kept && words, signals, || {
+                    require(now.w.unit_rst.get() || kept && words, signals, || {
                         "changed in mid-unit".into()
                     })
                 },

@@ -70,7 +70,7 @@ impl<const AXES: usize> Observer<JobGroup<AXES>> for Bench<AXES> {
             // The drivers ask for nothing here, so they have nothing to complain of.
             let _ = driver.sample(now.tick, now.w.step[axis].get(), now.w.dir[axis].get());
         }
-        if now.w.rst.get() {
+        if now.w.unit_rst.get() {
             self.unit_ends(now.w.busy.get());
         }
         if self.begun.is_none() && now.w.busy.get() {

@@ -3,7 +3,7 @@
 //! ```text
 //!                ┌─────────────────┐
 //!  half_period ─▶│ pulse generator ├──▶ pulse
-//!  rst ─────────▶│                 │
+//!  unit_rst ────▶│                 │
 //!                └─────────────────┘
 //! ```
 //!
@@ -27,7 +27,7 @@ signals! {
         /// Half-period of the pulse signal in ticks; 0 for no pulse.
         pub half_period: L::U<N>,
         /// Last tick of the unit time.
-        pub rst: L::Bit,
+        pub unit_rst: L::Bit,
     }
 }
 
@@ -94,8 +94,8 @@ impl<const N: usize> Circuit for PulseGenerator<N> {
     fn next<L: Logic>(&self, _: Reg<L, N>, w: &Net<L, N>, i: &In<L, N>) -> Reg<L, N> {
         match self.variant {
             Variant::Safe => Reg {
-                count: (w.equal | i.rst).mux(0.into(), w.next),
-                toggle: w.pulse & !i.rst,
+                count: (w.equal | i.unit_rst).mux(0.into(), w.next),
+                toggle: w.pulse & !i.unit_rst,
             },
             Variant::Literal => Reg {
                 count: w.equal.mux(0.into(), w.next),
@@ -114,8 +114,8 @@ impl<const N: usize> Specified for PulseGenerator<N> {
             })
             .step("RST clears the counter and the toggle", |now, next| {
                 let clear = next.count.get() == 0 && !next.toggle.get();
-                let held = !now.i.rst.get() || clear;
-                require(held, ["count", "toggle", "rst"], || {
+                let held = !now.i.unit_rst.get() || clear;
+                require(held, ["count", "toggle", "unit_rst"], || {
                     "left over from this unit".into()
                 })
             })
@@ -132,7 +132,7 @@ impl<const N: usize> Specified for PulseGenerator<N> {
                     let over = now.q.count.get() + 1 >= n;
                     let toggled = now.w.pulse != now.q.toggle;
                     let held = n == 0 || toggled == over;
-                    let kept = now.i.rst.get() || next.toggle == now.w.pulse;
+                    let kept = now.i.unit_rst.get() || next.toggle == now.w.pulse;
                     require(held && kept, ["pulse", "toggle", "count"], || {
                         format!("count {}, half-period {n}", now.q.count.get())
                     })

@@ -1,10 +1,10 @@
 //! Sync stage 40 (¶0017): a flip-flop that passes the pulse signal and is forced low by RST.
 //!
 //! ```text
-//!          ┌────────────┐
-//!  pulse ─▶│ sync stage ├──▶ step
-//!  rst ───▶│            │
-//!          └────────────┘
+//!             ┌────────────┐
+//!  pulse ────▶│ sync stage ├──▶ step
+//!  unit_rst ─▶│            │
+//!             └────────────┘
 //! ```
 
 use crate::check::{Invariants, Specified, require};
@@ -18,7 +18,7 @@ signals! {
         /// The pulse signal.
         pub pulse: L::Bit,
         /// Last tick of the unit time.
-        pub rst: L::Bit,
+        pub unit_rst: L::Bit,
     }
 }
 
@@ -49,7 +49,7 @@ impl Circuit for SyncStage {
     #[inline(always)]
     fn next<L: Logic>(&self, _: Reg<L>, _: &Nothing<L>, i: &In<L>) -> Reg<L> {
         Reg {
-            step: i.pulse & !i.rst,
+            step: i.pulse & !i.unit_rst,
         }
     }
 }
@@ -58,11 +58,11 @@ impl Specified for SyncStage {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step("low in the tick after RST", |now, next| {
-                let low = !now.i.rst.get() || !next.step.get();
-                require(low, ["step", "rst"], || "high across RST".into())
+                let low = !now.i.unit_rst.get() || !next.step.get();
+                require(low, ["step", "unit_rst"], || "high across RST".into())
             })
             .step("passes the pulse signal", |now, next| {
-                let passed = now.i.rst.get() || next.step == now.i.pulse;
+                let passed = now.i.unit_rst.get() || next.step == now.i.pulse;
                 require(passed, ["step", "pulse"], || "not passed".into())
             })
     }

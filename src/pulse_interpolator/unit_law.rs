@@ -89,15 +89,18 @@ impl<const W: usize> Circuit for UnitLaw<W> {
     fn comb<L: Logic>(&self, q: &Reg<L, W>, _: &In<L, W>) -> Net<L, W> {
         let period = q.held_period;
         let counter = Instance::settle(&self.counter, &q.counter, unit_time_counter::In { period });
-        let rst = counter.w.rst;
+        let unit_rst = counter.w.unit_rst;
         let half_period = q.held_half_period;
         let generator = Instance::settle(
             &self.generator,
             &q.generator,
-            pulse_generator::In { half_period, rst },
+            pulse_generator::In {
+                half_period,
+                unit_rst,
+            },
         );
         let pulse = generator.w.pulse;
-        let sync = Instance::settle(&self.sync, &q.sync, sync_stage::In { pulse, rst });
+        let sync = Instance::settle(&self.sync, &q.sync, sync_stage::In { pulse, unit_rst });
         let rises = q.sync.step & !q.before;
         Net {
             counter,
@@ -109,15 +112,15 @@ impl<const W: usize> Circuit for UnitLaw<W> {
     }
 
     fn next<L: Logic>(&self, q: Reg<L, W>, w: &Net<L, W>, i: &In<L, W>) -> Reg<L, W> {
-        let rst = w.counter.w.rst;
+        let unit_rst = w.counter.w.unit_rst;
         Reg {
             counter: w.counter.next(&self.counter, q.counter),
             generator: w.generator.next(&self.generator, q.generator),
             sync: w.sync.next(&self.sync, q.sync),
-            held_half_period: rst.mux(i.half_period, q.held_half_period),
-            held_period: rst.mux(i.period, q.held_period),
-            pulses: rst.mux(0.into(), w.counted),
-            before: !rst & w.step,
+            held_half_period: unit_rst.mux(i.half_period, q.held_half_period),
+            held_period: unit_rst.mux(i.period, q.held_period),
+            pulses: unit_rst.mux(0.into(), w.counted),
+            before: !unit_rst & w.step,
         }
     }
 }
@@ -129,8 +132,8 @@ impl<const W: usize> UnitLaw<W> {
             let (n, period) = (now.q.held_half_period.get(), now.q.held_period.get().max(1));
             let law = counts::pulses(n as u32, period as u32);
             let count = now.w.counted.get();
-            let right = !now.w.counter.w.rst.get() || count == u64::from(law);
-            require(right, ["step", "counter.rst", "counted"], || {
+            let right = !now.w.counter.w.unit_rst.get() || count == u64::from(law);
+            require(right, ["step", "counter.unit_rst", "counted"], || {
                 format!("{count} pulses with n = {n} and T = {period}, the law says {law}")
             })
         })
@@ -161,8 +164,8 @@ impl<const W: usize> Specified for UnitLaw<W> {
             })
             .always("a unit time has T ticks", |now| {
                 let last = now.q.counter.count.get() + 1 == now.q.held_period.get().max(1);
-                let right = last == now.w.counter.w.rst.get();
-                require(right, ["counter.count", "counter.rst"], || {
+                let right = last == now.w.counter.w.unit_rst.get();
+                require(right, ["counter.count", "counter.unit_rst"], || {
                     "RST at another tick".into()
                 })
             })

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!            ┌───────────────────┐
-//!  period ──▶│ unit-time counter ├──▶ rst
+//!  period ──▶│ unit-time counter ├──▶ unit_rst
 //!            └───────────────────┘
 //! ```
 //!
@@ -36,11 +36,11 @@ signals! {
         /// Ticks of the unit time that are over after this one.
         next: L::U<T>,
         /// RST: this is the last tick of the unit time.
-        pub rst: L::Bit,
+        pub unit_rst: L::Bit,
     }
 }
 
-/// Unit-time counter 30 with a count of `T` bits; `rst` is high in the last tick of every
+/// Unit-time counter 30 with a count of `T` bits; `unit_rst` is high in the last tick of every
 /// `period` ticks.
 #[derive(Debug, Clone, Default)]
 pub struct UnitTimeCounter<const T: usize>;
@@ -57,14 +57,14 @@ impl<const T: usize> Circuit for UnitTimeCounter<T> {
         let next = q.count + 1;
         Net {
             next,
-            rst: !next.below(i.period),
+            unit_rst: !next.below(i.period),
         }
     }
 
     #[inline(always)]
     fn next<L: Logic>(&self, _: Reg<L, T>, w: &Net<L, T>, _: &In<L, T>) -> Reg<L, T> {
         Reg {
-            count: w.rst.mux(0.into(), w.next),
+            count: w.unit_rst.mux(0.into(), w.next),
         }
     }
 }
@@ -73,8 +73,8 @@ impl<const T: usize> Specified for UnitTimeCounter<T> {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step("the count starts again after RST", |now, next| {
-                let clear = !now.w.rst.get() || next.count.get() == 0;
-                require(clear, ["count", "rst"], || {
+                let clear = !now.w.unit_rst.get() || next.count.get() == 0;
+                require(clear, ["count", "unit_rst"], || {
                     format!("{} after RST", next.count.get())
                 })
             })
@@ -82,7 +82,7 @@ impl<const T: usize> Specified for UnitTimeCounter<T> {
                 "between two RST the count goes up by one and stays below T",
                 |now, next| {
                     let (count, next) = (now.q.count.get(), next.count.get());
-                    let up = now.w.rst.get() || next == count + 1 && next < now.i.period.get();
+                    let up = now.w.unit_rst.get() || next == count + 1 && next < now.i.period.get();
                     require(up, ["count", "period"], || format!("{next} after {count}"))
                 },
             )

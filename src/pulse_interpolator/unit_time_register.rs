@@ -1,13 +1,13 @@
 //! Unit-time register: the setting T of the unit-time counter 30, rewritable at any time (¶0016).
 //!
 //! ```text
-//!         ┌────────────────────┐
-//!  write ▶│ shadow ──▶ active  ├──▶ active
-//!  period▶│    loaded at rst   │
-//!  rst   ▶│                    │
-//!  take  ▶│ take_period goes   │
-//!  take_ ▶│ to both            │
-//!  period └────────────────────┘
+//!              ┌────────────────────┐
+//!  write ─────▶│ shadow ──▶ active  ├──▶ active
+//!  period ────▶│    loaded at RST   │
+//!  unit_rst ──▶│                    │
+//!  take ──────▶│ take_period goes   │
+//!  take_period▶│ to both            │
+//!              └────────────────────┘
 //! ```
 //!
 //! Departures: the text lets the control computer rewrite T directly. Here a new T waits in a
@@ -27,8 +27,8 @@ signals! {
         /// Unit time in ticks, in force from the RST after the write on.
         pub period: L::U<T>,
         /// Last tick of the unit time.
-        pub rst: L::Bit,
-        /// With `rst`: a pattern begins.
+        pub unit_rst: L::Bit,
+        /// With `unit_rst`: a pattern begins.
         pub take: L::Bit,
         /// That pattern's unit time in ticks.
         pub take_period: L::U<T>,
@@ -78,7 +78,7 @@ impl<const T: usize> Circuit for UnitTimeRegister<T> {
     fn next<L: Logic>(&self, q: Reg<L, T>, w: &Net<L, T>, i: &In<L, T>) -> Reg<L, T> {
         Reg {
             shadow: i.write.mux(i.period, w.load),
-            active: i.rst.mux(w.load, q.active),
+            active: i.unit_rst.mux(w.load, q.active),
         }
     }
 
@@ -94,8 +94,10 @@ impl<const T: usize> Specified for UnitTimeRegister<T> {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step("T in force changes only at RST", |now, next| {
-                let kept = now.i.rst.get() || next.active == now.q.active;
-                require(kept, ["active", "rst"], || "changed in mid-unit".into())
+                let kept = now.i.unit_rst.get() || next.active == now.q.active;
+                require(kept, ["active", "unit_rst"], || {
+                    "changed in mid-unit".into()
+                })
             })
             .step(
                 "RST loads the pattern's T, or else what waits",
@@ -104,7 +106,7 @@ impl<const T: usize> Specified for UnitTimeRegister<T> {
                         true => now.i.take_period,
                         false => now.q.shadow,
                     };
-                    let loaded = !now.i.rst.get() || next.active == due;
+                    let loaded = !now.i.unit_rst.get() || next.active == due;
                     require(loaded, ["active", "shadow"], || {
                         format!("{:?}, not {due:?}", next.active)
                     })

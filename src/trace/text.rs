@@ -16,7 +16,7 @@ use std::ops::Range;
 /// tick     0   1   2   3
 /// period   3
 /// count    1   2   0   1
-/// rst      ____####________
+/// last          ____####________
 /// ```
 pub fn waves<C>(recorder: &Recorder<C>, ticks: Range<u64>) -> String {
     let recorded = recorder.ticks();

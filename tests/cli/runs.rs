@@ -103,7 +103,7 @@ fn only_what_is_asked_for_is_dumped() {
             "pulse_interpolator.clk",
             "pulse_interpolator.y.sync.step",
             "pulse_interpolator.y.sync.pulse",
-            "pulse_interpolator.y.sync.rst",
+            "pulse_interpolator.y.sync.unit_rst",
         ]
     );
     let step = "pulse_interpolator.step_x";

@@ -23,12 +23,16 @@ fn play(variant: Variant, half_period: u32, period: u32) -> Vec<u32> {
             let level = line.step.get();
             pulses += u32::from(level && !before);
             before = level;
-            let rst = (tick == period).into();
+            let unit_rst = (tick == period).into();
             let half_period = u64::from(half_period).into();
-            let ports = pulse_generator::In { half_period, rst };
+            let ports = pulse_generator::In {
+                half_period,
+                unit_rst,
+            };
             let block = Instance::<_, Sim>::settle(&generator, &q, ports);
             let pulse = block.w.pulse;
-            let stage = Instance::<_, Sim>::settle(&sync, &line, sync_stage::In { pulse, rst });
+            let stage =
+                Instance::<_, Sim>::settle(&sync, &line, sync_stage::In { pulse, unit_rst });
             q = block.next(&generator, q);
             line = stage.next(&sync, line);
         }
