@@ -20,7 +20,7 @@ fn group<const AXES: usize>() -> Group<AXES> {
     let pattern = Pattern {
         base: 0,
         last: WORDS - 1,
-        repeat: true,
+        cyclic: true,
         period: PERIOD,
     };
     let mut group = Group::free_running(Variant::Safe, pattern);

@@ -12,6 +12,7 @@ pub mod plan;
 pub mod pulse_interpolator;
 pub mod registry;
 pub mod trace;
+pub mod verilog;
 
 /// The code in the note on conventions is compiled and run as a test.
 #[cfg(doctest)]

@@ -224,7 +224,7 @@ fn group_of_two<const W: usize>(
     group.port.free_running = (start > 0).then_some(Pattern {
         base: 0,
         last: (words.len().div_ceil(2) as u64).saturating_sub(1),
-        repeat: start == 2,
+        cyclic: start == 2,
         period,
     });
     group

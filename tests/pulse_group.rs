@@ -46,12 +46,12 @@ fn run(group: &Small, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Vec<Seen> {
 }
 
 /// A command that starts the pattern `base..=last`.
-fn start(base: u64, last: u64, repeat: bool, now: bool, period: u64) -> Port {
+fn start(base: u64, last: u64, cyclic: bool, now: bool, period: u64) -> Port {
     Port {
         command: true.into(),
         base: base.into(),
         last: last.into(),
-        repeat: repeat.into(),
+        cyclic: cyclic.into(),
         run: true.into(),
         now: now.into(),
         period: period.into(),
@@ -358,7 +358,7 @@ fn eight_axes_under_one_unit_time_counter() {
     let pattern = Pattern {
         base: 4090,
         last: 4091,
-        repeat: true,
+        cyclic: true,
         period: 100,
     };
     let mut group = Eight::free_running(Safe, pattern);

@@ -17,7 +17,7 @@ type Port = In<Sim, 3, 3, 2>;
 struct Command {
     base: u64,
     last: u64,
-    repeat: bool,
+    cyclic: bool,
     run: bool,
     now: bool,
     period: u64,
@@ -86,7 +86,7 @@ impl Program {
                 }
             }
             _ => match self.playing {
-                Some(command) if ended && command.repeat => self.address = command.base,
+                Some(command) if ended && command.cyclic => self.address = command.base,
                 Some(_) if ended => self.playing = None,
                 Some(_) => self.address = (self.address + 1) % WORDS,
                 None => {}
@@ -114,7 +114,7 @@ impl Program {
             self.waiting = Some(Command {
                 base: i.base.get(),
                 last: i.last.get(),
-                repeat: i.repeat.get(),
+                cyclic: i.cyclic.get(),
                 run: i.run.get(),
                 now: i.now.get(),
                 period: i.period.get(),
@@ -132,13 +132,13 @@ fn port() -> impl Strategy<Value = Port> {
     let flags = any::<[bool; 6]>();
     let words = [0..4u64, 0..4, 0..8, 0..4, 0..8, 0..3];
     (0..8u8, flags, words).prop_map(|(act, flags, words)| {
-        let [repeat, run, now, halt, dir, set] = flags;
+        let [cyclic, run, now, halt, dir, set] = flags;
         let [base, last, period, address, half_period, axis] = words;
         Port {
             command: (act == 0).into(),
             base: base.into(),
             last: last.into(),
-            repeat: repeat.into(),
+            cyclic: cyclic.into(),
             run: (run || !halt).into(),
             now: now.into(),
             period: period.into(),

@@ -105,7 +105,7 @@ fn drivers_on_a_group_end_the_run_at_the_first_time_too_short() {
     let pattern = Pattern {
         base: 0,
         last: 0,
-        repeat: true,
+        cyclic: true,
         period: 10,
     };
     let mut group = Group::<1, 4, 4, 1>::free_running(Variant::Safe, pattern);

@@ -57,14 +57,14 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
     /// Applies `i` and settles the nets.
     #[inline(always)]
     pub fn settle(circuit: &C, q: &C::Reg<L>, i: C::In<L>) -> Self {
-        let w = circuit.comb(q, &i);
+        let w = L::settle(circuit, q, &i);
         Instance { i, w }
     }
 
     /// The registers of the next tick.
     #[inline(always)]
     pub fn next(&self, circuit: &C, q: C::Reg<L>) -> C::Reg<L> {
-        circuit.next(q, &self.w, &self.i)
+        L::clock(circuit, q, &self.w, &self.i)
     }
 }
 

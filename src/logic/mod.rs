@@ -1,20 +1,22 @@
 //! The words a circuit is written in, and what they may mean.
 //!
 //! A circuit is generic over [`Logic`]: it says *which* words it adds, compares and stores, and
-//! whoever runs it says what a word *is*. [`Sim`] makes it a number; another meaning may make it
-//! a node of a netlist. A circuit therefore never looks at a value: there is no `if` on a
+//! whoever runs it says what a word *is*. [`Sim`] makes it a number, [`Netlist`] a node of a
+//! netlist. A circuit therefore never looks at a value: there is no `if` on a
 //! [`Logic::Bit`], only [`Bit::mux`].
 //!
 //! Words wrap, as registers do. An operation whose result has another width than its operands
 //! takes that width as a const parameter ([`Unsigned::resize`], [`Unsigned::times`], …).
 
 mod memory;
+pub mod netlist;
 pub mod sim;
 
 pub use memory::{Image, Ram, ShiftRegister};
+pub use netlist::Netlist;
 pub use sim::Sim;
 
-use crate::kernel::Signals;
+use crate::kernel::{Circuit, Signals};
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 
@@ -33,6 +35,31 @@ pub trait Logic: Sized + Copy + Debug + 'static {
 
     /// Combinational read of a memory whose contents are fixed at elaboration.
     fn rom<const A: usize, const D: usize>(image: &Image<A, D>, address: Self::U<A>) -> Self::U<D>;
+
+    /// A value that is fixed at elaboration and may differ between circuits of one kind, modulo
+    /// 2^N: a parameter of their HDL module, called `name` there.
+    #[inline(always)]
+    fn parameter<const N: usize>(name: &'static str, value: u64) -> Self::U<N> {
+        let _ = name;
+        value.into()
+    }
+
+    /// The nets of a circuit inside another; see [`Instance`](crate::kernel::Instance).
+    #[inline(always)]
+    fn settle<C: Circuit>(circuit: &C, q: &C::Reg<Self>, i: &C::In<Self>) -> C::Net<Self> {
+        circuit.comb(q, i)
+    }
+
+    /// The next registers of a circuit inside another.
+    #[inline(always)]
+    fn clock<C: Circuit>(
+        circuit: &C,
+        q: C::Reg<Self>,
+        w: &C::Net<Self>,
+        i: &C::In<Self>,
+    ) -> C::Reg<Self> {
+        circuit.next(q, w, i)
+    }
 }
 
 /// What a multiplexer can choose between.

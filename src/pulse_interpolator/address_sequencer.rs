@@ -37,7 +37,7 @@ signals! {
         /// Its pattern's last address.
         pub pending_last: L::U<A> as Hex,
         /// Its pattern starts again after its last word.
-        pub pending_repeat: L::Bit,
+        pub pending_cyclic: L::Bit,
         /// It starts a pattern; low: it stops the one that runs.
         pub pending_run: L::Bit,
         /// It is taken at the next RST; low: at the RST that ends the pattern.
@@ -57,15 +57,23 @@ signals! {
         /// Last address of the pattern that runs.
         last: L::U<A> as Hex = 0,
         /// The pattern that runs starts again after its last word.
-        repeat: L::Bit = 0,
+        cyclic: L::Bit = 0,
     }
 }
 
 signals! {
     /// Nets.
     pub struct Net<L, const A: usize> {
-        /// The unit time that runs is the last of its pattern, or none runs.
+        /// The unit time that runs is the last of its pattern.
+        at_last: L::Bit,
+        /// That, or no pattern runs.
         at_end: L::Bit,
+        /// The waiting command is for the next RST.
+        due: L::Bit,
+        /// That command starts a pattern.
+        start: L::Bit,
+        /// Address that follows in the pattern that runs.
+        following: L::U<A> as Hex,
         /// The waiting command is taken with this tick.
         pub take: L::Bit,
         /// A pattern runs in the unit time to come, if this is the tick of RST.
@@ -96,15 +104,19 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
         let at_last = q.address.equals(q.last);
         let at_end = !running | at_last;
         let due = i.pending & (at_end | i.pending_now);
-        let again = at_last & q.repeat;
-        let go_on = due.mux(i.pending_run, running & (!at_last | q.repeat));
-        let counted = again.mux(q.base, q.address + 1);
-        let started = (due & i.pending_run).mux(i.pending_base, counted);
+        let start = due & i.pending_run;
+        let following = (at_last & q.cyclic).mux(q.base, q.address + 1);
+        let go_on = due.mux(i.pending_run, running & (!at_last | q.cyclic));
+        let going_on = start.mux(i.pending_base, following);
         Net {
+            at_last,
             at_end,
+            due,
+            start,
+            following,
             take: i.unit_rst & due,
             go_on,
-            next_address: go_on.mux(started, q.address),
+            next_address: go_on.mux(going_on, q.address),
             read: i.unit_rst & go_on,
             blank: i.unit_rst & !go_on,
         }
@@ -112,13 +124,13 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, A>, w: &Net<L, A>, i: &In<L, A>) -> Reg<L, A> {
-        let start = w.take & i.pending_run;
+        let start = i.unit_rst & w.start;
         Reg {
             state: i.unit_rst.mux(w.go_on.word(), q.state),
             address: i.unit_rst.mux(w.next_address, q.address),
             base: start.mux(i.pending_base, q.base),
             last: start.mux(i.pending_last, q.last),
-            repeat: start.mux(i.pending_repeat, q.repeat),
+            cyclic: start.mux(i.pending_cyclic, q.cyclic),
         }
     }
 }
@@ -153,10 +165,10 @@ impl<const A: usize> Specified for AddressSequencer<A> {
                     && next.address == now.i.pending_base
                     && next.base == now.i.pending_base
                     && next.last == now.i.pending_last
-                    && next.repeat == now.i.pending_repeat;
+                    && next.cyclic == now.i.pending_cyclic;
                 require(
                     !begins || there,
-                    ["address", "base", "last", "repeat"],
+                    ["address", "base", "last", "cyclic"],
                     || "another pattern".into(),
                 )
             })
@@ -177,7 +189,7 @@ impl<const A: usize> Specified for AddressSequencer<A> {
                 "at its end a pattern starts again or holds",
                 move |now, next| {
                     let end = now.i.unit_rst.get() && !taken(now) && running(now.q) && ends(now.q);
-                    let good = match now.q.repeat.get() {
+                    let good = match now.q.cyclic.get() {
                         true => running(next) && next.address == now.q.base,
                         false => !running(next) && next.address == now.q.address,
                     };

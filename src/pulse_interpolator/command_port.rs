@@ -4,7 +4,7 @@
 //!                ┌──────────────┐
 //!  valid ───────▶│              ├──▶ ready
 //!  base, last, ─▶│ command port ├──▶ pending
-//!  repeat, run, ▶│              ├──▶ pending_base, pending_last, …
+//!  cyclic, run, ▶│              ├──▶ pending_base, pending_last, …
 //!  now, period ─▶│              │
 //!  take ────────▶│              │
 //!                └──────────────┘
@@ -33,7 +33,7 @@ signals! {
         /// Last address of the pattern.
         pub last: L::U<A> as Hex,
         /// The pattern starts again after its last word.
-        pub repeat: L::Bit,
+        pub cyclic: L::Bit,
         /// Starts a pattern; low: stops the one that runs.
         pub run: L::Bit,
         /// At the next RST; low: at the RST that ends the pattern that runs.
@@ -55,7 +55,7 @@ signals! {
         /// Last address of its pattern.
         pub pending_last: L::U<A> as Hex = 0,
         /// Its pattern starts again after its last word.
-        pub pending_repeat: L::Bit = 0,
+        pub pending_cyclic: L::Bit = 0,
         /// It starts a pattern.
         pub pending_run: L::Bit = 0,
         /// It does not wait for the end of a pattern.
@@ -103,7 +103,7 @@ impl<const A: usize, const T: usize> Circuit for CommandPort<A, T> {
             pending: w.accept | (q.pending & !i.take),
             pending_base: w.accept.mux(i.base, q.pending_base),
             pending_last: w.accept.mux(i.last, q.pending_last),
-            pending_repeat: w.accept.mux(i.repeat, q.pending_repeat),
+            pending_cyclic: w.accept.mux(i.cyclic, q.pending_cyclic),
             pending_run: w.accept.mux(i.run, q.pending_run),
             pending_now: w.accept.mux(i.now, q.pending_now),
             pending_period: w.accept.mux(i.period, q.pending_period),
@@ -114,14 +114,14 @@ impl<const A: usize, const T: usize> Circuit for CommandPort<A, T> {
         let pattern = self.free_running.unwrap_or(Pattern {
             base: 0,
             last: 0,
-            repeat: false,
+            cyclic: false,
             period: 0,
         });
         Reg {
             pending: self.free_running.is_some().into(),
             pending_base: pattern.base.into(),
             pending_last: pattern.last.into(),
-            pending_repeat: pattern.repeat.into(),
+            pending_cyclic: pattern.cyclic.into(),
             pending_run: self.free_running.is_some().into(),
             pending_now: false.into(),
             pending_period: pattern.period.into(),
@@ -139,7 +139,7 @@ impl<const A: usize, const T: usize> Specified for CommandPort<A, T> {
                     let there = next.pending.get()
                         && next.pending_base == now.i.base
                         && next.pending_last == now.i.last
-                        && next.pending_repeat == now.i.repeat
+                        && next.pending_cyclic == now.i.cyclic
                         && next.pending_run == now.i.run
                         && next.pending_now == now.i.now
                         && next.pending_period == now.i.period;
@@ -157,7 +157,7 @@ impl<const A: usize, const T: usize> Specified for CommandPort<A, T> {
                     let stays = now.q.pending.get() && !replaced;
                     let same = next.pending_base == now.q.pending_base
                         && next.pending_last == now.q.pending_last
-                        && next.pending_repeat == now.q.pending_repeat
+                        && next.pending_cyclic == now.q.pending_cyclic
                         && next.pending_run == now.q.pending_run
                         && next.pending_now == now.q.pending_now
                         && next.pending_period == now.q.pending_period;

@@ -40,7 +40,7 @@ signals! {
         /// Last address of its pattern.
         pub last: L::U<A> as Hex,
         /// Its pattern starts again after its last word.
-        pub repeat: L::Bit,
+        pub cyclic: L::Bit,
         /// It starts a pattern; low: it stops the one that runs.
         pub run: L::Bit,
         /// It is taken at the next RST; low: at the RST that ends the pattern that runs.
@@ -173,7 +173,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
                 pending: q.port.pending,
                 pending_base: q.port.pending_base,
                 pending_last: q.port.pending_last,
-                pending_repeat: q.port.pending_repeat,
+                pending_cyclic: q.port.pending_cyclic,
                 pending_run: q.port.pending_run,
                 pending_now: q.port.pending_now,
             },
@@ -185,7 +185,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
                 valid: i.command,
                 base: i.base,
                 last: i.last,
-                repeat: i.repeat,
+                cyclic: i.cyclic,
                 run: i.run,
                 now: i.now,
                 period: i.period,

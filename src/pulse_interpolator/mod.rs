@@ -80,7 +80,7 @@ pub struct Pattern {
     /// Address of its last word; below `base` the pattern runs across the top of the memory.
     pub last: u64,
     /// Starts again after its last word.
-    pub repeat: bool,
+    pub cyclic: bool,
     /// Unit time T in ticks.
     pub period: u64,
 }

@@ -63,6 +63,8 @@ signals! {
     pub struct Net<L> {
         /// A word is written to this axis.
         selected: L::Bit,
+        /// The output becomes "no pulse".
+        clear: L::Bit,
     }
 }
 
@@ -98,16 +100,18 @@ impl<const N: usize, const A: usize> Circuit for PatternMemory<N, A> {
     #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L, N, A>, i: &In<L, N, A>) -> Net<L> {
         Net {
-            selected: i.write & i.write_axis.equals(self.axis.into()),
+            selected: i.write & i.write_axis.equals(L::parameter("axis", self.axis)),
+            clear: i.blank & !i.read,
         }
     }
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, N, A>, w: &Net<L>, i: &In<L, N, A>) -> Reg<L, N, A> {
-        let held = i.blank.mux(0.into(), q.half_period);
+        // A clear before the read, as the output register of block RAM has it.
+        let read = q.half_periods.read_when(i.read, i.address, q.half_period);
         let direction = q.direction.word();
         Reg {
-            half_period: q.half_periods.read_when(i.read, i.address, held),
+            half_period: w.clear.mux(0.into(), read),
             direction: q.directions.read_when(i.read, i.address, direction).bit(0),
             half_periods: q
                 .half_periods

@@ -41,7 +41,7 @@ signals! {
         /// Ghost: pulses of this unit time before this tick.
         pulses: L::U<W>,
         /// Ghost: the level of step a tick ago.
-        before: L::Bit,
+        lagged: L::Bit,
     }
 }
 
@@ -101,7 +101,7 @@ impl<const W: usize> Circuit for UnitLaw<W> {
         );
         let pulse = generator.w.pulse;
         let sync = Instance::settle(&self.sync, &q.sync, sync_stage::In { pulse, unit_rst });
-        let rises = q.sync.step & !q.before;
+        let rises = q.sync.step & !q.lagged;
         Net {
             counter,
             generator,
@@ -120,7 +120,7 @@ impl<const W: usize> Circuit for UnitLaw<W> {
             held_half_period: unit_rst.mux(i.half_period, q.held_half_period),
             held_period: unit_rst.mux(i.period, q.held_period),
             pulses: unit_rst.mux(0.into(), w.counted),
-            before: !unit_rst & w.step,
+            lagged: !unit_rst & w.step,
         }
     }
 }

@@ -30,7 +30,7 @@ pub fn player<const N: usize, const T: usize, const A: usize>(
     variant: Variant,
     half_periods: &[u64],
     period: u64,
-    repeat: bool,
+    cyclic: bool,
 ) -> Group<1, N, T, A> {
     let last = half_periods.len() as u64 - 1;
     let base = 0;
@@ -39,7 +39,7 @@ pub fn player<const N: usize, const T: usize, const A: usize>(
         Pattern {
             base,
             last,
-            repeat,
+            cyclic,
             period,
         },
     );

@@ -1,0 +1,57 @@
+//! The meaning [`Netlist`]: words are nodes, a circuit is a graph of them.
+//!
+//! [`elaborate`] runs a circuit's `comb` and `next` once and notes what they compute. Circuits
+//! inside it become modules of their own.
+
+mod build;
+mod elaborate;
+mod finish;
+mod memory;
+mod module;
+mod node;
+
+mod words;
+
+pub use elaborate::elaborate;
+pub use memory::{NetRam, NetShiftRegister};
+pub use module::{
+    Child, Design, Memory, Module, NetlistError, Parameter, Port, Setting, Signal, Value,
+};
+pub use node::{Id, Node, Operator};
+pub use words::{NetBit, NetInt, NetUInt};
+
+use super::{Image, Logic};
+use crate::kernel::Circuit;
+
+/// Words are nodes of a netlist: the meaning that is printed as HDL.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Netlist;
+
+impl Logic for Netlist {
+    type Bit = NetBit;
+    type U<const N: usize> = NetUInt<N>;
+    type I<const N: usize> = NetInt<N>;
+    type Ram<const A: usize, const D: usize> = NetRam<A, D>;
+    type ShiftRegister<const K: usize, const D: usize> = NetShiftRegister<K, D>;
+
+    fn rom<const A: usize, const D: usize>(image: &Image<A, D>, address: NetUInt<A>) -> NetUInt<D> {
+        memory::read_rom(image, address)
+    }
+
+    fn parameter<const N: usize>(name: &'static str, value: u64) -> NetUInt<N> {
+        build::parameter(name, value)
+    }
+
+    fn settle<C: Circuit>(circuit: &C, q: &C::Reg<Self>, i: &C::In<Self>) -> C::Net<Self> {
+        elaborate::settle(circuit, q, i)
+    }
+
+    fn clock<C: Circuit>(
+        _: &C,
+        q: C::Reg<Self>,
+        _: &C::Net<Self>,
+        _: &C::In<Self>,
+    ) -> C::Reg<Self> {
+        elaborate::clock::<C>(q)
+    }
+}

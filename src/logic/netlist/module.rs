@@ -1,0 +1,185 @@
+use super::node::{Id, Node};
+use crate::kernel::{Field, Role, Shape};
+
+/// One circuit as a netlist: its signals, what drives them, and the circuits inside it.
+///
+/// Two of the same circuit that differ in nothing but the contents of memories and the values of
+/// parameters are one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Module {
+    /// The circuit's name.
+    pub name: String,
+    /// What it does, in one line.
+    pub about: &'static str,
+    /// The nodes; each is computed from nodes before it.
+    pub nodes: Vec<(Node, Shape)>,
+    /// Inputs, registers and nets, in the order of their declaration, with the registers of the
+    /// circuits inside.
+    pub signals: Vec<Signal>,
+    /// Its parameters; those of the circuits inside it are not among them.
+    pub parameters: Vec<Parameter>,
+    /// Its memories, in the same order, then its ROMs.
+    pub memories: Vec<Memory>,
+    /// The circuits inside it, in the order in which they settle.
+    pub instances: Vec<Child>,
+    pub(super) registers: Vec<Register>,
+    /// For every leaf of the walk over the nets the signal, if it is not one of an instance.
+    pub(super) nets: Vec<Option<usize>>,
+}
+
+/// A signal of a module.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Signal {
+    /// Its name.
+    pub name: String,
+    /// What `signals!` says of it.
+    pub field: &'static Field,
+    /// Port in, register or net.
+    pub role: Role,
+    /// Kind and width.
+    pub shape: Shape,
+    /// Power-on value of a register.
+    pub power_on: u64,
+    /// What drives a net or, at the edge, a register.
+    pub driver: Option<Id>,
+    /// For the register of an instance: the instance, and the signal there.
+    pub owner: Option<(usize, usize)>,
+}
+
+impl Signal {
+    /// Whether it is a port.
+    pub fn is_port(&self) -> bool {
+        self.owner.is_none() && (self.role == Role::Input || self.field.public)
+    }
+}
+
+/// A parameter of a module; its value belongs to the instance.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Parameter {
+    /// Its name.
+    pub name: &'static str,
+    /// Width in bits.
+    pub width: usize,
+}
+
+/// A memory of a module.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Memory {
+    /// Its name.
+    pub name: String,
+    /// What `signals!` says of it; nothing of a ROM.
+    pub doc: &'static str,
+    /// The number of words.
+    pub words: usize,
+    /// Width of a word in bits.
+    pub width: usize,
+    /// How it is written.
+    pub port: Port,
+    /// Whether a word is other than zero at power-on, in any instance.
+    pub filled: bool,
+    /// Whether it belongs to an instance.
+    pub inner: bool,
+}
+
+/// How a memory is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Port {
+    /// Never.
+    Rom,
+    /// A word at an address.
+    Ram {
+        /// Where this is high.
+        enable: Id,
+        /// The address.
+        address: Id,
+        /// The word.
+        data: Id,
+    },
+    /// All words move up by one place.
+    Shift {
+        /// Where this is high.
+        enable: Id,
+        /// The new first word.
+        data: Id,
+    },
+}
+
+/// A circuit inside a module.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Child {
+    /// Its name: that of its fields in the surrounding circuit.
+    pub name: String,
+    /// Its module: an index into [`Design::modules`].
+    pub module: usize,
+    /// What drives its inputs, in their order.
+    pub inputs: Vec<Id>,
+}
+
+/// What a leaf of the walk over the registers is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Register {
+    /// A flip-flop: the signal.
+    Signal(usize),
+    /// A memory.
+    Memory(usize),
+}
+
+/// What instances of one module may differ in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Setting {
+    /// The instances around it, outermost first, and its name.
+    pub path: Vec<String>,
+    /// Width in bits of the value or of a word.
+    pub width: usize,
+    /// What it is set to.
+    pub value: Value,
+}
+
+/// What a setting is set to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Value {
+    /// The value of a parameter.
+    Number(u64),
+    /// The words of a memory at power-on, of one that is not zero.
+    Words(Vec<u64>),
+}
+
+/// A circuit with the circuits inside it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// The modules: each after those inside it, the circuit itself last.
+    pub modules: Vec<Module>,
+    /// Its parameters and the contents of its memories, and those of the circuits inside it.
+    pub settings: Vec<Setting>,
+}
+
+/// What a circuit cannot be made a netlist of.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum NetlistError {
+    /// A circuit looks into one inside it.
+    #[error("{module}: {signal} of {instance} is read, but is no port: it is not declared pub")]
+    NotAPort {
+        /// The surrounding circuit.
+        module: String,
+        /// The circuit inside.
+        instance: String,
+        /// The signal.
+        signal: String,
+    },
+    /// Registers of a circuit inside another do not go through its own `next`.
+    #[error("{module}: the registers of {instance} do not come from its next")]
+    Registers {
+        /// The surrounding circuit.
+        module: String,
+        /// The circuit inside.
+        instance: String,
+    },
+    /// A memory that is written twice or read after it was written.
+    #[error("{module}: memory {memory} is used again after its write")]
+    Memory {
+        /// The circuit.
+        module: String,
+        /// The memory.
+        memory: String,
+    },
+}

@@ -1,0 +1,428 @@
+use super::names::{Names, index_width};
+use crate::kernel::{Kind, Shape};
+use crate::logic::netlist::{Id, Module, Node, Operator, Port};
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+/// How tightly an operator binds, as Verilog ranks them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Rank {
+    Choice,
+    Either,
+    Both,
+    Or,
+    Xor,
+    And,
+    Equality,
+    Order,
+    Shift,
+    Sum,
+    Product,
+    Unary,
+    Atom,
+}
+
+/// Text and how tightly its outermost operator binds.
+struct Text(String, Rank);
+
+impl Text {
+    fn atom(text: String) -> Self {
+        Text(text, Rank::Atom)
+    }
+
+    /// As an operand of something that binds this tightly.
+    fn within(self, rank: Rank) -> String {
+        match self.1 >= rank {
+            true => self.0,
+            false => format!("({})", self.0),
+        }
+    }
+}
+
+/// Writes the expressions of a module.
+///
+/// Every operand has the width of its operation, conversions are written out, and a signed word
+/// is a signed expression: so neither the widths nor the signs of Verilog's contexts matter.
+pub(super) struct Expressions<'m> {
+    module: &'m Module,
+    pub(super) names: &'m Names,
+    /// The bits of each name that have been read.
+    read: RefCell<HashMap<String, u64>>,
+}
+
+impl<'m> Expressions<'m> {
+    pub(super) fn new(module: &'m Module, names: &'m Names) -> Self {
+        Expressions {
+            module,
+            names,
+            read: RefCell::default(),
+        }
+    }
+
+    /// The bits of `name` that are read by what has been written so far.
+    pub(super) fn bits_read(&self, name: &str) -> u64 {
+        self.read.borrow().get(name).copied().unwrap_or(0)
+    }
+
+    /// Notes that these bits of a name are read.
+    pub(super) fn mark(&self, name: &str, bits: u64) {
+        *self.read.borrow_mut().entry(name.to_owned()).or_insert(0) |= bits;
+    }
+
+    /// The value of a node: its name, if it has one.
+    pub(super) fn value(&self, id: Id) -> String {
+        self.text(id).0
+    }
+
+    /// The value of a node as the condition of an `if`.
+    pub(super) fn negated(&self, id: Id) -> String {
+        self.not(id).0
+    }
+
+    /// What a node computes, though it has a name; long choices and conditions in several lines,
+    /// each with `indent` before it.
+    pub(super) fn definition(&self, id: Id, room: usize, indent: &str) -> String {
+        let text = self.computed(id).0;
+        if text.len() <= room {
+            return text;
+        }
+        let mut parts = Vec::new();
+        match self.module.nodes[id].0 {
+            Node::Mux(..) => {
+                let mut last = id;
+                while let Node::Mux(choose, then, other) = self.module.nodes[last].0 {
+                    if last != id && self.names.get(last).is_some() {
+                        break;
+                    }
+                    let choose = self.text(choose).within(Rank::Either);
+                    let then = self.text(then).within(Rank::Either);
+                    parts.push(format!("{choose} ? {then} :"));
+                    last = other;
+                }
+                parts.push(self.text(last).within(Rank::Either));
+            }
+            Node::Binary(operator @ (Operator::And | Operator::Or), ..) => {
+                let sign = self.sign(operator, id).0;
+                let mut terms = Vec::new();
+                self.terms(operator, id, true, &mut terms);
+                let last = terms.len() - 1;
+                for (index, term) in terms.into_iter().enumerate() {
+                    parts.push(match index == last {
+                        true => term,
+                        false => format!("{term} {sign}"),
+                    });
+                }
+            }
+            _ => return text,
+        }
+        parts.join(&format!("\n{indent}"))
+    }
+
+    /// The terms of a chain of one operator.
+    fn terms(&self, operator: Operator, id: Id, whole: bool, terms: &mut Vec<String>) {
+        match self.module.nodes[id].0 {
+            Node::Binary(here, a, b)
+                if here == operator && (whole || self.names.get(id).is_none()) =>
+            {
+                self.terms(operator, a, false, terms);
+                self.terms(operator, b, false, terms);
+            }
+            _ => terms.push(self.text(id).within(Rank::Equality)),
+        }
+    }
+
+    fn text(&self, id: Id) -> Text {
+        match self.names.get(id) {
+            Some(name) => {
+                self.mark(name, u64::MAX);
+                Text::atom(name.to_owned())
+            }
+            None => self.computed(id),
+        }
+    }
+
+    fn shape(&self, id: Id) -> Shape {
+        self.module.nodes[id].1
+    }
+
+    fn computed(&self, id: Id) -> Text {
+        let (node, shape) = self.module.nodes[id];
+        match node {
+            Node::Constant(bits) => constant(bits, shape),
+            Node::Parameter(parameter) => {
+                Text::atom(self.module.parameters[parameter].name.to_uppercase())
+            }
+            Node::Signal(_) | Node::Port { .. } | Node::Next(_) => {
+                Text::atom(self.names.get(id).unwrap_or_default().to_owned())
+            }
+            Node::Not(a) => self.not(a),
+            Node::Negate(a) => Text(format!("-{}", self.text(a).within(Rank::Atom)), Rank::Unary),
+            Node::Binary(operator, a, b) => self.binary(operator, id, a, b),
+            Node::Mux(choose, then, other) => {
+                let choose = self.text(choose).within(Rank::Either);
+                let then = self.text(then).within(Rank::Either);
+                let other = self.text(other).within(Rank::Choice);
+                Text(format!("{choose} ? {then} : {other}"), Rank::Choice)
+            }
+            Node::ShiftLeft(a, by) => Text(
+                format!("{} << {by}", self.text(a).within(Rank::Shift)),
+                Rank::Shift,
+            ),
+            Node::ShiftRight(a, by) => {
+                let sign = match shape.kind {
+                    Kind::Signed => ">>>",
+                    _ => ">>",
+                };
+                Text(
+                    format!("{} {sign} {by}", self.text(a).within(Rank::Shift)),
+                    Rank::Shift,
+                )
+            }
+            Node::Slice(of, low) => self.slice(of, low, shape),
+            Node::Extend(a) => self.extend(a, shape),
+            Node::Join(a, b) => {
+                let parts = [a, b].map(|part| self.text(part).0);
+                Text::atom(format!("{{{}}}", parts.join(", ")))
+            }
+            Node::Cast(a) => self.cast(a, shape.kind),
+            Node::Read(memory, address) => {
+                let memory = &self.module.memories[memory];
+                let index = match self.module.nodes[address].0 {
+                    Node::Constant(bits) => bits.to_string(),
+                    _ => self.index(address, index_width(memory.words)),
+                };
+                let read = format!("{}[{index}]", memory.name);
+                self.mark(&memory.name, u64::MAX);
+                Text::atom(read)
+            }
+        }
+    }
+
+    /// The node whose text is that of `id`: a bit and a word of one bit are the same in Verilog.
+    pub(super) fn same_bits(&self, id: Id) -> Id {
+        match self.module.nodes[id].0 {
+            Node::Cast(a)
+                if self.names.get(id).is_none()
+                    && self.shape(id).kind != Kind::Signed
+                    && self.shape(a).kind != Kind::Signed =>
+            {
+                self.same_bits(a)
+            }
+            _ => id,
+        }
+    }
+
+    /// An address as wide as the memory's index.
+    fn index(&self, address: Id, width: usize) -> String {
+        let shape = Shape {
+            width,
+            kind: Kind::Unsigned,
+        };
+        match self.shape(address).width {
+            wide if wide > width && width > 0 => self.slice(address, 0, shape).0,
+            narrow if narrow < width => self.extend(address, shape).0,
+            _ => self.value(address),
+        }
+    }
+
+    fn not(&self, a: Id) -> Text {
+        if self.names.get(a).is_none() {
+            match self.module.nodes[a].0 {
+                Node::Not(a) => return self.text(a),
+                Node::Binary(Operator::Equal, a, b) => {
+                    return self.pair("!=", Rank::Equality, a, b);
+                }
+                Node::Binary(Operator::Below, a, b) => return self.pair(">=", Rank::Order, a, b),
+                _ => {}
+            }
+        }
+        let sign = match self.shape(a).kind {
+            Kind::Bit => "!",
+            _ => "~",
+        };
+        Text(
+            format!("{sign}{}", self.text(a).within(Rank::Atom)),
+            Rank::Unary,
+        )
+    }
+
+    fn sign(&self, operator: Operator, id: Id) -> (&'static str, Rank) {
+        let bit = self.shape(id).kind == Kind::Bit;
+        match operator {
+            Operator::Add => ("+", Rank::Sum),
+            Operator::Subtract => ("-", Rank::Sum),
+            Operator::Multiply => ("*", Rank::Product),
+            Operator::And if bit => ("&&", Rank::Both),
+            Operator::And => ("&", Rank::And),
+            Operator::Or if bit => ("||", Rank::Either),
+            Operator::Or => ("|", Rank::Or),
+            Operator::Xor => ("^", Rank::Xor),
+            Operator::Equal => ("==", Rank::Equality),
+            Operator::Below => ("<", Rank::Order),
+        }
+    }
+
+    fn binary(&self, operator: Operator, id: Id, a: Id, b: Id) -> Text {
+        let (sign, rank) = self.sign(operator, id);
+        match operator {
+            // Chains need no brackets; everything looser than a comparison gets them.
+            Operator::And | Operator::Or | Operator::Xor => {
+                let term = |operand: Id| {
+                    let same = self.names.get(operand).is_none()
+                        && matches!(self.module.nodes[operand].0, Node::Binary(inner, ..) if inner == operator);
+                    self.text(operand)
+                        .within(if same { rank } else { Rank::Equality })
+                };
+                Text(format!("{} {sign} {}", term(a), term(b)), rank)
+            }
+            _ => self.pair(sign, rank, a, b),
+        }
+    }
+
+    fn pair(&self, sign: &str, rank: Rank, a: Id, b: Id) -> Text {
+        let tighter = match rank {
+            Rank::Equality | Rank::Order => Rank::Shift,
+            Rank::Sum => Rank::Product,
+            _ => Rank::Unary,
+        };
+        let left = self
+            .text(a)
+            .within(if rank == Rank::Sum { rank } else { tighter });
+        let right = self.text(b).within(tighter);
+        Text(format!("{left} {sign} {right}"), rank)
+    }
+
+    /// The bits of a word from `low` up.
+    fn slice(&self, of: Id, low: usize, shape: Shape) -> Text {
+        let text = match self.names.get(of) {
+            Some(name) => {
+                self.mark(name, mask(shape.width) << low);
+                Text::atom(match (self.shape(of).width, shape.width) {
+                    (1, _) => name.to_owned(),
+                    (_, 1) => format!("{name}[{low}]"),
+                    (_, width) => format!("{name}[{}:{low}]", low + width - 1),
+                })
+            }
+            None => self.narrow(of, shape.width),
+        };
+        // A part of a word is unsigned; what was computed in this width is what it was before.
+        match (shape.kind, self.names.get(of)) {
+            (Kind::Signed, Some(_)) => Text::atom(format!("$signed({})", text.0)),
+            (Kind::Signed, None) => text,
+            (_, None) if self.shape(of).kind == Kind::Signed => {
+                Text::atom(format!("$unsigned({})", text.0))
+            }
+            _ => text,
+        }
+    }
+
+    /// The low bits of a node without a name: what it computes, in fewer bits.
+    fn narrow(&self, id: Id, width: usize) -> Text {
+        let (node, shape) = self.module.nodes[id];
+        let small = Shape { width, ..shape };
+        let part = |id: Id| match self.names.get(id) {
+            Some(_) => self.slice(
+                id,
+                0,
+                Shape {
+                    width,
+                    ..self.shape(id)
+                },
+            ),
+            None => self.narrow(id, width),
+        };
+        match node {
+            Node::Constant(bits) => constant(bits & mask(width), small),
+            Node::Binary(operator, a, b) => {
+                let (sign, rank) = self.sign(operator, id);
+                let [a, b] = [part(a), part(b)].map(|text| text.within(Rank::Unary));
+                Text(format!("{a} {sign} {b}"), rank)
+            }
+            Node::Mux(choose, then, other) => {
+                let choose = self.text(choose).within(Rank::Either);
+                let [then, other] = [part(then), part(other)].map(|text| text.within(Rank::Either));
+                Text(format!("{choose} ? {then} : {other}"), Rank::Choice)
+            }
+            Node::Not(a) => Text(format!("~{}", part(a).within(Rank::Atom)), Rank::Unary),
+            Node::Negate(a) => Text(format!("-{}", part(a).within(Rank::Atom)), Rank::Unary),
+            Node::Cast(a) => wrap(part(a), self.shape(a).kind, shape.kind),
+            _ => self.text(id),
+        }
+    }
+
+    fn extend(&self, a: Id, shape: Shape) -> Text {
+        let from = self.shape(a);
+        let more = shape.width - from.width;
+        let word = self.text(a).0;
+        match from.kind {
+            Kind::Signed => {
+                let sign = match from.width {
+                    1 => word.clone(),
+                    width => format!("{word}[{}]", width - 1),
+                };
+                Text::atom(format!("$signed({{{{{more}{{{sign}}}}}, {word}}})"))
+            }
+            _ => Text::atom(format!("{{{more}'d0, {word}}}")),
+        }
+    }
+
+    fn cast(&self, a: Id, kind: Kind) -> Text {
+        wrap(self.text(a), self.shape(a).kind, kind)
+    }
+
+    /// How a memory is written, for the block of the clock.
+    pub(super) fn port(&self, memory: usize) -> Option<(Option<String>, String)> {
+        let memory = &self.module.memories[memory];
+        match memory.port {
+            Port::Ram {
+                enable,
+                address,
+                data,
+            } => {
+                let index = self.index(address, index_width(memory.words));
+                let write = format!("{}[{index}] <= {};", memory.name, self.value(data));
+                match self.module.nodes[enable].0 {
+                    Node::Constant(0) => None,
+                    Node::Constant(_) => Some((None, write)),
+                    _ => Some((Some(self.value(enable)), write)),
+                }
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The same bits as a signed or an unsigned expression.
+fn wrap(text: Text, from: Kind, to: Kind) -> Text {
+    match (from == Kind::Signed, to == Kind::Signed) {
+        (false, true) => Text::atom(format!("$signed({})", text.0)),
+        (true, false) => Text::atom(format!("$unsigned({})", text.0)),
+        _ => text,
+    }
+}
+
+fn mask(width: usize) -> u64 {
+    u64::MAX >> (64 - width.clamp(1, 64))
+}
+
+/// A constant with its width.
+pub(super) fn literal(bits: u64, shape: Shape) -> String {
+    constant(bits, shape).0
+}
+
+fn constant(bits: u64, shape: Shape) -> Text {
+    let Shape { kind, width } = shape;
+    match kind {
+        Kind::Bit | Kind::Unsigned if width == 1 => Text::atom(format!("1'b{bits}")),
+        Kind::Bit | Kind::Unsigned => Text::atom(format!("{width}'d{bits}")),
+        Kind::Signed if bits >> (width - 1) & 1 == 0 => Text::atom(format!("{width}'sd{bits}")),
+        Kind::Signed => {
+            let value = bits.wrapping_neg() & mask(width);
+            match value == bits {
+                // The least value has no positive counterpart in this width.
+                true => Text::atom(format!("{width}'sh{bits:x}")),
+                false => Text(format!("-{width}'sd{value}"), Rank::Unary),
+            }
+        }
+    }
+}
