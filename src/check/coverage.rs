@@ -41,7 +41,7 @@ impl Coverage {
     /// Nothing seen yet of this circuit.
     pub fn new<C: Circuit>(circuit: &C) -> Self {
         let mut names = Names::default();
-        Sample::at_power_on(circuit, |sample| sample.visit(&mut names));
+        Sample::at_power_on(circuit, |sample| sample.show(&mut names));
         let seen = vec![Seen::default(); names.signals.len()];
         Coverage {
             signals: names.signals,
@@ -82,7 +82,7 @@ impl<C: Circuit> Observer<C> for Coverage {
         self.walk.every_word = self.last.is_none_or(|last| last + 1 != now.tick);
         self.last = Some(now.tick);
         self.walk.cursor = 0;
-        now.visit(&mut self.walk);
+        now.show(&mut self.walk);
         Ok(ControlFlow::Continue(()))
     }
 }
