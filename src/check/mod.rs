@@ -4,7 +4,9 @@
 //! [`Invariants`] on every transition. At the small widths at which that ends, it is a proof over
 //! all input sequences of any length. [`Monitor`] checks the same invariants along a simulated
 //! run, at any width. [`Pair`] and [`Lockstep`] turn "these two circuits do the same" into such an
-//! invariant.
+//! invariant. [`drive()`] runs a circuit on a random [`Stimulus`] and writes waves and stimulus, for
+//! a comparison with another form of the circuit, its HDL say; [`Coverage`] tells which bits that
+//! run has moved.
 //!
 //! # What is not in the state
 //!
@@ -79,18 +81,24 @@
 //! ```
 
 mod counterexample;
+mod coverage;
+mod drive;
 mod enumerate;
 mod invariant;
 mod lockstep;
 mod pair;
 mod reach;
 mod specified;
+mod stimulus;
 mod visited;
 
 pub use counterexample::Counterexample;
+pub use coverage::{Coverage, Untoggled};
+pub use drive::{Drive, Driven, drive};
 pub use enumerate::{Random, TooWide, all};
 pub use invariant::{Fault, Invariants, Monitor, Verdict, require};
 pub use lockstep::{Lockstep, LockstepError};
 pub use pair::{Pair, Sides};
 pub use reach::{Outcome, Progress, Proof, Reach, reach};
 pub use specified::Specified;
+pub use stimulus::Stimulus;

@@ -69,7 +69,7 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn circuit(entry: &Entry) -> Circuit {
-    let leaves = (entry.declarations)().leaves;
+    let leaves = entry.declarations().leaves;
     let port = |leaf: &Declaration| Port {
         name: leaf.name.clone(),
         width: leaf.shape.width,

@@ -119,7 +119,7 @@ impl Declarations {
     /// The signals of a circuit, in the order in which a [`Sample`] of it is walked.
     pub fn of<C: Circuit>(circuit: &C) -> Self {
         let mut declarations = Declarations::default();
-        Sample::at_power_on(circuit, |sample| sample.visit(&mut declarations));
+        Sample::at_power_on(circuit, |sample| sample.show(&mut declarations));
         declarations
     }
 }

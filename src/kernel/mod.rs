@@ -7,6 +7,7 @@ mod macros;
 mod observe;
 mod pack;
 mod probe;
+mod reset;
 mod signals;
 mod simulator;
 #[cfg(test)]

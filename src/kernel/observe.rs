@@ -1,4 +1,5 @@
-use super::signals::{Field, Role, Signals, Visit};
+use super::probe::{Probe, Words};
+use super::signals::{Field, Role, Shape, Signals, Visit};
 use super::{Circuit, Instance};
 use crate::logic::Sim;
 use std::io;
@@ -29,6 +30,12 @@ impl<C: Circuit> Sample<'_, C> {
         visitor.leave();
     }
 
+    /// The same walk, compiled once for all probes: for those that need not be fast.
+    #[inline(never)]
+    pub fn show(&self, probe: &mut dyn Probe) {
+        self.visit(&mut Shown(probe));
+    }
+
     /// Shows the circuit as it is at power-on with every port in at zero.
     pub fn at_power_on<T>(circuit: &C, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
         let i = super::zero();
@@ -40,6 +47,26 @@ impl<C: Circuit> Sample<'_, C> {
             q: &q,
             w: &w,
         })
+    }
+}
+
+struct Shown<'a>(&'a mut dyn Probe);
+
+impl Probe for Shown<'_> {
+    fn enter(&mut self, field: &'static Field) {
+        self.0.enter(field);
+    }
+    fn leave(&mut self) {
+        self.0.leave();
+    }
+    fn element(&mut self, index: usize) {
+        self.0.element(index);
+    }
+    fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64) {
+        self.0.leaf(field, shape, bits);
+    }
+    fn memory(&mut self, field: &'static Field, words: &dyn Words) {
+        self.0.memory(field, words);
     }
 }
 

@@ -1,3 +1,4 @@
+use super::reset::reset;
 use super::{Circuit, Observer, RunError, Sample};
 use crate::logic::Sim;
 use std::ops::ControlFlow;
@@ -74,6 +75,34 @@ impl<'c, C: Circuit> Simulator<'c, C> {
 
     /// Runs one tick and shows its sample.
     pub fn step<T>(self, i: C::In<Sim>, show: impl FnOnce(&Sample<'_, C>) -> T) -> (Self, T) {
+        self.tick_once(i, show, |_, q| q)
+    }
+
+    /// Runs one tick and shows its sample; with `rst` high its edge is that of a synchronous
+    /// reset.
+    ///
+    /// After such an edge every flip-flop has its power-on value. Memories and shift registers
+    /// have no reset, as block RAM has none: they take the edge as always, and what is written in
+    /// the tick of reset is written.
+    pub fn step_with_reset<T>(
+        self,
+        rst: bool,
+        i: C::In<Sim>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> (Self, T) {
+        self.tick_once(i, show, |circuit, q| match rst {
+            true => reset(circuit, &q),
+            false => q,
+        })
+    }
+
+    #[inline(always)]
+    fn tick_once<T>(
+        self,
+        i: C::In<Sim>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+        after: impl FnOnce(&C, C::Reg<Sim>) -> C::Reg<Sim>,
+    ) -> (Self, T) {
         let Simulator { circuit, q, tick } = self;
         let w = circuit.comb(&q, &i);
         let shown = show(&Sample {
@@ -82,7 +111,7 @@ impl<'c, C: Circuit> Simulator<'c, C> {
             q: &q,
             w: &w,
         });
-        let q = circuit.next(q, &w, &i);
+        let q = after(circuit, circuit.next(q, &w, &i));
         (
             Simulator {
                 circuit,

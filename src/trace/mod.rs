@@ -1,5 +1,5 @@
 //! What a run looks like: value change dumps and their GTKWave save files, recordings, text
-//! waves, and timing charts that are executed.
+//! waves, timing charts that are executed, and the stimulus as a file.
 //!
 //! At tick n everything is sampled at time n·P with `clk` high, `clk` falls half a period later,
 //! and the registers of tick n + 1 show from (n + 1)·P on.
@@ -10,6 +10,7 @@ mod clock;
 pub mod gtkw;
 mod layout;
 mod record;
+mod stimulus_file;
 pub mod text;
 pub(crate) mod value;
 mod vcd;
@@ -17,6 +18,7 @@ mod vcd;
 pub use clock::{Clock, ClockError};
 pub use layout::{LayoutError, Options};
 pub use record::{RecordError, Recorder};
+pub use stimulus_file::StimulusFile;
 pub use vcd::Vcd;
 
 use crate::kernel::{Circuit, Observer, RunError, Simulator};

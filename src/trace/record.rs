@@ -148,7 +148,7 @@ impl<C: Circuit> Observer<C> for Recorder<C> {
             }
             self.ticks.end += 1;
             self.columns.cursor = 0;
-            now.visit(&mut self.columns);
+            now.show(&mut self.columns);
         }
         Ok(ControlFlow::Continue(()))
     }

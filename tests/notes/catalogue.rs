@@ -9,7 +9,7 @@ fn every_signal_has_a_name_of_its_own_and_a_meaning() {
     let mut wrong = Vec::new();
     for entry in CATALOGUE {
         let mut paths = HashSet::new();
-        for leaf in (entry.declarations)().leaves {
+        for leaf in entry.declarations().leaves {
             let path = leaf.path();
             // The words of a memory have no text of their own.
             let is_word = leaf.name.starts_with("word") || leaf.name.starts_with("stage");

@@ -120,7 +120,7 @@ fn signals(entry: &Entry) -> String {
         false => format!("Widths: {}.\n\n", widths.join(", ")),
     };
     text += "| signal | bits | role | meaning |\n|---|---|---|---|\n";
-    let declarations = (entry.declarations)();
+    let declarations = entry.declarations();
     let mut memories = declarations
         .memories
         .iter()

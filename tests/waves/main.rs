@@ -7,6 +7,7 @@ mod gtkwave;
 mod names;
 mod reader;
 mod replay;
+mod reset;
 mod text;
 mod zoo;
 

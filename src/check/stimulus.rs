@@ -1,0 +1,246 @@
+use super::Random;
+use crate::kernel::{Field, Shape, Signals, Source};
+use crate::logic::Sim;
+
+/// A stretch in which a port keeps to one way of changing has up to this many binary digits of
+/// ticks. Longer ones bring single counters further, and fewer combinations of ports.
+const STRETCH: u64 = 10;
+/// As many binary digits has the gap between two ticks of reset.
+const GAP: u64 = 16;
+/// At the slowest a port changes about once in 2^`PACE` ticks.
+const PACE: u64 = 11;
+
+/// Random inputs that exercise circuits of any width, the same on every machine for the same seed.
+///
+/// Bits that are evenly random every tick are a poor stimulus: a wide comparison is never met, a
+/// strobe is never rare, and nothing ever holds. So every port goes through stretches of random
+/// length, each with a *kind* of values (small, of any magnitude, powers of two, close to the
+/// greatest, evenly random) and a *pace* at which they change, from every tick to never. A single
+/// bit has stretches of rare pulses, frequent ones, rare gaps, and of holding either level. Lengths
+/// and paces are of every order of magnitude.
+///
+/// ```
+/// use motion_rtl::check::Stimulus;
+/// use motion_rtl::logic::{Sim, sim::UInt};
+///
+/// let mut stimulus = Stimulus::new(1);
+/// let words: Vec<[UInt<24>; 2]> = (0..1000).map(|_| stimulus.inputs()).collect();
+/// assert!(words.iter().any(|[period, _]| period.get() < 8));
+/// assert!(words.iter().any(|[period, _]| period.get() > 1 << 20));
+/// ```
+#[derive(Debug, Clone)]
+pub struct Stimulus {
+    random: Random,
+    courses: Vec<Course>,
+    /// Ticks before the next one of reset.
+    gap: u64,
+}
+
+impl Stimulus {
+    /// The stimulus that `seed` names.
+    pub fn new(seed: u64) -> Self {
+        let mut random = Random::new(seed);
+        Stimulus {
+            gap: magnitude(&mut random, GAP),
+            courses: Vec::new(),
+            random,
+        }
+    }
+
+    /// The inputs of the tick that comes next. Give them all to one circuit.
+    pub fn inputs<S: Signals<Sim>>(&mut self) -> S {
+        let mut ports = Ports {
+            stimulus: self,
+            next: 0,
+        };
+        S::make(const { &Field::named("") }, &mut ports)
+    }
+
+    /// Whether the tick that comes next is one of reset: one in some thousands is, after gaps of
+    /// every order of magnitude. Ask once a tick, or never.
+    pub fn reset(&mut self) -> bool {
+        match self.gap.checked_sub(1) {
+            Some(left) => {
+                self.gap = left;
+                false
+            }
+            None => {
+                self.gap = magnitude(&mut self.random, GAP);
+                true
+            }
+        }
+    }
+}
+
+/// The walk that gives every port its value.
+struct Ports<'a> {
+    stimulus: &'a mut Stimulus,
+    next: usize,
+}
+
+impl Source for Ports<'_> {
+    fn leaf(&mut self, _: &'static Field, shape: Shape) -> u64 {
+        let Stimulus {
+            random, courses, ..
+        } = &mut *self.stimulus;
+        if self.next == courses.len() {
+            courses.push(Course::default());
+        }
+        let value = courses[self.next].tick(random, shape.width);
+        self.next += 1;
+        value
+    }
+}
+
+/// What one port does.
+#[derive(Debug, Clone, Copy, Default)]
+struct Course {
+    /// Ticks of this stretch to come.
+    left: u64,
+    kind: Kind,
+    /// It changes about once in 2^`pace` ticks.
+    pace: u64,
+    value: u64,
+}
+
+/// What values a stretch has.
+#[derive(Debug, Clone, Copy, Default)]
+enum Kind {
+    /// Below 8.
+    #[default]
+    Small,
+    /// Of every order of magnitude.
+    Magnitude,
+    /// One bit high.
+    Power,
+    /// At most 8 below the greatest.
+    Top,
+    /// Evenly random.
+    Even,
+    /// This level, and the other one in single ticks: a bit's pulses or gaps.
+    Pulses(u64),
+}
+
+impl Course {
+    fn tick(&mut self, random: &mut Random, width: usize) -> u64 {
+        match self.left.checked_sub(1) {
+            Some(left) => self.left = left,
+            None => self.begin(random, width),
+        }
+        let due = random.word() >> (64 - PACE) < 1 << (PACE - self.pace);
+        match self.kind {
+            Kind::Pulses(level) => self.value = level ^ u64::from(due),
+            kind if due => self.value = kind.value(random, width),
+            _ => {}
+        }
+        self.value
+    }
+
+    /// A new stretch. The value is the old one until it changes.
+    fn begin(&mut self, random: &mut Random, width: usize) {
+        self.left = magnitude(random, STRETCH);
+        self.pace = random.word() % (PACE + 1);
+        self.kind = match (width, random.word() % 16) {
+            (1, 0..=3) => Kind::Even,
+            (1, choice) => Kind::Pulses(choice & 1),
+            (_, 0..=4) => Kind::Small,
+            (_, 5..=11) => Kind::Magnitude,
+            (_, 12..=13) => Kind::Power,
+            (_, 14) => Kind::Top,
+            _ => Kind::Even,
+        };
+    }
+}
+
+impl Kind {
+    fn value(self, random: &mut Random, width: usize) -> u64 {
+        let width = width as u64;
+        let greatest = u64::MAX >> (64 - width);
+        let word = random.word();
+        let value = match self {
+            Kind::Small => word >> 61,
+            // Twice, so that small ones are more frequent: a large period stops a whole circuit.
+            Kind::Magnitude => {
+                let most = 1 + random.word() % width;
+                magnitude(random, most)
+            }
+            Kind::Power => 1 << (word % width),
+            Kind::Top => greatest.wrapping_sub(word >> 61),
+            Kind::Even | Kind::Pulses(_) => word,
+        };
+        value & greatest
+    }
+}
+
+/// A number of up to `digits` binary digits, every count of digits as likely.
+fn magnitude(random: &mut Random, digits: u64) -> u64 {
+    let digits = 1 + random.word() % digits;
+    random.word() >> (64 - digits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::logic::sim::{Int, UInt};
+
+    const TICKS: usize = 100_000;
+
+    fn words<const N: usize>(seed: u64) -> Vec<u64> {
+        let mut stimulus = Stimulus::new(seed);
+        let words = (0..TICKS).map(|_| stimulus.inputs::<UInt<N>>().get());
+        words.collect()
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_inputs() {
+        assert_eq!(words::<24>(1), words::<24>(1));
+        assert_ne!(words::<24>(1), words::<24>(2));
+    }
+
+    #[test]
+    fn wide_words_are_small_and_large_and_hold() {
+        for width in [words::<24>(5), words::<64>(5), words::<2>(5)] {
+            let holds = width.windows(2).filter(|pair| pair[0] == pair[1]).count();
+            assert!(holds > TICKS / 4 && holds < TICKS, "{holds} holds");
+        }
+        let words = words::<24>(5);
+        let small = words.iter().filter(|&&word| word < 8).count();
+        let large = words.iter().filter(|&&word| word >= 1 << 20).count();
+        assert!(small > TICKS / 10 && large > TICKS / 10, "{small} {large}");
+        let powers = words.iter().filter(|word| word.is_power_of_two()).count();
+        assert!(powers > TICKS / 20, "{powers}");
+        assert!(words.contains(&0xff_ffff));
+    }
+
+    #[test]
+    fn a_bit_has_rare_and_frequent_pulses_and_rare_gaps() {
+        let bits = words::<1>(9);
+        let mut lengths = [[0; 2]; 18];
+        for run in bits.chunk_by(|a, b| a == b) {
+            lengths[run.len().ilog2() as usize][run[0] as usize] += 1;
+        }
+        for level in [0, 1] {
+            for (digits, length) in lengths.iter().enumerate().take(10) {
+                assert!(length[level] > 3, "{lengths:?}: {digits}");
+            }
+        }
+    }
+
+    #[test]
+    fn signed_words_are_of_both_signs() {
+        let mut stimulus = Stimulus::new(3);
+        let words: Vec<Int<12>> = (0..TICKS).map(|_| stimulus.inputs()).collect();
+        for end in [-2048, 2047, -1, 0] {
+            assert!(words.iter().any(|word| word.get() == end), "{end}");
+        }
+    }
+
+    #[test]
+    fn resets_are_rare_and_at_times_close() {
+        let mut stimulus = Stimulus::new(4);
+        let resets: Vec<_> = (0..1_000_000).filter(|_| stimulus.reset()).collect();
+        assert!((50..1000).contains(&resets.len()), "{}", resets.len());
+        assert!(resets.windows(2).any(|pair| pair[1] - pair[0] < 8));
+        assert!(resets.windows(2).any(|pair| pair[1] - pair[0] > 50_000));
+    }
+}

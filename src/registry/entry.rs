@@ -1,0 +1,73 @@
+use super::{AnyCircuit, AnyModel};
+use crate::kernel::Declarations;
+
+/// Widths that circuits are made with for proofs and charts.
+pub const WIDTHS: std::ops::RangeInclusive<u64> = 2..=4;
+
+/// Widths that circuits without their proofs are made with; large ones only with some of them.
+pub const MODEL_WIDTHS: &[u64] = &[2, 3, 4, 8, 12, 16, 24, 32];
+
+/// One circuit of the catalogue.
+#[derive(Debug, Clone, Copy)]
+pub struct Entry {
+    /// Its name.
+    pub name: &'static str,
+    /// What it does, in one line.
+    pub about: &'static str,
+    /// Its patent and block.
+    pub source: &'static str,
+    /// Its widths by name, with their defaults.
+    pub widths: &'static [(&'static str, usize)],
+    /// Makes it with its default widths, as it is built.
+    pub full: fn() -> Box<dyn AnyModel>,
+    /// What it is made with otherwise, in words: the numbers that [`Entry::make`] and
+    /// [`Entry::model`] take.
+    pub arguments: &'static str,
+    /// Makes it from those numbers for proofs and charts, the first of them one of [`WIDTHS`];
+    /// `None` where there is none with them.
+    pub make: fn(&[u64]) -> Option<Box<dyn AnyCircuit>>,
+    /// Makes it from the same numbers without its proofs, the first of them one of
+    /// [`MODEL_WIDTHS`].
+    pub model: fn(&[u64]) -> Option<Box<dyn AnyModel>>,
+    /// The width it is proved at unless another is asked for.
+    pub proof_width: u64,
+}
+
+impl Entry {
+    /// Its signals at the default widths.
+    pub fn declarations(&self) -> Declarations {
+        (self.full)().declarations()
+    }
+}
+
+/// Makes a circuit with a width that is known only when the program runs: one of those in
+/// brackets.
+macro_rules! at_width {
+    ([$($bits:literal)*], $arguments:expr, $width:ident => $circuit:expr) => {
+        match $arguments.first() {
+            $(Some($bits) => Some(Box::new({
+                const $width: usize = $bits;
+                $circuit
+            })),)*
+            _ => None,
+        }
+    };
+}
+
+/// The two functions of an [`Entry`] for a circuit that can have any width.
+macro_rules! any_width {
+    (|$given:ident, $width:ident| $circuit:expr) => {
+        Made {
+            make: |$given| at_width!([2 3 4], $given, $width => $circuit),
+            model: |$given| at_width!([2 3 4 8 12 16 24 32], $given, $width => $circuit),
+        }
+    };
+}
+
+/// How an entry is made from numbers.
+pub(super) struct Made {
+    pub make: fn(&[u64]) -> Option<Box<dyn AnyCircuit>>,
+    pub model: fn(&[u64]) -> Option<Box<dyn AnyModel>>,
+}
+
+pub(super) use {any_width, at_width};

@@ -1,0 +1,134 @@
+//! Circuits whose types are forgotten.
+
+use crate::check::{Drive, Driven, Outcome, Progress, Proof, Specified, TooWide, drive, reach};
+use crate::kernel::{Circuit, Declarations, RunError};
+use crate::trace::chart::{Chart, ChartFailure};
+use crate::trace::{Clock, LayoutError, Options, Vcd};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// What any circuit can do, its type forgotten.
+pub trait AnyModel {
+    /// Its name.
+    fn name(&self) -> &'static str;
+    /// What it does, in one line.
+    fn about(&self) -> &'static str;
+    /// Its signals, in the order of its waves.
+    fn declarations(&self) -> Declarations;
+    /// Prepares waves of it and throws them away.
+    ///
+    /// # Errors
+    /// A name that is used twice in a scope, or that waveform files cannot carry.
+    fn layout(&self) -> Result<(), LayoutError>;
+    /// Runs a timing chart.
+    ///
+    /// # Errors
+    /// The circuit does something else than the chart says, or the chart cannot be run on it.
+    fn chart(&self, chart: &Chart) -> Result<(), ChartFailure>;
+    /// Drives it with random inputs, see [`drive`].
+    ///
+    /// # Errors
+    /// A writer failed; a name that is used twice in a scope or that waves cannot carry.
+    fn drive(
+        &self,
+        run: &Drive,
+        waves: &mut dyn Write,
+        stimulus: &mut dyn Write,
+    ) -> Result<Driven, RunError>;
+}
+
+impl<C: Circuit> AnyModel for C {
+    fn name(&self) -> &'static str {
+        C::NAME
+    }
+
+    fn about(&self) -> &'static str {
+        C::ABOUT
+    }
+
+    fn declarations(&self) -> Declarations {
+        Declarations::of(self)
+    }
+
+    fn layout(&self) -> Result<(), LayoutError> {
+        Vcd::new(io::sink(), self, Clock::default(), &Options::default()).map(drop)
+    }
+
+    fn chart(&self, chart: &Chart) -> Result<(), ChartFailure> {
+        chart.run(self)
+    }
+
+    fn drive(
+        &self,
+        run: &Drive,
+        waves: &mut dyn Write,
+        stimulus: &mut dyn Write,
+    ) -> Result<Driven, RunError> {
+        drive(self, run, waves, stimulus)
+    }
+}
+
+/// A circuit with its proofs, its type forgotten.
+pub trait AnyCircuit: AnyModel {
+    /// The names of its invariants.
+    fn invariants(&self) -> Vec<String>;
+    /// Proves its invariants, or finds the shortest way to break one; `waves` is where that is
+    /// written as VCD and save file.
+    ///
+    /// # Errors
+    /// The circuit is too wide to be proved.
+    fn prove(
+        &self,
+        limit: u32,
+        waves: Option<&Path>,
+        progress: &mut dyn FnMut(&Progress),
+    ) -> Result<Verdict, TooWide>;
+}
+
+/// How a proof ended.
+#[derive(Debug)]
+pub enum Verdict {
+    /// Every invariant holds.
+    Proved(Proof),
+    /// One does not.
+    Broken {
+        /// Tick, invariant, signals, and a table of the last ticks.
+        report: String,
+        /// The waves of it, where they were asked for.
+        waves: Result<Vec<PathBuf>, RunError>,
+    },
+    /// More states than the limit.
+    Undecided(Progress),
+}
+
+impl<C: Specified> AnyCircuit for C {
+    fn invariants(&self) -> Vec<String> {
+        let invariants = Specified::invariants(self);
+        invariants.names().map(str::to_owned).collect()
+    }
+
+    fn prove(
+        &self,
+        limit: u32,
+        waves: Option<&Path>,
+        progress: &mut dyn FnMut(&Progress),
+    ) -> Result<Verdict, TooWide> {
+        let invariants = Specified::invariants(self);
+        let outcome = reach(self, &invariants)
+            .inputs(|i| self.applies(i))
+            .limit(limit)
+            .progress(progress)
+            .run()?;
+        Ok(match outcome {
+            Outcome::Proof(proof) => Verdict::Proved(proof),
+            Outcome::Limit(progress) => Verdict::Undecided(progress),
+            Outcome::Counterexample(found) => Verdict::Broken {
+                report: found.to_string(),
+                waves: waves.map_or(Ok(Vec::new()), |directory| {
+                    std::fs::create_dir_all(directory)?;
+                    found.save(self, Clock::default(), directory)
+                }),
+            },
+        })
+    }
+}
