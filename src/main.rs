@@ -24,6 +24,8 @@ enum Command {
     Table(cli::table::Arguments),
     /// Proves the invariants of the circuits over every state and input at small widths.
     Check(cli::check::Arguments),
+    /// Writes a circuit as Verilog, with a testbench, its stimulus and the golden waves.
+    Verilog(cli::verilog::Arguments),
     /// Lists circuits with ports and widths, and scenarios.
     List(cli::list::Arguments),
 }
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         Some(Command::Run(arguments)) => cli::run::run(&arguments),
         Some(Command::Table(arguments)) => cli::table::table(&arguments),
         Some(Command::Check(arguments)) => cli::check::check(&arguments),
+        Some(Command::Verilog(arguments)) => cli::verilog::verilog(&arguments),
         Some(Command::List(arguments)) => cli::list::list(&arguments),
     };
     match done {

@@ -33,21 +33,23 @@ pub struct Arguments {
     out: PathBuf,
 }
 
+/// The circuit of that name.
+pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
+    find(name).ok_or_else(|| {
+        let names: Vec<&str> = CATALOGUE.iter().map(|entry| entry.name).collect();
+        Failure::Argument {
+            field: "CIRCUIT",
+            problem: format!("there is no {name}"),
+            allowed: names.join(", "),
+        }
+    })
+}
+
 /// Proves.
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let entries = match &arguments.circuit {
         None => CATALOGUE.iter().collect(),
-        Some(name) => vec![find(name).ok_or_else(|| {
-            Failure::Argument {
-                field: "CIRCUIT",
-                problem: format!("there is no {name}"),
-                allowed: CATALOGUE
-                    .iter()
-                    .map(|entry| entry.name)
-                    .collect::<Vec<_>>()
-                    .join(", "),
-            }
-        })?],
+        Some(name) => vec![entry(name)?],
     };
     if let Some(width) = arguments.width
         && !WIDTHS.contains(&width)

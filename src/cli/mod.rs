@@ -10,6 +10,7 @@ mod shipped;
 mod summary;
 pub mod table;
 mod verdict;
+pub mod verilog;
 
 use motion_rtl::input::Fault;
 use motion_rtl::kernel::RunError;

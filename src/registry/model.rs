@@ -4,6 +4,7 @@ use crate::check::{Drive, Driven, Outcome, Progress, Proof, Specified, TooWide, 
 use crate::kernel::{Circuit, Declarations, RunError};
 use crate::trace::chart::{Chart, ChartFailure};
 use crate::trace::{Clock, LayoutError, Options, Vcd};
+use crate::verilog::{Verilog, VerilogError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -25,6 +26,11 @@ pub trait AnyModel {
     /// # Errors
     /// The circuit does something else than the chart says, or the chart cannot be run on it.
     fn chart(&self, chart: &Chart) -> Result<(), ChartFailure>;
+    /// It as Verilog.
+    ///
+    /// # Errors
+    /// It cannot be printed.
+    fn verilog(&self) -> Result<Verilog, VerilogError>;
     /// Drives it with random inputs, see [`drive`].
     ///
     /// # Errors
@@ -56,6 +62,10 @@ impl<C: Circuit> AnyModel for C {
 
     fn chart(&self, chart: &Chart) -> Result<(), ChartFailure> {
         chart.run(self)
+    }
+
+    fn verilog(&self) -> Result<Verilog, VerilogError> {
+        Verilog::of(self)
     }
 
     fn drive(

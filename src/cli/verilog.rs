@@ -1,0 +1,126 @@
+//! `verilog`: a circuit as Verilog, with a testbench if one is asked for.
+
+use super::{Failure, check::entry, print};
+use clap::Args;
+use motion_rtl::check::Drive;
+use motion_rtl::kernel::RunError;
+use motion_rtl::registry::{AnyModel, MODEL_WIDTHS};
+use motion_rtl::trace::Clock;
+use motion_rtl::trace::atomic::{AtomicFile, Directory};
+use motion_rtl::verilog::SourceFile;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::PathBuf;
+
+/// What to print.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The circuit.
+    circuit: String,
+    /// Width of the words, in bits; without it the circuit's own widths, as `list` shows them.
+    #[arg(long, value_name = "BITS")]
+    width: Option<u64>,
+    /// What else the circuit is made with, as `list` tells.
+    #[arg(
+        long,
+        value_name = "NUMBERS",
+        value_delimiter = ',',
+        requires = "width"
+    )]
+    with: Vec<u64>,
+    /// Where the files go.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Beside the circuit a testbench, a stimulus of so many ticks, and the golden waves of it.
+    #[arg(long, value_name = "TICKS", value_parser = clap::value_parser!(u64).range(2..))]
+    testbench: Option<u64>,
+    /// What the stimulus is drawn from.
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        default_value_t = 1,
+        requires = "testbench"
+    )]
+    seed: u64,
+}
+
+/// Prints.
+pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
+    let circuit = model(arguments)?;
+    let verilog = circuit.verilog().map_err(|error| Failure::Argument {
+        field: "CIRCUIT",
+        problem: error.to_string(),
+        allowed: "circuits that can be printed".into(),
+    })?;
+    let refuse = |error: std::io::Error| Failure::Argument {
+        field: "--out",
+        problem: error.to_string(),
+        allowed: "a directory that can be written".into(),
+    };
+    let directory = Directory::create(&arguments.out).map_err(refuse)?;
+    let create = |name: &str| AtomicFile::create(arguments.out.join(name)).map_err(refuse);
+    let mut complete = Vec::new();
+    let mut write = |source: SourceFile| -> Result<(), Failure> {
+        let mut file = create(&source.name)?;
+        file.write_all(source.text.as_bytes())?;
+        complete.push(file);
+        Ok(())
+    };
+    let name = circuit.name();
+    for source in verilog.sources() {
+        write(source)?;
+    }
+    if let Some(ticks) = arguments.testbench {
+        verilog.testbench().map_or(Ok(()), &mut write)?;
+        let drive = Drive {
+            seed: arguments.seed,
+            ticks,
+            resets: true,
+            clock: Clock::default(),
+        };
+        let mut waves = create(&format!("{name}.vcd"))?;
+        let mut stimulus = create(&format!("{name}.stimulus"))?;
+        circuit
+            .drive(&drive, &mut waves, &mut stimulus)
+            .map_err(|error| match error {
+                RunError::Waves(error) => refuse(error),
+                other => Failure::Run(other),
+            })?;
+        complete.extend([waves, stimulus]);
+    }
+    let mut text = String::new();
+    for file in complete {
+        let path = file.commit().map_err(refuse)?;
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "{}", path.display());
+    }
+    drop(directory);
+    print(&text)
+}
+
+/// The circuit that is asked for.
+fn model(arguments: &Arguments) -> Result<Box<dyn AnyModel>, Failure> {
+    let entry = entry(&arguments.circuit)?;
+    let Some(width) = arguments.width else {
+        return Ok((entry.full)());
+    };
+    let mut given = vec![width];
+    given.extend(&arguments.with);
+    (entry.model)(&given).ok_or_else(|| {
+        let offered = |width: &&u64| (entry.model)(&[**width]).is_some();
+        let widths: Vec<String> = MODEL_WIDTHS
+            .iter()
+            .filter(offered)
+            .map(u64::to_string)
+            .collect();
+        Failure::Argument {
+            field: "--width",
+            problem: format!("{} cannot be made with {given:?}", entry.name),
+            allowed: format!(
+                "{}, the first of them one of {}",
+                entry.arguments,
+                widths.join(", ")
+            ),
+        }
+    })
+}
