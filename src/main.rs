@@ -24,6 +24,8 @@ enum Command {
     Table(cli::table::Arguments),
     /// Proves the invariants of the circuits over every state and input at small widths.
     Check(cli::check::Arguments),
+    /// Holds a waveform, such as a simulator's, against a golden one, tick by tick.
+    Compare(cli::compare::Arguments),
     /// Lists circuits with ports and widths, and scenarios.
     List(cli::list::Arguments),
 }
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         Some(Command::Run(arguments)) => cli::run::run(&arguments),
         Some(Command::Table(arguments)) => cli::table::table(&arguments),
         Some(Command::Check(arguments)) => cli::check::check(&arguments),
+        Some(Command::Compare(arguments)) => cli::compare::compare(&arguments),
         Some(Command::List(arguments)) => cli::list::list(&arguments),
     };
     match done {
