@@ -1,7 +1,8 @@
 //! What is shown around the first mismatch.
 
+use super::pair::Pair;
 use super::report::{Cell, Mismatch, Row};
-use super::{Pair, Runs, number};
+use super::runs::{Runs, number};
 use crate::input::Fault;
 
 /// Rows of the table.

@@ -71,3 +71,49 @@ pub(super) fn hold(golden: &Samples, other: &Samples, ticks: Range<i128>) -> Tal
     }
     tally
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn samples(zero: i128, changes: &[(u64, bool)]) -> Samples {
+        let value = |level| match level {
+            true => Value::HIGH,
+            false => Value::HIGH.inverted(1),
+        };
+        Samples {
+            changes: changes
+                .iter()
+                .map(|&(tick, level)| (tick, value(level)))
+                .collect(),
+            zero,
+            width: 1,
+        }
+    }
+
+    #[test]
+    fn signals_are_held_against_each_other_from_change_to_change() {
+        let golden = samples(0, &[(0, false), (10, true), (20, false)]);
+        let other = samples(-5, &[(0, false), (15, true), (26, false)]);
+        let tally = hold(&golden, &other, 0..30);
+        let expected = Tally {
+            compared: 30,
+            unknown: 0,
+            differing: 1,
+            first: Some(20),
+        };
+        assert_eq!(tally, expected);
+        assert_eq!(hold(&golden, &other, 21..30).differing, 0);
+        assert_eq!(hold(&golden, &other, 20..21).first, Some(20));
+        assert_eq!((golden.at(19), other.at(20)), (Value::HIGH, Value::HIGH));
+    }
+
+    #[test]
+    fn before_its_first_value_golden_is_not_compared_and_the_other_is_unknown() {
+        let golden = samples(0, &[(4, true)]);
+        let other = samples(0, &[(6, true)]);
+        let tally = hold(&golden, &other, 0..10);
+        assert_eq!((tally.unknown, tally.compared), (4, 6));
+        assert_eq!((tally.first, tally.differing), (Some(4), 2));
+    }
+}
