@@ -53,10 +53,10 @@ pub(super) fn by_name(
     };
     let wanted = golden.variables[index].width;
     if width != wanted {
-        let problem = format!("{name} has a width of {width} bits");
+        let problem = format!("{name} has width {width}");
         return Err(fault(
             problem,
-            format!("{wanted} bits, as the golden signal has"),
+            format!("width {wanted}, as the golden signal has"),
         ));
     }
     Ok(Pair {

@@ -46,6 +46,7 @@ mod report;
 mod runs;
 mod scan;
 mod scope;
+mod sections;
 mod ticks;
 mod value;
 mod wave;
@@ -144,12 +145,16 @@ fn compare_waves(mut golden: Wave, mut other: Wave, settings: &Settings) -> Resu
     let common = ticks::common(&golden.ticks, start..end, &settings.ticks);
     if common.is_empty() {
         let first = i128::from(golden.ticks.first);
-        let problem = format!(
+        let mut problem = format!(
             "no common tick: {} has {}, this file {} in golden's count",
             golden.wave.file,
             span(first..first + i128::from(golden.ticks.count)),
             span(start..end)
         );
+        if settings.ticks != (0..u64::MAX) {
+            let asked = i128::from(settings.ticks.start)..i128::from(settings.ticks.end);
+            problem.push_str(&format!(", asked for are {}", span(asked)));
+        }
         let allowed = "--skip, --from and --ticks that leave a tick of both";
         return Err(Fault::new(&other.wave.file, 0, "ticks", problem, allowed));
     }

@@ -67,7 +67,7 @@ impl Report {
             write!(out, " from {} on", side.first_tick)?;
         }
         if which == "other" && self.skip != 0 {
-            write!(out, ", {} skipped", self.skip)?;
+            write!(out, ", skip {}", self.skip)?;
         }
         if side.alone > 0 {
             write!(out, ", {} only here", side.alone)?;
@@ -114,19 +114,32 @@ impl Report {
         list("golden signals without partner", &self.without_partner)?;
         list("ignored", &self.ignored)?;
         list("wider than 64 bits, not compared", &self.too_wide)?;
-        writeln!(
-            out,
-            "\nnot compared: {} and {} of the other file without partner, {} ignored, {} of other \
-             width, {} too wide, {} and {} variables without bits, {} unknown in the golden file",
-            count(self.without_partner.len() as u64, "golden signal"),
-            self.other_without_partner,
-            self.ignored.len(),
-            self.different_widths.len(),
-            self.too_wide.len(),
-            self.golden.without_bits,
-            self.other.without_bits,
-            count(self.unknown_values, "value"),
-        )
+        let counts = [
+            (
+                self.without_partner.len() as u64,
+                "without partner in golden",
+            ),
+            (
+                self.other_without_partner as u64,
+                "without partner in other",
+            ),
+            (self.ignored.len() as u64, "ignored"),
+            (self.different_widths.len() as u64, "of different width"),
+            (self.too_wide.len() as u64, "too wide"),
+            (self.golden.without_bits as u64, "without bits in golden"),
+            (self.other.without_bits as u64, "without bits in other"),
+        ];
+        let counts = counts.iter().filter(|(number, _)| *number > 0);
+        let counts: Vec<_> = counts
+            .map(|(number, what)| format!("{number} {what}"))
+            .collect();
+        if !counts.is_empty() {
+            writeln!(out, "\nsignals not compared: {}", counts.join(", "))?;
+        }
+        match self.unknown_values {
+            0 => Ok(()),
+            unknown => writeln!(out, "values not compared: {unknown} unknown in golden"),
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 use super::names::{self, listed};
 use super::quiet::catch;
 use super::scan;
+use super::sections;
 use super::value::Value;
 use crate::input::Fault;
 use std::collections::HashMap;
@@ -83,6 +84,7 @@ impl Wave {
                 if format != Some(FileFormat::Fst) {
                     return Err(fault("neither a VCD nor an FST", formats));
                 }
+                sections::check(file, &bytes)?;
                 "FST"
             }
         };

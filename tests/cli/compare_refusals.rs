@@ -177,7 +177,7 @@ fn scopes_and_windows_that_are_none_are_refused() {
         error: o.vcd: ticks: no common tick: g.vcd has ticks 0 to 1, this file ticks -2 to -1 in golden's count; allowed: --skip, --from and --ticks that leave a tick of both
     "#]]);
     refused(&plain, &plain, &["--from", "2"], &expect![[r#"
-        error: o.vcd: ticks: no common tick: g.vcd has ticks 0 to 1, this file ticks 0 to 1 in golden's count; allowed: --skip, --from and --ticks that leave a tick of both
+        error: o.vcd: ticks: no common tick: g.vcd has ticks 0 to 1, this file ticks 0 to 1 in golden's count, asked for are ticks 2 to 18446744073709551614; allowed: --skip, --from and --ticks that leave a tick of both
     "#]]);
 }
 
@@ -207,7 +207,7 @@ fn maps_that_do_not_fit_are_refused() {
             error: m.toml:2: top.count: no signal of the other file is called top.x; allowed: a signal of g.vcd
         "#]]),
         ("[signals]\n\"top.count\" = \"top.clk\"", expect![[r#"
-            error: m.toml:2: top.count: top.clk has a width of 1 bits; allowed: 4 bits, as the golden signal has
+            error: m.toml:2: top.count: top.clk has width 1; allowed: width 4, as the golden signal has
         "#]]),
         (
             "[signals]\n\"top.count\" = \"top.count[4:1]\"",
@@ -218,7 +218,7 @@ fn maps_that_do_not_fit_are_refused() {
         (
             "[signals]\n\"top.count\" = \"top.count[2:0]\"",
             expect![[r#"
-                error: m.toml:2: top.count: top.count[2:0] has a width of 3 bits; allowed: 4 bits, as the golden signal has
+                error: m.toml:2: top.count: top.count[2:0] has width 3; allowed: width 4, as the golden signal has
             "#]],
         ),
         ("[signals\n", expect![[r#"

@@ -108,7 +108,6 @@ proptest! {
         prop_assert!(report.is_equal(), "{report}");
         prop_assert_eq!(report.ticks, trace.ticks.len() as u64);
         prop_assert_eq!(report.values, (trace.ticks.len() * trace.widths.len()) as u64);
-        prop_assert!(hold(&awkward(&trace), &simple(&trace)).is_equal());
     }
 
     #[test]
