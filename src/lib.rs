@@ -4,6 +4,7 @@
 #![warn(missing_docs)]
 
 pub mod check;
+pub mod compare;
 pub mod input;
 pub mod kernel;
 pub mod logic;

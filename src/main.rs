@@ -26,6 +26,8 @@ enum Command {
     Check(cli::check::Arguments),
     /// Writes a circuit as Verilog, with a testbench, its stimulus and the golden waves.
     Verilog(cli::verilog::Arguments),
+    /// Holds a waveform, such as a simulator's, against a golden one, tick by tick.
+    Compare(cli::compare::Arguments),
     /// Lists circuits with ports and widths, and scenarios.
     List(cli::list::Arguments),
 }
@@ -37,6 +39,7 @@ fn main() -> ExitCode {
         Some(Command::Table(arguments)) => cli::table::table(&arguments),
         Some(Command::Check(arguments)) => cli::check::check(&arguments),
         Some(Command::Verilog(arguments)) => cli::verilog::verilog(&arguments),
+        Some(Command::Compare(arguments)) => cli::compare::compare(&arguments),
         Some(Command::List(arguments)) => cli::list::list(&arguments),
     };
     match done {

@@ -1,6 +1,7 @@
 //! The commands.
 
 pub mod check;
+pub mod compare;
 mod files;
 mod job;
 pub mod list;

@@ -27,6 +27,10 @@ pub(super) fn testbench(modules: &Modules<'_>, module: &Module) -> SourceFile {
         ports.push(format!("        .{} (stimulus[{range}])", input.name));
         low += input.shape.width;
     }
+    let outputs = module.signals.iter().filter(|signal| signal.is_port());
+    for output in outputs.filter(|signal| signal.role != Role::Input) {
+        ports.push(format!("        .{} ()", output.name));
+    }
     let mut memories = String::new();
     for (path, words) in modules.memories_within(module) {
         let _ = writeln!(
@@ -35,6 +39,7 @@ pub(super) fn testbench(modules: &Modules<'_>, module: &Module) -> SourceFile {
              $dumpvars(0, dut.{path}[word]);"
         );
     }
+    let word = if memories.is_empty() { "" } else { ", word" };
     let memories = match memories.is_empty() {
         true => memories,
         // The others dump the words of memories by an option of theirs.
@@ -46,18 +51,14 @@ pub(super) fn testbench(modules: &Modules<'_>, module: &Module) -> SourceFile {
 // Testbench of {name}: applies {name}.stimulus, a line a tick, and dumps every signal.
 //
 // A line is a hexadecimal word: the inputs side by side, the first lowest, and rst on top. A tick
-// is what stands before a rising edge of clk; inputs change with the edge, as registers do.
-
-`timescale 1ns / 1ns
+// is what stands before a rising edge of clk; inputs change soon after it.
 
 module {name}_tb;
 
-    reg          clk = 1'b0;
-    reg  [{rst}:0] stimulus;
-    reg  [{rst}:0] line;
-    integer      file;
-    integer      items;
-    integer      word;
+    reg clk = 1'b0;
+    reg [{rst}:0] stimulus;
+    reg [{rst}:0] line;
+    integer file, items{word};
 
     {name} dut (
 {ports}
@@ -69,16 +70,15 @@ module {name}_tb;
             $display(\"{name}.stimulus cannot be opened\");
             $finish;
         end
-        items = $fscanf(file, \"%h\", line);
-        stimulus = line;
+        items = $fscanf(file, \"%h\", stimulus);
         $dumpfile(\"{name}_tb.vcd\");
         $dumpvars(0, dut);
 {memories}        while (items == 1) begin
             #5 items = $fscanf(file, \"%h\", line);
             if (items == 1) begin
                 clk = 1'b1;
-                stimulus <= line;
-                #5 clk = 1'b0;
+                #1 stimulus = line;
+                #4 clk = 1'b0;
             end
         end
         $finish;

@@ -1,6 +1,8 @@
 //! The command line: what it prints, writes, refuses and exits with.
 
 mod checks;
+mod compare;
+mod compare_refusals;
 mod drawings;
 mod files;
 mod refusals;

@@ -1,0 +1,88 @@
+//! `compare`: two waveforms held against each other, tick by tick.
+
+use super::{Failure, print, print_json};
+use clap::Args;
+use motion_rtl::compare::{Map, Settings, compare as hold};
+use std::path::PathBuf;
+
+/// What to compare.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The waveform that is right, VCD or FST.
+    golden: PathBuf,
+    /// The waveform to hold against it, VCD or FST.
+    other: PathBuf,
+    /// Names that differ and signals to leave out, in TOML.
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    /// The clock, by its path or the end of its path.
+    #[arg(long, value_name = "NAME", default_value = "clk")]
+    clock: String,
+    /// The other file's clock, where it has another name.
+    #[arg(long, value_name = "NAME")]
+    other_clock: Option<String>,
+    /// The scope of the other file that stands for golden's outermost scope; without it the one
+    /// with the most signals of golden's.
+    #[arg(long, value_name = "PATH")]
+    scope: Option<String>,
+    /// Ticks to leave out at the beginning of OTHER: its reset. Below 0 where OTHER begins later.
+    #[arg(
+        long,
+        value_name = "TICKS",
+        default_value_t = 0,
+        allow_negative_numbers = true
+    )]
+    skip: i64,
+    /// First tick to compare, in golden's count.
+    #[arg(long, value_name = "TICK", default_value_t = 0)]
+    from: u64,
+    /// How many ticks to compare; without it all.
+    #[arg(long, value_name = "COUNT")]
+    ticks: Option<u64>,
+    /// A golden signal without partner is a difference.
+    #[arg(long)]
+    strict: bool,
+    /// Cuts no list short.
+    #[arg(long)]
+    all: bool,
+    /// Prints the report as JSON, with nothing cut short.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Compares.
+pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
+    let map = match &arguments.map {
+        Some(path) => Map::read(path)?,
+        None => Map::default(),
+    };
+    if arguments.ticks == Some(0) {
+        return Err(Failure::Argument {
+            field: "--ticks",
+            problem: "is 0".into(),
+            allowed: "1 or more".into(),
+        });
+    }
+    let count = arguments.ticks.unwrap_or(u64::MAX);
+    let settings = Settings {
+        clock: arguments.clock.clone(),
+        other_clock: arguments.other_clock.clone(),
+        scope: arguments.scope.clone(),
+        map,
+        skip: arguments.skip,
+        ticks: arguments.from..arguments.from.saturating_add(count),
+    };
+    let report = hold(&arguments.golden, &arguments.other, &settings)?;
+    match arguments.json {
+        true => print_json(&report)?,
+        false => print(&report.text(arguments.all))?,
+    }
+    let alone = report.without_partner.len();
+    match (report.is_equal(), arguments.strict && alone > 0) {
+        (false, _) => Err(Failure::Check("the files differ".into())),
+        (true, true) => Err(Failure::Check(format!(
+            "golden signals without partner: {alone}, and --strict is given"
+        ))),
+        (true, false) => Ok(()),
+    }
+}

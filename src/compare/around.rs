@@ -1,0 +1,95 @@
+//! What is shown around the first mismatch.
+
+use super::pair::Pair;
+use super::report::{Cell, Mismatch, Row};
+use super::runs::{Runs, number};
+use crate::input::Fault;
+
+/// Rows of the table.
+const ROWS: usize = 12;
+/// Ticks before and behind the mismatch.
+const BEFORE: i128 = 4;
+const BEHIND: i128 = 2;
+
+impl Runs {
+    /// The first of the signals that differ, given by first tick and place among the pairs, in
+    /// order.
+    pub(super) fn first(
+        &self,
+        pairs: &[Pair],
+        differing: &[(u64, usize, u64)],
+    ) -> Result<Option<Mismatch>, Fault> {
+        let Some(&(tick, place, _)) = differing.first() else {
+            return Ok(None);
+        };
+        let at = i128::from(tick);
+        let start = self.common.start.max(at - BEFORE);
+        let end = self.common.end.min(at + BEHIND + 1);
+        let mut rows = Vec::new();
+        for &place in &self.shown(pairs, differing, tick) {
+            rows.push(self.row(&pairs[place], start, end)?);
+        }
+        let pair = &pairs[place];
+        let (golden, other) = self.samples(pair)?;
+        let golden_tick = number(at - golden.zero);
+        let other_tick = number(at - other.zero);
+        let (one, two) = (&self.golden, &self.other);
+        Ok(Some(Mismatch {
+            tick,
+            golden_time: one.wave.time(one.ticks.time(&one.wave, golden_tick)),
+            other_time: two.wave.time(two.ticks.time(&two.wave, other_tick)),
+            signals: differing.iter().filter(|one| one.0 == tick).count(),
+            golden: one.wave.variables[pair.golden].path.clone(),
+            other: pair.name.clone(),
+            golden_value: golden.at(at).shown(pair.width),
+            other_value: other.at(at).shown(pair.width),
+            shown_ticks: (start..end).map(number).collect(),
+            rows,
+        }))
+    }
+
+    /// The signals that differ in this tick, then others of the scope of the first: registers,
+    /// then the rest.
+    fn shown(&self, pairs: &[Pair], differing: &[(u64, usize, u64)], tick: u64) -> Vec<usize> {
+        let variable = |place: usize| &self.golden.wave.variables[pairs[place].golden];
+        let scope = |place: usize| {
+            variable(place)
+                .path
+                .rsplit_once('.')
+                .map(|(scope, _)| scope)
+        };
+        let mut shown: Vec<_> = differing
+            .iter()
+            .filter(|one| one.0 == tick)
+            .map(|one| one.1)
+            .collect();
+        shown.truncate(ROWS);
+        let wanted = shown.first().and_then(|&place| scope(place));
+        for register in [true, false] {
+            for place in (0..pairs.len()).filter(|&place| scope(place) == wanted) {
+                let more = shown.len() < ROWS && !shown.contains(&place);
+                if more && variable(place).register == register {
+                    shown.push(place);
+                }
+            }
+        }
+        shown
+    }
+
+    fn row(&self, pair: &Pair, start: i128, end: i128) -> Result<Row, Fault> {
+        let (golden, other) = self.samples(pair)?;
+        let has = other.zero + i128::from(self.other.ticks.count);
+        let cell = |tick: i128| {
+            let (expected, found) = (golden.at(tick), other.at(tick));
+            let differs = expected.is_known() && expected != found && tick < has;
+            Cell {
+                golden: expected.cell(pair.width),
+                other: differs.then(|| found.cell(pair.width)),
+            }
+        };
+        Ok(Row {
+            signal: self.golden.wave.variables[pair.golden].path.clone(),
+            cells: (start..end).map(cell).collect(),
+        })
+    }
+}

@@ -1,0 +1,119 @@
+use super::value::Value;
+use std::ops::Range;
+
+/// The sampled values of a signal, and the number of the tick that its file counts as 0.
+#[derive(Debug)]
+pub(super) struct Samples {
+    pub changes: Vec<(u64, Value)>,
+    pub zero: i128,
+    pub width: u32,
+}
+
+/// What holding two signals against each other came to.
+#[derive(Debug, Default, Clone, PartialEq, Eq)]
+pub(super) struct Tally {
+    /// Values held against each other.
+    pub compared: u64,
+    /// Values of the golden signal with an x or z in them.
+    pub unknown: u64,
+    pub differing: u64,
+    pub first: Option<i128>,
+}
+
+impl Samples {
+    fn tick(&self, place: usize) -> Option<i128> {
+        self.changes
+            .get(place)
+            .map(|change| self.zero + i128::from(change.0))
+    }
+
+    /// How many changes there are up to this tick.
+    fn until(&self, tick: i128) -> usize {
+        self.changes
+            .partition_point(|change| self.zero + i128::from(change.0) <= tick)
+    }
+
+    fn before(&self, place: usize) -> Value {
+        let last = place
+            .checked_sub(1)
+            .and_then(|place| self.changes.get(place));
+        last.map_or(Value::unknown(self.width), |change| change.1)
+    }
+
+    /// The value of a tick.
+    pub fn at(&self, tick: i128) -> Value {
+        self.before(self.until(tick))
+    }
+}
+
+/// Holds two signals against each other in these ticks, from change to change.
+pub(super) fn hold(golden: &Samples, other: &Samples, ticks: Range<i128>) -> Tally {
+    let mut tally = Tally::default();
+    let (mut g, mut o) = (golden.until(ticks.start), other.until(ticks.start));
+    let mut now = ticks.start;
+    while now < ticks.end {
+        let next = [golden.tick(g), other.tick(o)].into_iter().flatten().min();
+        let next = next.unwrap_or(ticks.end).min(ticks.end);
+        let length = u64::try_from(next - now).unwrap_or(0);
+        let (expected, found) = (golden.before(g), other.before(o));
+        if !expected.is_known() {
+            tally.unknown += length;
+        } else {
+            tally.compared += length;
+            if expected != found {
+                tally.differing += length;
+                tally.first.get_or_insert(now);
+            }
+        }
+        now = next;
+        g += usize::from(golden.tick(g) == Some(next));
+        o += usize::from(other.tick(o) == Some(next));
+    }
+    tally
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn samples(zero: i128, changes: &[(u64, bool)]) -> Samples {
+        let value = |level| match level {
+            true => Value::HIGH,
+            false => Value::HIGH.inverted(1),
+        };
+        Samples {
+            changes: changes
+                .iter()
+                .map(|&(tick, level)| (tick, value(level)))
+                .collect(),
+            zero,
+            width: 1,
+        }
+    }
+
+    #[test]
+    fn signals_are_held_against_each_other_from_change_to_change() {
+        let golden = samples(0, &[(0, false), (10, true), (20, false)]);
+        let other = samples(-5, &[(0, false), (15, true), (26, false)]);
+        let tally = hold(&golden, &other, 0..30);
+        let expected = Tally {
+            compared: 30,
+            unknown: 0,
+            differing: 1,
+            first: Some(20),
+        };
+        assert_eq!(tally, expected);
+        assert_eq!(hold(&golden, &other, 21..30).differing, 0);
+        assert_eq!(hold(&golden, &other, 20..21).first, Some(20));
+        assert_eq!((golden.at(19), other.at(20)), (Value::HIGH, Value::HIGH));
+    }
+
+    #[test]
+    fn before_its_first_value_golden_is_not_compared_and_the_other_is_unknown() {
+        let golden = samples(0, &[(4, true)]);
+        let other = samples(0, &[(6, true)]);
+        let tally = hold(&golden, &other, 0..10);
+        assert_eq!((tally.unknown, tally.compared), (4, 6));
+        assert_eq!((tally.first, tally.differing), (Some(4), 2));
+    }
+}

@@ -1,0 +1,268 @@
+use crate::input::Fault;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+use toml::{Spanned, Value};
+
+const PARTNER: &str = "a path in quotes, as \"tb.dut.count\", \"!tb.dut.step_n\" or \
+                       \"tb.dut.bus[27:4]\", or { name = \"tb.dut.y\", delay = 2 }";
+
+/// What a map file says: which names stand for each other where they differ.
+///
+/// ```
+/// use motion_rtl::compare::Map;
+///
+/// let map = Map::parse("names.toml", r#"
+/// ignore = ["top.debug", "top.memory.*"]         # left out on purpose
+///
+/// [scopes]                                       # and everything below them
+/// "top.counter" = "tb.dut.u_timer"
+///
+/// [signals]
+/// "top.counter.count" = "tb.dut.u_timer.cnt_q"
+/// "top.step" = "!tb.dut.step_n"                  # active low
+/// "top.period" = "tb.dut.bus[27:4]"              # some of the bits
+/// "top.x" = { name = "tb.dut.y", delay = 2 }     # shows 2 ticks later in the other file
+/// "#).unwrap();
+/// ```
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Map {
+    pub(super) file: String,
+    pub(super) ignore: Vec<Entry<()>>,
+    pub(super) scopes: Vec<Entry<String>>,
+    pub(super) signals: Vec<Entry<Partner>>,
+}
+
+/// A line of a map.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Entry<T> {
+    pub line: usize,
+    /// The name in the golden file.
+    pub golden: String,
+    pub other: T,
+}
+
+/// What stands for a golden signal.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Partner {
+    pub name: String,
+    pub invert: bool,
+    pub delay: u64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    #[serde(default)]
+    ignore: Vec<Spanned<String>>,
+    #[serde(default)]
+    scopes: BTreeMap<Spanned<String>, Spanned<String>>,
+    #[serde(default)]
+    signals: BTreeMap<Spanned<String>, Spanned<Value>>,
+}
+
+impl Map {
+    /// Reads a map file.
+    ///
+    /// # Errors
+    /// The file cannot be read, and what [`parse`](Map::parse) objects to.
+    pub fn read(path: &Path) -> Result<Self, Fault> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            let problem = format!("cannot be read: {error}");
+            Fault::new(&name, 0, "file", problem, "a readable file in TOML")
+        })?;
+        Self::parse(&name, &text)
+    }
+
+    /// Reads a map from text that is called `file` in faults.
+    ///
+    /// # Errors
+    /// No TOML, an unknown key, a name that is given twice, a partner that is none.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Fault> {
+        let line = |place: usize| text[..place.min(text.len())].matches('\n').count() + 1;
+        let written: Written = toml::from_str(text).map_err(|error| {
+            let line = line(error.span().map_or(0, |span| span.start));
+            let field = text.lines().nth(line - 1).unwrap_or("").split('=').next();
+            let field = field.map(str::trim).filter(|field| !field.is_empty());
+            let allowed = "ignore = [\"golden name\"] first, then [scopes] and [signals] with lines \
+                           of \"golden name\" = \"other name\"";
+            Fault::new(file, line, field.unwrap_or("file"), error.message().trim(), allowed)
+        })?;
+        let golden = |name: &Spanned<String>| (line(name.span().start), name.get_ref().clone());
+        let mut map = Map {
+            file: file.to_owned(),
+            ..Map::default()
+        };
+        for name in &written.ignore {
+            let (line, golden) = golden(name);
+            map.ignore.push(Entry {
+                line,
+                golden,
+                other: (),
+            });
+        }
+        for (name, scope) in written.scopes {
+            let (line, golden) = golden(&name);
+            let other = scope.into_inner();
+            map.scopes.push(Entry {
+                line,
+                golden,
+                other,
+            });
+        }
+        for (name, value) in written.signals {
+            let (line, golden) = golden(&name);
+            let other = match (golden.as_str(), value.get_ref()) {
+                ("ignore", Value::Array(_)) => Err((
+                    "stands below [signals]".into(),
+                    "ignore above [scopes] and [signals]",
+                )),
+                (_, value) => partner(value),
+            };
+            let other = other.map_err(|(problem, allowed): (String, _)| {
+                Fault::new(file, line, &golden, problem, allowed)
+            })?;
+            map.signals.push(Entry {
+                line,
+                golden,
+                other,
+            });
+        }
+        // Messages come in the order of the file.
+        map.scopes.sort_by_key(|entry| entry.line);
+        map.signals.sort_by_key(|entry| entry.line);
+        Ok(map)
+    }
+
+    pub(super) fn fault(
+        &self,
+        line: usize,
+        field: &str,
+        problem: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Fault {
+        Fault::new(&self.file, line, field, problem, allowed)
+    }
+}
+
+fn partner(value: &Value) -> Result<Partner, (String, &'static str)> {
+    let (text, delay) = match value {
+        Value::String(text) => (text, 0),
+        Value::Table(table) => {
+            if let Some(key) = table
+                .keys()
+                .find(|key| !matches!(key.as_str(), "name" | "delay"))
+            {
+                // An unquoted path is a table in a table.
+                return Err((
+                    format!("unknown key {key}"),
+                    "name and delay; a golden name with dots stands in quotes",
+                ));
+            }
+            let Some(Value::String(text)) = table.get("name") else {
+                return Err(("no name in it".into(), PARTNER));
+            };
+            let delay = match table.get("delay") {
+                None => 0,
+                Some(Value::Integer(delay)) if *delay >= 0 => delay.unsigned_abs(),
+                Some(delay) => {
+                    return Err((
+                        format!("a delay of {delay}"),
+                        "a whole number of ticks from 0",
+                    ));
+                }
+            };
+            (text, delay)
+        }
+        other => return Err((format!("is {other}"), PARTNER)),
+    };
+    let (name, invert) = match text.strip_prefix('!') {
+        Some(name) => (name, true),
+        None => (text.as_str(), false),
+    };
+    Ok(Partner {
+        name: name.trim().to_owned(),
+        invert,
+        delay,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn refuse(text: &str, refusal: &str) {
+        let fault = Map::parse("m.toml", text).unwrap_err().to_string();
+        assert_eq!(fault, refusal);
+    }
+
+    #[test]
+    fn entries_know_their_lines() {
+        let text = "ignore = [\n  \"t.a\",\n  \"t.b\"]\n[scopes]\n\"t.z\" = \"u\"\n\"t.c\" = \"v\"\n[signals]\n\"t.s\" = { name = \"!u.s\", delay = 3 }\n";
+        let map = Map::parse("m.toml", text).unwrap();
+        let lines = |lines: &mut dyn Iterator<Item = usize>| lines.collect::<Vec<_>>();
+        assert_eq!(
+            lines(&mut map.ignore.iter().map(|entry| entry.line)),
+            [2, 3]
+        );
+        assert_eq!(
+            lines(&mut map.scopes.iter().map(|entry| entry.line)),
+            [5, 6]
+        );
+        let partner = Partner {
+            name: "u.s".into(),
+            invert: true,
+            delay: 3,
+        };
+        let signal = Entry {
+            line: 8,
+            golden: "t.s".into(),
+            other: partner,
+        };
+        assert_eq!(map.signals, [signal]);
+    }
+
+    #[test]
+    fn what_is_no_map_is_refused_with_its_line() {
+        const KEYS: &str = "ignore = [\"golden name\"] first, then [scopes] and [signals] with lines of \"golden name\" = \"other name\"";
+        let partner = format!("; allowed: {PARTNER}");
+        refuse(
+            "\n[signal]\n",
+            &format!(
+                "m.toml:2: [signal]: unknown field `signal`, expected one of `ignore`, `scopes`, `signals`; allowed: {KEYS}"
+            ),
+        );
+        refuse(
+            "[signals]\n\"t.a\" = \"u\"\n\"t.a\" = \"v\"\n",
+            &format!("m.toml:3: \"t.a\": duplicate key; allowed: {KEYS}"),
+        );
+        refuse(
+            "[scopes]\n\"t.a\" = 3\n",
+            &format!(
+                "m.toml:2: \"t.a\": invalid type: integer `3`, expected a string; allowed: {KEYS}"
+            ),
+        );
+        refuse(
+            "[signals]\n\"t.a\" = 3\n",
+            &format!("m.toml:2: t.a: is 3{partner}"),
+        );
+        refuse(
+            "[signals]\n\"t.a\" = { delay = 1 }\n",
+            &format!("m.toml:2: t.a: no name in it{partner}"),
+        );
+        refuse(
+            "[signals]\n\"t.a\" = { name = \"u\", delay = -1 }\n",
+            "m.toml:2: t.a: a delay of -1; allowed: a whole number of ticks from 0",
+        );
+        refuse(
+            "[signals]\nt.a = \"u\"\n",
+            "m.toml:2: t: unknown key a; allowed: name and delay; a golden name with dots stands in quotes",
+        );
+        refuse(
+            "[signals]\nignore = [\"t.a\"]\n",
+            "m.toml:2: ignore: stands below [signals]; allowed: ignore above [scopes] and [signals]",
+        );
+    }
+}

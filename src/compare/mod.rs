@@ -1,0 +1,168 @@
+//! Two waveforms held against each other, tick by tick.
+//!
+//! This is for holding an implementation in Verilog or VHDL against a dump of this crate: the
+//! *golden* file is ours, the *other* is what a simulator wrote. Both are VCD or FST.
+//!
+//! ```no_run
+//! use motion_rtl::compare::{Settings, compare};
+//!
+//! let report = compare("golden.vcd".as_ref(), "tb.vcd".as_ref(), &Settings::default())?;
+//! assert!(report.is_equal(), "{report}");
+//! # Ok::<(), motion_rtl::input::Fault>(())
+//! ```
+//!
+//! **Ticks.** A tick has the values that a flip-flop samples: those that stand just before a
+//! rising edge of the clock. A rising edge is a change from 0 to 1; the first value in a file is
+//! none. Tick 0 lasts to the first edge, tick 1 to the second. What changes at the time of an edge
+//! belongs to the tick that begins with it; within a tick the last value counts. Behind the last
+//! edge there is one more tick if the clock falls again. A window of one of this crate's dumps
+//! counts its ticks as the run did: its times tell. The clock must be 0 or 1 at all times.
+//!
+//! **Pairs.** A golden signal is paired with the signal of the same path below the scope that
+//! stands for golden's outermost one. That is the scope with the most partners, unless
+//! [`Settings::scope`] names it. `mem.word5` and `mem.stage5` are the same as `mem[5]`; where the
+//! other file has a memory of single bits as a vector, they are its bits. A [`Map`] pairs what has
+//! other names. Clocks, and variables without bits, are not compared.
+//!
+//! **Values.** A known golden value equals the same bits and no x or z. A golden value with an x or
+//! z, or before the first value of a signal, is not compared. Signals of more than 64 bits are not
+//! compared. A partner of another width is a difference. What is not compared is counted.
+//!
+//! **Ticks of both.** Tick n of the golden file is held against tick n + [`Settings::skip`] of the
+//! other. What only one of them has is counted.
+//!
+//! **Files that are cut off** are refused where that shows: a VCD that does not end with a line's
+//! end, and one of ours that does not end with a time.
+
+mod around;
+mod hold;
+mod map;
+mod mapped;
+mod names;
+mod pair;
+mod quiet;
+mod render;
+mod report;
+mod runs;
+mod scan;
+mod scope;
+mod sections;
+mod ticks;
+mod value;
+mod wave;
+
+pub use map::Map;
+pub use report::{Cell, Difference, Mismatch, Report, Row, Side, WidthDifference};
+pub use value::WIDEST;
+
+use crate::input::Fault;
+use runs::{Run, Runs, span};
+use std::ops::Range;
+use std::path::Path;
+use wave::Wave;
+
+/// How two files are compared.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Settings {
+    /// The clock, by its path or the end of its path.
+    pub clock: String,
+    /// The other file's clock, where it has another name.
+    pub other_clock: Option<String>,
+    /// The scope of the other file that stands for golden's outermost scope; without it the one
+    /// with the most partners.
+    pub scope: Option<String>,
+    /// Names that differ, and signals to leave out.
+    pub map: Map,
+    /// The tick of the other file that is held against golden's tick 0. Below 0 where the other
+    /// file begins later.
+    pub skip: i64,
+    /// The golden ticks to compare.
+    pub ticks: Range<u64>,
+}
+
+impl Default for Settings {
+    /// All ticks by the clock `clk`.
+    fn default() -> Self {
+        Settings {
+            clock: "clk".to_owned(),
+            other_clock: None,
+            scope: None,
+            map: Map::default(),
+            skip: 0,
+            ticks: 0..u64::MAX,
+        }
+    }
+}
+
+/// Compares two waveform files.
+///
+/// # Errors
+/// A file that cannot be read or is no complete VCD or FST, a clock that is none or is not to be
+/// found, no scope or more than one that stands for golden's, a map that does not fit the files,
+/// nothing to compare.
+pub fn compare(golden: &Path, other: &Path, settings: &Settings) -> Result<Report, Fault> {
+    let (golden, other) = std::thread::scope(|scope| {
+        let reading = scope.spawn(|| Wave::read(golden));
+        let other = Wave::read(other);
+        let golden = reading.join().unwrap_or_else(|_| Wave::read(golden));
+        golden.and_then(|golden| Ok((golden, other?)))
+    })?;
+    compare_waves(golden, other, settings)
+}
+
+fn compare_waves(mut golden: Wave, mut other: Wave, settings: &Settings) -> Result<Report, Fault> {
+    let clock = ticks::clock(&golden, "--clock", &settings.clock, None)?;
+    let other_clock = match &settings.other_clock {
+        Some(name) => ticks::clock(&other, "--other-clock", name, None)?,
+        None => {
+            let path = golden.variables[clock].path.as_str();
+            let name = settings.clock.rsplit('.').next().unwrap_or_default();
+            ticks::clock(&other, "--clock", name, Some(path))?
+        }
+    };
+    let pairing = pair::pair(
+        &golden,
+        &other,
+        (clock, other_clock),
+        &settings.map,
+        settings.scope.as_deref(),
+    )?;
+    if let Some(fault) = pair::nothing(&golden, &other, &pairing) {
+        return Err(fault);
+    }
+    golden.load(pairing.pairs.iter().map(|pair| pair.golden).chain([clock]))?;
+    other.load(
+        pairing
+            .pairs
+            .iter()
+            .map(|pair| pair.other)
+            .chain([other_clock]),
+    )?;
+    let golden = Run::of(golden, clock)?;
+    let other = Run::of(other, other_clock)?;
+    let start = i128::from(other.ticks.first) - i128::from(settings.skip);
+    let end = start + i128::from(other.ticks.count);
+    let common = ticks::common(&golden.ticks, start..end, &settings.ticks);
+    if common.is_empty() {
+        let first = i128::from(golden.ticks.first);
+        let mut problem = format!(
+            "no common tick: {} has {}, this file {} in golden's count",
+            golden.wave.file,
+            span(first..first + i128::from(golden.ticks.count)),
+            span(start..end)
+        );
+        if settings.ticks != (0..u64::MAX) {
+            let asked = i128::from(settings.ticks.start)..i128::from(settings.ticks.end);
+            problem.push_str(&format!(", asked for are {}", span(asked)));
+        }
+        let allowed = "--skip, --from and --ticks that leave a tick of both";
+        return Err(Fault::new(&other.wave.file, 0, "ticks", problem, allowed));
+    }
+    Runs {
+        golden,
+        other,
+        start,
+        common,
+    }
+    .report(pairing, settings)
+}

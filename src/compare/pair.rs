@@ -1,0 +1,212 @@
+//! Which signal of the other file stands for which of the golden one.
+
+use super::map::{Entry, Map};
+use super::mapped::{by_name, check_scopes, golden_signal, ignored};
+use super::names::{brackets, element, listed};
+use super::report::WidthDifference;
+use super::scope;
+use super::value::WIDEST;
+use super::wave::Wave;
+use crate::input::Fault;
+use std::collections::HashSet;
+
+/// A golden signal and the bits of the other file that stand for it.
+#[derive(Debug, Clone)]
+pub(super) struct Pair {
+    pub golden: usize,
+    pub other: usize,
+    /// The lowest bit of the other signal.
+    pub low: u32,
+    pub width: u32,
+    pub invert: bool,
+    /// Ticks by which the other one is later.
+    pub delay: u64,
+    /// The other one as the report calls it.
+    pub name: String,
+}
+
+/// What became of every golden signal.
+#[derive(Debug, Default)]
+pub(super) struct Pairing {
+    pub pairs: Vec<Pair>,
+    /// The scope that stands for golden's top, where it was needed.
+    pub scope: Option<String>,
+    pub ignored: Vec<usize>,
+    pub without_partner: Vec<usize>,
+    pub too_wide: Vec<usize>,
+    pub widths: Vec<WidthDifference>,
+    /// Partners, in the other file, of the last two.
+    not_compared: Vec<usize>,
+}
+
+/// Pairs the signals. The clocks are no pair.
+pub(super) fn pair(
+    golden: &Wave,
+    other: &Wave,
+    clocks: (usize, usize),
+    map: &Map,
+    wanted: Option<&str>,
+) -> Result<Pairing, Fault> {
+    let clock = golden.variables[clocks.0].signal;
+    let signals =
+        (0..golden.variables.len()).filter(|&index| golden.variables[index].signal != clock);
+    let mut pairing = Pairing::default();
+    let ignored = ignored(golden, map)?;
+    let (out, open): (Vec<usize>, Vec<usize>) = signals.partition(|index| ignored.contains(index));
+    pairing.ignored = out;
+
+    let mut named = HashSet::new();
+    for entry in &map.signals {
+        let index = golden_signal(golden, map, entry)?;
+        if index == clocks.0 || golden.variables[index].signal == clock {
+            return Err(map.fault(
+                entry.line,
+                &entry.golden,
+                "is the clock",
+                "--other-clock for the other file's clock",
+            ));
+        }
+        if !named.insert(index) {
+            return Err(map.fault(
+                entry.line,
+                &entry.golden,
+                "is given twice",
+                "one line for a golden signal",
+            ));
+        }
+        let pair = by_name(golden, other, map, entry, index)?;
+        if !ignored.contains(&index) {
+            pairing.add(golden, other, pair);
+        }
+    }
+
+    check_scopes(golden, other, map)?;
+    let mut rest = Vec::new();
+    for index in open.into_iter().filter(|index| !named.contains(index)) {
+        let path = &golden.variables[index].path;
+        let below = |entry: &&Entry<String>| {
+            let rest = path.strip_prefix(&entry.golden);
+            rest.is_some_and(|rest| rest.starts_with(['.', '[']))
+        };
+        // The innermost scope decides.
+        let entry = map
+            .scopes
+            .iter()
+            .filter(below)
+            .max_by_key(|entry| entry.golden.len());
+        match entry {
+            Some(entry) => {
+                let name = format!("{}{}", entry.other, &path[entry.golden.len()..]);
+                pairing.try_path(golden, other, index, &name);
+            }
+            None => rest.push(index),
+        }
+    }
+
+    let scope = scope::find(
+        golden,
+        other,
+        clocks.1,
+        &rest,
+        wanted,
+        !pairing.pairs.is_empty(),
+    )?;
+    for index in rest {
+        match &scope {
+            Some(scope) => {
+                let name = scope::below(scope, scope::relative(golden, index));
+                pairing.try_path(golden, other, index, &name);
+            }
+            None => pairing.without_partner.push(index),
+        }
+    }
+    pairing.scope = scope;
+    pairing.pairs.sort_by_key(|pair| pair.golden);
+    Ok(pairing)
+}
+
+impl Pairing {
+    /// Every variable of the other file that is a partner, compared or not.
+    pub fn used_others(&self) -> impl Iterator<Item = usize> {
+        let pairs = self.pairs.iter().map(|pair| pair.other);
+        pairs.chain(self.not_compared.iter().copied())
+    }
+
+    fn try_path(&mut self, golden: &Wave, other: &Wave, index: usize, name: &str) {
+        match partner(golden, other, index, name) {
+            Some(pair) => self.add(golden, other, pair),
+            None => self.without_partner.push(index),
+        }
+    }
+
+    fn add(&mut self, golden: &Wave, other: &Wave, pair: Pair) {
+        let variable = &golden.variables[pair.golden];
+        if pair.width != variable.width || pair.width > WIDEST {
+            self.not_compared.push(pair.other);
+        }
+        if pair.width != variable.width {
+            self.widths.push(WidthDifference {
+                golden: variable.path.clone(),
+                golden_bits: variable.width,
+                other: other.variables[pair.other].path.clone(),
+                other_bits: pair.width,
+            });
+        } else if pair.width > WIDEST {
+            self.too_wide.push(pair.golden);
+        } else {
+            self.pairs.push(pair);
+        }
+    }
+}
+
+/// The signal of this path, or the bit of a vector that stands for a word of one bit: some
+/// dumps write a memory of single bits as a vector.
+pub(super) fn partner(golden: &Wave, other: &Wave, index: usize, name: &str) -> Option<Pair> {
+    let whole = |found: usize| Pair {
+        golden: index,
+        other: found,
+        low: 0,
+        width: other.variables[found].width,
+        invert: false,
+        delay: 0,
+        name: other.variables[found].path.clone(),
+    };
+    if let Some(found) = other.find(name) {
+        return Some(whole(found));
+    }
+    if golden.variables[index].width != 1 {
+        return None;
+    }
+    let element = element(name);
+    let (base, number, last) = brackets(&element)?;
+    let found = other.find(base).filter(|_| number == last)?;
+    Some(Pair {
+        low: other.variables[found].place(number)?,
+        width: 1,
+        name: element.clone(),
+        ..whole(found)
+    })
+}
+
+/// Where nothing is paired there is nothing to compare.
+pub(super) fn nothing(golden: &Wave, other: &Wave, pairing: &Pairing) -> Option<Fault> {
+    if !pairing.pairs.is_empty() || !pairing.widths.is_empty() {
+        return None;
+    }
+    let alone: Vec<_> = pairing
+        .without_partner
+        .iter()
+        .map(|&index| &golden.variables[index].path)
+        .collect();
+    let allowed = format!(
+        "--scope or --map that pairs at least one of {}",
+        listed(&alone)
+    );
+    Some(Fault::new(
+        &other.file,
+        0,
+        "file",
+        "no signal of the golden file has a partner here",
+        allowed,
+    ))
+}

@@ -1,0 +1,132 @@
+use serde::Serialize;
+
+/// What comparing two files came to.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Report {
+    /// The golden file.
+    pub golden: Side,
+    /// The other file.
+    pub other: Side,
+    /// The scope of the other file that stands for golden's outermost scope; none where a map
+    /// pairs all signals.
+    pub scope: Option<String>,
+    /// The first tick compared, in golden's count.
+    pub from_tick: u64,
+    /// Ticks compared.
+    pub ticks: u64,
+    /// Ticks left out at the beginning of the other file.
+    pub skip: i64,
+    /// Signals compared.
+    pub signals: usize,
+    /// Values compared: ticks by signals, without those that are unknown in the golden file.
+    pub values: u64,
+    /// Values with an x or z in the golden file. They are not compared.
+    pub unknown_values: u64,
+    /// Golden signals without a partner.
+    pub without_partner: Vec<String>,
+    /// How many signals of the other file are no partner.
+    pub other_without_partner: usize,
+    /// Golden signals that the map leaves out.
+    pub ignored: Vec<String>,
+    /// Signals of more than 64 bits. They are not compared.
+    pub too_wide: Vec<String>,
+    /// Signals whose partner has another width. They are not compared, and the files differ.
+    pub different_widths: Vec<WidthDifference>,
+    /// The signals that differ, by the first tick in which they do.
+    pub differences: Vec<Difference>,
+    /// Where the files differ first.
+    pub first: Option<Mismatch>,
+}
+
+/// One of the two files.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Side {
+    /// Its name as given.
+    pub file: String,
+    /// Its clock.
+    pub clock: String,
+    /// The number of its first tick: not 0 in a window of one of this crate's dumps.
+    pub first_tick: u64,
+    /// Its ticks.
+    pub ticks: u64,
+    /// Ticks of it that the other file does not have.
+    pub alone: u64,
+    /// Variables without bits, such as strings and reals. They are not compared.
+    pub without_bits: usize,
+}
+
+/// A signal that has another width in the other file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct WidthDifference {
+    /// The golden signal.
+    pub golden: String,
+    /// Its width.
+    pub golden_bits: u32,
+    /// Its partner.
+    pub other: String,
+    /// The partner's width.
+    pub other_bits: u32,
+}
+
+/// A signal that differs.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Difference {
+    /// The golden signal.
+    pub golden: String,
+    /// Its partner.
+    pub other: String,
+    /// The first tick in which it differs.
+    pub tick: u64,
+    /// In how many ticks it differs.
+    pub ticks: u64,
+}
+
+/// The first mismatch, and what surrounds it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Mismatch {
+    /// The tick, in golden's count.
+    pub tick: u64,
+    /// When it begins in the golden file.
+    pub golden_time: String,
+    /// When the tick it was held against begins in the other file.
+    pub other_time: String,
+    /// How many signals differ in it.
+    pub signals: usize,
+    /// The golden signal.
+    pub golden: String,
+    /// Its partner.
+    pub other: String,
+    /// The golden value.
+    pub golden_value: String,
+    /// The other value.
+    pub other_value: String,
+    /// The ticks shown.
+    pub shown_ticks: Vec<u64>,
+    /// The signals that differ, then others of their scopes.
+    pub rows: Vec<Row>,
+}
+
+/// A signal around the first mismatch.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Row {
+    /// The golden signal.
+    pub signal: String,
+    /// A cell for each tick shown.
+    pub cells: Vec<Cell>,
+}
+
+/// The values of a tick: hexadecimal, or binary with x and z.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Cell {
+    /// The golden value.
+    pub golden: String,
+    /// The other value, where it differs.
+    pub other: Option<String>,
+}
+
+impl Report {
+    /// Whether everything that was compared is equal, and no partner has another width.
+    pub fn is_equal(&self) -> bool {
+        self.differences.is_empty() && self.different_widths.is_empty()
+    }
+}

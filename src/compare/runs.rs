@@ -1,0 +1,155 @@
+use super::Settings;
+use super::hold::{Samples, Tally, hold};
+use super::pair::{Pair, Pairing};
+use super::report::{Difference, Report, Side};
+use super::ticks::Ticks;
+use super::wave::Wave;
+use crate::input::Fault;
+use std::collections::HashSet;
+use std::ops::Range;
+
+/// One file with its ticks.
+#[derive(Debug)]
+pub(super) struct Run {
+    pub wave: Wave,
+    pub clock: usize,
+    pub ticks: Ticks,
+}
+
+/// Two files with common ticks.
+#[derive(Debug)]
+pub(super) struct Runs {
+    pub golden: Run,
+    pub other: Run,
+    /// The golden tick of the other file's first tick.
+    pub start: i128,
+    pub common: Range<i128>,
+}
+
+pub(super) fn span(ticks: Range<i128>) -> String {
+    match ticks.is_empty() {
+        true => "no tick".to_owned(),
+        false => format!("ticks {} to {}", ticks.start, ticks.end - 1),
+    }
+}
+
+pub(super) fn number(tick: i128) -> u64 {
+    u64::try_from(tick).unwrap_or(0)
+}
+
+impl Run {
+    pub fn of(wave: Wave, clock: usize) -> Result<Self, Fault> {
+        let ticks = Ticks::of(&wave, clock)?;
+        Ok(Run { wave, clock, ticks })
+    }
+
+    fn side(&self, alone: i128) -> Side {
+        Side {
+            file: self.wave.file.clone(),
+            clock: self.wave.variables[self.clock].path.clone(),
+            first_tick: self.ticks.first,
+            ticks: self.ticks.count,
+            alone: number(alone),
+            without_bits: self.wave.without_bits,
+        }
+    }
+}
+
+impl Runs {
+    pub fn samples(&self, pair: &Pair) -> Result<(Samples, Samples), Fault> {
+        let width = pair.width;
+        let golden = self.golden.wave.changes(pair.golden, 0, width)?;
+        let mut other = self.other.wave.changes(pair.other, pair.low, width)?;
+        if pair.invert {
+            for (_, value) in &mut other {
+                *value = value.inverted(width);
+            }
+        }
+        let golden = Samples {
+            changes: self.golden.ticks.sample(&golden),
+            zero: self.golden.ticks.first.into(),
+            width,
+        };
+        let other = Samples {
+            changes: self.other.ticks.sample(&other),
+            zero: self.start - i128::from(pair.delay),
+            width,
+        };
+        Ok((golden, other))
+    }
+
+    fn tally(&self, pair: &Pair) -> Result<Tally, Fault> {
+        let (golden, other) = self.samples(pair)?;
+        // A signal that is late has its last ticks behind the end of the file.
+        let end = self
+            .common
+            .end
+            .min(other.zero + i128::from(self.other.ticks.count));
+        Ok(hold(&golden, &other, self.common.start..end))
+    }
+
+    pub fn report(&self, pairing: Pairing, settings: &Settings) -> Result<Report, Fault> {
+        let (mut values, mut unknown) = (0, 0);
+        let mut differing = Vec::new();
+        for (place, pair) in pairing.pairs.iter().enumerate() {
+            let tally = self.tally(pair)?;
+            values += tally.compared;
+            unknown += tally.unknown;
+            if let Some(first) = tally.first {
+                differing.push((number(first), place, tally.differing));
+            }
+        }
+        differing.sort_unstable();
+        let paths = |wave: &Wave, of: &[usize]| -> Vec<String> {
+            of.iter()
+                .map(|&index| wave.variables[index].path.clone())
+                .collect()
+        };
+        let (golden, other) = (&self.golden, &self.other);
+        let differences = differing.iter().map(|&(tick, place, ticks)| Difference {
+            golden: golden.wave.variables[pairing.pairs[place].golden]
+                .path
+                .clone(),
+            other: pairing.pairs[place].name.clone(),
+            tick,
+            ticks,
+        });
+        let window = i128::from(settings.ticks.start)..i128::from(settings.ticks.end);
+        let alone = |start: i128, run: &Run| {
+            let end = (start + i128::from(run.ticks.count)).min(window.end);
+            (end - start.max(window.start)).max(0) - (self.common.end - self.common.start)
+        };
+        Ok(Report {
+            golden: golden.side(alone(golden.ticks.first.into(), golden)),
+            other: other.side(alone(self.start, other)),
+            from_tick: number(self.common.start),
+            ticks: number(self.common.end - self.common.start),
+            skip: settings.skip,
+            signals: pairing.pairs.len(),
+            values,
+            unknown_values: unknown,
+            without_partner: paths(&golden.wave, &pairing.without_partner),
+            other_without_partner: self.without_partner(&pairing),
+            ignored: paths(&golden.wave, &pairing.ignored),
+            too_wide: paths(&golden.wave, &pairing.too_wide),
+            differences: differences.collect(),
+            first: self.first(&pairing.pairs, &differing)?,
+            scope: pairing.scope,
+            different_widths: pairing.widths,
+        })
+    }
+
+    /// Signals of the other file that no pair takes bits of, aliases counted once.
+    fn without_partner(&self, pairing: &Pairing) -> usize {
+        let wave = &self.other.wave;
+        let mut used: HashSet<_> = pairing
+            .used_others()
+            .map(|index| wave.variables[index].signal)
+            .collect();
+        used.insert(wave.variables[self.other.clock].signal);
+        wave.variables
+            .iter()
+            .filter(|variable| used.insert(variable.signal))
+            .count()
+    }
+}

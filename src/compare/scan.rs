@@ -1,0 +1,193 @@
+//! A VCD is looked through before it is read: the reader takes much that is wrong in silence, and
+//! panics at the rest.
+
+mod header;
+
+use crate::input::Fault;
+use header::header;
+use std::collections::HashMap;
+
+const VALUES: &str =
+    "0, 1, x or z and the code of a variable, b and the bits, r, s, or # and a time";
+
+/// What the values of a code are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Bits(u32),
+    Real,
+    String,
+}
+
+/// The words of a file with their lines.
+struct Words<'a> {
+    file: &'a str,
+    bytes: &'a [u8],
+    place: usize,
+    line: usize,
+}
+
+/// Refuses what is no complete VCD, with the line.
+pub(super) fn check(file: &str, bytes: &[u8]) -> Result<(), Fault> {
+    let mut words = Words {
+        file,
+        bytes,
+        place: 0,
+        line: 1,
+    };
+    let (codes, ours) = header(&mut words)?;
+    if codes.is_empty() {
+        return Err(Fault::new(
+            file,
+            0,
+            "file",
+            "no signal in it",
+            "a VCD with signals",
+        ));
+    }
+    let ends_with_time = body(&mut words, &codes)?;
+    if bytes.last() != Some(&b'\n') {
+        return Err(words.cut_off("the file ends within this line"));
+    }
+    if ours && !ends_with_time {
+        words.line -= 1;
+        return Err(words.cut_off("the last line is no time"));
+    }
+    Ok(())
+}
+
+impl<'a> Words<'a> {
+    fn next(&mut self) -> Option<&'a [u8]> {
+        while let Some(byte) = self
+            .bytes
+            .get(self.place)
+            .filter(|byte| byte.is_ascii_whitespace())
+        {
+            self.line += usize::from(*byte == b'\n');
+            self.place += 1;
+        }
+        let rest = &self.bytes[self.place..];
+        let end = rest.iter().position(u8::is_ascii_whitespace);
+        let word = &rest[..end.unwrap_or(rest.len())];
+        self.place += word.len();
+        (!word.is_empty()).then_some(word)
+    }
+
+    fn fault(&self, field: &[u8], problem: impl Into<String>, allowed: impl Into<String>) -> Fault {
+        let field = String::from_utf8_lossy(field)
+            .chars()
+            .take(40)
+            .collect::<String>();
+        Fault::new(self.file, self.line, field, problem, allowed)
+    }
+
+    fn cut_off(&self, problem: &str) -> Fault {
+        self.fault(b"file", problem, "a complete VCD: this one is cut off")
+    }
+
+    /// The words of a command up to its `$end`.
+    fn command(&mut self, name: &[u8]) -> Result<Vec<&'a [u8]>, Fault> {
+        let line = self.line;
+        let mut words = Vec::new();
+        while let Some(word) = self.next() {
+            if word == b"$end" {
+                return Ok(words);
+            }
+            if word.windows(4).any(|part| part == b"$end") {
+                return Err(self.fault(word, "$end within a word", "$end by itself"));
+            }
+            words.push(word);
+        }
+        self.line = line;
+        Err(self.fault(name, "has no $end", "a complete VCD: this one is cut off"))
+    }
+}
+
+/// Whether the last word is a time.
+fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<bool, Fault> {
+    let mut now = None;
+    let mut values = false;
+    let mut ends_with_time = false;
+    while let Some(word) = words.next() {
+        ends_with_time = false;
+        let (first, rest) = word.split_first().unwrap_or((&0, &[]));
+        match first {
+            b'#' => {
+                let time = str::from_utf8(rest)
+                    .ok()
+                    .and_then(|text| text.parse::<u64>().ok());
+                let Some(time) = time else {
+                    return Err(words.fault(word, "is no time", "# and a whole number below 2^64"));
+                };
+                if now.is_some_and(|before| before > time) {
+                    return Err(words.fault(word, "the time goes back", "times that grow"));
+                }
+                now = Some(time);
+                ends_with_time = true;
+                continue;
+            }
+            b'$' => {
+                match word {
+                    b"$comment" => drop(words.command(word)?),
+                    b"$dumpvars" | b"$dumpon" | b"$dumpoff" | b"$dumpall" | b"$end" => {}
+                    _ => {
+                        return Err(words.fault(
+                            word,
+                            "is no command between values",
+                            "$dumpvars, $dumpon, $dumpoff, $dumpall, $comment",
+                        ));
+                    }
+                }
+                continue;
+            }
+            _ => {}
+        }
+        values = true;
+        let (digits, code) = match first {
+            b'b' | b'B' | b'r' | b'R' | b's' | b'S' => (rest, words.next()),
+            _ => (&word[..1], Some(rest)),
+        };
+        let Some(code) = code else {
+            return Err(words.cut_off("a value without the code of its variable"));
+        };
+        let Some(kind) = codes.get(code) else {
+            let problem = format!("{} is no code of a variable", String::from_utf8_lossy(code));
+            return Err(words.fault(word, problem, VALUES));
+        };
+        let fits = match (first, kind) {
+            (b'r' | b'R', Kind::Real) => {
+                str::from_utf8(digits).is_ok_and(|text| text.parse::<f64>().is_ok())
+            }
+            (b's' | b'S', Kind::String) => str::from_utf8(digits).is_ok(),
+            (b'r' | b'R' | b's' | b'S', _) => false,
+            (_, Kind::Bits(width)) => {
+                let known = |digit: &u8| b"01xXzZhHuUwWlL-".contains(digit);
+                (1..=*width as usize).contains(&digits.len()) && digits.iter().all(known)
+            }
+            _ => false,
+        };
+        if !fits {
+            return Err(words.fault(word, format!("is no value of {kind}"), VALUES));
+        }
+    }
+    if !values {
+        return Err(Fault::new(
+            words.file,
+            0,
+            "file",
+            "no value in it",
+            "a VCD with values",
+        ));
+    }
+    Ok(ends_with_time)
+}
+
+impl std::fmt::Display for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Kind::Bits(1) => write!(f, "a signal of 1 bit"),
+            Kind::Bits(width) => write!(f, "a signal of {width} bits"),
+            Kind::Real => write!(f, "a real"),
+            Kind::String => write!(f, "a string"),
+        }
+    }
+}

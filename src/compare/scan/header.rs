@@ -1,0 +1,122 @@
+use super::{Kind, Words};
+use crate::input::Fault;
+use std::collections::{HashMap, HashSet};
+
+/// The widest variable, in bits. Beyond it a wrong number is likelier than a signal.
+const WIDEST: u32 = 1 << 20;
+
+/// The codes that are declared, and whether this crate wrote the file.
+pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<(HashMap<&'a [u8], Kind>, bool), Fault> {
+    let mut codes = HashMap::new();
+    let mut once = HashSet::new();
+    let mut depth = 0;
+    let mut ours = false;
+    while let Some(name) = words.next() {
+        if !name.starts_with(b"$") {
+            return Err(words.fault(
+                name,
+                "is no command",
+                "commands such as $var up to $enddefinitions",
+            ));
+        }
+        let line = words.line;
+        let body = words.command(name)?;
+        match name {
+            b"$date" | b"$version" | b"$timescale" => {
+                if !once.insert(name) {
+                    return Err(words.fault(name, "stands here again", "one in a file"));
+                }
+                ours |= name == b"$version" && body.first() == Some(&&b"motion-rtl"[..]);
+            }
+            b"$comment" | b"$attrbegin" | b"$attrend" => {}
+            b"$scope" if body.len() < 2 => {
+                return Err(words.fault(name, "a word is missing", "$scope KIND NAME $end"));
+            }
+            b"$scope" => depth += 1,
+            b"$upscope" if depth == 0 => {
+                return Err(words.fault(name, "no scope is open", "one $upscope for each $scope"));
+            }
+            b"$upscope" => depth -= 1,
+            b"$var" => variable(words, line, &body, &mut codes)?,
+            b"$enddefinitions" => {
+                // The reader begins with the next line.
+                let rest = &words.bytes[words.place..];
+                let end = rest
+                    .iter()
+                    .position(|&byte| byte == b'\n')
+                    .unwrap_or(rest.len());
+                if !rest[..end].trim_ascii().is_empty() {
+                    return Err(words.fault(
+                        name,
+                        "values stand behind it",
+                        "values in lines of their own",
+                    ));
+                }
+                return Ok((codes, ours));
+            }
+            _ => {
+                return Err(words.fault(
+                    name,
+                    "is no command of a VCD's header",
+                    "commands such as $var up to $enddefinitions",
+                ));
+            }
+        }
+    }
+    Err(words.cut_off("the file ends before $enddefinitions"))
+}
+
+fn variable<'a>(
+    words: &Words<'a>,
+    line: usize,
+    body: &[&'a [u8]],
+    codes: &mut HashMap<&'a [u8], Kind>,
+) -> Result<(), Fault> {
+    let fault = |field: &[u8], problem: &str, allowed: &str| {
+        let mut fault = words.fault(field, problem, allowed);
+        fault.line = line;
+        fault
+    };
+    let &[kind, width, code, name, ..] = body else {
+        return Err(fault(
+            b"$var",
+            "a word is missing",
+            "$var KIND WIDTH CODE NAME $end",
+        ));
+    };
+    let width = str::from_utf8(width)
+        .ok()
+        .and_then(|text| text.parse().ok());
+    let kind = match (kind, width) {
+        (b"string", _) => Kind::String,
+        (b"real" | b"realtime" | b"shortreal" | b"real_parameter", _) => Kind::Real,
+        (b"event", _) => Kind::Bits(1),
+        (_, Some(width @ 1..=WIDEST)) => Kind::Bits(width),
+        _ => return Err(fault(name, "has no width", "1 to 1048576 bits")),
+    };
+    if !code.iter().all(u8::is_ascii_graphic) {
+        return Err(fault(
+            name,
+            "its code is not visible ASCII",
+            "a code of the characters ! to ~",
+        ));
+    }
+    if name.starts_with(b"[") {
+        return Err(fault(
+            name,
+            "begins with a bracket",
+            "a name, then its range",
+        ));
+    }
+    if codes
+        .insert(code, kind)
+        .is_some_and(|earlier| earlier != kind)
+    {
+        return Err(fault(
+            name,
+            "another variable of its code has another width or kind",
+            "one code for each signal",
+        ));
+    }
+    Ok(())
+}

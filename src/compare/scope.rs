@@ -1,0 +1,129 @@
+//! The scope of the other file that stands for golden's top.
+
+use super::names::{element, listed};
+use super::pair::partner;
+use super::wave::Wave;
+use crate::input::Fault;
+use std::collections::{HashMap, HashSet};
+
+/// The path of a golden signal without the top scope.
+pub(super) fn relative(golden: &Wave, index: usize) -> &str {
+    let path = &golden.variables[index].path;
+    path.split_once('.').map_or(path, |(_, below)| below)
+}
+
+/// A path below a scope; the scope without a name is the file itself.
+pub(super) fn below(scope: &str, path: &str) -> String {
+    match scope {
+        "" => path.to_owned(),
+        scope => format!("{scope}.{path}"),
+    }
+}
+
+/// The scope that is wanted, or the one with the most partners. Where there is none it is an
+/// error, unless something is paired already.
+pub(super) fn find(
+    golden: &Wave,
+    other: &Wave,
+    clock: usize,
+    signals: &[usize],
+    wanted: Option<&str>,
+    paired: bool,
+) -> Result<Option<String>, Fault> {
+    let fault =
+        |problem: String, allowed: String| Fault::new(&other.file, 0, "--scope", problem, allowed);
+    if let Some(wanted) = wanted {
+        return match other.has_scope(wanted) {
+            true => Ok(Some(wanted.to_owned())),
+            false => Err(fault(
+                format!("there is no {wanted}"),
+                format!("a scope: {}", other.scopes()),
+            )),
+        };
+    }
+    if signals.is_empty() {
+        return Ok(None);
+    }
+    let top = |index: &usize| golden.variables[*index].path.split('.').next();
+    let first = signals.first().and_then(top);
+    if let Some(second) = signals.iter().map(top).find(|&scope| scope != first) {
+        let tops = listed(&[first.unwrap_or(""), second.unwrap_or("")]);
+        let problem = format!("more than one outermost scope: {tops}");
+        return Err(Fault::new(
+            &golden.file,
+            0,
+            "file",
+            problem,
+            "one scope that holds all signals",
+        ));
+    }
+    let best = candidates(golden, other, clock, signals);
+    let shown: Vec<_> = best
+        .iter()
+        .map(|scope| match scope.as_str() {
+            "" => "(no scope)",
+            scope => scope,
+        })
+        .collect();
+    match &best[..] {
+        [one] => Ok(Some(one.clone())),
+        _ if paired => Ok(None),
+        [] => Err(fault(
+            "no scope has a signal of the golden file's".into(),
+            format!(
+                "the scope that stands for {}: {}",
+                first.unwrap_or(""),
+                other.scopes()
+            ),
+        )),
+        _ => Err(fault(
+            format!(
+                "{} scopes have the same number of signals of the golden file's",
+                best.len()
+            ),
+            format!("one of {}", listed(&shown)),
+        )),
+    }
+}
+
+/// The scopes with the most partners. Those that hold the same signals by other names are one.
+fn candidates(golden: &Wave, other: &Wave, clock: usize, signals: &[usize]) -> Vec<String> {
+    let wanted: HashSet<_> = signals
+        .iter()
+        .map(|&index| element(relative(golden, index)))
+        .collect();
+    let clock = other.variables[clock].signal;
+    let mut counts: HashMap<String, usize> = HashMap::new();
+    for variable in other
+        .variables
+        .iter()
+        .filter(|variable| variable.signal != clock)
+    {
+        let path = element(&variable.path);
+        if wanted.contains(&path) {
+            *counts.entry(String::new()).or_default() += 1;
+        }
+        for (place, _) in path.match_indices('.') {
+            if wanted.contains(&path[place + 1..]) {
+                *counts.entry(path[..place].to_owned()).or_default() += 1;
+            }
+        }
+    }
+    let most = counts.values().copied().max().unwrap_or(0);
+    let mut best: Vec<_> = counts
+        .into_iter()
+        .filter(|(_, count)| *count == most)
+        .map(|(scope, _)| scope)
+        .collect();
+    // The innermost of them stands for all.
+    best.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| a.cmp(b)));
+    let mut seen = HashSet::new();
+    best.retain(|scope| {
+        let partners = |&index: &usize| {
+            let pair = partner(golden, other, index, &below(scope, relative(golden, index)))?;
+            Some(other.variables[pair.other].signal)
+        };
+        seen.insert(signals.iter().map(partners).collect::<Vec<_>>())
+    });
+    best
+}

@@ -1,0 +1,101 @@
+//! An FST is looked through before it is read: the reader makes room for whatever number of bytes
+//! or items the file claims to have, and where there is no such room the program ends.
+
+use crate::input::Fault;
+
+/// The most that deflate can make of a byte.
+const EXPANSION: u64 = 1032;
+
+const HEADER: u8 = 0;
+const GEOMETRY: u8 = 3;
+
+struct Section<'a> {
+    kind: u8,
+    bytes: &'a [u8],
+}
+
+/// Refuses sections that claim more than they can hold.
+pub(super) fn check(file: &str, bytes: &[u8]) -> Result<(), Fault> {
+    let sections = sections(bytes);
+    let holds = sections.is_some_and(|sections| {
+        let complete = sections.iter().any(|section| section.kind == GEOMETRY);
+        let handles = sections.iter().filter(|section| section.kind == GEOMETRY);
+        let handles = handles.filter_map(|section| number(section.bytes, 8)).max();
+        let fits = |section: &Section<'_>| fits(section, handles.unwrap_or(0)).is_some();
+        complete && sections.iter().all(fits)
+    });
+    match holds {
+        true => Ok(()),
+        false => Err(Fault::new(
+            file,
+            0,
+            "file",
+            "its sections do not fit together",
+            "a complete FST, from a simulator that has ended",
+        )),
+    }
+}
+
+/// The eight bytes at this place as a number.
+fn number(bytes: &[u8], place: usize) -> Option<u64> {
+    let end = place.checked_add(8)?;
+    Some(u64::from_be_bytes(bytes.get(place..end)?.try_into().ok()?))
+}
+
+/// A number of seven bits a byte, the lowest first; behind it what follows.
+fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
+    let mut value = 0;
+    for (place, byte) in bytes.iter().take(9).enumerate() {
+        value |= u64::from(byte & 0x7f) << (7 * place);
+        if byte & 0x80 == 0 {
+            return Some((value, &bytes[place + 1..]));
+        }
+    }
+    None
+}
+
+/// The sections without kind and length, to the end of the file.
+fn sections(mut rest: &[u8]) -> Option<Vec<Section<'_>>> {
+    let mut sections = Vec::new();
+    while let Some((&kind, after)) = rest.split_first() {
+        let length = usize::try_from(number(after, 0)?).ok()?;
+        let bytes = after.get(8..length)?;
+        sections.push(Section { kind, bytes });
+        rest = &after[length..];
+    }
+    Some(sections)
+}
+
+/// Nothing where the section claims too much.
+fn fits(section: &Section<'_>, handles: u64) -> Option<()> {
+    let bytes = section.bytes;
+    let room = (bytes.len() as u64).checked_mul(EXPANSION)?;
+    let within = |value: u64, most: u64| (value <= most).then_some(());
+    match section.kind {
+        HEADER => within(320, bytes.len() as u64),
+        // Values: two times, memory, the first values, the changes, and last the times.
+        1 | 5 | 8 => {
+            let times = bytes.len().checked_sub(24)?;
+            let uncompressed = number(bytes, times)?;
+            within(uncompressed, room)?;
+            within(number(bytes, times + 8)?, times as u64)?;
+            within(number(bytes, times + 16)?, uncompressed)?;
+            let (uncompressed, rest) = varint(bytes.get(24..)?)?;
+            within(uncompressed, room)?;
+            let (compressed, rest) = varint(rest)?;
+            within(compressed, rest.len() as u64)?;
+            let (count, rest) = varint(rest)?;
+            within(count, handles)?;
+            let (count, _) = varint(rest.get(usize::try_from(compressed).ok()?..)?)?;
+            within(count, handles)
+        }
+        GEOMETRY => {
+            let uncompressed = number(bytes, 0)?;
+            within(uncompressed, room)?;
+            within(number(bytes, 8)?, uncompressed)
+        }
+        // The hierarchy, however it is compressed.
+        4 | 6 | 7 => within(number(bytes, 0)?, room.saturating_mul(EXPANSION)),
+        _ => Some(()),
+    }
+}

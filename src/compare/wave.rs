@@ -1,0 +1,270 @@
+use super::names::{self, listed};
+use super::quiet::catch;
+use super::scan;
+use super::sections;
+use super::value::Value;
+use crate::input::Fault;
+use std::collections::HashMap;
+use std::fs;
+use std::io::Cursor;
+use std::path::Path;
+use wellen::simple::Waveform;
+use wellen::{FileFormat, SignalRef, SignalValueRef, VarType, viewers};
+
+/// A variable that has bits.
+#[derive(Debug)]
+pub(super) struct Variable {
+    pub path: String,
+    pub width: u32,
+    /// Declared as `reg`.
+    pub register: bool,
+    /// Variables of the same signal are aliases.
+    pub signal: SignalRef,
+    /// Numbers of its first and last bit, where it has a range.
+    range: Option<(i64, i64)>,
+}
+
+impl Variable {
+    /// Where the bit of this number stands, counted from the lowest.
+    pub fn place(&self, number: i64) -> Option<u32> {
+        let (msb, lsb) = self.range.unwrap_or((i64::from(self.width) - 1, 0));
+        let within = (msb.min(lsb)..=msb.max(lsb)).contains(&number);
+        within.then_some(number.abs_diff(lsb) as u32)
+    }
+
+    /// The range as it is written behind the name.
+    pub fn range(&self) -> String {
+        let (msb, lsb) = self.range.unwrap_or((i64::from(self.width) - 1, 0));
+        format!("[{msb}:{lsb}]")
+    }
+}
+
+/// A waveform file.
+#[derive(Debug)]
+pub(super) struct Wave {
+    pub file: String,
+    /// In the order of the declarations.
+    pub variables: Vec<Variable>,
+    /// Variables without bits: strings, reals, events.
+    pub without_bits: usize,
+    /// Times at which something changes.
+    pub times: Vec<u64>,
+    /// Written by this crate, so that its times tell its ticks.
+    pub ours: bool,
+    unit: Option<(u32, &'static str)>,
+    by_path: HashMap<String, usize>,
+    by_element: HashMap<String, Option<usize>>,
+    waveform: Waveform,
+}
+
+impl Wave {
+    pub fn read(path: &Path) -> Result<Self, Fault> {
+        let file = path.display().to_string();
+        let fault = |problem: String| Fault::new(&file, 0, "file", problem, "a readable file");
+        let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"));
+        // Asked before reading: opening a pipe would wait for its writer.
+        if !path.metadata().map_err(unreadable)?.is_file() {
+            return Err(fault("not a regular file".to_owned()));
+        }
+        let bytes = fs::read(path).map_err(unreadable)?;
+        Self::parse(&file, bytes)
+    }
+
+    pub fn parse(file: &str, bytes: Vec<u8>) -> Result<Self, Fault> {
+        let fault = |problem: &str, allowed: &str| Fault::new(file, 0, "file", problem, allowed);
+        let formats = "a VCD or an FST";
+        let kind = match bytes.trim_ascii_start().first() {
+            None => return Err(fault("empty", formats)),
+            Some(b'$') => {
+                scan::check(file, &bytes)?;
+                "VCD"
+            }
+            Some(_) => {
+                let format = catch(|| viewers::detect_file_format(&mut Cursor::new(&bytes)));
+                if format != Some(FileFormat::Fst) {
+                    return Err(fault("neither a VCD nor an FST", formats));
+                }
+                sections::check(file, &bytes)?;
+                "FST"
+            }
+        };
+        // From memory, not by name: by name the reader would map the file, which may change.
+        let waveform = match catch(|| wellen::simple::read_from_reader(Cursor::new(bytes))) {
+            Some(Ok(waveform)) => waveform,
+            Some(Err(error)) => {
+                let error = error.to_string().replace('\n', " ");
+                return Err(fault(&error, &format!("a complete {kind}")));
+            }
+            None => {
+                return Err(fault(
+                    "the reader cannot make sense of it",
+                    &format!("a complete {kind}"),
+                ));
+            }
+        };
+        Self::of(file, waveform)
+    }
+
+    fn of(file: &str, waveform: Waveform) -> Result<Self, Fault> {
+        let hierarchy = waveform.hierarchy();
+        let mut wave = Wave {
+            file: file.to_owned(),
+            variables: Vec::new(),
+            without_bits: 0,
+            times: waveform.time_table().to_vec(),
+            ours: hierarchy.version().trim().starts_with("motion-rtl "),
+            unit: hierarchy.timescale().and_then(unit),
+            by_path: HashMap::new(),
+            by_element: HashMap::new(),
+            waveform,
+        };
+        let hierarchy = wave.waveform.hierarchy();
+        for var in hierarchy.all_vars() {
+            let var = &hierarchy[var];
+            let bits = match var.var_type() {
+                VarType::Event | VarType::EventParameter => None,
+                _ => var.length(hierarchy).filter(|&width| width > 0),
+            };
+            let Some(width) = bits else {
+                wave.without_bits += 1;
+                continue;
+            };
+            let path = names::path(&var.full_name(hierarchy));
+            let signal = var.signal_ref();
+            let index = wave.variables.len();
+            if let Some(&earlier) = wave.by_path.get(&path) {
+                if wave.variables[earlier].signal != signal {
+                    return Err(Fault::new(
+                        file,
+                        0,
+                        path,
+                        "two signals have this name",
+                        "a name for each signal",
+                    ));
+                }
+                continue;
+            }
+            wave.by_path.insert(path.clone(), index);
+            let element = wave.by_element.entry(names::element(&path));
+            element.and_modify(|one| *one = None).or_insert(Some(index));
+            wave.variables.push(Variable {
+                path,
+                width,
+                register: var.var_type() == VarType::Reg,
+                signal,
+                range: var.index().map(|index| (index.msb(), index.lsb())),
+            });
+        }
+        if wave.variables.is_empty() {
+            return Err(Fault::new(
+                file,
+                0,
+                "file",
+                "no signal in it",
+                "a waveform with signals",
+            ));
+        }
+        Ok(wave)
+    }
+
+    /// The variable of this path; the words of a memory by either kind of name.
+    pub fn find(&self, path: &str) -> Option<usize> {
+        let exact = self.by_path.get(path).copied();
+        exact.or_else(|| {
+            self.by_element
+                .get(&names::element(path))
+                .copied()
+                .flatten()
+        })
+    }
+
+    /// Whether there is something below this scope, which may be a memory.
+    pub fn has_scope(&self, scope: &str) -> bool {
+        let below = |path: &str| {
+            let rest = path.strip_prefix(scope);
+            rest.is_some_and(|rest| rest.starts_with(['.', '[']))
+        };
+        self.variables.iter().any(|variable| below(&variable.path))
+    }
+
+    /// The scopes there are, for messages.
+    pub fn scopes(&self) -> String {
+        let mut scopes = Vec::new();
+        for variable in &self.variables {
+            for (place, _) in variable.path.match_indices('.') {
+                let scope = &variable.path[..place];
+                if !scopes.contains(&scope) {
+                    scopes.push(scope);
+                }
+            }
+            // Enough for the message: a long list is cut anyway.
+            if scopes.len() > 100 {
+                break;
+            }
+        }
+        listed(&scopes)
+    }
+
+    /// Reads the values of these variables from the file.
+    pub fn load(&mut self, variables: impl IntoIterator<Item = usize>) -> Result<(), Fault> {
+        let mut signals: Vec<_> = variables
+            .into_iter()
+            .map(|index| self.variables[index].signal)
+            .collect();
+        signals.sort_unstable();
+        signals.dedup();
+        let waveform = &mut self.waveform;
+        catch(|| waveform.load_signals(&signals)).ok_or_else(|| self.broken())
+    }
+
+    fn broken(&self) -> Fault {
+        let problem = "the reader cannot make sense of its values";
+        Fault::new(&self.file, 0, "file", problem, "a complete file")
+    }
+
+    /// The changes of a loaded variable: indices of [`times`](Wave::times), in order, and values of
+    /// `width` bits from bit `low` up.
+    pub fn changes(
+        &self,
+        variable: usize,
+        low: u32,
+        width: u32,
+    ) -> Result<Vec<(u32, Value)>, Fault> {
+        let Some(signal) = self.waveform.get_signal(self.variables[variable].signal) else {
+            return Ok(Vec::new());
+        };
+        let whole = self.variables[variable].width;
+        let read = || {
+            let value = |(at, value)| match value {
+                SignalValueRef::BitVec(bits) if bits.width() == whole => {
+                    Some((at, Value::read(bits, low, width)))
+                }
+                _ => None,
+            };
+            signal.iter_changes().map(value).collect::<Option<Vec<_>>>()
+        };
+        catch(read).flatten().ok_or_else(|| self.broken())
+    }
+
+    /// A time of the file with its unit.
+    pub fn time(&self, time: u64) -> String {
+        match self.unit {
+            Some((factor, unit)) => format!("{} {unit}", u128::from(time) * u128::from(factor)),
+            None => time.to_string(),
+        }
+    }
+}
+
+fn unit(scale: wellen::Timescale) -> Option<(u32, &'static str)> {
+    use wellen::TimescaleUnit as Unit;
+    let name = match scale.unit {
+        Unit::Seconds => "s",
+        Unit::MilliSeconds => "ms",
+        Unit::MicroSeconds => "us",
+        Unit::NanoSeconds => "ns",
+        Unit::PicoSeconds => "ps",
+        Unit::FemtoSeconds => "fs",
+        _ => return None,
+    };
+    Some((scale.factor, name))
+}

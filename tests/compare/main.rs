@@ -1,0 +1,6 @@
+//! Comparing waveforms: random traces, damaged files, and other simulators.
+
+#[cfg(feature = "cosim")]
+mod cosim;
+mod damage;
+mod random;

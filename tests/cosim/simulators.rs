@@ -1,0 +1,96 @@
+//! Every circuit of the catalogue, driven with seeded random inputs and resets.
+
+use super::tools::{Simulator, complete, run, write};
+use motion_rtl::check::Drive;
+use motion_rtl::registry::{AnyModel, CATALOGUE, Entry, MODEL_WIDTHS};
+use motion_rtl::trace::Clock;
+use std::fs::File;
+use std::thread;
+
+const TICKS: u64 = 100_000;
+
+/// Drives a circuit and its Verilog.
+fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64) {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let name = circuit.name();
+    let verilog = circuit.verilog().unwrap();
+    let modules = write(path, &verilog);
+    let drive = Drive {
+        seed,
+        ticks,
+        resets: true,
+        clock: Clock::default(),
+    };
+    let create = |extension: &str| File::create(path.join(format!("{name}.{extension}"))).unwrap();
+    let driven = circuit.drive(&drive, &mut create("vcd"), &mut create("stimulus"));
+    assert!(driven.unwrap().resets > 0);
+    let report = simulator.hold(path, name, &modules);
+    complete(&report, ticks, circuit.declarations().leaves.len());
+}
+
+/// The circuit of an entry at several widths: the smallest, a middle one, its own.
+fn widths(entry: &Entry) -> Vec<Box<dyn AnyModel>> {
+    let [small, middle] = [3, 8].map(|width| {
+        assert!(MODEL_WIDTHS.contains(&width));
+        (entry.model)(&[width]).unwrap()
+    });
+    match entry.widths.is_empty() {
+        true => vec![(entry.full)()],
+        false => vec![small, middle, (entry.full)()],
+    }
+}
+
+/// Half of the entries each, for two cores.
+fn by_halves(work: impl Fn(&Entry) + Sync) {
+    thread::scope(|scope| {
+        let work = &work;
+        for half in 0..2 {
+            scope.spawn(move || CATALOGUE.iter().skip(half).step_by(2).for_each(work));
+        }
+    });
+}
+
+#[test]
+fn every_circuit_equals_its_verilog_in_icarus() {
+    by_halves(|entry| {
+        for (seed, circuit) in widths(entry).iter().enumerate() {
+            hold(&**circuit, Simulator::Icarus, seed as u64 + 1, TICKS);
+        }
+    });
+}
+
+#[test]
+fn the_literal_variants_equal_their_verilog_too() {
+    for name in ["pulse_generator", "axis", "unit_law"] {
+        let entry = motion_rtl::registry::find(name).unwrap();
+        let circuit = (entry.model)(&[8, 1]).unwrap();
+        hold(&*circuit, Simulator::Icarus, 1, TICKS);
+    }
+}
+
+#[test]
+fn the_top_circuits_equal_their_verilog_in_verilator() {
+    for name in ["unit_law", "axis", "pulse_interpolator"] {
+        let entry = motion_rtl::registry::find(name).unwrap();
+        hold(&*(entry.full)(), Simulator::Verilator, 7, TICKS);
+    }
+}
+
+#[test]
+fn verilator_finds_nothing_to_warn_of() {
+    by_halves(|entry| {
+        for circuit in widths(entry) {
+            let directory = tempfile::tempdir().unwrap();
+            let modules = write(directory.path(), &circuit.verilog().unwrap());
+            let options = ["--lint-only", "-Wall", "--top-module", circuit.name()];
+            let files: Vec<&str> = modules.iter().map(String::as_str).collect();
+            let said = run(
+                directory.path(),
+                "verilator",
+                &[&options[..], &files].concat(),
+            );
+            assert_eq!(said, "", "{}", circuit.name());
+        }
+    });
+}

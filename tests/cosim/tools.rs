@@ -1,0 +1,91 @@
+//! The programs that are held against the model.
+
+use motion_rtl::compare::{Report, Settings, compare};
+use motion_rtl::verilog::Verilog;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// Runs a program; its output is shown where it fails or warns.
+#[track_caller]
+pub fn run(directory: &Path, program: &str, arguments: &[&str]) -> String {
+    let output = Command::new(program)
+        .args(arguments)
+        .current_dir(directory)
+        .output();
+    let output = output.unwrap_or_else(|error| panic!("{program}: {error}"));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        output.status.success(),
+        "{program} {arguments:?}:\n{text}{errors}"
+    );
+    text + &errors
+}
+
+/// Writes the files of a design; returns the names of its modules' files.
+pub fn write(directory: &Path, verilog: &Verilog) -> Vec<String> {
+    let sources = verilog.sources();
+    for source in sources.iter().chain(&verilog.testbench()) {
+        fs::write(directory.join(&source.name), &source.text).unwrap();
+    }
+    let modules = sources.into_iter().map(|source| source.name);
+    modules.filter(|name| name.ends_with(".v")).collect()
+}
+
+/// A simulator of Verilog.
+#[derive(Debug, Clone, Copy)]
+pub enum Simulator {
+    Icarus,
+    Verilator,
+}
+
+impl Simulator {
+    /// Runs the testbench of `name` with what lies beside it, and compares the dump with the
+    /// golden one, `<name>.vcd`.
+    pub fn hold(self, directory: &Path, name: &str, modules: &[String]) -> Report {
+        let bench = format!("{name}_tb");
+        let source = format!("{bench}.v");
+        let mut files: Vec<&str> = modules.iter().map(String::as_str).collect();
+        files.push(&source);
+        match self {
+            Simulator::Icarus => {
+                let said = run(
+                    directory,
+                    "iverilog",
+                    &[&["-g2001", "-Wall", "-s", &bench, "-o", &bench], &files[..]].concat(),
+                );
+                assert_eq!(said, "", "Icarus warns");
+                run(directory, "vvp", &["-n", &bench]);
+            }
+            Simulator::Verilator => {
+                let options = [
+                    "--binary",
+                    "--timing",
+                    "--trace",
+                    "--trace-underscore",
+                    "--trace-max-array",
+                    "65536",
+                    "-O3",
+                    "--top-module",
+                    &bench,
+                ];
+                run(directory, "verilator", &[&options[..], &files].concat());
+                run(directory, &format!("obj_dir/V{bench}"), &[]);
+            }
+        }
+        let [golden, other] = [name, &bench].map(|stem| directory.join(format!("{stem}.vcd")));
+        compare(&golden, &other, &Settings::default()).unwrap_or_else(|fault| panic!("{fault}"))
+    }
+}
+
+/// Every golden signal was compared in every tick, and none differed.
+#[track_caller]
+pub fn complete(report: &Report, ticks: u64, signals: usize) {
+    assert!(report.is_equal(), "{report}");
+    assert_eq!(report.ticks, ticks, "{report}");
+    assert_eq!(report.without_partner, Vec::<String>::new(), "{report}");
+    assert_eq!(report.signals, signals, "{report}");
+    assert_eq!(report.unknown_values, 0, "{report}");
+    assert_eq!(report.values, ticks * signals as u64, "{report}");
+}
