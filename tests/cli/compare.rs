@@ -110,11 +110,16 @@ fn ticks_are_skipped_and_selected() {
     let reset: [&[&str]; 2] = [&["xxxx", "x"], &["0", "0"]];
     let other = dump(&["tb"], &VARIABLES, &[&reset[..], &ROWS[..]].concat());
     let bench = bench(&other);
-    shows(&bench, &["--skip", "2"], 0, &expect![[r#"
+    shows(
+        &bench,
+        &["--skip", "2"],
+        0,
+        &expect![[r#"
         equal: 4 ticks (0 to 3), 2 signals, 8 values
         golden golden.vcd: clock counter.clk, 4 ticks
         other  other.vcd: clock tb.clk, scope tb, 6 ticks, skip 2
-    "#]]);
+    "#]],
+    );
     shows(
         &bench,
         &["--skip", "2", "--from", "1", "--ticks", "2"],
@@ -127,11 +132,16 @@ fn ticks_are_skipped_and_selected() {
     );
     // The other file begins with golden's tick 1.
     bench.write("other.vcd", dump(&["tb"], &VARIABLES, &ROWS[1..]));
-    shows(&bench, &["--skip", "-1"], 0, &expect![[r#"
+    shows(
+        &bench,
+        &["--skip", "-1"],
+        0,
+        &expect![[r#"
         equal: 3 ticks (1 to 3), 2 signals, 6 values
         golden golden.vcd: clock counter.clk, 4 ticks, 1 only here
         other  other.vcd: clock tb.clk, scope tb, 3 ticks, skip -1
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
@@ -174,7 +184,11 @@ ignore = ["top.debug"]
 "top.x" = { name = "tb.dut.late", delay = 1 }
 "#,
     );
-    shows(&bench, &["--map", "names.toml"], 0, &expect![[r#"
+    shows(
+        &bench,
+        &["--map", "names.toml"],
+        0,
+        &expect![[r#"
         equal: 4 ticks (0 to 3), 4 signals, 15 values
         golden golden.vcd: clock top.clk, 4 ticks
         other  other.vcd: clock tb.dut.clk, scope tb.dut, 4 ticks
@@ -183,16 +197,26 @@ ignore = ["top.debug"]
           top.debug
 
         signals not compared: 1 ignored
-    "#]]);
+    "#]],
+    );
     bench.write(
         "scopes.toml",
         "ignore = [\"top.*\"]\n[scopes]\n\"top\" = \"tb.dut\"\n",
     );
-    shows(&bench, &["--map", "scopes.toml"], 2, &expect![[r#"
-        error: other.vcd: file: no signal of the golden file has a partner here; allowed: --scope or --map that pairs at least one of 
-    "#]]);
+    shows(
+        &bench,
+        &["--map", "scopes.toml"],
+        2,
+        &expect![[r#"
+            error: other.vcd: file: no signal of the golden file has a partner here; allowed: a map that leaves something to compare
+        "#]],
+    );
     bench.write("scopes.toml", "[scopes]\n\"top\" = \"tb.dut\"\n");
-    shows(&bench, &["--map", "scopes.toml"], 0, &expect![[r#"
+    shows(
+        &bench,
+        &["--map", "scopes.toml"],
+        0,
+        &expect![[r#"
         equal: 4 ticks (0 to 3), 1 signal, 4 values
         golden golden.vcd: clock top.clk, 4 ticks
         other  other.vcd: clock tb.dut.clk, 4 ticks
@@ -204,7 +228,8 @@ ignore = ["top.debug"]
           top.debug
 
         signals not compared: 4 without partner in golden, 3 without partner in other
-    "#]]);
+    "#]],
+    );
     shows(
         &bench,
         &["--map", "scopes.toml", "--strict", "--ticks", "1"],
@@ -242,7 +267,11 @@ fn widths_unknowns_and_strings_are_counted() {
         "other.vcd",
         dump(&["top"], &variables, &[&["1", "0", "0"], &["1", "1", "1"]]),
     );
-    shows(&bench, &[], 1, &expect![[r#"
+    shows(
+        &bench,
+        &[],
+        1,
+        &expect![[r#"
         different: 0 of 2 signals, in 2 ticks (0 to 1), 2 values
         golden golden.vcd: clock top.clk, 2 ticks
         other  other.vcd: clock top.clk, scope top, 2 ticks
@@ -253,9 +282,14 @@ fn widths_unknowns_and_strings_are_counted() {
         signals not compared: 1 of different width, 1 without bits in golden
         values not compared: 2 unknown in golden
         error: the files differ
-    "#]]);
+    "#]],
+    );
     bench.write("map.toml", "ignore = [\"top.a\"]\n");
-    shows(&bench, &["--map", "map.toml"], 0, &expect![[r#"
+    shows(
+        &bench,
+        &["--map", "map.toml"],
+        0,
+        &expect![[r#"
         equal: 2 ticks (0 to 1), 2 signals, 2 values
         golden golden.vcd: clock top.clk, 2 ticks
         other  other.vcd: clock top.clk, scope top, 2 ticks
@@ -265,7 +299,8 @@ fn widths_unknowns_and_strings_are_counted() {
 
         signals not compared: 1 without partner in other, 1 ignored, 1 without bits in golden
         values not compared: 2 unknown in golden
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]

@@ -23,39 +23,66 @@ fn refused(golden: &str, other: &str, more: &[&str], text: &Expect) {
 fn files_that_are_no_waves_are_refused() {
     let cut = plain();
     let cases: [(&str, &Expect); 18] = [
-        ("", &expect![[r#"
+        (
+            "",
+            &expect![[r#"
             error: o.vcd: file: empty; allowed: a VCD or an FST
-        "#]]),
-        ("G1 X10\n", &expect![[r#"
+        "#]],
+        ),
+        (
+            "G1 X10\n",
+            &expect![[r#"
             error: o.vcd: file: neither a VCD nor an FST; allowed: a VCD or an FST
-        "#]]),
-        ("$version\n", &expect![[r#"
+        "#]],
+        ),
+        (
+            "$version\n",
+            &expect![[r#"
             error: o.vcd:1: $version: has no $end; allowed: a complete VCD: this one is cut off
-        "#]]),
-        ("$var wire 1 ! a $end\n", &expect![[r#"
+        "#]],
+        ),
+        (
+            "$var wire 1 ! a $end\n",
+            &expect![[r#"
             error: o.vcd:2: file: the file ends before $enddefinitions; allowed: a complete VCD: this one is cut off
-        "#]]),
-        ("$enddefinitions $end\n#0\n", &expect![[r#"
+        "#]],
+        ),
+        (
+            "$enddefinitions $end\n#0\n",
+            &expect![[r#"
             error: o.vcd: file: no signal in it; allowed: a VCD with signals
-        "#]]),
+        "#]],
+        ),
         (
             "$var wire 1 ! a $end\n$enddefinitions $end\n#0\n",
             &expect![[r#"
                 error: o.vcd: file: no value in it; allowed: a VCD with values
             "#]],
         ),
-        ("$var wire 0 ! a $end\n", &expect![[r#"
+        (
+            "$var wire 0 ! a $end\n",
+            &expect![[r#"
             error: o.vcd:1: a: has no width; allowed: 1 to 1048576 bits
-        "#]]),
-        ("$var wire 1 ! $end\n", &expect![[r#"
+        "#]],
+        ),
+        (
+            "$var wire 1 ! $end\n",
+            &expect![[r#"
             error: o.vcd:1: $var: a word is missing; allowed: $var KIND WIDTH CODE NAME $end
-        "#]]),
-        ("$upscope $end\n", &expect![[r#"
+        "#]],
+        ),
+        (
+            "$upscope $end\n",
+            &expect![[r#"
             error: o.vcd:1: $upscope: no scope is open; allowed: one $upscope for each $scope
-        "#]]),
-        ("$date a $end\n$date b $end\n", &expect![[r#"
+        "#]],
+        ),
+        (
+            "$date a $end\n$date b $end\n",
+            &expect![[r#"
             error: o.vcd:2: $date: stands here again; allowed: one in a file
-        "#]]),
+        "#]],
+        ),
         (
             "$var wire 1 ! a $end\n$var wire 2 ! b $end\n",
             &expect![[r#"
@@ -92,9 +119,12 @@ fn files_that_are_no_waves_are_refused() {
                 error: o.vcd: b: two signals have this name; allowed: a name for each signal
             "#]],
         ),
-        (&cut[..cut.len() - 3], &expect![[r#"
+        (
+            &cut[..cut.len() - 3],
+            &expect![[r#"
             error: o.vcd:17: #: is no time; allowed: # and a whole number below 2^64
-        "#]]),
+        "#]],
+        ),
         (
             "$version motion-rtl 0.1.0 $end\n$var wire 1 ! clk $end\n$enddefinitions $end\n#0\n1!\n",
             &expect![[r#"
@@ -124,26 +154,56 @@ fn files_that_are_no_waves_are_refused() {
 fn clocks_that_are_none_are_refused() {
     let plain = plain();
     let renamed = plain.replace(" clk ", " clock ");
-    refused(&plain, &renamed, &[], &expect![[r#"
+    refused(
+        &plain,
+        &renamed,
+        &[],
+        &expect![[r#"
         error: o.vcd: --clock: no common clock: there is top.clk in the golden file and no clk here; allowed: a signal of 1 bit: top.clock
-    "#]]);
-    refused(&renamed, &plain, &[], &expect![[r#"
+    "#]],
+    );
+    refused(
+        &renamed,
+        &plain,
+        &[],
+        &expect![[r#"
         error: g.vcd: --clock: there is no clk of 1 bit; allowed: a signal of 1 bit: top.clock
-    "#]]);
-    refused(&plain, &plain, &["--clock", "count"], &expect![[r#"
+    "#]],
+    );
+    refused(
+        &plain,
+        &plain,
+        &["--clock", "count"],
+        &expect![[r#"
         error: g.vcd: --clock: there is no count of 1 bit; allowed: a signal of 1 bit: top.clk
-    "#]]);
-    refused(&plain, &plain.replace("\n0!", ""), &[], &expect![[r#"
+    "#]],
+    );
+    refused(
+        &plain,
+        &plain.replace("\n0!", ""),
+        &[],
+        &expect![[r#"
         error: o.vcd: top.clk: the clock never changes; allowed: a clock that is 0 or 1 at all times and changes
-    "#]]);
-    refused(&plain, &plain.replace("\n0!", "\nx!"), &[], &expect![[r#"
+    "#]],
+    );
+    refused(
+        &plain,
+        &plain.replace("\n0!", "\nx!"),
+        &[],
+        &expect![[r#"
         error: o.vcd: top.clk: the clock is x or z at 5 ns; allowed: a clock that is 0 or 1 at all times and changes
-    "#]]);
+    "#]],
+    );
     let two = dump(&["tb"], &["wire 4 count [3:0]", "wire 1 u.clk"], &ROWS);
     let two = two.replace(" clk $end", " v.clk $end");
-    refused(&plain, &two, &[], &expect![[r#"
+    refused(
+        &plain,
+        &two,
+        &[],
+        &expect![[r#"
         error: o.vcd: --clock: 2 signals are called clk; allowed: one of them by its path: tb.v.clk, tb.u.clk
-    "#]]);
+    "#]],
+    );
     // Named, either will do.
     let bench = Bench::with("g.vcd", &plain);
     bench.write("o.vcd", &two);
@@ -155,60 +215,114 @@ fn clocks_that_are_none_are_refused() {
 #[test]
 fn scopes_and_windows_that_are_none_are_refused() {
     let plain = plain();
-    refused(&plain, &plain, &["--scope", "tb"], &expect![[r#"
+    refused(
+        &plain,
+        &plain,
+        &["--scope", "tb"],
+        &expect![[r#"
         error: o.vcd: --scope: there is no tb; allowed: a scope: top
-    "#]]);
+    "#]],
+    );
     let foreign = dump(&["tb"], &["wire 4 other [3:0]"], &ROWS);
-    refused(&plain, &foreign, &[], &expect![[r#"
+    refused(
+        &plain,
+        &foreign,
+        &[],
+        &expect![[r#"
         error: o.vcd: --scope: no scope has a signal of the golden file's; allowed: the scope that stands for top: tb
-    "#]]);
-    refused(&plain, &foreign, &["--scope", "tb"], &expect![[r#"
+    "#]],
+    );
+    refused(
+        &plain,
+        &foreign,
+        &["--scope", "tb"],
+        &expect![[r#"
         error: o.vcd: file: no signal of the golden file has a partner here; allowed: --scope or --map that pairs at least one of top.count
-    "#]]);
+    "#]],
+    );
     let twice = dump(
         &["tb"],
         &["wire 4 a.count [3:0]", "wire 4 b.count [3:0]"],
         &[&["0", "0"], &["1", "1"]],
     );
-    refused(&plain, &twice, &[], &expect![[r#"
+    refused(
+        &plain,
+        &twice,
+        &[],
+        &expect![[r#"
         error: o.vcd: --scope: 2 scopes have the same number of signals of the golden file's; allowed: one of tb.a, tb.b
-    "#]]);
-    refused(&plain, &plain, &["--skip", "2"], &expect![[r#"
+    "#]],
+    );
+    refused(
+        &plain,
+        &plain,
+        &["--skip", "2"],
+        &expect![[r#"
         error: o.vcd: ticks: no common tick: g.vcd has ticks 0 to 1, this file ticks -2 to -1 in golden's count; allowed: --skip, --from and --ticks that leave a tick of both
-    "#]]);
-    refused(&plain, &plain, &["--from", "2"], &expect![[r#"
-        error: o.vcd: ticks: no common tick: g.vcd has ticks 0 to 1, this file ticks 0 to 1 in golden's count, asked for are ticks 2 to 18446744073709551614; allowed: --skip, --from and --ticks that leave a tick of both
-    "#]]);
+    "#]],
+    );
+    refused(
+        &plain,
+        &plain,
+        &["--from", "2"],
+        &expect![[r#"
+            error: o.vcd: ticks: no common tick: g.vcd has ticks 0 to 1, this file ticks 0 to 1 in golden's count, asked for are ticks from 2 on; allowed: --skip, --from and --ticks that leave a tick of both
+        "#]],
+    );
 }
 
 #[test]
 fn maps_that_do_not_fit_are_refused() {
     let plain = plain();
     let cases = [
-        ("ignore = [\"top.x\"]", expect![[r#"
+        (
+            "ignore = [\"top.x\"]",
+            expect![[r#"
             error: m.toml:1: top.x: no signal of the golden file is called so; allowed: a signal of g.vcd, or a scope as "top.scope.*"
-        "#]]),
-        ("ignore = [\"tap.*\"]", expect![[r#"
+        "#]],
+        ),
+        (
+            "ignore = [\"tap.*\"]",
+            expect![[r#"
             error: m.toml:1: tap.*: no scope of the golden file is called tap; allowed: a scope: top
-        "#]]),
-        ("[scopes]\n\"tap\" = \"top\"", expect![[r#"
+        "#]],
+        ),
+        (
+            "[scopes]\n\"tap\" = \"top\"",
+            expect![[r#"
             error: m.toml:2: tap: no scope of the golden file is called tap; allowed: a scope: top
-        "#]]),
-        ("[scopes]\n\"top\" = \"tap\"", expect![[r#"
+        "#]],
+        ),
+        (
+            "[scopes]\n\"top\" = \"tap\"",
+            expect![[r#"
             error: m.toml:2: top: no scope of the other file is called tap; allowed: a scope: top
-        "#]]),
-        ("[signals]\n\"top.x\" = \"top.count\"", expect![[r#"
+        "#]],
+        ),
+        (
+            "[signals]\n\"top.x\" = \"top.count\"",
+            expect![[r#"
             error: m.toml:2: top.x: no signal of the golden file is called so; allowed: a signal of g.vcd
-        "#]]),
-        ("[signals]\n\"top.clk\" = \"top.clk\"", expect![[r#"
+        "#]],
+        ),
+        (
+            "[signals]\n\"top.clk\" = \"top.clk\"",
+            expect![[r#"
             error: m.toml:2: top.clk: is the clock; allowed: --other-clock for the other file's clock
-        "#]]),
-        ("[signals]\n\"top.count\" = \"top.x\"", expect![[r#"
+        "#]],
+        ),
+        (
+            "[signals]\n\"top.count\" = \"top.x\"",
+            expect![[r#"
             error: m.toml:2: top.count: no signal of the other file is called top.x; allowed: a signal of g.vcd
-        "#]]),
-        ("[signals]\n\"top.count\" = \"top.clk\"", expect![[r#"
+        "#]],
+        ),
+        (
+            "[signals]\n\"top.count\" = \"top.clk\"",
+            expect![[r#"
             error: m.toml:2: top.count: top.clk has width 1; allowed: width 4, as the golden signal has
-        "#]]),
+        "#]],
+        ),
         (
             "[signals]\n\"top.count\" = \"top.count[4:1]\"",
             expect![[r#"
@@ -221,9 +335,12 @@ fn maps_that_do_not_fit_are_refused() {
                 error: m.toml:2: top.count: top.count[2:0] has width 3; allowed: width 4, as the golden signal has
             "#]],
         ),
-        ("[signals\n", expect![[r#"
+        (
+            "[signals\n",
+            expect![[r#"
             error: m.toml:1: [signals: unclosed table, expected `]`; allowed: ignore = ["golden name"] first, then [scopes] and [signals] with lines of "golden name" = "other name"
-        "#]]),
+        "#]],
+        ),
     ];
     for (map, text) in cases {
         let bench = Bench::with("g.vcd", &plain);
