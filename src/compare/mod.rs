@@ -58,6 +58,7 @@ pub use value::WIDEST;
 use crate::input::Fault;
 use runs::{Run, Runs, span};
 use std::ops::Range;
+use std::panic::resume_unwind;
 use std::path::Path;
 use wave::Wave;
 
@@ -104,7 +105,7 @@ pub fn compare(golden: &Path, other: &Path, settings: &Settings) -> Result<Repor
     let (golden, other) = std::thread::scope(|scope| {
         let reading = scope.spawn(|| Wave::read(golden));
         let other = Wave::read(other);
-        let golden = reading.join().unwrap_or_else(|_| Wave::read(golden));
+        let golden = reading.join().unwrap_or_else(|panic| resume_unwind(panic));
         golden.and_then(|golden| Ok((golden, other?)))
     })?;
     compare_waves(golden, other, settings)
@@ -151,9 +152,14 @@ fn compare_waves(mut golden: Wave, mut other: Wave, settings: &Settings) -> Resu
             span(first..first + i128::from(golden.ticks.count)),
             span(start..end)
         );
-        if settings.ticks != (0..u64::MAX) {
-            let asked = i128::from(settings.ticks.start)..i128::from(settings.ticks.end);
-            problem.push_str(&format!(", asked for are {}", span(asked)));
+        let Range { start, end } = settings.ticks;
+        if end < u64::MAX {
+            problem.push_str(&format!(
+                ", asked for are {}",
+                span(start.into()..end.into())
+            ));
+        } else if start > 0 {
+            problem.push_str(&format!(", asked for are ticks from {start} on"));
         }
         let allowed = "--skip, --from and --ticks that leave a tick of both";
         return Err(Fault::new(&other.wave.file, 0, "ticks", problem, allowed));

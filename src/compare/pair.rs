@@ -198,10 +198,13 @@ pub(super) fn nothing(golden: &Wave, other: &Wave, pairing: &Pairing) -> Option<
         .iter()
         .map(|&index| &golden.variables[index].path)
         .collect();
-    let allowed = format!(
-        "--scope or --map that pairs at least one of {}",
-        listed(&alone)
-    );
+    let allowed = match alone[..] {
+        [] => "a map that leaves something to compare".to_owned(),
+        _ => format!(
+            "--scope or --map that pairs at least one of {}",
+            listed(&alone)
+        ),
+    };
     Some(Fault::new(
         &other.file,
         0,

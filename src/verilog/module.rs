@@ -233,7 +233,12 @@ impl Modules<'_> {
             let shape = unsigned(memory.width);
             body.comment(&clean(memory.doc));
             let last = memory.words - 1;
-            body.line(&format!("reg  {}{} [0:{last}];", range(shape), memory.name));
+            // Words of one bit have a range too: without it, dumps mistake them for a vector.
+            let range = match memory.width {
+                1 => "[0:0] ".to_owned(),
+                _ => range(shape),
+            };
+            body.line(&format!("reg  {range}{} [0:{last}];", memory.name));
             match memory.filled {
                 true => {
                     let file = memory.name.to_uppercase();

@@ -208,8 +208,8 @@ ignore = ["top.debug"]
         &["--map", "scopes.toml"],
         2,
         &expect![[r#"
-        error: other.vcd: file: no signal of the golden file has a partner here; allowed: --scope or --map that pairs at least one of 
-    "#]],
+            error: other.vcd: file: no signal of the golden file has a partner here; allowed: a map that leaves something to compare
+        "#]],
     );
     bench.write("scopes.toml", "[scopes]\n\"top\" = \"tb.dut\"\n");
     shows(

@@ -266,8 +266,8 @@ fn scopes_and_windows_that_are_none_are_refused() {
         &plain,
         &["--from", "2"],
         &expect![[r#"
-        error: o.vcd: ticks: no common tick: g.vcd has ticks 0 to 1, this file ticks 0 to 1 in golden's count, asked for are ticks 2 to 18446744073709551614; allowed: --skip, --from and --ticks that leave a tick of both
-    "#]],
+            error: o.vcd: ticks: no common tick: g.vcd has ticks 0 to 1, this file ticks 0 to 1 in golden's count, asked for are ticks from 2 on; allowed: --skip, --from and --ticks that leave a tick of both
+        "#]],
     );
 }
 

@@ -43,7 +43,7 @@ fn wrong_bytes_are_an_error_or_a_report() {
     let bytes = counter(directory.path());
     let [golden, other] = ["golden.vcd", "other.vcd"].map(|name| directory.path().join(name));
     for place in 0..bytes.len() {
-        for wrong in [b' ', b'\n', b'$', b'0', b'x', b'#', 0xff] {
+        for wrong in [b'\n', b'0', 0xff] {
             let mut bytes = bytes.clone();
             bytes[place] = wrong;
             fs::write(&other, &bytes).unwrap();

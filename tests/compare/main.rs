@@ -4,3 +4,4 @@
 mod cosim;
 mod damage;
 mod random;
+mod windows;
