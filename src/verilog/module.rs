@@ -379,7 +379,7 @@ impl Modules<'_> {
         body: &mut Body,
     ) {
         let mut unread = Vec::new();
-        let resets = module.signals.iter().any(|signal| is_own_register(signal));
+        let resets = module.signals.iter().any(is_own_register);
         if clocked && !resets && module.instances.is_empty() {
             unread.push("rst".to_owned());
         }
