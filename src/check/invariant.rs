@@ -1,4 +1,4 @@
-use crate::kernel::{Circuit, Observer, RunError, Sample};
+use crate::kernel::{Circuit, Moment, Observer, Property, RunError, Sample};
 use crate::logic::Sim;
 use std::fmt;
 use std::ops::ControlFlow;
@@ -33,10 +33,20 @@ pub fn require<const N: usize>(
     })
 }
 
+/// The properties of a circuit in a tick.
+fn properties<C: Circuit>(
+    circuit: &C,
+    now: &Sample<'_, C>,
+    next: &C::Reg<Sim>,
+) -> Vec<Property<Sim>> {
+    let (i, q, w) = (now.i, now.q, now.w);
+    circuit.properties(&Moment { i, q, w }, next)
+}
+
 type Always<'f, C> = dyn Fn(&Sample<'_, C>) -> Verdict + 'f;
 type Step<'f, C> = dyn Fn(&Sample<'_, C>, &<C as Circuit>::Reg<Sim>) -> Verdict + 'f;
 
-enum Property<'f, C: Circuit> {
+enum Holds<'f, C: Circuit> {
     Always(Box<Always<'f, C>>),
     Step(Box<Step<'f, C>>),
 }
@@ -47,13 +57,36 @@ enum Property<'f, C: Circuit> {
 /// They are checked in the order in which they were added. A property must not depend on
 /// [`Sample::tick`]: `reach` comes to every transition once, on a shortest way.
 pub struct Invariants<'f, C: Circuit> {
-    named: Vec<(String, Property<'f, C>)>,
+    named: Vec<(String, Holds<'f, C>)>,
 }
 
 impl<'f, C: Circuit> Invariants<'f, C> {
     /// None.
     pub const fn new() -> Self {
         Invariants { named: Vec::new() }
+    }
+
+    /// The circuit's [properties](Circuit::properties).
+    pub fn of(circuit: &'f C) -> Self {
+        let known = Sample::at_power_on(circuit, |now| properties(circuit, now, now.q));
+        let mut invariants = Invariants::new();
+        for (index, known) in known.into_iter().enumerate() {
+            let holds = move |now: &Sample<'_, C>, next: &C::Reg<Sim>| {
+                let property = properties(circuit, now, next).into_iter().nth(index);
+                match property.filter(|property| !property.holds.get()) {
+                    None => Ok(()),
+                    Some(property) => Err(Fault {
+                        signals: property.signals.iter().map(|&name| name.into()).collect(),
+                        message: "does not hold".to_owned(),
+                    }),
+                }
+            };
+            invariants = match known.step {
+                true => invariants.step(known.name, holds),
+                false => invariants.always(known.name, move |now| holds(now, now.q)),
+            };
+        }
+        invariants
     }
 
     /// Adds a property of the settled signals of a tick.
@@ -63,7 +96,7 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         name: impl Into<String>,
         holds: impl Fn(&Sample<'_, C>) -> Verdict + 'f,
     ) -> Self {
-        let property = Property::Always(Box::new(holds));
+        let property = Holds::Always(Box::new(holds));
         self.named.push((name.into(), property));
         self
     }
@@ -75,7 +108,7 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         name: impl Into<String>,
         holds: impl Fn(&Sample<'_, C>, &C::Reg<Sim>) -> Verdict + 'f,
     ) -> Self {
-        let property = Property::Step(Box::new(holds));
+        let property = Holds::Step(Box::new(holds));
         self.named.push((name.into(), property));
         self
     }
@@ -87,7 +120,7 @@ impl<'f, C: Circuit> Invariants<'f, C> {
 
     /// Whether one of them looks at the registers after the edge.
     fn look_ahead(&self) -> bool {
-        let step = |(_, property): &(_, Property<'_, C>)| matches!(property, Property::Step(_));
+        let step = |(_, property): &(_, Holds<'_, C>)| matches!(property, Holds::Step(_));
         self.named.iter().any(step)
     }
 
@@ -100,9 +133,9 @@ impl<'f, C: Circuit> Invariants<'f, C> {
     ) -> Result<(), (&str, Fault)> {
         for (name, property) in &self.named {
             match (property, next) {
-                (Property::Always(holds), _) => holds(now),
-                (Property::Step(holds), Some(next)) => holds(now, next),
-                (Property::Step(_), None) => Ok(()),
+                (Holds::Always(holds), _) => holds(now),
+                (Holds::Step(holds), Some(next)) => holds(now, next),
+                (Holds::Step(_), None) => Ok(()),
             }
             .map_err(|fault| (name.as_str(), fault))?;
         }

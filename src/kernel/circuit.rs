@@ -1,4 +1,5 @@
 use super::probe::Source;
+use super::property::{Moment, Property};
 use super::signals::{Field, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Logic, Sim};
 use std::fmt;
@@ -29,6 +30,21 @@ pub trait Circuit {
 
     /// The registers of the next tick.
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, i: &Self::In<L>) -> Self::Reg<L>;
+
+    /// Invariants in words, for proofs by other tools beside `check`; see
+    /// [`Invariants::of`](crate::check::Invariants::of). What looks at the registers after the
+    /// edge looks at `next`.
+    fn properties<L: Logic>(
+        &self,
+        now: &Moment<'_, Self, L>,
+        next: &Self::Reg<L>,
+    ) -> Vec<Property<L>>
+    where
+        Self: Sized,
+    {
+        let _ = (now, next);
+        Vec::new()
+    }
 
     /// The registers at power-on: unless overridden, what `signals!` says, memories zero.
     ///

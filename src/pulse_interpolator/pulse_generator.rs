@@ -16,8 +16,8 @@
 //! equality; its half-period of 0 means 2^N.
 
 use super::Variant;
-use crate::check::{Invariants, Specified, require};
-use crate::kernel::Circuit;
+use crate::check::{Invariants, Specified};
+use crate::kernel::{Circuit, Moment, Property};
 use crate::logic::{Bit, Logic, Unsigned};
 use crate::signals;
 
@@ -103,40 +103,48 @@ impl<const N: usize> Circuit for PulseGenerator<N> {
             },
         }
     }
+
+    fn properties<L: Logic>(
+        &self,
+        now: &Moment<'_, Self, L>,
+        next: &Reg<L, N>,
+    ) -> Vec<Property<L>> {
+        let Moment { i, q, w } = now;
+        let none = i.half_period.is_zero();
+        let over = !q.count.below(i.half_period - 1);
+        let toggles = w.pulse ^ q.toggle;
+        vec![
+            Property::always(
+                "a half-period of 0 gives no pulse",
+                &["half_period", "pulse"],
+                !(none & w.pulse),
+            ),
+            Property::step(
+                "RST clears the counter and the toggle",
+                &["count", "toggle", "unit_rst"],
+                !i.unit_rst | (next.count.is_zero() & !next.toggle),
+            ),
+            Property::step(
+                "the count stays below the half-period",
+                &["count", "half_period"],
+                next.count.below(i.half_period) | next.count.is_zero(),
+            ),
+            Property::step(
+                "the pulse signal toggles when the half-period is over, and only then",
+                &["pulse", "toggle", "count"],
+                (none | !(toggles ^ over)) & (i.unit_rst | !(next.toggle ^ w.pulse)),
+            ),
+            Property::always(
+                "the count never reaches its greatest value",
+                &["count"],
+                q.count.below(u64::MAX.into()),
+            ),
+        ]
+    }
 }
 
 impl<const N: usize> Specified for PulseGenerator<N> {
     fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .always("a half-period of 0 gives no pulse", |now| {
-                let none = now.i.half_period.get() != 0 || !now.w.pulse.get();
-                require(none, ["half_period", "pulse"], || "a pulse".into())
-            })
-            .step("RST clears the counter and the toggle", |now, next| {
-                let clear = next.count.get() == 0 && !next.toggle.get();
-                let held = !now.i.unit_rst.get() || clear;
-                require(held, ["count", "toggle", "unit_rst"], || {
-                    "left over from this unit".into()
-                })
-            })
-            .step("the count stays below the half-period", |now, next| {
-                let below = next.count.get() < now.i.half_period.get().max(1);
-                require(below, ["count", "half_period"], || {
-                    format!("{}", next.count.get())
-                })
-            })
-            .step(
-                "the pulse signal toggles when the half-period is over, and only then",
-                |now, next| {
-                    let n = now.i.half_period.get();
-                    let over = now.q.count.get() + 1 >= n;
-                    let toggled = now.w.pulse != now.q.toggle;
-                    let held = n == 0 || toggled == over;
-                    let kept = now.i.unit_rst.get() || next.toggle == now.w.pulse;
-                    require(held && kept, ["pulse", "toggle", "count"], || {
-                        format!("count {}, half-period {n}", now.q.count.get())
-                    })
-                },
-            )
+        Invariants::of(self)
     }
 }

@@ -7,8 +7,8 @@
 //!             └────────────┘
 //! ```
 
-use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, Nothing};
+use crate::check::{Invariants, Specified};
+use crate::kernel::{Circuit, Moment, Nothing, Property};
 use crate::logic::Logic;
 use crate::signals;
 
@@ -52,18 +52,26 @@ impl Circuit for SyncStage {
             step: i.pulse & !i.unit_rst,
         }
     }
+
+    fn properties<L: Logic>(&self, now: &Moment<'_, Self, L>, next: &Reg<L>) -> Vec<Property<L>> {
+        let i = now.i;
+        vec![
+            Property::step(
+                "low in the tick after RST",
+                &["step", "unit_rst"],
+                !i.unit_rst | !next.step,
+            ),
+            Property::step(
+                "passes the pulse signal",
+                &["step", "pulse"],
+                i.unit_rst | !(next.step ^ i.pulse),
+            ),
+        ]
+    }
 }
 
 impl Specified for SyncStage {
     fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step("low in the tick after RST", |now, next| {
-                let low = !now.i.unit_rst.get() || !next.step.get();
-                require(low, ["step", "unit_rst"], || "high across RST".into())
-            })
-            .step("passes the pulse signal", |now, next| {
-                let passed = now.i.unit_rst.get() || next.step == now.i.pulse;
-                require(passed, ["step", "pulse"], || "not passed".into())
-            })
+        Invariants::of(self)
     }
 }

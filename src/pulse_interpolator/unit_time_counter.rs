@@ -9,8 +9,8 @@
 //! Departures: the text resets on "equal"; here a count at or past T resets too, so no T makes the
 //! counter run to its wrap. T = 0 counts as 1.
 
-use crate::check::{Invariants, Specified, require};
-use crate::kernel::Circuit;
+use crate::check::{Invariants, Specified};
+use crate::kernel::{Circuit, Moment, Property};
 use crate::logic::{Bit, Logic, Unsigned};
 use crate::signals;
 
@@ -67,24 +67,36 @@ impl<const T: usize> Circuit for UnitTimeCounter<T> {
             count: w.unit_rst.mux(0.into(), w.next),
         }
     }
+
+    fn properties<L: Logic>(
+        &self,
+        now: &Moment<'_, Self, L>,
+        next: &Reg<L, T>,
+    ) -> Vec<Property<L>> {
+        let Moment { i, q, w } = now;
+        let up = next.count.equals(q.count + 1) & q.count.below(next.count);
+        vec![
+            Property::step(
+                "the count starts again after RST",
+                &["count", "unit_rst"],
+                !w.unit_rst | next.count.is_zero(),
+            ),
+            Property::step(
+                "between two RST the count goes up by one and stays below T",
+                &["count", "period"],
+                w.unit_rst | (up & next.count.below(i.period)),
+            ),
+            Property::always(
+                "the count never reaches its greatest value",
+                &["count"],
+                q.count.below(u64::MAX.into()),
+            ),
+        ]
+    }
 }
 
 impl<const T: usize> Specified for UnitTimeCounter<T> {
     fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step("the count starts again after RST", |now, next| {
-                let clear = !now.w.unit_rst.get() || next.count.get() == 0;
-                require(clear, ["count", "unit_rst"], || {
-                    format!("{} after RST", next.count.get())
-                })
-            })
-            .step(
-                "between two RST the count goes up by one and stays below T",
-                |now, next| {
-                    let (count, next) = (now.q.count.get(), next.count.get());
-                    let up = now.w.unit_rst.get() || next == count + 1 && next < now.i.period.get();
-                    require(up, ["count", "period"], || format!("{next} after {count}"))
-                },
-            )
+        Invariants::of(self)
     }
 }

@@ -185,6 +185,11 @@ impl<'m> Expressions<'m> {
                 Text::atom(format!("{{{}}}", parts.join(", ")))
             }
             Node::Cast(a) => self.cast(a, shape.kind),
+            Node::Past(a) => {
+                let past = Text::atom(format!("$past({})", self.value(a)));
+                // The functions of formal tools are unsigned.
+                wrap(past, Kind::Unsigned, shape.kind)
+            }
             Node::Read(memory, address) => {
                 let memory = &self.module.memories[memory];
                 let index = match self.module.nodes[address].0 {

@@ -6,7 +6,8 @@ const KEYWORDS: &str = "\
     coverpoint cross deassign default defparam design disable dist do edge else end endcase \
     endchecker endclass endclocking endconfig endfunction endgenerate endgroup endinterface \
     endmodule endpackage endprimitive endprogram endproperty endspecify endsequence endtable \
-    endtask enum event eventually expect export extends extern final first_match for force \
+    endtask enum event eventually expect export extends extern f_past_valid \
+    final first_match for force \
     foreach forever fork forkjoin function generate genvar global highz0 highz1 if iff ifnone \
     ignore_bins illegal_bins implements implies import incdir include initial inout input inside \
     instance int integer interconnect interface intersect join join_any join_none large let \

@@ -15,6 +15,7 @@
 //! ```
 
 mod expression;
+mod formal;
 mod keywords;
 mod module;
 mod names;

@@ -173,6 +173,7 @@ impl Modules<'_> {
         clock(module, &expressions, &mut body);
         self.unused(module, &expressions, &outputs, clocked, &mut body);
         text += &body.finish();
+        text += &self.assertions(module);
         text + "endmodule\n"
     }
 

@@ -1,7 +1,7 @@
 //! The module that is being made, and how nodes get into it.
 
 use super::module::{
-    Child, Memory, Module, NetlistError, Parameter, Port, Register, Setting, Signal,
+    Assertion, Child, Memory, Module, NetlistError, Parameter, Port, Register, Setting, Signal,
 };
 use super::node::{BIT, Id, Node, Operator, unsigned};
 use super::words::NetUInt;
@@ -40,6 +40,7 @@ pub(super) struct Builder {
     pub(super) instances: Vec<Building>,
     /// What registers and memories hold at power-on, in the order of `registers`.
     pub(super) power_on: Vec<PowerOn>,
+    pub(super) assertions: Vec<Assertion>,
     /// The contents of ROMs, by memory.
     pub(super) roms: Vec<(usize, Vec<u64>)>,
 }

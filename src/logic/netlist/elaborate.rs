@@ -3,6 +3,7 @@ use super::build::{Builder, Building, PowerOn, builder, elaboration, flat, signa
 use super::memory::{NetRam, NetShiftRegister, State};
 use super::module::{Child, Design, Memory, Module, NetlistError, Port, Register, Setting, Value};
 use super::node::{Id, Node};
+use super::properties::note_properties;
 use super::words::{NetBit, NetInt, NetUInt, Word};
 use crate::kernel::{Circuit, Field, Make, Path, Probe, Role, Shape, Signals, Visit, Words};
 use std::mem;
@@ -51,7 +52,8 @@ fn module<C: Circuit>(circuit: &C, power_on: Vec<PowerOn>) -> (usize, Vec<Settin
     let w = circuit.comb::<Netlist>(&q, &i);
     let mut nets = Nets::default();
     w.visit(const { &Field::part(Role::Net) }, &mut nets);
-    let next = circuit.next::<Netlist>(q, &w, &i);
+    let next = circuit.next::<Netlist>(q.clone(), &w, &i);
+    note_properties(circuit, &i, &q, &w);
     let mut edge = Edge(Vec::new());
     next.visit(const { &Field::part(Role::Register) }, &mut edge);
     elaboration(|elaboration| {
@@ -337,6 +339,8 @@ macro_rules! make_leaves {
     };
 }
 
+pub(super) use make_leaves;
+
 make_leaves!(Ports, Ports::next, |_: &mut Ports| (0, State::Next));
 make_leaves!(NextRegisters, NextRegisters::next, NextRegisters::memory);
 
@@ -376,7 +380,7 @@ pub(super) enum Leaf {
 }
 
 /// Collects leaves.
-struct Edge(Vec<Leaf>);
+pub(super) struct Edge(pub(super) Vec<Leaf>);
 
 impl Visit<Netlist> for Edge {
     fn enter(&mut self, _: &'static Field) {}

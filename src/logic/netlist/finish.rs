@@ -31,6 +31,7 @@ impl Builder {
                 .map(|(parameter, _)| parameter)
                 .collect(),
             memories: self.memories,
+            assertions: self.assertions,
             instances: self
                 .instances
                 .into_iter()

@@ -9,13 +9,14 @@ mod finish;
 mod memory;
 mod module;
 mod node;
+mod properties;
 
 mod words;
 
 pub use elaborate::elaborate;
 pub use memory::{NetRam, NetShiftRegister};
 pub use module::{
-    Child, Design, Memory, Module, NetlistError, Parameter, Port, Setting, Signal, Value,
+    Assertion, Child, Design, Memory, Module, NetlistError, Parameter, Port, Setting, Signal, Value,
 };
 pub use node::{Id, Node, Operator};
 pub use words::{NetBit, NetInt, NetUInt};

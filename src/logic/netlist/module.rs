@@ -20,6 +20,8 @@ pub struct Module {
     pub parameters: Vec<Parameter>,
     /// Its memories, in the same order, then its ROMs.
     pub memories: Vec<Memory>,
+    /// What holds of it.
+    pub assertions: Vec<Assertion>,
     /// The circuits inside it, in the order in which they settle.
     pub instances: Vec<Child>,
     pub(super) registers: Vec<Register>,
@@ -79,6 +81,18 @@ pub struct Memory {
     pub filled: bool,
     /// Whether it belongs to an instance.
     pub inner: bool,
+}
+
+/// A property of a module.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assertion {
+    /// What holds.
+    pub name: &'static str,
+    /// Whether it looks at the tick before: at the registers that an edge made, and by
+    /// [`Node::Past`] at everything before that edge.
+    pub step: bool,
+    /// High where it holds.
+    pub holds: Id,
 }
 
 /// How a memory is written.

@@ -41,6 +41,8 @@ pub enum Node {
     Join(Id, Id),
     /// The same bits as another kind of word.
     Cast(Id),
+    /// What the node was a tick ago; in properties only.
+    Past(Id),
     /// The word of a memory at an address; for a shift register, the stage.
     Read(usize, Id),
 }
@@ -82,6 +84,7 @@ impl Node {
             | Node::Slice(a, _)
             | Node::Extend(a)
             | Node::Cast(a)
+            | Node::Past(a)
             | Node::Read(_, a) => [Some(a), None, None],
             Node::Binary(_, a, b) | Node::Join(a, b) => [Some(a), Some(b), None],
             Node::Mux(a, b, c) => [Some(a), Some(b), Some(c)],
