@@ -73,6 +73,8 @@ pub struct Declaration {
     pub role: Role,
     /// Kind and width.
     pub shape: Shape,
+    /// Its bits at power-on, with every port in low.
+    pub power_on: u64,
     /// What `signals!` says of it.
     pub field: &'static Field,
 }
@@ -134,13 +136,14 @@ impl Probe for Declarations {
     fn element(&mut self, index: usize) {
         self.path.element(index);
     }
-    fn leaf(&mut self, field: &'static Field, shape: Shape, _: u64) {
+    fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64) {
         let name = self.path.name(field);
         self.leaves.push(Declaration {
             scopes: self.path.scopes().to_vec(),
             name,
             role: self.path.role(),
             shape,
+            power_on: bits,
             field,
         });
     }
@@ -152,7 +155,8 @@ impl Probe for Declarations {
         let (kind, width) = (Kind::Unsigned, words.width());
         for index in 0..words.len() {
             Probe::element(self, index);
-            Probe::leaf(self, words.label(), Shape { kind, width }, 0);
+            let bits = words.word(index);
+            Probe::leaf(self, words.label(), Shape { kind, width }, bits);
         }
         Probe::leave(self);
         self.memories.push(MemoryDeclaration {

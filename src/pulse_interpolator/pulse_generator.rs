@@ -8,12 +8,13 @@
 //! ```
 //!
 //! `pulse` is the comparator's output before the flip-flop 40, so that the toggle and the
-//! flip-flop change in the same tick: n ticks into the unit time, 2n, …
+//! flip-flop change in the same tick: n ticks into the unit time, 2n, … RST acts on the registers
+//! only: `equal` and `pulse` may be high in its tick.
 //!
 //! Departures: in the *safe* variant RST clears counter and toggle, a half-period of 0 gives no
-//! pulse, and a count at or past n counts as "equal", so no n makes the counter run to its wrap.
-//! The *literal* variant ignores RST (¶0017 resets the flip-flop 40 alone) and compares for
-//! equality; its half-period of 0 means 2^N.
+//! pulse, and "equal" is `count + 1 >= half_period`, so no n makes the counter run to its wrap.
+//! The *literal* variant ignores RST (¶0017 clears the flip-flop 40 alone) and has
+//! `count + 1 == half_period`; its half-period of 0 means 2^N.
 
 use super::Variant;
 use crate::check::{Invariants, Specified};
@@ -44,11 +45,11 @@ signals! {
 signals! {
     /// Nets.
     pub struct Net<L, const N: usize> {
-        /// Ticks since the last toggle, this one included.
+        /// `count + 1`: ticks since the last toggle, this one included.
         next: L::U<N>,
-        /// 202: the half-period is over with this tick.
+        /// 202: the half-period is over with this tick. The name is the patent's; safe is `>=`.
         equal: L::Bit,
-        /// The pulse signal, one tick ahead of the flip-flop 40.
+        /// The pulse signal; the flip-flop 40 shows it a tick later, except in the tick after RST.
         pub pulse: L::Bit,
     }
 }

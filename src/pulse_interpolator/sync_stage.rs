@@ -1,4 +1,5 @@
-//! Sync stage 40 (¶0017): a flip-flop that passes the pulse signal and is forced low by RST.
+//! Sync stage 40 (¶0017): a flip-flop that loads the pulse signal, or 0 in the tick of
+//! RST.
 //!
 //! ```text
 //!             ┌────────────┐
@@ -36,7 +37,7 @@ pub struct SyncStage;
 
 impl Circuit for SyncStage {
     const NAME: &'static str = "sync_stage";
-    const ABOUT: &'static str = "flip-flop that passes the pulse signal, forced low by RST";
+    const ABOUT: &'static str = "flip-flop that loads the pulse signal, or 0 in the tick of RST";
     type In<L: Logic> = In<L>;
     type Reg<L: Logic> = Reg<L>;
     type Net<L: Logic> = Nothing<L>;

@@ -18,9 +18,9 @@ use crate::signals;
 signals! {
     /// Ports in.
     pub struct In<L, const W: usize> {
-        /// Half-period of the unit time that begins after RST.
+        /// Half-period of the unit time to come; sampled in the tick of RST only.
         pub half_period: L::U<W>,
-        /// T of the unit time that begins after RST.
+        /// T of the unit time to come; sampled in the tick of RST only.
         pub period: L::U<W>,
     }
 }
@@ -40,7 +40,7 @@ signals! {
         held_period: L::U<W> = 1,
         /// Ghost: pulses of this unit time before this tick.
         pulses: L::U<W>,
-        /// Ghost: the level of step a tick ago.
+        /// Ghost: the level of step a tick ago, low in the first tick of a unit time.
         lagged: L::Bit,
     }
 }

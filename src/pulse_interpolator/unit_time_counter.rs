@@ -6,7 +6,7 @@
 //!            └───────────────────┘
 //! ```
 //!
-//! Departures: the text resets on "equal"; here a count at or past T resets too, so no T makes the
+//! Departures: the text has RST on "equal"; here it is `count + 1 >= period`, so no T makes the
 //! counter run to its wrap. T = 0 counts as 1.
 
 use crate::check::{Invariants, Specified};
@@ -17,7 +17,7 @@ use crate::signals;
 signals! {
     /// Ports in.
     pub struct In<L, const T: usize> {
-        /// Unit time in ticks, constant from one RST to the next.
+        /// Unit time in ticks, which the surrounding circuit keeps constant between two RST.
         pub period: L::U<T>,
     }
 }
@@ -33,7 +33,7 @@ signals! {
 signals! {
     /// Nets.
     pub struct Net<L, const T: usize> {
-        /// Ticks of the unit time that are over after this one.
+        /// `count + 1`: ticks of the unit time that are over after this one.
         next: L::U<T>,
         /// RST: this is the last tick of the unit time.
         pub unit_rst: L::Bit,

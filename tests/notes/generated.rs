@@ -93,33 +93,43 @@ fn blocks(patent: &str) -> String {
     let mut text =
         String::from("| circuit | source | what it does | widths |\n|---|---|---|---|\n");
     for entry in of(patent) {
-        let widths: Vec<_> = entry
-            .widths
-            .iter()
-            .map(|(name, bits)| format!("{name} = {bits}"))
-            .collect();
         let (name, source, about) = (entry.name, entry.source, entry.about);
-        let _ = writeln!(
-            text,
-            "| `{name}` | {source} | {about} | {} |",
-            widths.join(", ")
-        );
+        let widths = widths(entry);
+        let _ = writeln!(text, "| `{name}` | {source} | {about} | {widths} |");
     }
     text
 }
 
+/// The widths of a circuit by name; the number of axes is no width.
+fn widths(entry: &Entry) -> String {
+    let widths = entry.widths.iter().map(|(name, width)| match *name {
+        "AXES" => format!("{name} = {width}"),
+        _ => format!("{name} = {width} bits"),
+    });
+    widths.collect::<Vec<_>>().join(", ")
+}
+
+/// What a register holds in tick 0; other signals have no such value.
+fn power_on(leaf: &Declaration) -> String {
+    let shape = leaf.shape;
+    match (leaf.role, leaf.field.format) {
+        (Role::Input | Role::Net, _) => "–".to_owned(),
+        (Role::Register, Format::States(names)) => names[leaf.power_on as usize].to_owned(),
+        (Role::Register, _) if shape.kind == Kind::Signed => {
+            let unused = 64 - shape.width;
+            ((leaf.power_on << unused) as i64 >> unused).to_string()
+        }
+        (Role::Register, _) => leaf.power_on.to_string(),
+    }
+}
+
 /// A circuit's own signals, those of its blocks left out.
 fn signals(entry: &Entry) -> String {
-    let widths: Vec<_> = entry
-        .widths
-        .iter()
-        .map(|(name, bits)| format!("{name} = {bits}"))
-        .collect();
-    let mut text = match widths.is_empty() {
+    let mut text = match entry.widths.is_empty() {
         true => String::new(),
-        false => format!("Widths: {}.\n\n", widths.join(", ")),
+        false => format!("Widths: {}.\n\n", widths(entry)),
     };
-    text += "| signal | bits | role | meaning |\n|---|---|---|---|\n";
+    text += "| signal | bits | role | power-on | meaning |\n|---|---|---|---|---|\n";
     let declarations = entry.declarations();
     let mut memories = declarations
         .memories
@@ -150,7 +160,11 @@ fn signals(entry: &Entry) -> String {
             _ => String::new(),
         };
         let doc = field.doc.trim().replace('\n', " ");
-        let _ = writeln!(text, "| `{name}` | {bits} | {role} | {doc}{states} |");
+        let power_on = power_on(leaf);
+        let _ = writeln!(
+            text,
+            "| `{name}` | {bits} | {role} | {power_on} | {doc}{states} |"
+        );
     }
     text
 }
@@ -160,7 +174,7 @@ fn memory_row(memory: &MemoryDeclaration) -> String {
         name, words, width, ..
     } = memory;
     let doc = memory.field.doc.trim().replace('\n', " ");
-    format!("| `{name}` | {words} × {width} | memory | {doc} |\n")
+    format!("| `{name}` | {words} × {width} | memory | contents | {doc} |\n")
 }
 
 /// The proof of every circuit of a patent, at its proof width.
