@@ -109,6 +109,18 @@ impl Verilog {
         sources.chain(contents).collect()
     }
 
+    /// What the circuit's own module asserts for formal tools: the names of its
+    /// [properties](Circuit::properties).
+    pub fn assertions(&self) -> Vec<&'static str> {
+        let top = self.design.modules.last();
+        let assertions = top.map(|module| module.assertions.iter());
+        assertions
+            .into_iter()
+            .flatten()
+            .map(|assertion| assertion.name)
+            .collect()
+    }
+
     /// A testbench that applies a stimulus of [`StimulusFile`](crate::trace::StimulusFile), which
     /// it expects as `<circuit>.stimulus`, and dumps every signal to `<circuit>_tb.vcd`.
     pub fn testbench(&self) -> Option<SourceFile> {

@@ -1,0 +1,169 @@
+//! The circuits in synthesis, and their assertions proved at full width.
+
+use super::tools::{run, write};
+use motion_rtl::registry::{AnyModel, CATALOGUE};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Runs a script; returns what Yosys says.
+#[track_caller]
+fn yosys(circuit: &dyn AnyModel, script: impl Fn(&str) -> String) -> String {
+    let directory = tempfile::tempdir().unwrap();
+    let modules = write(directory.path(), &circuit.verilog().unwrap());
+    let script = script(&modules.join(" "));
+    run(directory.path(), "yosys", &["-p", &script])
+}
+
+/// The number of cells of a kind in the last statistics.
+fn cells(said: &str, wanted: impl Fn(&str) -> bool) -> u64 {
+    let last = said.rsplit("Number of cells:").next().unwrap_or_default();
+    let rows = last.lines().skip(1).map_while(|line| {
+        let (kind, count) = line.trim().split_once(' ')?;
+        Some((kind, count.trim().parse::<u64>().ok()?))
+    });
+    rows.filter(|(kind, _)| wanted(kind))
+        .map(|(_, count)| count)
+        .sum()
+}
+
+/// LUTs, flip-flops, carries and block RAMs of every circuit at its own widths.
+fn synthesis() -> String {
+    let mut text = String::from(
+        "| circuit | widths | LUTs | flip-flops | carries | block RAMs |\n|---|---|---|---|---|---|\n",
+    );
+    for entry in CATALOGUE {
+        let circuit = (entry.full)();
+        let name = circuit.name();
+        let said = yosys(&*circuit, |files| {
+            format!("read_verilog {files}; synth_ice40 -top {name}; stat")
+        });
+        let warnings: Vec<&str> = said
+            .lines()
+            .filter(|line| line.starts_with("Warning"))
+            .collect();
+        assert!(warnings.is_empty(), "{name}: {warnings:#?}");
+        let widths = entry
+            .widths
+            .iter()
+            .map(|(name, bits)| format!("{name} = {bits}"));
+        let widths: Vec<String> = widths.collect();
+        let count = |kind: &'static str| cells(&said, move |cell| cell.starts_with(kind));
+        let _ = writeln!(
+            text,
+            "| `{name}` | {} | {} | {} | {} | {} |",
+            widths.join(", "),
+            count("SB_LUT4"),
+            count("SB_DFF"),
+            count("SB_CARRY"),
+            count("SB_RAM40"),
+        );
+    }
+    text
+}
+
+/// The assertions of every circuit that has some, proved by induction at its own widths.
+fn induction() -> String {
+    let mut text = String::from(
+        "| circuit | invariant | `check`: every state and input at | Yosys: by induction at |\n\
+         |---|---|---|---|\n",
+    );
+    for entry in CATALOGUE {
+        let circuit = (entry.full)();
+        let names = circuit.verilog().unwrap().assertions();
+        if names.is_empty() {
+            continue;
+        }
+        let name = circuit.name();
+        yosys(&*circuit, |files| {
+            format!(
+                "read_verilog -formal {files}; prep -top {name}; async2sync; dffunmap; \
+                 sat -tempinduct -prove-asserts -verify"
+            )
+        });
+        let small = (entry.make)(&[entry.proof_width]).unwrap().invariants();
+        for property in names {
+            assert!(small.iter().any(|invariant| *invariant == property));
+            let widths = |bits: u64| match entry.widths.is_empty() {
+                true => "all there is".to_owned(),
+                false => format!("{bits} bits"),
+            };
+            let full = entry.widths.first().map_or(0, |(_, bits)| *bits as u64);
+            let _ = writeln!(
+                text,
+                "| `{name}` | {property} | {} | {} |",
+                widths(entry.proof_width),
+                widths(full)
+            );
+        }
+    }
+    text
+}
+
+/// What stands between the marks of a note, against what the tools say now.
+#[track_caller]
+fn measured(what: &str, fresh: &str) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let path = root.join("rtl_notes/verilog.md");
+    let note = std::fs::read_to_string(&path).unwrap();
+    let begin = format!("<!-- begin measured: {what} -->\n");
+    let (before, rest) = note.split_once(&begin).expect("the note has the mark");
+    let (old, after) = rest
+        .split_once("<!-- end measured -->")
+        .expect("the mark ends");
+    if std::env::var_os("UPDATE_NOTES").is_some_and(|value| value == "1") {
+        let text = format!("{before}{begin}{fresh}<!-- end measured -->{after}");
+        std::fs::write(&path, text).unwrap();
+    } else {
+        assert_eq!(
+            old, fresh,
+            "UPDATE_NOTES=1 cargo test --features cosim --test cosim"
+        );
+    }
+}
+
+#[test]
+fn every_circuit_goes_through_synthesis_and_the_note_has_its_cells() {
+    measured("synthesis", &synthesis());
+}
+
+#[test]
+fn assertions_are_proved_by_induction_at_full_width() {
+    let table = induction();
+    assert_eq!(table.lines().count(), 2 + 3 + 5 + 2, "{table}");
+    measured("induction", &table);
+}
+
+/// What Yosys says of the assertions of a circuit in which `from` is replaced by `to`.
+#[track_caller]
+fn refute(circuit: &dyn AnyModel, [from, to]: [&str; 2]) {
+    let directory = tempfile::tempdir().unwrap();
+    let name = circuit.name();
+    write(directory.path(), &circuit.verilog().unwrap());
+    let path = directory.path().join(format!("{name}.v"));
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.contains(from), "{text}");
+    std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
+    let script = format!(
+        "read_verilog -formal {name}.v; prep -top {name}; async2sync; dffunmap; \
+         sat -tempinduct -prove-asserts -maxsteps 20"
+    );
+    let said = run(directory.path(), "yosys", &["-p", &script]);
+    assert!(said.contains("model found for base case: FAIL!"), "{said}");
+}
+
+#[test]
+fn what_does_not_hold_is_refuted() {
+    let make = |name, given: &[u64]| (motion_rtl::registry::find(name).unwrap().model)(given);
+    let counter = make("unit_time_counter", &[24]).unwrap();
+    refute(&*counter, ["next >= period", "next > period"]);
+    refute(&*counter, ["count <= next", "count <= period"]);
+    let generator = make("pulse_generator", &[16, 0]).unwrap();
+    refute(&*generator, [" && half_period != 16'd0", ""]);
+    refute(&*generator, ["pulse && !unit_rst", "pulse"]);
+    refute(&*generator, ["next >= half_period", "next == half_period"]);
+    let stage = make("sync_stage", &[]).unwrap();
+    refute(&*stage, ["pulse && !unit_rst", "pulse"]);
+    // The variant that the patent's words give.
+    let literal = make("pulse_generator", &[16, 1]).unwrap();
+    refute(&*literal, ["", ""]);
+}
