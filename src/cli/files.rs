@@ -42,6 +42,11 @@ impl Files {
         AtomicFile::create(path).map_err(|error| refuse(&error))
     }
 
+    /// Begins one with a name of its own.
+    pub fn create_as(&self, name: &str) -> Result<AtomicFile, Failure> {
+        AtomicFile::create(self.stem.with_file_name(name)).map_err(|error| refuse(&error))
+    }
+
     /// Takes one that is complete.
     pub fn push(&mut self, file: AtomicFile) {
         self.complete.push(file);

@@ -9,8 +9,10 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
 use motion_rtl::pulse_interpolator::job::{Played, group, play};
-use motion_rtl::trace::{Clock, LayoutError, Options, Vcd, gtkw};
-use std::io;
+use motion_rtl::trace::atomic::AtomicFile;
+use motion_rtl::trace::{Clock, LayoutError, Options, StimulusFile, Vcd, gtkw};
+use motion_rtl::verilog::Verilog;
+use std::io::{self, Write as _};
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 
@@ -39,6 +41,9 @@ pub struct Arguments {
     /// A scope or signal in the VCD, as `pulse_interpolator.x`; repeated for more. Without it all.
     #[arg(long, value_name = "SCOPE")]
     only: Vec<String>,
+    /// Writes the circuit as Verilog too, with a testbench and the run's inputs as its stimulus.
+    #[arg(long)]
+    verilog: bool,
     /// Prints the summary as JSON.
     #[arg(long)]
     json: bool,
@@ -112,13 +117,23 @@ fn simulate<const AXES: usize>(
             Some(dump.map_err(|error| not_selected(&error))?)
         }
     };
+    let mut stimulus = match arguments.verilog {
+        true => Some(verilog(&group, &mut files)?),
+        false => None,
+    };
     let mut progress = Progress::new(job.table.total_ticks());
     // Two calls, so that a run without waves is compiled without a trace of them.
-    let played = match vcd.as_mut() {
-        Some(vcd) => play(&group, &job.table, (vcd, &mut progress)),
-        None => play(&group, &job.table, &mut progress),
+    let played = match vcd.is_some() || stimulus.is_some() {
+        true => {
+            let files = (vcd.as_mut(), stimulus.as_mut());
+            play(&group, &job.table, (files, &mut progress))
+        }
+        false => play(&group, &job.table, &mut progress),
     }?;
     drop(progress);
+    if let Some(stimulus) = stimulus {
+        files.push(stimulus.finish()?);
+    }
     if let Some(vcd) = vcd {
         let units = u64::from(job.table.patterns().first().map_or(1, |first| first.period));
         let Range { start, end } = options.ticks;
@@ -134,6 +149,22 @@ fn simulate<const AXES: usize>(
         files.write("gtkw", &save.map_err(io::Error::from)?)?;
     }
     Ok((played, files))
+}
+
+/// The circuit's Verilog and its testbench; returns what writes the stimulus.
+fn verilog<C: Circuit>(
+    circuit: &C,
+    files: &mut Files,
+) -> Result<StimulusFile<C, AtomicFile>, Failure> {
+    // Every circuit of the crate is printed by a test, so only a new one can fail here.
+    let verilog = Verilog::of(circuit).map_err(|error| Failure::Check(error.to_string()))?;
+    for source in verilog.sources().iter().chain(&verilog.testbench()) {
+        let mut file = files.create_as(&source.name)?;
+        file.write_all(source.text.as_bytes())?;
+        files.push(file);
+    }
+    let stimulus = files.create_as(&format!("{}.stimulus", C::NAME))?;
+    Ok(StimulusFile::new(stimulus))
 }
 
 /// The clock of the waves, in which the last tick must have a time.

@@ -36,7 +36,9 @@ fn every_chart_runs() {
     let mut wrong = Vec::new();
     for note in notes() {
         match charts(&note) {
-            Ok(charts) if charts.is_empty() => wrong.push(format!("{}: has no chart", note.name)),
+            Ok(charts) if charts.is_empty() && note.text.contains("generated: signals") => {
+                wrong.push(format!("{}: has no chart", note.name))
+            }
             Ok(charts) => wrong.extend(charts.iter().filter_map(|chart| fault(&note, chart))),
             Err(error) => wrong.push(error),
         }

@@ -1,0 +1,48 @@
+//! A whole job: the inputs of a run, applied to the Verilog that the run wrote beside its waves.
+
+use super::tools::{Simulator, complete};
+use assert_cmd::Command;
+use motion_rtl::kernel::Declarations;
+use motion_rtl::pulse_interpolator::{Group, Variant};
+use std::fs;
+use std::path::Path;
+
+/// Runs a shipped scenario, and its Verilog with the same inputs.
+fn hold(scenario: &str, simulator: Simulator) {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    Command::new(env!("CARGO_BIN_EXE_motion-rtl"))
+        .arg("run")
+        .arg(root.join(format!("waves/{scenario}.toml")))
+        .args(["--verilog", "--out"])
+        .arg(path)
+        .assert()
+        .success();
+    let name = "pulse_interpolator";
+    let golden = path.join(format!("{name}.vcd"));
+    fs::rename(path.join(format!("{scenario}.vcd")), golden).unwrap();
+    let modules: Vec<String> = fs::read_dir(path)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|file| file.ends_with(".v") && !file.ends_with("_tb.v"))
+        .collect();
+    assert_eq!(modules.len(), 9, "{modules:?}");
+    let stimulus = fs::read_to_string(path.join(format!("{name}.stimulus"))).unwrap();
+    let ticks = stimulus.lines().count() as u64;
+    let report = simulator.hold(path, name, &modules);
+    let signals = Declarations::of(&Group::<2>::new(Variant::Safe, 1))
+        .leaves
+        .len();
+    complete(&report, ticks, signals);
+}
+
+#[test]
+fn the_bracket_is_the_same_in_icarus() {
+    hold("bracket", Simulator::Icarus);
+}
+
+#[test]
+fn the_rosette_is_the_same_in_verilator() {
+    hold("rosette", Simulator::Verilator);
+}
