@@ -184,6 +184,11 @@ fn the_note_shows_what_its_commands_print() {
         complete(&report, 20_000);
         assert!(report.is_equal(), "{run}: {report}");
     }
+    let wide = fs::read_to_string(build.join("wide.toml")).unwrap();
+    assert_eq!(wide.matches("[15:0]").count(), 5, "{wide}");
+    let report = held("wide", &wide);
+    complete(&report, 20_000);
+    assert!(report.is_equal(), "{report}");
     let report = held("late", &names());
     complete(&report, 20_000);
     let first = report.first.as_ref().expect("the fault is found");
