@@ -118,7 +118,7 @@ fn every_command_exists() {
             _ => panic!("{line}: not known to this test"),
         }
     }
-    let all = ["check", "compare", "list", "run", "table"].map(str::to_owned);
+    let all = ["check", "compare", "list", "run", "table", "verilog"].map(str::to_owned);
     assert_eq!(used, BTreeSet::from(all), "the commands that are shown");
 }
 

@@ -2,6 +2,7 @@
 #![cfg(feature = "cosim")]
 
 mod scenario;
+mod golden_model;
 mod simulators;
 mod tools;
 mod yosys;
