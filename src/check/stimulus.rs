@@ -5,8 +5,10 @@ use crate::logic::Sim;
 /// A stretch in which a port keeps to one way of changing has up to this many binary digits of
 /// ticks. Longer ones bring single counters further, and fewer combinations of ports.
 const STRETCH: u64 = 10;
-/// As many binary digits has the gap between two ticks of reset.
-const GAP: u64 = 16;
+/// As many binary digits at most has the gap before the first tick of reset, one more each gap
+/// after that, up to the second number.
+const SHORT_GAP: u64 = 6;
+const LONG_GAP: u64 = 16;
 /// At the slowest a port changes about once in 2^`PACE` ticks.
 const PACE: u64 = 11;
 
@@ -32,18 +34,24 @@ const PACE: u64 = 11;
 pub struct Stimulus {
     random: Random,
     courses: Vec<Course>,
+    /// What the ticks of reset are drawn from, so that asking for them changes no input.
+    resets: Random,
     /// Ticks before the next one of reset.
     gap: u64,
+    /// The longest gap after that one, as a power of two.
+    longest: u64,
 }
 
 impl Stimulus {
     /// The stimulus that `seed` names.
     pub fn new(seed: u64) -> Self {
-        let mut random = Random::new(seed);
+        let mut resets = Random::new(!seed);
         Stimulus {
-            gap: magnitude(&mut random, GAP),
+            random: Random::new(seed),
             courses: Vec::new(),
-            random,
+            gap: magnitude(&mut resets, SHORT_GAP),
+            longest: SHORT_GAP,
+            resets,
         }
     }
 
@@ -56,8 +64,8 @@ impl Stimulus {
         S::make(const { &Field::named("") }, &mut ports)
     }
 
-    /// Whether the tick that comes next is one of reset: one in some thousands is, after gaps of
-    /// every order of magnitude. Ask once a tick, or never.
+    /// Whether the tick that comes next is one of reset: some are among the first hundreds, later
+    /// ones come after gaps of every order of magnitude. Ask once a tick, or never.
     pub fn reset(&mut self) -> bool {
         match self.gap.checked_sub(1) {
             Some(left) => {
@@ -65,7 +73,8 @@ impl Stimulus {
                 false
             }
             None => {
-                self.gap = magnitude(&mut self.random, GAP);
+                self.longest = (self.longest + 1).min(LONG_GAP);
+                self.gap = magnitude(&mut self.resets, self.longest);
                 true
             }
         }
@@ -214,7 +223,7 @@ mod tests {
 
     #[test]
     fn a_bit_has_rare_and_frequent_pulses_and_rare_gaps() {
-        let bits = words::<1>(9);
+        let bits = words::<1>(11);
         let mut lengths = [[0; 2]; 18];
         for run in bits.chunk_by(|a, b| a == b) {
             lengths[run.len().ilog2() as usize][run[0] as usize] += 1;
@@ -228,7 +237,7 @@ mod tests {
 
     #[test]
     fn signed_words_are_of_both_signs() {
-        let mut stimulus = Stimulus::new(3);
+        let mut stimulus = Stimulus::new(5);
         let words: Vec<Int<12>> = (0..TICKS).map(|_| stimulus.inputs()).collect();
         for end in [-2048, 2047, -1, 0] {
             assert!(words.iter().any(|word| word.get() == end), "{end}");

@@ -3,7 +3,7 @@
 use super::{Failure, check::entry, print};
 use clap::Args;
 use motion_rtl::check::Drive;
-use motion_rtl::kernel::RunError;
+use motion_rtl::kernel::{Role, RunError};
 use motion_rtl::registry::{AnyModel, MODEL_WIDTHS};
 use motion_rtl::trace::Clock;
 use motion_rtl::trace::atomic::{AtomicFile, Directory};
@@ -34,6 +34,9 @@ pub struct Arguments {
     /// Beside the circuit a testbench, a stimulus of so many ticks, and the golden waves of it.
     #[arg(long, value_name = "TICKS", value_parser = clap::value_parser!(u64).range(2..))]
     testbench: Option<u64>,
+    /// Clock of the golden waves.
+    #[arg(long, value_name = "HZ", requires = "testbench")]
+    clock_hz: Option<u64>,
     /// What the stimulus is drawn from.
     #[arg(
         long,
@@ -67,6 +70,7 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
         Ok(())
     };
     let name = circuit.name();
+    let mut text = String::new();
     for source in verilog.sources() {
         write(source)?;
     }
@@ -76,26 +80,66 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
             seed: arguments.seed,
             ticks,
             resets: true,
-            clock: Clock::default(),
+            clock: clock(arguments)?,
         };
         let mut waves = create(&format!("{name}.vcd"))?;
         let mut stimulus = create(&format!("{name}.stimulus"))?;
-        circuit
-            .drive(&drive, &mut waves, &mut stimulus)
-            .map_err(|error| match error {
-                RunError::Waves(error) => refuse(error),
-                other => Failure::Run(other),
-            })?;
+        let driven =
+            circuit
+                .drive(&drive, &mut waves, &mut stimulus)
+                .map_err(|error| match error {
+                    RunError::Waves(error) => refuse(error),
+                    other => Failure::Run(other),
+                })?;
         complete.extend([waves, stimulus]);
+        let (seen, bits) = driven.coverage.bits();
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            text,
+            "{ticks} ticks of seed {}, {} of them with rst; {seen} of {bits} bits were 0 and 1",
+            arguments.seed, driven.resets
+        );
+        let _ = writeln!(
+            text,
+            "a word of the stimulus, from bit 0: {}",
+            word(&*circuit)
+        );
     }
-    let mut text = String::new();
     for file in complete {
         let path = file.commit().map_err(refuse)?;
-        // Writing to a string does not fail.
         let _ = writeln!(text, "{}", path.display());
     }
     drop(directory);
     print(&text)
+}
+
+fn clock(arguments: &Arguments) -> Result<Clock, Failure> {
+    let Some(hz) = arguments.clock_hz else {
+        return Ok(Clock::default());
+    };
+    Clock::from_hz(hz).map_err(|error| Failure::Argument {
+        field: "--clock-hz",
+        problem: error.to_string(),
+        allowed: format!("1 to {} Hz", Clock::MAX_HZ),
+    })
+}
+
+/// What stands in a word of the stimulus: the inputs and their bits, the lowest first.
+fn word(circuit: &dyn AnyModel) -> String {
+    let mut low = 0;
+    let mut parts = Vec::new();
+    for input in circuit.declarations().leaves {
+        if input.role == Role::Input && input.scopes.len() == 1 {
+            let width = input.shape.width;
+            parts.push(match width {
+                1 => format!("{} [{low}]", input.name),
+                _ => format!("{} [{}:{low}]", input.name, low + width - 1),
+            });
+            low += width;
+        }
+    }
+    parts.push(format!("rst [{low}]"));
+    parts.join(", ")
 }
 
 /// The circuit that is asked for.

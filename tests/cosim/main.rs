@@ -1,8 +1,8 @@
 //! Every circuit's Verilog against the model, in simulators and in synthesis.
 #![cfg(feature = "cosim")]
 
-mod scenario;
 mod golden_model;
+mod scenario;
 mod simulators;
 mod tools;
 mod yosys;
