@@ -3,3 +3,4 @@
 
 mod simulators;
 mod tools;
+mod zoo;
