@@ -31,7 +31,10 @@ impl<'d> Instance<'d> {
 
     fn within(design: &'d Design, module: usize, around: &[String]) -> Self {
         let module = &design.modules[module];
-        let inside = |name: &str| [around, &[name.to_owned()]].concat();
+        let inside = |name: &str| -> Vec<String> {
+            let around = around.iter().cloned();
+            around.chain([name.to_owned()]).collect()
+        };
         let setting = |name: &str| {
             let path = inside(name);
             let setting = design.settings.iter().find(|setting| setting.path == path);
@@ -130,12 +133,10 @@ impl<'d> Instance<'d> {
             }
             Node::Mux(choose, then, other) => value(if value(choose) == 1 { then } else { other }),
             Node::ShiftLeft(a, by) => value(a) << by,
-            Node::ShiftRight(a, by) => {
-                (match shape(a).kind {
-                    Kind::Signed => (signed(value(a), shape(a)) >> by) as u64,
-                    _ => value(a) >> by,
-                })
-            }
+            Node::ShiftRight(a, by) => match shape(a).kind {
+                Kind::Signed => (signed(value(a), shape(a)) >> by) as u64,
+                _ => value(a) >> by,
+            },
             Node::Slice(a, low) => value(a) >> low,
             Node::Extend(a) => extended(a),
             Node::Join(a, b) => value(a) << shape(b).width | value(b),

@@ -56,7 +56,7 @@ fn a_circuit_without_inputs() {
 #[test]
 fn circuits_in_circuits() {
     assert!(check(&Tree::new(), 1) > 0);
-    assert!(hold(&Tree::new(), Simulator::Verilator, 2, TICKS) > 0);
+    assert!(hold(&Tree::new(), Simulator::Verilator, 1, TICKS) > 0);
 }
 
 #[test]
