@@ -120,7 +120,10 @@ fn registers_of_an_instance_come_from_its_next() {
         module: "around".into(),
         instance: "counter".into(),
     };
-    assert_eq!(refused(&Around(Way::Replaces)), [expected.clone()]);
+    assert_eq!(
+        refused(&Around(Way::Replaces)),
+        std::slice::from_ref(&expected)
+    );
     assert!(refused(&Around(Way::Keeps)).contains(&expected));
     let text = "around: the registers of counter do not come from its next";
     assert_eq!(expected.to_string(), text);
