@@ -133,9 +133,16 @@ impl Pairing {
     }
 
     fn try_path(&mut self, golden: &Wave, other: &Wave, index: usize, name: &str) {
-        match partner(golden, other, index, name) {
-            Some(pair) => self.add(golden, other, pair),
-            None => self.without_partner.push(index),
+        let mut name = name.to_owned();
+        loop {
+            if let Some(pair) = partner(golden, other, index, &name) {
+                return self.add(golden, other, pair);
+            }
+            // HDL has no bundles: there their names stand before those of their signals.
+            match name.rfind('.') {
+                Some(dot) => name.replace_range(dot..=dot, "_"),
+                None => return self.without_partner.push(index),
+            }
         }
     }
 

@@ -78,6 +78,11 @@ impl Verilog {
         Ok(Verilog { design })
     }
 
+    /// The netlist that is printed.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
     fn modules(&self) -> Modules<'_> {
         Modules {
             modules: &self.design.modules,

@@ -406,10 +406,17 @@ impl Modules<'_> {
         }
         if !unread.is_empty() {
             body.comment("Read by nothing here: for the waves, or bits that are not needed.");
-            body.line(&format!(
-                "wire {UNUSED} = &{{1'b0, {}}};",
-                unread.join(", ")
-            ));
+            let mut line = format!("wire {UNUSED} = &{{1'b0");
+            for part in unread {
+                line.push(',');
+                if line.len() + part.len() + 4 > LINE {
+                    body.line(&line);
+                    line = "       ".to_owned();
+                }
+                line.push(' ');
+                line += &part;
+            }
+            body.line(&(line + "};"));
             body.space();
         }
     }

@@ -86,8 +86,14 @@ impl Names {
                     let fits =
                         index_width(module.memories[memory].words) == module.nodes[address].1.width;
                     parts[address] |= !fits && !self.narrows(module, address);
+                    parts[address] |= !self.is_index(module, address);
                 }
                 _ => {}
+            }
+        }
+        for memory in &module.memories {
+            if let Port::Ram { address, .. } = memory.port {
+                parts[address] |= !self.is_index(module, address);
             }
         }
         for id in 0..module.nodes.len() {
@@ -117,6 +123,19 @@ impl Names {
                 self.narrows(module, a) && self.narrows(module, b)
             }
             Node::Not(a) | Node::Negate(a) | Node::Cast(a) => self.narrows(module, a),
+            _ => false,
+        }
+    }
+
+    /// Whether a node can be written as an index. Icarus computes an index in more bits than its
+    /// operands have, so what may wrap needs a name.
+    fn is_index(&self, module: &Module, id: Id) -> bool {
+        let named = |id: Id| self.of.contains_key(&id);
+        match module.nodes[id].0 {
+            _ if named(id) => true,
+            Node::Constant(_) | Node::Parameter(_) | Node::Read(..) | Node::Join(..) => true,
+            Node::Cast(a) | Node::Extend(a) => self.is_index(module, a),
+            Node::Slice(a, _) => named(a),
             _ => false,
         }
     }
@@ -165,7 +184,10 @@ impl Names {
             }
             Node::ShiftLeft(a, by) => format!("{}_up_{by}", word(a)?),
             Node::ShiftRight(a, by) => format!("{}_down_{by}", word(a)?),
-            Node::Slice(a, low) => format!("{}_from_{low}", word(a)?),
+            Node::Slice(a, low) => match low + module.nodes[id].1.width - 1 {
+                high if high == low => format!("{}_{low}", word(a)?),
+                high => format!("{}_{high}_{low}", word(a)?),
+            },
             Node::Extend(a) => format!("{}_wide", word(a)?),
             Node::Join(a, b) => two(a, "and", b)?,
             Node::Read(memory, _) => format!("{}_read", module.memories[memory].name),

@@ -14,6 +14,11 @@ pub(super) fn testbench(modules: &Modules<'_>, module: &Module) -> SourceFile {
         .collect();
     let rst: usize = inputs.iter().map(|signal| signal.shape.width).sum();
     let mut ports = Vec::new();
+    // What has no clock is compared by the testbench's.
+    let clock = match modules.clocked(module) {
+        true => "",
+        false => "        $dumpvars(0, clk);\n",
+    };
     if modules.clocked(module) {
         ports.push("        .clk (clk)".to_owned());
         ports.push(format!("        .rst (stimulus[{rst}])"));
@@ -48,8 +53,9 @@ pub(super) fn testbench(modules: &Modules<'_>, module: &Module) -> SourceFile {
     let ports = ports.join(",\n");
     let text = format!(
         "\
-// Testbench of {name}: applies {name}.stimulus, a line a tick, and dumps every signal.
+// Testbench of {name}.
 //
+// Applies {name}.stimulus, a line a tick, and dumps every signal.
 // A line is a hexadecimal word: the inputs side by side, the first lowest, and rst on top. A tick
 // is what stands before a rising edge of clk; inputs change soon after it.
 
@@ -73,7 +79,7 @@ module {name}_tb;
         items = $fscanf(file, \"%h\", stimulus);
         $dumpfile(\"{name}_tb.vcd\");
         $dumpvars(0, dut);
-{memories}        while (items == 1) begin
+{clock}{memories}        while (items == 1) begin
             #5 items = $fscanf(file, \"%h\", line);
             if (items == 1) begin
                 clk = 1'b1;

@@ -12,3 +12,4 @@ mod settings;
 mod streams;
 mod support;
 mod tables;
+mod verilog;

@@ -6,3 +6,4 @@ mod scenario;
 mod simulators;
 mod tools;
 mod yosys;
+mod zoo;

@@ -9,8 +9,8 @@ use std::thread;
 
 const TICKS: u64 = 100_000;
 
-/// Drives a circuit and its Verilog.
-fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64) {
+/// Drives a circuit and its Verilog; returns how many ticks had a reset.
+pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64) -> u64 {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
     let name = circuit.name();
@@ -24,9 +24,10 @@ fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64) {
     };
     let create = |extension: &str| File::create(path.join(format!("{name}.{extension}"))).unwrap();
     let driven = circuit.drive(&drive, &mut create("vcd"), &mut create("stimulus"));
-    assert!(driven.unwrap().resets > 0);
+    let resets = driven.unwrap().resets;
     let report = simulator.hold(path, name, &modules);
     complete(&report, ticks, circuit.declarations().leaves.len());
+    resets
 }
 
 /// The circuit of an entry at several widths: the smallest, a middle one, its own.
@@ -55,7 +56,7 @@ fn by_halves(work: impl Fn(&Entry) + Sync) {
 fn every_circuit_equals_its_verilog_in_icarus() {
     by_halves(|entry| {
         for (seed, circuit) in widths(entry).iter().enumerate() {
-            hold(&**circuit, Simulator::Icarus, seed as u64 + 1, TICKS);
+            assert!(hold(&**circuit, Simulator::Icarus, seed as u64 + 1, TICKS) > 0);
         }
     });
 }
@@ -65,7 +66,7 @@ fn the_literal_variants_equal_their_verilog_too() {
     for name in ["pulse_generator", "axis", "unit_law"] {
         let entry = motion_rtl::registry::find(name).unwrap();
         let circuit = (entry.model)(&[8, 1]).unwrap();
-        hold(&*circuit, Simulator::Icarus, 1, TICKS);
+        assert!(hold(&*circuit, Simulator::Icarus, 1, TICKS) > 0);
     }
 }
 
@@ -73,7 +74,7 @@ fn the_literal_variants_equal_their_verilog_too() {
 fn the_top_circuits_equal_their_verilog_in_verilator() {
     for name in ["unit_law", "axis", "pulse_interpolator"] {
         let entry = motion_rtl::registry::find(name).unwrap();
-        hold(&*(entry.full)(), Simulator::Verilator, 7, TICKS);
+        assert!(hold(&*(entry.full)(), Simulator::Verilator, 7, TICKS) > 0);
     }
 }
 
@@ -81,16 +82,21 @@ fn the_top_circuits_equal_their_verilog_in_verilator() {
 fn verilator_finds_nothing_to_warn_of() {
     by_halves(|entry| {
         for circuit in widths(entry) {
-            let directory = tempfile::tempdir().unwrap();
-            let modules = write(directory.path(), &circuit.verilog().unwrap());
-            let options = ["--lint-only", "-Wall", "--top-module", circuit.name()];
-            let files: Vec<&str> = modules.iter().map(String::as_str).collect();
-            let said = run(
-                directory.path(),
-                "verilator",
-                &[&options[..], &files].concat(),
-            );
-            assert_eq!(said, "", "{}", circuit.name());
+            lint(&*circuit);
         }
     });
+}
+
+/// Verilator finds nothing to warn of.
+pub fn lint(circuit: &dyn AnyModel) {
+    let directory = tempfile::tempdir().unwrap();
+    let modules = write(directory.path(), &circuit.verilog().unwrap());
+    let options = ["--lint-only", "-Wall", "--top-module", circuit.name()];
+    let files: Vec<&str> = modules.iter().map(String::as_str).collect();
+    let said = run(
+        directory.path(),
+        "verilator",
+        &[&options[..], &files].concat(),
+    );
+    assert_eq!(said, "", "{}", circuit.name());
 }

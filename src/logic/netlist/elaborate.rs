@@ -414,6 +414,8 @@ pub(super) struct Nets {
     /// How many structs have been entered, and at which one each nested part begins.
     depth: usize,
     parts: Vec<(usize, Role)>,
+    /// How many leaves there were when each struct that is open was entered.
+    entered: Vec<usize>,
     /// The signal of each leaf, if it is not one of an instance.
     pub(super) leaves: Vec<Option<usize>>,
     /// The scopes that are instances, with the instance where a net tells it.
@@ -446,6 +448,7 @@ impl Visit<Netlist> for Nets {
     fn enter(&mut self, field: &'static Field) {
         self.path.enter(field);
         self.depth += 1;
+        self.entered.push(self.leaves.len());
         let Some(role) = field.role.filter(|_| self.depth > 1) else {
             return;
         };
@@ -458,6 +461,15 @@ impl Visit<Netlist> for Nets {
         self.parts.push((self.depth, role));
     }
     fn leave(&mut self) {
+        let scopes = self.path.scopes();
+        let empty = self.entered.pop() == Some(self.leaves.len()) && self.parts.is_empty();
+        // An instance without inputs and nets.
+        if empty
+            && !scopes.is_empty()
+            && self.instances.last().is_none_or(|(last, _)| last != scopes)
+        {
+            self.instances.push((scopes.to_vec(), None));
+        }
         self.path.leave();
         if self
             .parts

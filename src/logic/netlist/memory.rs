@@ -71,7 +71,11 @@ impl<const K: usize, const D: usize> ShiftRegister<Netlist, K, D> for NetShiftRe
         }
     }
     fn tap<const T: usize>(&self, tap: NetUInt<T>) -> NetUInt<D> {
-        let stage = NetUInt(self.read(tap.0));
+        // A single stage has no index.
+        let stage = match K {
+            0 | 1 => self.stage(0),
+            _ => NetUInt(self.read(tap.0)),
+        };
         // A tap that can name more stages than there are reads zero there.
         match (K as u64).checked_shr(T as u32).unwrap_or(0) {
             0 => tap.below((K as u64).into()).mux(stage, 0.into()),

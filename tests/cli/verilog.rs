@@ -1,0 +1,103 @@
+//! `verilog`: its files, and its refusals.
+
+use super::support::Bench;
+
+const TESTBENCH: [&str; 6] = ["--width", "4", "--testbench", "200", "--out", "v"];
+
+fn verilog<'a>(circuit: &'a str, arguments: &[&'a str]) -> Vec<&'a str> {
+    [&["verilog", circuit], arguments].concat()
+}
+
+#[test]
+fn a_module_each_is_written_and_named() {
+    let bench = Bench::new();
+    let said = bench.succeed(&verilog("unit_time_counter", &["--out", "a/b"]));
+    assert_eq!(said, "a/b/unit_time_counter.v\n");
+    assert_eq!(bench.names(), ["a/", "a/b/", "a/b/unit_time_counter.v"]);
+    let text = bench.read("a/b/unit_time_counter.v");
+    assert!(text.contains("\nmodule unit_time_counter (\n"), "{text}");
+}
+
+#[test]
+fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
+    let bench = Bench::new();
+    let said = bench.succeed(&verilog("unit_time_counter", &TESTBENCH));
+    let files = [".v", "_tb.v", ".vcd", ".stimulus"];
+    let files = files.map(|end| format!("v/unit_time_counter{end}"));
+    assert_eq!(said, files.join("\n") + "\n");
+    assert_eq!(bench.read(&files[3]).lines().count(), 200);
+    assert_eq!(bench.names().len(), 5);
+}
+
+#[test]
+fn two_ticks_are_the_least() {
+    let bench = Bench::new();
+    bench.succeed(&verilog("axis", &["--testbench", "2", "--out", "v"]));
+    assert_eq!(bench.read("v/axis.stimulus").lines().count(), 2);
+    let done = bench.run(&verilog("axis", &["--testbench", "1", "--out", "w"]));
+    assert_eq!(done.code, 2);
+    assert!(
+        done.stderr.contains("'--testbench <TICKS>'"),
+        "{}",
+        done.stderr
+    );
+    assert!(!bench.path("w").exists());
+}
+
+#[test]
+fn a_seed_names_its_bytes() {
+    let files = |seed: &str| {
+        let bench = Bench::new();
+        bench.succeed(&verilog(
+            "axis",
+            &[&TESTBENCH[..], &["--seed", seed]].concat(),
+        ));
+        let names = bench
+            .names()
+            .into_iter()
+            .filter(|name| !name.ends_with('/'));
+        let files = names.map(|name| (bench.read(&name), name));
+        files.collect::<Vec<_>>()
+    };
+    assert_eq!(files("3"), files("3"));
+    assert_ne!(files("3"), files("4"));
+}
+
+#[test]
+fn circuits_that_are_not_there_are_refused() {
+    let bench = Bench::new();
+    let done = bench.run(&verilog("no_such_thing", &["--out", "v"]));
+    assert_eq!((done.code, done.stdout.as_str()), (2, ""));
+    assert!(done.stderr.contains("no_such_thing"), "{}", done.stderr);
+    assert!(done.stderr.contains("unit_time_counter"), "{}", done.stderr);
+    assert!(bench.names().is_empty());
+}
+
+#[test]
+fn widths_that_are_not_offered_are_refused() {
+    let bench = Bench::new();
+    bench.refuse(
+        &verilog("unit_time_counter", &["--width", "5", "--out", "v"]),
+        "--width: unit_time_counter cannot be made with [5]; allowed: width, the first of them \
+         one of 2, 3, 4, 8, 12, 16, 24, 32",
+    );
+}
+
+#[test]
+fn a_directory_that_cannot_be_written_stays_as_it_is() {
+    const WRITABLE: &str = "allowed: a directory that can be written";
+    let bench = Bench::with("file", "");
+    bench.refuse(
+        &verilog("axis", &["--out", "file"]),
+        &format!("--out: file: File exists (os error 17); {WRITABLE}"),
+    );
+    // Of several files not even the first.
+    for taken in ["unit_time_counter_tb.v", "unit_time_counter.stimulus"] {
+        let bench = Bench::new();
+        bench.write(&format!("v/{taken}/inside"), "");
+        bench.refuse(
+            &verilog("unit_time_counter", &TESTBENCH),
+            &format!("--out: v/{taken}: is a directory; {WRITABLE}"),
+        );
+    }
+}

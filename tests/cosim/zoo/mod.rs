@@ -1,0 +1,66 @@
+//! Circuits of no use that have what no circuit of the catalogue has.
+
+mod memories;
+mod signed;
+mod structure;
+mod unsigned;
+
+use super::simulators::{hold, lint};
+use super::tools::Simulator;
+use memories::Memories;
+use motion_rtl::registry::AnyModel;
+use signed::SignedWords;
+use structure::{Free, Tree};
+use unsigned::UnsignedWords;
+
+const TICKS: u64 = 20_000;
+
+/// Holds a circuit against its Verilog in Icarus, and asks Verilator for its opinion;
+/// returns how many ticks had a reset.
+fn check(circuit: &dyn AnyModel, seed: u64) -> u64 {
+    lint(circuit);
+    hold(circuit, Simulator::Icarus, seed, TICKS)
+}
+
+/// The circuit at these widths: of its words, of others, of products.
+macro_rules! at_widths {
+    ($circuit:ident: $(($n:literal, $m:literal, $p:literal))*) => {
+        $(check(&$circuit::<$n, $m, $p>, $n);)*
+    };
+}
+
+#[test]
+fn signed_words() {
+    at_widths!(SignedWords:
+        (1, 1, 2) (1, 3, 3) (2, 3, 5) (3, 2, 4) (31, 32, 63) (32, 31, 33)
+        (33, 31, 64) (63, 1, 64) (64, 64, 64) (64, 3, 1));
+}
+
+#[test]
+fn unsigned_words() {
+    at_widths!(UnsignedWords:
+        (1, 1, 2) (1, 3, 3) (2, 3, 5) (3, 2, 4) (31, 32, 63) (32, 31, 33)
+        (33, 31, 64) (63, 1, 64) (64, 64, 64) (64, 3, 1));
+}
+
+#[test]
+fn memories_of_every_kind() {
+    assert!(check(&Memories::new(3), 1) > 0);
+}
+
+#[test]
+fn a_circuit_without_inputs() {
+    assert!(check(&Free, 1) > 0);
+}
+
+#[test]
+fn circuits_in_circuits() {
+    assert!(check(&Tree::new(), 1) > 0);
+    assert!(hold(&Tree::new(), Simulator::Verilator, 1, TICKS) > 0);
+}
+
+#[test]
+fn wide_words_in_verilator() {
+    hold(&SignedWords::<33, 31, 64>, Simulator::Verilator, 3, TICKS);
+    hold(&UnsignedWords::<33, 31, 64>, Simulator::Verilator, 3, TICKS);
+}

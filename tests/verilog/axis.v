@@ -1,0 +1,174 @@
+// pattern_memory: direction and half-period per unit time, for one axis.
+// Made by motion-rtl from the circuit of that name.
+
+module pattern_memory #(
+    parameter [2:0] AXIS = 3'd0
+) (
+    input  wire       clk,
+    input  wire       rst,                // Registers to their power-on values; memories stay.
+    input  wire       read,               // Reads the word at address into the output registers.
+    input  wire       blank,              // Puts "no pulse" into the output registers; the direction
+                                          // stays. read has priority.
+    input  wire       address,            // Address of the unit time to come.
+    input  wire       write,              // Writes a word if write_axis names this axis.
+    input  wire [2:0] write_axis,         // The axis written to.
+    input  wire       write_address,      // Address written to.
+    input  wire [3:0] write_half_period,  // Half-period written.
+    input  wire       write_direction,    // Direction written.
+    output reg  [3:0] half_period = 4'd0, // Half-period of the unit time that runs, in ticks; 0 for no
+                                          // pulse.
+    output reg        direction = 1'b0    // Direction of the unit time that runs; high counts down.
+);
+
+    // Half-periods, one word per unit time.
+    reg  [3:0] half_periods [0:1];
+    integer half_periods_word;
+    initial
+        for (half_periods_word = 0; half_periods_word < 2; half_periods_word = half_periods_word + 1)
+            half_periods[half_periods_word] = 4'd0;
+
+    // Directions, one bit per unit time.
+    reg  [0:0] directions [0:1];
+    integer directions_word;
+    initial
+        for (directions_word = 0; directions_word < 2; directions_word = directions_word + 1)
+            directions[directions_word] = 1'b0;
+
+    // A word is written to this axis.
+    wire selected = write && write_axis == AXIS;
+    // The output becomes "no pulse".
+    wire clear = blank && !read;
+
+    always @(posedge clk)
+        if (selected)
+            half_periods[write_address] <= write_half_period;
+
+    always @(posedge clk)
+        if (selected)
+            directions[write_address] <= write_direction;
+
+    always @(posedge clk)
+        if (rst) begin
+            half_period <= 4'd0;
+            direction <= 1'b0;
+        end else begin
+            if (clear)
+                half_period <= 4'd0;
+            else if (read)
+                half_period <= half_periods[address];
+            if (read)
+                direction <= directions[address];
+        end
+
+endmodule
+
+// pulse_generator: toggles its pulse signal every half-period.
+// Made by motion-rtl from the circuit of that name.
+
+module pulse_generator (
+    input  wire       clk,
+    input  wire       rst,         // Registers to their power-on values; memories stay.
+    input  wire [3:0] half_period, // Half-period of the pulse signal in ticks; 0 for no pulse.
+    input  wire       unit_rst,    // Last tick of the unit time.
+    output wire       pulse        // The pulse signal, one tick ahead of the flip-flop 40.
+);
+
+    reg  [3:0] count = 4'd0;  // 201: ticks since the last toggle.
+    reg        toggle = 1'b0; // 202: the level between toggles.
+
+    // Ticks since the last toggle, this one included.
+    wire [3:0] next = count + 4'd1;
+    // 202: the half-period is over with this tick.
+    wire equal = next >= half_period;
+    assign pulse = (toggle ^ equal) && half_period != 4'd0;
+
+    always @(posedge clk)
+        if (rst) begin
+            count <= 4'd0;
+            toggle <= 1'b0;
+        end else begin
+            if (equal || unit_rst)
+                count <= 4'd0;
+            else
+                count <= next;
+            toggle <= pulse && !unit_rst;
+        end
+
+endmodule
+
+// sync_stage: flip-flop that passes the pulse signal, forced low by RST.
+// Made by motion-rtl from the circuit of that name.
+
+module sync_stage (
+    input  wire clk,
+    input  wire rst,        // Registers to their power-on values; memories stay.
+    input  wire pulse,      // The pulse signal.
+    input  wire unit_rst,   // Last tick of the unit time.
+    output reg  step = 1'b0 // Step pulses to the motor driver; a step is a rising edge.
+);
+
+    always @(posedge clk)
+        if (rst)
+            step <= 1'b0;
+        else
+            step <= pulse && !unit_rst;
+
+endmodule
+
+// axis: pattern memory, pulse generator and sync stage of one axis.
+// Made by motion-rtl from the circuit of that name.
+
+module axis (
+    input  wire       clk,
+    input  wire       rst,               // Registers to their power-on values; memories stay.
+    input  wire       unit_rst,          // Last tick of the unit time.
+    input  wire       read,              // Reads the word at address for the unit time to come.
+    input  wire       blank,             // The unit time to come has no pulses.
+    input  wire       address,           // Address of the unit time to come.
+    input  wire       write,             // Writes a word of the axis that write_axis names.
+    input  wire [2:0] write_axis,        // The axis written to.
+    input  wire       write_address,     // Address written to.
+    input  wire [3:0] write_half_period, // Half-period written.
+    input  wire       write_direction,   // Direction written.
+    output wire       step,              // Step pulses; a step is a rising edge.
+    output wire       dir                // Direction; high counts down. Changes only with the first
+                                         // tick of a unit time.
+);
+
+    wire [3:0] memory_half_period;
+    wire       generator_pulse;
+
+    pattern_memory #(
+        .AXIS(3'd0)
+    ) memory (
+        .clk               (clk),
+        .rst               (rst),
+        .read              (read),
+        .blank             (blank),
+        .address           (address),
+        .write             (write),
+        .write_axis        (write_axis),
+        .write_address     (write_address),
+        .write_half_period (write_half_period),
+        .write_direction   (write_direction),
+        .half_period       (memory_half_period),
+        .direction         (dir)
+    );
+
+    pulse_generator generator (
+        .clk         (clk),
+        .rst         (rst),
+        .half_period (memory_half_period),
+        .unit_rst    (unit_rst),
+        .pulse       (generator_pulse)
+    );
+
+    sync_stage sync (
+        .clk      (clk),
+        .rst      (rst),
+        .pulse    (generator_pulse),
+        .unit_rst (unit_rst),
+        .step     (step)
+    );
+
+endmodule

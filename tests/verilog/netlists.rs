@@ -1,0 +1,137 @@
+//! Every netlist of the catalogue does what its circuit does.
+
+use super::interpreter::Instance;
+use super::{circuits, flat};
+use motion_rtl::check::Drive;
+use motion_rtl::kernel::Role;
+use motion_rtl::registry::AnyModel;
+use motion_rtl::trace::Clock;
+use std::collections::HashMap;
+use vcd::{Command, IdCode, Parser, ScopeItem, Value};
+
+const TICKS: u64 = 1_500;
+
+/// The names of the variables of a dump.
+fn names(items: &[ScopeItem], around: &[&str], names: &mut HashMap<IdCode, Vec<String>>) {
+    for item in items {
+        match item {
+            ScopeItem::Scope(scope) => {
+                let around = [around, &[&scope.identifier]].concat();
+                self::names(&scope.items, &around, names);
+            }
+            ScopeItem::Var(var) => {
+                let path = [around, &[&var.reference]].concat();
+                names.entry(var.code).or_default().push(path.join("_"));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The bits from `low` of a word of hexadecimal digits.
+fn bits(digits: &str, low: usize, width: usize) -> u64 {
+    let bit = |index: usize| {
+        let place = digits.len().checked_sub(1 + index / 4)?;
+        let digit = u64::from_str_radix(&digits[place..=place], 16).ok()?;
+        Some(digit >> (index % 4) & 1)
+    };
+    (0..width).fold(0, |bits, index| {
+        bits | bit(low + index).unwrap_or(0) << index
+    })
+}
+
+/// Runs circuit and netlist side by side; returns the ticks that were compared.
+fn hold(circuit: &dyn AnyModel, seed: u64) -> u64 {
+    let (mut waves, mut stimulus) = (Vec::new(), Vec::new());
+    let drive = Drive {
+        seed,
+        ticks: TICKS,
+        resets: true,
+        clock: Clock::default(),
+    };
+    circuit.drive(&drive, &mut waves, &mut stimulus).unwrap();
+    let stimulus = String::from_utf8(stimulus).unwrap();
+    let verilog = circuit.verilog().unwrap();
+    let design = verilog.design();
+    let mut instance = Instance::new(design);
+    let top = design.modules.last().unwrap();
+    let inputs = top.signals.iter();
+    let widths: Vec<usize> = inputs
+        .filter(|signal| signal.role == Role::Input)
+        .map(|signal| signal.shape.width)
+        .collect();
+
+    let mut parser = Parser::new(&waves[..]);
+    let header = parser.parse_header().unwrap();
+    let mut variables = HashMap::new();
+    names(&header.items, &[], &mut variables);
+    let clock = format!("{}_clk", circuit.name());
+    let leaves = circuit.declarations().leaves.len();
+    let mut golden: HashMap<String, u64> = HashMap::new();
+    let mut lines = stimulus.lines();
+    let mut ticks = 0;
+    for command in parser {
+        let (code, value) = match command.unwrap() {
+            Command::ChangeScalar(code, value) => (code, u64::from(value == Value::V1)),
+            Command::ChangeVector(code, vector) => {
+                let bits = vector
+                    .iter()
+                    .fold(0, |bits, value| bits << 1 | u64::from(value == Value::V1));
+                (code, bits)
+            }
+            _ => continue,
+        };
+        for name in &variables[&code] {
+            golden.insert(name.clone(), value);
+        }
+        // When the clock falls, everything of the tick has been said.
+        if !variables[&code].contains(&clock) || value == 1 {
+            continue;
+        }
+        let Some(line) = lines.next() else { break };
+        let mut low = 0;
+        let mut port = |width: usize| {
+            low += width;
+            bits(line, low - width, width)
+        };
+        let inputs = widths.iter().map(|width| port(*width)).collect();
+        let reset = port(1) == 1;
+        instance.settle(inputs);
+        let mut count = 0;
+        instance.show(circuit.name(), &mut |name, value| {
+            assert_eq!(golden.get(name), Some(&value), "{name} in tick {ticks}");
+            count += 1;
+        });
+        assert_eq!(count, leaves, "{}", circuit.name());
+        instance.edge(reset);
+        ticks += 1;
+    }
+    ticks
+}
+
+#[test]
+fn every_netlist_runs_as_its_circuit() {
+    for (seed, circuit) in circuits().enumerate() {
+        assert_eq!(hold(&*circuit, seed as u64), TICKS, "{}", circuit.name());
+    }
+}
+
+#[test]
+fn paths_are_joined_as_the_dump_joins_them() {
+    for circuit in circuits() {
+        let mut names = Vec::new();
+        let verilog = circuit.verilog().unwrap();
+        let mut instance = Instance::new(verilog.design());
+        let top = verilog.design().modules.last().unwrap();
+        let inputs = top
+            .signals
+            .iter()
+            .filter(|signal| signal.role == Role::Input);
+        instance.settle(inputs.map(|_| 0).collect());
+        instance.show(circuit.name(), &mut |name, _| names.push(name.to_owned()));
+        let mut declared: Vec<String> = circuit.declarations().leaves.iter().map(flat).collect();
+        names.sort();
+        declared.sort();
+        assert_eq!(names, declared);
+    }
+}
