@@ -122,7 +122,7 @@ enum Kind {
     Magnitude,
     /// One bit high.
     Power,
-    /// At most 8 below the greatest.
+    /// At most 7 below the greatest, read as unsigned or as two's complement.
     Top,
     /// Evenly random.
     Even,
@@ -174,7 +174,7 @@ impl Kind {
                 magnitude(random, most)
             }
             Kind::Power => 1 << (word % width),
-            Kind::Top => greatest.wrapping_sub(word >> 61),
+            Kind::Top => (greatest >> (word & 1)).wrapping_sub(word >> 61),
             Kind::Even | Kind::Pulses(_) => word,
         };
         value & greatest
