@@ -133,7 +133,12 @@ impl<const N: usize> Circuit for PulseGenerator<N> {
             Property::step(
                 "the pulse signal toggles when the half-period is over, and only then",
                 &["pulse", "toggle", "count"],
-                (none | !(toggles ^ over)) & (i.unit_rst | !(next.toggle ^ w.pulse)),
+                none | !(toggles ^ over),
+            ),
+            Property::step(
+                "between two RST the toggle follows the pulse signal",
+                &["toggle", "pulse"],
+                i.unit_rst | !(next.toggle ^ w.pulse),
             ),
             Property::always(
                 "the count never reaches its greatest value",

@@ -275,8 +275,11 @@ impl<'m> Expressions<'m> {
                 let term = |operand: Id| {
                     let same = self.names.get(operand).is_none()
                         && matches!(self.module.nodes[operand].0, Node::Binary(inner, ..) if inner == operator);
-                    self.text(operand)
-                        .within(if same { rank } else { Rank::Equality })
+                    let loosest = match operator {
+                        Operator::Xor => Rank::Unary,
+                        _ => Rank::Equality,
+                    };
+                    self.text(operand).within(if same { rank } else { loosest })
                 };
                 Text(format!("{} {sign} {}", term(a), term(b)), rank)
             }

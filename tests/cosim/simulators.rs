@@ -8,6 +8,8 @@ use std::fs::File;
 use std::thread;
 
 const TICKS: u64 = 100_000;
+/// The test of the stimulus says which bits it moves: at 8 bits all that can move.
+const SEED: u64 = 3;
 
 /// Drives a circuit and its Verilog; returns how many ticks had a reset.
 pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64) -> u64 {
@@ -55,8 +57,8 @@ fn by_halves(work: impl Fn(&Entry) + Sync) {
 #[test]
 fn every_circuit_equals_its_verilog_in_icarus() {
     by_halves(|entry| {
-        for (seed, circuit) in widths(entry).iter().enumerate() {
-            assert!(hold(&**circuit, Simulator::Icarus, seed as u64 + 1, TICKS) > 0);
+        for circuit in widths(entry) {
+            assert!(hold(&*circuit, Simulator::Icarus, SEED, TICKS) > 0);
         }
     });
 }
@@ -66,7 +68,7 @@ fn the_literal_variants_equal_their_verilog_too() {
     for name in ["pulse_generator", "axis", "unit_law"] {
         let entry = motion_rtl::registry::find(name).unwrap();
         let circuit = (entry.model)(&[8, 1]).unwrap();
-        assert!(hold(&*circuit, Simulator::Icarus, 1, TICKS) > 0);
+        assert!(hold(&*circuit, Simulator::Icarus, SEED, TICKS) > 0);
     }
 }
 
@@ -74,7 +76,7 @@ fn the_literal_variants_equal_their_verilog_too() {
 fn the_top_circuits_equal_their_verilog_in_verilator() {
     for name in ["unit_law", "axis", "pulse_interpolator"] {
         let entry = motion_rtl::registry::find(name).unwrap();
-        assert!(hold(&*(entry.full)(), Simulator::Verilator, 7, TICKS) > 0);
+        assert!(hold(&*(entry.full)(), Simulator::Verilator, SEED, TICKS) > 0);
     }
 }
 

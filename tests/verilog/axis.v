@@ -70,15 +70,16 @@ module pulse_generator (
     input  wire       rst,         // Registers to their power-on values; memories stay.
     input  wire [3:0] half_period, // Half-period of the pulse signal in ticks; 0 for no pulse.
     input  wire       unit_rst,    // Last tick of the unit time.
-    output wire       pulse        // The pulse signal, one tick ahead of the flip-flop 40.
+    output wire       pulse        // The pulse signal; the flip-flop 40 shows it a tick later, except
+                                   // in the tick after RST.
 );
 
     reg  [3:0] count = 4'd0;  // 201: ticks since the last toggle.
     reg        toggle = 1'b0; // 202: the level between toggles.
 
-    // Ticks since the last toggle, this one included.
+    // count + 1: ticks since the last toggle, this one included.
     wire [3:0] next = count + 4'd1;
-    // 202: the half-period is over with this tick.
+    // 202: the half-period is over with this tick. The name is the patent's; safe is >=.
     wire equal = next >= half_period;
     assign pulse = (toggle ^ equal) && half_period != 4'd0;
 
@@ -94,9 +95,35 @@ module pulse_generator (
             toggle <= pulse && !unit_rst;
         end
 
+`ifdef FORMAL
+    reg f_past_valid = 1'b0;
+    always @(posedge clk)
+        f_past_valid <= 1'b1;
+
+    always @(posedge clk) begin
+        // A half-period of 0 gives no pulse.
+        assert (!(half_period == 4'd0 && pulse));
+        // RST clears the counter and the toggle.
+        if (f_past_valid && !$past(rst))
+            assert (!$past(unit_rst) || (count == 4'd0 && !toggle));
+        // The count stays below the half-period.
+        if (f_past_valid && !$past(rst))
+            assert (count < $past(half_period) || count == 4'd0);
+        // The pulse signal toggles when the half-period is over, and only then.
+        if (f_past_valid && !$past(rst))
+            assert ($past(half_period) == 4'd0 ||
+                !($past(pulse) ^ $past(toggle) ^ ($past(count) >= $past(half_period) - 4'd1)));
+        // Between two RST the toggle follows the pulse signal.
+        if (f_past_valid && !$past(rst))
+            assert ($past(unit_rst) || !(toggle ^ $past(pulse)));
+        // The count never reaches its greatest value.
+        assert (count < 4'd15);
+    end
+`endif
+
 endmodule
 
-// sync_stage: flip-flop that passes the pulse signal, forced low by RST.
+// sync_stage: flip-flop that loads the pulse signal, or 0 in the tick of RST.
 // Made by motion-rtl from the circuit of that name.
 
 module sync_stage (
@@ -112,6 +139,21 @@ module sync_stage (
             step <= 1'b0;
         else
             step <= pulse && !unit_rst;
+
+`ifdef FORMAL
+    reg f_past_valid = 1'b0;
+    always @(posedge clk)
+        f_past_valid <= 1'b1;
+
+    always @(posedge clk) begin
+        // Low in the tick after RST.
+        if (f_past_valid && !$past(rst))
+            assert (!$past(unit_rst) || !step);
+        // Passes the pulse signal.
+        if (f_past_valid && !$past(rst))
+            assert ($past(unit_rst) || !(step ^ $past(pulse)));
+    end
+`endif
 
 endmodule
 
