@@ -55,7 +55,8 @@ impl Runs {
     }
 
     /// The signals that differ in this tick, then others of the scope of the first: registers,
-    /// then the rest. Then registers and inputs of the scopes around it, from the inside out.
+    /// then the rest. Then registers and inputs of the scopes around it, from the inside out; at the end
+    /// what else there is between it and the outermost scope.
     fn shown(&self, pairs: &[Pair], differing: &[(u64, usize, u64)], tick: u64) -> Vec<usize> {
         let variable = |place: usize| &self.golden.wave.variables[pairs[place].golden];
         let mut shown: Vec<_> = differing
@@ -84,6 +85,12 @@ impl Runs {
             add(around, &|variable| variable.register);
             add(around, &|variable| variable.input);
             around = above(scope);
+        }
+        // A VCD does not tell the inputs of the scopes between from their nets.
+        let mut between = own.and_then(above);
+        while let Some(scope) = between.filter(|scope| scope.contains('.')) {
+            add(between, &|_| true);
+            between = above(scope);
         }
         shown
     }

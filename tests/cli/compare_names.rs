@@ -200,6 +200,7 @@ fn the_table_begins_where_it_is_asked_to_and_has_what_surrounds_the_mismatch() {
         top.a.b.count  0  0
         top.state      1  1
         top.go         0  0
+        top.a.in       1  1
         (hexadecimal, golden!other where they differ)
 
         first tick  ticks  signal
