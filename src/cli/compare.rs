@@ -2,7 +2,7 @@
 
 use super::{Failure, print, print_json};
 use clap::Args;
-use motion_rtl::compare::{Map, Settings, compare as hold};
+use motion_rtl::compare::{Map, Settings, compare as hold, template};
 use std::path::PathBuf;
 
 /// What to compare.
@@ -21,8 +21,8 @@ pub struct Arguments {
     /// The other file's clock, where it has another name.
     #[arg(long, value_name = "NAME")]
     other_clock: Option<String>,
-    /// The scope of the other file that stands for golden's outermost scope; without it the one
-    /// with the most signals of golden's.
+    /// The scope of the other file that stands for golden's outermost scope, by its path or the end
+    /// of its path; without it the one with the most signals of golden's.
     #[arg(long, value_name = "PATH")]
     scope: Option<String>,
     /// Ticks to leave out at the beginning of OTHER: its reset. Below 0 where OTHER begins later.
@@ -39,12 +39,19 @@ pub struct Arguments {
     /// How many ticks to compare; without it all.
     #[arg(long, value_name = "COUNT")]
     ticks: Option<u64>,
+    /// How many ticks to show before the first mismatch.
+    #[arg(long, value_name = "TICKS", default_value_t = 4)]
+    around: u64,
     /// A golden signal without partner is a difference.
     #[arg(long)]
     strict: bool,
-    /// Cuts no list short.
+    /// Cuts no list short, and lists the other file's signals without partner too.
     #[arg(long)]
     all: bool,
+    /// Prints a map to fill in, instead of comparing: golden's signals without partner and the
+    /// other file's.
+    #[arg(long, conflicts_with_all = ["strict", "all", "json"])]
+    template: bool,
     /// Prints the report as JSON, with nothing cut short.
     #[arg(long)]
     json: bool,
@@ -71,7 +78,11 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
         map,
         skip: arguments.skip,
         ticks: arguments.from..arguments.from.saturating_add(count),
+        around: arguments.around,
     };
+    if arguments.template {
+        return print(&template(&arguments.golden, &arguments.other, &settings)?);
+    }
     let report = hold(&arguments.golden, &arguments.other, &settings)?;
     match arguments.json {
         true => print_json(&report)?,

@@ -3,12 +3,13 @@
 use super::pair::Pair;
 use super::report::{Cell, Mismatch, Row};
 use super::runs::{Runs, number};
+use super::times::times;
+use super::wave::Variable;
 use crate::input::Fault;
 
 /// Rows of the table.
 const ROWS: usize = 12;
-/// Ticks before and behind the mismatch.
-const BEFORE: i128 = 4;
+/// Ticks behind the mismatch.
 const BEHIND: i128 = 2;
 
 impl Runs {
@@ -18,12 +19,13 @@ impl Runs {
         &self,
         pairs: &[Pair],
         differing: &[(u64, usize, u64)],
+        before: u64,
     ) -> Result<Option<Mismatch>, Fault> {
         let Some(&(tick, place, _)) = differing.first() else {
             return Ok(None);
         };
         let at = i128::from(tick);
-        let start = self.common.start.max(at - BEFORE);
+        let start = self.common.start.max(at - i128::from(before));
         let end = self.common.end.min(at + BEHIND + 1);
         let mut rows = Vec::new();
         for &place in &self.shown(pairs, differing, tick) {
@@ -34,10 +36,14 @@ impl Runs {
         let golden_tick = number(at - golden.zero);
         let other_tick = number(at - other.zero);
         let (one, two) = (&self.golden, &self.other);
+        let (golden_time, other_time) = times(
+            (&one.wave, one.ticks.time(&one.wave, golden_tick)),
+            (&two.wave, two.ticks.time(&two.wave, other_tick)),
+        );
         Ok(Some(Mismatch {
             tick,
-            golden_time: one.wave.time(one.ticks.time(&one.wave, golden_tick)),
-            other_time: two.wave.time(two.ticks.time(&two.wave, other_tick)),
+            golden_time,
+            other_time,
             signals: differing.iter().filter(|one| one.0 == tick).count(),
             golden: one.wave.variables[pair.golden].path.clone(),
             other: pair.name.clone(),
@@ -49,29 +55,42 @@ impl Runs {
     }
 
     /// The signals that differ in this tick, then others of the scope of the first: registers,
-    /// then the rest.
+    /// then the rest. Then registers and inputs of the scopes around it, from the inside out; at the end
+    /// what else there is between it and the outermost scope.
     fn shown(&self, pairs: &[Pair], differing: &[(u64, usize, u64)], tick: u64) -> Vec<usize> {
         let variable = |place: usize| &self.golden.wave.variables[pairs[place].golden];
-        let scope = |place: usize| {
-            variable(place)
-                .path
-                .rsplit_once('.')
-                .map(|(scope, _)| scope)
-        };
         let mut shown: Vec<_> = differing
             .iter()
             .filter(|one| one.0 == tick)
             .map(|one| one.1)
             .collect();
         shown.truncate(ROWS);
-        let wanted = shown.first().and_then(|&place| scope(place));
-        for register in [true, false] {
-            for place in (0..pairs.len()).filter(|&place| scope(place) == wanted) {
+        let Some(&first) = shown.first() else {
+            return shown;
+        };
+        let mut add = |wanted: Option<&str>, kind: &dyn Fn(&Variable) -> bool| {
+            for place in 0..pairs.len() {
                 let more = shown.len() < ROWS && !shown.contains(&place);
-                if more && variable(place).register == register {
+                let variable = variable(place);
+                if more && above(&variable.path) == wanted && kind(variable) {
                     shown.push(place);
                 }
             }
+        };
+        let own = above(&variable(first).path);
+        add(own, &|variable| variable.register);
+        add(own, &|_| true);
+        let mut around = own.and_then(above);
+        while let Some(scope) = around {
+            add(around, &|variable| variable.register);
+            add(around, &|variable| variable.input);
+            around = above(scope);
+        }
+        // A VCD does not tell the inputs of the scopes between from their nets.
+        let mut between = own.and_then(above);
+        while let Some(scope) = between.filter(|scope| scope.contains('.')) {
+            add(between, &|_| true);
+            between = above(scope);
         }
         shown
     }
@@ -92,4 +111,9 @@ impl Runs {
             cells: (start..end).map(cell).collect(),
         })
     }
+}
+
+/// The scope that a signal or a scope is in.
+fn above(path: &str) -> Option<&str> {
+    path.rsplit_once('.').map(|(scope, _)| scope)
 }

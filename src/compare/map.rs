@@ -25,6 +25,9 @@ const PARTNER: &str = "a path in quotes, as \"tb.dut.count\", \"!tb.dut.step_n\"
 /// "top.x" = { name = "tb.dut.y", delay = 2 }     # shows 2 ticks later in the other file
 /// "#).unwrap();
 /// ```
+///
+/// A name of the other file may be the end of a path, if it is the end of only one: `dut.y` is
+/// `TOP.tb.dut.y` too.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Map {
     pub(super) file: String,

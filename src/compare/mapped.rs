@@ -20,7 +20,6 @@ pub(super) fn golden_signal<T>(golden: &Wave, map: &Map, entry: &Entry<T>) -> Re
 }
 
 pub(super) fn by_name(
-    golden: &Wave,
     other: &Wave,
     map: &Map,
     entry: &Entry<Partner>,
@@ -33,41 +32,44 @@ pub(super) fn by_name(
     } = &entry.other;
     let fault =
         |problem: String, allowed: String| map.fault(entry.line, &entry.golden, problem, allowed);
-    let (found, low, width) = if let Some(found) = other.find(name) {
-        (found, 0, other.variables[found].width)
-    } else {
-        let sliced =
-            brackets(name).and_then(|(base, first, last)| Some((other.find(base)?, first, last)));
-        let Some((found, first, last)) = sliced else {
-            let problem = format!("no signal of the other file is called {name}");
-            return Err(fault(problem, format!("a signal of {}", other.file)));
-        };
-        let variable = &other.variables[found];
-        match (variable.place(first), variable.place(last)) {
-            (Some(high), Some(low)) if high >= low => (found, low, high - low + 1),
-            _ => {
-                let allowed = format!("bits of {}{}", variable.path, variable.range());
-                return Err(fault(format!("{name} is no part of the signal"), allowed));
-            }
-        }
+    let by_end = |name: &str| {
+        other.by_end(name).map_err(|ambiguous| {
+            let (problem, allowed) = ambiguous.message("signal");
+            fault(problem, allowed)
+        })
     };
-    let wanted = golden.variables[index].width;
-    if width != wanted {
-        let problem = format!("{name} has width {width}");
-        return Err(fault(
-            problem,
-            format!("width {wanted}, as the golden signal has"),
-        ));
-    }
-    Ok(Pair {
+    let inverted = if *invert { "!" } else { "" };
+    let pair = |found: usize, low: u32, width: u32, bits: &str| Pair {
         golden: index,
         other: found,
         low,
         width,
         invert: *invert,
         delay: *delay,
-        name: format!("{}{name}", if *invert { "!" } else { "" }),
-    })
+        name: format!("{inverted}{}{bits}", other.variables[found].path),
+    };
+    if let Some(found) = by_end(name)? {
+        return Ok(pair(found, 0, other.variables[found].width, ""));
+    }
+    let sliced = match brackets(name) {
+        Some((base, first, last)) => by_end(base)?.map(|found| (found, first, last)),
+        None => None,
+    };
+    let Some((found, first, last)) = sliced else {
+        let problem = format!("no signal of the other file is called {name}");
+        return Err(fault(problem, format!("a signal of {}", other.file)));
+    };
+    let variable = &other.variables[found];
+    match (variable.place(first), variable.place(last)) {
+        (Some(high), Some(low)) if high >= low => {
+            let bits = &name[name.rfind('[').unwrap_or(name.len())..];
+            Ok(pair(found, low, high - low + 1, bits))
+        }
+        _ => {
+            let allowed = format!("bits of {}{}", variable.path, variable.range());
+            Err(fault(format!("{name} is no part of the signal"), allowed))
+        }
+    }
 }
 
 pub(super) fn ignored(golden: &Wave, map: &Map) -> Result<HashSet<usize>, Fault> {
@@ -93,18 +95,22 @@ pub(super) fn ignored(golden: &Wave, map: &Map) -> Result<HashSet<usize>, Fault>
     Ok(ignored)
 }
 
-pub(super) fn check_scopes(golden: &Wave, other: &Wave, map: &Map) -> Result<(), Fault> {
-    for entry in &map.scopes {
-        for (wave, which, scope) in [
-            (golden, "golden", &entry.golden),
-            (other, "other", &entry.other),
-        ] {
-            if !wave.has_scope(scope) {
-                return Err(no_scope(map, entry, wave, which, scope));
-            }
+/// The map's scopes with the other file's in full.
+pub(super) fn scopes(golden: &Wave, other: &Wave, map: &Map) -> Result<Vec<Entry<String>>, Fault> {
+    let full = |entry: &Entry<String>| {
+        if !golden.has_scope(&entry.golden) {
+            return Err(no_scope(map, entry, golden, "golden", &entry.golden));
         }
-    }
-    Ok(())
+        let found = other.scope_by_end(&entry.other).map_err(|ambiguous| {
+            let (problem, allowed) = ambiguous.message("scope");
+            map.fault(entry.line, &entry.golden, problem, allowed)
+        })?;
+        Ok(Entry {
+            other: found.ok_or_else(|| no_scope(map, entry, other, "other", &entry.other))?,
+            ..entry.clone()
+        })
+    };
+    map.scopes.iter().map(full).collect()
 }
 
 fn no_scope<T>(map: &Map, entry: &Entry<T>, wave: &Wave, which: &str, scope: &str) -> Fault {

@@ -22,7 +22,7 @@
 //! stands for golden's outermost one. That is the scope with the most partners, unless
 //! [`Settings::scope`] names it. `mem.word5` and `mem.stage5` are the same as `mem[5]`; where the
 //! other file has a memory of single bits as a vector, they are its bits. A [`Map`] pairs what has
-//! other names. Clocks, and variables without bits, are not compared.
+//! other names; the end of a path will do for the other file's, where it is the only one. Clocks, and variables without bits, are not compared.
 //!
 //! **Values.** A known golden value equals the same bits and no x or z. A golden value with an x or
 //! z, or before the first value of a signal, is not compared. Signals of more than 64 bits are not
@@ -35,6 +35,7 @@
 //! end, and one of ours that does not end with a time.
 
 mod around;
+mod ends;
 mod hold;
 mod map;
 mod mapped;
@@ -47,7 +48,9 @@ mod runs;
 mod scan;
 mod scope;
 mod sections;
+mod template;
 mod ticks;
+mod times;
 mod value;
 mod wave;
 
@@ -69,8 +72,8 @@ pub struct Settings {
     pub clock: String,
     /// The other file's clock, where it has another name.
     pub other_clock: Option<String>,
-    /// The scope of the other file that stands for golden's outermost scope; without it the one
-    /// with the most partners.
+    /// The scope of the other file that stands for golden's outermost scope, by its path or the
+    /// end of its path; without it the one with the most partners.
     pub scope: Option<String>,
     /// Names that differ, and signals to leave out.
     pub map: Map,
@@ -79,10 +82,12 @@ pub struct Settings {
     pub skip: i64,
     /// The golden ticks to compare.
     pub ticks: Range<u64>,
+    /// Ticks that are shown before the first mismatch.
+    pub around: u64,
 }
 
 impl Default for Settings {
-    /// All ticks by the clock `clk`.
+    /// All ticks by the clock `clk`; 4 are shown before a mismatch.
     fn default() -> Self {
         Settings {
             clock: "clk".to_owned(),
@@ -91,6 +96,7 @@ impl Default for Settings {
             map: Map::default(),
             skip: 0,
             ticks: 0..u64::MAX,
+            around: 4,
         }
     }
 }
@@ -102,32 +108,50 @@ impl Default for Settings {
 /// found, no scope or more than one that stands for golden's, a map that does not fit the files,
 /// nothing to compare.
 pub fn compare(golden: &Path, other: &Path, settings: &Settings) -> Result<Report, Fault> {
-    let (golden, other) = std::thread::scope(|scope| {
+    let (golden, other) = read(golden, other)?;
+    compare_waves(golden, other, settings)
+}
+
+/// A map to fill in: the golden signals that have no partner, and the other file's names that are
+/// left. [`Settings::map`] may pair some already.
+///
+/// # Errors
+/// A file, a clock or a map as [`compare`] refuses them.
+pub fn template(golden: &Path, other: &Path, settings: &Settings) -> Result<String, Fault> {
+    let (golden, other) = read(golden, other)?;
+    let clocks = clocks(&golden, &other, settings)?;
+    let scope = settings.scope.as_deref();
+    let pairing = pair::pair(&golden, &other, clocks, &settings.map, scope, true)?;
+    Ok(template::skeleton(&golden, &other, clocks.1, &pairing))
+}
+
+fn read(golden: &Path, other: &Path) -> Result<(Wave, Wave), Fault> {
+    std::thread::scope(|scope| {
         let reading = scope.spawn(|| Wave::read(golden));
         let other = Wave::read(other);
         let golden = reading.join().unwrap_or_else(|panic| resume_unwind(panic));
         golden.and_then(|golden| Ok((golden, other?)))
-    })?;
-    compare_waves(golden, other, settings)
+    })
 }
 
-fn compare_waves(mut golden: Wave, mut other: Wave, settings: &Settings) -> Result<Report, Fault> {
-    let clock = ticks::clock(&golden, "--clock", &settings.clock, None)?;
+fn clocks(golden: &Wave, other: &Wave, settings: &Settings) -> Result<(usize, usize), Fault> {
+    let clock = ticks::clock(golden, "--clock", &settings.clock, None)?;
     let other_clock = match &settings.other_clock {
-        Some(name) => ticks::clock(&other, "--other-clock", name, None)?,
+        Some(name) => ticks::clock(other, "--other-clock", name, None)?,
         None => {
             let path = golden.variables[clock].path.as_str();
             let name = settings.clock.rsplit('.').next().unwrap_or_default();
-            ticks::clock(&other, "--clock", name, Some(path))?
+            ticks::clock(other, "--clock", name, Some(path))?
         }
     };
-    let pairing = pair::pair(
-        &golden,
-        &other,
-        (clock, other_clock),
-        &settings.map,
-        settings.scope.as_deref(),
-    )?;
+    Ok((clock, other_clock))
+}
+
+fn compare_waves(mut golden: Wave, mut other: Wave, settings: &Settings) -> Result<Report, Fault> {
+    let (clock, other_clock) = clocks(&golden, &other, settings)?;
+    let scope = settings.scope.as_deref();
+    let both = (clock, other_clock);
+    let pairing = pair::pair(&golden, &other, both, &settings.map, scope, false)?;
     if let Some(fault) = pair::nothing(&golden, &other, &pairing) {
         return Err(fault);
     }

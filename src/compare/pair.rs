@@ -1,7 +1,7 @@
 //! Which signal of the other file stands for which of the golden one.
 
 use super::map::{Entry, Map};
-use super::mapped::{by_name, check_scopes, golden_signal, ignored};
+use super::mapped::{by_name, golden_signal, ignored, scopes};
 use super::names::{brackets, element, listed};
 use super::report::WidthDifference;
 use super::scope;
@@ -39,13 +39,15 @@ pub(super) struct Pairing {
     not_compared: Vec<usize>,
 }
 
-/// Pairs the signals. The clocks are no pair.
+/// Pairs the signals. The clocks are no pair. That nothing pairs by its name is an error unless it
+/// is `allowed`.
 pub(super) fn pair(
     golden: &Wave,
     other: &Wave,
     clocks: (usize, usize),
     map: &Map,
     wanted: Option<&str>,
+    allowed: bool,
 ) -> Result<Pairing, Fault> {
     let clock = golden.variables[clocks.0].signal;
     let signals =
@@ -74,13 +76,13 @@ pub(super) fn pair(
                 "one line for a golden signal",
             ));
         }
-        let pair = by_name(golden, other, map, entry, index)?;
+        let pair = by_name(other, map, entry, index)?;
         if !ignored.contains(&index) {
-            pairing.add(golden, other, pair);
+            pairing.add(golden, pair);
         }
     }
 
-    check_scopes(golden, other, map)?;
+    let scopes = scopes(golden, other, map)?;
     let mut rest = Vec::new();
     for index in open.into_iter().filter(|index| !named.contains(index)) {
         let path = &golden.variables[index].path;
@@ -89,8 +91,7 @@ pub(super) fn pair(
             rest.is_some_and(|rest| rest.starts_with(['.', '[']))
         };
         // The innermost scope decides.
-        let entry = map
-            .scopes
+        let entry = scopes
             .iter()
             .filter(below)
             .max_by_key(|entry| entry.golden.len());
@@ -109,7 +110,7 @@ pub(super) fn pair(
         clocks.1,
         &rest,
         wanted,
-        !pairing.pairs.is_empty(),
+        allowed || !pairing.pairs.is_empty(),
     )?;
     for index in rest {
         match &scope {
@@ -126,17 +127,23 @@ pub(super) fn pair(
 }
 
 impl Pairing {
-    /// Every variable of the other file that is a partner, compared or not.
-    pub fn used_others(&self) -> impl Iterator<Item = usize> {
+    /// The signals of the other file that no pair takes bits of, compared or not; aliases once.
+    pub fn free(&self, other: &Wave, clock: usize) -> Vec<usize> {
         let pairs = self.pairs.iter().map(|pair| pair.other);
-        pairs.chain(self.not_compared.iter().copied())
+        let pairs = pairs
+            .chain(self.not_compared.iter().copied())
+            .chain([clock]);
+        let signal = |index: usize| other.variables[index].signal;
+        let mut used: HashSet<_> = pairs.map(signal).collect();
+        let all = 0..other.variables.len();
+        all.filter(|&index| used.insert(signal(index))).collect()
     }
 
     fn try_path(&mut self, golden: &Wave, other: &Wave, index: usize, name: &str) {
         let mut name = name.to_owned();
         loop {
             if let Some(pair) = partner(golden, other, index, &name) {
-                return self.add(golden, other, pair);
+                return self.add(golden, pair);
             }
             // HDL has no bundles: there their names stand before those of their signals.
             match name.rfind('.') {
@@ -146,7 +153,7 @@ impl Pairing {
         }
     }
 
-    fn add(&mut self, golden: &Wave, other: &Wave, pair: Pair) {
+    fn add(&mut self, golden: &Wave, pair: Pair) {
         let variable = &golden.variables[pair.golden];
         if pair.width != variable.width || pair.width > WIDEST {
             self.not_compared.push(pair.other);
@@ -155,7 +162,7 @@ impl Pairing {
             self.widths.push(WidthDifference {
                 golden: variable.path.clone(),
                 golden_bits: variable.width,
-                other: other.variables[pair.other].path.clone(),
+                other: pair.name,
                 other_bits: pair.width,
             });
         } else if pair.width > WIDEST {

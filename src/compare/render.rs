@@ -112,6 +112,10 @@ impl Report {
             .collect();
         list("different width in bits, not compared", &widths)?;
         list("golden signals without partner", &self.without_partner)?;
+        if all {
+            let title = "signals of the other file without partner";
+            list(title, &self.other_without_partner)?;
+        }
         list("ignored", &self.ignored)?;
         list("wider than 64 bits, not compared", &self.too_wide)?;
         let counts = [
@@ -120,7 +124,7 @@ impl Report {
                 "without partner in golden",
             ),
             (
-                self.other_without_partner as u64,
+                self.other_without_partner.len() as u64,
                 "without partner in other",
             ),
             (self.ignored.len() as u64, "ignored"),

@@ -24,8 +24,8 @@ pub struct Report {
     pub unknown_values: u64,
     /// Golden signals without a partner.
     pub without_partner: Vec<String>,
-    /// How many signals of the other file are no partner.
-    pub other_without_partner: usize,
+    /// Signals of the other file that are no partner.
+    pub other_without_partner: Vec<String>,
     /// Golden signals that the map leaves out.
     pub ignored: Vec<String>,
     /// Signals of more than 64 bits. They are not compared.
@@ -102,7 +102,8 @@ pub struct Mismatch {
     pub other_value: String,
     /// The ticks shown.
     pub shown_ticks: Vec<u64>,
-    /// The signals that differ, then others of their scopes.
+    /// The signals that differ, then others of the scope of the first, then registers and inputs of
+    /// the scopes around it.
     pub rows: Vec<Row>,
 }
 

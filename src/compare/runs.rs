@@ -5,7 +5,6 @@ use super::report::{Difference, Report, Side};
 use super::ticks::Ticks;
 use super::wave::Wave;
 use crate::input::Fault;
-use std::collections::HashSet;
 use std::ops::Range;
 
 /// One file with its ticks.
@@ -106,6 +105,7 @@ impl Runs {
                 .collect()
         };
         let (golden, other) = (&self.golden, &self.other);
+        let free = pairing.free(&other.wave, other.clock);
         let differences = differing.iter().map(|&(tick, place, ticks)| Difference {
             golden: golden.wave.variables[pairing.pairs[place].golden]
                 .path
@@ -129,27 +129,13 @@ impl Runs {
             values,
             unknown_values: unknown,
             without_partner: paths(&golden.wave, &pairing.without_partner),
-            other_without_partner: self.without_partner(&pairing),
+            other_without_partner: paths(&other.wave, &free),
             ignored: paths(&golden.wave, &pairing.ignored),
             too_wide: paths(&golden.wave, &pairing.too_wide),
             differences: differences.collect(),
-            first: self.first(&pairing.pairs, &differing)?,
+            first: self.first(&pairing.pairs, &differing, settings.around)?,
             scope: pairing.scope,
             different_widths: pairing.widths,
         })
-    }
-
-    /// Signals of the other file that no pair takes bits of, aliases counted once.
-    fn without_partner(&self, pairing: &Pairing) -> usize {
-        let wave = &self.other.wave;
-        let mut used: HashSet<_> = pairing
-            .used_others()
-            .map(|index| wave.variables[index].signal)
-            .collect();
-        used.insert(wave.variables[self.other.clock].signal);
-        wave.variables
-            .iter()
-            .filter(|variable| used.insert(variable.signal))
-            .count()
     }
 }

@@ -33,13 +33,15 @@ pub(super) fn find(
     let fault =
         |problem: String, allowed: String| Fault::new(&other.file, 0, "--scope", problem, allowed);
     if let Some(wanted) = wanted {
-        return match other.has_scope(wanted) {
-            true => Ok(Some(wanted.to_owned())),
-            false => Err(fault(
-                format!("there is no {wanted}"),
-                format!("a scope: {}", other.scopes()),
-            )),
+        let found = other.scope_by_end(wanted).map_err(|ambiguous| {
+            let (problem, allowed) = ambiguous.message("scope");
+            fault(problem, allowed)
+        })?;
+        let none = || {
+            let problem = format!("there is no {wanted}");
+            fault(problem, format!("a scope: {}", other.scopes()))
         };
+        return found.map(Some).ok_or_else(none);
     }
     if signals.is_empty() {
         return Ok(None);
@@ -68,13 +70,12 @@ pub(super) fn find(
     match &best[..] {
         [one] => Ok(Some(one.clone())),
         _ if paired => Ok(None),
-        [] => Err(fault(
-            "no scope has a signal of the golden file's".into(),
-            format!(
-                "the scope that stands for {}: {}",
-                first.unwrap_or(""),
-                other.scopes()
-            ),
+        [] => Err(Fault::new(
+            &other.file,
+            0,
+            "names",
+            "no golden signal has a partner of the same name in any scope",
+            "--map, which pairs other names; --template begins one",
         )),
         _ => Err(fault(
             format!(

@@ -2,6 +2,7 @@ use super::names::{self, listed};
 use super::quiet::catch;
 use super::scan;
 use super::sections;
+use super::times;
 use super::value::Value;
 use crate::input::Fault;
 use std::collections::HashMap;
@@ -9,7 +10,7 @@ use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 use wellen::simple::Waveform;
-use wellen::{FileFormat, SignalRef, SignalValueRef, VarType, viewers};
+use wellen::{FileFormat, SignalRef, SignalValueRef, VarDirection, VarType, viewers};
 
 /// A variable that has bits.
 #[derive(Debug)]
@@ -18,6 +19,9 @@ pub(super) struct Variable {
     pub width: u32,
     /// Declared as `reg`.
     pub register: bool,
+    /// An input: an FST tells. In a VCD of ours those of the outermost scope stand before its
+    /// registers.
+    pub input: bool,
     /// Variables of the same signal are aliases.
     pub signal: SignalRef,
     /// Numbers of its first and last bit, where it has a range.
@@ -51,7 +55,7 @@ pub(super) struct Wave {
     pub times: Vec<u64>,
     /// Written by this crate, so that its times tell its ticks.
     pub ours: bool,
-    unit: Option<(u32, &'static str)>,
+    pub(super) unit: Option<(u32, &'static str)>,
     by_path: HashMap<String, usize>,
     by_element: HashMap<String, Option<usize>>,
     waveform: Waveform,
@@ -113,12 +117,13 @@ impl Wave {
             without_bits: 0,
             times: waveform.time_table().to_vec(),
             ours: hierarchy.version().trim().starts_with("motion-rtl "),
-            unit: hierarchy.timescale().and_then(unit),
+            unit: hierarchy.timescale().and_then(times::unit),
             by_path: HashMap::new(),
             by_element: HashMap::new(),
             waveform,
         };
         let hierarchy = wave.waveform.hierarchy();
+        let mut registers_above = false;
         for var in hierarchy.all_vars() {
             let var = &hierarchy[var];
             let bits = match var.var_type() {
@@ -144,13 +149,21 @@ impl Wave {
                 }
                 continue;
             }
+            let register = var.var_type() == VarType::Reg;
+            let above = path.matches('.').count() == 1;
+            registers_above |= above && register;
+            let input = match var.direction() {
+                VarDirection::Unknown | VarDirection::Implicit => above && !registers_above,
+                direction => direction == VarDirection::Input,
+            };
             wave.by_path.insert(path.clone(), index);
             let element = wave.by_element.entry(names::element(&path));
             element.and_modify(|one| *one = None).or_insert(Some(index));
             wave.variables.push(Variable {
                 path,
                 width,
-                register: var.var_type() == VarType::Reg,
+                register,
+                input,
                 signal,
                 range: var.index().map(|index| (index.msb(), index.lsb())),
             });
@@ -245,26 +258,4 @@ impl Wave {
         };
         catch(read).flatten().ok_or_else(|| self.broken())
     }
-
-    /// A time of the file with its unit.
-    pub fn time(&self, time: u64) -> String {
-        match self.unit {
-            Some((factor, unit)) => format!("{} {unit}", u128::from(time) * u128::from(factor)),
-            None => time.to_string(),
-        }
-    }
-}
-
-fn unit(scale: wellen::Timescale) -> Option<(u32, &'static str)> {
-    use wellen::TimescaleUnit as Unit;
-    let name = match scale.unit {
-        Unit::Seconds => "s",
-        Unit::MilliSeconds => "ms",
-        Unit::MicroSeconds => "us",
-        Unit::NanoSeconds => "ns",
-        Unit::PicoSeconds => "ps",
-        Unit::FemtoSeconds => "fs",
-        _ => return None,
-    };
-    Some((scale.factor, name))
 }

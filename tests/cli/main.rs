@@ -2,6 +2,7 @@
 
 mod checks;
 mod compare;
+mod compare_names;
 mod compare_refusals;
 mod drawings;
 mod files;
