@@ -5,7 +5,7 @@ use crate::kernel::Declarations;
 pub const WIDTHS: std::ops::RangeInclusive<u64> = 2..=4;
 
 /// Widths that circuits without their proofs are made with; large ones only with some of them.
-pub const MODEL_WIDTHS: &[u64] = &[2, 3, 4, 8, 12, 16, 24, 32];
+pub const MODEL_WIDTHS: &[u64] = &[2, 3, 4, 8, 16, 32];
 
 /// One circuit of the catalogue.
 #[derive(Debug, Clone, Copy)]
@@ -59,7 +59,7 @@ macro_rules! any_width {
     (|$given:ident, $width:ident| $circuit:expr) => {
         Made {
             make: |$given| at_width!([2 3 4], $given, $width => $circuit),
-            model: |$given| at_width!([2 3 4 8 12 16 24 32], $given, $width => $circuit),
+            model: |$given| at_width!([2 3 4 8 16 32], $given, $width => $circuit),
         }
     };
 }

@@ -187,7 +187,7 @@ fn the_note_shows_what_its_commands_print() {
     let report = held("late", &names());
     complete(&report, 20_000);
     let first = report.first.as_ref().expect("the fault is found");
-    assert_eq!((first.tick, first.signals), (61, 3), "{report}");
+    assert_eq!((first.tick, first.signals), (88, 3), "{report}");
     assert_eq!(first.golden, "unit_law.generator.equal", "{report}");
     assert_eq!(first.other, "step_channel_tb.dut.u_edges.due", "{report}");
     assert_eq!(
