@@ -1,3 +1,4 @@
+use super::conversion::{constant, wrap};
 use super::names::{Names, index_width};
 use crate::kernel::{Kind, Shape};
 use crate::logic::netlist::{Id, Module, Node, Operator, Port};
@@ -6,7 +7,7 @@ use std::collections::HashMap;
 
 /// How tightly an operator binds, as Verilog ranks them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Rank {
+pub(super) enum Rank {
     Choice,
     Either,
     Both,
@@ -23,15 +24,15 @@ enum Rank {
 }
 
 /// Text and how tightly its outermost operator binds.
-struct Text(String, Rank);
+pub(super) struct Text(pub(super) String, pub(super) Rank);
 
 impl Text {
-    fn atom(text: String) -> Self {
+    pub(super) fn atom(text: String) -> Self {
         Text(text, Rank::Atom)
     }
 
     /// As an operand of something that binds this tightly.
-    fn within(self, rank: Rank) -> String {
+    pub(super) fn within(self, rank: Rank) -> String {
         match self.1 >= rank {
             true => self.0,
             false => format!("({})", self.0),
@@ -44,7 +45,7 @@ impl Text {
 /// Every operand has the width of its operation, conversions are written out, and a signed word
 /// is a signed expression: so neither the widths nor the signs of Verilog's contexts matter.
 pub(super) struct Expressions<'m> {
-    module: &'m Module,
+    pub(super) module: &'m Module,
     pub(super) names: &'m Names,
     /// The bits of each name that have been read.
     read: RefCell<HashMap<String, u64>>,
@@ -131,7 +132,7 @@ impl<'m> Expressions<'m> {
         }
     }
 
-    fn text(&self, id: Id) -> Text {
+    pub(super) fn text(&self, id: Id) -> Text {
         match self.names.get(id) {
             Some(name) => {
                 self.mark(name, u64::MAX);
@@ -141,7 +142,7 @@ impl<'m> Expressions<'m> {
         }
     }
 
-    fn shape(&self, id: Id) -> Shape {
+    pub(super) fn shape(&self, id: Id) -> Shape {
         self.module.nodes[id].1
     }
 
@@ -251,7 +252,7 @@ impl<'m> Expressions<'m> {
         )
     }
 
-    fn sign(&self, operator: Operator, id: Id) -> (&'static str, Rank) {
+    pub(super) fn sign(&self, operator: Operator, id: Id) -> (&'static str, Rank) {
         let bit = self.shape(id).kind == Kind::Bit;
         match operator {
             Operator::Add => ("+", Rank::Sum),
@@ -300,84 +301,6 @@ impl<'m> Expressions<'m> {
         Text(format!("{left} {sign} {right}"), rank)
     }
 
-    /// The bits of a word from `low` up.
-    fn slice(&self, of: Id, low: usize, shape: Shape) -> Text {
-        let text = match self.names.get(of) {
-            Some(name) => {
-                self.mark(name, mask(shape.width) << low);
-                Text::atom(match (self.shape(of).width, shape.width) {
-                    (1, _) => name.to_owned(),
-                    (_, 1) => format!("{name}[{low}]"),
-                    (_, width) => format!("{name}[{}:{low}]", low + width - 1),
-                })
-            }
-            None => self.narrow(of, shape.width),
-        };
-        // A part of a word is unsigned; what was computed in this width is what it was before.
-        match (shape.kind, self.names.get(of)) {
-            (Kind::Signed, Some(_)) => Text::atom(format!("$signed({})", text.0)),
-            (Kind::Signed, None) => text,
-            (_, None) if self.shape(of).kind == Kind::Signed => {
-                Text::atom(format!("$unsigned({})", text.0))
-            }
-            _ => text,
-        }
-    }
-
-    /// The low bits of a node without a name: what it computes, in fewer bits.
-    fn narrow(&self, id: Id, width: usize) -> Text {
-        let (node, shape) = self.module.nodes[id];
-        let small = Shape { width, ..shape };
-        let part = |id: Id| match self.names.get(id) {
-            Some(_) => self.slice(
-                id,
-                0,
-                Shape {
-                    width,
-                    ..self.shape(id)
-                },
-            ),
-            None => self.narrow(id, width),
-        };
-        match node {
-            Node::Constant(bits) => constant(bits & mask(width), small),
-            Node::Binary(operator, a, b) => {
-                let (sign, rank) = self.sign(operator, id);
-                let [a, b] = [part(a), part(b)].map(|text| text.within(Rank::Unary));
-                Text(format!("{a} {sign} {b}"), rank)
-            }
-            Node::Mux(choose, then, other) => {
-                let choose = self.text(choose).within(Rank::Either);
-                let [then, other] = [part(then), part(other)].map(|text| text.within(Rank::Either));
-                Text(format!("{choose} ? {then} : {other}"), Rank::Choice)
-            }
-            Node::Not(a) => Text(format!("~{}", part(a).within(Rank::Atom)), Rank::Unary),
-            Node::Negate(a) => Text(format!("-{}", part(a).within(Rank::Atom)), Rank::Unary),
-            Node::Cast(a) => wrap(part(a), self.shape(a).kind, shape.kind),
-            _ => self.text(id),
-        }
-    }
-
-    fn extend(&self, a: Id, shape: Shape) -> Text {
-        let from = self.shape(a);
-        let more = shape.width - from.width;
-        let word = self.text(a).0;
-        match from.kind {
-            Kind::Signed => {
-                let sign = match from.width {
-                    1 => word.clone(),
-                    width => format!("{word}[{}]", width - 1),
-                };
-                Text::atom(format!("$signed({{{{{more}{{{sign}}}}}, {word}}})"))
-            }
-            _ => Text::atom(format!("{{{more}'d0, {word}}}")),
-        }
-    }
-
-    fn cast(&self, a: Id, kind: Kind) -> Text {
-        wrap(self.text(a), self.shape(a).kind, kind)
-    }
-
     /// How a memory is written, for the block of the clock.
     pub(super) fn port(&self, memory: usize) -> Option<(Option<String>, String)> {
         let memory = &self.module.memories[memory];
@@ -396,41 +319,6 @@ impl<'m> Expressions<'m> {
                 }
             }
             _ => None,
-        }
-    }
-}
-
-/// The same bits as a signed or an unsigned expression.
-fn wrap(text: Text, from: Kind, to: Kind) -> Text {
-    match (from == Kind::Signed, to == Kind::Signed) {
-        (false, true) => Text::atom(format!("$signed({})", text.0)),
-        (true, false) => Text::atom(format!("$unsigned({})", text.0)),
-        _ => text,
-    }
-}
-
-fn mask(width: usize) -> u64 {
-    u64::MAX >> (64 - width.clamp(1, 64))
-}
-
-/// A constant with its width.
-pub(super) fn literal(bits: u64, shape: Shape) -> String {
-    constant(bits, shape).0
-}
-
-fn constant(bits: u64, shape: Shape) -> Text {
-    let Shape { kind, width } = shape;
-    match kind {
-        Kind::Bit | Kind::Unsigned if width == 1 => Text::atom(format!("1'b{bits}")),
-        Kind::Bit | Kind::Unsigned => Text::atom(format!("{width}'d{bits}")),
-        Kind::Signed if bits >> (width - 1) & 1 == 0 => Text::atom(format!("{width}'sd{bits}")),
-        Kind::Signed => {
-            let value = bits.wrapping_neg() & mask(width);
-            match value == bits {
-                // The least value has no positive counterpart in this width.
-                true => Text::atom(format!("{width}'sh{bits:x}")),
-                false => Text(format!("-{width}'sd{value}"), Rank::Unary),
-            }
         }
     }
 }

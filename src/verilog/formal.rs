@@ -1,7 +1,7 @@
 //! The properties of a module as assertions for formal tools.
 
+use super::design::Modules;
 use super::expression::Expressions;
-use super::module::Modules;
 use super::names::Names;
 use crate::logic::netlist::Module;
 use std::fmt::Write as _;

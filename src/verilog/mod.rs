@@ -14,17 +14,24 @@
 //! # Ok::<(), motion_rtl::verilog::VerilogError>(())
 //! ```
 
+mod conversion;
+mod design;
 mod expression;
 mod formal;
+mod header;
+mod instances;
 mod keywords;
+mod memories;
 mod module;
 mod names;
 mod statements;
 mod testbench;
+mod text;
+mod unused;
 
 use crate::kernel::Circuit;
 use crate::logic::netlist::{Design, NetlistError, Value, elaborate};
-use module::Modules;
+use design::Modules;
 use std::collections::HashSet;
 use std::fmt::Write as _;
 

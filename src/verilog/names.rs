@@ -244,7 +244,7 @@ fn reserved(module: &Module, modules: &[Module]) -> impl Iterator<Item = String>
     let mut names = vec![
         "clk".to_owned(),
         "rst".to_owned(),
-        super::module::UNUSED.to_owned(),
+        super::unused::UNUSED.to_owned(),
     ];
     for signal in module
         .signals

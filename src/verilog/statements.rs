@@ -1,4 +1,5 @@
-use super::expression::{Expressions, literal};
+use super::conversion::literal;
+use super::expression::Expressions;
 use super::module::is_own_register;
 use crate::logic::netlist::{Id, Module, Node};
 

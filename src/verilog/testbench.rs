@@ -1,5 +1,5 @@
 use super::SourceFile;
-use super::module::Modules;
+use super::design::Modules;
 use crate::kernel::Role;
 use crate::logic::netlist::{Module, Signal};
 use std::fmt::Write as _;

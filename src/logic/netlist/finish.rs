@@ -1,9 +1,9 @@
 //! What is left to do when a circuit has been run: who owns what, and whether it may.
 
 use super::build::{Builder, PowerOn};
-use super::elaborate::{Leaf, Nets};
 use super::memory::State;
 use super::module::{Child, Module, NetlistError, Port, Register, Setting, Value};
+use super::nets::{Leaf, Nets};
 use super::node::{Id, Node};
 
 impl Builder {

@@ -6,8 +6,10 @@
 mod build;
 mod elaborate;
 mod finish;
+mod leaves;
 mod memory;
 mod module;
+mod nets;
 mod node;
 mod properties;
 

@@ -2,9 +2,10 @@
 
 use super::Netlist;
 use super::build::{builder, node};
-use super::elaborate::{Edge, Leaf, make_leaves};
+use super::leaves::make_leaves;
 use super::memory::{NetRam, NetShiftRegister, State};
 use super::module::Assertion;
+use super::nets::{Edge, Leaf};
 use super::node::Node;
 use super::words::{NetBit, NetInt, NetUInt, Word};
 use crate::kernel::{Circuit, Field, Make, Moment, Role, Signals};

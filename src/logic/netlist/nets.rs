@@ -1,0 +1,140 @@
+//! What a circuit's walks show: leaves as they come, and nets with the scopes of instances.
+
+use super::Netlist;
+use super::build::{builder, flat, signal};
+use super::memory::{NetRam, NetShiftRegister, State};
+use super::node::{Id, Node};
+use super::words::{NetBit, NetInt, NetUInt, Word};
+use crate::kernel::{Field, Path, Role, Visit};
+
+/// A leaf after the edge, or of the inputs of an instance.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Leaf {
+    Word(Id),
+    Memory(usize, State),
+}
+
+/// Collects leaves.
+pub(super) struct Edge(pub(super) Vec<Leaf>);
+
+impl Visit<Netlist> for Edge {
+    fn enter(&mut self, _: &'static Field) {}
+    fn leave(&mut self) {}
+    fn element(&mut self, _: usize) {}
+    fn bit(&mut self, _: &'static Field, value: NetBit) {
+        self.0.push(Leaf::Word(value.id()));
+    }
+    fn unsigned<const N: usize>(&mut self, _: &'static Field, value: NetUInt<N>) {
+        self.0.push(Leaf::Word(value.id()));
+    }
+    fn signed<const N: usize>(&mut self, _: &'static Field, value: NetInt<N>) {
+        self.0.push(Leaf::Word(value.id()));
+    }
+    fn ram<const A: usize, const D: usize>(&mut self, _: &'static Field, ram: &NetRam<A, D>) {
+        self.0.push(Leaf::Memory(ram.memory, ram.state));
+    }
+    fn shift_register<const K: usize, const D: usize>(
+        &mut self,
+        _: &'static Field,
+        register: &NetShiftRegister<K, D>,
+    ) {
+        self.0.push(Leaf::Memory(register.memory, register.state));
+    }
+}
+
+/// Collects nets: makes signals of a circuit's own ones, finds the names of its instances.
+#[derive(Default)]
+pub(super) struct Nets {
+    path: Path,
+    /// How many structs have been entered, and at which one each nested part begins.
+    depth: usize,
+    parts: Vec<(usize, Role)>,
+    /// How many leaves there were when each struct that is open was entered.
+    entered: Vec<usize>,
+    /// The signal of each leaf, if it is not one of an instance.
+    pub(super) leaves: Vec<Option<usize>>,
+    /// The scopes that are instances, with the instance where a net tells it.
+    pub(super) instances: Vec<(Vec<String>, Option<usize>)>,
+}
+
+impl Nets {
+    fn word<W: Word>(&mut self, field: &'static Field, value: W) {
+        let name = self.path.name(field);
+        if let Some((_, role)) = self.parts.first() {
+            self.leaves.push(None);
+            let node = builder(|builder| builder.nodes.get(value.id()).map(|(node, _)| *node));
+            let (Role::Net, Some(Node::Port { instance, .. })) = (role, node) else {
+                return;
+            };
+            if let Some((_, known)) = self.instances.last_mut() {
+                *known = Some(instance);
+            }
+            return;
+        }
+        let scopes = self.path.scopes().to_vec();
+        let mut signal = signal(flat(&scopes, &name), field, W::SHAPE);
+        signal.driver = Some(value.id());
+        let signal = builder(|builder| builder.signal(signal, scopes));
+        self.leaves.push(Some(signal));
+    }
+}
+
+impl Visit<Netlist> for Nets {
+    fn enter(&mut self, field: &'static Field) {
+        self.path.enter(field);
+        self.depth += 1;
+        self.entered.push(self.leaves.len());
+        let Some(role) = field.role.filter(|_| self.depth > 1) else {
+            return;
+        };
+        if self.parts.is_empty() {
+            let scopes = self.path.scopes();
+            if self.instances.last().is_none_or(|(last, _)| last != scopes) {
+                self.instances.push((scopes.to_vec(), None));
+            }
+        }
+        self.parts.push((self.depth, role));
+    }
+    fn leave(&mut self) {
+        let scopes = self.path.scopes();
+        let empty = self.entered.pop() == Some(self.leaves.len()) && self.parts.is_empty();
+        // An instance without inputs and nets.
+        if empty
+            && !scopes.is_empty()
+            && self.instances.last().is_none_or(|(last, _)| last != scopes)
+        {
+            self.instances.push((scopes.to_vec(), None));
+        }
+        self.path.leave();
+        if self
+            .parts
+            .last()
+            .is_some_and(|(depth, _)| *depth == self.depth)
+        {
+            self.parts.pop();
+        }
+        self.depth -= 1;
+    }
+    fn element(&mut self, index: usize) {
+        self.path.element(index);
+    }
+    fn bit(&mut self, field: &'static Field, value: NetBit) {
+        self.word(field, value);
+    }
+    fn unsigned<const N: usize>(&mut self, field: &'static Field, value: NetUInt<N>) {
+        self.word(field, value);
+    }
+    fn signed<const N: usize>(&mut self, field: &'static Field, value: NetInt<N>) {
+        self.word(field, value);
+    }
+    fn ram<const A: usize, const D: usize>(&mut self, _: &'static Field, _: &NetRam<A, D>) {
+        self.leaves.push(None);
+    }
+    fn shift_register<const K: usize, const D: usize>(
+        &mut self,
+        _: &'static Field,
+        _: &NetShiftRegister<K, D>,
+    ) {
+        self.leaves.push(None);
+    }
+}

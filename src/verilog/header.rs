@@ -1,0 +1,59 @@
+use super::conversion::literal;
+use super::design::Modules;
+use super::text::{annotated, column, comment, range};
+use crate::kernel::Role;
+use crate::logic::netlist::{Module, Signal};
+use std::fmt::Write as _;
+
+impl Modules<'_> {
+    /// Parameters and ports.
+    pub(super) fn header(&self, module: &Module, clocked: bool) -> String {
+        let mut text = format!("module {} ", module.name);
+        let parameters = self.parameters(module);
+        match parameters.is_empty() {
+            true => text += "(\n",
+            false => {
+                let lines: Vec<String> = parameters
+                    .iter()
+                    .map(|parameter| {
+                        let top = self.is_top(module);
+                        let value = if top { self.number(&parameter.path) } else { 0 };
+                        format!("    {}", parameter.declaration(top, value))
+                    })
+                    .collect();
+                let _ = writeln!(text, "#(\n{}\n) (", lines.join(",\n"));
+            }
+        }
+        let mut ports = Vec::new();
+        let signals = module.signals.iter().filter(|signal| signal.is_port());
+        let column = column(signals.map(|signal| signal.shape));
+        if clocked {
+            ports.push((format!("input  wire {:column$}clk", ""), String::new()));
+            let about = "Registers to their power-on values; memories stay.";
+            ports.push((format!("input  wire {:column$}rst", ""), about.to_owned()));
+        }
+        for signal in module.signals.iter().filter(|signal| signal.is_port()) {
+            let Signal { name, shape, .. } = signal;
+            let range = format!("{:column$}", range(*shape));
+            let port = match signal.role {
+                Role::Input => format!("input  wire {range}{name}"),
+                Role::Net => format!("output wire {range}{name}"),
+                Role::Register => {
+                    let power_on = literal(signal.power_on, *shape);
+                    format!("output reg  {range}{name} = {power_on}")
+                }
+            };
+            ports.push((port, comment(signal)));
+        }
+        let last = ports.len().saturating_sub(1);
+        for (index, (port, _)) in ports.iter_mut().enumerate() {
+            if index != last {
+                port.push(',');
+            }
+        }
+        for line in annotated(&ports) {
+            let _ = writeln!(text, "    {line}");
+        }
+        text + ");\n\n"
+    }
+}
