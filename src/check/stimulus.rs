@@ -26,7 +26,7 @@ const PACE: u64 = 11;
 /// use motion_rtl::logic::{Sim, sim::UInt};
 ///
 /// let mut stimulus = Stimulus::new(1);
-/// let words: Vec<[UInt<24>; 2]> = (0..1000).map(|_| stimulus.inputs()).collect();
+/// let words: Vec<[UInt<24>; 2]> = (0..10_000).map(|_| stimulus.inputs()).collect();
 /// assert!(words.iter().any(|[period, _]| period.get() < 8));
 /// assert!(words.iter().any(|[period, _]| period.get() > 1 << 20));
 /// ```

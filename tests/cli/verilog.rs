@@ -24,9 +24,34 @@ fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
     let said = bench.succeed(&verilog("unit_time_counter", &TESTBENCH));
     let files = [".v", "_tb.v", ".vcd", ".stimulus"];
     let files = files.map(|end| format!("v/unit_time_counter{end}"));
-    assert_eq!(said, files.join("\n") + "\n");
+    let (stimulus, names) = said.split_at(said.find("v/").unwrap());
+    assert_eq!(
+        stimulus,
+        "200 ticks of seed 1, 6 of them with rst; 1 of 13 bits were 0 and 1\n\
+         a word of the stimulus, from bit 0: period [3:0], rst [4]\n"
+    );
+    assert_eq!(names, files.join("\n") + "\n");
+    let waves = bench.read(&files[2]);
+    assert!(waves.contains("period 10 x 100 ns"), "{}", &waves[..300]);
     assert_eq!(bench.read(&files[3]).lines().count(), 200);
     assert_eq!(bench.names().len(), 5);
+}
+
+#[test]
+fn the_golden_waves_have_the_clock_that_is_asked_for() {
+    let bench = Bench::new();
+    bench.succeed(&verilog(
+        "unit_time_counter",
+        &[&TESTBENCH[..], &["--clock-hz", "100000000"]].concat(),
+    ));
+    let waves = bench.read("v/unit_time_counter.vcd");
+    assert!(waves.contains("period 10 x 1 ns"), "{}", &waves[..300]);
+    let done = bench.run(&verilog(
+        "unit_time_counter",
+        &[&TESTBENCH[..], &["--clock-hz", "0"]].concat(),
+    ));
+    assert_eq!(done.code, 2);
+    assert!(done.stderr.contains("--clock-hz"), "{}", done.stderr);
 }
 
 #[test]
