@@ -7,7 +7,7 @@ use crate::logic::netlist::Module;
 use std::fmt::Write as _;
 
 /// Low in the first tick, whose past is not known.
-pub(super) const PAST_VALID: &str = "f_past_valid";
+const PAST_VALID: &str = "f_past_valid";
 
 impl Modules<'_> {
     /// The assertions of a module, for tools that define FORMAL.
@@ -27,14 +27,11 @@ impl Modules<'_> {
         }
         let _ = writeln!(text, "    always @(posedge clk) begin");
         for assertion in &module.assertions {
-            let name = assertion.name;
             let holds = expressions.definition(assertion.holds, 76, "                ");
-            let _ = writeln!(
-                text,
-                "        // {}{}.",
-                name[..1].to_uppercase(),
-                &name[1..]
-            );
+            let mut name = assertion.name.chars();
+            let first = name.next().map(|first| first.to_ascii_uppercase());
+            let name: String = first.into_iter().chain(name).collect();
+            let _ = writeln!(text, "        // {name}.");
             match assertion.step {
                 true => {
                     let _ = writeln!(text, "        if ({PAST_VALID} && !$past(rst))");

@@ -39,16 +39,8 @@ impl Modules<'_> {
                     here.then(|| names.get(id)).flatten().map(str::to_owned)
                 });
                 let name = name.unwrap_or_else(|| format!("{}_{}", child.name, signal.name));
-                let own = module
-                    .signals
-                    .iter()
-                    .any(|own| own.owner.is_none() && own.name == name);
-                let own_wire = own
-                    && !module
-                        .signals
-                        .iter()
-                        .any(|own| own.owner.is_none() && own.name == name && own.is_port());
-                if !own || own_wire {
+                let mut ports = module.signals.iter().filter(|own| own.is_port());
+                if !ports.any(|port| port.name == name) {
                     outputs.wires.push((signal.shape, name.clone()));
                 }
                 connections.push((signal.name.clone(), name));

@@ -11,7 +11,7 @@ pub(super) struct Names {
     of: HashMap<Id, String>,
     /// The nodes that are called after no signal, in their order.
     pub(super) shared: Vec<Id>,
-    /// For every net the name that its driver goes by, where that is another signal.
+    /// The names that are in use in the module.
     taken: HashSet<String>,
 }
 
