@@ -3,13 +3,16 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod blocks;
 pub mod check;
 pub mod compare;
 pub mod input;
 pub mod kernel;
+pub mod linear_interpolator;
 pub mod logic;
 pub mod picture;
 pub mod plan;
+pub mod plant;
 pub mod pulse_interpolator;
 pub mod registry;
 pub mod trace;

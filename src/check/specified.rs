@@ -11,4 +11,10 @@ pub trait Specified: Circuit + Sized {
     fn applies(&self, _: &Self::In<Sim>) -> bool {
         true
     }
+
+    /// Whether a proof applies this input in this state: unless overridden, in every state. What
+    /// the surroundings are relied on for stands in the circuit's comment.
+    fn assumes(&self, _: &Self::Reg<Sim>, _: &Self::In<Sim>) -> bool {
+        true
+    }
 }

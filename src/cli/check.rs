@@ -47,10 +47,22 @@ pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
 
 /// Proves.
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
-    let entries = match &arguments.circuit {
+    let entries: Vec<_> = match &arguments.circuit {
         None => CATALOGUE.iter().collect(),
         Some(name) => vec![entry(name)?],
     };
+    let (entries, others): (Vec<&Entry>, Vec<&Entry>) = entries
+        .into_iter()
+        .partition(|entry| entry.proof_width.is_some());
+    if let [other] = others[..]
+        && arguments.circuit.is_some()
+    {
+        return Err(Failure::Argument {
+            field: "CIRCUIT",
+            problem: format!("{} is too wide for a proof by exhaustion", other.name),
+            allowed: "its blocks; what is tested of it stands in its note".into(),
+        });
+    }
     if let Some(width) = arguments.width
         && !WIDTHS.contains(&width)
     {
@@ -71,6 +83,10 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     for entry in entries {
         prove(arguments, entry, &mut table, &mut broken)?;
     }
+    if !others.is_empty() {
+        let names: Vec<_> = others.iter().map(|other| other.name).collect();
+        let _ = writeln!(table, "too wide for exhaustion: {}", names.join(", "));
+    }
     print(&table)?;
     if broken.is_empty() {
         return Ok(());
@@ -84,7 +100,7 @@ fn prove(
     table: &mut String,
     broken: &mut Vec<String>,
 ) -> Result<(), Failure> {
-    let width = arguments.width.unwrap_or(entry.proof_width);
+    let width = arguments.width.or(entry.proof_width).unwrap_or_default();
     let name = entry.name;
     let mut given = vec![width];
     given.extend(&arguments.with);

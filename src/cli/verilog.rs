@@ -4,7 +4,7 @@ use super::{Failure, check::entry, print};
 use clap::Args;
 use motion_rtl::check::Drive;
 use motion_rtl::kernel::{Role, RunError};
-use motion_rtl::registry::{AnyModel, MODEL_WIDTHS};
+use motion_rtl::registry::AnyModel;
 use motion_rtl::trace::Clock;
 use motion_rtl::trace::atomic::{AtomicFile, Directory};
 use motion_rtl::verilog::SourceFile;
@@ -151,12 +151,7 @@ fn model(arguments: &Arguments) -> Result<Box<dyn AnyModel>, Failure> {
     let mut given = vec![width];
     given.extend(&arguments.with);
     (entry.model)(&given).ok_or_else(|| {
-        let offered = |width: &&u64| (entry.model)(&[**width]).is_some();
-        let widths: Vec<String> = MODEL_WIDTHS
-            .iter()
-            .filter(offered)
-            .map(u64::to_string)
-            .collect();
+        let widths: Vec<String> = entry.offered.iter().map(u64::to_string).collect();
         Failure::Argument {
             field: "--width",
             problem: format!("{} cannot be made with {given:?}", entry.name),

@@ -4,7 +4,7 @@ use crate::kernel::Declarations;
 /// Widths that circuits are made with for proofs and charts.
 pub const WIDTHS: std::ops::RangeInclusive<u64> = 2..=4;
 
-/// Widths that circuits without their proofs are made with; large ones only with some of them.
+/// Widths that most circuits are made with where their proofs are not wanted.
 pub const MODEL_WIDTHS: &[u64] = &[2, 3, 4, 8, 16, 32];
 
 /// One circuit of the catalogue.
@@ -23,14 +23,17 @@ pub struct Entry {
     /// What it is made with otherwise, in words: the numbers that [`Entry::make`] and
     /// [`Entry::model`] take.
     pub arguments: &'static str,
-    /// Makes it from those numbers for proofs and charts, the first of them one of [`WIDTHS`];
-    /// `None` where there is none with them.
+    /// Makes it from those numbers for proofs, the first of them one of [`WIDTHS`]; `None` where
+    /// there is none with them, or where it is too wide for proofs by exhaustion at any width.
     pub make: fn(&[u64]) -> Option<Box<dyn AnyCircuit>>,
     /// Makes it from the same numbers without its proofs, the first of them one of
-    /// [`MODEL_WIDTHS`].
+    /// [`Entry::offered`].
     pub model: fn(&[u64]) -> Option<Box<dyn AnyModel>>,
-    /// The width it is proved at unless another is asked for.
-    pub proof_width: u64,
+    /// The widths that [`Entry::model`] takes; none where the circuit has no width.
+    pub offered: &'static [u64],
+    /// The width it is proved at unless another is asked for; `None` where it is not proved by
+    /// exhaustion.
+    pub proof_width: Option<u64>,
 }
 
 impl Entry {
@@ -60,6 +63,19 @@ macro_rules! any_width {
         Made {
             make: |$given| at_width!([2 3 4], $given, $width => $circuit),
             model: |$given| at_width!([2 3 4 8 16 32], $given, $width => $circuit),
+            offered: $crate::registry::MODEL_WIDTHS,
+        }
+    };
+}
+
+/// The functions of an [`Entry`] for a circuit without proofs by exhaustion, at some widths.
+#[allow(unused_macros)]
+macro_rules! some_widths {
+    ([$($bits:literal)*], |$given:ident, $width:ident| $circuit:expr) => {
+        Made {
+            make: |_given| None,
+            model: |$given| at_width!([$($bits)*], $given, $width => $circuit),
+            offered: &[$($bits),*],
         }
     };
 }
@@ -68,6 +84,32 @@ macro_rules! any_width {
 pub(super) struct Made {
     pub make: fn(&[u64]) -> Option<Box<dyn AnyCircuit>>,
     pub model: fn(&[u64]) -> Option<Box<dyn AnyModel>>,
+    pub offered: &'static [u64],
 }
 
-pub(super) use {any_width, at_width};
+/// An entry for a circuit type, given with its default widths and how it is made otherwise.
+macro_rules! entry {
+    (
+        $full:ty, $circuit:expr, $proof_width:expr, $source:literal, [$($name:literal = $bits:literal),*],
+        $arguments:literal, $made:expr
+    ) => {
+        $crate::registry::Entry {
+            name: <$full as $crate::kernel::Circuit>::NAME,
+            about: <$full as $crate::kernel::Circuit>::ABOUT,
+            source: $source,
+            widths: &[$(($name, $bits)),*],
+            full: || {
+                let full: $full = $circuit;
+                Box::new(full)
+            },
+            arguments: $arguments,
+            make: { const MADE: Made = $made; MADE.make },
+            model: { const MADE: Made = $made; MADE.model },
+            offered: { const MADE: Made = $made; MADE.offered },
+            proof_width: $proof_width,
+        }
+    };
+}
+
+#[allow(unused_imports)]
+pub(super) use {any_width, at_width, entry, some_widths};

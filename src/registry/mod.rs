@@ -2,7 +2,6 @@
 
 mod circuits;
 mod entry;
-mod make;
 mod model;
 
 pub use circuits::CATALOGUE;

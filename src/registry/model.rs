@@ -126,6 +126,7 @@ impl<C: Specified> AnyCircuit for C {
         let invariants = Specified::invariants(self);
         let outcome = reach(self, &invariants)
             .inputs(|i| self.applies(i))
+            .assume(|q, i| self.assumes(q, i))
             .limit(limit)
             .progress(progress)
             .run()?;

@@ -125,10 +125,7 @@ fn the_list_has_every_circuit_with_ports_and_widths() {
     }
     let text = bench.succeed(&["list"]);
     for name in names {
-        assert!(
-            text.contains(&format!("\n  {name} (JP3640909B2 ")),
-            "{name}"
-        );
+        assert!(text.contains(&format!("\n  {name} (")), "{name}");
     }
     assert!(bench.names().is_empty());
 }

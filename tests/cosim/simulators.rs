@@ -2,7 +2,7 @@
 
 use super::tools::{Simulator, complete, run, write};
 use motion_rtl::check::Drive;
-use motion_rtl::registry::{AnyModel, CATALOGUE, Entry, MODEL_WIDTHS};
+use motion_rtl::registry::{AnyModel, CATALOGUE, Entry};
 use motion_rtl::trace::Clock;
 use std::fs::File;
 use std::thread;
@@ -34,14 +34,10 @@ pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64)
 
 /// The circuit of an entry at several widths: the smallest, a middle one, its own.
 fn widths(entry: &Entry) -> Vec<Box<dyn AnyModel>> {
-    let [small, middle] = [3, 8].map(|width| {
-        assert!(MODEL_WIDTHS.contains(&width));
-        (entry.model)(&[width]).unwrap()
-    });
-    match entry.widths.is_empty() {
-        true => vec![(entry.full)()],
-        false => vec![small, middle, (entry.full)()],
-    }
+    let odd = if entry.offered.contains(&3) { 3 } else { 4 };
+    let narrow = [odd, 8].into_iter().filter(|_| !entry.offered.is_empty());
+    let narrow = narrow.map(|width| (entry.model)(&[width]).unwrap());
+    narrow.chain([(entry.full)()]).collect()
 }
 
 /// Half of the entries each, for two cores.

@@ -80,7 +80,8 @@ fn induction() -> String {
                  sat -tempinduct -prove-asserts -verify"
             )
         });
-        let small = (entry.make)(&[entry.proof_width]).unwrap().invariants();
+        let proof_width = entry.proof_width.unwrap();
+        let small = (entry.make)(&[proof_width]).unwrap().invariants();
         for property in names {
             assert!(small.iter().any(|invariant| *invariant == property));
             let widths = |bits: u64| match entry.widths.is_empty() {
@@ -91,7 +92,7 @@ fn induction() -> String {
             let _ = writeln!(
                 text,
                 "| `{name}` | {property} | {} | {} |",
-                widths(entry.proof_width),
+                widths(proof_width),
                 widths(full)
             );
         }

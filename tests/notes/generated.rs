@@ -182,8 +182,7 @@ fn proofs(patent: &str) -> String {
     let mut text = String::from(
         "| circuit | width | states | transitions | depth | holds |\n|---|---|---|---|---|---|\n",
     );
-    for entry in of(patent) {
-        let width = entry.proof_width;
+    for (entry, width) in of(patent).filter_map(|entry| Some((entry, entry.proof_width?))) {
         let circuit = (entry.make)(&[width]).expect("it is made for its proof");
         let verdict = circuit.prove(LIMIT, None, &mut |_| {});
         let Ok(Verdict::Proved(proof)) = verdict else {
@@ -207,7 +206,7 @@ fn literal() -> String {
     let mut text = String::from("| circuit | width | what breaks first |\n|---|---|---|\n");
     for name in ["pulse_generator", "axis", "unit_law"] {
         let entry = find(name).expect("it is in the catalogue");
-        let width = entry.proof_width;
+        let width = entry.proof_width.expect("it is proved");
         let circuit = (entry.make)(&[width, 1]).expect("it has a literal variant");
         let verdict = circuit.prove(LIMIT, None, &mut |_| {});
         let Ok(Verdict::Broken { report, .. }) = verdict else {

@@ -7,13 +7,13 @@ mod snapshots;
 mod text;
 
 use motion_rtl::kernel::Declaration;
-use motion_rtl::registry::{AnyModel, CATALOGUE, MODEL_WIDTHS};
+use motion_rtl::registry::{AnyModel, CATALOGUE};
 
 /// Every circuit of the catalogue at every width that is offered, and at its own.
 fn circuits() -> impl Iterator<Item = Box<dyn AnyModel>> {
     CATALOGUE.iter().flat_map(|entry| {
-        let widths = MODEL_WIDTHS.iter();
-        let made = widths.filter_map(|width| (entry.model)(&[*width]));
+        let widths = entry.offered.iter();
+        let made = widths.map(|width| (entry.model)(&[*width]).expect(entry.name));
         made.chain([(entry.full)()])
     })
 }

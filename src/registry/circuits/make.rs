@@ -1,8 +1,8 @@
 //! Circuits from the numbers that an entry takes.
 
-use super::entry::at_width;
-use super::{AnyCircuit, AnyModel};
 use crate::pulse_interpolator::{Group, Pattern, PatternMemory, Variant};
+use crate::registry::entry::at_width;
+use crate::registry::{AnyCircuit, AnyModel};
 
 /// The argument after the width, or else `default`.
 pub fn second(arguments: &[u64], default: u64) -> u64 {

@@ -1,41 +1,17 @@
-use super::Entry;
-use super::entry::{Made, any_width, at_width};
 use super::make::{address_bits, group, group_model, memory, second, variant};
-use crate::kernel::Circuit;
 use crate::pulse_interpolator::{
     AddressSequencer, Axis, CommandPort, Group, PatternMemory, PulseGenerator, SyncStage, UnitLaw,
     UnitTimeCounter, UnitTimeRegister, Variant,
 };
+use crate::registry::Entry;
+use crate::registry::entry::{Made, any_width, at_width, entry};
 
-/// An entry for a circuit type, given with its default widths and how it is made otherwise.
-macro_rules! entry {
-    (
-        $full:ty, $circuit:expr, $proof_width:literal, $source:literal, [$($name:literal = $bits:literal),*],
-        $arguments:literal, $made:expr
-    ) => {
-        Entry {
-            name: <$full as Circuit>::NAME,
-            about: <$full as Circuit>::ABOUT,
-            source: $source,
-            widths: &[$(($name, $bits)),*],
-            full: || {
-                let full: $full = $circuit;
-                Box::new(full)
-            },
-            arguments: $arguments,
-            make: { const MADE: Made = $made; MADE.make },
-            model: { const MADE: Made = $made; MADE.model },
-            proof_width: $proof_width,
-        }
-    };
-}
-
-/// Every circuit, blocks before what is made of them.
-pub const CATALOGUE: &[Entry] = &[
+/// The circuits of JP3640909B2.
+pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         UnitTimeCounter<24>,
         UnitTimeCounter,
-        3,
+        Some(3),
         "JP3640909B2 30",
         ["T" = 24],
         "width",
@@ -44,7 +20,7 @@ pub const CATALOGUE: &[Entry] = &[
     entry!(
         UnitTimeRegister<24>,
         UnitTimeRegister { period: 1000 },
-        3,
+        Some(3),
         "JP3640909B2 ¶0016",
         ["T" = 24],
         "width, T at power-on",
@@ -55,7 +31,7 @@ pub const CATALOGUE: &[Entry] = &[
     entry!(
         PulseGenerator<16>,
         PulseGenerator::default(),
-        3,
+        Some(3),
         "JP3640909B2 20 = 201 + 202",
         ["N" = 16],
         "width, 0 for safe or 1 for literal",
@@ -66,17 +42,18 @@ pub const CATALOGUE: &[Entry] = &[
     entry!(
         SyncStage,
         SyncStage,
-        3,
+        Some(3),
         "JP3640909B2 40",
         [],
         "nothing",
         Made {
             make: |_given| Some(Box::new(SyncStage)),
             model: |_given| Some(Box::new(SyncStage)),
+            offered: &[],
         }
     ),
     entry!(
-        PatternMemory<16, 12>, PatternMemory::new(0), 3, "JP3640909B2 10", ["N" = 16, "A" = 12],
+        PatternMemory<16, 12>, PatternMemory::new(0), Some(3), "JP3640909B2 10", ["N" = 16, "A" = 12],
         "width of the half-period (addresses have one bit, above a width of 4 four), axis, words \
          at power-on (a half-period, 2^width more for down)",
         any_width!(|given, W| memory::<W, { address_bits(W) }>(given))
@@ -84,19 +61,19 @@ pub const CATALOGUE: &[Entry] = &[
     entry!(
         AddressSequencer<12>,
         AddressSequencer,
-        3,
+        Some(3),
         "JP3640909B2 50",
         ["A" = 12],
         "width",
         any_width!(|given, W| AddressSequencer::<W>)
     ),
     entry!(
-        CommandPort<12, 24>, CommandPort::default(), 3, "JP3640909B2 ¶0018, ¶0026", ["A" = 12, "T" = 24],
+        CommandPort<12, 24>, CommandPort::default(), Some(3), "JP3640909B2 ¶0018, ¶0026", ["A" = 12, "T" = 24],
         "width",
         any_width!(|given, W| CommandPort::<W, W>::default())
     ),
     entry!(
-        Axis<16, 12>, Axis::new(0, Variant::Safe), 3, "JP3640909B2 10 + 20 + 40", ["N" = 16, "A" = 12],
+        Axis<16, 12>, Axis::new(0, Variant::Safe), Some(3), "JP3640909B2 10 + 20 + 40", ["N" = 16, "A" = 12],
         "width of the half-period (addresses have one bit, above a width of 4 four), 0 for safe or \
          1 for literal",
         any_width!(|given, W| Axis::<W, { address_bits(W) }>::new(0, variant(second(given, 0))))
@@ -104,7 +81,7 @@ pub const CATALOGUE: &[Entry] = &[
     entry!(
         UnitLaw<16>,
         UnitLaw::default(),
-        3,
+        Some(3),
         "JP3640909B2 30 + 20 + 40, with ghosts",
         ["W" = 16],
         "width, 0 for safe or 1 for literal",
@@ -113,7 +90,7 @@ pub const CATALOGUE: &[Entry] = &[
     entry!(
         Group<2>,
         Group::new(Variant::Safe, 1000),
-        2,
+        Some(2),
         "JP3640909B2 1",
         ["AXES" = 2, "N" = 16, "T" = 24, "A" = 12],
         "width of half-period and T, T at power-on: one axis, two words of memory (1 up, 2 down); \
@@ -122,7 +99,8 @@ pub const CATALOGUE: &[Entry] = &[
          half-period, 2^width more for down)",
         Made {
             make: group,
-            model: group_model
+            model: group_model,
+            offered: &[2, 3, 4, 8, 16],
         }
     ),
 ];

@@ -1,0 +1,1 @@
+//! The linear interpolator of JP3608587B2.

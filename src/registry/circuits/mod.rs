@@ -1,0 +1,39 @@
+//! The catalogue, a file for each patent.
+
+mod blocks;
+mod linear_interpolator;
+mod make;
+mod pulse_interpolator;
+
+use super::Entry;
+
+const PARTS: [&[Entry]; 3] = [
+    pulse_interpolator::CIRCUITS,
+    blocks::CIRCUITS,
+    linear_interpolator::CIRCUITS,
+];
+
+const COUNT: usize = {
+    let (mut count, mut part) = (0, 0);
+    while part < PARTS.len() {
+        count += PARTS[part].len();
+        part += 1;
+    }
+    count
+};
+
+/// Every circuit, blocks before what is made of them.
+pub const CATALOGUE: &[Entry] = &{
+    let mut all = [PARTS[0][0]; COUNT];
+    let (mut count, mut part) = (0, 0);
+    while part < PARTS.len() {
+        let mut index = 0;
+        while index < PARTS[part].len() {
+            all[count] = PARTS[part][index];
+            count += 1;
+            index += 1;
+        }
+        part += 1;
+    }
+    all
+};
