@@ -41,10 +41,10 @@ macro_rules! signals {
             for $name<L $(, $width)*>
         {
             #[inline]
-            fn visit<V: $crate::kernel::Visit<L>>(
+            fn visit<Visitor: $crate::kernel::Visit<L>>(
                 &self,
                 field: &'static $crate::kernel::Field,
-                visitor: &mut V,
+                visitor: &mut Visitor,
             ) {
                 visitor.enter(field);
                 $(
@@ -58,9 +58,9 @@ macro_rules! signals {
             }
 
             #[inline]
-            fn make<M: $crate::kernel::Make<L>>(
+            fn make<Maker: $crate::kernel::Make<L>>(
                 field: &'static $crate::kernel::Field,
-                maker: &mut M,
+                maker: &mut Maker,
             ) -> Self {
                 maker.enter(field);
                 let made = $name {
