@@ -152,8 +152,13 @@ const FAR: &[(&str, u32)] = &[
     ("pulse_interpolator.y.generator.next", 11),
 ];
 
-/// At 8 bits: the pulses of a unit time of up to 255 ticks are at most 127.
-const NEVER: &[(&str, u32)] = &[("unit_law.pulses", 7), ("unit_law.counted", 7)];
+/// At 8 bits: the pulses of a unit time of up to 255 ticks are at most 127, and a word of 8 bits
+/// is divided in 8 ticks.
+const NEVER: &[(&str, u32)] = &[
+    ("unit_law.pulses", 7),
+    ("unit_law.counted", 7),
+    ("mul_div.count", 3),
+];
 
 #[test]
 fn every_bit_that_can_move_moves() {

@@ -48,7 +48,7 @@ signals! {
         /// What it does.
         state: L::U<2> as States(STATES) = 0,
         /// Ticks that the state has lasted.
-        count: L::U<7> = 0,
+        count: L::U<6> = 0,
         /// The product is all that is wanted.
         undivided: L::Bit = 0,
         /// First factor times the weight of the multiplier's lowest bit.
