@@ -1,1 +1,49 @@
 //! The linear interpolator of JP3608587B2.
+//!
+//! ```text
+//!  targets ─▶┌────────────────┐  ┌───────────┐ Δ of the master ┌──────────────────────┐ x(n)
+//!  abort ───▶│ target data 20 ├─▶│ sequencer ├────────────────▶│ position pattern     ├──┬───────────┐
+//!            └────────────────┘  └──┬────────┘                 │ generator 14         │  │           │
+//!                                   │                          └──────────────────────┘  ▼           ▼
+//!                                   │ Δx, Δy    ┌───────────────┐ δx(n) ┌─────────────────┐   ┌─────────────┐
+//!                                   └──────────▶│ integrator 24 │◀──────┤ differentiator  │   │ axis switch │
+//!                                               │ I, B          │       │ 21 = 22 + 23    │   │ adder 25    │
+//!                                               └───────┬───────┘       └─────────────────┘   └──┬───────┬──┘
+//!                                                       │ I                                  ▲   │ x     │ y
+//!                                                       └────────────────────────────────────┘   ▼       ▼
+//!                                                                                     position loops 10–13
+//! ```
+//!
+//! Every *scan* one axis, the master, gets the next position of a trapezoid, and the other, the
+//! slave, the position on the straight line that belongs to it, by an integer division whose
+//! remainder is carried on. `rtl_notes/linear_interpolator.md` is the note of this circuit.
+
+pub mod accumulator;
+pub mod axis_switch;
+pub mod differentiator;
+pub mod integrator;
+pub mod line_law;
+pub mod sequencer;
+pub mod target_data;
+
+pub use accumulator::Accumulator;
+pub use axis_switch::AxisSwitch;
+pub use differentiator::Differentiator;
+pub use integrator::Integrator;
+pub use line_law::LineLaw;
+pub use sequencer::Sequencer;
+pub use target_data::TargetData;
+
+/// How the integrator rounds its quotient.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Rule {
+    /// Towards minus infinity: the remainder takes the sign of Δx. The way back goes over the same
+    /// points.
+    #[default]
+    Floor,
+    /// Towards zero: the remainder takes the sign of the dividend, as most machines divide.
+    Truncating,
+    /// As [`Rule::Floor`], but B begins with half of Δx, so that points lie within half a step of
+    /// the line.
+    Centred,
+}

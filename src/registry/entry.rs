@@ -69,7 +69,6 @@ macro_rules! any_width {
 }
 
 /// The functions of an [`Entry`] for a circuit without proofs by exhaustion, at some widths.
-#[allow(unused_macros)]
 macro_rules! some_widths {
     ([$($bits:literal)*], |$given:ident, $width:ident| $circuit:expr) => {
         Made {
@@ -111,5 +110,4 @@ macro_rules! entry {
     };
 }
 
-#[allow(unused_imports)]
 pub(super) use {any_width, at_width, entry, some_widths};

@@ -1,4 +1,84 @@
+use super::make::second;
+use crate::linear_interpolator::{
+    Accumulator, AxisSwitch, Differentiator, Integrator, LineLaw, Rule, Sequencer, TargetData,
+};
 use crate::registry::Entry;
+use crate::registry::entry::{Made, any_width, at_width, entry, some_widths};
+
+/// The rule by its number.
+fn rule(number: u64) -> Rule {
+    match number {
+        0 => Rule::Floor,
+        1 => Rule::Truncating,
+        _ => Rule::Centred,
+    }
+}
 
 /// The circuits of JP3608587B2.
-pub(super) const CIRCUITS: &[Entry] = &[];
+pub(super) const CIRCUITS: &[Entry] = &[
+    entry!(
+        TargetData<6, 32, 12>, TargetData, Some(2), "JP3608587B2 20", ["A" = 6, "P" = 32, "T" = 12],
+        "width of positions and times (addresses have two bits)",
+        any_width!(|given, W| TargetData::<2, W, W>)
+    ),
+    entry!(
+        Sequencer<32>,
+        Sequencer,
+        Some(2),
+        "JP3608587B2 ¶0005, ¶0014",
+        ["P" = 32],
+        "width",
+        any_width!(|given, W| Sequencer::<W>)
+    ),
+    entry!(
+        Differentiator<32>,
+        Differentiator,
+        Some(3),
+        "JP3608587B2 21 = 22 + 23",
+        ["P" = 32],
+        "width",
+        any_width!(|given, W| Differentiator::<W>)
+    ),
+    entry!(
+        Accumulator<32, 64>,
+        Accumulator::default(),
+        None,
+        "JP3608587B2 24, registers",
+        ["P" = 32, "R" = 64],
+        "width, 0 for floor, 1 for truncating or 2 for centred",
+        some_widths!([3 4 8], |given, W| Accumulator::<W, { 2 * W }> {
+            rule: rule(second(given, 0))
+        })
+    ),
+    entry!(
+        Integrator<32, 64>,
+        Integrator::default(),
+        None,
+        "JP3608587B2 24",
+        ["P" = 32, "R" = 64],
+        "width, 0 for floor, 1 for truncating or 2 for centred",
+        some_widths!([3 4 8], |given, W| Integrator::<W, { 2 * W }>::new(rule(second(given, 0))))
+    ),
+    entry!(
+        LineLaw<32, 64>,
+        LineLaw::default(),
+        Some(3),
+        "JP3608587B2 24, with ghosts",
+        ["P" = 32, "R" = 64],
+        "width, 0 for floor, 1 for truncating or 2 for centred",
+        Made {
+            make: |given| at_width!([2 3 4], given, W => LineLaw::<W, { 2 * W }>::new(rule(second(given, 0)))),
+            model: |given| at_width!([3 4 8], given, W => LineLaw::<W, { 2 * W }>::new(rule(second(given, 0)))),
+            offered: &[3, 4, 8],
+        }
+    ),
+    entry!(
+        AxisSwitch<32>,
+        AxisSwitch,
+        Some(2),
+        "JP3608587B2 25, Figs 5 and 6",
+        ["P" = 32],
+        "width",
+        any_width!(|given, W| AxisSwitch::<W>)
+    ),
+];

@@ -1,0 +1,18 @@
+//! The law of the straight line, proved; and what a rule that does not keep it does.
+
+use motion_rtl::check::{Outcome, Specified, reach};
+use motion_rtl::linear_interpolator::{LineLaw, Rule};
+
+#[test]
+fn every_rule_keeps_the_line_under_any_increments() {
+    for rule in [Rule::Floor, Rule::Truncating, Rule::Centred] {
+        let circuit = LineLaw::<3, 6>::new(rule);
+        let all = circuit.invariants();
+        let outcome = reach(&circuit, &all)
+            .inputs(|i| circuit.applies(i))
+            .assume(|q, i| circuit.assumes(q, i))
+            .run()
+            .expect("narrow enough");
+        assert!(matches!(outcome, Outcome::Proof(_)), "{rule:?}: {outcome}");
+    }
+}

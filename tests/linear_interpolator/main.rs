@@ -1,0 +1,5 @@
+//! The linear interpolator: its integrator alone, and whole positioning cycles.
+
+mod integrator;
+mod law;
+mod targets;
