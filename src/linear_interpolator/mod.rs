@@ -20,19 +20,27 @@
 
 pub mod accumulator;
 pub mod axis_switch;
+pub mod cycle_gate;
 pub mod differentiator;
 pub mod integrator;
+pub mod interpolator;
 pub mod line_law;
+pub mod pattern_generator;
 pub mod sequencer;
 pub mod target_data;
+pub mod trapezoid;
 
 pub use accumulator::Accumulator;
 pub use axis_switch::AxisSwitch;
+pub use cycle_gate::CycleGate;
 pub use differentiator::Differentiator;
 pub use integrator::Integrator;
+pub use interpolator::LinearInterpolator;
 pub use line_law::LineLaw;
+pub use pattern_generator::PatternGenerator;
 pub use sequencer::Sequencer;
 pub use target_data::TargetData;
+pub use trapezoid::Trapezoid;
 
 /// How the integrator rounds its quotient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

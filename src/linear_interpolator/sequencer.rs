@@ -2,12 +2,13 @@
 //! by scan through a cycle.
 //!
 //! ```text
-//!  scan, hold, abort, clear ──▶┌───────────┐
-//!  available, target_x, _y ───▶│           ├──▶ pop ──▶ target data 20
-//!  x, y ──────────────────────▶│ sequencer ├──▶ start, advance ──▶ position pattern generator 14
-//!  pattern_active, _ready ────▶│           ├──▶ swapped, Δ and start of master and slave
-//!  load ──────────────────────▶│           ├──▶ busy, late, refused, home
-//!                              └───────────┘
+//!                                      ┌───────────┐
+//!  scan, hold, abort, clear ──────────▶│           ├──▶ pop ──▶ target data 20
+//!  available, target_x, target_y ─────▶│           ├──▶ start, advance ──▶ generator 14
+//!  x, y ──────────────────────────────▶│ sequencer ├──▶ swapped, master…, slave…
+//!  pattern_active, _ready, _valid ────▶│           ├──▶ busy, late, refused
+//!  integrating, load ─────────────────▶│           ├──▶ home
+//!                                      └───────────┘
 //! ```
 //!
 //! Departures: a cycle starts from the command that stands, not from the target before, so that a
@@ -21,12 +22,13 @@ use crate::logic::{Bit, Logic, Signed, Sim, Unsigned};
 use crate::signals;
 
 /// Names of the states.
-const STATES: &[&str] = &["idle", "fetch", "plan", "begin", "run"];
+const STATES: &[&str] = &["idle", "pop", "fetch", "plan", "begin", "run"];
 const IDLE: u64 = 0;
-const FETCH: u64 = 1;
-const PLAN: u64 = 2;
-const BEGIN: u64 = 3;
-const RUN: u64 = 4;
+const POP: u64 = 1;
+const FETCH: u64 = 2;
+const PLAN: u64 = 3;
+const BEGIN: u64 = 4;
+const RUN: u64 = 5;
 
 signals! {
     /// Ports in.
@@ -53,7 +55,11 @@ signals! {
         pub pattern_active: L::Bit,
         /// It takes an `advance`.
         pub pattern_ready: L::Bit,
-        /// The commands of a scan are complete.
+        /// It shows a new position.
+        pub pattern_valid: L::Bit,
+        /// The integrator divides.
+        pub integrating: L::Bit,
+        /// It shows a new integral: the commands of a scan are complete.
         pub load: L::Bit,
     }
 }
@@ -63,6 +69,12 @@ signals! {
     pub struct Reg<L, const P: usize> {
         /// Where it stands.
         pub state: L::U<3> as States(STATES) = 0,
+        /// The next target is wanted.
+        pub pop: L::Bit = 0,
+        /// A cycle begins.
+        pub start: L::Bit = 0,
+        /// The commands of a scan are to be computed.
+        pub advance: L::Bit = 0,
         /// Distance in X.
         delta_x: L::I<P> = 0,
         /// Distance in Y.
@@ -91,12 +103,12 @@ signals! {
 signals! {
     /// Nets.
     pub struct Net<L> {
-        /// The next target is wanted.
-        pub pop: L::Bit,
-        /// A cycle begins.
-        pub start: L::Bit,
-        /// The commands of a scan are to be computed.
-        pub advance: L::Bit,
+        /// A target is taken.
+        takes: L::Bit,
+        /// The commands of a scan are begun.
+        begins: L::Bit,
+        /// Nothing is being computed.
+        quiet: L::Bit,
         /// The cycle is over.
         over: L::Bit,
         /// A scan comes too early.
@@ -108,7 +120,8 @@ signals! {
     }
 }
 
-/// Sequencer for positions of `P` bits. From a target that waits to `start` it takes three ticks.
+/// Sequencer for positions of `P` bits. `start` is high four ticks after a target is available,
+/// `advance` a tick after `scan`.
 #[derive(Debug, Clone, Default)]
 pub struct Sequencer<const P: usize>;
 
@@ -130,11 +143,13 @@ impl<const P: usize> Circuit for Sequencer<P> {
     fn comb<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Net<L> {
         let is = |state: u64| q.state.equals(state.into());
         let runs = is(RUN);
+        let waits = i.pattern_ready | !i.pattern_active;
+        let quiet = waits & !q.advance & !i.pattern_valid & !i.integrating & !i.load;
         Net {
-            pop: is(IDLE) & i.available & !i.hold & !i.abort & !i.clear,
-            start: is(BEGIN) & !i.abort,
-            advance: runs & i.scan & i.pattern_ready & !q.computing & !i.abort,
-            over: runs & !i.pattern_active & !q.computing,
+            takes: is(IDLE) & i.available & !i.hold & !i.abort & !i.clear,
+            begins: runs & i.scan & i.pattern_ready & quiet & !i.abort,
+            quiet,
+            over: runs & quiet & !i.pattern_active,
             early: runs & i.scan & q.computing,
             home: is(IDLE) & i.clear,
             busy: !is(IDLE),
@@ -146,18 +161,19 @@ impl<const P: usize> Circuit for Sequencer<P> {
         let is = |state: u64| q.state.equals(state.into());
         let to = |state: u64| L::U::<3>::from(state);
         let (fetch, plan) = (is(FETCH), is(PLAN));
-        let dropped = i.abort | (plan & q.too_far);
-        let onward = is(IDLE).mux(
-            w.pop.mux(to(FETCH), to(IDLE)),
-            fetch.mux(to(PLAN), plan.mux(to(BEGIN), to(RUN))),
-        );
+        let refuses = plan & q.too_far;
+        let onward = w.takes.mux(to(POP), is(IDLE).mux(to(IDLE), q.state + 1));
+        let ends = i.abort | refuses;
         let running = w.over.mux(to(IDLE), to(RUN));
         let swapped = q.delta_x.magnitude().below(q.delta_y.magnitude());
         let pick =
             |choose: L::Bit, y: L::I<P>, x: L::I<P>, old: L::I<P>| plan.mux(choose.mux(y, x), old);
         let too_far = overflows::<L, P>(i.target_x, i.x) | overflows::<L, P>(i.target_y, i.y);
         Reg {
-            state: is(RUN).mux(running, dropped.mux(to(IDLE), onward)),
+            state: is(RUN).mux(running, ends.mux(to(IDLE), onward)),
+            pop: w.takes,
+            start: plan & !ends,
+            advance: w.begins,
             delta_x: fetch.mux(i.target_x - i.x, q.delta_x),
             delta_y: fetch.mux(i.target_y - i.y, q.delta_y),
             too_far: fetch.mux(too_far, q.too_far),
@@ -166,9 +182,9 @@ impl<const P: usize> Circuit for Sequencer<P> {
             slave_from: pick(swapped, i.x, i.y, q.slave_from),
             master: pick(swapped, q.delta_y, q.delta_x, q.master),
             slave: pick(swapped, q.delta_x, q.delta_y, q.slave),
-            computing: w.advance | (q.computing & !i.load),
+            computing: w.begins | (q.computing & !w.quiet),
             late: (q.late | w.early) & !w.home,
-            refused: (q.refused | (plan & q.too_far & !i.abort)) & !w.home,
+            refused: (q.refused | (refuses & !i.abort)) & !w.home,
         }
     }
 }
@@ -221,8 +237,8 @@ impl<const P: usize> Specified for Sequencer<P> {
             .step(
                 "an abort before the start of a cycle ends it, none begins with one",
                 |now, next| {
-                    let early = matches!(now.q.state.get(), IDLE | FETCH | PLAN | BEGIN);
-                    let ended = next.state.get() == IDLE && !now.w.start.get() && !now.w.pop.get();
+                    let early = now.q.state.get() != RUN;
+                    let ended = next.state.get() == IDLE && !next.start.get() && !next.pop.get();
                     require(
                         !now.i.abort.get() || !early || ended,
                         ["state", "start"],
@@ -241,10 +257,32 @@ impl<const P: usize> Specified for Sequencer<P> {
                     require(stands, ["master", "slave", "swapped"], || "changed".into())
                 },
             )
-            .always("no scan is begun while one is computed", |now| {
-                let right = !now.w.advance.get() || !now.q.computing.get();
-                require(right, ["advance", "computing"], || "begun".into())
-            })
+            .step(
+                "a scan is begun where nothing is computed, and only with a cycle",
+                |now, next| {
+                    let busy = [
+                        now.i.pattern_valid,
+                        now.i.integrating,
+                        now.i.load,
+                        now.q.advance,
+                    ];
+                    let rests =
+                        now.i.pattern_ready.get() && !busy.map(|bit| bit.get()).contains(&true);
+                    let runs = now.q.state.get() == RUN && now.i.scan.get();
+                    let right = !next.advance.get() || rests && runs;
+                    require(right, ["advance"], || "begun".into())
+                },
+            )
+            .step(
+                "a start comes once, when the distances stand",
+                |now, next| {
+                    let right = next.start.get() == (next.state.get() == BEGIN);
+                    let planned = !next.start.get() || now.q.state.get() == PLAN;
+                    require(right && planned, ["start", "state"], || {
+                        "at a wrong time".into()
+                    })
+                },
+            )
             .step(
                 "a scan that comes while one is computed is flagged",
                 |now, next| {
@@ -254,8 +292,13 @@ impl<const P: usize> Specified for Sequencer<P> {
                 },
             )
             .always("a cycle ends only when its last commands are out", |now| {
-                let right =
-                    !now.w.over.get() || !now.q.computing.get() && !now.i.pattern_active.get();
+                let busy = [
+                    now.i.load,
+                    now.i.integrating,
+                    now.i.pattern_valid,
+                    now.i.pattern_active,
+                ];
+                let right = !now.w.over.get() || !busy.map(|bit| bit.get()).contains(&true);
                 require(right, ["over"], || "too early".into())
             })
             .step(

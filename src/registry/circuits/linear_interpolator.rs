@@ -1,6 +1,7 @@
 use super::make::second;
 use crate::linear_interpolator::{
-    Accumulator, AxisSwitch, Differentiator, Integrator, LineLaw, Rule, Sequencer, TargetData,
+    Accumulator, AxisSwitch, CycleGate, Differentiator, Integrator, LineLaw, LinearInterpolator,
+    PatternGenerator, Rule, Sequencer, TargetData, Trapezoid,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{Made, any_width, at_width, entry, some_widths};
@@ -29,6 +30,26 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["P" = 32],
         "width",
         any_width!(|given, W| Sequencer::<W>)
+    ),
+    entry!(
+        Trapezoid<32, 12, 25, 58>,
+        Trapezoid,
+        None,
+        "JP3608587B2 14, control",
+        ["P" = 32, "T" = 12, "M" = 25, "Q" = 58],
+        "width of positions; times have half of it",
+        some_widths!([4 8], |given, W| Trapezoid::<W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>)
+    ),
+    entry!(
+        PatternGenerator<32, 12, 25, 58>,
+        PatternGenerator::default(),
+        None,
+        "JP3608587B2 14",
+        ["P" = 32, "T" = 12, "M" = 25, "Q" = 58],
+        "width of positions; times have half of it",
+        some_widths!([4 8], |given, W| {
+            PatternGenerator::<W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>::default()
+        })
     ),
     entry!(
         Differentiator<32>,
@@ -80,5 +101,35 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["P" = 32],
         "width",
         any_width!(|given, W| AxisSwitch::<W>)
+    ),
+    entry!(
+        CycleGate,
+        CycleGate,
+        Some(2),
+        "JP3608587B2, in-position check",
+        [],
+        "nothing",
+        Made {
+            make: |_given| Some(Box::new(CycleGate)),
+            model: |_given| Some(Box::new(CycleGate)),
+            offered: &[],
+        }
+    ),
+    entry!(
+        LinearInterpolator<6>,
+        LinearInterpolator::default(),
+        None,
+        "JP3608587B2 14, 20, 21, 24, 25",
+        ["A" = 6, "P" = 32, "T" = 12, "M" = 25, "Q" = 58, "R" = 64],
+        "width of positions (times have half of it, addresses two bits), 0 for floor, 1 for \
+         truncating or 2 for centred",
+        some_widths!([4 8], |given, W| LinearInterpolator::<
+            2,
+            W,
+            { W / 2 },
+            { W + 1 },
+            { 2 * W + 2 },
+            { 2 * W },
+        >::new(rule(second(given, 0))))
     ),
 ];
