@@ -76,9 +76,9 @@ signals! {
         /// The commands of a scan are to be computed.
         pub advance: L::Bit = 0,
         /// Distance in X.
-        delta_x: L::I<P> = 0,
+        pub delta_x: L::I<P> = 0,
         /// Distance in Y.
-        delta_y: L::I<P> = 0,
+        pub delta_y: L::I<P> = 0,
         /// A distance does not fit its word.
         too_far: L::Bit = 0,
         /// Y is the master axis (Fig. 6).
@@ -147,7 +147,7 @@ impl<const P: usize> Circuit for Sequencer<P> {
         let quiet = waits & !q.advance & !i.pattern_valid & !i.integrating & !i.load;
         Net {
             takes: is(IDLE) & i.available & !i.hold & !i.abort & !i.clear,
-            begins: runs & i.scan & i.pattern_ready & quiet & !i.abort,
+            begins: runs & i.scan & i.pattern_active & i.pattern_ready & quiet & !i.abort,
             quiet,
             over: runs & quiet & !i.pattern_active,
             early: runs & i.scan & q.computing,

@@ -1,0 +1,216 @@
+//! The conventional system of Fig. 3 (¶0004–0005), for comparison: a position pattern for each
+//! axis, with the same times and speed.
+//!
+//! ```text
+//!                       ┌────────────────────┐
+//!  scan, hold ─────────▶│                    ├──▶ x, y
+//!  push, target… ──────▶│ conventional       ├──▶ ready, busy
+//!  abort, clear ───────▶│ interpolator       ├──▶ late, refused
+//!                       └────────────────────┘
+//! ```
+//!
+//! Ports as those of the linear interpolator. Both patterns begin together; the one with the
+//! shorter way is over earlier, so that the path bends.
+
+use super::interpolator::In;
+use super::{
+    AxisSwitch, PatternGenerator, Sequencer, TargetData, axis_switch, pattern_generator, sequencer,
+    target_data,
+};
+use crate::kernel::{Circuit, Instance};
+use crate::logic::Logic;
+use crate::signals;
+
+signals! {
+    /// Registers of the blocks.
+    pub struct Reg<
+        L,
+        const A: usize,
+        const P: usize,
+        const T: usize,
+        const M: usize,
+        const Q: usize,
+    > {
+        /// Target data 20.
+        pub targets: target_data::Reg<L, A, P, T>,
+        /// Sequencer.
+        pub sequencer: sequencer::Reg<L, P>,
+        /// Position pattern generator 14 of X.
+        pub pattern_x: pattern_generator::Reg<L, P, T, M, Q>,
+        /// Position pattern generator 14 of Y.
+        pub pattern_y: pattern_generator::Reg<L, P, T, M, Q>,
+        /// Position commands.
+        pub commands: axis_switch::Reg<L, P>,
+    }
+}
+
+signals! {
+    /// Nets of the blocks, and the ports out.
+    pub struct Net<
+        L,
+        const A: usize,
+        const P: usize,
+        const T: usize,
+        const M: usize,
+        const Q: usize,
+    > {
+        /// Target data 20.
+        pub targets: Instance<TargetData<A, P, T>, L>,
+        /// Sequencer.
+        pub sequencer: Instance<Sequencer<P>, L>,
+        /// Position pattern generator 14 of X.
+        pub pattern_x: Instance<PatternGenerator<P, T, M, Q>, L>,
+        /// Position pattern generator 14 of Y.
+        pub pattern_y: Instance<PatternGenerator<P, T, M, Q>, L>,
+        /// Position commands.
+        pub commands: Instance<AxisSwitch<P>, L>,
+        /// Position command of X.
+        pub x: L::I<P> as Analog,
+        /// Position command of Y.
+        pub y: L::I<P> as Analog,
+        /// A push is taken.
+        pub ready: L::Bit,
+        /// A cycle runs or is prepared, or a target waits.
+        pub busy: L::Bit,
+        /// A scan came too early since the last `clear`.
+        pub late: L::Bit,
+        /// A target was too far since the last `clear`.
+        pub refused: L::Bit,
+        /// `clear` is taken.
+        pub home: L::Bit,
+    }
+}
+
+/// Conventional system with widths as those of the linear interpolator.
+#[derive(Debug, Clone, Default)]
+pub struct Conventional<
+    const A: usize = 6,
+    const P: usize = 32,
+    const T: usize = 12,
+    const M: usize = 25,
+    const Q: usize = 58,
+> {
+    /// Target data 20.
+    pub targets: TargetData<A, P, T>,
+    /// Sequencer.
+    pub sequencer: Sequencer<P>,
+    /// Position pattern generator 14, one for each axis.
+    pub pattern: PatternGenerator<P, T, M, Q>,
+    /// Position commands.
+    pub commands: AxisSwitch<P>,
+}
+
+impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
+    for Conventional<A, P, T, M, Q>
+{
+    const NAME: &'static str = "conventional_interpolator";
+    const ABOUT: &'static str = "the system before: an independent position pattern for each axis";
+    type In<L: Logic> = In<L, P, T>;
+    type Reg<L: Logic> = Reg<L, A, P, T, M, Q>;
+    type Net<L: Logic> = Net<L, A, P, T, M, Q>;
+
+    #[inline(always)]
+    fn comb<L: Logic>(
+        &self,
+        q: &Reg<L, A, P, T, M, Q>,
+        i: &In<L, P, T>,
+    ) -> Net<L, A, P, T, M, Q> {
+        let targets = Instance::settle(
+            &self.targets,
+            &q.targets,
+            target_data::In {
+                push: i.push,
+                x: i.target_x,
+                y: i.target_y,
+                speed: i.speed,
+                acceleration_time: i.acceleration_time,
+                deceleration_time: i.deceleration_time,
+                pop: q.sequencer.pop,
+                flush: i.abort,
+            },
+        );
+        let pattern = |q_pattern, from, distance| {
+            Instance::settle(
+                &self.pattern,
+                q_pattern,
+                pattern_generator::In {
+                    start: q.sequencer.start,
+                    from,
+                    distance,
+                    speed: q.targets.target_speed,
+                    acceleration_time: q.targets.target_acceleration,
+                    deceleration_time: q.targets.target_deceleration,
+                    advance: q.sequencer.advance,
+                    abort: i.abort,
+                },
+            )
+        };
+        let pattern_x = pattern(&q.pattern_x, q.commands.x, q.sequencer.delta_x);
+        let pattern_y = pattern(&q.pattern_y, q.commands.y, q.sequencer.delta_y);
+        let (x, y) = (&pattern_x.w, &pattern_y.w);
+        // Both take the same time for a scan; one of them may be at rest.
+        let valid = x.valid | y.valid;
+        let sequencer = Instance::settle(
+            &self.sequencer,
+            &q.sequencer,
+            sequencer::In {
+                scan: i.scan,
+                hold: i.hold,
+                abort: i.abort,
+                clear: i.clear,
+                available: targets.w.available,
+                target_x: q.targets.target_x,
+                target_y: q.targets.target_y,
+                x: q.commands.x,
+                y: q.commands.y,
+                pattern_active: x.active | y.active,
+                pattern_ready: (x.ready | !x.active) & (y.ready | !y.active),
+                pattern_valid: valid,
+                integrating: false.into(),
+                load: valid,
+            },
+        );
+        let commands = Instance::settle(
+            &self.commands,
+            &q.commands,
+            axis_switch::In {
+                load: valid,
+                swapped: false.into(),
+                position: x.position,
+                slave_from: y.position,
+                integral: 0.into(),
+                clear: sequencer.w.home,
+            },
+        );
+        Net {
+            x: q.commands.x,
+            y: q.commands.y,
+            ready: targets.w.ready,
+            busy: sequencer.w.busy | targets.w.available,
+            late: q.sequencer.late,
+            refused: q.sequencer.refused,
+            home: sequencer.w.home,
+            targets,
+            sequencer,
+            pattern_x,
+            pattern_y,
+            commands,
+        }
+    }
+
+    #[inline(always)]
+    fn next<L: Logic>(
+        &self,
+        q: Reg<L, A, P, T, M, Q>,
+        w: &Net<L, A, P, T, M, Q>,
+        _: &In<L, P, T>,
+    ) -> Reg<L, A, P, T, M, Q> {
+        Reg {
+            targets: w.targets.next(&self.targets, q.targets),
+            sequencer: w.sequencer.next(&self.sequencer, q.sequencer),
+            pattern_x: w.pattern_x.next(&self.pattern, q.pattern_x),
+            pattern_y: w.pattern_y.next(&self.pattern, q.pattern_y),
+            commands: w.commands.next(&self.commands, q.commands),
+        }
+    }
+}
