@@ -1,2 +1,26 @@
 //! What is no hardware of ours: motors, encoders, loads. Behavioural, plain programs on the same
 //! reference tick.
+//!
+//! ```text
+//!             ┌────────────────────────── servo axis ──────────────────────────┐
+//!             │ ┌────────────────┐ torque ┌─────────┐ position ┌─────────────┐ │
+//!  D/A word ──┼▶│ servo driver 2 ├───────▶│ motor 3 ├─────────▶│ encoder 4   ├─┼▶ a, b
+//!             │ └───────▲────────┘        └────┬────┘          └─────────────┘ │
+//!             │         └──────── speed ───────┘                               │
+//!             └────────────────────────────────────────────────────────────────┘
+//! ```
+//!
+//! `rtl_notes/plant.md` has the equations and what is idealised.
+
+pub mod axis;
+pub mod encoder;
+pub mod parameters;
+pub mod servo;
+
+pub use axis::ServoAxis;
+pub use encoder::Encoder;
+pub use parameters::{ParameterError, ServoParameters};
+pub use servo::{Motor, ServoDriver};
+
+#[cfg(test)]
+mod tests;

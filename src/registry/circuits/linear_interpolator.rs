@@ -1,7 +1,7 @@
 use super::make::second;
 use crate::linear_interpolator::{
     Accumulator, AxisSwitch, CycleGate, Differentiator, Integrator, LineLaw, LinearInterpolator,
-    PatternGenerator, Rule, Sequencer, TargetData, Trapezoid,
+    PatternGenerator, PositionControl, PositionLoop, Rule, Sequencer, TargetData, Trapezoid,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{Made, any_width, at_width, entry, some_widths};
@@ -131,5 +131,23 @@ pub(super) const CIRCUITS: &[Entry] = &[
             { 2 * W + 2 },
             { 2 * W },
         >::new(rule(second(given, 0))))
+    ),
+    entry!(
+        PositionControl,
+        PositionControl,
+        Some(3),
+        "JP3608587B2 10 + 11 + 12",
+        ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
+        "width of positions, gain and D/A converter; half of the gain is its fraction",
+        any_width!(|given, W| PositionControl::<W, W, { W / 2 }, W, { 2 * W }>)
+    ),
+    entry!(
+        PositionLoop,
+        PositionLoop::default(),
+        Some(2),
+        "JP3608587B2 10–13",
+        ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
+        "width of positions, gain and D/A converter; half of the gain is its fraction",
+        any_width!(|given, W| PositionLoop::<W, W, { W / 2 }, W, { 2 * W }>::default())
     ),
 ];

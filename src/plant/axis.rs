@@ -1,0 +1,76 @@
+//! Driver, motor and encoder of one axis together.
+
+use super::parameters::check_tick;
+use super::{Encoder, Motor, ParameterError, ServoDriver, ServoParameters};
+
+/// Servo driver 2, motor 3 and pulse generator 4 of one axis, stepped once per reference tick.
+#[derive(Debug, Clone)]
+pub struct ServoAxis {
+    driver: ServoDriver,
+    motor: Motor,
+    encoder: Encoder,
+    counts_per_rad: f64,
+    tick_s: f64,
+    torque_nm: f64,
+}
+
+impl ServoAxis {
+    /// An axis at rest at position 0, on a reference tick of `tick_s` seconds.
+    ///
+    /// # Errors
+    ///
+    /// [`ParameterError`] names the parameter, or `tick_s`, that is out of range.
+    pub fn new(parameters: &ServoParameters, tick_s: f64) -> Result<Self, ParameterError> {
+        parameters.validate()?;
+        check_tick(tick_s)?;
+        Ok(ServoAxis {
+            driver: ServoDriver::new(parameters, tick_s),
+            motor: Motor::new(parameters),
+            encoder: Encoder,
+            counts_per_rad: parameters.counts_per_rad(),
+            tick_s,
+            torque_nm: 0.0,
+        })
+    }
+
+    /// One tick under the word `reference` of the D/A converter, whose greatest is `full_scale`
+    /// and asks for rated speed; a full scale below 1 counts as 1. Gives the encoder's channels
+    /// A and B of the tick to come.
+    #[inline]
+    pub fn step(&mut self, reference: i64, full_scale: i64) -> (bool, bool) {
+        let fraction = reference as f64 / full_scale.max(1) as f64;
+        let speed = self.motor.speed_rad_per_s();
+        self.torque_nm = self.driver.torque_nm(fraction, speed);
+        self.motor.step(self.torque_nm, self.tick_s);
+        self.channels()
+    }
+
+    /// The encoder's channels A and B as they stand.
+    #[inline]
+    pub fn channels(&self) -> (bool, bool) {
+        self.encoder.channels(self.motor.position_counts())
+    }
+
+    /// Position in encoder counts.
+    #[inline]
+    pub fn position_counts(&self) -> f64 {
+        self.motor.position_counts()
+    }
+
+    /// Speed in encoder counts a second.
+    #[inline]
+    pub fn speed_counts_per_s(&self) -> f64 {
+        self.motor.speed_rad_per_s() * self.counts_per_rad
+    }
+
+    /// The driver's torque of the last tick, in N·m.
+    #[inline]
+    pub fn torque_nm(&self) -> f64 {
+        self.torque_nm
+    }
+
+    /// The highest speed in counts a second at which every quarter is seen.
+    pub fn countable_counts_per_s(&self) -> f64 {
+        self.encoder.countable_counts_per_s(self.tick_s)
+    }
+}

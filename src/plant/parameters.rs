@@ -1,0 +1,111 @@
+//! The numbers of an axis, and what is allowed of them.
+
+use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+
+/// Any amount that is above 0 and not absurd.
+const POSITIVE: RangeInclusive<f64> = 1e-9..=1e9;
+
+/// Servo driver, motor, load and encoder of one axis.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ServoParameters {
+    /// Time constant of the driver's velocity loop, in seconds.
+    pub velocity_loop_s: f64,
+    /// Inertia of motor and load, in kg·m².
+    pub inertia_kg_m2: f64,
+    /// Greatest torque that the driver gives, in N·m.
+    pub max_torque_nm: f64,
+    /// Coulomb friction, in N·m; 0 for none.
+    pub friction_nm: f64,
+    /// Speed at the greatest word of the D/A converter, in rad/s.
+    pub rated_speed_rad_per_s: f64,
+    /// Encoder counts a turn: four times its lines.
+    pub counts_per_rev: f64,
+}
+
+impl Default for ServoParameters {
+    /// A motor of 400 W at 3000 a minute with an encoder of 500 lines, no friction.
+    fn default() -> Self {
+        ServoParameters {
+            velocity_loop_s: 0.005,
+            inertia_kg_m2: 1e-4,
+            max_torque_nm: 3.8,
+            friction_nm: 0.0,
+            rated_speed_rad_per_s: 314.16,
+            counts_per_rev: 2000.0,
+        }
+    }
+}
+
+impl ServoParameters {
+    /// Checks every field.
+    ///
+    /// # Errors
+    ///
+    /// [`ParameterError`] names the first that is outside its range or not a number.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        let friction = 0.0..=*POSITIVE.end();
+        let fields = [
+            ("velocity_loop_s", self.velocity_loop_s, &POSITIVE),
+            ("inertia_kg_m2", self.inertia_kg_m2, &POSITIVE),
+            ("max_torque_nm", self.max_torque_nm, &POSITIVE),
+            ("friction_nm", self.friction_nm, &friction),
+            (
+                "rated_speed_rad_per_s",
+                self.rated_speed_rad_per_s,
+                &POSITIVE,
+            ),
+            ("counts_per_rev", self.counts_per_rev, &POSITIVE),
+        ];
+        fields
+            .into_iter()
+            .try_for_each(|(field, value, allowed)| within(field, value, allowed))
+    }
+
+    /// Encoder counts a second at the greatest word of the D/A converter.
+    pub fn rated_counts_per_s(&self) -> f64 {
+        self.rated_speed_rad_per_s * self.counts_per_rad()
+    }
+
+    /// Encoder counts a radian.
+    pub fn counts_per_rad(&self) -> f64 {
+        self.counts_per_rev / std::f64::consts::TAU
+    }
+}
+
+/// Refuses what is out of range.
+fn within(
+    field: &'static str,
+    value: f64,
+    allowed: &RangeInclusive<f64>,
+) -> Result<(), ParameterError> {
+    match allowed.contains(&value) {
+        true => Ok(()),
+        false => Err(ParameterError {
+            field,
+            value,
+            least: *allowed.start(),
+            most: *allowed.end(),
+        }),
+    }
+}
+
+/// Checks the length of a reference tick.
+pub(super) fn check_tick(tick_s: f64) -> Result<(), ParameterError> {
+    within("tick_s", tick_s, &POSITIVE)
+}
+
+/// A parameter that is out of range or not a number.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("{field} = {value}: allowed are {least} to {most}")]
+pub struct ParameterError {
+    /// Name of the field.
+    pub field: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Smallest value allowed.
+    pub least: f64,
+    /// Largest value allowed.
+    pub most: f64,
+}

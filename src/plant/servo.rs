@@ -1,0 +1,106 @@
+//! Servo driver 2 and motor 3.
+//!
+//! The driver holds its torque for a tick, so the motion within a tick is a parabola, and it is
+//! integrated without error: where friction stops the motor within a tick, it is stopped at that
+//! moment.
+
+use super::ServoParameters;
+
+/// Servo driver 2: first-order velocity loop with a torque limit.
+///
+/// The torque of a tick is what brings the motor, without friction, to the speed at the tick's end
+/// that the continuous loop `inertia · (speed_reference − speed) / velocity_loop_s` would give.
+#[derive(Debug, Clone, Copy)]
+pub struct ServoDriver {
+    /// Torque per difference of speed, in N·m·s/rad.
+    gain: f64,
+    max_torque_nm: f64,
+    rated_speed_rad_per_s: f64,
+}
+
+impl ServoDriver {
+    /// The driver of these parameters, on a reference tick of `tick_s` seconds.
+    pub fn new(parameters: &ServoParameters, tick_s: f64) -> Self {
+        let approach = -(-tick_s / parameters.velocity_loop_s).exp_m1();
+        ServoDriver {
+            gain: parameters.inertia_kg_m2 * approach / tick_s,
+            max_torque_nm: parameters.max_torque_nm,
+            rated_speed_rad_per_s: parameters.rated_speed_rad_per_s,
+        }
+    }
+
+    /// Torque in N·m for a reference that is a fraction of rated speed, at a speed in rad/s.
+    #[inline]
+    pub fn torque_nm(&self, reference: f64, speed_rad_per_s: f64) -> f64 {
+        let missing = reference * self.rated_speed_rad_per_s - speed_rad_per_s;
+        (self.gain * missing).clamp(-self.max_torque_nm, self.max_torque_nm)
+    }
+}
+
+/// Motor 3 with its load: inertia and Coulomb friction.
+#[derive(Debug, Clone, Copy)]
+pub struct Motor {
+    inertia_kg_m2: f64,
+    friction_nm: f64,
+    counts_per_rad: f64,
+    position_counts: f64,
+    speed_rad_per_s: f64,
+}
+
+impl Motor {
+    /// The motor of these parameters, at rest at position 0.
+    pub fn new(parameters: &ServoParameters) -> Self {
+        Motor {
+            inertia_kg_m2: parameters.inertia_kg_m2,
+            friction_nm: parameters.friction_nm,
+            counts_per_rad: parameters.counts_per_rad(),
+            position_counts: 0.0,
+            speed_rad_per_s: 0.0,
+        }
+    }
+
+    /// Position in encoder counts.
+    #[inline]
+    pub fn position_counts(&self) -> f64 {
+        self.position_counts
+    }
+
+    /// Speed in rad/s.
+    #[inline]
+    pub fn speed_rad_per_s(&self) -> f64 {
+        self.speed_rad_per_s
+    }
+
+    /// Moves for `time_s` seconds under a torque that stays.
+    #[inline]
+    pub fn step(&mut self, torque_nm: f64, time_s: f64) {
+        let speed = self.speed_rad_per_s;
+        if speed == 0.0 {
+            return self.start(torque_nm, time_s);
+        }
+        let opposed = torque_nm - self.friction_nm * speed.signum();
+        let acceleration = opposed / self.inertia_kg_m2;
+        if (speed + acceleration * time_s) * speed >= 0.0 {
+            return self.advance(acceleration, time_s);
+        }
+        // It comes to rest within this time, and may go on the other way.
+        let stop = -speed / acceleration;
+        self.advance(acceleration, stop);
+        self.speed_rad_per_s = 0.0;
+        self.start(torque_nm, time_s - stop);
+    }
+
+    /// From rest: friction holds it, or opposes the torque.
+    #[inline]
+    fn start(&mut self, torque_nm: f64, time_s: f64) {
+        let over = (torque_nm.abs() - self.friction_nm).max(0.0);
+        self.advance(over * torque_nm.signum() / self.inertia_kg_m2, time_s);
+    }
+
+    #[inline]
+    fn advance(&mut self, acceleration: f64, time_s: f64) {
+        let mean = self.speed_rad_per_s + 0.5 * acceleration * time_s;
+        self.position_counts += mean * time_s * self.counts_per_rad;
+        self.speed_rad_per_s += acceleration * time_s;
+    }
+}
