@@ -95,11 +95,7 @@ impl<C: Circuit, L: Logic> Clone for Instance<C, L> {
     }
 }
 
-impl<C: Circuit, L: Logic> fmt::Debug for Instance<C, L>
-where
-    C::In<L>: fmt::Debug,
-    C::Net<L>: fmt::Debug,
-{
+impl<C: Circuit, L: Logic> fmt::Debug for Instance<C, L> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct(C::NAME)
             .field("i", &self.i)

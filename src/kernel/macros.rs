@@ -3,6 +3,7 @@
 /// Every field is a leaf (`L::Bit`, `L::U<N>`, `L::I<N>`, a memory), a nested struct of signals
 /// or an array of these; it may carry how it is meant to be looked at (`as Hex`, `as Analog`,
 /// `as States(NAMES)`, `as Elements(NAMES)`) and a power-on value (`= 1`; 0 where none is given).
+/// A circuit that is a parameter (`type C: Circuit`) stands before the widths.
 /// In a `Reg` or `Net` a `pub` field is a port out; `pub(crate)` lets the proofs of a surrounding
 /// circuit look at it without making it a port.
 ///
@@ -23,7 +24,7 @@
 macro_rules! signals {
     (
         $(#[doc = $about:literal])*
-        $vis:vis struct $name:ident<L $(, const $width:ident : usize)* $(,)?> {
+        $vis:vis struct $name:ident<L $(, type $part:ident : $bound:path)* $(, const $width:ident : usize)* $(,)?> {
             $(
                 $(#[doc = $doc:literal])*
                 $public:vis $field:ident : $type:ty
@@ -33,12 +34,12 @@ macro_rules! signals {
     ) => {
         $(#[doc = $about])*
         #[derive(Debug, Clone)]
-        $vis struct $name<L: $crate::logic::Logic $(, const $width: usize)*> {
+        $vis struct $name<L: $crate::logic::Logic $(, $part: $bound)* $(, const $width: usize)*> {
             $( $(#[doc = $doc])* $public $field: $type, )*
         }
 
-        impl<L: $crate::logic::Logic $(, const $width: usize)*> $crate::kernel::Signals<L>
-            for $name<L $(, $width)*>
+        impl<L: $crate::logic::Logic $(, $part: $bound + Clone + ::std::fmt::Debug)* $(, const $width: usize)*> $crate::kernel::Signals<L>
+            for $name<L $(, $part)* $(, $width)*>
         {
             #[inline]
             fn visit<Visitor: $crate::kernel::Visit<L>>(

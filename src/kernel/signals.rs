@@ -1,5 +1,6 @@
 use crate::logic::Logic;
 use std::borrow::Cow;
+use std::fmt::Debug;
 use std::marker::PhantomData;
 
 /// How a signal is meant to be looked at.
@@ -80,7 +81,7 @@ impl Field {
 ///
 /// A walk goes through the leaves in the order of declaration and never branches on a value, so
 /// the place of a leaf in the walk is its identity.
-pub trait Signals<L: Logic>: Sized + Clone {
+pub trait Signals<L: Logic>: Sized + Clone + Debug {
     /// Shows each leaf to `visitor`.
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V);
     /// Makes a bundle with each leaf given by `maker`.

@@ -110,11 +110,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
     type Net<L: Logic> = Net<L, A, P, T, M, Q>;
 
     #[inline(always)]
-    fn comb<L: Logic>(
-        &self,
-        q: &Reg<L, A, P, T, M, Q>,
-        i: &In<L, P, T>,
-    ) -> Net<L, A, P, T, M, Q> {
+    fn comb<L: Logic>(&self, q: &Reg<L, A, P, T, M, Q>, i: &In<L, P, T>) -> Net<L, A, P, T, M, Q> {
         let targets = Instance::settle(
             &self.targets,
             &q.targets,

@@ -20,6 +20,8 @@
 
 pub mod accumulator;
 pub mod axis_switch;
+pub mod controller;
+pub mod conventional;
 pub mod cycle_gate;
 pub mod differentiator;
 pub mod integrator;
@@ -34,6 +36,8 @@ pub mod trapezoid;
 
 pub use accumulator::Accumulator;
 pub use axis_switch::AxisSwitch;
+pub use controller::{CommandSource, Commands, Controller};
+pub use conventional::Conventional;
 pub use cycle_gate::CycleGate;
 pub use differentiator::Differentiator;
 pub use integrator::Integrator;

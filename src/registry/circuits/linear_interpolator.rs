@@ -1,7 +1,8 @@
 use super::make::second;
 use crate::linear_interpolator::{
-    Accumulator, AxisSwitch, CycleGate, Differentiator, Integrator, LineLaw, LinearInterpolator,
-    PatternGenerator, PositionControl, PositionLoop, Rule, Sequencer, TargetData, Trapezoid,
+    Accumulator, AxisSwitch, Controller, Conventional, CycleGate, Differentiator, Integrator,
+    LineLaw, LinearInterpolator, PatternGenerator, PositionControl, PositionLoop, Rule, Sequencer,
+    TargetData, Trapezoid,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{Made, any_width, at_width, entry, some_widths};
@@ -149,5 +150,74 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
         "width of positions, gain and D/A converter; half of the gain is its fraction",
         any_width!(|given, W| PositionLoop::<W, W, { W / 2 }, W, { 2 * W }>::default())
+    ),
+    entry!(
+        Conventional<6>,
+        Conventional::default(),
+        None,
+        "JP3608587B2 14, 20, Fig. 3",
+        ["A" = 6, "P" = 32, "T" = 12, "M" = 25, "Q" = 58],
+        "width of positions (times have half of it, addresses two bits)",
+        some_widths!([4 8], |given, W| Conventional::<
+            2,
+            W,
+            { W / 2 },
+            { W + 1 },
+            { 2 * W + 2 },
+        >::default())
+    ),
+    entry!(
+        Controller<LinearInterpolator>,
+        Controller::new(LinearInterpolator::default()),
+        None,
+        "JP3608587B2 1, Fig. 5",
+        [
+            "P" = 32,
+            "T" = 12,
+            "G" = 16,
+            "F" = 8,
+            "D" = 16,
+            "K" = 48,
+            "S" = 24
+        ],
+        "width of positions, gains, references and the scan (times have half of it, addresses two \
+         bits), 0 for floor, 1 for truncating or 2 for centred",
+        some_widths!([4 8], |given, W| Controller::<
+            LinearInterpolator<2, W, { W / 2 }, { W + 1 }, { 2 * W + 2 }, { 2 * W }>,
+            W,
+            { W / 2 },
+            W,
+            { W / 2 },
+            W,
+            { 2 * W },
+            W,
+        >::new(LinearInterpolator::new(rule(second(given, 0)))))
+    ),
+    entry!(
+        Controller<Conventional>,
+        Controller::new(Conventional::default()),
+        None,
+        "JP3608587B2 1, Fig. 3",
+        [
+            "P" = 32,
+            "T" = 12,
+            "G" = 16,
+            "F" = 8,
+            "D" = 16,
+            "K" = 48,
+            "S" = 24
+        ],
+        "width of positions, gains, references and the scan (times have half of it, addresses two \
+         bits)",
+        some_widths!([4 8], |given, W| Controller::<
+            Conventional<2, W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>,
+            W,
+            { W / 2 },
+            W,
+            { W / 2 },
+            W,
+            { 2 * W },
+            W,
+        >::new(Conventional::default()))
     ),
 ];
