@@ -1,6 +1,7 @@
 //! What every circuit gets for free: signals that can be walked, the circuit as two pure
 //! functions, and the simulator with its observers.
 
+mod beside;
 mod circuit;
 mod declare;
 mod macros;
@@ -14,6 +15,7 @@ mod simulator;
 #[cfg(test)]
 mod tests;
 
+pub use beside::{Beside, With, WithIn, Without};
 pub use circuit::{Circuit, Instance};
 pub use declare::{Declaration, Declarations, MemoryDeclaration, Path};
 pub use observe::{Observer, RunError, Sample, StopWhen};

@@ -39,6 +39,10 @@ pub struct Commands<L: Logic, const P: usize> {
     pub x: L::I<P>,
     /// Position command of Y.
     pub y: L::I<P>,
+    /// A cycle begins.
+    pub start: L::Bit,
+    /// New commands show from the next tick on.
+    pub load: L::Bit,
     /// A push is taken.
     pub ready: L::Bit,
     /// A cycle runs or is prepared, or a target waits.
@@ -67,6 +71,8 @@ macro_rules! command_source {
                 Commands {
                     x: w.x,
                     y: w.y,
+                    start: w.start,
+                    load: w.load,
                     ready: w.ready,
                     busy: w.busy,
                     late: w.late,
@@ -184,6 +190,10 @@ signals! {
         pub reference_x: L::I<D> as Analog,
         /// Speed reference of Y.
         pub reference_y: L::I<D> as Analog,
+        /// A cycle begins.
+        pub start: L::Bit,
+        /// New commands show from the next tick on.
+        pub load: L::Bit,
         /// A push is taken.
         pub ready: L::Bit,
         /// A cycle runs or is prepared, or a target waits, or an axis is not in position.
@@ -324,6 +334,8 @@ impl<
             feedback_y: loop_y.w.feedback,
             reference_x: loop_x.w.reference,
             reference_y: loop_y.w.reference,
+            start: commands.start,
+            load: commands.load,
             ready: commands.ready,
             busy: commands.busy | !there,
             late: commands.late,

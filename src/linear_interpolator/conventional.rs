@@ -68,6 +68,10 @@ signals! {
         pub x: L::I<P> as Analog,
         /// Position command of Y.
         pub y: L::I<P> as Analog,
+        /// A cycle begins.
+        pub start: L::Bit,
+        /// New commands show from the next tick on.
+        pub load: L::Bit,
         /// A push is taken.
         pub ready: L::Bit,
         /// A cycle runs or is prepared, or a target waits.
@@ -181,6 +185,8 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
         Net {
             x: q.commands.x,
             y: q.commands.y,
+            start: q.sequencer.start,
+            load: valid,
             ready: targets.w.ready,
             busy: sequencer.w.busy | targets.w.available,
             late: q.sequencer.late,

@@ -1,0 +1,61 @@
+//! What a plant shows in the waves of the circuit that drives it.
+
+use super::ServoAxis;
+use crate::kernel::Beside;
+use crate::logic::{Logic, Sim};
+use crate::signals;
+use fixed::types::I56F8;
+
+signals! {
+    /// One axis as it really is.
+    pub struct AxisSignals<L> {
+        /// True position in 1/256 of a count.
+        pub position: L::I<48> as Analog,
+        /// True speed in counts a second.
+        pub speed: L::I<32> as Analog,
+        /// The driver's torque in thousandths of a newton metre.
+        pub torque: L::I<32> as Analog,
+    }
+}
+
+signals! {
+    /// The axes of an X-Y machine.
+    pub struct Signals<L> {
+        /// X.
+        pub x: AxisSignals<L>,
+        /// Y.
+        pub y: AxisSignals<L>,
+    }
+}
+
+/// The axes of an X-Y machine beside the circuit that drives them.
+#[derive(Debug)]
+pub struct Axes;
+
+impl Beside for Axes {
+    const SCOPE: &'static str = "plant";
+    type Signals<L: Logic> = Signals<L>;
+}
+
+impl Signals<Sim> {
+    /// The axes as they stand.
+    pub fn of([x, y]: &[ServoAxis; 2]) -> Self {
+        Signals {
+            x: AxisSignals::of(x),
+            y: AxisSignals::of(y),
+        }
+    }
+}
+
+impl AxisSignals<Sim> {
+    fn of(axis: &ServoAxis) -> Self {
+        // A cast to a whole number saturates.
+        AxisSignals {
+            position: I56F8::saturating_from_num(axis.position_counts())
+                .to_bits()
+                .into(),
+            speed: (axis.speed_counts_per_s().round() as i64).into(),
+            torque: ((axis.torque_nm() * 1e3).round() as i64).into(),
+        }
+    }
+}
