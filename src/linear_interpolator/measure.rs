@@ -94,7 +94,11 @@ impl Played {
                 numerator: off,
                 denominator: u128::from(divisor.max(1)),
             },
-            perpendicular_counts: if length > 0.0 { off as f64 / length } else { 0.0 },
+            perpendicular_counts: if length > 0.0 {
+                off as f64 / length
+            } else {
+                0.0
+            },
             contour_counts: largest([1.0; 2]),
             contour_um: largest(counts_per_mm) * 1e3,
         }

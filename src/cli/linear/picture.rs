@@ -7,7 +7,7 @@ use motion_rtl::linear_interpolator::settings::Settings;
 use motion_rtl::picture::{Curve, Panel, Picture};
 
 /// The largest error is drawn as large as this part of the drawing.
-const PART: f64 = 0.02;
+const PART: f64 = 0.04;
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
 const IDEAL: &str = "#d8d8d8";
@@ -26,7 +26,7 @@ pub fn draw(job: &Job, runs: &Runs) -> String {
     ];
     let largest = systems
         .iter()
-        .map(|(_, played)| largest_error(played, settings))
+        .map(|(_, played)| largest_error(job, played))
         .fold(0.0, f64::max);
     let factor = magnification(largest, size(&runs.interpolator, settings));
     let mut picture = Picture::new(format!("{}: linear interpolator", job.stem));
@@ -54,13 +54,19 @@ fn magnification(largest: f64, size: f64) -> f64 {
     }
     let decade = 10f64.powf(wanted.log10().floor());
     let steps = [10.0, 5.0, 2.0, 1.0].map(|step| step * decade);
-    steps.into_iter().find(|step| *step <= wanted).unwrap_or(1.0)
+    steps
+        .into_iter()
+        .find(|step| *step <= wanted)
+        .unwrap_or(1.0)
 }
 
 /// The diagonal of the targets, in millimetres.
 fn size(played: &Played, settings: &Settings) -> f64 {
     let [x, y] = [0, 1].map(|axis| {
-        let ends = played.cycles.iter().flat_map(|cycle| [cycle.from, cycle.to]);
+        let ends = played
+            .cycles
+            .iter()
+            .flat_map(|cycle| [cycle.from, cycle.to]);
         let (least, most) = ends.fold((0, 0), |(least, most), end| {
             (least.min(end[axis]), most.max(end[axis]))
         });
@@ -69,12 +75,13 @@ fn size(played: &Played, settings: &Settings) -> f64 {
     x.hypot(y)
 }
 
-/// The largest distance of a command or a motor from its line, in millimetres.
-fn largest_error(played: &Played, settings: &Settings) -> f64 {
-    let scale = settings.counts_per_mm;
-    let cycles = played.cycles.iter().enumerate();
+/// The largest distance of a command or a motor from a line that is drawn, in millimetres.
+fn largest_error(job: &Job, played: &Played) -> f64 {
+    let scale = job.settings.counts_per_mm;
+    let cycles = played.cycles.iter().zip(&job.compiled.targets).enumerate();
     cycles
-        .flat_map(|(number, cycle)| {
+        .filter(|(_, (_, target))| !target.rapid)
+        .flat_map(|(number, (cycle, _))| {
             let records = played.records_of(number).iter();
             records.flat_map(move |record| {
                 let command = record.command.map(|counts| counts as f64);
@@ -100,7 +107,9 @@ fn path(job: &Job, name: &str, played: &Played, factor: f64) -> Panel {
         motors[kind].extend(records.iter().map(|record| magnified(record.motor)));
         motors[kind].push(GAP);
         if !target.rapid {
-            let commands = records.iter().map(|record| record.command.map(|c| c as f64));
+            let commands = records
+                .iter()
+                .map(|record| record.command.map(|c| c as f64));
             commanded.push(magnified(ends[0]));
             commanded.extend(commands.map(magnified));
             commanded.push(GAP);
@@ -116,9 +125,17 @@ fn path(job: &Job, name: &str, played: &Played, factor: f64) -> Panel {
         .equal_scales()
         .curve(Curve::new("ideal", drawn).colour(IDEAL).width(5.0))
         .curve(Curve::new("rapid", rapid).colour(IDEAL).width(0.8).dashed())
-        .curve(Curve::new("", motors_rapid).colour("#bdbdbd").width(0.6))
+        .curve(
+            Curve::new("rapid, motors", motors_rapid)
+                .colour("#bdbdbd")
+                .width(0.6),
+        )
         .curve(Curve::new("motors", motors).colour(MOTORS).width(1.0))
-        .curve(Curve::new("commanded", commanded).colour(COMMANDED).width(0.8))
+        .curve(
+            Curve::new("commanded", commanded)
+                .colour(COMMANDED)
+                .width(0.8),
+        )
 }
 
 /// A point in millimetres with its distance from its line multiplied.
@@ -167,7 +184,7 @@ mod tests {
 
     #[test]
     fn the_largest_error_becomes_a_round_multiple_that_is_visible() {
-        // 2 % of 100 mm is 2 mm.
+        // 4 % of 50 mm are 2 mm.
         for (largest, factor) in [
             (2.0, 1.0),
             (50.0, 1.0),
@@ -178,7 +195,7 @@ mod tests {
             (0.0021, 500.0),
             (0.0019, 1000.0),
         ] {
-            assert_eq!(magnification(largest, 100.0), factor, "{largest}");
+            assert_eq!(magnification(largest, 50.0), factor, "{largest}");
         }
         assert_eq!(magnification(0.0, 100.0), 1.0);
         assert_eq!(magnification(0.0, 0.0), 1.0);
@@ -193,9 +210,12 @@ mod tests {
             scans: 0..0,
             end: [500, 300],
         };
-        // A count is 0.1 mm in X and in Y; (8, -6)/10 is perpendicular to (4, 3)/5.
+        // A count is 0.1 mm; (6, -8) is perpendicular to (400, 300).
         let (x, y) = magnify(&cycle, [300.0 + 6.0, 150.0 - 8.0], [10.0; 2], 5.0);
-        assert!((x - 33.0).abs() < 1e-9 && (y - 11.0).abs() < 1e-9, "{x}, {y}");
+        assert!(
+            (x - 33.0).abs() < 1e-9 && (y - 11.0).abs() < 1e-9,
+            "{x}, {y}"
+        );
         let on = magnify(&cycle, [300.0, 150.0], [10.0; 2], 5.0);
         assert!((on.0 - 30.0).abs() < 1e-9 && (on.1 - 15.0).abs() < 1e-9);
     }

@@ -81,7 +81,10 @@ impl SystemSummary {
             ticks: played.ticks,
             seconds: played.ticks as f64 / job.settings.clock_hz as f64,
             scans: played.records.len(),
-            end_position: played.records.last().map_or([0; 2], |record| record.command),
+            end_position: played
+                .records
+                .last()
+                .map_or([0; 2], |record| record.command),
             deviation_max_lsb: largest(&|figures| figures.deviation_lsb, &[false, true]),
             contour_error_max_um: largest(&contour, &[false]),
             contour_error_max_rapid_um: largest(&contour, &[true]),

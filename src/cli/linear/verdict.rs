@@ -12,7 +12,11 @@ pub fn complaints(job: &Job, runs: &Runs, segments: [&[Segment]; 2]) -> Vec<Stri
     let mut all = of_system(&runs.interpolator, segments[0], targets, rule);
     // That its path bends is what the conventional system is there to show.
     let others = of_system(&runs.conventional, segments[1], targets, None);
-    all.extend(others.into_iter().map(|text| format!("conventional: {text}")));
+    all.extend(
+        others
+            .into_iter()
+            .map(|text| format!("conventional: {text}")),
+    );
     all
 }
 
@@ -34,7 +38,10 @@ fn of_system(
     complaints.extend(first(pairs.filter_map(|(number, (cycle, target))| {
         (cycle.to != [target.x, target.y]).then(|| {
             let to = [target.x, target.y];
-            format!("segment {number} goes to {:?}, its target is {to:?}", cycle.to)
+            format!(
+                "segment {number} goes to {:?}, its target is {to:?}",
+                cycle.to
+            )
         })
     })));
     let numbered = segments.iter().enumerate();

@@ -155,7 +155,9 @@ fn split(message: &str) -> (String, String) {
         "u32" => "a whole number from 0 to 4294967295",
         "f64" => "a number",
         "a boolean" => "true or false",
-        "an array of length 2" => "a list of two numbers, of X and of Y",
+        "an array of length 2" | "fewer elements in array" => {
+            "a list of two numbers, of X and of Y"
+        }
         "a sequence" => "a list of numbers, one for each axis",
         "path string" => "a path",
         other => other,
