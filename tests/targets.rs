@@ -427,7 +427,7 @@ fn what_cannot_be_played_is_refused() {
     });
     assert_eq!(made.targets[0].x, 1 << 30);
 
-    let mut many = circle(1e5, [0.0, 0.0], false);
+    let mut many = circle(3e5, [0.0, 0.0], false);
     many.moves[0].line = 7;
     let fine = |settings: &mut Settings| {
         settings.chord_tolerance_mm = 1e-6;

@@ -459,7 +459,7 @@ fn drawings_that_cannot_be_played_are_refused() {
              -1073741824 to 1073741824 counts",
         ),
         (
-            "G1 X1 F1000\nG2 X1 I100000\n",
+            "G1 X1 F1000\nG2 X1 I300000\n",
             &[
                 "--set",
                 "chord_tolerance_mm=0.000001",
