@@ -313,8 +313,8 @@ fn the_picture_says_what_it_shows() {
     let svg = bench.read("waves/z.svg");
     for text in [
         "z: linear interpolator",
-        "linear interpolator: path, distances from the ideal lines times ",
-        "conventional system: path, distances from the ideal lines times ",
+        "linear interpolator: path, errors times ",
+        "conventional system: path, errors times ",
         "contour error",
         "path speed",
     ] {

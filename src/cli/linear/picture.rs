@@ -7,7 +7,7 @@ use motion_rtl::linear_interpolator::settings::Settings;
 use motion_rtl::picture::{Curve, Panel, Picture};
 
 /// The largest error is drawn as large as this part of the drawing.
-const PART: f64 = 0.04;
+const PART: f64 = 0.0625;
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
 const IDEAL: &str = "#d8d8d8";
@@ -117,7 +117,7 @@ fn path(job: &Job, name: &str, played: &Played, factor: f64) -> Panel {
     }
     let title = match factor {
         1.0 => format!("{name}: path"),
-        _ => format!("{name}: path, distances from the ideal lines times {factor}"),
+        _ => format!("{name}: path, errors times {factor}"),
     };
     let [drawn, rapid] = ideal;
     let [motors, motors_rapid] = motors;
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn the_largest_error_becomes_a_round_multiple_that_is_visible() {
-        // 4 % of 50 mm are 2 mm.
+        // A sixteenth of 32 mm is 2 mm.
         for (largest, factor) in [
             (2.0, 1.0),
             (50.0, 1.0),
@@ -195,7 +195,7 @@ mod tests {
             (0.0021, 500.0),
             (0.0019, 1000.0),
         ] {
-            assert_eq!(magnification(largest, 50.0), factor, "{largest}");
+            assert_eq!(magnification(largest, 32.0), factor, "{largest}");
         }
         assert_eq!(magnification(0.0, 100.0), 1.0);
         assert_eq!(magnification(0.0, 0.0), 1.0);

@@ -34,30 +34,26 @@ fn of_system(
             targets.len()
         ));
     }
+    let ends = |target: &Target| [target.x, target.y];
     let pairs = played.cycles.iter().zip(targets).enumerate();
-    complaints.extend(first(pairs.filter_map(|(number, (cycle, target))| {
-        (cycle.to != [target.x, target.y]).then(|| {
-            let to = [target.x, target.y];
-            format!(
-                "segment {number} goes to {:?}, its target is {to:?}",
-                cycle.to
-            )
-        })
+    let astray = pairs.filter(|(_, (cycle, target))| cycle.to != ends(target));
+    complaints.extend(first(astray.map(|(number, (cycle, target))| {
+        let (to, wanted) = (cycle.to, ends(target));
+        format!("segment {number} goes to {to:?}, its target is {wanted:?}")
     })));
     let numbered = segments.iter().enumerate();
-    complaints.extend(first(numbered.clone().filter_map(|(number, segment)| {
+    let missed = numbered
+        .clone()
+        .filter(|(_, segment)| segment.end_error != [0; 2]);
+    complaints.extend(first(missed.map(|(number, segment)| {
         let error = segment.end_error;
-        (error != [0; 2]).then(|| format!("segment {number} ends {error:?} counts off its target"))
+        format!("segment {number} ends {error:?} counts off its target")
     })));
     if let Some(rule) = rule {
-        complaints.extend(first(numbered.filter_map(|(number, segment)| {
-            (!segment.deviation.is_within(rule)).then(|| {
-                format!(
-                    "segment {number} is {:.3} LSB off its line, which {} does not allow",
-                    segment.deviation.lsb(),
-                    rule.name()
-                )
-            })
+        let bent = numbered.filter(|(_, segment)| !segment.deviation.is_within(rule));
+        complaints.extend(first(bent.map(|(number, segment)| {
+            let (lsb, rule) = (segment.deviation.lsb(), rule.name());
+            format!("segment {number} is {lsb:.3} LSB off its line, which {rule} does not allow")
         })));
     }
     if played.late {
@@ -79,8 +75,7 @@ fn first(mut all: impl Iterator<Item = String>) -> Option<String> {
     let text = all.next()?;
     Some(match all.count() {
         0 => text,
-        1 => format!("{text}, and so does 1 more"),
-        more => format!("{text}, and so do {more} more"),
+        more => format!("{text} (and {more} more like it)"),
     })
 }
 
@@ -175,7 +170,7 @@ mod tests {
         let all = |count: usize| first((0..count).map(|k| format!("{k} ends")));
         assert_eq!(all(0), None);
         assert_eq!(all(1).unwrap(), "0 ends");
-        assert_eq!(all(2).unwrap(), "0 ends, and so does 1 more");
-        assert_eq!(all(4).unwrap(), "0 ends, and so do 3 more");
+        assert_eq!(all(2).unwrap(), "0 ends (and 1 more like it)");
+        assert_eq!(all(4).unwrap(), "0 ends (and 3 more like it)");
     }
 }
