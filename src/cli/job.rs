@@ -4,7 +4,8 @@ use super::Failure;
 use super::shipped::{self, SHIPPED};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish};
-use motion_rtl::input::scenario::{BARE, Loaded, Scenario, VariantName};
+use motion_rtl::input::scenario::pulse_interpolator::{Scenario, VariantName};
+use motion_rtl::input::scenario::{self, BARE, Loaded};
 use motion_rtl::input::{Drawing, Fault, read_path};
 use motion_rtl::plan::{FEED_RANGE, MotionLimits, PlanError};
 use motion_rtl::pulse_interpolator::{
@@ -24,7 +25,60 @@ pub struct Input {
     pub sets: Vec<String>,
 }
 
-/// An input ready to be run.
+/// An input and its scenario, of whatever circuit.
+#[derive(Debug)]
+pub struct Source {
+    /// The scenario it came from.
+    pub loaded: Loaded,
+    /// What its files are called.
+    pub stem: String,
+    /// The input.
+    pub drawing: Drawing,
+}
+
+impl Source {
+    /// Reads scenario and input.
+    pub fn read(input: &Input) -> Result<Self, Fault> {
+        let (loaded, drawing, name) = read(input)?;
+        let stem = name.file_stem().map_or_else(
+            || "run".to_owned(),
+            |stem| stem.to_string_lossy().into_owned(),
+        );
+        Ok(Source {
+            loaded,
+            stem,
+            drawing,
+        })
+    }
+
+    /// A fault of the drawing.
+    pub fn drawing_fault(
+        &self,
+        line: usize,
+        field: &str,
+        problem: String,
+        allowed: String,
+    ) -> Fault {
+        Fault {
+            file: self.drawing.file.clone(),
+            line,
+            field: field.to_owned(),
+            problem,
+            allowed,
+        }
+    }
+}
+
+/// Says on a terminal that the input is being compiled, until it is dropped.
+pub fn compiling() -> ProgressBar {
+    let spinner = ProgressBar::new_spinner()
+        .with_message("compiling")
+        .with_finish(ProgressFinish::AndClear);
+    spinner.enable_steady_tick(Duration::from_millis(100));
+    spinner
+}
+
+/// An input ready to be run on the pulse interpolator.
 #[derive(Debug)]
 pub struct Job {
     /// The scenario it came from.
@@ -33,6 +87,10 @@ pub struct Job {
     pub stem: String,
     /// The input.
     pub drawing: Drawing,
+    /// What RST clears.
+    pub variant: Variant,
+    /// The most ticks that go into the VCD unless a window is asked for.
+    pub vcd_ticks: u64,
     /// Its settings.
     pub settings: Settings,
     /// The pattern memory's contents.
@@ -42,42 +100,38 @@ pub struct Job {
 }
 
 impl Job {
-    /// Reads the input and compiles it.
-    pub fn prepare(input: &Input) -> Result<Self, Failure> {
-        let (loaded, drawing, name) = read(input)?;
-        let settings = settings(&loaded.scenario, &drawing);
-        let spinner = ProgressBar::new_spinner()
-            .with_message("compiling")
-            .with_finish(ProgressFinish::AndClear);
-        spinner.enable_steady_tick(Duration::from_millis(100));
-        let (table, report) = compile(&drawing, &settings)
-            .map_err(|error| fault(&loaded, &drawing, &settings, error))?;
-        spinner.finish_and_clear();
-        let stem = name.file_stem().map_or_else(
-            || "run".to_owned(),
-            |stem| stem.to_string_lossy().into_owned(),
-        );
+    /// Compiles an input; one of another circuit has no table.
+    pub fn prepare(source: Source) -> Result<Self, Failure> {
+        let scenario::Scenario::PulseInterpolator(scenario) = &source.loaded.scenario else {
+            let problem = "the linear interpolator has no table".to_owned();
+            let allowed = "pulse_interpolator, or the command run".to_owned();
+            return Err(source.loaded.fault("circuit", problem, allowed).into());
+        };
+        let variant = match scenario.variant {
+            VariantName::Safe => Variant::Safe,
+            VariantName::Literal => Variant::Literal,
+        };
+        let vcd_ticks = scenario.vcd_ticks;
+        let settings = settings(scenario, &source.drawing);
+        let spinner = compiling();
+        let (table, report) = compile(&source.drawing, &settings)
+            .map_err(|error| fault(&source, &settings, error))?;
+        drop(spinner);
+        let Source {
+            loaded,
+            stem,
+            drawing,
+        } = source;
         Ok(Job {
             loaded,
             stem,
             drawing,
+            variant,
+            vcd_ticks,
             settings,
             table,
             report,
         })
-    }
-
-    /// The scenario.
-    pub fn scenario(&self) -> &Scenario {
-        &self.loaded.scenario
-    }
-
-    /// What RST clears.
-    pub fn variant(&self) -> Variant {
-        match self.scenario().variant {
-            VariantName::Safe => Variant::Safe,
-            VariantName::Literal => Variant::Literal,
-        }
     }
 }
 
@@ -95,14 +149,14 @@ fn read(input: &Input) -> Result<(Loaded, Drawing, PathBuf), Fault> {
         .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
     let (loaded, drawing) = if let Some(shipped) = shipped {
         let loaded = shipped.load(&input.sets)?;
-        let drawing = match &loaded.scenario.input {
+        let drawing = match loaded.scenario.input() {
             Some(other) if loaded.overrides("input") => read_path(other),
             _ => shipped.drawing(),
         };
         (loaded, drawing?)
     } else if is_scenario {
         let loaded = Loaded::read(path, &input.sets)?;
-        let Some(drawing) = &loaded.scenario.input else {
+        let Some(drawing) = loaded.scenario.input() else {
             let allowed = "the path of an HPGL drawing or a G-code program".to_owned();
             return Err(loaded.fault("input", "missing".to_owned(), allowed));
         };
@@ -116,7 +170,7 @@ fn read(input: &Input) -> Result<(Loaded, Drawing, PathBuf), Fault> {
         }
         (loaded, read_path(path)?)
     };
-    if loaded.scenario.vcd_ticks == 0 {
+    if loaded.scenario.vcd_ticks() == 0 {
         let allowed = "1 to 9223372036854775807; --no-vcd for none".to_owned();
         return Err(loaded.fault("vcd_ticks", "is 0".to_owned(), allowed));
     }
@@ -152,13 +206,10 @@ fn settings(scenario: &Scenario, drawing: &Drawing) -> Settings {
 }
 
 /// What the compiler objects to, with the file and line it stands in.
-fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TableError) -> Fault {
-    let in_drawing = |line, field: String, problem, allowed| Fault {
-        file: drawing.file.clone(),
-        line,
-        field,
-        problem,
-        allowed,
+fn fault(source: &Source, settings: &Settings, error: TableError) -> Fault {
+    let loaded = &source.loaded;
+    let in_drawing = |line, field: String, problem, allowed| {
+        source.drawing_fault(line, &field, problem, allowed)
     };
     match error {
         TableError::Setting {
@@ -194,7 +245,8 @@ fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TableEr
     }
 }
 
-fn plan_fault(error: &PlanError) -> (usize, String, String, String) {
+/// What the planner objects to: line, field, problem and what is allowed.
+pub fn plan_fault(error: &PlanError) -> (usize, String, String, String) {
     match error {
         PlanError::Limit {
             field,

@@ -1,12 +1,14 @@
 //! `run`: a job on the circuit, with waves, save file and picture.
 
 use super::files::Files;
-use super::job::{Input, Job};
+use super::job::{Input, Job, Source};
+use super::linear;
 use super::picture::{Following, draw};
 use super::summary::Summary;
 use super::{Failure, print, print_json};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+use motion_rtl::input::scenario::Scenario;
 use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
 use motion_rtl::pulse_interpolator::job::{Played, group, play};
 use motion_rtl::trace::atomic::AtomicFile;
@@ -28,31 +30,52 @@ pub struct Arguments {
     input: Input,
     /// Where the files go.
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
     /// Writes no VCD and no save file.
     #[arg(long, conflicts_with_all = ["from", "to", "only"])]
-    no_vcd: bool,
+    pub(super) no_vcd: bool,
     /// First tick in the VCD.
     #[arg(long, value_name = "TICK")]
-    from: Option<u64>,
+    pub(super) from: Option<u64>,
     /// First tick that is no more in the VCD.
     #[arg(long, value_name = "TICK")]
-    to: Option<u64>,
+    pub(super) to: Option<u64>,
     /// A scope or signal in the VCD, as `pulse_interpolator.x`; repeated for more. Without it all.
     #[arg(long, value_name = "SCOPE")]
-    only: Vec<String>,
+    pub(super) only: Vec<String>,
     /// Writes the circuit as Verilog too, with a testbench and the run's inputs as its stimulus.
     #[arg(long)]
-    verilog: bool,
+    pub(super) verilog: bool,
+    /// Prints every segment, not the worst alone (linear interpolator).
+    #[arg(long)]
+    pub(super) segments: bool,
     /// Prints the summary as JSON.
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 /// Runs a job.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let job = Job::prepare(&arguments.input)?;
-    let options = options(arguments, job.scenario().vcd_ticks)?;
+    let source = Source::read(&arguments.input)?;
+    match &source.loaded.scenario {
+        Scenario::PulseInterpolator(_) => pulse(arguments, Job::prepare(source)?),
+        Scenario::LinearInterpolator(scenario) => {
+            let settings = scenario.settings();
+            linear::run(arguments, &linear::Job::prepare(source, settings)?)
+        }
+    }
+}
+
+/// Runs a job on the pulse interpolator.
+fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
+    if arguments.segments {
+        return Err(Failure::Argument {
+            field: "--segments",
+            problem: "the pulse interpolator has no segments".into(),
+            allowed: "a scenario of the linear interpolator".into(),
+        });
+    }
+    let options = options(arguments, job.vcd_ticks)?;
     let (played, mut files) = match job.table.axes() {
         1 => simulate::<1>(arguments, &job, &options),
         2 => simulate::<2>(arguments, &job, &options),
@@ -106,7 +129,7 @@ fn simulate<const AXES: usize>(
     job: &Job,
     options: &Options,
 ) -> Result<(Played, Files), Failure> {
-    let group = group::<AXES>(&job.table, job.variant());
+    let group = group::<AXES>(&job.table, job.variant);
     let clock = clock(arguments, job, options)?;
     let directory = arguments.out.as_deref().unwrap_or(Path::new("waves"));
     let mut files = Files::begin(directory, &job.stem)?;
@@ -202,12 +225,12 @@ fn not_selected(error: &LayoutError) -> Failure {
 }
 
 /// A bar on standard error, where that is a terminal.
-struct Progress {
+pub(super) struct Progress {
     bar: ProgressBar,
 }
 
 impl Progress {
-    fn new(ticks: u64) -> Self {
+    pub(super) fn new(ticks: u64) -> Self {
         let bar = ProgressBar::new(ticks).with_finish(ProgressFinish::AndClear);
         let style =
             ProgressStyle::with_template("{bar:40} {percent:>3} %  {human_pos} ticks  {eta}");
@@ -216,13 +239,18 @@ impl Progress {
         }
         Progress { bar }
     }
+
+    /// The run has come to this tick.
+    pub(super) fn reach(&self, tick: u64) {
+        self.bar.set_position(tick);
+    }
 }
 
 impl<C: Circuit> Observer<C> for Progress {
     #[inline]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         if now.tick.is_multiple_of(PROGRESS) {
-            self.bar.set_position(now.tick);
+            self.reach(now.tick);
         }
         Ok(ControlFlow::Continue(()))
     }

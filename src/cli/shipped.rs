@@ -29,7 +29,7 @@ macro_rules! shipped {
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 2] = [
+pub const SHIPPED: [Shipped; 3] = [
     shipped!(
         "waves/bracket.toml",
         "waves/bracket.ngc",
@@ -39,6 +39,11 @@ pub const SHIPPED: [Shipped; 2] = [
         "waves/rosette.toml",
         "waves/rosette.hpgl",
         "a rosette of pen strokes in HPGL, with scaled units and pen-up moves"
+    ),
+    shipped!(
+        "waves/plotter.toml",
+        "waves/plotter.hpgl",
+        "pen strokes of many slopes in HPGL, on the linear interpolator"
     ),
 ];
 

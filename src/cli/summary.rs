@@ -186,7 +186,7 @@ impl Summary {
         Summary {
             circuit: "pulse_interpolator",
             input: job.drawing.file.clone(),
-            variant: match job.variant() {
+            variant: match job.variant {
                 Variant::Safe => "safe",
                 Variant::Literal => "literal",
             },

@@ -1,6 +1,6 @@
 //! `table`: a drawing compiled into the pattern memory's contents.
 
-use super::job::{Input, Job};
+use super::job::{Input, Job, Source};
 use super::summary::{TableSummary, warnings};
 use super::{Failure, print, print_json};
 use clap::Args;
@@ -48,7 +48,7 @@ struct Scaling {
 
 /// Compiles.
 pub fn table(arguments: &Arguments) -> Result<(), Failure> {
-    let job = Job::prepare(&arguments.input)?;
+    let job = Job::prepare(Source::read(&arguments.input)?)?;
     let scaled = match &arguments.scale {
         Some(text) => Some(scale(&job.table, text)?),
         None => None,

@@ -26,12 +26,17 @@ pub mod cycle_gate;
 pub mod differentiator;
 pub mod integrator;
 pub mod interpolator;
+pub mod job;
 pub mod line_law;
+pub mod measure;
 pub mod pattern_generator;
 pub mod position_control;
 pub mod position_loop;
+pub mod reference;
 pub mod sequencer;
+pub mod settings;
 pub mod target_data;
+pub mod targets;
 pub mod trapezoid;
 
 pub use accumulator::Accumulator;
@@ -47,19 +52,6 @@ pub use pattern_generator::PatternGenerator;
 pub use position_control::PositionControl;
 pub use position_loop::PositionLoop;
 pub use sequencer::Sequencer;
+pub use settings::Rule;
 pub use target_data::TargetData;
 pub use trapezoid::Trapezoid;
-
-/// How the integrator rounds its quotient.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Rule {
-    /// Towards minus infinity: the remainder takes the sign of Δx. The way back goes over the same
-    /// points.
-    #[default]
-    Floor,
-    /// Towards zero: the remainder takes the sign of the dividend, as most machines divide.
-    Truncating,
-    /// As [`Rule::Floor`], but B begins with half of Δx, so that points lie within half a step of
-    /// the line.
-    Centred,
-}

@@ -118,6 +118,18 @@ impl Curve {
         })
     }
 
+    /// Fewest equal pieces whose chords are within `tolerance` of the curve: a chord over the angle
+    /// φ of a circle is 2·R·sin²(φ/4) from it at most.
+    pub(super) fn chords(&self, tolerance: f64) -> u64 {
+        self.arc.as_ref().map_or(1, |arc| {
+            let radius = arc.start_radius.max(arc.end_radius);
+            let angle = 4.0 * (tolerance / (2.0 * radius)).sqrt().min(1.0).asin();
+            // No coarser than thirds of a circle, whose chords still enclose the centre.
+            let angle = angle.min(std::f64::consts::TAU / 3.0);
+            ((arc.sweep.abs() / angle).ceil() as u64).max(1)
+        })
+    }
+
     pub(super) fn is_arc(&self) -> bool {
         self.arc.is_some()
     }
@@ -166,7 +178,7 @@ pub(super) fn norm(v: Point) -> f64 {
 }
 
 /// Checks everything in the drawing that the planner computes with.
-pub(super) fn check(drawing: &Drawing) -> Result<(), PlanError> {
+pub(crate) fn check(drawing: &Drawing) -> Result<(), PlanError> {
     check_point(0, drawing.start)?;
     for (index, step) in drawing.moves.iter().enumerate() {
         let line = step.line;

@@ -8,12 +8,14 @@
 //! The tangential and the centripetal acceleration are limited one by one, so that their sum on an
 //! arc taken at its limit while braking may reach √2 times the setting.
 
+pub(crate) mod chords;
 mod geometry;
 mod profile;
 mod sampler;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use geometry::check;
 pub use profile::{Plan, Segment};
 pub use sampler::{Sample, Sampler};
 

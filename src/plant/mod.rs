@@ -16,6 +16,7 @@ pub mod axis;
 pub mod encoder;
 pub mod parameters;
 pub mod servo;
+pub mod waves;
 
 pub use axis::ServoAxis;
 pub use encoder::Encoder;

@@ -1,10 +1,14 @@
-use super::Scenario;
+use super::{Runnable, Scenario};
 use crate::input::{Fault, file};
+use serde::Deserialize;
 use std::path::Path;
 use toml::{Table, Value};
 
 /// What faults call the file of an override.
 const SET: &str = "--set";
+
+/// The key that chooses the circuit.
+const CIRCUIT: &str = "circuit";
 
 /// A scenario together with the text it was read from, so that faults can name its lines.
 #[derive(Debug, Clone)]
@@ -33,7 +37,7 @@ impl Loaded {
         })?;
         let mut loaded = Self::parse(&name, text, sets)?;
         let given = loaded.overrides("input");
-        if let (Some(input), Some(directory)) = (&mut loaded.scenario.input, path.parent())
+        if let (Some(input), Some(directory)) = (loaded.scenario.input_mut(), path.parent())
             && !given
         {
             *input = directory.join(&*input);
@@ -48,16 +52,21 @@ impl Loaded {
     pub fn parse(file: &str, text: &str, sets: &[String]) -> Result<Self, Fault> {
         let refuse = |error| fault(file, text, &error);
         let mut loaded = Loaded {
-            scenario: toml::from_str(text).map_err(refuse)?,
+            scenario: scenario(|| toml::Deserializer::parse(text)).map_err(refuse)?,
             file: file.to_owned(),
             text: text.to_owned(),
             overridden: Vec::new(),
         };
         let mut table: Table = text.parse().map_err(refuse)?;
-        for set in sets {
-            let (key, value) = key_value(set)?;
+        let mut pairs = sets
+            .iter()
+            .map(|set| key_value(set))
+            .collect::<Result<Vec<_>, _>>()?;
+        // The circuit decides which other keys there are.
+        pairs.sort_by_key(|(key, _)| *key != CIRCUIT);
+        for (key, value) in pairs {
             table.insert(key.to_owned(), value);
-            loaded.scenario = table.clone().try_into().map_err(|error: toml::de::Error| {
+            loaded.scenario = scenario(|| Ok(table.clone())).map_err(|error| {
                 let (problem, allowed) = split(error.message());
                 Fault::new(SET, 0, key, problem, allowed)
             })?;
@@ -81,6 +90,30 @@ impl Loaded {
         let line = line.map_or(0, |before| before + 1);
         Fault::new(&self.file, line, key, problem, allowed)
     }
+}
+
+/// Of a scenario what decides how the rest is read.
+#[derive(Deserialize)]
+struct Head {
+    circuit: Runnable,
+}
+
+/// A scenario with the keys of its circuit.
+fn scenario<'de, D>(
+    keys: impl Fn() -> Result<D, toml::de::Error>,
+) -> Result<Scenario, toml::de::Error>
+where
+    D: serde::Deserializer<'de, Error = toml::de::Error>,
+{
+    let Head { circuit } = Head::deserialize(keys()?)?;
+    Ok(match circuit {
+        Runnable::PulseInterpolator => {
+            Scenario::PulseInterpolator(Deserialize::deserialize(keys()?)?)
+        }
+        Runnable::LinearInterpolator => {
+            Scenario::LinearInterpolator(Deserialize::deserialize(keys()?)?)
+        }
+    })
 }
 
 fn key_value(set: &str) -> Result<(&str, Value), Fault> {
@@ -121,6 +154,10 @@ fn split(message: &str) -> (String, String) {
         "u64" => "a whole number from 0",
         "u32" => "a whole number from 0 to 4294967295",
         "f64" => "a number",
+        "a boolean" => "true or false",
+        "an array of length 2" | "fewer elements in array" => {
+            "a list of two numbers, of X and of Y"
+        }
         "a sequence" => "a list of numbers, one for each axis",
         "path string" => "a path",
         other => other,

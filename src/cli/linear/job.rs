@@ -1,0 +1,82 @@
+//! What a run of the linear interpolator begins with: settings and cycles.
+
+use crate::cli::Failure;
+use crate::cli::job::{Source, compiling, plan_fault};
+use motion_rtl::input::{Drawing, Fault};
+use motion_rtl::linear_interpolator::settings::Settings;
+use motion_rtl::linear_interpolator::targets::{
+    MOST_TARGETS, REACH_COUNTS, TargetError, Targets, compile,
+};
+
+/// An input ready to be run.
+#[derive(Debug)]
+pub struct Job {
+    /// What its files are called.
+    pub stem: String,
+    /// The input.
+    pub drawing: Drawing,
+    /// Its settings.
+    pub settings: Settings,
+    /// The cycles.
+    pub compiled: Targets,
+}
+
+impl Job {
+    /// Compiles an input.
+    pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
+        let spinner = compiling();
+        let compiled = compile(&source.drawing, &settings)
+            .map_err(|error| fault(&source, &settings, error))?;
+        drop(spinner);
+        let Source { stem, drawing, .. } = source;
+        Ok(Job {
+            stem,
+            drawing,
+            settings,
+            compiled,
+        })
+    }
+
+    /// Ticks that the cycles take without a wait between them, for the progress bar.
+    pub fn ticks_at_least(&self) -> u64 {
+        let (mut at, mut scans) = ([0, 0], 0u64);
+        for target in &self.compiled.targets {
+            let way = target.x.abs_diff(at[0]).max(target.y.abs_diff(at[1]));
+            let ramps = (target.acceleration_scans + target.deceleration_scans) / 2;
+            scans = scans.saturating_add(way / target.speed + ramps);
+            at = [target.x, target.y];
+        }
+        scans.saturating_mul(self.settings.scan_ticks.into())
+    }
+}
+
+/// What the compiler objects to, with the file and line it stands in.
+fn fault(source: &Source, settings: &Settings, error: TargetError) -> Fault {
+    match error {
+        TargetError::Setting {
+            field,
+            value,
+            allowed,
+        } => source.loaded.fault(field, format!("is {value}"), allowed),
+        TargetError::Drawing(error) => {
+            let (line, field, problem, allowed) = plan_fault(&error);
+            source.drawing_fault(line, &field, problem, allowed)
+        }
+        TargetError::Feed { line, value, most } => {
+            let problem = format!("is {value} mm/min");
+            let allowed = format!("up to {most} mm/min: one count per tick");
+            source.drawing_fault(line, "F", problem, allowed)
+        }
+        TargetError::Position { line, axis, counts } => {
+            let per_mm = settings.counts_per_mm;
+            let problem = format!("is {counts} counts at {per_mm:?} counts/mm");
+            let allowed = format!("-{REACH_COUNTS} to {REACH_COUNTS} counts");
+            source.drawing_fault(line, axis, problem, allowed)
+        }
+        TargetError::TooMany { line } => {
+            let problem = format!("more than {MOST_TARGETS} cycles up to here");
+            let allowed = "fewer moves, or a larger chord_tolerance_mm".to_owned();
+            source.drawing_fault(line, "path", problem, allowed)
+        }
+    }
+}

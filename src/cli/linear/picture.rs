@@ -1,0 +1,222 @@
+//! The picture of a run: the paths of both systems with their errors magnified, the contour error
+//! and the speed over time.
+
+use super::{Job, Runs};
+use motion_rtl::linear_interpolator::measure::{Cycle, Played, ScanRecord};
+use motion_rtl::linear_interpolator::settings::Settings;
+use motion_rtl::picture::{Curve, Panel, Picture};
+
+/// The largest error is drawn as large as this part of the drawing.
+const PART: f64 = 0.0625;
+const GAP: (f64, f64) = (f64::NAN, f64::NAN);
+
+const IDEAL: &str = "#d8d8d8";
+const COMMANDED: &str = "#0072b2";
+const MOTORS: &str = "#d55e00";
+
+/// A curve with gaps.
+type Points = Vec<(f64, f64)>;
+
+/// The picture as SVG.
+pub fn draw(job: &Job, runs: &Runs) -> String {
+    let settings = &job.settings;
+    let systems = [
+        ("linear interpolator", &runs.interpolator),
+        ("conventional system", &runs.conventional),
+    ];
+    let largest = systems
+        .iter()
+        .map(|(_, played)| largest_error(job, played))
+        .fold(0.0, f64::max);
+    let factor = magnification(largest, size(&runs.interpolator, settings));
+    let mut picture = Picture::new(format!("{}: linear interpolator", job.stem));
+    for (name, played) in systems {
+        picture = picture.panel(path(job, name, played, factor));
+    }
+    let mut error = Panel::new("contour error", "time in s", "error in um");
+    let mut speed = Panel::new("path speed", "time in s", "speed in mm/s");
+    // The interpolator's curves lie on top.
+    for ((name, played), colour) in systems.into_iter().zip([COMMANDED, MOTORS]).rev() {
+        let curve = Curve::new(name, errors(played, settings));
+        error = error.curve(curve.colour(colour).width(0.8));
+        let curve = Curve::new(name, speeds(played, settings));
+        speed = speed.curve(curve.colour(colour).width(0.8));
+    }
+    picture.panel(error).panel(speed).render()
+}
+
+/// By what errors are multiplied, for `largest` to become a visible part of a drawing of `size`:
+/// 1, 2 or 5 times a power of ten, and 1 where that is too much already.
+fn magnification(largest: f64, size: f64) -> f64 {
+    let wanted = PART * size / largest;
+    if !(wanted.is_finite() && wanted > 1.0) {
+        return 1.0;
+    }
+    let decade = 10f64.powf(wanted.log10().floor());
+    let steps = [10.0, 5.0, 2.0, 1.0].map(|step| step * decade);
+    steps
+        .into_iter()
+        .find(|step| *step <= wanted)
+        .unwrap_or(1.0)
+}
+
+/// The diagonal of the targets, in millimetres.
+fn size(played: &Played, settings: &Settings) -> f64 {
+    let [x, y] = [0, 1].map(|axis| {
+        let ends = played
+            .cycles
+            .iter()
+            .flat_map(|cycle| [cycle.from, cycle.to]);
+        let (least, most) = ends.fold((0, 0), |(least, most), end| {
+            (least.min(end[axis]), most.max(end[axis]))
+        });
+        (most - least) as f64 / settings.counts_per_mm[axis]
+    });
+    x.hypot(y)
+}
+
+/// The largest distance of a command or a motor from a line that is drawn, in millimetres.
+fn largest_error(job: &Job, played: &Played) -> f64 {
+    let scale = job.settings.counts_per_mm;
+    let cycles = played.cycles.iter().zip(&job.compiled.targets).enumerate();
+    cycles
+        .filter(|(_, (_, target))| !target.rapid)
+        .flat_map(|(number, (cycle, _))| {
+            let records = played.records_of(number).iter();
+            records.flat_map(move |record| {
+                let command = record.command.map(|counts| counts as f64);
+                [record.motor, command].map(|point| cycle.contour_error(point, scale).abs())
+            })
+        })
+        .fold(0.0, f64::max)
+}
+
+fn path(job: &Job, name: &str, played: &Played, factor: f64) -> Panel {
+    let scale = job.settings.counts_per_mm;
+    let mut ideal = [const { Points::new() }; 2];
+    let mut commanded = Points::new();
+    let mut motors = [const { Points::new() }; 2];
+    let cycles = played.cycles.iter().zip(&job.compiled.targets).enumerate();
+    for (number, (cycle, target)) in cycles {
+        let ends = [cycle.from, cycle.to].map(|end| end.map(|counts| counts as f64));
+        let kind = usize::from(target.rapid);
+        ideal[kind].extend(ends.map(|end| (end[0] / scale[0], end[1] / scale[1])));
+        ideal[kind].push(GAP);
+        let magnified = |point: [f64; 2]| magnify(cycle, point, scale, factor);
+        let records = played.records_of(number);
+        motors[kind].extend(records.iter().map(|record| magnified(record.motor)));
+        motors[kind].push(GAP);
+        if !target.rapid {
+            let commands = records
+                .iter()
+                .map(|record| record.command.map(|c| c as f64));
+            commanded.push(magnified(ends[0]));
+            commanded.extend(commands.map(magnified));
+            commanded.push(GAP);
+        }
+    }
+    let title = match factor {
+        1.0 => format!("{name}: path"),
+        _ => format!("{name}: path, errors times {factor}"),
+    };
+    let [drawn, rapid] = ideal;
+    let [motors, motors_rapid] = motors;
+    Panel::new(title, "x in mm", "y in mm")
+        .equal_scales()
+        .curve(Curve::new("ideal", drawn).colour(IDEAL).width(5.0))
+        .curve(Curve::new("rapid", rapid).colour(IDEAL).width(0.8).dashed())
+        .curve(
+            Curve::new("rapid, motors", motors_rapid)
+                .colour("#bdbdbd")
+                .width(0.6),
+        )
+        .curve(Curve::new("motors", motors).colour(MOTORS).width(1.0))
+        .curve(
+            Curve::new("commanded", commanded)
+                .colour(COMMANDED)
+                .width(0.8),
+        )
+}
+
+/// A point in millimetres with its distance from its line multiplied.
+fn magnify(cycle: &Cycle, point: [f64; 2], scale: [f64; 2], factor: f64) -> (f64, f64) {
+    let (foot, _) = cycle.foot(point, scale);
+    let [x, y] = [0, 1].map(|axis| {
+        let at = point[axis] / scale[axis];
+        foot[axis] + (at - foot[axis]) * factor
+    });
+    (x, y)
+}
+
+fn time(record: &ScanRecord, settings: &Settings) -> f64 {
+    record.tick as f64 / settings.clock_hz as f64
+}
+
+/// The contour error over time, in micrometres.
+fn errors(played: &Played, settings: &Settings) -> Points {
+    let cycles = played.cycles.iter().enumerate();
+    cycles
+        .flat_map(|(number, cycle)| {
+            played.records_of(number).iter().map(|record| {
+                let error = cycle.contour_error(record.motor, settings.counts_per_mm);
+                (time(record, settings), error * 1e3)
+            })
+        })
+        .collect()
+}
+
+/// The speed of the motors along their path over time, in mm/s.
+fn speeds(played: &Played, settings: &Settings) -> Points {
+    let pairs = played.records.windows(2);
+    pairs
+        .map(|pair| {
+            let [x, y] = [0, 1].map(|axis| {
+                (pair[1].motor[axis] - pair[0].motor[axis]) / settings.counts_per_mm[axis]
+            });
+            (time(&pair[1], settings), x.hypot(y) / settings.scan_s())
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_error_becomes_a_round_multiple_that_is_visible() {
+        // A sixteenth of 32 mm is 2 mm.
+        for (largest, factor) in [
+            (2.0, 1.0),
+            (50.0, 1.0),
+            (1.0, 2.0),
+            (0.5, 2.0),
+            (0.4, 5.0),
+            (0.2, 10.0),
+            (0.0021, 500.0),
+            (0.0019, 1000.0),
+        ] {
+            assert_eq!(magnification(largest, 32.0), factor, "{largest}");
+        }
+        assert_eq!(magnification(0.0, 100.0), 1.0);
+        assert_eq!(magnification(0.0, 0.0), 1.0);
+    }
+
+    #[test]
+    fn a_point_is_moved_away_from_its_line_and_not_along_it() {
+        let cycle = Cycle {
+            from: [100, 0],
+            to: [500, 300],
+            master: 0,
+            scans: 0..0,
+            end: [500, 300],
+        };
+        // A count is 0.1 mm; (6, -8) is perpendicular to (400, 300).
+        let (x, y) = magnify(&cycle, [300.0 + 6.0, 150.0 - 8.0], [10.0; 2], 5.0);
+        assert!(
+            (x - 33.0).abs() < 1e-9 && (y - 11.0).abs() < 1e-9,
+            "{x}, {y}"
+        );
+        let on = magnify(&cycle, [300.0, 150.0], [10.0; 2], 5.0);
+        assert!((on.0 - 30.0).abs() < 1e-9 && (on.1 - 15.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,164 @@
+//! What a run came to.
+
+use super::rows::{Figures, Row, rows};
+use super::verdict::complaints;
+use super::{Job, Runs};
+use motion_rtl::linear_interpolator::measure::Played;
+use motion_rtl::linear_interpolator::settings::AXIS_NAMES;
+use serde::Serialize;
+
+/// The summary of a run.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    /// The circuit that ran.
+    pub circuit: &'static str,
+    /// The input file.
+    pub input: String,
+    /// How the integrator divides.
+    pub variant: &'static str,
+    /// Reference clock in Hz.
+    pub clock_hz: u64,
+    /// Ticks of a scan.
+    pub scan_ticks: u32,
+    /// Ticks of the run.
+    pub ticks: u64,
+    /// The same in seconds.
+    pub seconds: f64,
+    /// Scans of the run.
+    pub scans: usize,
+    /// Whether every cycle ended on its target, stayed as near to its line as the division allows,
+    /// and no scan, count or target was lost.
+    pub exact: bool,
+    /// What is wrong where it is not.
+    pub complaints: Vec<String>,
+    /// Points of the drawing that have the counts of the point before.
+    pub dropped_points: usize,
+    /// The linear interpolator.
+    pub interpolator: SystemSummary,
+    /// The conventional system of Fig. 3.
+    pub conventional: SystemSummary,
+    /// Every cycle.
+    pub segments: Vec<Row>,
+    /// Ticks that went into the VCD, half-open; `null` without one.
+    pub vcd_window: Option<[u64; 2]>,
+    /// What was skipped or assumed.
+    pub warnings: Vec<String>,
+    /// The files written.
+    pub files: Vec<String>,
+}
+
+/// What one system made of all cycles.
+#[derive(Debug, Serialize)]
+pub struct SystemSummary {
+    /// Ticks.
+    pub ticks: u64,
+    /// The same in seconds.
+    pub seconds: f64,
+    /// Scans.
+    pub scans: usize,
+    /// The last command, in counts.
+    pub end_position: [i64; 2],
+    /// Largest deviation of a command from its line.
+    pub deviation_max_lsb: f64,
+    /// Largest contour error of the moves that draw.
+    pub contour_error_max_um: f64,
+    /// Largest contour error of the rapid moves.
+    pub contour_error_max_rapid_um: f64,
+    /// X and Y: scans in which the speed command was at its limit.
+    pub saturated_scans: [u64; 2],
+}
+
+impl SystemSummary {
+    fn new(job: &Job, played: &Played, rows: &[Row], of: impl Fn(&Row) -> Figures) -> Self {
+        let largest = |value: &dyn Fn(Figures) -> f64, rapid: &[bool]| {
+            rows.iter()
+                .filter(|row| rapid.contains(&row.rapid))
+                .map(|row| value(of(row)))
+                .fold(0.0, f64::max)
+        };
+        let contour = |figures: Figures| figures.contour_error_um;
+        SystemSummary {
+            ticks: played.ticks,
+            seconds: played.ticks as f64 / job.settings.clock_hz as f64,
+            scans: played.records.len(),
+            end_position: played
+                .records
+                .last()
+                .map_or([0; 2], |record| record.command),
+            deviation_max_lsb: largest(&|figures| figures.deviation_lsb, &[false, true]),
+            contour_error_max_um: largest(&contour, &[false]),
+            contour_error_max_rapid_um: largest(&contour, &[true]),
+            saturated_scans: played.saturated_scans,
+        }
+    }
+}
+
+impl Summary {
+    /// The summary of a job that was played.
+    pub fn new(job: &Job, runs: &Runs) -> Self {
+        let per_mm = job.settings.counts_per_mm;
+        let (ours, others) = (
+            runs.interpolator.segments(per_mm),
+            runs.conventional.segments(per_mm),
+        );
+        let complaints = complaints(job, runs, [&ours, &others]);
+        let segments = rows(job, runs, [&ours, &others]);
+        let interpolator =
+            SystemSummary::new(job, &runs.interpolator, &segments, |row| row.interpolator);
+        let conventional =
+            SystemSummary::new(job, &runs.conventional, &segments, |row| row.conventional);
+        Summary {
+            circuit: "linear_interpolator",
+            input: job.drawing.file.clone(),
+            variant: job.settings.rule.name(),
+            clock_hz: job.settings.clock_hz,
+            scan_ticks: job.settings.scan_ticks,
+            ticks: interpolator.ticks,
+            seconds: interpolator.seconds,
+            scans: interpolator.scans,
+            exact: complaints.is_empty(),
+            complaints,
+            dropped_points: job.compiled.dropped,
+            warnings: warnings(job, &runs.interpolator),
+            interpolator,
+            conventional,
+            segments,
+            vcd_window: None,
+            files: Vec::new(),
+        }
+    }
+}
+
+/// What was skipped or assumed on the way to the cycles, and what slowed them down.
+fn warnings(job: &Job, played: &Played) -> Vec<String> {
+    let file = &job.drawing.file;
+    let own = job.drawing.warnings.iter();
+    let mut warnings: Vec<String> = own.map(ToString::to_string).collect();
+    if job.compiled.moves_in_z {
+        warnings.push(format!(
+            "{file}: the drawing moves in Z, which no axis drives"
+        ));
+    }
+    match job.compiled.dropped {
+        0 => {}
+        1 => warnings.push(format!(
+            "{file}: 1 point left out that has the counts of the point before"
+        )),
+        many => warnings.push(format!(
+            "{file}: {many} points left out that have the counts of the point before"
+        )),
+    }
+    if job.compiled.targets.is_empty() {
+        warnings.push(format!("{file}: no axis moves"));
+    }
+    for (axis, name) in AXIS_NAMES.iter().enumerate() {
+        let scans = played.saturated_scans[axis];
+        if scans > 0 {
+            let speed = job.settings.axes[axis].rated_speed_rev_per_min;
+            warnings.push(format!(
+                "{name}: in {scans} scans the position loop asks for more than {speed} rev/min"
+            ));
+        }
+    }
+    warnings
+}

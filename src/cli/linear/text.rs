@@ -1,0 +1,119 @@
+//! The summary for people.
+
+use super::rows::{Figures, Row};
+use super::summary::{Summary, SystemSummary};
+use std::fmt::Write;
+
+/// Cycles in the table, unless all are asked for.
+const SHOWN: usize = 12;
+
+impl Summary {
+    /// The summary for people, with the worst cycles or with all.
+    pub fn text(&self, all: bool) -> String {
+        let mut text = String::new();
+        // Writing to a string does not fail.
+        let _ = self.write(&mut text, all);
+        text
+    }
+
+    fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
+        let Summary {
+            input,
+            circuit,
+            variant,
+            scans,
+            ticks,
+            seconds,
+            clock_hz,
+            ..
+        } = self;
+        writeln!(
+            text,
+            "{input} on {circuit} ({variant}): {scans} scans, {ticks} ticks, {seconds:.3} s at \
+             {clock_hz} Hz\n"
+        )?;
+        writeln!(
+            text,
+            "system          scans  seconds       end position  deviation  contour error  \
+             of rapid moves"
+        )?;
+        totals(text, "interpolator", &self.interpolator)?;
+        totals(text, "conventional", &self.conventional)?;
+        text.push('\n');
+        if !self.segments.is_empty() {
+            self.table(text, all)?;
+        }
+        for warning in &self.warnings {
+            writeln!(text, "warning: {warning}")?;
+        }
+        for file in &self.files {
+            writeln!(text, "wrote {file}")?;
+        }
+        Ok(())
+    }
+
+    fn table(&self, text: &mut String, all: bool) -> std::fmt::Result {
+        writeln!(
+            text,
+            "{:44}  {:^33}  {:^33}",
+            "", "interpolator", "conventional"
+        )?;
+        let figures = "scans  deviation  contour error";
+        writeln!(
+            text,
+            "segment  line   pen      dx       dy  master    {figures}    {figures}"
+        )?;
+        let mut rows: Vec<&Row> = self.segments.iter().collect();
+        if !all {
+            // What is drawn matters more.
+            rows.sort_by(|a, b| {
+                let error = |row: &Row| row.interpolator.contour_error_um;
+                a.rapid.cmp(&b.rapid).then(error(b).total_cmp(&error(a)))
+            });
+            rows.truncate(SHOWN);
+        }
+        for row in &rows {
+            writeln!(
+                text,
+                "{:>7}  {:>4}  {:>4}  {:>6}  {:>7}  {:>6}  {}  {}",
+                row.segment,
+                row.line,
+                if row.rapid { "up" } else { "down" },
+                row.delta[0],
+                row.delta[1],
+                row.master,
+                columns(&row.interpolator),
+                columns(&row.conventional),
+            )?;
+        }
+        let more = self.segments.len() - rows.len();
+        if more > 0 {
+            writeln!(
+                text,
+                "and {more} more, of smaller contour error or with the pen up: --segments shows all"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+fn totals(text: &mut String, name: &str, system: &SystemSummary) -> std::fmt::Result {
+    let [x, y] = system.end_position;
+    writeln!(
+        text,
+        "{name:<13} {:>7} {:>8.3}  {:>17}  {:>5.3} LSB  {:>10.1} um  {:>11.1} um",
+        system.scans,
+        system.seconds,
+        format!("{x}, {y}"),
+        system.deviation_max_lsb,
+        system.contour_error_max_um,
+        system.contour_error_max_rapid_um,
+    )
+}
+
+fn columns(figures: &Figures) -> String {
+    format!(
+        "{:>7}  {:>5.3} LSB  {:>10.1} um",
+        figures.scans, figures.deviation_lsb, figures.contour_error_um
+    )
+}

@@ -1,0 +1,176 @@
+//! Whether a run did what its targets say.
+
+use super::{Job, Runs};
+use motion_rtl::linear_interpolator::measure::{Played, Segment};
+use motion_rtl::linear_interpolator::settings::{AXIS_NAMES, Rule};
+use motion_rtl::linear_interpolator::targets::Target;
+
+/// What is wrong with a run; empty where nothing is.
+pub fn complaints(job: &Job, runs: &Runs, segments: [&[Segment]; 2]) -> Vec<String> {
+    let targets = &job.compiled.targets;
+    let rule = Some(job.settings.rule);
+    let mut all = of_system(&runs.interpolator, segments[0], targets, rule);
+    // That its path bends is what the conventional system is there to show.
+    let others = of_system(&runs.conventional, segments[1], targets, None);
+    all.extend(
+        others
+            .into_iter()
+            .map(|text| format!("conventional: {text}")),
+    );
+    all
+}
+
+fn of_system(
+    played: &Played,
+    segments: &[Segment],
+    targets: &[Target],
+    rule: Option<Rule>,
+) -> Vec<String> {
+    let mut complaints = Vec::new();
+    if played.cycles.len() != targets.len() {
+        complaints.push(format!(
+            "{} cycles where there are {} targets",
+            played.cycles.len(),
+            targets.len()
+        ));
+    }
+    let ends = |target: &Target| [target.x, target.y];
+    let pairs = played.cycles.iter().zip(targets).enumerate();
+    let astray = pairs.filter(|(_, (cycle, target))| cycle.to != ends(target));
+    complaints.extend(first(astray.map(|(number, (cycle, target))| {
+        let (to, wanted) = (cycle.to, ends(target));
+        format!("segment {number} goes to {to:?}, its target is {wanted:?}")
+    })));
+    let numbered = segments.iter().enumerate();
+    let missed = numbered
+        .clone()
+        .filter(|(_, segment)| segment.end_error != [0; 2]);
+    complaints.extend(first(missed.map(|(number, segment)| {
+        let error = segment.end_error;
+        format!("segment {number} ends {error:?} counts off its target")
+    })));
+    if let Some(rule) = rule {
+        let bent = numbered.filter(|(_, segment)| !segment.deviation.is_within(rule));
+        complaints.extend(first(bent.map(|(number, segment)| {
+            let (lsb, rule) = (segment.deviation.lsb(), rule.name());
+            format!("segment {number} is {lsb:.3} LSB off its line, which {rule} does not allow")
+        })));
+    }
+    if played.late {
+        complaints.push("a scan came before the command of the one before was ready".into());
+    }
+    for (axis, name) in AXIS_NAMES.iter().enumerate() {
+        if played.lost[axis] {
+            complaints.push(format!("{name}: the feedback counter lost counts"));
+        }
+    }
+    if played.refused > 0 {
+        complaints.push(format!("{} targets found no room", played.refused));
+    }
+    complaints
+}
+
+/// The first of some complaints of a kind, and how many more there are.
+fn first(mut all: impl Iterator<Item = String>) -> Option<String> {
+    let text = all.next()?;
+    Some(match all.count() {
+        0 => text,
+        more => format!("{text} (and {more} more like it)"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motion_rtl::linear_interpolator::measure::{Cycle, ScanRecord};
+
+    fn target(x: i64, y: i64) -> Target {
+        Target {
+            x,
+            y,
+            speed: 1,
+            acceleration_scans: 1,
+            deceleration_scans: 1,
+            line: 1,
+            rapid: false,
+        }
+    }
+
+    /// A cycle from the origin to (4, 2) through these commands.
+    fn played(commands: &[[i64; 2]]) -> Played {
+        let record = |(scan, command): (usize, &[i64; 2])| ScanRecord {
+            tick: scan as u64,
+            command: *command,
+            motor: [0.0; 2],
+        };
+        Played {
+            records: commands.iter().enumerate().map(record).collect(),
+            cycles: vec![Cycle {
+                from: [0, 0],
+                to: [4, 2],
+                master: 0,
+                scans: 0..commands.len(),
+                end: *commands.last().unwrap(),
+            }],
+            ..Played::default()
+        }
+    }
+
+    fn complaints(played: &Played, rule: Rule) -> Vec<String> {
+        let segments = played.segments([1.0; 2]);
+        of_system(played, &segments, &[target(4, 2)], Some(rule))
+    }
+
+    #[test]
+    fn every_kind_is_complained_of() {
+        let good = played(&[[1, 0], [2, 1], [3, 1], [4, 2]]);
+        assert_eq!(complaints(&good, Rule::Floor), [""; 0]);
+        assert_eq!(complaints(&good, Rule::Centred), [""; 0]);
+
+        let off = played(&[[2, 2], [4, 2]]);
+        assert_eq!(
+            complaints(&off, Rule::Floor),
+            ["segment 0 is 1.000 LSB off its line, which floor does not allow"]
+        );
+        let short = played(&[[2, 1], [3, 1]]);
+        assert_eq!(
+            complaints(&short, Rule::Floor),
+            ["segment 0 ends [-1, -1] counts off its target"]
+        );
+        let bad = Played {
+            late: true,
+            refused: 3,
+            lost: [false, true],
+            ..good.clone()
+        };
+        assert_eq!(
+            complaints(&bad, Rule::Floor),
+            [
+                "a scan came before the command of the one before was ready",
+                "y: the feedback counter lost counts",
+                "3 targets found no room",
+            ]
+        );
+        let segments = good.segments([1.0; 2]);
+        assert_eq!(
+            of_system(&good, &segments, &[target(4, 3), target(0, 0)], None),
+            [
+                "1 cycles where there are 2 targets",
+                "segment 0 goes to [4, 2], its target is [4, 3]",
+            ]
+        );
+        // The conventional system may be off its line.
+        let segments = off.segments([1.0; 2]);
+        let free = of_system(&off, &segments, &[target(4, 2)], None);
+        assert_eq!(free, [""; 0]);
+    }
+
+    #[test]
+    fn the_first_of_many_stands_for_all() {
+        let all = |count: usize| first((0..count).map(|k| format!("{k} ends")));
+        assert_eq!(all(0), None);
+        assert_eq!(all(1).unwrap(), "0 ends");
+        assert_eq!(all(2).unwrap(), "0 ends (and 1 more like it)");
+        assert_eq!(all(4).unwrap(), "0 ends (and 3 more like it)");
+    }
+}

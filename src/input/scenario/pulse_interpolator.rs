@@ -1,0 +1,106 @@
+//! The keys of the pulse interpolator.
+
+use super::Runnable;
+use serde::Deserialize;
+use std::path::PathBuf;
+
+/// A scenario of the pulse interpolator. Every key but `circuit` has a default.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// The circuit that runs.
+    pub circuit: Runnable,
+    /// The drawing or part program; in a file relative to that file.
+    pub input: Option<PathBuf>,
+    /// What RST clears.
+    #[serde(default)]
+    pub variant: VariantName,
+    /// Reference clock in Hz.
+    #[serde(default = "default::clock_hz")]
+    pub clock_hz: u64,
+    /// Steps per millimetre of X, Y and perhaps Z; negative where the motor turns the other way.
+    /// Without it 80 for X, for Y and, where the input moves in Z, for Z.
+    pub steps_per_mm: Option<Vec<f64>>,
+    /// Feed of the moves that set none, in mm/min.
+    #[serde(default = "default::feed")]
+    pub feed_mm_per_min: f64,
+    /// Speed of pen-up and G0 moves, in mm/min.
+    #[serde(default = "default::rapid")]
+    pub rapid_mm_per_min: f64,
+    /// Largest sudden change of velocity at a corner, in mm/min.
+    #[serde(default = "default::corner")]
+    pub corner_mm_per_min: f64,
+    /// Largest acceleration along the path and, on arcs, across it, in mm/s².
+    #[serde(default = "default::acceleration")]
+    pub acceleration_mm_per_s2: f64,
+    /// Unit time T2 of lines, in ticks.
+    #[serde(default = "default::unit")]
+    pub line_unit_ticks: u32,
+    /// Unit time T1 of arcs, in ticks; without it that of lines.
+    pub arc_unit_ticks: Option<u32>,
+    /// Shortest high time of the step lines, in ticks.
+    #[serde(default = "default::high")]
+    pub step_high_ticks: u32,
+    /// Shortest low time of the step lines, in ticks.
+    #[serde(default = "default::low")]
+    pub step_low_ticks: u32,
+    /// Shortest time from a change of direction to the next step, in ticks.
+    #[serde(default = "default::setup")]
+    pub dir_setup_ticks: u32,
+    /// Shortest time from a step to a change of direction, in ticks.
+    #[serde(default = "default::hold")]
+    pub dir_hold_ticks: u32,
+    /// The most ticks that go into the VCD unless a window is asked for.
+    #[serde(default = "default::vcd_ticks")]
+    pub vcd_ticks: u64,
+}
+
+/// The variant by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum VariantName {
+    /// RST clears the counter, the toggle and the flip-flop.
+    #[default]
+    Safe,
+    /// RST clears the flip-flop alone, as the text has it.
+    Literal,
+}
+
+/// What a key is worth that is not given: what the compiler's settings are by default.
+mod default {
+    use crate::pulse_interpolator::Settings;
+
+    pub(super) fn clock_hz() -> u64 {
+        Settings::default().clock_hz
+    }
+    pub(super) fn feed() -> f64 {
+        Settings::default().motion.feed_mm_per_min
+    }
+    pub(super) fn rapid() -> f64 {
+        Settings::default().motion.rapid_mm_per_min
+    }
+    pub(super) fn corner() -> f64 {
+        Settings::default().motion.corner_mm_per_min
+    }
+    pub(super) fn acceleration() -> f64 {
+        Settings::default().motion.acceleration_mm_per_s2
+    }
+    pub(super) fn unit() -> u32 {
+        Settings::default().line_unit_ticks
+    }
+    pub(super) fn high() -> u32 {
+        Settings::default().timing.min_high
+    }
+    pub(super) fn low() -> u32 {
+        Settings::default().timing.min_low
+    }
+    pub(super) fn setup() -> u32 {
+        Settings::default().timing.dir_setup
+    }
+    pub(super) fn hold() -> u32 {
+        Settings::default().timing.dir_hold
+    }
+    pub(super) fn vcd_ticks() -> u64 {
+        super::super::VCD_TICKS
+    }
+}

@@ -1,0 +1,247 @@
+//! A drawing's cycles through the controller, with a motor on each axis: on the linear interpolator,
+//! and on the conventional system.
+
+use super::measure::{Cycle, Played, ScanRecord};
+use super::settings::{AxisSettings, Settings};
+use super::targets::Target;
+use super::{CommandSource, Controller, Conventional, LinearInterpolator, Rule, controller};
+use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
+use crate::logic::Sim;
+use crate::plant::{ParameterError, ServoAxis, ServoParameters, waves};
+use fixed::types::U8F8;
+use std::ops::ControlFlow;
+
+/// Position width of the controller that plays a job.
+const P: usize = 32;
+/// Width of its times.
+const T: usize = 12;
+/// Full scale of its D/A converters of 16 bits.
+const FULL_SCALE: i64 = (1 << 15) - 1;
+/// Scans without a new command after which an axis that is not in position is given up.
+const PATIENCE: u64 = 20_000;
+
+/// A controller with the motors beside it in the waves.
+pub type Plotter<C> = With<Controller<C>, waves::Axes>;
+
+/// The plotter with the linear interpolator.
+pub fn plotter(rule: Rule) -> Plotter<LinearInterpolator> {
+    With::new(Controller::new(LinearInterpolator::new(rule)))
+}
+
+/// The plotter with the conventional system of Fig. 3.
+pub fn conventional() -> Plotter<Conventional> {
+    With::new(Controller::new(Conventional::default()))
+}
+
+/// Why a job cannot be played.
+#[derive(Debug, thiserror::Error)]
+pub enum JobError {
+    /// A motor cannot be what the settings say.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// What an observer objects to.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+impl AxisSettings {
+    /// Driver, motor and encoder of this axis.
+    fn servo(&self) -> ServoParameters {
+        ServoParameters {
+            velocity_loop_s: self.velocity_loop_ms / 1e3,
+            inertia_kg_m2: self.inertia_kg_m2,
+            max_torque_nm: self.max_torque_nm,
+            friction_nm: self.friction_nm,
+            rated_speed_rad_per_s: self.rated_speed_rev_per_min / 60.0 * std::f64::consts::TAU,
+            counts_per_rev: f64::from(self.counts_per_rev),
+        }
+    }
+
+    /// Kp in LSB of the D/A converter a count.
+    pub fn gain(&self) -> U8F8 {
+        let lsb_per_count = self.position_gain_per_s * FULL_SCALE as f64 / self.rated_counts_per_s();
+        U8F8::saturating_from_num(lsb_per_count)
+    }
+}
+
+/// What one tick shows.
+struct Seen {
+    scan: bool,
+    start: bool,
+    load: bool,
+    ready: bool,
+    busy: bool,
+    late: bool,
+    refused: bool,
+    lost: [bool; 2],
+    saturated: [bool; 2],
+    command: [i64; 2],
+    flow: ControlFlow<()>,
+}
+
+fn see<C: CommandSource<P, T>>(
+    now: &Sample<'_, Plotter<C>>,
+    observer: &mut impl Observer<Plotter<C>>,
+) -> Result<Seen, RunError> {
+    let w = now.w;
+    Ok(Seen {
+        flow: observer.sample(now)?,
+        scan: w.scan.get(),
+        start: w.start.get(),
+        load: w.load.get(),
+        ready: w.ready.get(),
+        busy: w.busy.get(),
+        late: w.late.get(),
+        refused: w.refused.get(),
+        lost: [w.lost_x.get(), w.lost_y.get()],
+        saturated: [&w.loop_x, &w.loop_y].map(|axis| axis.w.saturated.get()),
+        command: [w.command_x.get(), w.command_y.get()],
+    })
+}
+
+/// The control computer: gives targets, and writes down what comes of them.
+struct Bench<'a> {
+    targets: &'a [Target],
+    pushed: usize,
+    /// A push stood in the tick before.
+    pushing: bool,
+    ready: bool,
+    played: Played,
+    /// The cycle whose command came with the tick before, and which the next scan is to record.
+    loaded: Option<usize>,
+    fresh: Option<usize>,
+    /// Scans since a new command.
+    idle: u64,
+}
+
+impl Bench<'_> {
+    /// The target that is given in this tick.
+    fn push(&mut self) -> Option<Target> {
+        let target = self.targets.get(self.pushed).copied();
+        // The flag is that of the tick before: full or not, it has not changed without a push.
+        let target = target.filter(|_| self.ready && !self.pushing);
+        self.pushing = target.is_some();
+        self.pushed += usize::from(self.pushing);
+        target
+    }
+
+    /// Whether the run goes on.
+    fn take(&mut self, seen: &Seen, motor: [f64; 2]) -> bool {
+        let played = &mut self.played;
+        played.ticks += 1;
+        self.ready = seen.ready;
+        if let Some(cycle) = self.loaded.take() {
+            played.cycles[cycle].end = seen.command;
+            self.fresh = Some(cycle);
+            self.idle = 0;
+        }
+        if seen.scan {
+            self.idle += 1;
+            let at = played.records.len();
+            played.records.push(ScanRecord {
+                tick: played.ticks - 1,
+                command: seen.command,
+                motor,
+            });
+            if let Some(cycle) = self.fresh.take() {
+                let scans = &mut played.cycles[cycle].scans;
+                let start = if scans.is_empty() { at } else { scans.start };
+                *scans = start..at + 1;
+            }
+            for axis in 0..2 {
+                played.saturated_scans[axis] += u64::from(seen.saturated[axis]);
+            }
+        }
+        if seen.start
+            && let Some(target) = self.targets.get(played.cycles.len())
+        {
+            let to = [target.x, target.y];
+            let way = [0, 1].map(|axis| to[axis].abs_diff(seen.command[axis]));
+            played.cycles.push(Cycle {
+                from: seen.command,
+                to,
+                master: usize::from(way[0] < way[1]),
+                scans: 0..0,
+                end: seen.command,
+            });
+        }
+        if seen.load {
+            self.loaded = played.cycles.len().checked_sub(1);
+        }
+        played.late |= seen.late;
+        played.lost = seen.lost;
+        played.unsettled = self.idle > PATIENCE;
+        let given = self.pushed == self.targets.len() && !self.pushing;
+        let over = given && !seen.busy && self.loaded.is_none() && self.fresh.is_none();
+        if over && seen.refused {
+            played.refused = (self.targets.len() - played.cycles.len()) as u64;
+        }
+        !over && !played.unsettled && seen.flow.is_continue()
+    }
+}
+
+/// Plays the cycles on `circuit`, with motors as `settings` have them, seen by `observer` too.
+///
+/// # Errors
+/// A setting of a motor is out of range, or what `observer` objects to.
+pub fn play<C: CommandSource<P, T>>(
+    circuit: &Plotter<C>,
+    targets: &[Target],
+    settings: &Settings,
+    mut observer: impl Observer<Plotter<C>>,
+) -> Result<Played, JobError> {
+    let tick_s = 1.0 / settings.clock_hz as f64;
+    let [x, y] = &settings.axes;
+    let mut servos = [
+        ServoAxis::new(&x.servo(), tick_s)?,
+        ServoAxis::new(&y.servo(), tick_s)?,
+    ];
+    let gains = [x, y].map(|axis| u64::from(axis.gain().to_bits()));
+    let mut bench = Bench {
+        targets,
+        pushed: 0,
+        pushing: false,
+        ready: true,
+        played: Played::default(),
+        loaded: None,
+        fresh: None,
+        idle: 0,
+    };
+    let mut simulator = Simulator::new(circuit);
+    loop {
+        let q = simulator.registers();
+        let references = [&q.loop_x, &q.loop_y].map(|axis| axis.control.reference.get());
+        let [(a_x, b_x), (a_y, b_y)] =
+            [0, 1].map(|axis: usize| servos[axis].step(references[axis], FULL_SCALE));
+        let target = bench.push();
+        let i = controller::In::<Sim, P, T, 16, 24> {
+            push: target.is_some().into(),
+            target_x: target.map_or(0, |target| target.x).into(),
+            target_y: target.map_or(0, |target| target.y).into(),
+            speed: target.map_or(0, |target| target.speed).into(),
+            acceleration_time: target.map_or(0, |target| target.acceleration_scans).into(),
+            deceleration_time: target.map_or(0, |target| target.deceleration_scans).into(),
+            abort: false.into(),
+            clear: false.into(),
+            exact_stop: settings.exact_stop.into(),
+            scan_period: u64::from(settings.scan_ticks).into(),
+            gain_x: gains[0].into(),
+            gain_y: gains[1].into(),
+            window: u64::from(settings.in_position_counts).into(),
+            a_x: a_x.into(),
+            b_x: b_x.into(),
+            a_y: a_y.into(),
+            b_y: b_y.into(),
+        };
+        let i = WithIn {
+            i,
+            beside: waves::Signals::of(&servos),
+        };
+        let motor = [0, 1].map(|axis: usize| servos[axis].position_counts());
+        let (next, seen) = simulator.step(i, |now| see(now, &mut observer));
+        simulator = next;
+        if !bench.take(&seen?, motor) {
+            return Ok(bench.played);
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! What the linear interpolator is run with: clock and scan, machine, motion, axes.
+
+use super::targets::{LATENCY_TICKS, LONGEST_RAMP, TargetError};
+use crate::plan::FEED_RANGE;
+use serde::Deserialize;
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+
+/// Clocks that are accepted, in Hz.
+pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
+
+/// Scans that are accepted, in ticks: the dividers must be done before the scan is over.
+pub const SCAN_RANGE_TICKS: RangeInclusive<u32> = LATENCY_TICKS..=16_777_215;
+
+/// Encoder counts per millimetre that are accepted.
+pub const COUNTS_PER_MM_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
+
+/// Names of the axes.
+pub const AXIS_NAMES: [&str; 2] = ["x", "y"];
+
+/// How the integrator 24 divides: what becomes of the remainder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rule {
+    /// Towards minus infinity: the remainder has the sign of the divisor. A return stroke meets the
+    /// points of the stroke.
+    #[default]
+    Floor,
+    /// Towards zero: the remainder has the sign of the dividend.
+    Truncating,
+    /// Towards minus infinity, from a remainder of half the divisor on: half the deviation.
+    Centred,
+}
+
+impl Rule {
+    /// The name it has in scenarios.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Rule::Floor => "floor",
+            Rule::Truncating => "truncating",
+            Rule::Centred => "centred",
+        }
+    }
+}
+
+/// What becomes of a move that is too short to reach its speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ShortMoves {
+    /// It keeps its acceleration: the times become shorter.
+    #[default]
+    ConstantAcceleration,
+    /// It keeps its times: the acceleration becomes smaller.
+    ConstantTime,
+}
+
+/// One axis: position loop, driver, motor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisSettings {
+    /// Kp of the position loop.
+    pub position_gain_per_s: f64,
+    /// Speed of the motor at the largest speed command.
+    pub rated_speed_rev_per_min: f64,
+    /// Counts per revolution of the motor, four for each line of its encoder.
+    pub counts_per_rev: u32,
+    /// Time constant of the driver's velocity loop.
+    pub velocity_loop_ms: f64,
+    /// Inertia of motor and load, at the motor.
+    pub inertia_kg_m2: f64,
+    /// Largest torque of the motor.
+    pub max_torque_nm: f64,
+    /// Friction of motor and load, at the motor.
+    pub friction_nm: f64,
+}
+
+impl AxisSettings {
+    /// Speed at the largest speed command, in counts per second.
+    #[must_use]
+    pub fn rated_counts_per_s(&self) -> f64 {
+        self.rated_speed_rev_per_min / 60.0 * f64::from(self.counts_per_rev)
+    }
+}
+
+/// Settings of [`compile`](super::targets::compile) and of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// How the integrator divides.
+    pub rule: Rule,
+    /// Reference clock in Hz.
+    pub clock_hz: u64,
+    /// Ticks of a scan.
+    pub scan_ticks: u32,
+    /// Encoder counts per millimetre of X and of Y.
+    pub counts_per_mm: [f64; 2],
+    /// Feed of the moves that set none, in mm/min.
+    pub feed_mm_per_min: f64,
+    /// Speed of rapid moves, in mm/min.
+    pub rapid_mm_per_min: f64,
+    /// Time from rest to the speed of the move.
+    pub acceleration_ms: f64,
+    /// Time from the speed of the move to rest.
+    pub deceleration_ms: f64,
+    /// What becomes of a move that is too short to reach its speed.
+    pub short_moves: ShortMoves,
+    /// Largest deviation of a chord from its arc.
+    pub chord_tolerance_mm: f64,
+    /// A cycle begins only when both axes are in position.
+    pub exact_stop: bool,
+    /// Largest position error of an axis that is in position.
+    pub in_position_counts: u32,
+    /// X and Y.
+    pub axes: [AxisSettings; 2],
+}
+
+impl Default for Settings {
+    /// A small plotter: 5 µm a count, 4000 counts a revolution, 3000 rev/min, 1 ms of scan at 1 MHz.
+    fn default() -> Self {
+        Self {
+            rule: Rule::default(),
+            clock_hz: 1_000_000,
+            scan_ticks: 1000,
+            counts_per_mm: [200.0; 2],
+            feed_mm_per_min: 6000.0,
+            rapid_mm_per_min: 18_000.0,
+            acceleration_ms: 100.0,
+            deceleration_ms: 100.0,
+            short_moves: ShortMoves::default(),
+            chord_tolerance_mm: 0.01,
+            exact_stop: true,
+            in_position_counts: 4,
+            axes: [AxisSettings {
+                position_gain_per_s: 40.0,
+                rated_speed_rev_per_min: 3000.0,
+                counts_per_rev: 4000,
+                velocity_loop_ms: 2.0,
+                inertia_kg_m2: 3e-5,
+                max_torque_nm: 0.9,
+                friction_nm: 0.02,
+            }; 2],
+        }
+    }
+}
+
+impl Settings {
+    /// Duration of a scan.
+    #[must_use]
+    pub fn scan_s(&self) -> f64 {
+        f64::from(self.scan_ticks) / self.clock_hz as f64
+    }
+
+    /// Fastest feed in any direction, in mm/min: an encoder is counted at one count per tick.
+    #[must_use]
+    pub fn fastest_mm_per_min(&self) -> f64 {
+        let [x, y] = self.counts_per_mm;
+        (60.0 * self.clock_hz as f64 / x.max(y)).min(*FEED_RANGE.end())
+    }
+
+    /// A time in whole scans, at least one.
+    pub(super) fn scans(&self, ms: f64) -> u64 {
+        (ms / 1e3 / self.scan_s()).round().max(1.0) as u64
+    }
+
+    /// Checks every field.
+    ///
+    /// # Errors
+    ///
+    /// [`TargetError::Setting`] names the first field at fault, its value and what is allowed.
+    pub fn validate(&self) -> Result<(), TargetError> {
+        check("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
+        check("scan_ticks", self.scan_ticks, &SCAN_RANGE_TICKS)?;
+        for (axis, value) in self.counts_per_mm.into_iter().enumerate() {
+            check_axis("counts_per_mm", axis, value, &COUNTS_PER_MM_RANGE)?;
+        }
+        let feeds = *FEED_RANGE.start()..=self.fastest_mm_per_min();
+        check("feed_mm_per_min", self.feed_mm_per_min, &feeds)?;
+        check("rapid_mm_per_min", self.rapid_mm_per_min, &feeds)?;
+        let times = 0.0..=LONGEST_RAMP as f64 * 1e3 * self.scan_s();
+        check("acceleration_ms", self.acceleration_ms, &times)?;
+        check("deceleration_ms", self.deceleration_ms, &times)?;
+        let tolerance = self.chord_tolerance_mm;
+        check("chord_tolerance_mm", tolerance, &(1e-6..=1e3))?;
+        let counts = self.in_position_counts;
+        check("in_position_counts", counts, &(1..=1_000_000))?;
+        (0..2).try_for_each(|axis| self.validate_axis(axis))
+    }
+
+    fn validate_axis(&self, axis: usize) -> Result<(), TargetError> {
+        let AxisSettings {
+            position_gain_per_s: gain,
+            rated_speed_rev_per_min: speed,
+            counts_per_rev: counts,
+            velocity_loop_ms,
+            inertia_kg_m2: inertia,
+            max_torque_nm: torque,
+            friction_nm: friction,
+        } = self.axes[axis];
+        // More than the whole error in one scan, and the loop overshoots.
+        let gains = 1e-3..=1.0 / self.scan_s();
+        check_axis("position_gain_per_s", axis, gain, &gains)?;
+        check_axis("counts_per_rev", axis, counts, &(4..=100_000_000))?;
+        let fastest = 60.0 * self.clock_hz as f64 / f64::from(counts);
+        let speeds = 1e-3..=fastest.min(1e6);
+        check_axis("rated_speed_rev_per_min", axis, speed, &speeds)?;
+        check_axis("velocity_loop_ms", axis, velocity_loop_ms, &(1e-3..=1e4))?;
+        check_axis("inertia_kg_m2", axis, inertia, &(1e-9..=1e3))?;
+        check_axis("max_torque_nm", axis, torque, &(1e-6..=1e6))?;
+        if !(0.0..torque).contains(&friction) {
+            let value = format!("{friction} for {}", AXIS_NAMES[axis]);
+            let allowed = format!("0 to below max_torque_nm, {torque}");
+            return Err(TargetError::setting("friction_nm", value, allowed));
+        }
+        Ok(())
+    }
+}
+
+fn check<T: PartialOrd + Display>(
+    field: &'static str,
+    value: T,
+    allowed: &RangeInclusive<T>,
+) -> Result<(), TargetError> {
+    if allowed.contains(&value) {
+        return Ok(());
+    }
+    let range = format!("{} to {}", allowed.start(), allowed.end());
+    Err(TargetError::setting(field, value, range))
+}
+
+fn check_axis<T: PartialOrd + Display>(
+    field: &'static str,
+    axis: usize,
+    value: T,
+    allowed: &RangeInclusive<T>,
+) -> Result<(), TargetError> {
+    if allowed.contains(&value) {
+        return Ok(());
+    }
+    let range = format!("{} to {}", allowed.start(), allowed.end());
+    let value = format!("{value} for {}", AXIS_NAMES[axis]);
+    Err(TargetError::setting(field, value, range))
+}

@@ -1,0 +1,229 @@
+//! A drawing as positioning cycles: the target data 20.
+//!
+//! Every straight move is one cycle, every arc as many as it has chords. Targets are the drawing's
+//! points rounded to encoder counts one by one, so that no error adds up. A Z is ignored.
+
+use super::settings::{AXIS_NAMES, Settings, ShortMoves};
+use crate::input::{Drawing, Point};
+use crate::plan::{PlanError, check, chords};
+
+/// Ticks that the dividers need within a scan, at most.
+pub const LATENCY_TICKS: u32 = 400;
+
+/// Longest time of acceleration and of deceleration, in scans.
+pub const LONGEST_RAMP: u64 = 4095;
+
+/// Farthest position, in counts on either side of zero.
+pub const REACH_COUNTS: i64 = 1 << 30;
+
+/// The most cycles that a drawing may become.
+pub const MOST_TARGETS: usize = 1 << 20;
+
+/// A speed this little below a whole number is that number: a rounding of floating point must not
+/// cost a count per scan.
+const ROUNDING: f64 = 1e-12;
+
+/// One positioning cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Target {
+    /// X in counts.
+    pub x: i64,
+    /// Y in counts.
+    pub y: i64,
+    /// Speed of the axis with the longer way, in counts per scan, 1 or more.
+    pub speed: u64,
+    /// Time from rest to that speed, in scans, 1 or more.
+    pub acceleration_scans: u64,
+    /// Time from that speed to rest, in scans, 1 or more.
+    pub deceleration_scans: u64,
+    /// Line of the input; 0 for the way to a start that is not the origin.
+    pub line: usize,
+    /// Whether the pen is up.
+    pub rapid: bool,
+}
+
+/// What a drawing became.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Targets {
+    /// The cycles. They begin at the origin, where the command registers are at power-on.
+    pub targets: Vec<Target>,
+    /// Points left out because they have the counts of the point before.
+    pub dropped: usize,
+    /// The drawing moves in Z, which no axis drives.
+    pub moves_in_z: bool,
+}
+
+/// Why a drawing cannot be made into cycles.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TargetError {
+    /// A setting is outside what is allowed.
+    #[error("{field} = {value}: allowed is {allowed}")]
+    Setting {
+        /// Name of the setting.
+        field: &'static str,
+        /// Its value.
+        value: String,
+        /// What would be right.
+        allowed: String,
+    },
+    /// The drawing has a value that cannot be computed with.
+    #[error(transparent)]
+    Drawing(#[from] PlanError),
+    /// A feed at which an encoder makes more than one count per tick.
+    #[error("line {line}: feed {value} mm/min: allowed are up to {most}")]
+    Feed {
+        /// Line of the input.
+        line: usize,
+        /// The feed in mm/min.
+        value: f64,
+        /// The fastest that can be counted.
+        most: f64,
+    },
+    /// A position is out of reach.
+    #[error("line {line}: {axis} = {counts} counts: allowed are -{REACH_COUNTS} to {REACH_COUNTS}")]
+    Position {
+        /// Line of the input.
+        line: usize,
+        /// "x" or "y".
+        axis: &'static str,
+        /// The position in counts.
+        counts: f64,
+    },
+    /// More cycles than can be played.
+    #[error("line {line}: more than {MOST_TARGETS} cycles")]
+    TooMany {
+        /// Line of the input.
+        line: usize,
+    },
+}
+
+impl TargetError {
+    pub(super) fn setting(
+        field: &'static str,
+        value: impl ToString,
+        allowed: impl ToString,
+    ) -> Self {
+        Self::Setting {
+            field,
+            value: value.to_string(),
+            allowed: allowed.to_string(),
+        }
+    }
+}
+
+/// Makes the cycles of a drawing.
+///
+/// # Errors
+///
+/// A setting outside its range; a drawing with a coordinate, a feed or a radius that cannot be
+/// computed with; a feed that an encoder cannot be counted at; a position out of reach; more than
+/// [`MOST_TARGETS`] cycles.
+pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<Targets, TargetError> {
+    settings.validate()?;
+    check(drawing)?;
+    let mut compiler = Compiler {
+        settings,
+        at: [0; 2],
+        made: Targets::default(),
+    };
+    let start = compiler.counts(0, drawing.start)?;
+    if start != [0; 2] {
+        compiler.go(start, settings.rapid_mm_per_min, 0, true)?;
+    }
+    let mut z = drawing.start[2];
+    for (index, step) in drawing.moves.iter().enumerate() {
+        compiler.made.moves_in_z |= step.to[2] != z;
+        z = step.to[2];
+        let feed = match step.rapid {
+            true => settings.rapid_mm_per_min,
+            false => step.feed_mm_per_min.unwrap_or(settings.feed_mm_per_min),
+        };
+        let (line, most) = (step.line, settings.fastest_mm_per_min());
+        if feed > most {
+            let value = feed;
+            return Err(TargetError::Feed { line, value, most });
+        }
+        for point in chords::ends(drawing, index, settings.chord_tolerance_mm) {
+            let to = compiler.counts(line, point)?;
+            compiler.go(to, feed, line, step.rapid)?;
+        }
+    }
+    Ok(compiler.made)
+}
+
+struct Compiler<'a> {
+    settings: &'a Settings,
+    at: [i64; 2],
+    made: Targets,
+}
+
+impl Compiler<'_> {
+    /// A point in counts.
+    fn counts(&self, line: usize, point: Point) -> Result<[i64; 2], TargetError> {
+        let mut counts = [0; 2];
+        for axis in 0..2 {
+            let exact = (point[axis] * self.settings.counts_per_mm[axis]).round();
+            if exact.abs() > REACH_COUNTS as f64 {
+                return Err(TargetError::Position {
+                    line,
+                    axis: AXIS_NAMES[axis],
+                    counts: exact,
+                });
+            }
+            counts[axis] = exact as i64;
+        }
+        Ok(counts)
+    }
+
+    /// Adds the cycle to a point; none where that is where the last one ends.
+    fn go(&mut self, to: [i64; 2], feed: f64, line: usize, rapid: bool) -> Result<(), TargetError> {
+        if to == self.at {
+            self.made.dropped += 1;
+            return Ok(());
+        }
+        if self.made.targets.len() == MOST_TARGETS {
+            return Err(TargetError::TooMany { line });
+        }
+        let settings = self.settings;
+        let way = [0, 1].map(|axis| to[axis] - self.at[axis]);
+        let [x_mm, y_mm] = [0, 1].map(|axis| way[axis] as f64 / settings.counts_per_mm[axis]);
+        let longer = way[0].unsigned_abs().max(way[1].unsigned_abs());
+        let scans = x_mm.hypot(y_mm) / (feed / 60.0) / settings.scan_s();
+        let speed = longer as f64 / scans;
+        let speed = (speed * (1.0 + ROUNDING)).floor().max(1.0) as u64;
+        let speed = speed.min(u64::from(settings.scan_ticks));
+        let [acceleration_scans, deceleration_scans] = ramps(settings, longer, speed);
+        self.made.targets.push(Target {
+            x: to[0],
+            y: to[1],
+            speed,
+            acceleration_scans,
+            deceleration_scans,
+            line,
+            rapid,
+        });
+        self.at = to;
+        Ok(())
+    }
+}
+
+/// Times of acceleration and deceleration over `distance` counts at `speed`.
+///
+/// The two ramps take V·(Ta + Td)/2. Over a shorter distance Δ the same accelerations lead to the
+/// times k·Ta and k·Td and to the peak k·V with k² = 2·Δ/(V·(Ta + Td)). Rounded up, they never lead
+/// to a larger acceleration.
+fn ramps(settings: &Settings, distance: u64, speed: u64) -> [u64; 2] {
+    let times = [settings.acceleration_ms, settings.deceleration_ms].map(|ms| settings.scans(ms));
+    let twice = 2 * u128::from(distance);
+    let ramps = u128::from(speed) * u128::from(times[0] + times[1]);
+    if settings.short_moves == ShortMoves::ConstantTime || twice >= ramps {
+        return times;
+    }
+    times.map(|time| {
+        let square = (u128::from(time).pow(2) * twice).div_ceil(ramps);
+        let root = square.isqrt();
+        let up = u128::from(root * root < square);
+        // No more than `time`, as 2·Δ is below V·(Ta + Td); at least 1, as Δ is.
+        (root + up) as u64
+    })
+}

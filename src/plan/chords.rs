@@ -1,0 +1,20 @@
+//! An arc as chords.
+
+use super::geometry::Curve;
+use crate::input::{Drawing, Point};
+
+/// The ends of the straight pieces that stand for `drawing.moves[index]`, its own end last: for a
+/// line that alone, for an arc as many as keep every piece within `tolerance_mm` of the arc in X
+/// and Y. The drawing must have passed [`super::check`].
+pub(crate) fn ends(
+    drawing: &Drawing,
+    index: usize,
+    tolerance_mm: f64,
+) -> impl Iterator<Item = Point> + use<> {
+    let curve = Curve::of_move(drawing, index);
+    let count = curve.chords(tolerance_mm);
+    (1..=count).map(move |k| match k == count {
+        true => curve.at(curve.length),
+        false => curve.at(curve.length * (k as f64 / count as f64)),
+    })
+}

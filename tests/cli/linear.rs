@@ -1,0 +1,511 @@
+//! `run` of the linear interpolator: summary, files, settings, refusals.
+
+use super::support::{Bench, LINE, keys, whole};
+use serde_json::{Value, json};
+use std::fs;
+
+const LINEAR: [&str; 2] = ["--set", "circuit=linear_interpolator"];
+
+const KEYS: &str = "one of `circuit`, `input`, `variant`, `clock_hz`, `scan_ticks`, \
+     `counts_per_mm`, `feed_mm_per_min`, `rapid_mm_per_min`, `acceleration_ms`, \
+     `deceleration_ms`, `short_moves`, `chord_tolerance_mm`, `exact_stop`, \
+     `in_position_counts`, `position_gain_per_s`, `rated_speed_rev_per_min`, `counts_per_rev`, \
+     `velocity_loop_ms`, `inertia_kg_m2`, `max_torque_nm`, `friction_nm`, `vcd_ticks`";
+
+/// The arguments of a run of a file on the linear interpolator.
+fn run<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&["run", file, "--no-vcd"], &LINEAR[..], more].concat()
+}
+
+fn summary(name: &str, text: &str, more: &[&str]) -> Value {
+    Bench::with(name, text).json(&run(name, more))
+}
+
+/// A number of a cycle, by its pointer.
+fn of(summary: &Value, segment: usize, pointer: &str) -> Value {
+    let segment = &summary["segments"][segment];
+    let found = segment.pointer(pointer);
+    found.unwrap_or_else(|| panic!("no {pointer}")).clone()
+}
+
+#[test]
+fn ten_millimetres_are_two_hundred_scans() {
+    // 2000 counts at 20 a scan, and 100 scans each to get there and to rest: no steady scan.
+    let summary = summary("line.hpgl", LINE, &[]);
+    let expected = [
+        "circuit",
+        "clock_hz",
+        "complaints",
+        "conventional",
+        "dropped_points",
+        "exact",
+        "files",
+        "input",
+        "interpolator",
+        "scan_ticks",
+        "scans",
+        "seconds",
+        "segments",
+        "ticks",
+        "variant",
+        "vcd_window",
+        "warnings",
+    ];
+    assert_eq!(keys(&summary), expected);
+    assert_eq!(summary["circuit"], "linear_interpolator");
+    assert_eq!(summary["input"], "line.hpgl");
+    assert_eq!(summary["variant"], "floor");
+    assert_eq!(summary["exact"], true);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(summary["warnings"], json!([]));
+    assert_eq!(summary["files"], json!(["waves/line.svg"]));
+    assert_eq!(summary["vcd_window"], Value::Null);
+    assert_eq!(whole(&summary, "/clock_hz"), 1_000_000);
+    assert_eq!(whole(&summary, "/scan_ticks"), 1000);
+    let (scans, ticks) = (whole(&summary, "/scans"), whole(&summary, "/ticks"));
+    assert!(
+        ticks >= scans * 1000 && scans > 200,
+        "{scans} scans, {ticks} ticks"
+    );
+    assert_eq!(summary["seconds"].as_f64().unwrap(), ticks as f64 / 1e6);
+
+    let system = [
+        "contour_error_max_rapid_um",
+        "contour_error_max_um",
+        "deviation_max_lsb",
+        "end_position",
+        "saturated_scans",
+        "scans",
+        "seconds",
+        "ticks",
+    ];
+    let row = [
+        "conventional",
+        "delta",
+        "from",
+        "interpolator",
+        "line",
+        "master",
+        "rapid",
+        "segment",
+        "speed_counts_per_scan",
+        "to",
+    ];
+    let figures = [
+        "contour_error_counts",
+        "contour_error_um",
+        "deviation_lsb",
+        "deviation_perpendicular_counts",
+        "end_error_counts",
+        "scans",
+        "seconds",
+    ];
+    assert_eq!(summary["segments"].as_array().unwrap().len(), 1);
+    assert_eq!(keys(&summary["segments"][0]), row);
+    for name in ["interpolator", "conventional"] {
+        assert_eq!(keys(&summary[name]), system);
+        assert_eq!(summary[name]["end_position"], json!([2000, 0]));
+        let played = of(&summary, 0, &format!("/{name}"));
+        assert_eq!(keys(&played), figures);
+        assert_eq!(whole(&played, "/scans"), 200);
+        assert_eq!(played["seconds"], 0.2);
+        assert_eq!(played["end_error_counts"], json!([0, 0]));
+        assert_eq!(played["deviation_lsb"], 0.0);
+    }
+    assert_eq!(of(&summary, 0, "/delta"), json!([2000, 0]));
+    assert_eq!(of(&summary, 0, "/master"), "x");
+    assert_eq!(of(&summary, 0, "/line"), 1);
+    assert_eq!(of(&summary, 0, "/rapid"), false);
+    assert_eq!(of(&summary, 0, "/speed_counts_per_scan"), 20);
+}
+
+#[test]
+fn the_path_of_the_conventional_system_bends_and_ours_does_not() {
+    // 40 mm by 3: at 20 and 1.5 counts a scan, where the conventional system has 1.
+    let summary = summary("flat.ngc", "G1 X40 Y3 F6018\nG0 X0 Y0\n", &[]);
+    assert_eq!(summary["exact"], true);
+    let lsb = |system: &str, segment| {
+        let pointer = format!("/{system}/deviation_lsb");
+        of(&summary, segment, &pointer).as_f64().unwrap()
+    };
+    assert_eq!(of(&summary, 0, "/speed_counts_per_scan"), 20);
+    assert!(lsb("interpolator", 0) < 1.0 && lsb("interpolator", 0) > 0.5);
+    assert!(lsb("conventional", 0) > 100.0, "{}", lsb("conventional", 0));
+    assert_eq!(of(&summary, 1, "/rapid"), true);
+    assert_eq!(summary["interpolator"]["end_position"], json!([0, 0]));
+}
+
+#[test]
+fn each_rule_of_division_keeps_its_bound() {
+    for (variant, most) in [("floor", 1.0), ("truncating", 1.0), ("centred", 0.501)] {
+        let set = format!("variant={variant}");
+        let text = "G1 X-13.7 Y5.1\nG1 X2 Y-7\nG1 X0 Y0\n";
+        let summary = summary("v.ngc", text, &["--set", &set]);
+        assert_eq!(summary["variant"], variant);
+        let deviation = summary["interpolator"]["deviation_max_lsb"]
+            .as_f64()
+            .unwrap();
+        assert!(
+            deviation > 0.4 && deviation < most,
+            "{variant}: {deviation}"
+        );
+    }
+}
+
+#[test]
+fn every_key_of_a_scenario_is_taken() {
+    let scenario = r#"
+circuit = "linear_interpolator"
+input = "l.ngc"
+variant = "centred"
+clock_hz = 500_000
+scan_ticks = 600
+counts_per_mm = [100, 250.0]
+feed_mm_per_min = 3000
+rapid_mm_per_min = 9000.5
+acceleration_ms = 30
+deceleration_ms = 45.5
+short_moves = "constant_time"
+chord_tolerance_mm = 0.1
+exact_stop = false
+in_position_counts = 2
+position_gain_per_s = [50, 40]
+rated_speed_rev_per_min = [2000, 3000]
+counts_per_rev = [4000, 8000]
+velocity_loop_ms = [1, 1.5]
+inertia_kg_m2 = [1e-5, 2e-5]
+max_torque_nm = [0.5, 1]
+friction_nm = [0, 0.01]
+vcd_ticks = 100
+"#;
+    let bench = Bench::with("all.toml", scenario);
+    bench.write("l.ngc", "G1 X2 Y1\nG2 X3 Y2 I1 J0\n");
+    let summary = bench.json(&["run", "all.toml"]);
+    assert_eq!(summary["variant"], "centred");
+    assert_eq!(whole(&summary, "/clock_hz"), 500_000);
+    assert_eq!(whole(&summary, "/scan_ticks"), 600);
+    assert_eq!(summary["interpolator"]["end_position"], json!([300, 500]));
+    assert_eq!(
+        bench.names(),
+        ["all.toml", "l.ngc", "waves/", "waves/all.svg"]
+    );
+    // 30 and 45.5 ms are 25 and 38 scans of 1.2 ms, also for the chords, which are too short.
+    let mut rows = summary["segments"].as_array().unwrap().iter();
+    assert!(rows.all(|row| whole(row, "/interpolator/scans") >= 63));
+}
+
+#[test]
+fn the_order_of_overrides_does_not_matter_to_the_circuit() {
+    let bench = Bench::with("l.hpgl", LINE);
+    let after = [
+        "run",
+        "l.hpgl",
+        "--set",
+        "scan_ticks=2000",
+        "--set",
+        "variant=centred",
+    ];
+    let summary = bench.json(&[&after[..], &LINEAR[..]].concat());
+    assert_eq!(whole(&summary, "/scan_ticks"), 2000);
+    assert_eq!(summary["variant"], "centred");
+}
+
+#[test]
+fn an_arc_becomes_chords_and_z_is_left_out_with_a_warning() {
+    let text = "G1 X5 Z-1 F1000\nG3 X5 Y10 J5\n";
+    let summary = summary("arc.ngc", text, &["--set", "chord_tolerance_mm=0.5"]);
+    let warnings = ["arc.ngc: the drawing moves in Z, which no axis drives"];
+    assert_eq!(summary["warnings"], json!(warnings));
+    // Half a circle of 5 mm: 0.5 mm off are 51.7 degrees.
+    assert_eq!(summary["segments"].as_array().unwrap().len(), 1 + 4);
+    assert_eq!(summary["interpolator"]["end_position"], json!([1000, 2000]));
+}
+
+#[test]
+fn what_moves_no_axis_is_told() {
+    let dropped = |count| match count {
+        1 => "z.ngc: 1 point left out that has the counts of the point before".to_owned(),
+        _ => format!("z.ngc: {count} points left out that have the counts of the point before"),
+    };
+    let run = summary("z.ngc", "G1 X1 F1000\nG1 X1.001\nG1 X1.002\nG1 X2\n", &[]);
+    assert_eq!(run["warnings"], json!([dropped(2)]));
+    assert_eq!(whole(&run, "/dropped_points"), 2);
+    let run = summary("z.ngc", "G1 X0.001 F1000\n", &[]);
+    assert_eq!(run["warnings"], json!([dropped(1), "z.ngc: no axis moves"]));
+    assert_eq!(run["segments"], json!([]));
+    assert_eq!(run["exact"], true);
+}
+
+#[test]
+fn a_motor_that_is_too_slow_is_told() {
+    // 100 mm/s are 300 rev/min.
+    let slow = ["--set", "rated_speed_rev_per_min=[250, 3000]"];
+    let summary = summary("l.hpgl", "PD4000,0;", &slow);
+    let saturated = whole(&summary, "/interpolator/saturated_scans/0");
+    assert!(saturated > 100);
+    let text = format!("x: in {saturated} scans the position loop asks for more than 250 rev/min");
+    assert_eq!(summary["warnings"], json!([text]));
+}
+
+/// A zigzag of so many strokes.
+fn zigzag(strokes: usize) -> String {
+    let points = (1..=strokes).map(|k| format!("{},{}", 40 * k, (k % 2) * (40 + k)));
+    format!("PD{};", points.collect::<Vec<_>>().join(","))
+}
+
+#[test]
+fn people_see_the_worst_segments_or_all_and_machines_see_all() {
+    let bench = Bench::with("z.hpgl", zigzag(15));
+    let text = bench.succeed(&run("z.hpgl", &[]));
+    let json = bench.json(&run("z.hpgl", &[]));
+    assert_eq!(json["segments"].as_array().unwrap().len(), 15);
+    let (scans, ticks) = (whole(&json, "/scans"), whole(&json, "/ticks"));
+    let seconds = ticks as f64 / 1e6;
+    let head = format!(
+        "z.hpgl on linear_interpolator (floor): {scans} scans, {ticks} ticks, {seconds:.3} s at \
+         1000000 Hz\n"
+    );
+    assert!(text.starts_with(&head), "{text}");
+    let segments = |text: &str| -> Vec<usize> {
+        let rows = text.lines().skip_while(|line| !line.starts_with("segment"));
+        let numbers = rows
+            .skip(1)
+            .map_while(|row| row.split_whitespace().next()?.parse().ok());
+        numbers.collect()
+    };
+    let error = |segment: &usize| {
+        let error = of(&json, *segment, "/interpolator/contour_error_um");
+        error.as_f64().unwrap()
+    };
+    let shown = segments(&text);
+    assert_eq!(shown.len(), 12);
+    assert!(shown.is_sorted_by(|a, b| error(a) >= error(b)));
+    let least = error(&shown[11]);
+    assert!((0..15).all(|k| shown.contains(&k) || error(&k) <= least));
+    let more = "and 3 more, of smaller contour error or with the pen up: --segments shows all\n";
+    assert!(text.contains(more), "{text}");
+    assert!(text.ends_with("wrote waves/z.svg\n"));
+
+    let text = bench.succeed(&run("z.hpgl", &["--segments"]));
+    assert_eq!(segments(&text), (0..15).collect::<Vec<_>>());
+    assert!(!text.contains("more, of"), "{text}");
+    // Twelve are shown as they are.
+    let bench = Bench::with("z.hpgl", zigzag(12));
+    assert!(!bench.succeed(&run("z.hpgl", &[])).contains("more, of"));
+}
+
+#[test]
+fn two_runs_write_the_same_bytes() {
+    let once = || {
+        let bench = Bench::with("z.hpgl", zigzag(5));
+        let text = bench.succeed(&run("z.hpgl", &["--json", "--out", "a/b"]));
+        assert_eq!(bench.names(), ["a/", "a/b/", "a/b/z.svg", "z.hpgl"]);
+        (text, fs::read(bench.path("a/b/z.svg")).unwrap())
+    };
+    let (one, other) = (once(), once());
+    assert!(one == other && one.1.len() > 1000);
+}
+
+#[test]
+fn the_picture_says_what_it_shows() {
+    let bench = Bench::with("z.hpgl", zigzag(5));
+    bench.succeed(&run("z.hpgl", &["--set", "position_gain_per_s=[40, 30]"]));
+    let svg = bench.read("waves/z.svg");
+    for text in [
+        "z: linear interpolator",
+        "linear interpolator: path, errors times ",
+        "conventional system: path, errors times ",
+        "contour error",
+        "path speed",
+    ] {
+        assert!(svg.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn the_table_is_refused() {
+    let bench = Bench::with("l.hpgl", LINE);
+    const PROBLEM: &str = "circuit: the linear interpolator has no table; allowed: pulse_interpolator, or the \
+         command run";
+    let arguments = [&["table", "l.hpgl", "--out", "t/t.csv"], &LINEAR[..]].concat();
+    bench.refuse(&arguments, &format!("--set: {PROBLEM}"));
+    let scenario = "# one\ncircuit = \"linear_interpolator\"\ninput = \"l.hpgl\"\n";
+    bench.write("s.toml", scenario);
+    bench.refuse(&["table", "s.toml"], &format!("s.toml:2: {PROBLEM}"));
+    bench.refuse(
+        &["table", "waves/plotter.toml"],
+        &format!("waves/plotter.toml:3: {PROBLEM}"),
+    );
+}
+
+#[test]
+fn flags_of_the_other_circuit_are_refused() {
+    let bench = Bench::with("l.hpgl", LINE);
+    for flag in [
+        &["--from", "5"][..],
+        &["--to", "5"],
+        &["--only", "x"],
+        &["--verilog"],
+    ] {
+        let arguments = [&["run", "l.hpgl"], &LINEAR[..], flag].concat();
+        let text = "the linear interpolator is played without waves; allowed: a scenario of the \
+             pulse interpolator";
+        bench.refuse(&arguments, &format!("{}: {text}", flag[0]));
+    }
+    bench.refuse(
+        &["run", "l.hpgl", "--segments"],
+        "--segments: the pulse interpolator has no segments; allowed: a scenario of the linear \
+         interpolator",
+    );
+}
+
+#[test]
+fn bad_overrides_are_refused() {
+    const PAIR: &str = "allowed: a list of two numbers, of X and of Y";
+    let cases = [
+        ("feed=1", format!("feed: unknown field `feed`; allowed: {KEYS}")),
+        ("steps_per_mm=[80,80]", format!("steps_per_mm: unknown field `steps_per_mm`; allowed: {KEYS}")),
+        ("variant=safe", "variant: unknown variant `safe`; allowed: one of `floor`, `truncating`, `centred`".into()),
+        ("short_moves=slow", "short_moves: unknown variant `slow`; allowed: `constant_acceleration` or `constant_time`".into()),
+        ("exact_stop=1", "exact_stop: invalid type: integer `1`; allowed: true or false".into()),
+        ("scan_ticks=1.5", "scan_ticks: invalid type: floating point `1.5`; allowed: a whole number from 0 to 4294967295".into()),
+        ("counts_per_mm=80", format!("counts_per_mm: invalid type: integer `80`; {PAIR}")),
+        ("counts_per_mm=[80]", format!("counts_per_mm: invalid length 1; {PAIR}")),
+        ("counts_per_mm=[1,2,3]", format!("counts_per_mm: invalid length 3; {PAIR}")),
+        ("clock_hz=0", "clock_hz: is 0; allowed: 1 to 10000000000".into()),
+        ("scan_ticks=399", "scan_ticks: is 399; allowed: 400 to 16777215".into()),
+        ("counts_per_mm=[80,-80]", "counts_per_mm: is -80 for y; allowed: 0.000001 to 1000000000".into()),
+        ("counts_per_mm=[nan,80]", "counts_per_mm: is NaN for x; allowed: 0.000001 to 1000000000".into()),
+        ("feed_mm_per_min=300001", "feed_mm_per_min: is 300001; allowed: 0.001 to 300000".into()),
+        ("rapid_mm_per_min=0", "rapid_mm_per_min: is 0; allowed: 0.001 to 300000".into()),
+        ("acceleration_ms=4096", "acceleration_ms: is 4096; allowed: 0 to 4095".into()),
+        ("deceleration_ms=-1", "deceleration_ms: is -1; allowed: 0 to 4095".into()),
+        ("chord_tolerance_mm=0", "chord_tolerance_mm: is 0; allowed: 0.000001 to 1000".into()),
+        ("in_position_counts=0", "in_position_counts: is 0; allowed: 1 to 1000000".into()),
+        ("position_gain_per_s=[40,1001]", "position_gain_per_s: is 1001 for y; allowed: 0.001 to 1000".into()),
+        ("counts_per_rev=[1,4000]", "counts_per_rev: is 1 for x; allowed: 4 to 100000000".into()),
+        ("rated_speed_rev_per_min=[15001,1]", "rated_speed_rev_per_min: is 15001 for x; allowed: 0.001 to 15000".into()),
+        ("velocity_loop_ms=[2,0]", "velocity_loop_ms: is 0 for y; allowed: 0.001 to 10000".into()),
+        ("inertia_kg_m2=[0,1]", "inertia_kg_m2: is 0 for x; allowed: 0.000000001 to 1000".into()),
+        ("max_torque_nm=[1,inf]", "max_torque_nm: is inf for y; allowed: 0.000001 to 1000000".into()),
+        ("friction_nm=[0,0.9]", "friction_nm: is 0.9 for y; allowed: 0 to below max_torque_nm, 0.9".into()),
+        ("vcd_ticks=0", "vcd_ticks: is 0; allowed: 1 to 9223372036854775807; --no-vcd for none".into()),
+        ("input=other.ngc", "input: line.hpgl is the input; allowed: input with a scenario only".into()),
+    ];
+    let bench = Bench::with("line.hpgl", LINE);
+    for (set, refusal) in cases {
+        bench.refuse(
+            &run("line.hpgl", &["--set", set]),
+            &format!("--set: {refusal}"),
+        );
+    }
+}
+
+#[test]
+fn bad_scenarios_are_refused_with_their_line() {
+    let cases = [
+        (
+            "",
+            "s.toml: input: missing; allowed: the path of an HPGL drawing or a G-code program"
+                .into(),
+        ),
+        (
+            "scan_ticks = 100",
+            "s.toml:2: scan_ticks: is 100; allowed: 400 to 16777215".into(),
+        ),
+        (
+            "# gains\nposition_gain_per_s = [1, 0]",
+            "s.toml:3: position_gain_per_s: is 0 for y; allowed: 0.001 to 1000".into(),
+        ),
+        (
+            "line_unit_ticks = 100",
+            format!("s.toml:2: line_unit_ticks: unknown field `line_unit_ticks`; allowed: {KEYS}"),
+        ),
+        (
+            "friction_nm = [\n  0.1,\n  \"a\",\n]",
+            "s.toml:4: friction_nm: invalid type: string \"a\"; allowed: a number".into(),
+        ),
+    ];
+    let bench = Bench::with("l.hpgl", LINE);
+    for (text, refusal) in cases {
+        let input = if text.is_empty() {
+            ""
+        } else {
+            "input = \"l.hpgl\"\n"
+        };
+        let head = "circuit = \"linear_interpolator\"\n";
+        bench.write("s.toml", format!("{head}{text}\n{input}"));
+        bench.refuse(&["run", "s.toml"], &refusal);
+    }
+    // The keys of one circuit are not those of the other.
+    let done = bench.run(&[&["run", "waves/bracket.toml"], &LINEAR[..]].concat());
+    assert_eq!(done.code, 2);
+    let start = "error: --set: circuit: unknown field `";
+    assert!(done.stderr.starts_with(start), "{}", done.stderr);
+}
+
+#[test]
+fn drawings_that_cannot_be_played_are_refused() {
+    let cases = [
+        (
+            "G1 X1 F1000\nG1 X2 F300001\n",
+            &[][..],
+            "p.ngc:2: F: is 300001 mm/min; allowed: up to 300000 mm/min: one count per tick",
+        ),
+        (
+            "G1 X1 F1000\nG1 Y-1000000\n",
+            &["--set", "counts_per_mm=[100, 2000]"],
+            "p.ngc:2: y: is -2000000000 counts at [100.0, 2000.0] counts/mm; allowed: \
+             -1073741824 to 1073741824 counts",
+        ),
+        (
+            "G1 X1 F1000\nG2 X1 I300000\n",
+            &[
+                "--set",
+                "chord_tolerance_mm=0.000001",
+                "--set",
+                "counts_per_mm=[900, 900]",
+            ],
+            "p.ngc:2: path: more than 1048576 cycles up to here; allowed: fewer moves, or a \
+             larger chord_tolerance_mm",
+        ),
+    ];
+    for (text, sets, refusal) in cases {
+        let bench = Bench::with("p.ngc", text);
+        bench.refuse(&run("p.ngc", sets), refusal);
+        bench.refuse(
+            &run("p.ngc", &[sets, &["--out", "new/deep"]].concat()),
+            refusal,
+        );
+    }
+}
+
+#[test]
+fn files_that_cannot_be_written_leave_nothing() {
+    const WRITABLE: &str = "allowed: a directory that can be written";
+    let bench = Bench::with("l.hpgl", LINE);
+    let text = format!("--out: l.hpgl: File exists (os error 17); {WRITABLE}");
+    bench.refuse(&run("l.hpgl", &["--out", "l.hpgl"]), &text);
+    bench.write("o/l.svg/inside", "");
+    let text = format!("--out: o/l.svg: is a directory; {WRITABLE}");
+    bench.refuse(&run("l.hpgl", &["--out", "o"]), &text);
+}
+
+#[test]
+fn the_plotter_shows_what_the_circuit_is_for() {
+    let bench = Bench::new();
+    let summary = bench.json(&["run", "waves/plotter.toml", "--no-vcd"]);
+    assert!(whole(&summary, "/ticks") < 2_000_000);
+    assert!(summary["segments"].as_array().unwrap().len() > 50);
+    let system = |name: &str, field: &str| summary[name][field].as_f64().unwrap();
+    assert!(system("interpolator", "deviation_max_lsb") < 1.0);
+    assert!(system("conventional", "deviation_max_lsb") > 20.0);
+    let [ours, others] =
+        ["interpolator", "conventional"].map(|s| system(s, "contour_error_max_um"));
+    assert!(ours < others, "{ours} and {others} um");
+    let masters = |name: &str| {
+        let rows = summary["segments"].as_array().unwrap();
+        rows.iter().filter(|row| row["master"] == name).count()
+    };
+    assert!(masters("x") > 20 && masters("y") > 20);
+}
