@@ -125,7 +125,8 @@ fn settles(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    // A run takes a while, so what is found is not shrunk for long.
+    #![proptest_config(ProptestConfig { cases: 60, max_shrink_iters: 20, ..ProptestConfig::default() })]
 
     /// One count of deviation gives at least half an LSB, there is no friction, Kp is within the
     /// bound, and neither torque nor speed comes to its limit.
