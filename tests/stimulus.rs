@@ -132,6 +132,8 @@ fn every_circuit_is_made_at_its_widths_and_no_other() {
 /// The top bits of counters, from the given one up, that a run of 100,000 ticks at full width
 /// does not reach: a counter has to be left alone for as many ticks as it counts.
 const FAR: &[(&str, u32)] = &[
+    ("enable_counter.count", 11),
+    ("enable_counter.next", 11),
     ("unit_time_counter.count", 11),
     ("unit_time_counter.next", 11),
     ("pulse_generator.count", 9),
@@ -150,6 +152,11 @@ const FAR: &[(&str, u32)] = &[
     ("pulse_interpolator.x.generator.next", 13),
     ("pulse_interpolator.y.generator.count", 11),
     ("pulse_interpolator.y.generator.next", 11),
+    // Never: the greatest distance by the greatest gain is less, and so is the limit.
+    ("position_control.product", 47),
+    ("position_control.amount", 15),
+    ("position_loop.control.product", 47),
+    ("position_loop.control.amount", 15),
 ];
 
 /// At 8 bits: the pulses of a unit time of up to 255 ticks are at most 127, and a word of 8 bits
@@ -158,6 +165,11 @@ const NEVER: &[(&str, u32)] = &[
     ("unit_law.pulses", 7),
     ("unit_law.counted", 7),
     ("mul_div.count", 3),
+    // As at full width.
+    ("position_control.product", 15),
+    ("position_control.amount", 7),
+    ("position_loop.control.product", 15),
+    ("position_loop.control.amount", 7),
 ];
 
 #[test]

@@ -131,7 +131,7 @@ fn quarter(a: Wire, b: Wire) -> u32 {
 fn turned<const W: usize>(q: &Reg<Sim, W>) -> u32 {
     let before = quarter(q.previous_a, q.previous_b);
     match q.samples.get() {
-        FILLED => (quarter(q.present_a, q.present_b) + 4 - before) % 4,
+        3 => (quarter(q.present_a, q.present_b) + 4 - before) % 4,
         _ => 0,
     }
 }
@@ -183,7 +183,7 @@ impl<const W: usize> Specified for QuadratureCounter<W> {
                         && quarter(next.present_a, next.present_b) == quarter(q.meta_a, q.meta_b)
                         && quarter(next.previous_a, next.previous_b)
                             == quarter(q.present_a, q.present_b)
-                        && next.samples.get() == FILLED.min(q.samples.get() + 1);
+                        && next.samples.get() == 3.min(q.samples.get() + 1);
                     require(passed, ["meta_a", "meta_b", "samples"], || {
                         "not those of a tick ago".into()
                     })

@@ -59,7 +59,8 @@ impl AxisSettings {
 
     /// Kp in LSB of the D/A converter a count.
     pub fn gain(&self) -> U8F8 {
-        let lsb_per_count = self.position_gain_per_s * FULL_SCALE as f64 / self.rated_counts_per_s();
+        let lsb_per_count =
+            self.position_gain_per_s * FULL_SCALE as f64 / self.rated_counts_per_s();
         U8F8::saturating_from_num(lsb_per_count)
     }
 }

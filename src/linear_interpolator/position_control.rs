@@ -57,10 +57,12 @@ signals! {
         pub deviation: L::I<P> as Analog,
         /// Amount of the deviation.
         distance: L::U<P>,
-        /// 11: amount of deviation · gain, rounded to LSB of the D/A converter.
-        rounded: L::U<R>,
-        /// The amount is at the limit or beyond.
+        /// 11: distance · gain and half an LSB of the D/A converter, with F fraction bits.
+        product: L::U<R>,
+        /// The product is at the limit or beyond.
         limited: L::Bit,
+        /// Amount of the reference that a scan loads.
+        amount: L::U<D>,
         /// 12: reference that a scan loads.
         limited_reference: L::I<D>,
         /// The amount of the deviation is at most the window, in every tick.
@@ -113,18 +115,19 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
     fn comb<L: Logic>(&self, _: &Reg<L, D>, i: &In<L, P, G>) -> Net<L, P, D, R> {
         let deviation = i.command - i.feedback;
         let distance = deviation.magnitude();
-        // Rounding the amount rounds halves away from zero.
+        // Without its sign, so that halves go away from zero.
         let product = distance.times::<G, R>(i.gain) + Self::HALF;
-        let rounded = product.shift_right(F);
-        let limit: L::U<R> = Self::LIMIT.into();
-        let limited = !rounded.below(limit);
-        let amount = limited.mux(limit, rounded).resize::<D>().signed();
+        let limited = !product.below((Self::LIMIT << F).into());
+        let rounded = product.shift_right(F).resize();
+        let amount: L::U<D> = limited.mux(Self::LIMIT.into(), rounded);
+        let upwards = amount.signed();
         Net {
             deviation,
             distance,
-            rounded,
+            product,
             limited,
-            limited_reference: deviation.is_negative().mux(-amount, amount),
+            amount,
+            limited_reference: deviation.is_negative().mux(-upwards, upwards),
             in_position: !i.window.below(distance),
         }
     }

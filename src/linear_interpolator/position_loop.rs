@@ -187,3 +187,18 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
         i.window.get() < 2
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::{Outcome, reach};
+
+    #[test]
+    fn it_is_proved() {
+        let circuit = PositionLoop::<2, 2, 1, 2, 4>::default();
+        let all = circuit.invariants();
+        let outcome = reach(&circuit, &all).run().expect("narrow enough");
+        assert!(matches!(outcome, Outcome::Proof(_)), "{outcome}");
+        println!("{outcome}");
+    }
+}

@@ -150,7 +150,7 @@ impl<const P: usize> Circuit for Sequencer<P> {
             begins: runs & i.scan & i.pattern_active & i.pattern_ready & quiet & !i.abort,
             quiet,
             over: runs & quiet & !i.pattern_active,
-            early: runs & i.scan & q.computing,
+            early: runs & i.scan & q.computing & !quiet,
             home: is(IDLE) & i.clear,
             busy: !is(IDLE),
         }
@@ -286,8 +286,13 @@ impl<const P: usize> Specified for Sequencer<P> {
             .step(
                 "a scan that comes while one is computed is flagged",
                 |now, next| {
-                    let runs = now.q.state.get() == RUN && now.q.computing.get();
-                    let early = runs && now.i.scan.get();
+                    let busy = [
+                        now.q.advance,
+                        now.i.pattern_valid,
+                        now.i.integrating,
+                        now.i.load,
+                    ];
+                    let early = computed && now.q.state.get() == RUN && now.i.scan.get();
                     require(!early || next.late.get(), ["late"], || "not flagged".into())
                 },
             )

@@ -122,7 +122,8 @@ fn the_encoder_turns_through_its_quarters() {
 fn what_is_out_of_range_is_named() {
     let good = ServoParameters::default();
     assert_eq!(good.validate(), Ok(()));
-    let faults: [(&str, fn(&mut ServoParameters) -> &mut f64); 6] = [
+    type Choose = fn(&mut ServoParameters) -> &mut f64;
+    let faults: [(&str, Choose); 6] = [
         ("velocity_loop_s", |p| &mut p.velocity_loop_s),
         ("inertia_kg_m2", |p| &mut p.inertia_kg_m2),
         ("max_torque_nm", |p| &mut p.max_torque_nm),
