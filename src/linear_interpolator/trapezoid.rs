@@ -120,7 +120,7 @@ signals! {
         scans: L::Bit,
         /// The multiplier-divider begins.
         pub compute: L::Bit,
-        /// It has the result of what was requested last.
+        /// It has the result of what was requested last, and a cycle wants it.
         result: L::Bit,
         /// Only the product is wanted.
         pub product_only: L::Bit,
@@ -185,7 +185,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
         let drop = i.abort & q.active & q.level.is_zero() & !scan;
         let scans = i.advance & q.ready & !drop;
         let compute = q.request & (!q.under_way | i.done);
-        let result = i.done & q.under_way & !q.request;
+        let result = i.done & q.under_way & !q.request & q.active;
 
         let lowered = q.level - q.ramp_up.resize();
         let lowered = q.level.below(q.ramp_up.resize()).mux(0.into(), lowered);

@@ -48,7 +48,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 14",
         ["P" = 32, "T" = 12, "M" = 25, "Q" = 58],
         "width of positions; times have half of it",
-        some_widths!([4 8], |given, W| {
+        some_widths!([2 4 8], |given, W| {
             PatternGenerator::<W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>::default()
         })
     ),
