@@ -8,7 +8,7 @@ use super::summary::Summary;
 use super::{Failure, print, print_json};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
-use motion_rtl::input::scenario::Scenario;
+use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
 use motion_rtl::pulse_interpolator::job::{Played, group, play};
 use motion_rtl::trace::atomic::AtomicFile;
@@ -60,8 +60,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &source.loaded.scenario {
         Scenario::PulseInterpolator(_) => pulse(arguments, Job::prepare(source)?),
         Scenario::LinearInterpolator(scenario) => {
-            let settings = scenario.settings();
-            linear::run(arguments, &linear::Job::prepare(source, settings)?)
+            let (settings, vcd_ticks) = (scenario.settings(), scenario.vcd_ticks);
+            linear::run(
+                arguments,
+                &linear::Job::prepare(source, settings, vcd_ticks)?,
+            )
         }
     }
 }
@@ -82,11 +85,7 @@ fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
         _ => simulate::<3>(arguments, &job, &options),
     }?;
     if options.ticks.start >= played.ticks {
-        return Err(Failure::Argument {
-            field: "--from",
-            problem: format!("is {}", options.ticks.start),
-            allowed: format!("0 to {}, the last tick of the run", played.ticks - 1),
-        });
+        return Err(no_such_tick(&options, played.ticks));
     }
     let following =
         Following::new(&job, &played).map_err(|error| Failure::Check(error.to_string()))?;
@@ -107,7 +106,16 @@ fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
     Err(Failure::Check(summary.complaints.join("\n")))
 }
 
-fn options(arguments: &Arguments, most: u64) -> Result<Options, Failure> {
+/// The run is over before the window begins.
+pub(super) fn no_such_tick(options: &Options, ticks: u64) -> Failure {
+    Failure::Argument {
+        field: "--from",
+        problem: format!("is {}", options.ticks.start),
+        allowed: format!("0 to {}, the last tick of the run", ticks.saturating_sub(1)),
+    }
+}
+
+pub(super) fn options(arguments: &Arguments, most: u64) -> Result<Options, Failure> {
     let from = arguments.from.unwrap_or(0);
     let to = arguments.to.unwrap_or_else(|| from.saturating_add(most));
     if from >= to {
@@ -130,7 +138,7 @@ fn simulate<const AXES: usize>(
     options: &Options,
 ) -> Result<(Played, Files), Failure> {
     let group = group::<AXES>(&job.table, job.variant);
-    let clock = clock(arguments, job, options)?;
+    let clock = clock(arguments, &job.loaded, job.table.total_ticks(), options)?;
     let directory = arguments.out.as_deref().unwrap_or(Path::new("waves"));
     let mut files = Files::begin(directory, &job.stem)?;
     let mut vcd = match arguments.no_vcd {
@@ -175,7 +183,7 @@ fn simulate<const AXES: usize>(
 }
 
 /// The circuit's Verilog and its testbench; returns what writes the stimulus.
-fn verilog<C: Circuit>(
+pub(super) fn verilog<C: Circuit>(
     circuit: &C,
     files: &mut Files,
 ) -> Result<StimulusFile<C, AtomicFile>, Failure> {
@@ -191,14 +199,19 @@ fn verilog<C: Circuit>(
 }
 
 /// The clock of the waves, in which the last tick must have a time.
-fn clock(arguments: &Arguments, job: &Job, options: &Options) -> Result<Clock, Failure> {
-    let refuse = |problem: String, allowed: String| job.loaded.fault("clock_hz", problem, allowed);
-    let hz = job.settings.clock_hz;
+pub(super) fn clock(
+    arguments: &Arguments,
+    loaded: &Loaded,
+    ticks: u64,
+    options: &Options,
+) -> Result<Clock, Failure> {
+    let refuse = |problem: String, allowed: String| loaded.fault("clock_hz", problem, allowed);
+    let hz = loaded.scenario.clock_hz();
     let clock = Clock::from_hz(hz).map_err(|error| {
         let allowed = format!("1 to {} Hz", Clock::MAX_HZ);
         refuse(error.to_string(), allowed)
     })?;
-    let last = options.ticks.end.min(job.table.total_ticks());
+    let last = options.ticks.end.min(ticks);
     if clock.rise(last).is_none() && !arguments.no_vcd {
         let (problem, allowed) = (
             format!("is {hz}: tick {last} is 2^64 fs or more after tick 0"),
@@ -209,7 +222,7 @@ fn clock(arguments: &Arguments, job: &Job, options: &Options) -> Result<Clock, F
     Ok(clock)
 }
 
-fn not_selected(error: &LayoutError) -> Failure {
+pub(super) fn not_selected(error: &LayoutError) -> Failure {
     let (problem, allowed) = match error {
         LayoutError::Unknown { wanted, scopes } => (
             format!("there is no {wanted}"),
@@ -239,18 +252,13 @@ impl Progress {
         }
         Progress { bar }
     }
-
-    /// The run has come to this tick.
-    pub(super) fn reach(&self, tick: u64) {
-        self.bar.set_position(tick);
-    }
 }
 
 impl<C: Circuit> Observer<C> for Progress {
     #[inline]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         if now.tick.is_multiple_of(PROGRESS) {
-            self.reach(now.tick);
+            self.bar.set_position(now.tick);
         }
         Ok(ControlFlow::Continue(()))
     }

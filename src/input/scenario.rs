@@ -45,6 +45,14 @@ impl Scenario {
         }
     }
 
+    /// Reference clock in Hz.
+    pub fn clock_hz(&self) -> u64 {
+        match self {
+            Scenario::PulseInterpolator(scenario) => scenario.clock_hz,
+            Scenario::LinearInterpolator(scenario) => scenario.clock_hz,
+        }
+    }
+
     /// The most ticks that go into the VCD unless a window is asked for.
     pub fn vcd_ticks(&self) -> u64 {
         match self {

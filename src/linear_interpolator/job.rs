@@ -146,8 +146,10 @@ impl Bench<'_> {
             });
             if let Some(cycle) = self.fresh.take() {
                 let scans = &mut played.cycles[cycle].scans;
-                let start = if scans.is_empty() { at } else { scans.start };
-                *scans = start..at + 1;
+                *scans = match scans.len() {
+                    0 => at..at + 1,
+                    _ => scans.start..at + 1,
+                };
             }
             for axis in 0..2 {
                 played.saturated_scans[axis] += u64::from(seen.saturated[axis]);

@@ -40,7 +40,7 @@ pub struct Played {
     pub cycles: Vec<Cycle>,
     /// A scan came before the command of the scan before was ready.
     pub late: bool,
-    /// Targets that found no room.
+    /// Targets that were too far away.
     pub refused: u64,
     /// X and Y: the feedback counter has lost counts.
     pub lost: [bool; 2],

@@ -292,6 +292,9 @@ impl<const P: usize> Specified for Sequencer<P> {
                         now.i.integrating,
                         now.i.load,
                     ];
+                    let scanning = now.i.pattern_active.get() && !now.i.pattern_ready.get();
+                    let works = scanning || busy.map(|bit| bit.get()).contains(&true);
+                    let computed = now.q.computing.get() && works;
                     let early = computed && now.q.state.get() == RUN && now.i.scan.get();
                     require(!early || next.late.get(), ["late"], || "not flagged".into())
                 },

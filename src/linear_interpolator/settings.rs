@@ -136,7 +136,7 @@ impl Default for Settings {
                 velocity_loop_ms: 2.0,
                 inertia_kg_m2: 3e-5,
                 max_torque_nm: 0.9,
-                friction_nm: 0.02,
+                friction_nm: 0.0,
             }; 2],
         }
     }

@@ -3,12 +3,13 @@
 //! Every straight move is one cycle, every arc as many as it has chords. Targets are the drawing's
 //! points rounded to encoder counts one by one, so that no error adds up. A Z is ignored.
 
+use super::LinearInterpolator;
 use super::settings::{AXIS_NAMES, Settings, ShortMoves};
 use crate::input::{Drawing, Point};
 use crate::plan::{PlanError, check, chords};
 
-/// Ticks that the dividers need within a scan, at most.
-pub const LATENCY_TICKS: u32 = 400;
+/// Ticks that the dividers need within a scan.
+pub const LATENCY_TICKS: u32 = LinearInterpolator::<6>::LATENCY as u32;
 
 /// Longest time of acceleration and of deceleration, in scans.
 pub const LONGEST_RAMP: u64 = 4095;

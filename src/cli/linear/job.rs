@@ -2,6 +2,7 @@
 
 use crate::cli::Failure;
 use crate::cli::job::{Source, compiling, plan_fault};
+use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault};
 use motion_rtl::linear_interpolator::settings::Settings;
 use motion_rtl::linear_interpolator::targets::{
@@ -19,21 +20,31 @@ pub struct Job {
     pub settings: Settings,
     /// The cycles.
     pub compiled: Targets,
+    /// The scenario it came from.
+    pub loaded: Loaded,
+    /// The most ticks in the VCD unless a window is asked for.
+    pub vcd_ticks: u64,
 }
 
 impl Job {
     /// Compiles an input.
-    pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
+    pub fn prepare(source: Source, settings: Settings, vcd_ticks: u64) -> Result<Self, Failure> {
         let spinner = compiling();
         let compiled = compile(&source.drawing, &settings)
             .map_err(|error| fault(&source, &settings, error))?;
         drop(spinner);
-        let Source { stem, drawing, .. } = source;
+        let Source {
+            stem,
+            drawing,
+            loaded,
+        } = source;
         Ok(Job {
             stem,
             drawing,
             settings,
             compiled,
+            loaded,
+            vcd_ticks,
         })
     }
 

@@ -64,8 +64,11 @@ fn of_system(
             complaints.push(format!("{name}: the feedback counter lost counts"));
         }
     }
+    if played.unsettled {
+        complaints.push("an axis did not come into position".into());
+    }
     if played.refused > 0 {
-        complaints.push(format!("{} targets found no room", played.refused));
+        complaints.push(format!("{} targets were too far away", played.refused));
     }
     complaints
 }
@@ -140,6 +143,7 @@ mod tests {
         let bad = Played {
             late: true,
             refused: 3,
+            unsettled: true,
             lost: [false, true],
             ..good.clone()
         };
@@ -148,7 +152,8 @@ mod tests {
             [
                 "a scan came before the command of the one before was ready",
                 "y: the feedback counter lost counts",
-                "3 targets found no room",
+                "an axis did not come into position",
+                "3 targets were too far away",
             ]
         );
         let segments = good.segments([1.0; 2]);
