@@ -96,7 +96,7 @@ fn every_cycle_of_4_bits() {
 fn every_cycle_of_6_bits_that_is_slow_or_fast() {
     let mut bench = Bench::<6, 2, 5, 12>::new();
     for (distance, speed, times, n) in all(6, 2) {
-        if distance != 0 && (speed < 3 || speed > 61) {
+        if distance != 0 && !(3..=61).contains(&speed) {
             let ports = cycle(start_inside(distance, 6, n), distance, speed, times);
             let positions = bench.cycle(&ports, None, 0);
             check(&ports, &positions, true);
@@ -186,7 +186,7 @@ fn an_abort_in_any_scan_ramps_down_on_the_way() {
 #[test]
 fn an_abort_in_any_tick_leaves_nothing_behind() {
     let mut bench = Bench::<4, 2, 5, 10>::new();
-    let ports = cycle(-3, 8 - 2, 3, [2, 3]);
+    let ports = cycle(-3, 6, 3, [2, 3]);
     let other = cycle(5, -7, 2, [1, 2]);
     let mut latest = 0;
     let (prepare, scan) = (
