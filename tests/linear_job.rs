@@ -1,11 +1,11 @@
 //! The reference of the linear interpolator, and the measures that runs are judged by.
 
 use motion_rtl::input::read_text;
-use motion_rtl::linear_interpolator::job::play;
+use motion_rtl::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::linear_interpolator::measure::{Cycle, Deviation, Played, ScanRecord, Segment};
 use motion_rtl::linear_interpolator::reference::{self, Integrator, Pattern, System};
 use motion_rtl::linear_interpolator::settings::{Rule, Settings};
-use motion_rtl::linear_interpolator::targets::{Target, compile};
+use motion_rtl::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
 use proptest::prelude::*;
 
 const RULES: [Rule; 3] = [Rule::Floor, Rule::Truncating, Rule::Centred];
@@ -356,38 +356,106 @@ fn target(x: i64, y: i64, speed: u64, times: [u64; 2]) -> Target {
     }
 }
 
+/// Scans of 1 ms that are as short, in ticks, as the dividers allow.
+fn short_scans() -> Settings {
+    let mut settings = Settings {
+        clock_hz: 186_000,
+        scan_ticks: LATENCY_TICKS,
+        ..Settings::default()
+    };
+    for axis in &mut settings.axes {
+        axis.rated_speed_rev_per_min = 2700.0;
+    }
+    settings
+}
+
+/// The commands of a cycle.
+fn commands(played: &Played, cycle: &Cycle) -> Vec<[i64; 2]> {
+    let records = &played.records[cycle.scans.clone()];
+    records.iter().map(|record| record.command).collect()
+}
+
 #[test]
-fn whole_jobs_end_on_their_targets_and_stay_within_their_rule() {
+fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
     let text = include_bytes!("../waves/plotter.hpgl");
     let drawing = read_text("plotter.hpgl", text).unwrap();
-    for rule in RULES {
-        for exact_stop in [true, false] {
-            let settings = Settings {
-                rule,
-                exact_stop,
-                ..Settings::default()
-            };
-            let targets = compile(&drawing, &settings).unwrap().targets;
-            let (ours, others) = play(&targets, &settings, |_| ()).unwrap();
-            for played in [&ours, &others] {
-                assert_eq!(played.cycles.len(), targets.len());
-                for (cycle, target) in played.cycles.iter().zip(&targets) {
-                    assert_eq!(cycle.to, [target.x, target.y]);
-                    assert_eq!(cycle.end, cycle.to);
-                }
-            }
-            let segments = ours.segments(settings.counts_per_mm);
-            let off = |segment: &&Segment| !segment.deviation.is_within(rule);
-            assert_eq!(segments.iter().find(off), None, "{rule:?}");
-            let bent = others.segments(settings.counts_per_mm);
-            assert!(bent.iter().any(|segment| segment.deviation.lsb() > 10.0));
-            // At the end both motors are where they should be.
-            let last = ours.records.last().unwrap();
-            for axis in 0..2 {
-                let off = last.command[axis] as f64 - last.motor[axis];
-                assert!(off.abs() < 6.0, "{off} counts");
+    for (rule, exact_stop) in [
+        (Rule::Floor, true),
+        (Rule::Truncating, false),
+        (Rule::Centred, false),
+    ] {
+        let settings = Settings {
+            rule,
+            exact_stop,
+            ..short_scans()
+        };
+        let targets = compile(&drawing, &settings).unwrap().targets;
+        let ours = play(&plotter(rule), &targets, &settings, ()).unwrap();
+        let others = play(&conventional(), &targets, &settings, ()).unwrap();
+        for (played, system) in [
+            (&ours, System::Interpolator),
+            (&others, System::Conventional),
+        ] {
+            assert!(!played.late && !played.unsettled && played.refused == 0);
+            assert_eq!(played.lost, [false; 2]);
+            assert_eq!(played.cycles.len(), targets.len());
+            let ideal = reference::play(&targets, &settings, system, &mut |_| ());
+            for (cycle, expected) in played.cycles.iter().zip(&ideal.cycles) {
+                let ends = |cycle: &Cycle| (cycle.from, cycle.to, cycle.end, cycle.master);
+                assert_eq!(ends(cycle), ends(expected));
+                let (found, wanted) = (commands(played, cycle), commands(&ideal, expected));
+                assert!(
+                    found == wanted,
+                    "{rule:?} {system:?} {cycle:?}: {found:?}, not {wanted:?}"
+                );
             }
         }
+        let segments = ours.segments(settings.counts_per_mm);
+        let off = |segment: &&Segment| !segment.deviation.is_within(rule);
+        assert_eq!(segments.iter().find(off), None, "{rule:?}");
+        let bent = others.segments(settings.counts_per_mm);
+        assert!(bent.iter().any(|segment| segment.deviation.lsb() > 10.0));
+        // At the end both motors are where they should be, to the count.
+        let last = ours.records.last().unwrap();
+        let most = f64::from(settings.in_position_counts) + 0.5;
+        for axis in 0..2 {
+            let off = last.command[axis] as f64 - last.motor[axis];
+            assert!(off.abs() <= most, "{off} counts");
+        }
+    }
+}
+
+/// The contour error of the whole machine on a long line, circuit and motors, against
+/// F·sin α·cos α·(1/Kp1 − 1/Kp2), in the middle of the line.
+#[test]
+fn the_contour_error_of_the_circuit_is_that_of_theory() {
+    let mut settings = short_scans();
+    settings.axes[0].position_gain_per_s = 50.0;
+    settings.axes[1].position_gain_per_s = 40.0;
+    for (x, y, feed) in [
+        (60_000, 80_000, 30.0),
+        (80_000, 60_000, 40.0),
+        (-50_000, 50_000, 35.0),
+    ] {
+        // Counts of the master axis a scan of 1 ms.
+        let targets = [target(x, y, feed as u64, [100, 100])];
+        let played = play(&plotter(Rule::Centred), &targets, &settings, ()).unwrap();
+        let cycle = &played.cycles[0];
+        let scans = cycle.scans.clone();
+        let middle = scans.start + 800..scans.end - 200;
+        let errors: Vec<f64> = played.records[middle]
+            .iter()
+            .map(|record| cycle.contour_error(record.motor, [1.0; 2]).abs())
+            .collect();
+        let measured = errors.iter().sum::<f64>() / errors.len() as f64;
+        let (dx, dy) = (x as f64, y as f64);
+        let along = feed * 1e3 * dx.hypot(dy) / dx.abs().max(dy.abs());
+        let (sin, cos) = (dy.abs() / dx.hypot(dy), dx.abs() / dx.hypot(dy));
+        let theory = along * sin * cos * (1.0 / 40.0 - 1.0 / 50.0);
+        assert!(
+            (measured - theory).abs() < 0.01 * theory,
+            "{measured}, {theory} counts"
+        );
     }
 }
 

@@ -60,11 +60,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &source.loaded.scenario {
         Scenario::PulseInterpolator(_) => pulse(arguments, Job::prepare(source)?),
         Scenario::LinearInterpolator(scenario) => {
-            let (settings, vcd_ticks) = (scenario.settings(), scenario.vcd_ticks);
-            linear::run(
-                arguments,
-                &linear::Job::prepare(source, settings, vcd_ticks)?,
-            )
+            let settings = scenario.settings();
+            linear::run(arguments, &linear::Job::prepare(source, settings)?)
         }
     }
 }

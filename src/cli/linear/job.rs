@@ -22,13 +22,11 @@ pub struct Job {
     pub compiled: Targets,
     /// The scenario it came from.
     pub loaded: Loaded,
-    /// The most ticks in the VCD unless a window is asked for.
-    pub vcd_ticks: u64,
 }
 
 impl Job {
     /// Compiles an input.
-    pub fn prepare(source: Source, settings: Settings, vcd_ticks: u64) -> Result<Self, Failure> {
+    pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
         let spinner = compiling();
         let compiled = compile(&source.drawing, &settings)
             .map_err(|error| fault(&source, &settings, error))?;
@@ -44,7 +42,6 @@ impl Job {
             settings,
             compiled,
             loaded,
-            vcd_ticks,
         })
     }
 

@@ -36,7 +36,7 @@ pub struct Runs {
 
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    let options = options(arguments, job.vcd_ticks)?;
+    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (interpolator, mut files) = simulate(arguments, job, &options)?;
     if options.ticks.start >= interpolator.ticks {
         return Err(no_such_tick(&options, interpolator.ticks));
