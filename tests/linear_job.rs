@@ -417,7 +417,8 @@ fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
         assert!(bent.iter().any(|segment| segment.deviation.lsb() > 10.0));
         // At the end both motors are where they should be, to the count.
         let last = ours.records.last().unwrap();
-        let most = f64::from(settings.in_position_counts) + 0.5;
+        // The feedback is that of three ticks ago.
+        let most = f64::from(settings.in_position_counts) + 1.0;
         for axis in 0..2 {
             let off = last.command[axis] as f64 - last.motor[axis];
             assert!(off.abs() <= most, "{off} counts");

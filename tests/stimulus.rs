@@ -152,6 +152,12 @@ const FAR: &[(&str, u32)] = &[
     ("pulse_interpolator.x.generator.next", 13),
     ("pulse_interpolator.y.generator.count", 11),
     ("pulse_interpolator.y.generator.next", 11),
+    // Never: the floor rule has no use for them, and the divider is twice as wide as a position.
+    ("accumulator.lent", 0),
+    ("accumulator.multiplicand", 32),
+    ("accumulator.addend", 32),
+    ("accumulator.divisor", 32),
+    ("accumulator.first", 0),
     // Never: the greatest distance by the greatest gain is less, and so is the limit.
     ("position_control.product", 47),
     ("position_control.amount", 15),
@@ -162,6 +168,9 @@ const FAR: &[(&str, u32)] = &[
     ("trapezoid.level", 17),
     ("trapezoid.multiplicand", 34),
     ("trapezoid.excess", 34),
+    ("trapezoid.times", 13),
+    ("trapezoid.length_twice", 0),
+    ("trapezoid.speed_twice", 0),
     ("trapezoid.next_level", 18),
     ("trapezoid.weight", 19),
     ("pattern_generator.trapezoid.steady_scans", 31),
@@ -174,6 +183,12 @@ const FAR: &[(&str, u32)] = &[
     ("pattern_generator.trapezoid.addend", 36),
     ("pattern_generator.trapezoid.divisor", 0),
     ("pattern_generator.trapezoid.excess", 34),
+    ("pattern_generator.trapezoid.times", 13),
+    ("pattern_generator.trapezoid.length_twice", 0),
+    ("pattern_generator.trapezoid.speed_twice", 0),
+    // Never in a hundred thousand ticks: a distance of the whole word.
+    ("sequencer.way_x", 31),
+    ("sequencer.way_y", 31),
     ("pattern_generator.trapezoid.next_level", 12),
     ("pattern_generator.trapezoid.weight", 12),
     ("pattern_generator.trapezoid.left", 31),
@@ -194,6 +209,12 @@ const NEVER: &[(&str, u32)] = &[
     ("unit_law.pulses", 7),
     ("unit_law.counted", 7),
     ("mul_div.count", 3),
+    // As above.
+    ("accumulator.lent", 0),
+    ("accumulator.multiplicand", 8),
+    ("accumulator.addend", 8),
+    ("accumulator.divisor", 8),
+    ("accumulator.first", 0),
     // As at full width.
     ("position_control.product", 15),
     ("position_control.amount", 7),
@@ -202,6 +223,9 @@ const NEVER: &[(&str, u32)] = &[
     // As above; 18 bits are divided in 18 ticks, and Ta·Td has two bits less than the word for it.
     ("trapezoid.multiplicand", 10),
     ("trapezoid.excess", 10),
+    ("trapezoid.times", 5),
+    ("trapezoid.length_twice", 0),
+    ("trapezoid.speed_twice", 0),
     ("pattern_generator.trapezoid.steady_scans", 7),
     ("pattern_generator.trapezoid.peak", 7),
     ("pattern_generator.trapezoid.total", 0),
@@ -212,6 +236,10 @@ const NEVER: &[(&str, u32)] = &[
     ("pattern_generator.trapezoid.addend", 13),
     ("pattern_generator.trapezoid.divisor", 0),
     ("pattern_generator.trapezoid.excess", 10),
+    ("pattern_generator.trapezoid.times", 5),
+    ("pattern_generator.trapezoid.length_twice", 0),
+    ("pattern_generator.trapezoid.speed_twice", 0),
+    ("sequencer.way_y", 7),
     ("pattern_generator.trapezoid.next_level", 7),
     ("pattern_generator.trapezoid.weight", 8),
     ("pattern_generator.trapezoid.left", 7),
@@ -227,6 +255,17 @@ const NEVER: &[(&str, u32)] = &[
     ("pattern_generator.mul_div.partial", 14),
 ];
 
+/// Circuits that only wire blocks which are driven alone: it takes whole jobs to move their bits,
+/// and those are held against their Verilog too.
+const JOBS: &[&str] = &[
+    "integrator",
+    "line_law",
+    "linear_interpolator",
+    "conventional_interpolator",
+    "controller",
+    "conventional_controller",
+];
+
 #[test]
 fn every_bit_that_can_move_moves() {
     let mut left = Vec::new();
@@ -238,6 +277,9 @@ fn every_bit_that_can_move_moves() {
             let (covered, all) = coverage.bits();
             let name = entry.name;
             println!("{name}, {size}: {covered} of {all} bits, {resets} resets");
+            if JOBS.contains(&name) {
+                continue;
+            }
             for still in coverage.untoggled() {
                 let mut allowed = allowed.iter().filter(|(path, _)| *path == still.path);
                 if !allowed.any(|(_, first)| still.bits.trailing_zeros() >= *first) {

@@ -448,12 +448,12 @@ fn every_setting_is_refused_by_name_value_and_range() {
             "clock_hz = 0: allowed is 1 to 10000000000",
         ),
         (
-            &|s| s.scan_ticks = 399,
-            "scan_ticks = 399: allowed is 400 to 16777215",
+            &|s| s.scan_ticks = 185,
+            "scan_ticks = 185: allowed is 186 to 16777215",
         ),
         (
             &|s| s.scan_ticks = 1 << 24,
-            "scan_ticks = 16777216: allowed is 400 to 16777215",
+            "scan_ticks = 16777216: allowed is 186 to 16777215",
         ),
         (
             &|s| s.counts_per_mm[1] = 0.0,

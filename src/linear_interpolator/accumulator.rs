@@ -78,14 +78,24 @@ signals! {
         pub addend: L::U<R>,
         /// |Δx|.
         pub divisor: L::U<R>,
+        /// |Δx|.
+        modulus: L::U<P>,
         /// The term Δy·δx/Δx is negative.
         term_down: L::Bit,
         /// B times the sign of Δx, and under the truncating rule also that of the term.
         carried: L::I<P>,
+        /// |δy(n)|, in the tick of `done`.
+        way: L::I<P>,
+        /// The remainder after this division, times the sign of Δx.
+        rest_positive: L::I<P>,
         /// δy(n): what the slave moves, in the tick of `done`.
         step: L::I<P>,
         /// The remainder after this division.
         left: L::I<P>,
+        /// The division is over.
+        over: L::Bit,
+        /// Its result is taken.
+        taken: L::Bit,
         /// B at the beginning of a cycle.
         first: L::I<P>,
     }
@@ -143,6 +153,7 @@ impl<const P: usize, const R: usize> Circuit for Accumulator<P, R> {
                 (quotient, rest.signed())
             }
         };
+        let (way, over) = (quotient.signed(), i.done & q.busy);
         let half = modulus.shift_right(1).signed();
         Net {
             divide: i.start & !q.busy & !i.master.is_zero() & !i.clear,
@@ -150,10 +161,15 @@ impl<const P: usize, const R: usize> Circuit for Accumulator<P, R> {
             multiplier: i.increment.magnitude(),
             addend: addend.resize(),
             divisor: modulus.resize(),
+            modulus,
             term_down,
             carried,
-            step: signed_by::<L, P>(q.down, quotient.signed()),
+            way,
+            rest_positive: rest,
+            step: signed_by::<L, P>(q.down, way),
             left: signed_by::<L, P>(backwards, rest),
+            over,
+            taken: over & !q.dropped,
             first: match self.rule {
                 Rule::Centred => signed_by::<L, P>(backwards, half),
                 Rule::Floor | Rule::Truncating => 0.into(),
@@ -163,21 +179,19 @@ impl<const P: usize, const R: usize> Circuit for Accumulator<P, R> {
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L, P, R>, i: &In<L, P, R>) -> Reg<L, P> {
-        let over = i.done & q.busy;
-        let taken = over & !q.dropped;
         Reg {
             integral: i
                 .clear
-                .mux(0.into(), taken.mux(q.integral + w.step, q.integral)),
-            remainder: i.clear.mux(w.first, taken.mux(w.left, q.remainder)),
-            busy: w.divide | (q.busy & !over),
-            dropped: q.busy & !over & (q.dropped | i.clear),
+                .mux(0.into(), w.taken.mux(q.integral + w.step, q.integral)),
+            remainder: i.clear.mux(w.first, w.taken.mux(w.left, q.remainder)),
+            busy: w.divide | (q.busy & !w.over),
+            dropped: q.busy & !w.over & (q.dropped | i.clear),
             down: w.divide.mux(w.term_down, q.down),
             lent: match self.rule {
                 Rule::Truncating => w.divide.mux(w.carried.is_negative(), q.lent),
                 Rule::Floor | Rule::Centred => false.into(),
             },
-            valid: taken & !i.clear,
+            valid: w.taken & !i.clear,
         }
     }
 }

@@ -54,6 +54,10 @@ signals! {
     pub struct Net<L, const P: usize, const R: usize> {
         /// Integrator 24.
         pub integrator: Instance<Integrator<P, R>, L>,
+        /// Distance of the master axis in this tick.
+        master_now: L::I<P>,
+        /// Distance of the slave axis in this tick.
+        slave_now: L::I<P>,
         /// An increment is taken.
         take: L::Bit,
         /// I.
@@ -87,18 +91,22 @@ impl<const P: usize, const R: usize> Circuit for LineLaw<P, R> {
     type Net<L: Logic> = Net<L, P, R>;
 
     fn comb<L: Logic>(&self, q: &Reg<L, P, R>, i: &In<L, P>) -> Net<L, P, R> {
+        let master_now = i.clear.mux(i.master, q.held_master);
+        let slave_now = i.clear.mux(i.slave, q.held_slave);
         let integrator = Instance::settle(
             &self.integrator,
             &q.integrator,
             integrator::In {
                 clear: i.clear,
-                master: i.clear.mux(i.master, q.held_master),
-                slave: i.clear.mux(i.slave, q.held_slave),
+                master: master_now,
+                slave: slave_now,
                 start: i.start,
                 increment: i.increment,
             },
         );
         Net {
+            master_now,
+            slave_now,
             take: i.start & !i.clear & !integrator.w.busy & !q.held_master.is_zero(),
             integral: integrator.w.integral,
             remainder: integrator.w.remainder,
@@ -111,8 +119,8 @@ impl<const P: usize, const R: usize> Circuit for LineLaw<P, R> {
         let cleared = |word: L::I<P>| i.clear.mux(0.into(), word);
         Reg {
             integrator: w.integrator.next(&self.integrator, q.integrator),
-            held_master: i.clear.mux(i.master, q.held_master),
-            held_slave: i.clear.mux(i.slave, q.held_slave),
+            held_master: w.master_now,
+            held_slave: w.slave_now,
             sum: cleared(sum),
             sum_before: cleared(w.take.mux(q.sum, q.sum_before)),
             integral_before: cleared(w.take.mux(w.integral, q.integral_before)),

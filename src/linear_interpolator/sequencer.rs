@@ -102,13 +102,25 @@ signals! {
 
 signals! {
     /// Nets.
-    pub struct Net<L> {
+    pub struct Net<L, const P: usize> {
         /// A target is taken.
         takes: L::Bit,
         /// The commands of a scan are begun.
         begins: L::Bit,
         /// Nothing is being computed.
         quiet: L::Bit,
+        /// |Δx|.
+        way_x: L::U<P>,
+        /// |Δy|.
+        way_y: L::U<P>,
+        /// The target is too far in X.
+        far_x: L::Bit,
+        /// The target is too far in Y.
+        far_y: L::Bit,
+        /// The target is refused.
+        refuses: L::Bit,
+        /// What is prepared is given up.
+        ends: L::Bit,
         /// The cycle is over.
         over: L::Bit,
         /// A scan comes too early.
@@ -137,18 +149,25 @@ impl<const P: usize> Circuit for Sequencer<P> {
     const ABOUT: &'static str = "takes targets, chooses the master axis, starts cycles and scans";
     type In<L: Logic> = In<L, P>;
     type Reg<L: Logic> = Reg<L, P>;
-    type Net<L: Logic> = Net<L>;
+    type Net<L: Logic> = Net<L, P>;
 
     #[inline(always)]
-    fn comb<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Net<L> {
+    fn comb<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Net<L, P> {
         let is = |state: u64| q.state.equals(state.into());
         let runs = is(RUN);
         let waits = i.pattern_ready | !i.pattern_active;
+        let refuses = is(PLAN) & q.too_far;
         let quiet = waits & !q.advance & !i.pattern_valid & !i.integrating & !i.load;
         Net {
+            refuses,
+            ends: i.abort | refuses,
             takes: is(IDLE) & i.available & !i.hold & !i.abort & !i.clear,
             begins: runs & i.scan & i.pattern_active & i.pattern_ready & quiet & !i.abort,
             quiet,
+            way_x: q.delta_x.magnitude(),
+            way_y: q.delta_y.magnitude(),
+            far_x: overflows::<L, P>(i.target_x, i.x),
+            far_y: overflows::<L, P>(i.target_y, i.y),
             over: runs & quiet & !i.pattern_active,
             early: runs & i.scan & q.computing & !quiet,
             home: is(IDLE) & i.clear,
@@ -157,26 +176,23 @@ impl<const P: usize> Circuit for Sequencer<P> {
     }
 
     #[inline(always)]
-    fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L>, i: &In<L, P>) -> Reg<L, P> {
+    fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L, P>, i: &In<L, P>) -> Reg<L, P> {
         let is = |state: u64| q.state.equals(state.into());
         let to = |state: u64| L::U::<3>::from(state);
         let (fetch, plan) = (is(FETCH), is(PLAN));
-        let refuses = plan & q.too_far;
         let onward = w.takes.mux(to(POP), is(IDLE).mux(to(IDLE), q.state + 1));
-        let ends = i.abort | refuses;
         let running = w.over.mux(to(IDLE), to(RUN));
-        let swapped = q.delta_x.magnitude().below(q.delta_y.magnitude());
+        let swapped = w.way_x.below(w.way_y);
         let pick =
             |choose: L::Bit, y: L::I<P>, x: L::I<P>, old: L::I<P>| plan.mux(choose.mux(y, x), old);
-        let too_far = overflows::<L, P>(i.target_x, i.x) | overflows::<L, P>(i.target_y, i.y);
         Reg {
-            state: is(RUN).mux(running, ends.mux(to(IDLE), onward)),
+            state: is(RUN).mux(running, w.ends.mux(to(IDLE), onward)),
             pop: w.takes,
-            start: plan & !ends,
+            start: plan & !w.ends,
             advance: w.begins,
             delta_x: fetch.mux(i.target_x - i.x, q.delta_x),
             delta_y: fetch.mux(i.target_y - i.y, q.delta_y),
-            too_far: fetch.mux(too_far, q.too_far),
+            too_far: fetch.mux(w.far_x | w.far_y, q.too_far),
             swapped: plan.mux(swapped, q.swapped),
             master_from: pick(swapped, i.y, i.x, q.master_from),
             slave_from: pick(swapped, i.x, i.y, q.slave_from),
@@ -184,7 +200,7 @@ impl<const P: usize> Circuit for Sequencer<P> {
             slave: pick(swapped, q.delta_x, q.delta_y, q.slave),
             computing: w.begins | (q.computing & !w.quiet),
             late: (q.late | w.early) & !w.home,
-            refused: (q.refused | (refuses & !i.abort)) & !w.home,
+            refused: (q.refused | (w.refuses & !i.abort)) & !w.home,
         }
     }
 }

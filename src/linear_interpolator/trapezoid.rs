@@ -132,6 +132,16 @@ signals! {
         pub addend: L::U<Q>,
         /// What the sum is divided by.
         pub divisor: L::U<Q>,
+        /// Ta + Td.
+        times: L::U<Q>,
+        /// 2|Δ|.
+        length_twice: L::U<Q>,
+        /// 2V.
+        speed_twice: L::U<Q>,
+        /// How far the scan moves.
+        share: L::I<P>,
+        /// The next step of the preparation is asked for.
+        prepares: L::Bit,
         /// 2|Δ| − V(Ta + Td) + 2V − 1, or 0 where the ramps alone are too long: Tc times 2V.
         excess: L::U<Q>,
         /// Speed at the end of the scan.
@@ -213,6 +223,11 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
             compute,
             result,
             product_only: ramps | peak | total,
+            times,
+            length_twice,
+            speed_twice,
+            share: i.quotient.resize::<P>().signed(),
+            prepares: begins | (result & !total & !scan),
             multiplicand: scan.mux(
                 q.length.resize(),
                 total.mux(
@@ -253,18 +268,16 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
         let speed = i.speed.is_zero().mux(1.into(), i.speed);
         let times = [i.acceleration_time, i.deceleration_time];
         let [up, down] = times.map(|time| time.is_zero().mux(1.into(), time));
-        let prepares = w.begins | (w.result & !total & !scan);
         let weighs = scan & w.compute;
         let moves = scan & w.result;
-        let share = i.quotient.resize::<P>().signed();
-        let moved = q.backward.mux(q.position - share, q.position + share);
+        let moved = q.backward.mux(q.position - w.share, q.position + w.share);
         let phase = weighs.mux(w.next_phase, q.phase);
         let phase = (i.abort & q.active).mux(DECELERATE.into(), phase);
         let steady_left = weighs.mux(w.left, q.steady_scans);
         Reg {
             state: w.next_state,
             phase: w.begins.mux(0.into(), phase),
-            request: !w.drop & (prepares | w.scans | (q.request & !w.compute)),
+            request: !w.drop & (w.prepares | w.scans | (q.request & !w.compute)),
             under_way: w.compute | (q.under_way & !i.done),
             length: w.take.mux(i.distance.magnitude(), q.length),
             backward: w.take.mux(i.distance.is_negative(), q.backward),

@@ -205,7 +205,7 @@ impl Panel {
             let words = text(&label(tick), at, frame + down + 16.0).set("text-anchor", "middle");
             group = group.add(line(at, frame, at, frame + down)).add(words);
         }
-        for tick in y.ticks((down / 45.0).max(2.0)) {
+        for tick in y.ticks((down / if self.equal { 45.0 } else { 30.0 }).max(2.0)) {
             let at = y.pixel(tick);
             let words = text(&label(tick), left - 6.0, at + 4.0).set("text-anchor", "end");
             group = group.add(line(left, at, left + across, at)).add(words);

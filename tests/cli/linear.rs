@@ -175,7 +175,7 @@ counts_per_rev = [4000, 8000]
 velocity_loop_ms = [1, 1.5]
 inertia_kg_m2 = [1e-5, 2e-5]
 max_torque_nm = [0.5, 1]
-friction_nm = [0, 0.01]
+friction_nm = [0, 1e-5]
 vcd_ticks = 100
 "#;
     let bench = Bench::with("all.toml", scenario);
@@ -187,7 +187,14 @@ vcd_ticks = 100
     assert_eq!(summary["interpolator"]["end_position"], json!([300, 500]));
     assert_eq!(
         bench.names(),
-        ["all.toml", "l.ngc", "waves/", "waves/all.svg"]
+        [
+            "all.toml",
+            "l.ngc",
+            "waves/",
+            "waves/all.gtkw",
+            "waves/all.svg",
+            "waves/all.vcd"
+        ]
     );
     // 30 and 45.5 ms are 25 and 38 scans of 1.2 ms, also for the chords, which are too short.
     let mut rows = summary["segments"].as_array().unwrap().iter();
@@ -314,7 +321,7 @@ fn the_picture_says_what_it_shows() {
     for text in [
         "z: linear interpolator",
         "linear interpolator: path, errors times ",
-        "conventional system: path, errors times ",
+        "conventional system: path",
         "contour error",
         "path speed",
     ] {
@@ -339,19 +346,55 @@ fn the_table_is_refused() {
 }
 
 #[test]
-fn flags_of_the_other_circuit_are_refused() {
+fn waves_have_the_window_and_the_scopes_that_are_asked_for() {
     let bench = Bench::with("l.hpgl", LINE);
-    for flag in [
-        &["--from", "5"][..],
-        &["--to", "5"],
-        &["--only", "x"],
-        &["--verilog"],
+    let arguments = ["run", "l.hpgl", "--from", "500", "--to", "3000"];
+    let only = [
+        "--only",
+        "controller.loop_x",
+        "--only",
+        "controller.plant.x.position",
+    ];
+    let summary = bench.json(&[&arguments[..], &LINEAR, &only].concat());
+    assert_eq!(summary["vcd_window"], json!([500, 3000]));
+    let vcd = bench.read("waves/l.vcd");
+    for (text, there) in [
+        (" reference ", true),
+        (" position ", true),
+        (" integral ", false),
     ] {
-        let arguments = [&["run", "l.hpgl"], &LINEAR[..], flag].concat();
-        let text = "the linear interpolator is played without waves; allowed: a scenario of the \
-             pulse interpolator";
-        bench.refuse(&arguments, &format!("{}: {text}", flag[0]));
+        assert_eq!(vcd.contains(text), there, "{text}");
     }
+    let save = bench.read("waves/l.gtkw");
+    assert!(save.contains("controller.loop_x.") && !save.contains("controller.loop_y."));
+
+    let refuse = |flags: &[&str], text: &str| {
+        bench.refuse(&[&["run", "l.hpgl"], &LINEAR[..], flags].concat(), text);
+    };
+    refuse(
+        &["--only", "controller.pen"],
+        "--only: there is no controller.pen; allowed: a signal, or a scope: controller, \
+         controller.plant, controller.plant.x, controller.plant.y, controller.scan_counter, \
+         controller.interpolator, controller.interpolator.targets, \
+         controller.interpolator.targets.xs, controller.interpolator.targets.ys, \
+         controller.interpolator.targets.speeds, controller.interpolator.targets.accelerations, \
+         controller.interpolator.targets.decelerations, controller.interpolator.sequencer, \
+         controller.interpolator.pattern, controller.interpolator.pattern.trapezoid, \
+         controller.interpolator.pattern.mul_div, controller.interpolator.differentiator, \
+         controller.interpolator.integrator, controller.interpolator.integrator.accumulator, \
+         controller.interpolator.integrator.mul_div, controller.interpolator.switch, \
+         controller.loop_x, controller.loop_x.counter, controller.loop_x.control, \
+         controller.loop_y, controller.loop_y.counter, controller.loop_y.control, controller.gate",
+    );
+    refuse(
+        &["--from", "9", "--to", "9"],
+        "--from, --to: no tick from 9 to 9; allowed: --from below --to",
+    );
+}
+
+#[test]
+fn segments_are_of_this_circuit_alone() {
+    let bench = Bench::with("l.hpgl", LINE);
     bench.refuse(
         &["run", "l.hpgl", "--segments"],
         "--segments: the pulse interpolator has no segments; allowed: a scenario of the linear \
@@ -373,7 +416,7 @@ fn bad_overrides_are_refused() {
         ("counts_per_mm=[80]", format!("counts_per_mm: invalid length 1; {PAIR}")),
         ("counts_per_mm=[1,2,3]", format!("counts_per_mm: invalid length 3; {PAIR}")),
         ("clock_hz=0", "clock_hz: is 0; allowed: 1 to 10000000000".into()),
-        ("scan_ticks=399", "scan_ticks: is 399; allowed: 400 to 16777215".into()),
+        ("scan_ticks=185", "scan_ticks: is 185; allowed: 186 to 16777215".into()),
         ("counts_per_mm=[80,-80]", "counts_per_mm: is -80 for y; allowed: 0.000001 to 1000000000".into()),
         ("counts_per_mm=[nan,80]", "counts_per_mm: is NaN for x; allowed: 0.000001 to 1000000000".into()),
         ("feed_mm_per_min=300001", "feed_mm_per_min: is 300001; allowed: 0.001 to 300000".into()),
@@ -411,7 +454,7 @@ fn bad_scenarios_are_refused_with_their_line() {
         ),
         (
             "scan_ticks = 100",
-            "s.toml:2: scan_ticks: is 100; allowed: 400 to 16777215".into(),
+            "s.toml:2: scan_ticks: is 100; allowed: 186 to 16777215".into(),
         ),
         (
             "# gains\nposition_gain_per_s = [1, 0]",

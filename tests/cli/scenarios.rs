@@ -49,17 +49,18 @@ fn every_scenario_that_ships_runs_exactly_and_its_dump_is_whole() {
         let summary = bench.json(&["run", &scenario]);
         assert_eq!(summary["exact"], true, "{scenario}");
         assert_eq!(summary["warnings"], json!([]), "{scenario}");
-        if summary["circuit"] == "linear_interpolator" {
-            // Played without waves.
-            continue;
-        }
-        assert_eq!(whole(&summary, "/unattainable_units"), 0, "{scenario}");
         let ticks = whole(&summary, "/ticks");
         assert_eq!(summary["vcd_window"], json!([0, ticks]), "{scenario}");
-        for axis in ["x", "y"] {
-            let axis = &summary["axes"][axis];
-            assert_eq!(whole(axis, "/end_position"), 0, "{scenario}");
-            assert!(whole(axis, "/pulses_up") > 1000, "{scenario}");
+        if summary["circuit"] == "linear_interpolator" {
+            let end = &summary["interpolator"]["end_position"];
+            assert_eq!(*end, json!([0, 0]), "{scenario}");
+        } else {
+            assert_eq!(whole(&summary, "/unattainable_units"), 0, "{scenario}");
+            for axis in ["x", "y"] {
+                let axis = &summary["axes"][axis];
+                assert_eq!(whole(axis, "/end_position"), 0, "{scenario}");
+                assert!(whole(axis, "/pulses_up") > 1000, "{scenario}");
+            }
         }
         let save = scenario.replace(".toml", ".gtkw");
         assert!(

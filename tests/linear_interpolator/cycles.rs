@@ -210,9 +210,10 @@ fn the_way_back_goes_over_points_of_the_same_line() {
 /// same tick or later: it stops on the line, and the new cycle ends exactly.
 #[test]
 fn an_abort_stops_on_the_line_and_leaves_nothing_behind() {
+    // Within reach of every place where a cycle may stop.
     let next = Target {
-        x: -3,
-        y: 11,
+        x: -1,
+        y: -1,
         speed: 4,
         times: [2, 2],
     };
@@ -230,15 +231,12 @@ fn an_abort_stops_on_the_line_and_leaves_nothing_behind() {
         let case = format!("{x}, {y} at {speed}, {times:?}, abort at {at}, {with}");
         let stopped = if with {
             // The next cycle begins where this one stops: the last point before its start.
-            let mut from = run.command();
             loop {
                 let before = run.command();
                 if run.tick(None, false).start.get() {
-                    from = before;
-                    break;
+                    break before;
                 }
             }
-            from
         } else {
             run.finish();
             run.command()

@@ -24,13 +24,10 @@ pub fn draw(job: &Job, runs: &Runs) -> String {
         ("linear interpolator", &runs.interpolator),
         ("conventional system", &runs.conventional),
     ];
-    let largest = systems
-        .iter()
-        .map(|(_, played)| largest_error(job, played))
-        .fold(0.0, f64::max);
-    let factor = magnification(largest, size(&runs.interpolator, settings));
     let mut picture = Picture::new(format!("{}: linear interpolator", job.stem));
     for (name, played) in systems {
+        let largest = largest_error(job, played);
+        let factor = magnification(largest, size(&runs.interpolator, settings));
         picture = picture.panel(path(job, name, played, factor));
     }
     let mut error = Panel::new("contour error", "time in s", "error in um");
