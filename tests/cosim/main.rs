@@ -2,6 +2,7 @@
 #![cfg(feature = "cosim")]
 
 mod golden_model;
+mod plotter;
 mod scenario;
 mod simulators;
 mod tools;

@@ -60,17 +60,22 @@ fn every_circuit_equals_its_verilog_in_icarus() {
 }
 
 #[test]
-fn the_literal_variants_equal_their_verilog_too() {
+fn the_other_variants_equal_their_verilog_too() {
     for name in ["pulse_generator", "axis", "unit_law"] {
         let entry = motion_rtl::registry::find(name).unwrap();
         let circuit = (entry.model)(&[8, 1]).unwrap();
+        assert!(hold(&*circuit, Simulator::Icarus, SEED, TICKS) > 0);
+    }
+    for rule in [1, 2] {
+        let entry = motion_rtl::registry::find("integrator").unwrap();
+        let circuit = (entry.model)(&[8, rule]).unwrap();
         assert!(hold(&*circuit, Simulator::Icarus, SEED, TICKS) > 0);
     }
 }
 
 #[test]
 fn the_top_circuits_equal_their_verilog_in_verilator() {
-    for name in ["unit_law", "axis", "pulse_interpolator"] {
+    for name in ["unit_law", "axis", "pulse_interpolator", "controller"] {
         let entry = motion_rtl::registry::find(name).unwrap();
         assert!(hold(&*(entry.full)(), Simulator::Verilator, SEED, TICKS) > 0);
     }
