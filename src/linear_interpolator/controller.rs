@@ -3,7 +3,7 @@
 //! ```text
 //!                             ┌────────────┐
 //!  push, target… ────────────▶│            ├──▶ ready, busy
-//!  abort, clear, exact_stop ─▶│            ├──▶ reference_x, reference_y
+//!  halt, clear, exact_stop ─▶│            ├──▶ reference_x, reference_y
 //!  scan_period ──────────────▶│ controller ├──▶ command_x, command_y
 //!  gain_x, gain_y, window ───▶│            ├──▶ feedback_x, feedback_y
 //!  a_x, b_x, a_y, b_y ───────▶│            ├──▶ late, refused, lost_x, lost_y
@@ -100,7 +100,7 @@ command_source!(
 signals! {
     /// Ports in: control computer, settings, encoders.
     pub struct In<L, const P: usize, const T: usize, const G: usize, const S: usize> {
-        /// A target is given; not taken unless `ready`, or with `abort`.
+        /// A target is given; not taken unless `ready`, or with `halt`.
         pub push: L::Bit,
         /// Its X.
         pub target_x: L::I<P>,
@@ -114,7 +114,7 @@ signals! {
         pub deceleration_time: L::U<T>,
         /// Ends the cycle along the line and forgets the targets that wait; one that is pushed with
         /// it is kept, and is where the axes go next.
-        pub abort: L::Bit,
+        pub halt: L::Bit,
         /// Between two cycles: commands and feedback become 0, the flags go.
         pub clear: L::Bit,
         /// A cycle begins only when both axes are in position.
@@ -294,7 +294,7 @@ impl<
                 speed: i.speed,
                 acceleration_time: i.acceleration_time,
                 deceleration_time: i.deceleration_time,
-                abort: i.abort,
+                halt: i.halt,
                 clear: i.clear,
             }),
         );

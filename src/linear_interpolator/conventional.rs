@@ -5,7 +5,7 @@
 //!                       ┌────────────────────┐
 //!  scan, hold ─────────▶│                    ├──▶ x, y
 //!  push, target… ──────▶│ conventional       ├──▶ ready, busy
-//!  abort, clear ───────▶│ interpolator       ├──▶ late, refused
+//!  halt, clear ───────▶│ interpolator       ├──▶ late, refused
 //!                       └────────────────────┘
 //! ```
 //!
@@ -126,7 +126,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
                 acceleration_time: i.acceleration_time,
                 deceleration_time: i.deceleration_time,
                 pop: q.sequencer.pop,
-                flush: i.abort,
+                flush: i.halt,
             },
         );
         let pattern = |q_pattern, from, distance| {
@@ -141,7 +141,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
                     acceleration_time: q.targets.target_acceleration,
                     deceleration_time: q.targets.target_deceleration,
                     advance: q.sequencer.advance,
-                    abort: i.abort,
+                    halt: i.halt,
                 },
             )
         };
@@ -156,7 +156,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
             sequencer::In {
                 scan: i.scan,
                 hold: i.hold,
-                abort: i.abort,
+                halt: i.halt,
                 clear: i.clear,
                 available: targets.w.available,
                 target_x: q.targets.target_x,

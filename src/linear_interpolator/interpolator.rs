@@ -5,7 +5,7 @@
 //!                       ┌─────────────────────┐
 //!  scan, hold ─────────▶│                     ├──▶ x, y
 //!  push, target… ──────▶│ linear interpolator ├──▶ ready, busy
-//!  abort, clear ───────▶│                     ├──▶ late, refused
+//!  halt, clear ───────▶│                     ├──▶ late, refused
 //!                       └─────────────────────┘
 //! ```
 
@@ -24,7 +24,7 @@ signals! {
         pub scan: L::Bit,
         /// No new cycle begins.
         pub hold: L::Bit,
-        /// A target is given; not taken unless `ready`, or with `abort`.
+        /// A target is given; not taken unless `ready`, or with `halt`.
         pub push: L::Bit,
         /// Its X.
         pub target_x: L::I<P>,
@@ -38,7 +38,7 @@ signals! {
         pub deceleration_time: L::U<T>,
         /// Ends the cycle along the line and forgets the targets that wait; one that is pushed with
         /// it is kept, and is where the axes go next.
-        pub abort: L::Bit,
+        pub halt: L::Bit,
         /// Between two cycles: the commands become 0, the flags go.
         pub clear: L::Bit,
     }
@@ -186,7 +186,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
                 acceleration_time: i.acceleration_time,
                 deceleration_time: i.deceleration_time,
                 pop: q.sequencer.pop,
-                flush: i.abort,
+                flush: i.halt,
             },
         );
         let pattern = Instance::settle(
@@ -200,7 +200,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
                 acceleration_time: q.targets.target_acceleration,
                 deceleration_time: q.targets.target_deceleration,
                 advance: q.sequencer.advance,
-                abort: i.abort,
+                halt: i.halt,
             },
         );
         let differentiator = Instance::settle(
@@ -230,7 +230,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
             sequencer::In {
                 scan: i.scan,
                 hold: i.hold,
-                abort: i.abort,
+                halt: i.halt,
                 clear: i.clear,
                 available: targets.w.available,
                 target_x: q.targets.target_x,

@@ -224,7 +224,7 @@ pub fn play<C: CommandSource<P, T>>(
             speed: target.map_or(0, |target| target.speed).into(),
             acceleration_time: target.map_or(0, |target| target.acceleration_scans).into(),
             deceleration_time: target.map_or(0, |target| target.deceleration_scans).into(),
-            abort: false.into(),
+            halt: false.into(),
             clear: false.into(),
             exact_stop: settings.exact_stop.into(),
             scan_period: u64::from(settings.scan_ticks).into(),

@@ -37,7 +37,7 @@ signals! {
         /// Makes the next position, if `ready`.
         pub advance: L::Bit,
         /// Ends the cycle: before its first scan at once, later by a ramp down.
-        pub abort: L::Bit,
+        pub halt: L::Bit,
     }
 }
 
@@ -118,7 +118,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
                 acceleration_time: i.acceleration_time,
                 deceleration_time: i.deceleration_time,
                 advance: i.advance,
-                abort: i.abort,
+                halt: i.halt,
                 done: q.mul_div.done,
                 quotient: q.mul_div.quotient,
                 remainder: q.mul_div.remainder,

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!                                      ┌───────────┐
-//!  scan, hold, abort, clear ──────────▶│           ├──▶ pop ──▶ target data 20
+//!  scan, hold, halt, clear ──────────▶│           ├──▶ pop ──▶ target data 20
 //!  available, target_x, target_y ─────▶│           ├──▶ start, advance ──▶ generator 14
 //!  x, y ──────────────────────────────▶│ sequencer ├──▶ swapped, master…, slave…
 //!  pattern_active, _ready, _valid ────▶│           ├──▶ busy, late, refused
@@ -38,7 +38,7 @@ signals! {
         /// No new cycle begins.
         pub hold: L::Bit,
         /// Ends the cycle that runs: the axes slow down along the line.
-        pub abort: L::Bit,
+        pub halt: L::Bit,
         /// Between two cycles: the commands become 0, the flags go.
         pub clear: L::Bit,
         /// A target waits.
@@ -160,9 +160,9 @@ impl<const P: usize> Circuit for Sequencer<P> {
         let quiet = waits & !q.advance & !i.pattern_valid & !i.integrating & !i.load;
         Net {
             refuses,
-            ends: i.abort | refuses,
-            takes: is(IDLE) & i.available & !i.hold & !i.abort & !i.clear,
-            begins: runs & i.scan & i.pattern_active & i.pattern_ready & quiet & !i.abort,
+            ends: i.halt | refuses,
+            takes: is(IDLE) & i.available & !i.hold & !i.halt & !i.clear,
+            begins: runs & i.scan & i.pattern_active & i.pattern_ready & quiet & !i.halt,
             quiet,
             way_x: q.delta_x.magnitude(),
             way_y: q.delta_y.magnitude(),
@@ -200,7 +200,7 @@ impl<const P: usize> Circuit for Sequencer<P> {
             slave: pick(swapped, q.delta_x, q.delta_y, q.slave),
             computing: w.begins | (q.computing & !w.quiet),
             late: (q.late | w.early) & !w.home,
-            refused: (q.refused | (w.refuses & !i.abort)) & !w.home,
+            refused: (q.refused | (w.refuses & !i.halt)) & !w.home,
         }
     }
 }
@@ -246,7 +246,7 @@ impl<const P: usize> Specified for Sequencer<P> {
                 |now, next| {
                     let wrong = now.q.too_far.get() && now.q.state.get() == PLAN;
                     let refused =
-                        next.state.get() == IDLE && (now.i.abort.get() || next.refused.get());
+                        next.state.get() == IDLE && (now.i.halt.get() || next.refused.get());
                     require(!wrong || refused, ["state", "refused"], || "begun".into())
                 },
             )
@@ -256,7 +256,7 @@ impl<const P: usize> Specified for Sequencer<P> {
                     let early = now.q.state.get() != RUN;
                     let ended = next.state.get() == IDLE && !next.start.get() && !next.pop.get();
                     require(
-                        !now.i.abort.get() || !early || ended,
+                        !now.i.halt.get() || !early || ended,
                         ["state", "start"],
                         || "goes on".into(),
                     )

@@ -4,7 +4,7 @@
 //!                              ┌───────────┐
 //!  start, from, distance ─────▶│           ├──▶ position, valid
 //!  speed, …time ──────────────▶│           ├──▶ ready, active
-//!  advance, abort ────────────▶│ trapezoid │
+//!  advance, halt ────────────▶│ trapezoid │
 //!  done, quotient, remainder ─▶│           ├──▶ compute, product_only, multiplicand,
 //!                              └───────────┘    multiplier, addend, divisor
 //! ```
@@ -15,7 +15,7 @@
 //! whole; what the division leaves goes into the next scan, so that nothing is lost.
 //!
 //! Departures: the text says nothing of the discrete form. Every cycle ends exactly at its target;
-//! a short one keeps its times and has a lower peak; times and speed of 0 count as 1; `abort`
+//! a short one keeps its times and has a lower peak; times and speed of 0 count as 1; `halt`
 //! ramps down from the present level, along the same line.
 
 use crate::kernel::Circuit;
@@ -57,7 +57,7 @@ signals! {
         /// Makes the next position, if `ready`.
         pub advance: L::Bit,
         /// Ends the cycle: before its first scan at once, later by a ramp down.
-        pub abort: L::Bit,
+        pub halt: L::Bit,
         /// The multiplier-divider has its result.
         pub done: L::Bit,
         /// Its quotient, or its product.
@@ -191,8 +191,8 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
         let (steady, decelerate) = (q.phase.bit(0), q.phase.bit(1));
 
         let take = i.start & !q.active;
-        let begins = take & !i.distance.is_zero() & !i.abort;
-        let drop = i.abort & q.active & q.level.is_zero() & !scan;
+        let begins = take & !i.distance.is_zero() & !i.halt;
+        let drop = i.halt & q.active & q.level.is_zero() & !scan;
         let scans = i.advance & q.ready & !drop;
         let compute = q.request & (!q.under_way | i.done);
         let result = i.done & q.under_way & !q.request & q.active;
@@ -272,7 +272,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
         let moves = scan & w.result;
         let moved = q.backward.mux(q.position - w.share, q.position + w.share);
         let phase = weighs.mux(w.next_phase, q.phase);
-        let phase = (i.abort & q.active).mux(DECELERATE.into(), phase);
+        let phase = (i.halt & q.active).mux(DECELERATE.into(), phase);
         let steady_left = weighs.mux(w.left, q.steady_scans);
         Reg {
             state: w.next_state,

@@ -1,5 +1,6 @@
 //! Circuits whose types are forgotten.
 
+use super::apart::Apart;
 use crate::check::{Drive, Driven, Outcome, Progress, Proof, Specified, TooWide, drive, reach};
 use crate::kernel::{Circuit, Declarations, RunError};
 use crate::trace::chart::{Chart, ChartFailure};
@@ -53,15 +54,21 @@ impl<C: Circuit> AnyModel for C {
     }
 
     fn declarations(&self) -> Declarations {
-        Declarations::of(self)
+        Declarations::of(&Apart(self))
     }
 
     fn layout(&self) -> Result<(), LayoutError> {
-        Vcd::new(io::sink(), self, Clock::default(), &Options::default()).map(drop)
+        Vcd::new(
+            io::sink(),
+            &Apart(self),
+            Clock::default(),
+            &Options::default(),
+        )
+        .map(drop)
     }
 
     fn chart(&self, chart: &Chart) -> Result<(), ChartFailure> {
-        chart.run(self)
+        chart.run(&Apart(self))
     }
 
     fn verilog(&self) -> Result<Verilog, VerilogError> {
@@ -74,7 +81,7 @@ impl<C: Circuit> AnyModel for C {
         waves: &mut dyn Write,
         stimulus: &mut dyn Write,
     ) -> Result<Driven, RunError> {
-        drive(self, run, waves, stimulus)
+        drive(&Apart(self), run, waves, stimulus)
     }
 }
 

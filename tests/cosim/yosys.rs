@@ -130,7 +130,7 @@ fn every_circuit_goes_through_synthesis_and_the_note_has_its_cells() {
 #[test]
 fn assertions_are_proved_by_induction_at_full_width() {
     let table = induction();
-    assert_eq!(table.lines().count(), 2 + 3 + 6 + 2, "{table}");
+    assert_eq!(table.lines().count(), 2 + 3 + 6 + 2 + 4, "{table}");
     measured("induction", &table);
 }
 

@@ -66,7 +66,7 @@ impl<'a> Run<'a> {
             speed: target.speed.into(),
             acceleration_time: target.times[0].into(),
             deceleration_time: target.times[1].into(),
-            abort: abort.into(),
+            halt: abort.into(),
             clear: false.into(),
         };
         let before = self.command();
@@ -358,7 +358,7 @@ fn a_long_line_at_full_width() {
             speed: 40_000_000.into(),
             acceleration_time: 20.into(),
             deceleration_time: 35.into(),
-            abort: false.into(),
+            halt: false.into(),
             clear: false.into(),
         };
         let (next, (loaded, late)) = simulator.step(i, |now| (now.w.load.get(), now.w.late.get()));

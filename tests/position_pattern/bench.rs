@@ -59,7 +59,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Bench<P, T,
             acceleration_time: ports.times[0].into(),
             deceleration_time: ports.times[1].into(),
             advance: ports.advance.into(),
-            abort: ports.abort.into(),
+            halt: ports.halt.into(),
         };
         let simulator = self.simulator.take().expect("it runs");
         let (next, shown) = simulator.step(i, |now| Outputs {
@@ -89,7 +89,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Bench<P, T,
             for within in 0..Self::SCAN_LATENCY {
                 let strobes = Ports {
                     advance: within == 0,
-                    abort: abort == Some((scan, within)),
+                    halt: abort == Some((scan, within)),
                     ..Ports::default()
                 };
                 self.step(&strobes);
@@ -99,7 +99,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Bench<P, T,
             }
             if abort == Some((scan, Self::SCAN_LATENCY)) {
                 self.step(&Ports {
-                    abort: true,
+                    halt: true,
                     ..Ports::default()
                 });
             }

@@ -205,7 +205,7 @@ fn an_abort_in_any_tick_leaves_nothing_behind() {
                 bench.step(&advance);
             }
             bench.step(&Ports {
-                abort: true,
+                halt: true,
                 ..Ports::default()
             });
             while bench.outputs().active {
@@ -241,7 +241,7 @@ fn an_abort_with_the_start_leaves_the_position_only() {
     for abort in [false, true] {
         for distance in -8..8 {
             let ports = Ports {
-                abort,
+                halt: abort,
                 ..cycle(distance / 2, distance, 3, [1, 1])
             };
             bench.step(&ports);
@@ -250,7 +250,7 @@ fn an_abort_with_the_start_leaves_the_position_only() {
             assert_eq!(outputs.position, distance / 2);
             if outputs.active {
                 bench.step(&Ports {
-                    abort: true,
+                    halt: true,
                     ..Ports::default()
                 });
             }
@@ -344,7 +344,7 @@ proptest! {
                 bench.step(&Ports {
                     start: strobe(rates[0]),
                     advance: strobe(rates[1]),
-                    abort: strobe(rates[2]),
+                    halt: strobe(rates[2]),
                     ..ports
                 });
             }

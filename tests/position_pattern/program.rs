@@ -10,7 +10,7 @@ pub struct Ports {
     pub speed: u64,
     pub times: [u64; 2],
     pub advance: bool,
-    pub abort: bool,
+    pub halt: bool,
 }
 
 /// What is at the ports out.
@@ -164,7 +164,7 @@ impl Program {
 
     fn start(&mut self, i: &Ports) {
         self.position = i.from.into();
-        if i.distance == 0 || i.abort {
+        if i.distance == 0 || i.halt {
             return;
         }
         let begun = self.free.max(self.tick + 1);
@@ -195,7 +195,7 @@ impl Program {
             return;
         };
         let mut ended = false;
-        if i.abort && cycle.stopping.is_none() {
+        if i.halt && cycle.stopping.is_none() {
             if tick < cycle.ready_at {
                 // The step under way is left to finish.
                 let mut begun = cycle.begun;
