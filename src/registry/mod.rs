@@ -1,6 +1,5 @@
 //! All circuits by name: what `list` and `check` show, what a note's timing charts run.
 
-mod apart;
 mod circuits;
 mod entry;
 mod model;

@@ -1,6 +1,5 @@
 //! Circuits whose types are forgotten.
 
-use super::apart::Apart;
 use crate::check::{Drive, Driven, Outcome, Progress, Proof, Specified, TooWide, drive, reach};
 use crate::kernel::{Circuit, Declarations, RunError};
 use crate::trace::chart::{Chart, ChartFailure};
@@ -54,21 +53,15 @@ impl<C: Circuit> AnyModel for C {
     }
 
     fn declarations(&self) -> Declarations {
-        Declarations::of(&Apart(self))
+        Declarations::of(self)
     }
 
     fn layout(&self) -> Result<(), LayoutError> {
-        Vcd::new(
-            io::sink(),
-            &Apart(self),
-            Clock::default(),
-            &Options::default(),
-        )
-        .map(drop)
+        Vcd::new(io::sink(), self, Clock::default(), &Options::default()).map(drop)
     }
 
     fn chart(&self, chart: &Chart) -> Result<(), ChartFailure> {
-        chart.run(&Apart(self))
+        chart.run(self)
     }
 
     fn verilog(&self) -> Result<Verilog, VerilogError> {
@@ -81,7 +74,7 @@ impl<C: Circuit> AnyModel for C {
         waves: &mut dyn Write,
         stimulus: &mut dyn Write,
     ) -> Result<Driven, RunError> {
-        drive(&Apart(self), run, waves, stimulus)
+        drive(self, run, waves, stimulus)
     }
 }
 
