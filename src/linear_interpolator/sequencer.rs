@@ -337,12 +337,26 @@ impl<const P: usize> Specified for Sequencer<P> {
             )
     }
 
-    /// Target and commands are looked at while a cycle is prepared only; the pattern is ready only
-    /// while it is active.
+    /// Words are tried with the strobes low, and strobes with the words zero: no equation has both.
+    fn applies(&self, i: &In<Sim, P>) -> bool {
+        let words = [i.target_x, i.target_y, i.x, i.y];
+        let strobes = [
+            i.scan,
+            i.hold,
+            i.clear,
+            i.pattern_active,
+            i.pattern_ready,
+            i.pattern_valid,
+            i.integrating,
+            i.load,
+        ];
+        words.iter().all(|word| word.get() == 0) || strobes.iter().all(|strobe| !strobe.get())
+    }
+
+    /// Target and commands are looked at while a cycle is prepared only.
     fn assumes(&self, q: &Reg<Sim, P>, i: &In<Sim, P>) -> bool {
-        let prepares = matches!(q.state.get(), FETCH | PLAN);
         let words = [i.target_x, i.target_y, i.x, i.y];
         let quiet = words.iter().all(|word| word.get() == 0);
-        (prepares || quiet) && (i.pattern_active.get() || !i.pattern_ready.get())
+        matches!(q.state.get(), FETCH | PLAN) || quiet
     }
 }

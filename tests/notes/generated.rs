@@ -159,7 +159,7 @@ fn signals(entry: &Entry) -> String {
             Format::States(names) => format!(" States: {}.", names.join(", ")),
             _ => String::new(),
         };
-        let doc = field.doc.trim().replace('\n', " ");
+        let doc = cell(field.doc);
         let power_on = power_on(leaf);
         let _ = writeln!(
             text,
@@ -169,11 +169,17 @@ fn signals(entry: &Entry) -> String {
     text
 }
 
+/// A doc comment as a cell of a table.
+fn cell(doc: &str) -> String {
+    let words: Vec<_> = doc.split_whitespace().collect();
+    words.join(" ").replace('|', "\\|")
+}
+
 fn memory_row(memory: &MemoryDeclaration) -> String {
     let MemoryDeclaration {
         name, words, width, ..
     } = memory;
-    let doc = memory.field.doc.trim().replace('\n', " ");
+    let doc = cell(memory.field.doc);
     format!("| `{name}` | {words} × {width} | memory | contents | {doc} |\n")
 }
 
