@@ -20,7 +20,7 @@ struct Seen {
     deviation: i64,
     in_position: bool,
     /// What the D/A converter held until this scan.
-    reference: i64,
+    speed_ref: i64,
     saturated: bool,
     lost: bool,
 }
@@ -65,12 +65,12 @@ impl<'c> Axis<'c> {
         let (after, seen) = simulator.step(i, |now| Seen {
             deviation: now.w.deviation.get(),
             in_position: now.w.in_position.get(),
-            reference: now.w.reference.get(),
+            speed_ref: now.w.speed_ref.get(),
             saturated: now.w.saturated.get(),
             lost: now.w.lost.get(),
         });
         self.simulator = Some(after);
-        self.levels = self.servo.step(seen.reference, FULL);
+        self.levels = self.servo.step(seen.speed_ref, FULL);
         seen
     }
 
@@ -113,7 +113,7 @@ fn settles(
     let scans = (seconds / TICK_S / scan_ticks as f64) as u64;
     for scan in 0..scans + 50 {
         let seen = axis.scan(target);
-        let there = seen.deviation == 0 && seen.reference == 0 && seen.in_position;
+        let there = seen.deviation == 0 && seen.speed_ref == 0 && seen.in_position;
         if seen.lost || scan >= scans && !there {
             return Err(format!("scan {scan} of {scans}: {seen:?}"));
         }
@@ -298,7 +298,7 @@ fn the_converter_saturates_at_rated_speed_and_comes_back() {
         let mut saturated = 0;
         for _ in 0..700 {
             let seen = axis.scan(target);
-            assert_eq!(seen.saturated, seen.reference.abs() == FULL);
+            assert_eq!(seen.saturated, seen.speed_ref.abs() == FULL);
             assert!(!seen.lost);
             saturated += u64::from(seen.saturated);
             let speed = axis.servo.speed_counts_per_s().abs();

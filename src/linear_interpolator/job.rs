@@ -213,7 +213,7 @@ pub fn play<C: CommandSource<P, T>>(
     let mut simulator = Simulator::new(circuit);
     loop {
         let q = simulator.registers();
-        let references = [&q.loop_x, &q.loop_y].map(|axis| axis.control.reference.get());
+        let references = [&q.loop_x, &q.loop_y].map(|axis| axis.control.speed_ref.get());
         let [(a_x, b_x), (a_y, b_y)] =
             [0, 1].map(|axis: usize| servos[axis].step(references[axis], FULL_SCALE));
         let target = bench.push();

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!               ┌──────────────────┐
-//!  scan ───────▶│                  ├──▶ reference, saturated
+//!  scan ───────▶│                  ├──▶ speed_ref, saturated
 //!  command ────▶│                  │
 //!  feedback ───▶│ position control ├──▶ deviation
 //!  gain ───────▶│                  │
@@ -11,7 +11,7 @@
 //! ```
 //!
 //! In the tick of `scan` the deviation is multiplied by the gain, rounded, limited to the range of
-//! the D/A converter and loaded into `reference`, which shows it a tick later and holds it until
+//! the D/A converter and loaded into `speed_ref`, which shows it a tick later and holds it until
 //! the next scan.
 //!
 //! The text has a gain and a D/A converter and says nothing of fraction bits, rounding or
@@ -44,7 +44,7 @@ signals! {
     /// Flip-flops.
     pub struct Reg<L, const D: usize> {
         /// 12: speed reference, the word of the D/A converter; at most 2^(D−1) − 1 either way.
-        pub reference: L::I<D> as Analog = 0,
+        pub speed_ref: L::I<D> as Analog = 0,
         /// The reference is at its limit.
         pub saturated: L::Bit = 0,
     }
@@ -135,7 +135,7 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, D>, w: &Net<L, P, D, R>, i: &In<L, P, G>) -> Reg<L, D> {
         Reg {
-            reference: i.scan.mux(w.limited_reference, q.reference),
+            speed_ref: i.scan.mux(w.limited_reference, q.speed_ref),
             saturated: i.scan.mux(w.limited, q.saturated),
         }
     }
@@ -168,29 +168,29 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
                 move |now, next| {
                     let gain = i128::from(now.i.gain.get());
                     let product = i128::from(now.w.deviation.get()) * gain;
-                    let reference = i128::from(next.reference.get());
+                    let reference = i128::from(next.speed_ref.get());
                     // In units of the product: how far it is from the reference that it gets.
                     let short = product.abs() - (reference.abs() << F);
                     let nearest = 2 * short < 1 << F && 2 * short >= -(1 << F);
                     let cut = reference.abs() == limit && 2 * short >= -(1 << F);
                     let sign = reference == 0 || reference.signum() == product.signum();
                     let right = sign && reference.abs() <= limit && (nearest || cut);
-                    require(!now.i.scan.get() || right, ["reference"], || {
+                    require(!now.i.scan.get() || right, ["speed_ref"], || {
                         format!("{reference} for a product of {product}")
                     })
                 },
             )
             .step("between scans the reference holds", |now, next| {
                 let q = now.q;
-                let same = next.reference == q.reference && next.saturated == q.saturated;
-                require(now.i.scan.get() || same, ["reference", "scan"], || {
+                let same = next.speed_ref == q.speed_ref && next.saturated == q.saturated;
+                require(now.i.scan.get() || same, ["speed_ref", "scan"], || {
                     "changed by itself".into()
                 })
             })
             .always("saturated is at the limit", move |now| {
-                let at_limit = i128::from(now.q.reference.get()).abs() == limit;
+                let at_limit = i128::from(now.q.speed_ref.get()).abs() == limit;
                 require(now.q.saturated.get() == at_limit, ["saturated"], || {
-                    format!("at {}", now.q.reference.get())
+                    format!("at {}", now.q.speed_ref.get())
                 })
             })
     }

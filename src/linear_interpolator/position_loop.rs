@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!               ┌───────────────┐
-//!  scan ───────▶│               ├──▶ reference, saturated
+//!  scan ───────▶│               ├──▶ speed_ref, saturated
 //!  command ────▶│               │
 //!  a, b ───────▶│ position loop ├──▶ deviation, in_position
 //!  clear ──────▶│               │
@@ -60,7 +60,7 @@ signals! {
         /// Position control 10–12.
         pub control: Instance<PositionControl<P, G, F, D, R>, L>,
         /// Speed reference N_ref, the word of the D/A converter.
-        pub reference: L::I<D> as Analog,
+        pub speed_ref: L::I<D> as Analog,
         /// The reference is at its limit.
         pub saturated: L::Bit,
         /// Command − feedback in counts.
@@ -120,7 +120,7 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
             },
         );
         Net {
-            reference: q.control.reference,
+            speed_ref: q.control.speed_ref,
             saturated: q.control.saturated,
             deviation: control.w.deviation,
             in_position: control.w.in_position,
@@ -152,16 +152,16 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
         Invariants::<Self>::new()
             .step("a scan drives towards the command", |now, next| {
                 let way = (now.i.command - now.q.counter.position).get();
-                let (drive, gain) = (next.control.reference.get(), now.i.gain.get());
+                let (drive, gain) = (next.control.speed_ref.get(), now.i.gain.get());
                 let right =
                     drive.signum() * way.signum() >= 0 && (way != 0 && gain != 0 || drive == 0);
-                require(!now.i.scan.get() || right, ["reference", "command"], || {
+                require(!now.i.scan.get() || right, ["speed_ref", "command"], || {
                     format!("{drive} to go {way}")
                 })
             })
             .step("between scans the reference holds", |now, next| {
-                let held = next.control.reference == now.q.control.reference;
-                require(now.i.scan.get() || held, ["reference", "scan"], || {
+                let held = next.control.speed_ref == now.q.control.speed_ref;
+                require(now.i.scan.get() || held, ["speed_ref", "scan"], || {
                     "changed by itself".into()
                 })
             })

@@ -359,7 +359,7 @@ fn waves_have_the_window_and_the_scopes_that_are_asked_for() {
     assert_eq!(summary["vcd_window"], json!([500, 3000]));
     let vcd = bench.read("waves/l.vcd");
     for (text, there) in [
-        (" reference ", true),
+        (" speed_ref ", true),
         (" position ", true),
         (" integral ", false),
     ] {

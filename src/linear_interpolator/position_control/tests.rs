@@ -12,7 +12,7 @@ use proptest::prelude::*;
 struct Out {
     deviation: i64,
     in_position: bool,
-    reference: i64,
+    speed_ref: i64,
     saturated: bool,
 }
 
@@ -39,7 +39,7 @@ fn scanned<const P: usize, const G: usize, const F: usize, const D: usize, const
     Out {
         deviation,
         in_position,
-        reference: after.registers().reference.get(),
+        speed_ref: after.registers().speed_ref.get(),
         saturated: after.registers().saturated.get(),
     }
 }
@@ -62,7 +62,7 @@ fn expected([p, f, d]: [u32; 3], command: i64, feedback: i64, gain: u64, window:
     Out {
         deviation: deviation as i64,
         in_position: deviation.abs() <= i128::from(window),
-        reference: reference as i64,
+        speed_ref: reference as i64,
         saturated: reference.abs() == limit,
     }
 }
@@ -81,7 +81,7 @@ fn sweep<const F: usize, const D: usize>() {
                 let other = scanned::<4, 4, F, D, 8>(feedback, command, gain, window);
                 if out.deviation != -8 {
                     assert_eq!(
-                        other.reference, -out.reference,
+                        other.speed_ref, -out.speed_ref,
                         "{command} {feedback} {gain}"
                     );
                 }
@@ -105,22 +105,22 @@ fn known_references() {
     // 3/4 of a count per LSB, in 1/256: 192.
     for (deviation, reference) in [(1, 1), (2, 2), (-2, -2), (3, 2), (4, 3), (100_000, 32_767)] {
         let out = scanned::<32, 16, 8, 16, 48>(deviation, 0, 192, 0);
-        assert_eq!(out.reference, reference, "{deviation}");
+        assert_eq!(out.speed_ref, reference, "{deviation}");
     }
     // Half an LSB goes away from zero, a little less to zero.
     for (gain, reference) in [(127, 0), (128, 1), (129, 1), (383, 1), (384, 2)] {
         assert_eq!(
-            scanned::<32, 16, 8, 16, 48>(1, 0, gain, 0).reference,
+            scanned::<32, 16, 8, 16, 48>(1, 0, gain, 0).speed_ref,
             reference
         );
         assert_eq!(
-            scanned::<32, 16, 8, 16, 48>(0, 1, gain, 0).reference,
+            scanned::<32, 16, 8, 16, 48>(0, 1, gain, 0).speed_ref,
             -reference
         );
     }
     // The greatest amount there is, by the greatest gain.
     let most = scanned::<32, 16, 8, 16, 48>(i32::MIN.into(), 0, 65_535, 0);
-    assert_eq!((most.reference, most.saturated), (-32_767, true));
+    assert_eq!((most.speed_ref, most.saturated), (-32_767, true));
 }
 
 #[test]
