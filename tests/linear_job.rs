@@ -410,6 +410,14 @@ fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
                 );
             }
         }
+        // Where the motors are in the scan that begins a cycle: at its start, if it waits for them.
+        let astray = |cycle: &Cycle| {
+            let record = &ours.records[cycle.scans.start - 1];
+            let off = |axis: usize| (record.motor[axis] - cycle.from[axis] as f64).abs();
+            off(0).max(off(1)) > f64::from(settings.in_position_counts) + 1.0
+        };
+        let early = ours.cycles.iter().filter(|cycle| astray(cycle)).count();
+        assert_eq!(early == 0, exact_stop, "{early} cycles");
         let segments = ours.segments(settings.counts_per_mm);
         let off = |segment: &&Segment| !segment.deviation.is_within(rule);
         assert_eq!(segments.iter().find(off), None, "{rule:?}");
