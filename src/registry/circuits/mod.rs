@@ -1,16 +1,18 @@
 //! The catalogue, a file for each patent.
 
 mod blocks;
+mod lead_angle;
 mod linear_interpolator;
 mod make;
 mod pulse_interpolator;
 
 use super::Entry;
 
-const PARTS: [&[Entry]; 3] = [
+const PARTS: [&[Entry]; 4] = [
     pulse_interpolator::CIRCUITS,
     blocks::CIRCUITS,
     linear_interpolator::CIRCUITS,
+    lead_angle::CIRCUITS,
 ];
 
 const COUNT: usize = {

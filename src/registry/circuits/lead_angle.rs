@@ -1,0 +1,334 @@
+use super::make::second;
+use crate::lead_angle::{
+    Comparator, Comparing, Compensator, CompletionDetector, Correction, CorrectionArithmetic, Lead,
+    LeadPlacement, Placement, PositionHistory, RamHistory, RatioLogic, Sign, SpeedLead,
+    StepSequencer, StopError, TargetSetter, TimeData, TimeLead, Variant,
+};
+use crate::logic::Image;
+use crate::registry::Entry;
+use crate::registry::entry::{Made, any_width, at_width, entry, some_widths};
+
+/// Stages of history where positions have `width` bits.
+const fn stages(width: usize) -> usize {
+    match width {
+        2 => 2,
+        3 | 4 => 3,
+        _ => 15,
+    }
+}
+
+/// Bits of a tap of so many stages.
+const fn tap_bits(width: usize) -> usize {
+    if width <= 4 { 2 } else { 4 }
+}
+
+/// Bits of a lead time of ten times as many.
+const fn time_bits(width: usize) -> usize {
+    if width <= 4 { 5 } else { 8 }
+}
+
+fn placement(number: u64) -> Placement {
+    match number {
+        0 => Placement::Position,
+        1 => Placement::Target,
+        _ => Placement::Halves,
+    }
+}
+
+fn comparing(number: u64) -> Comparing {
+    match number {
+        0 => Comparing::Crossing,
+        _ => Comparing::Equal,
+    }
+}
+
+fn sign(number: u64) -> Sign {
+    match number {
+        0 => Sign::Converging,
+        _ => Sign::Literal,
+    }
+}
+
+/// The variant that follows the width, and the times that follow the variant.
+fn variant(given: &[u64]) -> Variant {
+    let number = |place: usize| given.get(place).copied().unwrap_or(0);
+    Variant {
+        placement: placement(number(1)),
+        comparing: comparing(number(2)),
+        sign: sign(number(3)),
+    }
+}
+
+/// A time in each word, from step 0 up.
+fn rom<const A: usize, const C: usize>(words: &[u64]) -> Image<A, C> {
+    Image::new(words.iter().copied())
+}
+
+/// A time lead of the widths that go with positions of `$width` bits.
+macro_rules! time_lead {
+    ($history:ident, $width:ident) => {
+        TimeLead::<
+            $history<{ stages($width) }, { tap_bits($width) }, $width>,
+            { stages($width) },
+            { tap_bits($width) },
+            { time_bits($width) },
+            $width,
+        >
+    };
+}
+
+/// A compensator with such a lead, or with another.
+macro_rules! compensator {
+    ($lead:ty, $width:ident, $given:ident) => {
+        Compensator::<
+            $lead,
+            { stages($width) },
+            { tap_bits($width) },
+            { time_bits($width) },
+            $width,
+            2,
+            $width,
+            { $width + time_bits($width) },
+            $width,
+            $width,
+        >::new(variant($given), rom($given.get(4..).unwrap_or(&[])))
+    };
+}
+
+/// The circuits of JPH0646367B2.
+pub(super) const CIRCUITS: &[Entry] = &[
+    entry!(
+        RatioLogic<199, 8, 11>,
+        RatioLogic,
+        Some(4),
+        "JPH0646367B2 13",
+        ["K" = 199, "T" = 8, "C" = 11],
+        "4 for 3 stages, 8 for 15",
+        Made {
+            make: |given| at_width!([4], given, W => RatioLogic::<{ stages(W) }, { tap_bits(W) }, { time_bits(W) }>),
+            model: |given| at_width!([4 8], given, W => RatioLogic::<{ stages(W) }, { tap_bits(W) }, { time_bits(W) }>),
+            offered: &[4, 8],
+        }
+    ),
+    entry!(
+        PositionHistory<199, 8, 24>,
+        PositionHistory,
+        Some(2),
+        "JPH0646367B2 11 + 14",
+        ["K" = 199, "T" = 8, "W" = 24],
+        "width: 2 stages for 2, 3 for 4, 15 for 8",
+        Made {
+            make: |given| at_width!([2], given, W => PositionHistory::<{ stages(W) }, { tap_bits(W) }, W>),
+            model: |given| at_width!([2 4 8], given, W => PositionHistory::<{ stages(W) }, { tap_bits(W) }, W>),
+            offered: &[2, 4, 8],
+        }
+    ),
+    entry!(
+        RamHistory<199, 8, 24>,
+        RamHistory,
+        Some(2),
+        "JPH0646367B2 11 + 14, as a RAM",
+        ["K" = 199, "T" = 8, "W" = 24],
+        "width: 2 stages for 2, 3 for 4, 15 for 8",
+        Made {
+            make: |given| at_width!([2], given, W => RamHistory::<{ stages(W) }, { tap_bits(W) }, W>),
+            model: |given| at_width!([2 4 8], given, W => RamHistory::<{ stages(W) }, { tap_bits(W) }, W>),
+            offered: &[2, 4, 8],
+        }
+    ),
+    entry!(
+        Lead<24>,
+        Lead,
+        Some(4),
+        "JPH0646367B2 15 + 16",
+        ["W" = 24],
+        "width",
+        any_width!(|given, W| Lead::<W>)
+    ),
+    entry!(
+        TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>,
+        TimeLead::default(),
+        None,
+        "JPH0646367B2 11, 13–16",
+        ["K" = 199, "T" = 8, "C" = 11, "W" = 24],
+        "width of positions: 3 stages for 4, 15 for 8",
+        some_widths!([4 8], |given, W| <time_lead!(PositionHistory, W)>::default())
+    ),
+    entry!(
+        TimeLead<RamHistory<199, 8, 24>, 199, 8, 11, 24>,
+        TimeLead::default(),
+        None,
+        "JPH0646367B2 11, 13–16, with a RAM",
+        ["K" = 199, "T" = 8, "C" = 11, "W" = 24],
+        "width of positions: 3 stages for 4, 15 for 8",
+        some_widths!([4 8], |given, W| <time_lead!(RamHistory, W)>::default())
+    ),
+    entry!(
+        SpeedLead<24, 16>,
+        SpeedLead,
+        Some(2),
+        "JPH0646367B2 1 + 2 of Fig. 7",
+        ["W" = 24, "N" = 16],
+        "width",
+        any_width!(|given, W| SpeedLead::<W, W>)
+    ),
+    entry!(
+        LeadPlacement<24>,
+        LeadPlacement::default(),
+        Some(4),
+        "JPH0646367B2 17, 20",
+        ["W" = 24],
+        "width, 0 for the position, 1 for the target or 2 for halves",
+        any_width!(|given, W| LeadPlacement::<W> {
+            placement: placement(second(given, 0))
+        })
+    ),
+    entry!(
+        Comparator<24>,
+        Comparator::default(),
+        Some(4),
+        "JPH0646367B2 19",
+        ["W" = 24],
+        "width, 0 for crossing or 1 for equal",
+        any_width!(|given, W| Comparator::<W> {
+            comparing: comparing(second(given, 0))
+        })
+    ),
+    entry!(
+        TargetSetter<4, 24, 24>,
+        TargetSetter,
+        Some(2),
+        "JPH0646367B2 18",
+        ["A" = 4, "W" = 24, "D" = 24],
+        "width of positions and speeds (steps have two bits)",
+        any_width!(|given, W| TargetSetter::<2, W, W>)
+    ),
+    entry!(
+        TimeData<4, 11>,
+        TimeData::default(),
+        Some(2),
+        "JPH0646367B2 21 = 24 + 25, 29",
+        ["A" = 4, "C" = 11],
+        "width (steps have two bits), and the times of the ROM",
+        any_width!(|given, W| TimeData::<2, W> { rom: rom(given.get(1..).unwrap_or(&[])) })
+    ),
+    entry!(
+        CompletionDetector<24, 16>,
+        CompletionDetector,
+        Some(2),
+        "JPH0646367B2 26",
+        ["W" = 24, "N" = 16],
+        "width",
+        any_width!(|given, W| CompletionDetector::<W, W>)
+    ),
+    entry!(
+        StopError<24>,
+        StopError::default(),
+        Some(4),
+        "JPH0646367B2 27, 30, 31",
+        ["W" = 24],
+        "width, 0 for the converging sign or 1 for the literal one",
+        any_width!(|given, W| StopError::<W> {
+            sign: sign(second(given, 0))
+        })
+    ),
+    entry!(
+        CorrectionArithmetic<199, 11, 24, 35>,
+        CorrectionArithmetic,
+        None,
+        "JPH0646367B2 28",
+        ["K" = 199, "C" = 11, "W" = 24, "R" = 35],
+        "width of positions: 3 stages for 4, 15 for 8",
+        some_widths!([4 8], |given, W| CorrectionArithmetic::<
+            { stages(W) },
+            { time_bits(W) },
+            W,
+            { W + time_bits(W) },
+        >)
+    ),
+    entry!(
+        Correction<199, 8, 11, 24, 35>,
+        Correction::default(),
+        None,
+        "JPH0646367B2 23 = 27, 28, 30, 31",
+        ["K" = 199, "T" = 8, "C" = 11, "W" = 24, "R" = 35],
+        "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for the \
+         literal one",
+        some_widths!([4 8], |given, W| Correction::<
+            { stages(W) },
+            { tap_bits(W) },
+            { time_bits(W) },
+            W,
+            { W + time_bits(W) },
+        >::new(sign(second(given, 0))))
+    ),
+    entry!(
+        StepSequencer<4, 24, 16>,
+        StepSequencer,
+        Some(2),
+        "JPH0646367B2, step numbers",
+        ["A" = 4, "W" = 24, "N" = 16],
+        "width of positions and times (steps have two bits)",
+        any_width!(|given, W| StepSequencer::<2, W, W>)
+    ),
+    entry!(
+        Compensator<TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>>,
+        Compensator::default(),
+        None,
+        "JPH0646367B2, Figs 1, 5 and 6",
+        [
+            "K" = 199,
+            "T" = 8,
+            "C" = 11,
+            "W" = 24,
+            "A" = 4,
+            "D" = 24,
+            "R" = 35,
+            "N" = 16,
+            "S" = 24
+        ],
+        "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
+         placement, comparing and sign as 0, 1 and 2, times of the ROM",
+        some_widths!([4 8], |given, W| compensator!(time_lead!(PositionHistory, W), W, given))
+    ),
+    entry!(
+        Compensator<TimeLead<RamHistory<199, 8, 24>, 199, 8, 11, 24>>,
+        Compensator::default(),
+        None,
+        "JPH0646367B2, Figs 1, 5 and 6, with a RAM",
+        [
+            "K" = 199,
+            "T" = 8,
+            "C" = 11,
+            "W" = 24,
+            "A" = 4,
+            "D" = 24,
+            "R" = 35,
+            "N" = 16,
+            "S" = 24
+        ],
+        "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
+         placement, comparing and sign as 0, 1 and 2, times of the ROM",
+        some_widths!([4 8], |given, W| compensator!(time_lead!(RamHistory, W), W, given))
+    ),
+    entry!(
+        Compensator<SpeedLead<24, 16>>,
+        Compensator::default(),
+        None,
+        "JPH0646367B2, Fig. 7",
+        [
+            "K" = 199,
+            "T" = 8,
+            "C" = 11,
+            "W" = 24,
+            "A" = 4,
+            "D" = 24,
+            "R" = 35,
+            "N" = 16,
+            "S" = 24
+        ],
+        "width of positions, speeds and CK (steps have two bits), placement, comparing and sign \
+         as 0, 1 and 2, times of the ROM",
+        some_widths!([4 8], |given, W| compensator!(SpeedLead::<W, W>, W, given))
+    ),
+];
