@@ -8,6 +8,7 @@ pub mod check;
 pub mod compare;
 pub mod input;
 pub mod kernel;
+pub mod lead_angle;
 pub mod linear_interpolator;
 pub mod logic;
 pub mod picture;
