@@ -183,11 +183,11 @@ pub(super) const CIRCUITS: &[Entry] = &[
         })
     ),
     entry!(
-        TargetSetter<4, 24, 24>,
+        TargetSetter<4, 24, 16>,
         TargetSetter,
         Some(2),
         "JPH0646367B2 18",
-        ["A" = 4, "W" = 24, "D" = 24],
+        ["A" = 4, "W" = 24, "D" = 16],
         "width of positions and speeds (steps have two bits)",
         proved_at!(2; [2 4 8], |given, W| TargetSetter::<2, W, W>)
     ),
@@ -270,7 +270,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             "C" = 11,
             "W" = 24,
             "A" = 4,
-            "D" = 24,
+            "D" = 16,
             "R" = 35,
             "N" = 16,
             "S" = 24
@@ -290,7 +290,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             "C" = 11,
             "W" = 24,
             "A" = 4,
-            "D" = 24,
+            "D" = 16,
             "R" = 35,
             "N" = 16,
             "S" = 24
@@ -310,7 +310,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             "C" = 11,
             "W" = 24,
             "A" = 4,
-            "D" = 24,
+            "D" = 16,
             "R" = 35,
             "N" = 16,
             "S" = 24
