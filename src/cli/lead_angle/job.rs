@@ -12,7 +12,6 @@ const TIME_UNITS_S: std::ops::RangeInclusive<f64> = 1e-12..=1e4;
 
 /// A scenario ready to be run.
 #[derive(Debug)]
-#[expect(dead_code, reason = "the run that reads them is still to come")]
 pub struct Job {
     /// What its files are called.
     pub stem: String,
@@ -43,6 +42,23 @@ impl Job {
             log,
             loaded,
         })
+    }
+
+    /// Ticks that the positionings take at full speed, for the progress bar.
+    pub fn ticks_at_least(&self) -> u64 {
+        let settings = &self.settings;
+        let ways = (0..settings.positionings as usize).map(|number| {
+            let count = settings.steps.len();
+            let step = &settings.steps[number % count];
+            let from = match number {
+                0 => 0,
+                _ => settings.steps[(number - 1) % count].target,
+            };
+            let seconds = step.target.abs_diff(from) as f64 / f64::from(step.speed_counts_per_s);
+            let pauses = (settings.rest_ms + settings.standstill_ms) / 1e3;
+            ((seconds + pauses) * settings.clock_hz as f64) as u64
+        });
+        ways.fold(0, u64::saturating_add)
     }
 }
 

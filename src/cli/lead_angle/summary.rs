@@ -1,0 +1,301 @@
+//! What a run came to.
+
+use super::Job;
+use super::systems::System;
+use motion_rtl::lead_angle::codes::{STAGES, code};
+use motion_rtl::lead_angle::job::{Played, Positioning};
+use motion_rtl::lead_angle::settings::{Comparing, History, Placement, Settings, Sign};
+use serde::Serialize;
+
+/// Positionings of a step within which learning is to be settled.
+pub const SETTLED_WITHIN: usize = 6;
+
+/// The summary of a run.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    /// The circuit that ran.
+    pub circuit: &'static str,
+    /// The scenario's name.
+    pub scenario: String,
+    /// What keeps the positions of the past.
+    pub history: History,
+    /// What the lead is put on.
+    pub placement: Placement,
+    /// When the target is reached.
+    pub comparing: Comparing,
+    /// Which way the error counts.
+    pub sign: Sign,
+    /// Whether times are learned.
+    pub learn: bool,
+    /// Reference clock in Hz.
+    pub clock_hz: u64,
+    /// Ticks of a CK.
+    pub ck_ticks: u32,
+    /// Ticks of the run.
+    pub ticks: u64,
+    /// The same in seconds.
+    pub seconds: f64,
+    /// What is wrong with the run; nothing where it did what it was to do.
+    pub complaints: Vec<String>,
+    /// All systems with their errors.
+    pub systems: Vec<SystemSummary>,
+    /// The steps before the load change and after it.
+    pub phases: Vec<Phase>,
+    /// Every positioning of the scenario's own system, with the errors of all.
+    pub positionings: Vec<Row>,
+    /// Ticks that went into the VCD, half-open; `null` without one.
+    pub vcd_window: Option<[u64; 2]>,
+    /// What is worth knowing.
+    pub warnings: Vec<String>,
+    /// The files written.
+    pub files: Vec<String>,
+}
+
+/// What one system made of all positionings.
+#[derive(Debug, Serialize)]
+pub struct SystemSummary {
+    /// Its name.
+    pub name: &'static str,
+    /// It is what the scenario asks for.
+    pub own: bool,
+    /// Largest amount of a stop error, in counts.
+    pub error_max_counts: u64,
+    /// Root of the mean square of the stop errors, in counts.
+    pub error_rms_counts: f64,
+    /// Positionings that missed their target and were stopped by hand.
+    pub missed: usize,
+}
+
+/// The steps while the load stays the same.
+#[derive(Debug, Serialize)]
+pub struct Phase {
+    /// From this positioning on, from 0.
+    pub from: usize,
+    /// Up to this one.
+    pub to: usize,
+    /// The load has changed.
+    pub loaded: bool,
+    /// Its steps.
+    pub steps: Vec<StepSummary>,
+}
+
+/// One step in one phase.
+#[derive(Debug, Serialize)]
+pub struct StepSummary {
+    /// Its number.
+    pub step: usize,
+    /// Sx in counts.
+    pub target: i64,
+    /// Its speed.
+    pub speed_counts_per_s: u32,
+    /// Stop error of its last positioning in the phase, for each system, in counts.
+    pub last_error_counts: Vec<i64>,
+    /// Lead time of its last positioning in the phase, in the learning system, in milliseconds.
+    pub lead_ms: f64,
+    /// What one code is worth there, in counts.
+    pub code_travel_counts: f64,
+    /// After how many positionings of the phase the learning system stays within a code's travel;
+    /// `null` where it never does.
+    pub settled_after: Option<usize>,
+}
+
+/// One positioning.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    /// Its number, from 0.
+    pub positioning: usize,
+    /// Its step.
+    pub step: usize,
+    /// The load has changed.
+    pub loaded: bool,
+    /// Stop error of each system, in counts.
+    pub error_counts: Vec<i64>,
+    /// Lead time of the learning system, in milliseconds.
+    pub lead_ms: f64,
+    /// What one code is worth there, in counts.
+    pub code_travel_counts: f64,
+}
+
+/// Counts that a body goes in one step of the code that a positioning used.
+pub fn code_travel(settings: &Settings, positioning: &Positioning) -> f64 {
+    let ratio = code(STAGES, positioning.code).map_or(1, |code| code.ratio);
+    positioning.speed_counts_per_s.abs() * settings.ck_ms() / 1e3 * ratio as f64
+}
+
+/// Whether it stopped within a code's travel.
+pub fn settled(settings: &Settings, positioning: &Positioning) -> bool {
+    positioning.error.unsigned_abs() as f64 <= code_travel(settings, positioning) + 1.0
+}
+
+/// The run of that name.
+fn of<'a>(played: &'a [(System, Played)], name: &str) -> Option<&'a Played> {
+    let found = played.iter().find(|(system, _)| system.name == name);
+    found.map(|(_, played)| played)
+}
+
+/// The system whose codes are shown: the scenario's own where it learns, or else the one that does.
+fn learner<'a>(settings: &Settings, played: &'a [(System, Played)]) -> Option<&'a Played> {
+    let own = match settings.sign {
+        Sign::Literal if settings.learn => "literal sign",
+        _ => "learning",
+    };
+    of(played, own)
+}
+
+impl Summary {
+    /// The summary of a job that was played.
+    pub fn new(job: &Job, played: &[(System, Played)]) -> Self {
+        let settings = &job.settings;
+        let own = played.iter().find(|(system, _)| system.own);
+        let ticks = own.map_or(0, |(_, run)| run.ticks);
+        let mut summary = Summary {
+            circuit: "lead_angle",
+            scenario: job.stem.clone(),
+            history: settings.history,
+            placement: settings.placement,
+            comparing: settings.comparing,
+            sign: settings.sign,
+            learn: settings.learn,
+            clock_hz: settings.clock_hz,
+            ck_ticks: settings.ck_ticks,
+            ticks,
+            seconds: ticks as f64 / settings.clock_hz as f64,
+            complaints: own.map_or(Vec::new(), |(_, run)| complaints(settings, run)),
+            systems: played.iter().map(system_summary).collect(),
+            phases: Vec::new(),
+            positionings: Vec::new(),
+            vcd_window: None,
+            warnings: Vec::new(),
+            files: Vec::new(),
+        };
+        if let Some(learner) = learner(settings, played) {
+            summary.positionings = rows(settings, played, learner);
+            summary.phases = phases(settings, played, learner);
+        }
+        summary.warnings = warnings(&summary);
+        summary
+    }
+}
+
+fn system_summary((system, run): &(System, Played)) -> SystemSummary {
+    let errors = || run.positionings.iter().map(|one| one.error);
+    let squares: f64 = errors().map(|error| (error as f64).powi(2)).sum();
+    SystemSummary {
+        name: system.name,
+        own: system.own,
+        error_max_counts: errors().map(i64::unsigned_abs).max().unwrap_or(0),
+        error_rms_counts: (squares / run.positionings.len().max(1) as f64).sqrt(),
+        missed: run.positionings.iter().filter(|one| one.missed).count(),
+    }
+}
+
+fn loaded(settings: &Settings, positioning: usize) -> bool {
+    let after = settings.load_change_after.map(|after| after as usize);
+    after.is_some_and(|after| positioning >= after)
+}
+
+fn errors(played: &[(System, Played)], positioning: usize) -> Vec<i64> {
+    let error = |run: &Played| run.positionings.get(positioning).map_or(0, |one| one.error);
+    played.iter().map(|(_, run)| error(run)).collect()
+}
+
+fn rows(settings: &Settings, played: &[(System, Played)], learner: &Played) -> Vec<Row> {
+    let positionings = learner.positionings.iter().enumerate();
+    positionings
+        .map(|(number, one)| Row {
+            positioning: number,
+            step: one.step,
+            loaded: loaded(settings, number),
+            error_counts: errors(played, number),
+            lead_ms: one.code as f64 * settings.ck_ms(),
+            code_travel_counts: code_travel(settings, one),
+        })
+        .collect()
+}
+
+fn phases(settings: &Settings, played: &[(System, Played)], learner: &Played) -> Vec<Phase> {
+    let all = learner.positionings.len();
+    let change = settings.load_change_after.map(|after| after as usize);
+    let change = change.filter(|after| *after < all);
+    let bounds = match change {
+        Some(change) => vec![(0, change), (change, all)],
+        None => vec![(0, all)],
+    };
+    let phase = |(from, to): (usize, usize)| {
+        let step = |step: usize| {
+            let of_step = |number: &usize| learner.positionings[*number].step == step;
+            let numbers: Vec<usize> = (from..to).filter(of_step).collect();
+            let last = *numbers.last()?;
+            let one = &learner.positionings[last];
+            let off = |number: &usize| !settled(settings, &learner.positionings[*number]);
+            let settled_after = match numbers.iter().rposition(off) {
+                None => Some(0),
+                Some(place) => Some(place + 1).filter(|after| *after < numbers.len()),
+            };
+            Some(StepSummary {
+                step,
+                target: one.target,
+                speed_counts_per_s: settings.steps[step].speed_counts_per_s,
+                last_error_counts: errors(played, last),
+                lead_ms: one.code as f64 * settings.ck_ms(),
+                code_travel_counts: code_travel(settings, one),
+                settled_after,
+            })
+        };
+        Phase {
+            from,
+            to,
+            loaded: loaded(settings, from),
+            steps: (0..settings.steps.len()).filter_map(step).collect(),
+        }
+    };
+    bounds.into_iter().map(phase).collect()
+}
+
+/// What keeps a run from being what it was to be.
+fn complaints(settings: &Settings, run: &Played) -> Vec<String> {
+    let mut all = Vec::new();
+    let done = run.positionings.len();
+    if run.unsettled {
+        all.push(format!("positioning {done} is never complete"));
+    }
+    if run.lost {
+        all.push("the encoder was too fast for the detector".to_owned());
+    }
+    let wanted = settings.positionings as usize;
+    if done < wanted && !run.unsettled {
+        all.push(format!("{done} positionings where {wanted} are wanted"));
+    }
+    all
+}
+
+/// What is worth knowing of a run that did what it was to do.
+fn warnings(summary: &Summary) -> Vec<String> {
+    let mut all = Vec::new();
+    for system in summary.systems.iter().filter(|system| system.own) {
+        if system.missed > 0 {
+            all.push(format!(
+                "{} of {} positionings missed their target and were stopped by hand",
+                system.missed,
+                summary.positionings.len()
+            ));
+        }
+    }
+    if summary.learn {
+        for phase in &summary.phases {
+            for step in &phase.steps {
+                let late = step
+                    .settled_after
+                    .is_none_or(|after| after > SETTLED_WITHIN);
+                if late && summary.sign == Sign::Converging {
+                    all.push(format!(
+                        "step {}: not within a code's travel after {SETTLED_WITHIN} positionings \
+                         from positioning {} on",
+                        step.step, phase.from
+                    ));
+                }
+            }
+        }
+    }
+    all
+}
