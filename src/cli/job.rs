@@ -1,9 +1,10 @@
 //! What `run` and `table` begin with: scenario, input, settings, table.
 
 use super::Failure;
-use super::shipped::{self, SHIPPED};
+use super::shipped::{self, SHIPPED, Shipped};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish};
+use motion_rtl::input::position_log::{self, Columns, PositionLog};
 use motion_rtl::input::scenario::pulse_interpolator::{Scenario, VariantName};
 use motion_rtl::input::scenario::{self, BARE, Loaded};
 use motion_rtl::input::{Drawing, Fault, read_path};
@@ -25,21 +26,31 @@ pub struct Input {
     pub sets: Vec<String>,
 }
 
-/// An input and its scenario, of whatever circuit.
+/// A scenario, of whatever circuit, and where its input is.
 #[derive(Debug)]
 pub struct Source {
-    /// The scenario it came from.
+    /// The scenario.
     pub loaded: Loaded,
     /// What its files are called.
     pub stem: String,
-    /// The input.
-    pub drawing: Drawing,
+    origin: Origin,
+}
+
+/// Where an input is.
+#[derive(Debug)]
+enum Origin {
+    /// In a file.
+    File(PathBuf),
+    /// In the crate.
+    Crate(&'static Shipped),
+    /// The scenario needs none, or should have one.
+    Nowhere,
 }
 
 impl Source {
-    /// Reads scenario and input.
+    /// Reads the scenario.
     pub fn read(input: &Input) -> Result<Self, Fault> {
-        let (loaded, drawing, name) = read(input)?;
+        let (loaded, origin, name) = read(input)?;
         let stem = name.file_stem().map_or_else(
             || "run".to_owned(),
             |stem| stem.to_string_lossy().into_owned(),
@@ -47,25 +58,46 @@ impl Source {
         Ok(Source {
             loaded,
             stem,
-            drawing,
+            origin,
         })
     }
 
-    /// A fault of the drawing.
-    pub fn drawing_fault(
-        &self,
-        line: usize,
-        field: &str,
-        problem: String,
-        allowed: String,
-    ) -> Fault {
-        Fault {
-            file: self.drawing.file.clone(),
-            line,
-            field: field.to_owned(),
-            problem,
-            allowed,
+    /// Reads the input of a circuit that needs a drawing.
+    pub fn drawing(&self) -> Result<Drawing, Fault> {
+        let drawing = match &self.origin {
+            Origin::File(path) => Some(read_path(path)),
+            Origin::Crate(shipped) => shipped.drawing(),
+            Origin::Nowhere => None,
+        };
+        drawing.unwrap_or_else(|| {
+            let allowed = "the path of an HPGL drawing or a G-code program".to_owned();
+            Err(self.loaded.fault("input", "missing".to_owned(), allowed))
+        })
+    }
+
+    /// Reads the input of a circuit that can do without: a position log.
+    pub fn log(&self, columns: &Columns) -> Result<Option<PositionLog>, Fault> {
+        match &self.origin {
+            Origin::File(path) => position_log::read_path(path, columns).map(Some),
+            Origin::Crate(_) | Origin::Nowhere => Ok(None),
         }
+    }
+}
+
+/// A fault of the drawing.
+pub fn drawing_fault(
+    drawing: &Drawing,
+    line: usize,
+    field: &str,
+    problem: String,
+    allowed: String,
+) -> Fault {
+    Fault {
+        file: drawing.file.clone(),
+        line,
+        field: field.to_owned(),
+        problem,
+        allowed,
     }
 }
 
@@ -102,26 +134,28 @@ pub struct Job {
 impl Job {
     /// Compiles an input; one of another circuit has no table.
     pub fn prepare(source: Source) -> Result<Self, Failure> {
-        let scenario::Scenario::PulseInterpolator(scenario) = &source.loaded.scenario else {
-            let problem = "the linear interpolator has no table".to_owned();
-            let allowed = "pulse_interpolator, or the command run".to_owned();
-            return Err(source.loaded.fault("circuit", problem, allowed).into());
+        let scenario = match &source.loaded.scenario {
+            scenario::Scenario::PulseInterpolator(scenario) => Ok(scenario),
+            scenario::Scenario::LinearInterpolator(_) => Err("linear interpolator"),
+            scenario::Scenario::LeadAngle(_) => Err("lead-angle compensator"),
         };
+        let scenario = scenario.map_err(|circuit| {
+            let problem = format!("the {circuit} has no table");
+            let allowed = "pulse_interpolator, or the command run".to_owned();
+            source.loaded.fault("circuit", problem, allowed)
+        })?;
+        let drawing = source.drawing()?;
         let variant = match scenario.variant {
             VariantName::Safe => Variant::Safe,
             VariantName::Literal => Variant::Literal,
         };
         let vcd_ticks = scenario.vcd_ticks;
-        let settings = settings(scenario, &source.drawing);
+        let settings = settings(scenario, &drawing);
         let spinner = compiling();
-        let (table, report) = compile(&source.drawing, &settings)
-            .map_err(|error| fault(&source, &settings, error))?;
+        let (table, report) = compile(&drawing, &settings)
+            .map_err(|error| fault(&source.loaded, &drawing, &settings, error))?;
         drop(spinner);
-        let Source {
-            loaded,
-            stem,
-            drawing,
-        } = source;
+        let Source { loaded, stem, .. } = source;
         Ok(Job {
             loaded,
             stem,
@@ -135,7 +169,7 @@ impl Job {
     }
 }
 
-fn read(input: &Input) -> Result<(Loaded, Drawing, PathBuf), Fault> {
+fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
     let path = match &input.input {
         None => Path::new(SHIPPED[0].file),
         Some(path) => path,
@@ -147,34 +181,30 @@ fn read(input: &Input) -> Result<(Loaded, Drawing, PathBuf), Fault> {
     let is_scenario = path
         .extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
-    let (loaded, drawing) = if let Some(shipped) = shipped {
+    let (loaded, origin) = if let Some(shipped) = shipped {
         let loaded = shipped.load(&input.sets)?;
-        let drawing = match loaded.scenario.input() {
-            Some(other) if loaded.overrides("input") => read_path(other),
-            _ => shipped.drawing(),
+        let origin = match loaded.scenario.input() {
+            Some(other) if loaded.overrides("input") => Origin::File(other.clone()),
+            _ => Origin::Crate(shipped),
         };
-        (loaded, drawing?)
+        (loaded, origin)
     } else if is_scenario {
         let loaded = Loaded::read(path, &input.sets)?;
-        let Some(drawing) = loaded.scenario.input() else {
-            let allowed = "the path of an HPGL drawing or a G-code program".to_owned();
-            return Err(loaded.fault("input", "missing".to_owned(), allowed));
-        };
-        let drawing = read_path(drawing)?;
-        (loaded, drawing)
+        let given = loaded.scenario.input().cloned();
+        (loaded, given.map_or(Origin::Nowhere, Origin::File))
     } else {
         let loaded = Loaded::parse("defaults", BARE, &input.sets)?;
         if loaded.overrides("input") {
             let problem = format!("{} is the input", path.display());
             return Err(loaded.fault("input", problem, "input with a scenario only".to_owned()));
         }
-        (loaded, read_path(path)?)
+        (loaded, Origin::File(path.to_owned()))
     };
     if loaded.scenario.vcd_ticks() == 0 {
         let allowed = "1 to 9223372036854775807; --no-vcd for none".to_owned();
         return Err(loaded.fault("vcd_ticks", "is 0".to_owned(), allowed));
     }
-    Ok((loaded, drawing, path.to_owned()))
+    Ok((loaded, origin, path.to_owned()))
 }
 
 fn settings(scenario: &Scenario, drawing: &Drawing) -> Settings {
@@ -206,10 +236,9 @@ fn settings(scenario: &Scenario, drawing: &Drawing) -> Settings {
 }
 
 /// What the compiler objects to, with the file and line it stands in.
-fn fault(source: &Source, settings: &Settings, error: TableError) -> Fault {
-    let loaded = &source.loaded;
+fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TableError) -> Fault {
     let in_drawing = |line, field: String, problem, allowed| {
-        source.drawing_fault(line, &field, problem, allowed)
+        drawing_fault(drawing, line, &field, problem, allowed)
     };
     match error {
         TableError::Setting {

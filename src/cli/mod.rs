@@ -4,6 +4,7 @@ pub mod check;
 pub mod compare;
 mod files;
 mod job;
+mod lead_angle;
 mod linear;
 pub mod list;
 mod picture;

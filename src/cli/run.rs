@@ -2,10 +2,10 @@
 
 use super::files::Files;
 use super::job::{Input, Job, Source};
-use super::linear;
 use super::picture::{Following, draw};
 use super::summary::Summary;
 use super::{Failure, print, print_json};
+use super::{lead_angle, linear};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use motion_rtl::input::scenario::{Loaded, Scenario};
@@ -62,6 +62,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Scenario::LinearInterpolator(scenario) => {
             let settings = scenario.settings();
             linear::run(arguments, &linear::Job::prepare(source, settings)?)
+        }
+        Scenario::LeadAngle(scenario) => {
+            let (settings, columns) = (scenario.settings(), scenario.columns());
+            lead_angle::run(
+                arguments,
+                &lead_angle::Job::prepare(source, settings, &columns)?,
+            )
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Scenarios that ship with the crate, with their inputs; the first runs where none is named.
+//! Scenarios that ship with the crate, with the inputs of those that have one; the first runs where none is named.
 
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault, read_text};
@@ -12,38 +12,59 @@ pub struct Shipped {
     /// What it is, in one line.
     pub about: &'static str,
     text: &'static str,
-    input: &'static str,
-    input_text: &'static str,
+    input: Option<Input>,
+}
+
+/// An input by its name in the crate.
+#[derive(Debug)]
+struct Input {
+    file: &'static str,
+    text: &'static str,
 }
 
 macro_rules! shipped {
-    ($file:literal, $input:literal, $about:literal) => {
+    ($file:literal, $about:literal $(, input: $input:literal)?) => {
         Shipped {
             file: $file,
             about: $about,
             text: include_str!(concat!("../../", $file)),
-            input: $input,
-            input_text: include_str!(concat!("../../", $input)),
+            input: input!($($input)?),
         }
     };
 }
 
+macro_rules! input {
+    () => {
+        None
+    };
+    ($file:literal) => {
+        Some(Input {
+            file: $file,
+            text: include_str!(concat!("../../", $file)),
+        })
+    };
+}
+
 /// All of them.
-pub const SHIPPED: [Shipped; 3] = [
+pub const SHIPPED: [Shipped; 4] = [
     shipped!(
         "waves/bracket.toml",
-        "waves/bracket.ngc",
-        "a bracket in G-code: lines at T2, arcs at T1; runs by default"
+        "a bracket in G-code: lines at T2, arcs at T1; runs by default",
+        input: "waves/bracket.ngc"
     ),
     shipped!(
         "waves/rosette.toml",
-        "waves/rosette.hpgl",
-        "a rosette of pen strokes in HPGL, with scaled units and pen-up moves"
+        "a rosette of pen strokes in HPGL, with scaled units and pen-up moves",
+        input: "waves/rosette.hpgl"
     ),
     shipped!(
         "waves/plotter.toml",
-        "waves/plotter.hpgl",
-        "pen strokes of many slopes in HPGL, on the linear interpolator"
+        "pen strokes of many slopes in HPGL, on the linear interpolator",
+        input: "waves/plotter.hpgl"
+    ),
+    shipped!(
+        "waves/turntable.toml",
+        "positionings of a rotary table whose load changes, on the lead-angle compensator"
     ),
 ];
 
@@ -61,8 +82,9 @@ impl Shipped {
         Loaded::parse(self.file, self.text, sets)
     }
 
-    /// Its input.
-    pub fn drawing(&self) -> Result<Drawing, Fault> {
-        read_text(self.input, self.input_text.as_bytes())
+    /// Its input; none where it is complete without.
+    pub fn drawing(&self) -> Option<Result<Drawing, Fault>> {
+        let input = self.input.as_ref()?;
+        Some(read_text(input.file, input.text.as_bytes()))
     }
 }

@@ -1,12 +1,13 @@
-//! What comes in: drawings (HPGL), part programs (G-code) and scenario files.
+//! What comes in: drawings (HPGL), part programs (G-code), position logs (CSV) and scenario files.
 //!
-//! Every reader turns its text into a [`Drawing`] or into a [`Fault`] that names the file, the
-//! line, the field, what was wrong and what is allowed. What a reader skips it says in
-//! [`Drawing::warnings`]: nothing is dropped silently.
+//! A reader of moves turns its text into a [`Drawing`], every reader what it cannot use into a
+//! [`Fault`] that names the file, the line, the field, what was wrong and what is allowed. What a
+//! reader of moves skips it says in [`Drawing::warnings`]: nothing is dropped silently.
 
 mod file;
 pub mod gcode;
 pub mod hpgl;
+pub mod position_log;
 pub mod scenario;
 mod track;
 

@@ -4,6 +4,7 @@
 //! their names; an unknown key, a value of the wrong type and a key given twice are faults with
 //! their line.
 
+pub mod lead_angle;
 pub mod linear_interpolator;
 mod loaded;
 pub mod pulse_interpolator;
@@ -26,14 +27,17 @@ pub enum Scenario {
     PulseInterpolator(pulse_interpolator::Scenario),
     /// JP3608587B2.
     LinearInterpolator(linear_interpolator::Scenario),
+    /// JPH0646367B2.
+    LeadAngle(lead_angle::Scenario),
 }
 
 impl Scenario {
-    /// The drawing or part program; in a file relative to that file.
+    /// The drawing, part program or position log; in a file relative to that file.
     pub fn input(&self) -> Option<&PathBuf> {
         match self {
             Scenario::PulseInterpolator(scenario) => scenario.input.as_ref(),
             Scenario::LinearInterpolator(scenario) => scenario.input.as_ref(),
+            Scenario::LeadAngle(scenario) => scenario.input.as_ref(),
         }
     }
 
@@ -42,6 +46,7 @@ impl Scenario {
         match self {
             Scenario::PulseInterpolator(scenario) => scenario.input.as_mut(),
             Scenario::LinearInterpolator(scenario) => scenario.input.as_mut(),
+            Scenario::LeadAngle(scenario) => scenario.input.as_mut(),
         }
     }
 
@@ -50,6 +55,7 @@ impl Scenario {
         match self {
             Scenario::PulseInterpolator(scenario) => scenario.clock_hz,
             Scenario::LinearInterpolator(scenario) => scenario.clock_hz,
+            Scenario::LeadAngle(scenario) => scenario.clock_hz,
         }
     }
 
@@ -58,6 +64,7 @@ impl Scenario {
         match self {
             Scenario::PulseInterpolator(scenario) => scenario.vcd_ticks,
             Scenario::LinearInterpolator(scenario) => scenario.vcd_ticks,
+            Scenario::LeadAngle(scenario) => scenario.vcd_ticks,
         }
     }
 }
@@ -70,4 +77,6 @@ pub enum Runnable {
     PulseInterpolator,
     /// JP3608587B2.
     LinearInterpolator,
+    /// JPH0646367B2.
+    LeadAngle,
 }

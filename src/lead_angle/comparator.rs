@@ -22,10 +22,10 @@ use crate::check::{Invariants, Specified, require};
 use crate::kernel::Circuit;
 use crate::logic::{Bit, Logic, Signed, Unsigned};
 use crate::signals;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// When the comparator finds that the target is reached.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Comparing {
     /// The position arrives at the target or steps over it.

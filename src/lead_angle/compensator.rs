@@ -220,7 +220,7 @@ pub struct Compensator<
     const C: usize = 11,
     const W: usize = 24,
     const A: usize = 4,
-    const D: usize = 24,
+    const D: usize = 16,
     const R: usize = 35,
     const N: usize = 16,
     const S: usize = 24,

@@ -16,10 +16,10 @@ use crate::check::{Invariants, Specified, require};
 use crate::kernel::{Circuit, Nothing};
 use crate::logic::{Logic, Signed};
 use crate::signals;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// What the lead is put on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Placement {
     /// Added to the position: adder 17.

@@ -17,10 +17,10 @@ use crate::check::{Invariants, Specified, require};
 use crate::kernel::Circuit;
 use crate::logic::{Bit, Logic};
 use crate::signals;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Which way the error counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sign {
     /// Dx − Sx: learning converges.

@@ -10,15 +10,26 @@
 //!             └────────────────────────────────────────────────────────────────┘
 //! ```
 //!
+//! ```text
+//!                    ┌──────────────── braked body ────────────────┐
+//!  drive, reverse,   │ ┌───────┐      ┌──────┐ position ┌─────────┐ │
+//!  speed ────────────┼▶│ motor ├─────▶│ body ├─────────▶│ encoder ├─┼▶ a, b
+//!                    │ └───────┘      └──▲───┘          └─────────┘ │
+//!  brake ────────────┼▶ dead time ▶ brake┘                          │
+//!                    └─────────────────────────────────────────────┘
+//! ```
+//!
 //! `rtl_notes/plant.md` has the equations and what is idealised.
 
 pub mod axis;
+pub mod brake;
 pub mod encoder;
 pub mod parameters;
 pub mod servo;
 pub mod waves;
 
 pub use axis::ServoAxis;
+pub use brake::{BodyParameters, BrakedBody, Load};
 pub use encoder::Encoder;
 pub use parameters::{ParameterError, ServoParameters};
 pub use servo::{Motor, ServoDriver};

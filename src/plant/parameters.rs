@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 /// Any amount that is above 0 and not absurd.
-const POSITIVE: RangeInclusive<f64> = 1e-9..=1e9;
+pub(super) const POSITIVE: RangeInclusive<f64> = 1e-9..=1e9;
 
 /// Servo driver, motor, load and encoder of one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -75,7 +75,7 @@ impl ServoParameters {
 }
 
 /// Refuses what is out of range.
-fn within(
+pub(super) fn within(
     field: &'static str,
     value: f64,
     allowed: &RangeInclusive<f64>,

@@ -1,6 +1,6 @@
 //! What a plant shows in the waves of the circuit that drives it.
 
-use super::ServoAxis;
+use super::{BrakedBody, ServoAxis};
 use crate::kernel::Beside;
 use crate::logic::{Logic, Sim};
 use crate::signals;
@@ -51,11 +51,60 @@ impl AxisSignals<Sim> {
     fn of(axis: &ServoAxis) -> Self {
         // A cast to a whole number saturates.
         AxisSignals {
-            position: I56F8::saturating_from_num(axis.position_counts())
-                .to_bits()
-                .into(),
+            position: fine(axis.position_counts()).into(),
             speed: (axis.speed_counts_per_s().round() as i64).into(),
             torque: ((axis.torque_nm() * 1e3).round() as i64).into(),
         }
     }
+}
+
+signals! {
+    /// A braked body as it really is.
+    pub struct BodySignals<L> {
+        /// True position in 1/256 of a count.
+        pub position: L::I<48> as Analog,
+        /// True speed in counts a second.
+        pub speed: L::I<32> as Analog,
+        /// The brake is on: its signal has stood for the dead time.
+        pub engaged: L::Bit,
+        /// Friction torque of the bearings and of an engaged brake, in thousandths of a newton
+        /// metre.
+        pub friction: L::I<32> as Analog,
+    }
+}
+
+/// A braked body beside the circuit that stops it.
+#[derive(Debug)]
+pub struct Body;
+
+impl Beside for Body {
+    const SCOPE: &'static str = "plant";
+    type Signals<L: Logic> = BodySignals<L>;
+}
+
+impl BodySignals<Sim> {
+    /// The body as it stands.
+    pub fn of(body: &BrakedBody) -> Self {
+        BodySignals {
+            position: fine(body.position_counts()).into(),
+            speed: (body.speed_counts_per_s().round() as i64).into(),
+            engaged: body.engaged().into(),
+            friction: ((body.friction_nm() * 1e3).round() as i64).into(),
+        }
+    }
+
+    /// Something that goes its own way, at a position in counts and a speed in counts a second.
+    pub fn at(position: f64, speed: f64) -> Self {
+        BodySignals {
+            position: fine(position).into(),
+            speed: (speed.round() as i64).into(),
+            engaged: false.into(),
+            friction: 0.into(),
+        }
+    }
+}
+
+/// A position in 1/256 of a count.
+fn fine(counts: f64) -> i64 {
+    I56F8::saturating_from_num(counts).to_bits()
 }

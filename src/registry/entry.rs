@@ -79,6 +79,18 @@ macro_rules! some_widths {
     };
 }
 
+/// The functions of an [`Entry`] for a circuit that is proved at one width and offered at some: what
+/// each width costs in building time, a large circuit does not need.
+macro_rules! proved_at {
+    ($proof:literal; [$($bits:literal)*], |$given:ident, $width:ident| $circuit:expr) => {
+        Made {
+            make: |$given| at_width!([$proof], $given, $width => $circuit),
+            model: |$given| at_width!([$($bits)*], $given, $width => $circuit),
+            offered: &[$($bits),*],
+        }
+    };
+}
+
 /// How an entry is made from numbers.
 pub(super) struct Made {
     pub make: fn(&[u64]) -> Option<Box<dyn AnyCircuit>>,
@@ -110,4 +122,4 @@ macro_rules! entry {
     };
 }
 
-pub(super) use {any_width, at_width, entry, some_widths};
+pub(super) use {any_width, at_width, entry, proved_at, some_widths};

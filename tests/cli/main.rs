@@ -6,6 +6,7 @@ mod compare_names;
 mod compare_refusals;
 mod drawings;
 mod files;
+mod lead_angle;
 mod linear;
 mod refusals;
 mod runs;

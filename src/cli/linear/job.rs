@@ -1,7 +1,7 @@
 //! What a run of the linear interpolator begins with: settings and cycles.
 
 use crate::cli::Failure;
-use crate::cli::job::{Source, compiling, plan_fault};
+use crate::cli::job::{Source, compiling, drawing_fault, plan_fault};
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault};
 use motion_rtl::linear_interpolator::settings::Settings;
@@ -27,15 +27,12 @@ pub struct Job {
 impl Job {
     /// Compiles an input.
     pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
+        let drawing = source.drawing()?;
         let spinner = compiling();
-        let compiled = compile(&source.drawing, &settings)
-            .map_err(|error| fault(&source, &settings, error))?;
+        let compiled = compile(&drawing, &settings)
+            .map_err(|error| fault(&source.loaded, &drawing, &settings, error))?;
         drop(spinner);
-        let Source {
-            stem,
-            drawing,
-            loaded,
-        } = source;
+        let Source { stem, loaded, .. } = source;
         Ok(Job {
             stem,
             drawing,
@@ -59,32 +56,32 @@ impl Job {
 }
 
 /// What the compiler objects to, with the file and line it stands in.
-fn fault(source: &Source, settings: &Settings, error: TargetError) -> Fault {
+fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TargetError) -> Fault {
     match error {
         TargetError::Setting {
             field,
             value,
             allowed,
-        } => source.loaded.fault(field, format!("is {value}"), allowed),
+        } => loaded.fault(field, format!("is {value}"), allowed),
         TargetError::Drawing(error) => {
             let (line, field, problem, allowed) = plan_fault(&error);
-            source.drawing_fault(line, &field, problem, allowed)
+            drawing_fault(drawing, line, &field, problem, allowed)
         }
         TargetError::Feed { line, value, most } => {
             let problem = format!("is {value} mm/min");
             let allowed = format!("up to {most} mm/min: one count per tick");
-            source.drawing_fault(line, "F", problem, allowed)
+            drawing_fault(drawing, line, "F", problem, allowed)
         }
         TargetError::Position { line, axis, counts } => {
             let per_mm = settings.counts_per_mm;
             let problem = format!("is {counts} counts at {per_mm:?} counts/mm");
             let allowed = format!("-{REACH_COUNTS} to {REACH_COUNTS} counts");
-            source.drawing_fault(line, axis, problem, allowed)
+            drawing_fault(drawing, line, axis, problem, allowed)
         }
         TargetError::TooMany { line } => {
             let problem = format!("more than {MOST_TARGETS} cycles up to here");
             let allowed = "fewer moves, or a larger chord_tolerance_mm".to_owned();
-            source.drawing_fault(line, "path", problem, allowed)
+            drawing_fault(drawing, line, "path", problem, allowed)
         }
     }
 }

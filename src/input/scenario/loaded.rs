@@ -90,6 +90,34 @@ impl Loaded {
         let line = line.map_or(0, |before| before + 1);
         Fault::new(&self.file, line, key, problem, allowed)
     }
+
+    /// A fault of the value of `key` in the table `[[name]]` number `index` from 0, with the line
+    /// it stands in; where it has its default, the line of the table.
+    pub fn table_fault(
+        &self,
+        (name, index): (&str, usize),
+        key: &str,
+        problem: String,
+        allowed: String,
+    ) -> Fault {
+        let mut headers = self.text.lines().enumerate().filter(|(_, line)| {
+            let inner = line.trim_start().strip_prefix("[[");
+            let inner = inner.and_then(|rest| rest.split_once("]]"));
+            inner.is_some_and(|(header, _)| header.trim().trim_matches(['"', '\'']) == name)
+        });
+        let field = format!("{name} {index}: {key}");
+        let header = headers.nth(index).filter(|_| !self.overrides(name));
+        let Some((header, _)) = header else {
+            // Given in an override, or on one line: the fault is in the list.
+            let fault = self.fault(name, problem, allowed);
+            return Fault { field, ..fault };
+        };
+        let lines = self.text.lines().enumerate().skip(header + 1);
+        let mut keys = lines.take_while(|(_, line)| !line.trim_start().starts_with('['));
+        let line = keys.find(|(_, line)| key_of(line) == key);
+        let line = line.map_or(header, |(line, _)| line) + 1;
+        Fault::new(&self.file, line, field, problem, allowed)
+    }
 }
 
 /// Of a scenario what decides how the rest is read.
@@ -113,6 +141,7 @@ where
         Runnable::LinearInterpolator => {
             Scenario::LinearInterpolator(Deserialize::deserialize(keys()?)?)
         }
+        Runnable::LeadAngle => Scenario::LeadAngle(Deserialize::deserialize(keys()?)?),
     })
 }
 
@@ -153,6 +182,7 @@ fn split(message: &str) -> (String, String) {
     let allowed = match allowed {
         "u64" => "a whole number from 0",
         "u32" => "a whole number from 0 to 4294967295",
+        "i64" => "a whole number",
         "f64" => "a number",
         "a boolean" => "true or false",
         "an array of length 2" | "fewer elements in array" => {
@@ -170,7 +200,13 @@ fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
     if let Some(key) = message.strip_prefix("missing field `") {
         let key = key.trim_end_matches('`');
         let allowed = "a value for it: it has no default";
-        return Fault::new(file, 0, key, "missing", allowed);
+        // What lacks in a table lacks where the table begins, else in the file as a whole.
+        let place = error.span().map_or(0, |span| span.start);
+        let line = match place {
+            0 => 0,
+            place => line_at(text.as_bytes(), place),
+        };
+        return Fault::new(file, line, key, "missing", allowed);
     }
     let line = line_at(text.as_bytes(), error.span().map_or(0, |span| span.start));
     let mut upwards = text
@@ -189,7 +225,10 @@ fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
         "" => "file",
         key => key,
     };
-    let (problem, allowed) = split(message);
+    let (problem, allowed) = match message.split_once(", expected a sequence") {
+        Some((problem, _)) if field == "step" => (problem.to_owned(), "tables [[step]]".to_owned()),
+        _ => split(message),
+    };
     Fault::new(file, line, field, problem, allowed)
 }
 
@@ -228,6 +267,60 @@ mod tests {
                 &[]
             ),
             "s.toml:4: steps_per_mm: invalid type: string \"a\"; allowed: a number"
+        );
+    }
+
+    const STEPS: &str = "circuit = \"lead_angle\"\nrest_ms = 0\n[[step]]\ntarget = 1\n\
+                         speed_counts_per_s = 10\n\n[[ step ]] # second\nspeed_counts_per_s = 20\n\
+                         target = 2\n";
+
+    #[test]
+    fn a_fault_in_a_table_has_its_line() {
+        let sets = ["step=[{target=3,speed_counts_per_s=4}]".to_owned()];
+        let loaded = Loaded::parse("s.toml", STEPS, &[]).unwrap();
+        let shown = |loaded: &Loaded, index, key| {
+            let fault = loaded.table_fault(("step", index), key, "is bad".into(), "good".into());
+            fault.to_string()
+        };
+        let text = |line: &str, step: &str| format!("{line}: step {step}: is bad; allowed: good");
+        assert_eq!(shown(&loaded, 0, "target"), text("s.toml:4", "0: target"));
+        assert_eq!(shown(&loaded, 1, "target"), text("s.toml:9", "1: target"));
+        assert_eq!(shown(&loaded, 0, "lead_ms"), text("s.toml:3", "0: lead_ms"));
+        assert_eq!(shown(&loaded, 1, "lead_ms"), text("s.toml:7", "1: lead_ms"));
+        let loaded = Loaded::parse("s.toml", STEPS, &sets).unwrap();
+        assert_eq!(shown(&loaded, 0, "target"), text("--set", "0: target"));
+        let inline = "circuit = \"lead_angle\"\nstep = [{target = 3, speed_counts_per_s = 4}]\n";
+        let loaded = Loaded::parse("s.toml", inline, &[]).unwrap();
+        assert_eq!(shown(&loaded, 0, "target"), text("s.toml:2", "0: target"));
+    }
+
+    #[test]
+    fn a_step_of_the_wrong_shape_is_refused_with_its_line() {
+        let with = |steps: &str| refusal(&format!("circuit = \"lead_angle\"\n{steps}"), &[]);
+        assert_eq!(
+            with(""),
+            "s.toml: step: missing; allowed: a value for it: it has no default"
+        );
+        assert_eq!(
+            with("step = 5\n"),
+            "s.toml:2: step: invalid type: integer `5`; allowed: tables [[step]]"
+        );
+        assert_eq!(
+            with("[[step]]\ntarget = 1\n"),
+            "s.toml:2: speed_counts_per_s: missing; allowed: a value for it: it has no default"
+        );
+        assert_eq!(
+            with("[[step]]\nspeed_counts_per_s = 1\ntarget = 1.5\n"),
+            "s.toml:4: target: invalid type: floating point `1.5`; allowed: a whole number"
+        );
+        assert_eq!(
+            with("[[step]]\nspeed = 1\n"),
+            "s.toml:3: speed: unknown field `speed`; allowed: one of `target`, \
+             `speed_counts_per_s`, `lead_ms`"
+        );
+        assert_eq!(
+            with("sign = \"both\"\n[[step]]\n"),
+            "s.toml:2: sign: unknown variant `both`; allowed: `converging` or `literal`"
         );
     }
 

@@ -6,7 +6,7 @@ use crate::lead_angle::{
 };
 use crate::logic::Image;
 use crate::registry::Entry;
-use crate::registry::entry::{Made, any_width, at_width, entry, some_widths};
+use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
 
 /// Stages of history where positions have `width` bits.
 const fn stages(width: usize) -> usize {
@@ -104,11 +104,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 13",
         ["K" = 199, "T" = 8, "C" = 11],
         "4 for 3 stages, 8 for 15",
-        Made {
-            make: |given| at_width!([4], given, W => RatioLogic::<{ stages(W) }, { tap_bits(W) }, { time_bits(W) }>),
-            model: |given| at_width!([4 8], given, W => RatioLogic::<{ stages(W) }, { tap_bits(W) }, { time_bits(W) }>),
-            offered: &[4, 8],
-        }
+        proved_at!(4; [4 8], |given, W| RatioLogic::<{ stages(W) }, { tap_bits(W) }, { time_bits(W) }>)
     ),
     entry!(
         PositionHistory<199, 8, 24>,
@@ -117,11 +113,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 11 + 14",
         ["K" = 199, "T" = 8, "W" = 24],
         "width: 2 stages for 2, 3 for 4, 15 for 8",
-        Made {
-            make: |given| at_width!([2], given, W => PositionHistory::<{ stages(W) }, { tap_bits(W) }, W>),
-            model: |given| at_width!([2 4 8], given, W => PositionHistory::<{ stages(W) }, { tap_bits(W) }, W>),
-            offered: &[2, 4, 8],
-        }
+        proved_at!(2; [2 4 8], |given, W| PositionHistory::<{ stages(W) }, { tap_bits(W) }, W>)
     ),
     entry!(
         RamHistory<199, 8, 24>,
@@ -130,11 +122,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 11 + 14, as a RAM",
         ["K" = 199, "T" = 8, "W" = 24],
         "width: 2 stages for 2, 3 for 4, 15 for 8",
-        Made {
-            make: |given| at_width!([2], given, W => RamHistory::<{ stages(W) }, { tap_bits(W) }, W>),
-            model: |given| at_width!([2 4 8], given, W => RamHistory::<{ stages(W) }, { tap_bits(W) }, W>),
-            offered: &[2, 4, 8],
-        }
+        proved_at!(2; [2 4 8], |given, W| RamHistory::<{ stages(W) }, { tap_bits(W) }, W>)
     ),
     entry!(
         Lead<24>,
@@ -143,7 +131,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 15 + 16",
         ["W" = 24],
         "width",
-        any_width!(|given, W| Lead::<W>)
+        proved_at!(4; [4 8], |given, W| Lead::<W>)
     ),
     entry!(
         TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>,
@@ -170,7 +158,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 1 + 2 of Fig. 7",
         ["W" = 24, "N" = 16],
         "width",
-        any_width!(|given, W| SpeedLead::<W, W>)
+        proved_at!(2; [2 4 8], |given, W| SpeedLead::<W, W>)
     ),
     entry!(
         LeadPlacement<24>,
@@ -179,7 +167,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 17, 20",
         ["W" = 24],
         "width, 0 for the position, 1 for the target or 2 for halves",
-        any_width!(|given, W| LeadPlacement::<W> {
+        proved_at!(4; [4 8], |given, W| LeadPlacement::<W> {
             placement: placement(second(given, 0))
         })
     ),
@@ -190,18 +178,18 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 19",
         ["W" = 24],
         "width, 0 for crossing or 1 for equal",
-        any_width!(|given, W| Comparator::<W> {
+        proved_at!(4; [4 8], |given, W| Comparator::<W> {
             comparing: comparing(second(given, 0))
         })
     ),
     entry!(
-        TargetSetter<4, 24, 24>,
+        TargetSetter<4, 24, 16>,
         TargetSetter,
         Some(2),
         "JPH0646367B2 18",
-        ["A" = 4, "W" = 24, "D" = 24],
+        ["A" = 4, "W" = 24, "D" = 16],
         "width of positions and speeds (steps have two bits)",
-        any_width!(|given, W| TargetSetter::<2, W, W>)
+        proved_at!(2; [2 4 8], |given, W| TargetSetter::<2, W, W>)
     ),
     entry!(
         TimeData<4, 11>,
@@ -210,7 +198,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 21 = 24 + 25, 29",
         ["A" = 4, "C" = 11],
         "width (steps have two bits), and the times of the ROM",
-        any_width!(|given, W| TimeData::<2, W> { rom: rom(given.get(1..).unwrap_or(&[])) })
+        proved_at!(2; [2 4 8], |given, W| TimeData::<2, W> { rom: rom(given.get(1..).unwrap_or(&[])) })
     ),
     entry!(
         CompletionDetector<24, 16>,
@@ -219,7 +207,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 26",
         ["W" = 24, "N" = 16],
         "width",
-        any_width!(|given, W| CompletionDetector::<W, W>)
+        proved_at!(2; [2 4 8], |given, W| CompletionDetector::<W, W>)
     ),
     entry!(
         StopError<24>,
@@ -228,7 +216,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 27, 30, 31",
         ["W" = 24],
         "width, 0 for the converging sign or 1 for the literal one",
-        any_width!(|given, W| StopError::<W> {
+        proved_at!(4; [4 8], |given, W| StopError::<W> {
             sign: sign(second(given, 0))
         })
     ),
@@ -269,7 +257,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2, step numbers",
         ["A" = 4, "W" = 24, "N" = 16],
         "width of positions and times (steps have two bits)",
-        any_width!(|given, W| StepSequencer::<2, W, W>)
+        proved_at!(2; [2 4 8], |given, W| StepSequencer::<2, W, W>)
     ),
     entry!(
         Compensator<TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>>,
@@ -282,7 +270,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             "C" = 11,
             "W" = 24,
             "A" = 4,
-            "D" = 24,
+            "D" = 16,
             "R" = 35,
             "N" = 16,
             "S" = 24
@@ -302,7 +290,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             "C" = 11,
             "W" = 24,
             "A" = 4,
-            "D" = 24,
+            "D" = 16,
             "R" = 35,
             "N" = 16,
             "S" = 24
@@ -322,7 +310,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             "C" = 11,
             "W" = 24,
             "A" = 4,
-            "D" = 24,
+            "D" = 16,
             "R" = 35,
             "N" = 16,
             "S" = 24

@@ -5,7 +5,7 @@ use crate::linear_interpolator::{
     TargetData, Trapezoid,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{Made, any_width, at_width, entry, some_widths};
+use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
 
 /// The rule by its number.
 fn rule(number: u64) -> Rule {
@@ -21,7 +21,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         TargetData<6, 32, 12>, TargetData, Some(2), "JP3608587B2 20", ["A" = 6, "P" = 32, "T" = 12],
         "width of positions and times (addresses have two bits)",
-        any_width!(|given, W| TargetData::<2, W, W>)
+        proved_at!(2; [3 4 8], |given, W| TargetData::<2, W, W>)
     ),
     entry!(
         Sequencer<32>,
@@ -30,7 +30,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 ¶0005, ¶0014",
         ["P" = 32],
         "width",
-        any_width!(|given, W| Sequencer::<W>)
+        proved_at!(2; [3 4 8], |given, W| Sequencer::<W>)
     ),
     entry!(
         Trapezoid<32, 12, 25, 58>,
@@ -59,7 +59,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 21 = 22 + 23",
         ["P" = 32],
         "width",
-        any_width!(|given, W| Differentiator::<W>)
+        proved_at!(3; [4 8], |given, W| Differentiator::<W>)
     ),
     entry!(
         Accumulator<32, 64>,
@@ -89,7 +89,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["P" = 32, "R" = 64],
         "width, 0 for floor, 1 for truncating or 2 for centred",
         Made {
-            make: |given| at_width!([2 3 4], given, W => LineLaw::<W, { 2 * W }>::new(rule(second(given, 0)))),
+            make: |given| at_width!([3], given, W => LineLaw::<W, { 2 * W }>::new(rule(second(given, 0)))),
             model: |given| at_width!([3 4 8], given, W => LineLaw::<W, { 2 * W }>::new(rule(second(given, 0)))),
             offered: &[3, 4, 8],
         }
@@ -101,7 +101,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 25, Figs 5 and 6",
         ["P" = 32],
         "width",
-        any_width!(|given, W| AxisSwitch::<W>)
+        proved_at!(2; [4 8], |given, W| AxisSwitch::<W>)
     ),
     entry!(
         CycleGate,
@@ -140,7 +140,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 10 + 11 + 12",
         ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
         "width of positions, gain and D/A converter; half of the gain is its fraction",
-        any_width!(|given, W| PositionControl::<W, W, { W / 2 }, W, { 2 * W }>)
+        proved_at!(3; [4 8], |given, W| PositionControl::<W, W, { W / 2 }, W, { 2 * W }>)
     ),
     entry!(
         PositionLoop,
@@ -149,7 +149,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 10–13",
         ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
         "width of positions, gain and D/A converter; half of the gain is its fraction",
-        any_width!(|given, W| PositionLoop::<W, W, { W / 2 }, W, { 2 * W }>::default())
+        proved_at!(2; [4 8], |given, W| PositionLoop::<W, W, { W / 2 }, W, { 2 * W }>::default())
     ),
     entry!(
         Conventional<6>,

@@ -1,0 +1,335 @@
+//! Positionings one after the other: a compensator, a body, and its brake.
+
+use super::compensator;
+use super::settings::{SPEED_UNIT_COUNTS_PER_S, Settings};
+use super::{Compensator, LeadSource, PositionHistory, RamHistory, SpeedLead, TimeLead, Variant};
+use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
+use crate::logic::{Image, Sim};
+use crate::plant::{BrakedBody, ParameterError, waves};
+use std::ops::ControlFlow;
+
+/// Width of a lead time.
+pub(super) const C: usize = 11;
+/// Width of a position.
+pub(super) const W: usize = 24;
+/// Width of a step number.
+const A: usize = 4;
+/// Width of a speed.
+const D: usize = 16;
+/// Width of a time in CKs.
+pub(super) const N: usize = 16;
+/// Width of the CK period.
+const S: usize = 24;
+
+/// How far past its target a body is stopped by hand, in seconds of its way.
+const MISSED_S: f64 = 0.1;
+/// Seconds after which a positioning is given up that is not complete.
+const PATIENCE_S: f64 = 600.0;
+
+/// A compensator with the body beside it in the waves.
+pub type Positioner<P> = With<Compensator<P>, waves::Body>;
+
+/// Lead of a time, with the history as a shift register.
+pub type ShiftLead = TimeLead<PositionHistory<199, 8, W>, 199, 8, C, W>;
+/// Lead of a time, with the history as a RAM.
+pub type RamLead = TimeLead<RamHistory<199, 8, W>, 199, 8, C, W>;
+/// The conventional lead.
+pub type Conventional = SpeedLead<W, N>;
+
+/// The ports in of a compensator.
+pub type Ports = compensator::In<Sim, C, W, A, D, N, S>;
+
+/// The compensator of these settings whose lead comes from `P`.
+pub fn positioner<P: LeadSource<C, W, N>>(settings: &Settings) -> Positioner<P> {
+    let variant = Variant {
+        placement: settings.placement,
+        comparing: settings.comparing,
+        sign: settings.sign,
+    };
+    let codes = settings
+        .steps
+        .iter()
+        .map(|step| settings.code(step.lead_ms).unwrap_or(0));
+    With::new(Compensator::new(variant, Image::new(codes)))
+}
+
+/// Why a job cannot be played.
+#[derive(Debug, thiserror::Error)]
+pub enum JobError {
+    /// A body cannot be what the settings say.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// What an observer objects to.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+/// The control computer: writes a step a tick, then lets them run.
+#[derive(Debug)]
+pub(super) struct ControlComputer<'a> {
+    settings: &'a Settings,
+    /// What it gives in every tick.
+    standing: Ports,
+}
+
+impl<'a> ControlComputer<'a> {
+    pub(super) fn new(settings: &'a Settings) -> Self {
+        let cks = |ms: f64| u64::from(settings.cks(ms));
+        // Lead time in gates, in 1/256.
+        let parameter = 256.0 * settings.speed_lead_ms / settings.speed_gate_ms;
+        let standing = Ports {
+            a: false.into(),
+            b: false.into(),
+            clear: false.into(),
+            run: false.into(),
+            halt: false.into(),
+            learn: settings.learn.into(),
+            common: settings.common_time.into(),
+            last_step: (settings.steps.len() as u64 - 1).into(),
+            ck_period: u64::from(settings.ck_ticks).into(),
+            standstill: cks(settings.standstill_ms).into(),
+            time_out: cks(settings.time_out_ms).into(),
+            rest: cks(settings.rest_ms).into(),
+            seed: settings.code(settings.seed_ms).unwrap_or(0).into(),
+            parameter: (parameter.round() as u64).min((1 << 14) - 1).into(),
+            gate: cks(settings.speed_gate_ms).into(),
+            write_target: false.into(),
+            // The times are in the ROM.
+            write_time: false.into(),
+            write_step: 0.into(),
+            step_target: 0.into(),
+            step_speed: 0.into(),
+            step_time: 0.into(),
+        };
+        ControlComputer { settings, standing }
+    }
+
+    /// What it gives in `tick`; steps run as soon as all are written.
+    #[inline]
+    pub(super) fn tick(&self, tick: u64, run: bool) -> Ports {
+        let steps = &self.settings.steps;
+        let place = usize::try_from(tick).unwrap_or(usize::MAX);
+        match steps.get(place) {
+            Some(step) => Ports {
+                write_target: true.into(),
+                write_step: tick.into(),
+                step_target: step.target.into(),
+                step_speed: u64::from(step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S).into(),
+                ..self.standing.clone()
+            },
+            None => Ports {
+                run: run.into(),
+                ..self.standing.clone()
+            },
+        }
+    }
+}
+
+/// One positioning.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Positioning {
+    /// The step it was.
+    pub step: usize,
+    /// The tick in which it was armed.
+    pub begun: u64,
+    /// Sx.
+    pub target: i64,
+    /// It went to greater counts.
+    pub upward: bool,
+    /// Δt1 in CKs.
+    pub code: u64,
+    /// Tick of the control signal.
+    pub fired: u64,
+    /// Dx at the control signal.
+    pub trigger_position: i64,
+    /// True speed at the control signal, in counts a second.
+    pub speed_counts_per_s: f64,
+    /// Tick in which it was complete.
+    pub completed: u64,
+    /// Dx then.
+    pub stopped: i64,
+    /// Way past the target in the direction of the move; negative where it stopped short.
+    pub error: i64,
+    /// Its time was over before the body stood still.
+    pub timed_out: bool,
+    /// The target was missed, and the body stopped by hand.
+    pub missed: bool,
+    /// Δt2 in CKs, where something was learned.
+    pub learned: Option<u64>,
+}
+
+/// What came of a run.
+#[derive(Debug, Clone, Default)]
+pub struct Played {
+    /// Ticks.
+    pub ticks: u64,
+    /// Positionings in order.
+    pub positionings: Vec<Positioning>,
+    /// The encoder was too fast.
+    pub lost: bool,
+    /// A positioning was not complete for too long, and the run given up.
+    pub unsettled: bool,
+}
+
+/// What one tick shows.
+struct Seen {
+    arm: bool,
+    fire: bool,
+    halting: bool,
+    complete: bool,
+    learned: Option<u64>,
+    busy: bool,
+    lost: bool,
+    timed_out: bool,
+    missed: bool,
+    step: u64,
+    position: i64,
+    target: i64,
+    time: u64,
+    flow: ControlFlow<()>,
+}
+
+fn see<P: LeadSource<C, W, N>>(
+    now: &Sample<'_, Positioner<P>>,
+    observer: &mut impl Observer<Positioner<P>>,
+) -> Result<Seen, RunError> {
+    let (q, w) = (now.q, now.w);
+    Ok(Seen {
+        flow: observer.sample(now)?,
+        arm: q.sequencer.arm.get(),
+        fire: w.fire.get(),
+        halting: q.sequencer.halting.get(),
+        complete: w.complete.get(),
+        learned: w.learned.get().then(|| w.learned_time.get()),
+        busy: w.busy.get(),
+        lost: w.lost.get(),
+        timed_out: w.timed_out.get(),
+        missed: q.sequencer.missed.get(),
+        step: w.step.get(),
+        position: w.position.get(),
+        target: w.target.get(),
+        time: w.time.get(),
+    })
+}
+
+/// Watches, stops by hand what missed its target, and writes down what comes
+/// of it.
+struct Bench<'a> {
+    settings: &'a Settings,
+    completed: u32,
+    /// Ticks since something was complete.
+    idle: u64,
+    patience: u64,
+    /// The body is far past its target.
+    past: bool,
+    played: Played,
+}
+
+impl Bench<'_> {
+    /// Whether another positioning is to begin.
+    fn run(&self) -> bool {
+        self.played.positionings.len() < self.settings.positionings as usize
+    }
+
+    /// Takes the tick up; whether the run goes on.
+    fn take(&mut self, seen: &Seen, body: &BrakedBody) -> bool {
+        let tick = self.played.ticks;
+        self.played.ticks += 1;
+        self.idle += 1;
+        if seen.arm {
+            self.played.positionings.push(Positioning {
+                step: seen.step as usize,
+                begun: tick,
+                target: seen.target,
+                upward: seen.target >= seen.position,
+                code: seen.time,
+                fired: tick,
+                trigger_position: seen.position,
+                speed_counts_per_s: 0.0,
+                completed: tick,
+                stopped: seen.position,
+                error: 0,
+                timed_out: false,
+                missed: false,
+                learned: None,
+            });
+        }
+        if let Some(current) = self.played.positionings.last_mut() {
+            if seen.fire || seen.halting {
+                current.fired = tick;
+                current.trigger_position = seen.position;
+                current.speed_counts_per_s = body.speed_counts_per_s();
+            }
+            if seen.complete {
+                let way = seen.position - seen.target;
+                current.completed = tick;
+                current.stopped = seen.position;
+                current.error = if current.upward { way } else { -way };
+                current.timed_out = seen.timed_out;
+                current.missed = seen.missed;
+                self.completed += 1;
+                self.idle = 0;
+            }
+            current.learned = current.learned.or(seen.learned);
+            let way = body.position_counts() - current.target as f64;
+            let way = if current.upward { way } else { -way };
+            let step = self.settings.steps.get(current.step);
+            let speed = step.map_or(0, |step| step.speed_counts_per_s);
+            self.past = way > f64::from(speed) * MISSED_S;
+        }
+        self.played.lost = seen.lost;
+        self.played.unsettled = self.idle > self.patience;
+        let over = self.completed >= self.settings.positionings && !seen.busy;
+        !over && !self.played.unsettled && seen.flow.is_continue()
+    }
+}
+
+/// Plays the positionings of `settings` on `circuit`, with a body and its brake, seen by `observer`
+/// too.
+///
+/// # Errors
+/// A parameter of the body is out of range, or what `observer` objects to.
+pub fn play<P: LeadSource<C, W, N>>(
+    circuit: &Positioner<P>,
+    settings: &Settings,
+    mut observer: impl Observer<Positioner<P>>,
+) -> Result<Played, JobError> {
+    let clock = settings.clock_hz as f64;
+    let mut body = BrakedBody::new(&settings.body, 1.0 / clock)?;
+    let mut bench = Bench {
+        settings,
+        completed: 0,
+        idle: 0,
+        patience: (PATIENCE_S * clock) as u64,
+        past: false,
+        played: Played::default(),
+    };
+    let computer = ControlComputer::new(settings);
+    let mut loaded = false;
+    let mut simulator = Simulator::new(circuit);
+    loop {
+        if settings.load_change_after == Some(bench.completed) && !loaded {
+            body.set_load(settings.load)?;
+            loaded = true;
+        }
+        let q = simulator.registers();
+        let speed = q.target_setter.speed.get() * u64::from(SPEED_UNIT_COUNTS_PER_S);
+        let (drive, reverse) = (q.sequencer.drive.get(), q.sequencer.reverse.get());
+        let (a, b) = body.step(drive, reverse, speed as f64, q.comparator.control.get());
+        let i = Ports {
+            a: a.into(),
+            b: b.into(),
+            halt: (bench.past && drive).into(),
+            ..computer.tick(bench.played.ticks, bench.run())
+        };
+        let i = WithIn {
+            i,
+            beside: waves::BodySignals::of(&body),
+        };
+        let (next, seen) = simulator.step(i, |now| see(now, &mut observer));
+        simulator = next;
+        if !bench.take(&seen?, &body) {
+            return Ok(bench.played);
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! A position log on a compensator: where it would have given its signals, and how good its
+//! predictions were.
+
+use super::LeadSource;
+use super::job::{C, ControlComputer, N, Ports, Positioner, W};
+use super::settings::Settings;
+use crate::input::position_log::PositionLog;
+use crate::kernel::{Observer, RunError, Sample, Simulator, WithIn};
+use crate::logic::Sim;
+use crate::plant::Encoder;
+use crate::plant::waves::BodySignals;
+use std::ops::ControlFlow;
+
+/// A control signal that the log gave rise to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Signal {
+    /// The step whose target it was.
+    pub step: usize,
+    /// Sx in the log's counts.
+    pub target: i64,
+    /// Its tick.
+    pub tick: u64,
+    /// Δt1 in CKs.
+    pub code: u64,
+    /// Position at the signal, in the log's counts.
+    pub position: i64,
+    /// Position Δt1 after the sample that the signal came of, in the log's counts; `None` where the
+    /// log is over by then.
+    pub position_after: Option<f64>,
+}
+
+/// How far off the predictions of all CKs were, in counts.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Predictions {
+    /// Predictions that the log can judge.
+    pub count: u64,
+    /// Root of their mean square error.
+    pub rms: f64,
+    /// Largest error.
+    pub largest: f64,
+    /// Root of the mean square error without a lead.
+    pub rms_without: f64,
+    /// Largest error without a lead.
+    pub largest_without: f64,
+}
+
+/// What came of a log.
+#[derive(Debug, Clone, Default)]
+pub struct Replayed {
+    /// Ticks.
+    pub ticks: u64,
+    /// Signals in order.
+    pub signals: Vec<Signal>,
+    /// All predictions that were made with a lead.
+    pub predictions: Predictions,
+    /// The encoder was too fast.
+    pub lost: bool,
+}
+
+/// The settings that a log is replayed with: targets count from its first sample, and nothing is
+/// learned, since no signal has an effect on it.
+#[must_use]
+pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
+    let mut settings = settings.clone();
+    for step in &mut settings.steps {
+        step.target -= origin(log);
+    }
+    settings.learn = false;
+    settings
+}
+
+/// Counts of the first sample.
+fn origin(log: &PositionLog) -> i64 {
+    log.samples.first().map_or(0, |sample| sample.counts)
+}
+
+/// What one tick shows.
+struct Seen {
+    fire: bool,
+    fresh: bool,
+    enough: bool,
+    lost: bool,
+    step: u64,
+    time: u64,
+    position: i64,
+    target: i64,
+    lead: i64,
+    flow: ControlFlow<()>,
+}
+
+fn see<P: LeadSource<C, W, N>>(
+    now: &Sample<'_, Positioner<P>>,
+    observer: &mut impl Observer<Positioner<P>>,
+) -> Result<Seen, RunError> {
+    let w = now.w;
+    let source = P::outputs(&now.q.lead_source, &w.lead_source.w);
+    Ok(Seen {
+        flow: observer.sample(now)?,
+        fire: w.fire.get(),
+        fresh: source.fresh.get(),
+        enough: source.enough.get(),
+        lost: w.lost.get(),
+        step: w.step.get(),
+        time: w.time.get(),
+        position: w.position.get(),
+        target: w.target.get(),
+        lead: source.lead.get(),
+    })
+}
+
+/// Sums of what is measured.
+#[derive(Default)]
+struct Sums {
+    squares: [f64; 2],
+    largest: [f64; 2],
+    count: u64,
+}
+
+impl Sums {
+    fn add(&mut self, errors: [f64; 2]) {
+        self.count += 1;
+        for (index, error) in errors.into_iter().enumerate() {
+            self.squares[index] += error * error;
+            self.largest[index] = self.largest[index].max(error.abs());
+        }
+    }
+
+    fn finish(&self) -> Predictions {
+        let rms = |squares: f64| (squares / self.count.max(1) as f64).sqrt();
+        Predictions {
+            count: self.count,
+            rms: rms(self.squares[0]),
+            largest: self.largest[0],
+            rms_without: rms(self.squares[1]),
+            largest_without: self.largest[1],
+        }
+    }
+}
+
+/// Replays `log` on `circuit` to its end, with the settings of [`settings_for`], seen by `observer`
+/// too.
+///
+/// # Errors
+/// What `observer` objects to.
+pub fn replay<P: LeadSource<C, W, N>>(
+    circuit: &Positioner<P>,
+    settings: &Settings,
+    log: &PositionLog,
+    mut observer: impl Observer<Positioner<P>>,
+) -> Result<Replayed, RunError> {
+    let origin = origin(log);
+    let tick_s = 1.0 / settings.clock_hz as f64;
+    let ck_s = f64::from(settings.ck_ticks) * tick_s;
+    let ticks = (log.seconds() / tick_s).floor() as u64;
+    let at = |seconds: f64| log.position_at(seconds) - origin as f64;
+    let (mut replayed, mut sums) = (Replayed::default(), Sums::default());
+    let computer = ControlComputer::new(settings);
+    let mut before = 0.0;
+    let mut simulator = Simulator::new(circuit);
+    for tick in 0..=ticks {
+        let seconds = tick as f64 * tick_s;
+        let position = at(seconds);
+        let (a, b) = Encoder.channels(position);
+        let i = Ports {
+            a: a.into(),
+            b: b.into(),
+            ..computer.tick(tick, true)
+        };
+        let speed = (position - before) / tick_s;
+        before = position;
+        let beside = BodySignals::<Sim>::at(position, speed);
+        let (next, seen) = simulator.step(WithIn { i, beside }, |now| see(now, &mut observer));
+        simulator = next;
+        let seen = seen?;
+        // The sample of this pair was taken a tick ago.
+        let after = seconds - tick_s + seen.time as f64 * ck_s;
+        let known = (after <= log.seconds()).then(|| at(after));
+        if let Some(truth) = known
+            && seen.fresh
+            && seen.enough
+            && seen.time > 0
+        {
+            let now = seen.position as f64;
+            sums.add([now + seen.lead as f64 - truth, now - truth]);
+        }
+        if seen.fire {
+            replayed.signals.push(Signal {
+                step: seen.step as usize,
+                target: seen.target + origin,
+                tick,
+                code: seen.time,
+                position: seen.position + origin,
+                position_after: known.map(|position| position + origin as f64),
+            });
+        }
+        replayed.ticks = tick + 1;
+        replayed.lost = seen.lost;
+        if seen.flow.is_break() {
+            break;
+        }
+    }
+    replayed.predictions = sums.finish();
+    Ok(replayed)
+}

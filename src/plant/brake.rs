@@ -1,0 +1,182 @@
+//! A moving body with a motor drive, a brake and an encoder: what a lead-angle compensator stops.
+//!
+//! Acceleration is constant between events (the speed is reached, the brake bites, the body rests),
+//! so the motion between them is a parabola. A tick is split at its events and integrated without
+//! error.
+
+mod parameters;
+#[cfg(test)]
+mod tests;
+
+pub use parameters::{BodyParameters, Load};
+
+use super::parameters::check_tick;
+use super::{Encoder, ParameterError};
+
+/// Motor drive, body, brake and encoder together, stepped once per reference tick.
+#[derive(Debug, Clone)]
+pub struct BrakedBody {
+    parameters: BodyParameters,
+    encoder: Encoder,
+    tick_s: f64,
+    load: Load,
+    position_counts: f64,
+    speed_counts_per_s: f64,
+    /// How long the control signal of the brake has stood.
+    signal_s: f64,
+    engaged: bool,
+    /// The brake has rubbed since it was last released.
+    rubbed: bool,
+    brakings: u32,
+}
+
+impl BrakedBody {
+    /// A body at rest at position 0 with a new brake, on a reference tick of `tick_s` seconds.
+    ///
+    /// # Errors
+    ///
+    /// [`ParameterError`] names the parameter, or `tick_s`, that is out of range.
+    pub fn new(parameters: &BodyParameters, tick_s: f64) -> Result<Self, ParameterError> {
+        parameters.validate()?;
+        check_tick(tick_s)?;
+        Ok(BrakedBody {
+            parameters: *parameters,
+            encoder: Encoder,
+            tick_s,
+            load: Load::NONE,
+            position_counts: 0.0,
+            speed_counts_per_s: 0.0,
+            signal_s: 0.0,
+            engaged: false,
+            rubbed: false,
+            brakings: 0,
+        })
+    }
+
+    /// Changes what the body carries, from the next tick on.
+    ///
+    /// # Errors
+    ///
+    /// [`ParameterError`] names the factor that is out of range.
+    pub fn set_load(&mut self, load: Load) -> Result<(), ParameterError> {
+        load.validate()?;
+        self.load = load;
+        Ok(())
+    }
+
+    /// One tick: the motor is on or off (`drive`), towards smaller counts (`reverse`), with this
+    /// speed as its reference; `brake` is the control signal of the brake. An engaged brake beats
+    /// the motor. Gives the encoder's channels A and B of the tick to come.
+    #[inline]
+    pub fn step(
+        &mut self,
+        drive: bool,
+        reverse: bool,
+        speed_counts_per_s: f64,
+        brake: bool,
+    ) -> (bool, bool) {
+        let tick = self.tick_s;
+        let free = match brake {
+            true => (self.parameters.brake_dead_time_s - self.signal_s).clamp(0.0, tick),
+            false => tick,
+        };
+        self.signal_s = if brake { self.signal_s + tick } else { 0.0 };
+        if !brake && self.rubbed {
+            self.rubbed = false;
+            self.brakings += 1;
+        }
+        self.engaged = false;
+        match drive {
+            true => {
+                let reference = if reverse { -1.0 } else { 1.0 } * speed_counts_per_s;
+                self.approach(reference, self.parameters.acceleration_counts_per_s2, free);
+            }
+            false => self.approach(0.0, self.deceleration(), free),
+        }
+        if free < tick {
+            self.engaged = true;
+            self.rubbed |= self.speed_counts_per_s != 0.0;
+            self.approach(0.0, self.deceleration(), tick - free);
+        }
+        self.channels()
+    }
+
+    /// The encoder's channels A and B as they stand.
+    #[inline]
+    pub fn channels(&self) -> (bool, bool) {
+        self.encoder.channels(self.position_counts)
+    }
+
+    /// Position in encoder counts.
+    #[inline]
+    pub fn position_counts(&self) -> f64 {
+        self.position_counts
+    }
+
+    /// Speed in encoder counts a second.
+    #[inline]
+    pub fn speed_counts_per_s(&self) -> f64 {
+        self.speed_counts_per_s
+    }
+
+    /// The brake is on: its signal has stood for the dead time.
+    #[inline]
+    pub fn engaged(&self) -> bool {
+        self.engaged
+    }
+
+    /// Brakings that are over: releases of a brake that has rubbed.
+    #[inline]
+    pub fn brakings(&self) -> u32 {
+        self.brakings
+    }
+
+    /// Friction torque of the bearings and, where it is engaged, of the brake, in N·m.
+    #[inline]
+    pub fn friction_nm(&self) -> f64 {
+        let bearings = self.parameters.friction_nm * self.load.load_friction_factor;
+        match self.engaged {
+            true => bearings + self.brake_torque_nm(),
+            false => bearings,
+        }
+    }
+
+    /// Friction torque of the brake under this load and at its age, in N·m.
+    pub fn brake_torque_nm(&self) -> f64 {
+        let left = (1.0 - self.parameters.brake_fade).powf(f64::from(self.brakings));
+        self.parameters.brake_torque_nm * self.load.load_brake_factor * left
+    }
+
+    /// The highest speed in counts a second at which every quarter is seen.
+    pub fn countable_counts_per_s(&self) -> f64 {
+        self.encoder.countable_counts_per_s(self.tick_s)
+    }
+
+    /// What friction takes off the speed, in counts/s².
+    #[inline]
+    fn deceleration(&self) -> f64 {
+        let inertia = self.parameters.inertia_kg_m2 * self.load.load_inertia_factor;
+        self.friction_nm() / inertia * self.parameters.counts_per_rad()
+    }
+
+    /// Moves for `time_s` seconds, with this acceleration until `speed` is reached.
+    #[inline]
+    fn approach(&mut self, speed: f64, acceleration: f64, time_s: f64) {
+        let missing = speed - self.speed_counts_per_s;
+        let reached = missing.abs() / acceleration;
+        if reached <= time_s {
+            self.advance(acceleration.copysign(missing), reached);
+            self.speed_counts_per_s = speed;
+            self.advance(0.0, time_s - reached);
+        } else {
+            self.advance(acceleration.copysign(missing), time_s);
+        }
+    }
+
+    #[inline]
+    fn advance(&mut self, acceleration: f64, time_s: f64) {
+        let mean = self.speed_counts_per_s + 0.5 * acceleration * time_s;
+        self.position_counts += mean * time_s;
+        self.speed_counts_per_s += acceleration * time_s;
+    }
+}

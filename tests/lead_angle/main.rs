@@ -1,0 +1,14 @@
+//! The lead-angle compensator: history, prediction, comparison and learning against programs.
+
+mod comparing;
+mod history;
+mod learning;
+mod prediction;
+mod whole;
+
+use motion_rtl::check::Random;
+
+/// A random number below `end`.
+fn below(random: &mut Random, end: u64) -> u64 {
+    random.word() % end
+}

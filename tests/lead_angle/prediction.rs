@@ -1,0 +1,149 @@
+//! Prediction: exact on the ring, and how far off where the speed is a fraction or changes.
+
+use motion_rtl::kernel::{Circuit, Nothing, Simulator};
+use motion_rtl::lead_angle::{
+    Lead, LeadPlacement, Placement, PositionHistory, TimeLead, codes, lead, placement, time_lead,
+};
+use motion_rtl::logic::Sim;
+use proptest::prelude::*;
+
+const PLACEMENTS: [Placement; 3] = [Placement::Position, Placement::Target, Placement::Halves];
+
+/// The number of `bits` bits that a number wraps to.
+fn wrap(number: i64, bits: u32) -> i64 {
+    let range = 1i64 << bits;
+    let rest = number.rem_euclid(range);
+    if rest < range / 2 { rest } else { rest - range }
+}
+
+/// All positions, ways, ratios and targets of 8 bits: the prediction is that of numbers without
+/// bounds, wherever the ring wraps, and all three placements see the same difference.
+#[test]
+fn the_prediction_is_exact_on_the_ring_and_the_placements_agree() {
+    let circuits = PLACEMENTS.map(|placement| LeadPlacement::<8> { placement });
+    for position in -128..128 {
+        for way in -127..=127 {
+            let old = wrap(position - way, 8);
+            for ratio in [0, 1, 2, 5, 10] {
+                let made: lead::Net<Sim, 8> = Lead::<8>.comb(
+                    &Nothing::new(),
+                    &lead::In {
+                        present: position.into(),
+                        old: old.into(),
+                        ratio: (ratio as u64).into(),
+                    },
+                );
+                let predicted = position + ratio * way;
+                assert_eq!(made.lead.get(), wrap(ratio * way, 8));
+                for target in -128..128 {
+                    let i = placement::In {
+                        position: position.into(),
+                        target: i64::into(target),
+                        lead: made.lead,
+                    };
+                    let away = wrap(predicted - target, 8);
+                    for circuit in &circuits {
+                        let w: placement::Net<Sim, 8> = circuit.comb(&Nothing::new(), &i);
+                        let difference = w.compared_position - w.compared_target;
+                        assert_eq!(difference.get(), away, "{:?}", circuit.placement);
+                    }
+                }
+                let i = placement::In {
+                    position: position.into(),
+                    target: 0.into(),
+                    lead: made.lead,
+                };
+                let w: placement::Net<Sim, 8> = circuits[0].comb(&Nothing::new(), &i);
+                assert_eq!(w.compared_position.get(), wrap(predicted, 8));
+            }
+        }
+    }
+}
+
+type Full = TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>;
+
+/// What the circuit predicts for `time` CKs ahead from the positions of `count` CKs, the last of
+/// them 0, when all are in its history; a CK every tick.
+fn predicted(time: u64, count: i64, position: impl Fn(i64) -> i64) -> i64 {
+    let circuit = Full::default();
+    let mut simulator = Simulator::new(&circuit);
+    for ck in 1 - count..=0 {
+        let i = time_lead::In {
+            ck: true.into(),
+            restart: false.into(),
+            position: position(ck).into(),
+            time: time.into(),
+        };
+        simulator = simulator.step(i, |_| ()).0;
+    }
+    let i = time_lead::In {
+        ck: false.into(),
+        restart: false.into(),
+        position: 0.into(),
+        time: time.into(),
+    };
+    let (_, [present, lead]) = simulator.step(i, |now| {
+        assert!(now.w.enough.get() && now.w.fresh.get());
+        [now.w.present.get(), now.w.lead.get()]
+    });
+    wrap(present + lead, 24)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Speeds in 1/65536 of a count per CK, either way, at any phase and across the wrap.
+    #[test]
+    fn at_constant_speed_the_error_is_within_the_bound(
+        code in 0usize..519,
+        speed in -2000i64 << 16..2000 << 16,
+        phase in -1i64 << 39..1 << 39,
+    ) {
+        let code = codes::grid(199)[code];
+        let at = |ck: i64| speed * ck + phase;
+        let predicted = predicted(code.time, 202, |ck| at(ck) >> 16);
+        // In 1/65536 of a count; the short way round.
+        let error = wrap((predicted << 16) - at(code.time as i64), 40);
+        let ratio = code.ratio as i64;
+        prop_assert!(error > -(ratio + 1) << 16 && error < ratio << 16, "{code:?}: {error}");
+    }
+
+    /// Accelerations in 1/65536 of a count per CK².
+    #[test]
+    fn at_constant_acceleration_the_error_follows_its_formula(
+        code in 0usize..519,
+        acceleration in -40i64 << 10..40 << 10,
+        speed in -500i64 << 16..500 << 16,
+    ) {
+        let code = codes::grid(199)[code];
+        let at = |ck: i64| (speed * ck + acceleration * ck * ck / 2) as f64 / 65_536.0;
+        let predicted = predicted(code.time, 202, |ck| at(ck).floor() as i64);
+        let error = predicted as f64 - at(code.time as i64);
+        let (time, ratio) = (code.time as f64, code.ratio as f64);
+        let a = acceleration as f64 / 65_536.0;
+        let formula = -(a * time * time / 2.0) * (1.0 + 1.0 / ratio);
+        let range = f64::from(1 << 24);
+        let off = (error - formula + range / 2.0).rem_euclid(range) - range / 2.0;
+        prop_assert!(off > -(ratio + 1.1) && off < ratio + 0.1, "{code:?}: {error}, {formula}");
+    }
+}
+
+/// The bound is no larger than it has to be.
+#[test]
+fn the_bound_is_reached() {
+    for (ratio, time) in [(1, 199), (2, 398), (5, 995), (10, 1990)] {
+        let (mut least, mut most) = (0, 0);
+        for speed in 1..400i64 {
+            for phase in [0, 1, 65_535] {
+                let at = |ck: i64| speed * 164 * ck + phase;
+                let predicted = predicted(time, 202, |ck| at(ck) >> 16);
+                let error = (predicted << 16) - at(time as i64);
+                (least, most) = (least.min(error), most.max(error));
+            }
+        }
+        let share = |error: i64| error as f64 / 65_536.0;
+        assert!(share(most) > f64::from(ratio) * 0.97, "{ratio}: {most}");
+        let bound = -f64::from(ratio + 1);
+        assert!(share(least) < bound * 0.97, "{ratio}: {least}");
+    }
+}
