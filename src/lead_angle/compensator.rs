@@ -71,13 +71,13 @@ signals! {
         pub write_target: L::Bit,
         /// A time is written; off the grid it is refused.
         pub write_time: L::Bit,
-        /// Of which step.
+        /// The step that is written.
         pub write_step: L::U<A>,
-        /// The target.
+        /// The target that is written.
         pub step_target: L::I<W>,
-        /// The speed.
+        /// The speed that is written.
         pub step_speed: L::U<D>,
-        /// The time in CKs.
+        /// The time that is written, in CKs.
         pub step_time: L::U<C>,
     }
 }
@@ -157,7 +157,7 @@ signals! {
         pub ck: L::Bit,
         /// Dx: the present sample.
         pub position: L::I<W> as Analog,
-        /// Dx(+Δt), where the lead is put on the position.
+        /// What is compared with the target: Dx(+Δt) where all of the lead is put on the position.
         pub predicted: L::I<W> as Analog,
         /// Sx: the target of this step.
         pub target: L::I<W> as Analog,
@@ -169,9 +169,9 @@ signals! {
         pub busy: L::Bit,
         /// The motor is on.
         pub drive: L::Bit,
-        /// It turns downwards.
+        /// The motor turns downwards.
         pub reverse: L::Bit,
-        /// Its speed.
+        /// Speed of this step, for the drive.
         pub speed: L::U<D>,
         /// The control signal begins.
         pub fire: L::Bit,
@@ -187,7 +187,7 @@ signals! {
         pub error: L::I<W>,
         /// A time is learned in this tick.
         pub learned: L::Bit,
-        /// It.
+        /// Δt2: the time that is learned.
         pub learned_time: L::U<C>,
         /// A written time was refused since `clear`.
         pub refused: L::Bit,

@@ -39,7 +39,7 @@ signals! {
         pub seed: L::U<C>,
         /// The divider has its result.
         pub done: L::Bit,
-        /// It.
+        /// The divider's result: |Δtd|.
         pub quotient: L::U<R>,
     }
 }

@@ -25,7 +25,7 @@ signals! {
         pub restart: L::Bit,
         /// The position.
         pub position: L::I<W>,
-        /// a: lead time in gates, in 1/256.
+        /// a: lead time in gates, in 1/256 of a gate.
         pub parameter: L::U<14>,
         /// CKs of a gate; 0 counts as 1.
         pub gate: L::U<N>,

@@ -99,7 +99,7 @@ signals! {
     }
 }
 
-/// Step sequencer of 2^`A` steps, positions of `W` bits, rests of `N` bits. `drive` shows 4 ticks
+/// Step sequencer of 2^`A` steps, positions of `W` bits, rests of `N` bits. `drive` shows 3 ticks
 /// after `run`, and goes in the tick after `control` came.
 #[derive(Debug, Clone, Default)]
 pub struct StepSequencer<const A: usize, const W: usize, const N: usize>;

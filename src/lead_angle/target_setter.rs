@@ -20,7 +20,7 @@ signals! {
     pub struct In<L, const A: usize, const W: usize, const D: usize> {
         /// The control computer writes a step.
         pub write: L::Bit,
-        /// Which.
+        /// The step that is written.
         pub write_step: L::U<A>,
         /// Its target.
         pub write_target: L::I<W>,
@@ -28,7 +28,7 @@ signals! {
         pub write_speed: L::U<D>,
         /// The step that begins comes to the outputs.
         pub load: L::Bit,
-        /// Which.
+        /// The step that begins.
         pub step: L::U<A>,
     }
 }

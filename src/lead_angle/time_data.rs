@@ -35,11 +35,11 @@ signals! {
         pub learned_time: L::U<C>,
         /// The control computer writes a time.
         pub write: L::Bit,
-        /// Of which step.
+        /// The step whose time is written.
         pub write_step: L::U<A>,
-        /// The time in CKs.
+        /// The time that is written, in CKs.
         pub write_time: L::U<C>,
-        /// It is on the grid.
+        /// The time that is written is on the grid.
         pub write_on_grid: L::Bit,
         /// Takes `refused` back.
         pub clear: L::Bit,
@@ -67,9 +67,9 @@ signals! {
         refuse: L::Bit,
         /// The memory is written.
         store: L::Bit,
-        /// Where.
+        /// Address written to.
         store_address: L::U<A>,
-        /// What.
+        /// Time written.
         store_time: L::U<C>,
     }
 }

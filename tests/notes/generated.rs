@@ -4,7 +4,7 @@
 //! `UPDATE_NOTES=1 cargo test --test notes` writes them anew.
 
 use super::{expect_none, miscounts, notes};
-use motion_rtl::kernel::{Declaration, Format, Kind, MemoryDeclaration, Role};
+use motion_rtl::kernel::{Declaration, Declarations, Format, Kind, MemoryDeclaration, Role};
 use motion_rtl::pulse_interpolator::counts;
 use motion_rtl::registry::{CATALOGUE, Entry, Verdict, find};
 use std::fmt::Write as _;
@@ -100,10 +100,11 @@ fn blocks(patent: &str) -> String {
     text
 }
 
-/// The widths of a circuit by name; the number of axes is no width.
+/// The widths of a circuit by name; numbers of axes and of stages are no widths.
 fn widths(entry: &Entry) -> String {
     let widths = entry.widths.iter().map(|(name, width)| match *name {
         "AXES" => format!("{name} = {width}"),
+        "K" if entry.source.starts_with("JPH0646367B2") => format!("{name} = {width} stages"),
         _ => format!("{name} = {width} bits"),
     });
     widths.collect::<Vec<_>>().join(", ")
@@ -140,10 +141,12 @@ fn signals(entry: &Entry) -> String {
         if let Some(memory) = memories.next_if(|memory| memory.first == index) {
             text += &memory_row(memory);
         }
-        if leaf.scopes.len() > 1 {
-            continue;
-        }
-        let Declaration { name, field, .. } = leaf;
+        let name = match &leaf.scopes[..] {
+            [_] => leaf.name.clone(),
+            [_, bundle] if is_bundled(&declarations, index) => format!("{bundle}.{}", leaf.name),
+            _ => continue,
+        };
+        let field = leaf.field;
         let bits = match leaf.shape.kind {
             Kind::Signed => format!("{}, signed", leaf.shape.width),
             Kind::Bit | Kind::Unsigned => leaf.shape.width.to_string(),
@@ -167,6 +170,20 @@ fn signals(entry: &Entry) -> String {
         );
     }
     text
+}
+
+/// Whether a register stands in a struct that is neither a memory nor the registers of a block,
+/// whose ports in would stand beside it.
+fn is_bundled(declarations: &Declarations, index: usize) -> bool {
+    let leaf = &declarations.leaves[index];
+    let is_word =
+        |memory: &MemoryDeclaration| (memory.first..memory.first + memory.words).contains(&index);
+    let of_a_block = |other: &Declaration| {
+        other.role != Role::Register && other.scopes.starts_with(&leaf.scopes)
+    };
+    leaf.role == Role::Register
+        && !declarations.memories.iter().any(is_word)
+        && !declarations.leaves.iter().any(of_a_block)
 }
 
 /// A doc comment as a cell of a table.
