@@ -69,19 +69,18 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn circuit(entry: &Entry) -> Circuit {
-    let leaves = entry.declarations().leaves;
-    let port = |leaf: &Declaration| Port {
-        name: leaf.name.clone(),
+    let declarations = entry.declarations();
+    let leaves = &declarations.leaves;
+    let port = |(name, leaf): (String, &Declaration)| Port {
+        name,
         width: leaf.shape.width,
         about: leaf.field.doc.trim(),
     };
-    // Ports are in the circuit's own scope; deeper ones belong to its blocks.
-    let own = leaves.iter().filter(|leaf| leaf.scopes.len() == 1);
-    let inputs = own
-        .clone()
-        .filter(|leaf| leaf.role == Role::Input)
-        .map(port);
-    let outputs = own.filter(|leaf| leaf.role != Role::Input && leaf.field.public);
+    let own = declarations.own().into_iter();
+    let own = own.map(|(index, name)| (name, &leaves[index]));
+    let (inputs, others): (Vec<_>, Vec<_>) = own.partition(|(_, leaf)| leaf.role == Role::Input);
+    let inputs = inputs.into_iter().map(port);
+    let outputs = others.into_iter().filter(|(_, leaf)| leaf.field.public);
     let count = |role| leaves.iter().filter(|leaf| leaf.role == role).count();
     Circuit {
         name: entry.name,

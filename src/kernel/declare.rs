@@ -124,6 +124,34 @@ impl Declarations {
         Sample::at_power_on(circuit, |sample| sample.show(&mut declarations));
         declarations
     }
+
+    /// The circuit's own leaves, those of its blocks and the words of its memories left out: their
+    /// indices, and their names from the circuit's scope. What stands in a bundle is its own.
+    pub fn own(&self) -> Vec<(usize, String)> {
+        let name = |(index, leaf): (usize, &Declaration)| match &leaf.scopes[..] {
+            [_] => Some((index, leaf.name.clone())),
+            [_, bundle] if self.is_bundled(index) => {
+                Some((index, format!("{bundle}.{}", leaf.name)))
+            }
+            _ => None,
+        };
+        self.leaves.iter().enumerate().filter_map(name).collect()
+    }
+
+    /// Whether a register stands in a struct that is neither a memory nor the registers of a block,
+    /// whose ports in would stand beside it.
+    fn is_bundled(&self, index: usize) -> bool {
+        let leaf = &self.leaves[index];
+        let is_word = |memory: &MemoryDeclaration| {
+            (memory.first..memory.first + memory.words).contains(&index)
+        };
+        let of_a_block = |other: &Declaration| {
+            other.role != Role::Register && other.scopes.starts_with(&leaf.scopes)
+        };
+        leaf.role == Role::Register
+            && !self.memories.iter().any(is_word)
+            && !self.leaves.iter().any(of_a_block)
+    }
 }
 
 impl Probe for Declarations {

@@ -4,7 +4,7 @@
 //! ```text
 //!                                     ┌─────────────┐
 //!  a, b, clear ──────────────────────▶│             ├──▶ drive, reverse, speed, brake
-//!  run, halt, learn, common ─────────▶│             ├──▶ position, predicted, target, time
+//!  run, halt, learn, common ─────────▶│             ├──▶ position, predicted, target, lead_time
 //!  write_target, write_time, … ──────▶│ compensator ├──▶ fire, complete, timed_out
 //!  ck_period, standstill, time_out ──▶│             ├──▶ error, overrun, learned
 //!  rest, last_step, seed ────────────▶│             ├──▶ busy, refused, lost
@@ -64,7 +64,7 @@ signals! {
         /// The time that a step begins to learn with that has none.
         pub seed: L::U<C>,
         /// a of Fig. 7: lead time in gates, in 1/256.
-        pub parameter: L::U<14>,
+        pub lead_parameter: L::U<14>,
         /// CKs of a gate of Fig. 7.
         pub gate: L::U<N>,
         /// A target and its speed are written.
@@ -162,7 +162,7 @@ signals! {
         /// Sx: the target of this step.
         pub target: L::I<W> as Analog,
         /// Δt1: the lead time of this step.
-        pub time: L::U<C> as Analog,
+        pub lead_time: L::U<C> as Analog,
         /// The step that runs, or is next.
         pub step: L::U<A>,
         /// A step runs.
@@ -330,7 +330,7 @@ impl<
             },
         );
         let target = q.target_setter.target;
-        let time = q.time_data.time;
+        let time = q.time_data.lead_time;
         let lead_source: Instance<P, L> = Instance::settle(
             &self.lead_source,
             &q.lead_source,
@@ -339,7 +339,7 @@ impl<
                 restart: i.clear,
                 position: q.detector.position,
                 time,
-                parameter: i.parameter,
+                parameter: i.lead_parameter,
                 gate: i.gate,
             }),
         );
@@ -384,7 +384,7 @@ impl<
                 complete: q.completion.complete,
                 position: lead.present,
                 target,
-                time,
+                lead_time: time,
                 learn: i.learn,
                 missed: sequence.missed,
                 seed: i.seed,
@@ -393,7 +393,9 @@ impl<
         let write_check = Instance::settle(
             &self.write_check,
             &Nothing::new(),
-            ratio_logic::In { time: i.step_time },
+            ratio_logic::In {
+                lead_time: i.step_time,
+            },
         );
         let time_data = Instance::settle(
             &self.time_data,
@@ -432,7 +434,7 @@ impl<
             position: lead.present,
             predicted: placement.w.compared_position,
             target,
-            time,
+            lead_time: time,
             step: sequence.step,
             busy: sequence.busy,
             drive: sequence.drive,

@@ -3,7 +3,7 @@
 //! ```text
 //!                               ┌────────────┐
 //!  fire, complete, position ───▶│            ├──▶ overrun, error
-//!  target, time ───────────────▶│ correction ├──▶ learned, learned_time
+//!  target, lead_time ──────────▶│ correction ├──▶ learned, learned_time
 //!  learn, missed, seed ────────▶│            ├──▶ corrected
 //!                               └────────────┘
 //! ```
@@ -30,7 +30,7 @@ signals! {
         /// Sx, constant from `fire` to `corrected`.
         pub target: L::I<W>,
         /// Δt1, constant likewise.
-        pub time: L::U<C>,
+        pub lead_time: L::U<C>,
         /// Times are to be learned.
         pub learn: L::Bit,
         /// The control signal was not given by the comparator.
@@ -149,7 +149,7 @@ impl<const K: usize, const T: usize, const C: usize, const W: usize, const R: us
                 complete: i.complete,
                 learn: i.learn,
                 missed: i.missed,
-                time: i.time,
+                lead_time: i.lead_time,
                 overrun,
                 error,
                 seed: i.seed,
@@ -173,7 +173,7 @@ impl<const K: usize, const T: usize, const C: usize, const W: usize, const R: us
             &self.grid,
             &Nothing::new(),
             ratio_logic::In {
-                time: q.arithmetic.raw,
+                lead_time: q.arithmetic.raw,
             },
         );
         Net {

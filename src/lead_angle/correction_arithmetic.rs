@@ -3,7 +3,7 @@
 //! ```text
 //!                             ┌───────────────────────┐ start, multiplicand, …
 //!  complete, learn, missed ──▶│                       ├──▶ mul_div
-//!  time, overrun, error ─────▶│ correction arithmetic │◀── done, quotient
+//!  lead_time, overrun, error ▶│ correction arithmetic │◀── done, quotient
 //!  seed ─────────────────────▶│                       ├──▶ raw, learned
 //!                             └───────────────────────┘──▶ corrected
 //! ```
@@ -30,7 +30,7 @@ signals! {
         /// The control signal was not given by the comparator.
         pub missed: L::Bit,
         /// Δt1 in CKs.
-        pub time: L::U<C>,
+        pub lead_time: L::U<C>,
         /// d1.
         pub overrun: L::I<W>,
         /// d2.
@@ -114,9 +114,9 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
     #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L, C>, i: &In<L, C, W, R>) -> Net<L, C, W, R> {
         let wanted = i.complete & i.learn & !i.missed;
-        let none = i.time.is_zero();
+        let none = i.lead_time.is_zero();
         let divisor: L::U<R> = i.overrun.magnitude().resize();
-        let time: L::U<R> = i.time.resize();
+        let time: L::U<R> = i.lead_time.resize();
         let sum = time + i.quotient;
         let last: L::U<R> = Self::LAST.into();
         let vanishes = !i.quotient.below(time);
@@ -125,7 +125,7 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
             divide: wanted & !none & !divisor.is_zero(),
             sow: wanted & none & !i.error.is_zero(),
             multiplicand: i.error.magnitude().resize(),
-            multiplier: i.time,
+            multiplier: i.lead_time,
             divisor,
             addend: divisor.shift_right(1),
             sum,
@@ -174,7 +174,7 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Specified
                 |now, next| {
                     let i = now.i;
                     let learns = i.complete.get() && i.learn.get() && !i.missed.get();
-                    let (time, error) = (i.time.get(), i.error.get());
+                    let (time, error) = (i.lead_time.get(), i.error.get());
                     let sown = learns && time == 0 && error != 0;
                     let divided = now.q.dividing.get() && i.done.get();
                     let right = next.learned.get() == (sown || divided)
@@ -191,7 +191,7 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Specified
                     if !(now.q.dividing.get() && now.i.done.get()) {
                         return Ok(());
                     }
-                    let (time, by) = (now.i.time.get() as i128, now.i.quotient.get() as i128);
+                    let (time, by) = (now.i.lead_time.get() as i128, now.i.quotient.get() as i128);
                     let sum = if now.q.negative.get() {
                         time - by
                     } else {
@@ -215,6 +215,6 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Specified
     /// Times as the memory holds them, and quotients that such a division can have.
     fn applies(&self, i: &In<Sim, C, W, R>) -> bool {
         let last = 10 * K as u64;
-        i.time.get() <= last && i.seed.get() <= 1
+        i.lead_time.get() <= last && i.seed.get() <= 1
     }
 }

@@ -91,7 +91,7 @@ impl<'a> ControlComputer<'a> {
             time_out: cks(settings.time_out_ms).into(),
             rest: cks(settings.rest_ms).into(),
             seed: settings.code(settings.seed_ms).unwrap_or(0).into(),
-            parameter: (parameter.round() as u64).min((1 << 14) - 1).into(),
+            lead_parameter: (parameter.round() as u64).min((1 << 14) - 1).into(),
             gate: cks(settings.speed_gate_ms).into(),
             write_target: false.into(),
             // The times are in the ROM.
@@ -208,7 +208,7 @@ fn see<P: LeadSource<C, W, N>>(
         step: w.step.get(),
         position: w.position.get(),
         target: w.target.get(),
-        time: w.time.get(),
+        time: w.lead_time.get(),
     })
 }
 

@@ -42,7 +42,7 @@ signals! {
 pub struct Lead<const W: usize>;
 
 impl<const W: usize> Circuit for Lead<W> {
-    const NAME: &'static str = "lead";
+    const NAME: &'static str = "lead_arithmetic";
     const ABOUT: &'static str = "the way of the last tap, N times";
     type In<L: Logic> = In<L, W>;
     type Reg<L: Logic> = Nothing<L>;

@@ -68,7 +68,7 @@ impl<
             ck: i.ck,
             restart: i.restart,
             position: i.position,
-            time: i.time,
+            lead_time: i.time,
         }
     }
 
@@ -94,7 +94,7 @@ impl<const C: usize, const W: usize, const N: usize> LeadSource<C, W, N> for Spe
             ck: i.ck,
             restart: i.restart,
             position: i.position,
-            parameter: i.parameter,
+            lead_parameter: i.parameter,
             gate: i.gate,
         }
     }

@@ -1,10 +1,10 @@
 //! Logic circuit 13: from the time Δt to the ratio N and the tap Δt/N.
 //!
 //! ```text
-//!          ┌─────────────┐
-//!  time ──▶│             ├──▶ ratio, tap
-//!          │ ratio logic ├──▶ code, on_grid
-//!          └─────────────┘
+//!               ┌─────────────┐
+//!  lead_time ──▶│             ├──▶ ratio, tap
+//!               │ ratio logic ├──▶ code, on_grid
+//!               └─────────────┘
 //! ```
 //!
 //! A time is counted in CKs. With K stages of history a ratio N reaches times up to N·K in steps of
@@ -24,7 +24,7 @@ signals! {
     /// Ports in.
     pub struct In<L, const C: usize> {
         /// Δt in CKs.
-        pub time: L::U<C>,
+        pub lead_time: L::U<C>,
     }
 }
 
@@ -84,7 +84,7 @@ impl<const K: usize, const T: usize, const C: usize> Circuit for RatioLogic<K, T
 
     #[inline(always)]
     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L, C>) -> Net<L, T, C> {
-        let time: L::U<14> = i.time.resize();
+        let time: L::U<14> = i.lead_time.resize();
         let from = |first: u64| !time.below(first.into());
         let [two, five, ten] = Self::FIRST.map(from);
         let half = ten.mux(5.into(), five.mux(2.into(), two.word().resize()));
@@ -110,7 +110,7 @@ impl<const K: usize, const T: usize, const C: usize> Circuit for RatioLogic<K, T
             ratio,
             tap,
             code,
-            on_grid: code.equals(i.time),
+            on_grid: code.equals(i.lead_time),
         }
     }
 
@@ -128,7 +128,7 @@ impl<const K: usize, const T: usize, const C: usize> Specified for RatioLogic<K,
             .always(
                 "a code gives its ratio and its tap, nothing else is on the grid",
                 move |now| {
-                    let time = now.i.time.get();
+                    let time = now.i.lead_time.get();
                     let given = (now.w.ratio.get(), now.w.tap.get(), now.w.on_grid.get());
                     let code = known.iter().find(|code| code.time == time);
                     let right = match (time, code) {
@@ -144,7 +144,7 @@ impl<const K: usize, const T: usize, const C: usize> Specified for RatioLogic<K,
             .always(
                 "between codes it is one of the two around, past the last the last",
                 move |now| {
-                    let (time, code) = (now.i.time.get(), now.w.code.get());
+                    let (time, code) = (now.i.lead_time.get(), now.w.code.get());
                     let below = codes.iter().rev().find(|code| code.time <= time);
                     let above = codes.iter().find(|code| code.time >= time);
                     let around = [below, above].map(|code| code.map_or(0, |code| code.time));
@@ -167,7 +167,12 @@ mod tests {
     type Full = RatioLogic<199, 8, 11>;
 
     fn of(time: u64) -> Net<Sim, 8, 11> {
-        Full::default().comb(&Nothing::new(), &In { time: time.into() })
+        Full::default().comb(
+            &Nothing::new(),
+            &In {
+                lead_time: time.into(),
+            },
+        )
     }
 
     /// The table of the text, row by row.

@@ -101,7 +101,7 @@ fn see<P: LeadSource<C, W, N>>(
         enough: source.enough.get(),
         lost: w.lost.get(),
         step: w.step.get(),
-        time: w.time.get(),
+        time: w.lead_time.get(),
         position: w.position.get(),
         target: w.target.get(),
         lead: source.lead.get(),

@@ -3,13 +3,13 @@
 //! ```text
 //!                          ┌────────────┐
 //!  ck, position, restart ─▶│            ├──▶ present, speed, lead
-//!  parameter, gate ───────▶│ speed lead ├──▶ fresh, enough
+//!  lead_parameter, gate ──▶│ speed lead ├──▶ fresh, enough
 //!                          └────────────┘
 //! ```
 //!
 //! The speed is the way of a gate of so many CKs, and stands until the next gate is over: on
 //! average it is a whole gate old, which is what the text holds against the method.
-//! The lead is speed times `parameter` (a), rounded down: θa = f(ν, a) for a constant stopping time.
+//! The lead is speed times `lead_parameter` (a), rounded down: θa = f(ν, a) for a constant stopping time.
 
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::Circuit;
@@ -26,7 +26,7 @@ signals! {
         /// The position.
         pub position: L::I<W>,
         /// a: lead time in gates, in 1/256 of a gate.
-        pub parameter: L::U<14>,
+        pub lead_parameter: L::U<14>,
         /// CKs of a gate; 0 counts as 1.
         pub gate: L::U<N>,
     }
@@ -84,7 +84,7 @@ impl<const W: usize, const N: usize> Circuit for SpeedLead<W, N> {
     fn comb<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> Net<L, W, N> {
         const { assert!(W + 15 <= 64, "the product has at most 64 bits") };
         let next_count = q.count + 1;
-        let parameter: L::U<15> = i.parameter.resize();
+        let parameter: L::U<15> = i.lead_parameter.resize();
         let product = q.speed.times::<15, 64>(parameter.signed());
         Net {
             next_count,
@@ -116,7 +116,8 @@ impl<const W: usize, const N: usize> Specified for SpeedLead<W, N> {
         let range = 1i128 << W;
         Invariants::<Self>::new()
             .always("the lead is the speed's share, rounded down", move |now| {
-                let product = i128::from(now.q.speed.get()) * i128::from(now.i.parameter.get());
+                let product =
+                    i128::from(now.q.speed.get()) * i128::from(now.i.lead_parameter.get());
                 let lead = i128::from(now.w.lead.get());
                 let right = (product.div_euclid(256) - lead) % range == 0;
                 require(right, ["lead"], || format!("{lead} for {product}"))
@@ -175,6 +176,6 @@ impl<const W: usize, const N: usize> Specified for SpeedLead<W, N> {
 
     /// Parameters as a proof can bear: none, one half, one, the greatest.
     fn applies(&self, i: &In<crate::logic::Sim, W, N>) -> bool {
-        [0, 128, 256, 16_383].contains(&i.parameter.get())
+        [0, 128, 256, 16_383].contains(&i.lead_parameter.get())
     }
 }

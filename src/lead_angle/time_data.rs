@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!                                     ┌───────────┐
-//!  load, step, common ───────────────▶│           ├──▶ time
+//!  load, step, common ───────────────▶│           ├──▶ lead_time
 //!  learned, learned_time ────────────▶│ time data │
 //!  write, write_step, write_time, … ─▶│           ├──▶ refused
 //!                                     └───────────┘
@@ -50,7 +50,7 @@ signals! {
     /// Output register and memory.
     pub struct Reg<L, const A: usize, const C: usize> {
         /// 29: Δt1, the lead time of the step that runs.
-        pub time: L::U<C> as Analog,
+        pub lead_time: L::U<C> as Analog,
         /// A write was refused since `clear`.
         pub refused: L::Bit,
         /// 24: times by step.
@@ -114,7 +114,7 @@ impl<const A: usize, const C: usize> Circuit for TimeData<A, C> {
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, A, C>, w: &Net<L, A, C>, i: &In<L, A, C>) -> Reg<L, A, C> {
         Reg {
-            time: q.times.read_when(i.load, w.address, q.time),
+            lead_time: q.times.read_when(i.load, w.address, q.lead_time),
             refused: (q.refused & !i.clear) | w.refuse,
             times: q.times.write(w.store, w.store_address, w.store_time),
         }
@@ -122,7 +122,7 @@ impl<const A: usize, const C: usize> Circuit for TimeData<A, C> {
 
     fn power_on(&self) -> Reg<Sim, A, C> {
         Reg {
-            time: 0.into(),
+            lead_time: 0.into(),
             refused: false.into(),
             times: self.rom.clone().into(),
         }
@@ -138,9 +138,9 @@ impl<const A: usize, const C: usize> Specified for TimeData<A, C> {
                 move |now, next| {
                     let expected = match now.i.load.get() {
                         true => now.q.times.read(own(now.i).into()),
-                        false => now.q.time,
+                        false => now.q.lead_time,
                     };
-                    require(next.time == expected, ["time"], || {
+                    require(next.lead_time == expected, ["lead_time"], || {
                         format!("{} expected", expected.get())
                     })
                 },

@@ -4,7 +4,7 @@
 //! ```text
 //!                          ┌───────────┐
 //!  ck, position, restart ─▶│           ├──▶ present, lead
-//!  time ──────────────────▶│ time lead ├──▶ fresh, enough
+//!  lead_time ─────────────▶│ time lead ├──▶ fresh, enough
 //!                          └───────────┘
 //! ```
 //!
@@ -77,7 +77,7 @@ signals! {
         /// The position.
         pub position: L::I<W>,
         /// Δt in CKs.
-        pub time: L::U<C>,
+        pub lead_time: L::U<C>,
     }
 }
 
@@ -143,7 +143,9 @@ impl<H: History<T, W>, const K: usize, const T: usize, const C: usize, const W: 
         let ratio_logic = Instance::settle(
             &self.ratio_logic,
             &Nothing::new(),
-            ratio_logic::In { time: i.time },
+            ratio_logic::In {
+                lead_time: i.lead_time,
+            },
         );
         let history: Instance<H, L> = Instance::settle(
             &self.history,

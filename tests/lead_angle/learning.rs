@@ -25,7 +25,7 @@ fn correct<const K: usize, const T: usize, const C: usize, const W: usize, const
         complete: complete.into(),
         position: position.into(),
         target: (-error).into(),
-        time: time.into(),
+        lead_time: time.into(),
         learn: true.into(),
         missed: false.into(),
         seed: seed.into(),

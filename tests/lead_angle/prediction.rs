@@ -72,7 +72,7 @@ fn predicted(time: u64, count: i64, position: impl Fn(i64) -> i64) -> i64 {
             ck: true.into(),
             restart: false.into(),
             position: position(ck).into(),
-            time: time.into(),
+            lead_time: time.into(),
         };
         simulator = simulator.step(i, |_| ()).0;
     }
@@ -80,7 +80,7 @@ fn predicted(time: u64, count: i64, position: impl Fn(i64) -> i64) -> i64 {
         ck: false.into(),
         restart: false.into(),
         position: 0.into(),
-        time: time.into(),
+        lead_time: time.into(),
     };
     let (_, [present, lead]) = simulator.step(i, |now| {
         assert!(now.w.enough.get() && now.w.fresh.get());

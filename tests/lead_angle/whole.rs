@@ -141,7 +141,7 @@ fn never_fires_too_early<P: LeadSource<8, 8, 8>>(
         let (next, (ck, fire, halting, time)) = simulator.step(i, |now| {
             let w = now.w;
             let halting = now.q.sequencer.halting.get();
-            (w.ck.get(), w.fire.get(), halting, w.time.get())
+            (w.ck.get(), w.fire.get(), halting, w.lead_time.get())
         });
         simulator = next;
         let covered = pair.is_some_and(|(time, samples)| {

@@ -4,9 +4,10 @@
 //! `UPDATE_NOTES=1 cargo test --test notes` writes them anew.
 
 use super::{expect_none, miscounts, notes};
-use motion_rtl::kernel::{Declaration, Declarations, Format, Kind, MemoryDeclaration, Role};
+use motion_rtl::kernel::{Declaration, Format, Kind, MemoryDeclaration, Role};
 use motion_rtl::pulse_interpolator::counts;
 use motion_rtl::registry::{CATALOGUE, Entry, Verdict, find};
+use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::fs;
 
@@ -132,6 +133,7 @@ fn signals(entry: &Entry) -> String {
     };
     text += "| signal | bits | role | power-on | meaning |\n|---|---|---|---|---|\n";
     let declarations = entry.declarations();
+    let names: HashMap<_, _> = declarations.own().into_iter().collect();
     let mut memories = declarations
         .memories
         .iter()
@@ -141,10 +143,8 @@ fn signals(entry: &Entry) -> String {
         if let Some(memory) = memories.next_if(|memory| memory.first == index) {
             text += &memory_row(memory);
         }
-        let name = match &leaf.scopes[..] {
-            [_] => leaf.name.clone(),
-            [_, bundle] if is_bundled(&declarations, index) => format!("{bundle}.{}", leaf.name),
-            _ => continue,
+        let Some(name) = names.get(&index) else {
+            continue;
         };
         let field = leaf.field;
         let bits = match leaf.shape.kind {
@@ -170,20 +170,6 @@ fn signals(entry: &Entry) -> String {
         );
     }
     text
-}
-
-/// Whether a register stands in a struct that is neither a memory nor the registers of a block,
-/// whose ports in would stand beside it.
-fn is_bundled(declarations: &Declarations, index: usize) -> bool {
-    let leaf = &declarations.leaves[index];
-    let is_word =
-        |memory: &MemoryDeclaration| (memory.first..memory.first + memory.words).contains(&index);
-    let of_a_block = |other: &Declaration| {
-        other.role != Role::Register && other.scopes.starts_with(&leaf.scopes)
-    };
-    leaf.role == Role::Register
-        && !declarations.memories.iter().any(is_word)
-        && !declarations.leaves.iter().any(of_a_block)
 }
 
 /// A doc comment as a cell of a table.
