@@ -24,8 +24,9 @@ const RANGES: [(u16, u16, u16); 4] = [
 /// N of a time in CKs that can be set: 1, 2, 5 or 10, and 0 of no lead.
 #[must_use]
 pub fn ratio(code: u16) -> Option<u16> {
-    let serves =
-        |&(n, least, most): &(u16, u16, u16)| (least..=most).contains(&code) && code % n == 0;
+    let serves = |&(n, least, most): &(u16, u16, u16)| {
+        (least..=most).contains(&code) && code.is_multiple_of(n)
+    };
     match code {
         0 => Some(0),
         _ => RANGES.into_iter().find(serves).map(|(n, ..)| n),
