@@ -254,7 +254,7 @@ impl Settings {
         }
         let unit = SPEED_UNIT_COUNTS_PER_S;
         let fastest = self.fastest_counts_per_s();
-        if !(unit..=fastest).contains(&speed) || speed % unit != 0 {
+        if !(unit..=fastest).contains(&speed) || !speed.is_multiple_of(unit) {
             let allowed = format!("{unit} to {fastest}, a multiple of {unit}");
             return Err(SettingError::new("speed_counts_per_s", speed, allowed));
         }

@@ -187,9 +187,13 @@ fn position(body: &mut BrakedBody, step: &Step, tick_s: f64) -> [f64; 2] {
     let speed = f64::from(step.speed_counts_per_s);
     let target = step.target as f64;
     let sign = (target - body.position_counts()).signum();
-    while body.speed_counts_per_s() != sign * speed {
+    for _ in 0..(1.0 / tick_s) as usize {
         body.step(true, sign < 0.0, speed, false);
+        if body.speed_counts_per_s() == sign * speed {
+            break;
+        }
     }
+    assert_eq!(body.speed_counts_per_s(), sign * speed);
     // The stop from a speed that stays is always the same.
     let stop = |body: &mut BrakedBody| {
         let from = body.position_counts();
