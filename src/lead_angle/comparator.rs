@@ -8,7 +8,7 @@
 //!                               └────────────┘
 //! ```
 //!
-//! It looks where `evaluate` is high and what it is given is `valid`. A *crossing* is the arrival
+//! It looks, from the first `arm` on, where `evaluate` is high and what it is given is `valid`. A *crossing* is the arrival
 //! at the target, or the step over it, from either side; it counts once. The first after `arm` is
 //! `fire`, and holds the control signal until the next `arm`.
 //!
@@ -65,6 +65,8 @@ signals! {
     pub struct Reg<L> {
         /// Where the position was when it was last looked at, since `arm`.
         side: L::U<2> as States(SIDES) = 0,
+        /// It looks at all: from the first `arm` on.
+        armed: L::Bit = 0,
         /// The control signal, from the first crossing to the next `arm`.
         pub control: L::Bit = 0,
         /// It came from below.
@@ -112,7 +114,7 @@ impl<const W: usize> Circuit for Comparator<W> {
     fn comb<L: Logic>(&self, q: &Reg<L>, i: &In<L, W>) -> Net<L, W> {
         let difference = i.position - i.target;
         let (negative, equal) = (difference.is_negative(), difference.is_zero());
-        let look = i.evaluate & i.valid & !i.arm;
+        let look = i.evaluate & i.valid & q.armed & !i.arm;
         let near = !(negative ^ difference.shift_left(1).is_negative());
         let upwards = q.side.equals(BELOW.into()) & !negative & near;
         let downwards = q.side.equals(ABOVE.into()) & (negative | equal) & near;
@@ -141,6 +143,7 @@ impl<const W: usize> Circuit for Comparator<W> {
         let side = w.equal.mux(AT.into(), away);
         Reg {
             side: i.arm.mux(UNKNOWN.into(), w.look.mux(side, q.side)),
+            armed: q.armed | i.arm,
             control: (q.control | w.fire | i.halt) & !i.arm,
             upward: w.fire.mux(w.upwards, q.upward),
         }
@@ -165,7 +168,8 @@ impl<const W: usize> Specified for Comparator<W> {
                         (Comparing::Crossing, _) => false,
                     };
                     let i = now.i;
-                    let looks = i.evaluate.get() && i.valid.get() && !i.arm.get();
+                    let looks =
+                        i.evaluate.get() && i.valid.get() && now.q.armed.get() && !i.arm.get();
                     let right = now.w.crossing.get() == (reached && looks);
                     require(right, ["crossing", "difference", "side"], || {
                         format!("a difference of {difference}")
@@ -198,7 +202,7 @@ impl<const W: usize> Specified for Comparator<W> {
             .step(
                 "the side is that of the last look since arm",
                 |now, next| {
-                    let looks = now.i.evaluate.get() && now.i.valid.get();
+                    let looks = now.i.evaluate.get() && now.i.valid.get() && now.q.armed.get();
                     let side = match (now.i.arm.get(), looks) {
                         (true, _) => UNKNOWN,
                         (false, false) => now.q.side.get(),

@@ -422,6 +422,7 @@ impl<
                 last_step: i.last_step,
                 position: lead.present,
                 target,
+                evaluate: lead.fresh,
                 control: q.comparator.control,
                 complete: q.completion.complete,
                 corrected: correction.w.corrected,

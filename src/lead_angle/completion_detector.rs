@@ -58,10 +58,14 @@ signals! {
         next_still: L::U<N>,
         /// CKs since the control signal, this one included.
         next_elapsed: L::U<N>,
+        /// A positioning is being completed.
+        running: L::Bit,
         /// It stands still.
         stands: L::Bit,
         /// It is complete with this sample.
         over: L::Bit,
+        /// The times go on.
+        counts: L::Bit,
     }
 }
 
@@ -84,21 +88,24 @@ impl<const W: usize, const N: usize> Circuit for CompletionDetector<W, N> {
         let next_elapsed = q.elapsed + 1;
         let stands = same & !next_still.below(i.standstill);
         let late = !next_elapsed.below(i.time_out);
+        let running = i.active & !q.complete;
+        let over = i.evaluate & running & (stands | late);
         Net {
             same,
             next_still,
             next_elapsed,
+            running,
             stands,
-            over: i.evaluate & i.active & !q.complete & (stands | late),
+            over,
+            counts: running & !over,
         }
     }
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, W, N>, w: &Net<L, N>, i: &In<L, W, N>) -> Reg<L, W, N> {
-        let counts = i.active & !w.over & !q.complete;
         let count = |more: L::Bit, next: L::U<N>, old: L::U<N>| {
             let counted = i.evaluate.mux(more.mux(next, 0.into()), old);
-            counts.mux(counted, 0.into())
+            w.counts.mux(counted, 0.into())
         };
         Reg {
             last: i.evaluate.mux(i.position, q.last),

@@ -63,6 +63,8 @@ signals! {
 signals! {
     /// Nets.
     pub struct Net<L, const C: usize, const W: usize, const R: usize> {
+        /// A correction is wanted.
+        wanted: L::Bit,
         /// The correction is wanted and can be made by a division.
         pub divide: L::Bit,
         /// The step begins with the seed.
@@ -75,6 +77,8 @@ signals! {
         pub divisor: L::U<R>,
         /// Half of |d1|: the quotient is rounded to the nearest.
         pub addend: L::U<R>,
+        /// The division of a correction is over.
+        divided: L::Bit,
         /// Δt1 + |Δtd|.
         sum: L::U<R>,
         /// Δt1 + |Δtd| as a code can be.
@@ -112,7 +116,7 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
     type Net<L: Logic> = Net<L, C, W, R>;
 
     #[inline(always)]
-    fn comb<L: Logic>(&self, _: &Reg<L, C>, i: &In<L, C, W, R>) -> Net<L, C, W, R> {
+    fn comb<L: Logic>(&self, q: &Reg<L, C>, i: &In<L, C, W, R>) -> Net<L, C, W, R> {
         let wanted = i.complete & i.learn & !i.missed;
         let none = i.lead_time.is_zero();
         let divisor: L::U<R> = i.overrun.magnitude().resize();
@@ -122,6 +126,8 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
         let vanishes = !i.quotient.below(time);
         let rest = (time - i.quotient).resize();
         Net {
+            wanted,
+            divided: q.dividing & i.done,
             divide: wanted & !none & !divisor.is_zero(),
             sow: wanted & none & !i.error.is_zero(),
             multiplicand: i.error.magnitude().resize(),
@@ -139,13 +145,12 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
     fn next<L: Logic>(&self, q: Reg<L, C>, w: &Net<L, C, W, R>, i: &In<L, C, W, R>) -> Reg<L, C> {
         let opposed = i.error.is_negative() ^ i.overrun.is_negative();
         let result = q.negative.mux(w.shorter, w.longer);
-        let divided = q.dividing & i.done;
         Reg {
             dividing: w.divide | (q.dividing & !i.done),
             negative: w.divide.mux(opposed, q.negative),
-            raw: divided.mux(result, w.sow.mux(i.seed, q.raw)),
-            learned: divided | w.sow,
-            corrected: divided | (i.complete & !w.divide),
+            raw: w.divided.mux(result, w.sow.mux(i.seed, q.raw)),
+            learned: w.divided | w.sow,
+            corrected: w.divided | (i.complete & !w.divide),
         }
     }
 }

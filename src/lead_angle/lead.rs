@@ -30,6 +30,8 @@ signals! {
 signals! {
     /// Nets.
     pub struct Net<L, const W: usize> {
+        /// N with a sign.
+        factor: L::I<5>,
         /// 15: Δx, the way of the last Δt/N.
         pub difference: L::I<W> as Analog,
         /// 16: N·Δx, the way that Δt will take at this speed.
@@ -51,10 +53,11 @@ impl<const W: usize> Circuit for Lead<W> {
     #[inline(always)]
     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L, W>) -> Net<L, W> {
         let difference = i.present - i.old;
-        let ratio: L::U<5> = i.ratio.resize();
+        let factor = i.ratio.resize::<5>().signed();
         Net {
+            factor,
             difference,
-            lead: difference.times::<5, W>(ratio.signed()),
+            lead: difference.times::<5, W>(factor),
         }
     }
 

@@ -31,6 +31,8 @@ signals! {
 signals! {
     /// Nets.
     pub struct Net<L, const T: usize, const C: usize> {
+        /// The time, with room for what is added.
+        wide: L::U<14>,
         /// The time is beyond the codes of ratio 1.
         two: L::Bit,
         /// The time is beyond the codes of ratio 2.
@@ -41,6 +43,8 @@ signals! {
         rounded: L::U<14>,
         /// The same, or half of it where the ratio is even.
         halved: L::U<14>,
+        /// `halved` times 2^17/5.
+        product: L::U<29>,
         /// A fifth of `halved`.
         fifth: L::U<14>,
         /// The time divided by its ratio, to the nearest.
@@ -100,6 +104,8 @@ impl<const K: usize, const T: usize, const C: usize> Circuit for RatioLogic<K, T
         let ratio = ten.mux(10.into(), five.mux(5.into(), two.mux(2.into(), present)));
         let code: L::U<C> = tap.times::<4, C>(ratio);
         Net {
+            wide: time,
+            product,
             two,
             five,
             ten,

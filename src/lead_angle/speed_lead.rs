@@ -61,6 +61,10 @@ signals! {
         over: L::Bit,
         /// Way of the gate that ends.
         way: L::I<W>,
+        /// A gate begins with this sample.
+        begins: L::Bit,
+        /// a with a sign.
+        factor: L::I<15>,
         /// ν·a in 1/256 of a count.
         product: L::I<64>,
         /// 1: θa.
@@ -84,12 +88,15 @@ impl<const W: usize, const N: usize> Circuit for SpeedLead<W, N> {
     fn comb<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> Net<L, W, N> {
         const { assert!(W + 15 <= 64, "the product has at most 64 bits") };
         let next_count = q.count + 1;
-        let parameter: L::U<15> = i.lead_parameter.resize();
-        let product = q.speed.times::<15, 64>(parameter.signed());
+        let factor = i.lead_parameter.resize::<15>().signed();
+        let product = q.speed.times::<15, 64>(factor);
+        let over = i.ck & q.begun & !next_count.below(i.gate);
         Net {
             next_count,
-            over: i.ck & q.begun & !next_count.below(i.gate),
+            over,
             way: i.position - q.gate_position,
+            begins: over | (i.ck & !q.begun),
+            factor,
             product,
             lead: product.shift_right(8).resize(),
         }
@@ -97,15 +104,14 @@ impl<const W: usize, const N: usize> Circuit for SpeedLead<W, N> {
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, W, N>, w: &Net<L, W, N>, i: &In<L, W, N>) -> Reg<L, W, N> {
-        let begins = w.over | (i.ck & !q.begun);
         let counted = i.ck.mux(w.next_count, q.count);
         Reg {
             present: i.ck.mux(i.position, q.present),
             fresh: i.ck & !i.restart,
             enough: (q.enough | w.over) & !i.restart,
-            count: (begins | i.restart).mux(0.into(), counted),
+            count: (w.begins | i.restart).mux(0.into(), counted),
             begun: (q.begun | i.ck) & !i.restart,
-            gate_position: begins.mux(i.position, q.gate_position),
+            gate_position: w.begins.mux(i.position, q.gate_position),
             speed: w.over.mux(w.way, q.speed),
         }
     }

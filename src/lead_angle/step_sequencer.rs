@@ -10,7 +10,7 @@
 //!                            └────────────────┘
 //! ```
 //!
-//! A step: *load* its target and its time, *arm* the comparator, *move* until the control signal,
+//! A step: *load* its target and its time, *arm* the comparator until a sample says which way it is, *move* until the control signal,
 //! *brake* until the positioning is complete, *correct* the time, *rest*. Then the next step, from
 //! step 0 again after the last, as long as `run` is high.
 //!
@@ -48,6 +48,8 @@ signals! {
         pub control: L::Bit,
         /// The positioning is complete.
         pub complete: L::Bit,
+        /// The position is new in this tick.
+        pub evaluate: L::Bit,
         /// The correction is over.
         pub corrected: L::Bit,
         /// CK.
@@ -90,6 +92,10 @@ signals! {
     pub struct Net<L, const A: usize, const W: usize> {
         /// The way to the target, the short way round.
         way: L::I<W>,
+        /// The state is over with this tick, and the one after it comes.
+        goes_on: L::Bit,
+        /// A halt is taken.
+        halts: L::Bit,
         /// The rest is over with this tick.
         rested: L::Bit,
         /// The state of the next tick.
@@ -117,7 +123,7 @@ impl<const A: usize, const W: usize, const N: usize> Circuit for StepSequencer<A
         let rested = is(REST) & !q.count.below(i.rest);
         let begin: L::U<3> = i.run.mux(LOAD.into(), IDLE.into());
         let goes_on = is(LOAD)
-            | is(ARM)
+            | (is(ARM) & i.evaluate)
             | (is(MOVE) & i.control)
             | (is(BRAKE) & i.complete)
             | (is(CORRECT) & i.corrected);
@@ -126,6 +132,8 @@ impl<const A: usize, const W: usize, const N: usize> Circuit for StepSequencer<A
         let following = last.mux(0.into(), q.step + 1);
         Net {
             way: i.target - i.position,
+            goes_on,
+            halts: i.halt & q.drive & !q.missed,
             rested,
             after: (is(IDLE) | rested).mux(begin, onwards),
             next_step: rested.mux(following, q.step),
@@ -141,7 +149,6 @@ impl<const A: usize, const W: usize, const N: usize> Circuit for StepSequencer<A
     ) -> Reg<L, A, N> {
         let to = |state: u64| w.after.equals(state.into());
         let resting = q.state.equals(REST.into()) & !w.rested;
-        let halting = i.halt & q.drive & !q.halting;
         let counted = i.ck.mux(q.count + 1, q.count);
         Reg {
             state: w.after,
@@ -151,9 +158,9 @@ impl<const A: usize, const W: usize, const N: usize> Circuit for StepSequencer<A
             arm: to(ARM),
             drive: to(MOVE),
             reverse: q.arm.mux(w.way.is_negative(), q.reverse),
-            halting,
+            halting: w.halts,
             braking: to(BRAKE),
-            missed: (q.missed | halting) & !q.load,
+            missed: (q.missed | w.halts) & !q.load,
             busy: !to(IDLE),
         }
     }
@@ -168,7 +175,7 @@ fn after<const A: usize, const W: usize, const N: usize>(
     match q.state.get() {
         IDLE => begin,
         LOAD => ARM,
-        ARM => MOVE,
+        ARM if i.evaluate.get() => MOVE,
         MOVE if i.control.get() => BRAKE,
         BRAKE if i.complete.get() => CORRECT,
         CORRECT if i.corrected.get() => REST,
@@ -228,7 +235,7 @@ impl<const A: usize, const W: usize, const N: usize> Specified for StepSequencer
                 "a halt of the move asks for the control signal once, and is remembered",
                 |now, next| {
                     let q = now.q;
-                    let halts = now.i.halt.get() && q.state.get() == MOVE && !q.halting.get();
+                    let halts = now.i.halt.get() && q.state.get() == MOVE && !q.missed.get();
                     let missed = (q.missed.get() || halts) && q.state.get() != LOAD;
                     let right = next.halting.get() == halts && next.missed.get() == missed;
                     require(right, ["halting", "missed"], || {
