@@ -140,7 +140,7 @@ fn both_forms_agree_at_full_width() {
     let stimulus = |tick: u64, _: &_| {
         let mut i: position_history::In<Sim, 8, 24> = random.signals();
         // Rarely, so that the history fills.
-        i.restart = (tick % 2503 == 0).into();
+        i.restart = tick.is_multiple_of(2503).into();
         i
     };
     let end = Simulator::new(&pair).run(100_000, stimulus, lockstep);
