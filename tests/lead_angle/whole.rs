@@ -16,8 +16,18 @@ type SmallIn = In<Sim, 8, 8, 2, 8, 8, 8>;
 
 /// What the outputs of a run are compared by.
 const OUTPUTS: [&str; 12] = [
-    "position", "target", "time", "step", "busy", "drive", "reverse", "fire", "brake", "complete",
-    "learned", "error",
+    "position",
+    "target",
+    "lead_time",
+    "step",
+    "busy",
+    "drive",
+    "reverse",
+    "fire",
+    "brake",
+    "complete",
+    "learned",
+    "error",
 ];
 
 fn times() -> Image<2, 8> {
