@@ -199,6 +199,12 @@ impl<const W: usize> Specified for Comparator<W> {
                     format!("{upward} expected")
                 })
             })
+            .step("it is armed from the first arm on", |now, next| {
+                let armed = now.q.armed.get() || now.i.arm.get();
+                require(next.armed.get() == armed, ["armed"], || {
+                    format!("{armed} expected")
+                })
+            })
             .step(
                 "the side is that of the last look since arm",
                 |now, next| {
