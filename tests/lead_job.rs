@@ -1,8 +1,15 @@
-//! The lead-angle compensator on a body with a brake: whole runs of the scenario that ships.
+//! The lead-angle compensator on a body with a brake: whole runs of the scenario that ships, and
+//! position logs.
 
+use motion_rtl::input::position_log::{Columns, PositionLog, read};
 use motion_rtl::input::scenario::{Loaded, Scenario};
-use motion_rtl::lead_angle::job::{Conventional, Played, RamLead, ShiftLead, play, positioner};
-use motion_rtl::lead_angle::settings::{Settings, Sign};
+use motion_rtl::lead_angle::codes::{LARGEST, STAGES, code};
+use motion_rtl::lead_angle::job::{
+    Conventional, Played, Positioning, RamLead, ShiftLead, play, positioner,
+};
+use motion_rtl::lead_angle::replay::{replay, settings_for};
+use motion_rtl::lead_angle::settings::{Comparing, Placement, Settings, Sign, Step};
+use std::fmt::Write;
 use std::path::Path;
 
 /// The scenario that ships with the crate.
@@ -15,39 +22,263 @@ fn turntable() -> Settings {
     scenario.settings()
 }
 
-fn learning(settings: &Settings) -> Played {
-    play(&positioner::<ShiftLead>(settings), settings, ()).expect("it runs")
+fn with_lead(settings: &Settings) -> Played {
+    let played = play(&positioner::<ShiftLead>(settings), settings, ()).expect("it runs");
+    assert!(!played.lost && !played.unsettled);
+    assert_eq!(played.positionings.len(), settings.positionings as usize);
+    played
+}
+
+/// Counts that one code is worth at the speed of a positioning, and one of rounding.
+fn code_travel(settings: &Settings, one: &Positioning) -> f64 {
+    let ratio = code(STAGES, one.code).map_or(1, |code| code.ratio) as f64;
+    one.speed_counts_per_s.abs() * settings.ck_ms() / 1e3 * ratio + 1.0
+}
+
+fn off(one: &Positioning) -> f64 {
+    one.error.unsigned_abs() as f64
+}
+
+/// The positionings of a step before the load change, and after it.
+fn phases<'a>(settings: &Settings, played: &'a Played, step: usize) -> [Vec<&'a Positioning>; 2] {
+    let change = settings.load_change_after.expect("there is one") as usize;
+    let (before, after) = played.positionings.split_at(change);
+    [before, after].map(|phase| phase.iter().filter(|one| one.step == step).collect())
 }
 
 #[test]
-fn show() {
+fn learning_is_within_a_codes_travel_after_six_positionings_and_after_the_load_change() {
     let settings = turntable();
-    let show = |name: &str, played: &Played| {
-        println!("{name}: {} ticks", played.ticks);
-        for one in &played.positionings {
-            println!("{one:?}");
+    let played = with_lead(&settings);
+    for step in 0..settings.steps.len() {
+        for phase in phases(&settings, &played, step) {
+            assert!(phase.len() >= 6, "step {step} comes {} times", phase.len());
+            for (number, one) in phase.iter().enumerate().skip(5) {
+                let travel = code_travel(&settings, one);
+                assert!(
+                    off(one) <= travel,
+                    "step {step}, {number}: {one:?}, {travel}"
+                );
+            }
         }
-    };
-    show("learning", &learning(&settings));
+        // The change is felt, and the codes follow it.
+        let [before, after] = phases(&settings, &played, step);
+        let (last, first) = (before[before.len() - 1], after[0]);
+        assert!(
+            off(first) > 3.0 * code_travel(&settings, first),
+            "{first:?}"
+        );
+        assert!(after[after.len() - 1].code > last.code);
+    }
+    let all = &played.positionings;
+    assert!(all.iter().all(|one| !one.missed && !one.timed_out));
+    // Δt2 of a positioning is Δt1 of the next of its step.
+    for (number, one) in all.iter().enumerate() {
+        let next = all[number + 1..].iter().find(|next| next.step == one.step);
+        if let Some(next) = next {
+            assert_eq!(Some(next.code), one.learned, "{number}");
+        }
+    }
+}
+
+/// The other systems stay as far off as their lead is wrong.
+#[test]
+fn without_learning_the_load_change_stays_in_the_errors() {
+    let settings = turntable();
+    let learned = with_lead(&settings);
     let fixed = Settings {
         learn: false,
         ..settings.clone()
     };
-    show("fixed", &learning(&fixed));
-    show(
-        "speed",
-        &play(&positioner::<Conventional>(&fixed), &fixed, ()).unwrap(),
-    );
     let mut none = fixed.clone();
     for step in &mut none.steps {
         step.lead_ms = 0.0;
     }
-    show("none", &learning(&none));
-    let literal = Settings {
-        sign: Sign::Literal,
-        ..settings.clone()
+    let by_speed = play(&positioner::<Conventional>(&fixed), &fixed, ()).expect("it runs");
+    let last = |played: &Played| -> Vec<f64> {
+        let all = &played.positionings;
+        all[all.len() - settings.steps.len()..]
+            .iter()
+            .map(off)
+            .collect()
     };
-    show("literal", &learning(&literal));
-    let ram = play(&positioner::<RamLead>(&settings), &settings, ()).unwrap();
-    assert_eq!(ram.positionings, learning(&settings).positionings);
+    let learned = last(&learned);
+    for (name, played, times) in [
+        ("no lead", &with_lead(&none), 20.0),
+        ("fixed lead", &with_lead(&fixed), 4.0),
+        ("by speed", &by_speed, 4.0),
+    ] {
+        let worst = last(played).into_iter().fold(0.0, f64::max);
+        let ours = learned.iter().copied().fold(0.0, f64::max);
+        assert!(worst > times * ours, "{name}: {worst} against {ours}");
+        assert!(played.positionings.iter().all(|one| one.learned.is_none()));
+    }
+    // Without a lead the overrun is the error.
+    for one in &with_lead(&none).positionings {
+        assert_eq!(one.code, 0);
+        let overrun = (one.stopped - one.trigger_position).unsigned_abs() as f64;
+        let per_ck = one.speed_counts_per_s.abs() * settings.ck_ms() / 1e3;
+        assert!((off(one) - overrun).abs() <= per_ck + 1.0, "{one:?}");
+    }
+}
+
+/// With the text's sign the times run away from the true one, to the ends of the codes.
+#[test]
+fn the_literal_sign_diverges() {
+    let settings = Settings {
+        sign: Sign::Literal,
+        ..turntable()
+    };
+    let played = with_lead(&settings);
+    for step in 0..settings.steps.len() {
+        let [before, _] = phases(&settings, &played, step);
+        let errors: Vec<f64> = before.iter().map(|one| off(one)).collect();
+        assert!(
+            errors.windows(2).all(|pair| pair[1] >= pair[0] - 10.0),
+            "{errors:?}"
+        );
+        let last = before[before.len() - 1];
+        assert!(
+            off(last) > 4.0 * errors[0].min(500.0),
+            "step {step}: {errors:?}"
+        );
+        let [_, after] = phases(&settings, &played, step);
+        let end = after[after.len() - 1].code;
+        assert!([1, LARGEST].contains(&end), "step {step} ends at {end}");
+    }
+}
+
+#[test]
+fn forms_and_placements_give_the_same_positionings() {
+    let settings = turntable();
+    let played = with_lead(&settings);
+    let ram = play(&positioner::<RamLead>(&settings), &settings, ()).expect("it runs");
+    assert_eq!(ram.positionings, played.positionings);
+    for placement in [Placement::Target, Placement::Halves] {
+        let settings = Settings {
+            placement,
+            ..settings.clone()
+        };
+        assert_eq!(with_lead(&settings).positionings, played.positionings);
+    }
+}
+
+/// A comparison for equality misses most targets at these speeds; what it misses is stopped by
+/// hand, and nothing is learned from it.
+#[test]
+fn equality_misses_and_what_is_missed_teaches_nothing() {
+    let settings = Settings {
+        comparing: Comparing::Equal,
+        ..turntable()
+    };
+    let played = with_lead(&settings);
+    let missed = played.positionings.iter().filter(|one| one.missed);
+    assert!(missed.clone().count() > 20, "{}", missed.count());
+    assert!(missed.clone().all(|one| one.learned.is_none()));
+}
+
+/// A step without a time begins with the seed, and learns from there.
+#[test]
+fn steps_without_a_time_begin_with_the_seed() {
+    let mut settings = turntable();
+    for step in &mut settings.steps {
+        step.lead_ms = 0.0;
+    }
+    let played = with_lead(&settings);
+    let seed = settings.code(settings.seed_ms);
+    for step in 0..settings.steps.len() {
+        let [before, _] = phases(&settings, &played, step);
+        assert_eq!((before[0].code, before[0].learned), (0, seed));
+        let last = before[before.len() - 1];
+        assert!(off(last) <= code_travel(&settings, last), "{last:?}");
+    }
+}
+
+/// One time for all steps serves none of them: their true times differ.
+#[test]
+fn a_common_time_is_one_for_all_steps() {
+    let mut settings = turntable();
+    settings.common_time = true;
+    for step in &mut settings.steps[1..] {
+        step.lead_ms = 0.0;
+    }
+    settings.validate().expect("they are right");
+    let played = with_lead(&settings);
+    for pair in played.positionings.windows(2) {
+        assert_eq!(Some(pair[1].code), pair[0].learned);
+    }
+}
+
+/// A log of positions, a sample every 5 ms.
+fn log(position: impl Fn(f64) -> i64, samples: u32) -> PositionLog {
+    let mut text = "time, counts\n".to_owned();
+    for sample in 0..samples {
+        let seconds = f64::from(sample) * 5e-3;
+        let _ = writeln!(text, "{}, {}", 1000 + sample * 5, position(seconds));
+    }
+    read("log.csv", text.as_bytes(), &Columns::default()).expect("a log")
+}
+
+/// At constant speed every prediction is within its bound, and each signal comes when the body is
+/// its lead away from the target.
+#[test]
+fn a_log_at_constant_speed_is_predicted_within_the_bound() {
+    let log = log(|seconds| 500 + (8000.0 * seconds) as i64, 400);
+    let step = |target, lead_ms| Step {
+        target,
+        speed_counts_per_s: 10_000,
+        lead_ms,
+    };
+    let settings = Settings {
+        steps: vec![step(3000, 30.0), step(9000, 120.0), step(15_000, 5.0)],
+        time_out_ms: 200.0,
+        ..Settings::default()
+    };
+    let settings = settings_for(&log, &settings);
+    let replayed = replay(&positioner::<ShiftLead>(&settings), &settings, &log, ()).unwrap();
+    let signals = &replayed.signals;
+    assert_eq!(signals.len(), 3, "{signals:?}");
+    for (signal, ratio) in signals.iter().zip([2.0, 10.0, 1.0]) {
+        let after = signal.position_after.expect("the log goes on");
+        // The prediction's bound, and the way of a CK.
+        let bound = ratio + 1.0 + 0.8 + 2.0;
+        let error = (after - signal.target as f64).abs();
+        assert!(error <= bound, "{signal:?}");
+    }
+    let predictions = replayed.predictions;
+    assert!(predictions.count > 10_000);
+    assert!(predictions.largest < 12.0, "{predictions:?}");
+    assert!(
+        predictions.rms_without > 30.0 * predictions.rms,
+        "{predictions:?}"
+    );
+    assert!(!replayed.lost);
+}
+
+/// A log that begins elsewhere than at 0, and goes down.
+#[test]
+fn a_log_is_taken_from_its_first_sample_on() {
+    let log = log(|seconds| -7000 - (20_000.0 * seconds) as i64, 200);
+    let step = |target| Step {
+        target,
+        speed_counts_per_s: 10_000,
+        lead_ms: 10.0,
+    };
+    let settings = Settings {
+        steps: vec![step(-10_000), step(-20_000)],
+        time_out_ms: 50.0,
+        ..Settings::default()
+    };
+    let settings = settings_for(&log, &settings);
+    let replayed = replay(&positioner::<RamLead>(&settings), &settings, &log, ()).unwrap();
+    let targets: Vec<_> = replayed
+        .signals
+        .iter()
+        .map(|signal| signal.target)
+        .collect();
+    assert_eq!(targets, [-10_000, -20_000]);
+    for signal in &replayed.signals {
+        let away = signal.position - signal.target;
+        assert!((away - 200).abs() <= 5, "{signal:?}");
+    }
 }

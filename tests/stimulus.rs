@@ -201,6 +201,26 @@ const FAR: &[(&str, u32)] = &[
     ("pattern_generator.mul_div.addend", 36),
     ("pattern_generator.mul_div.divisor", 0),
     ("pattern_generator.mul_div.partial", 37),
+    // Never: they have room for the largest sum of any width, and for any position.
+    ("ratio_logic.wide", 11),
+    ("ratio_logic.rounded", 12),
+    ("ratio_logic.halved", 11),
+    ("ratio_logic.product", 26),
+    ("ratio_logic.fifth", 8),
+    ("ratio_logic.quotient", 8),
+    ("correction_arithmetic.multiplicand", 24),
+    ("correction_arithmetic.divisor", 24),
+    ("correction_arithmetic.addend", 23),
+    ("lead_arithmetic.factor", 4),
+    ("speed_lead.factor", 14),
+    // Times in CKs.
+    ("speed_lead.count", 9),
+    ("speed_lead.next_count", 9),
+    ("completion_detector.still", 6),
+    ("completion_detector.elapsed", 6),
+    ("completion_detector.next_still", 6),
+    ("completion_detector.next_elapsed", 6),
+    ("step_sequencer.count", 9),
 ];
 
 /// At 8 bits: the pulses of a unit time of up to 255 ticks are at most 127, and a word of 8 bits
@@ -253,6 +273,21 @@ const NEVER: &[(&str, u32)] = &[
     ("pattern_generator.mul_div.addend", 13),
     ("pattern_generator.mul_div.divisor", 0),
     ("pattern_generator.mul_div.partial", 14),
+    ("ratio_logic.wide", 8),
+    ("ratio_logic.rounded", 9),
+    ("ratio_logic.halved", 8),
+    ("ratio_logic.product", 22),
+    ("ratio_logic.fifth", 5),
+    ("ratio_logic.quotient", 5),
+    ("correction_arithmetic.multiplicand", 8),
+    ("correction_arithmetic.divisor", 8),
+    ("correction_arithmetic.addend", 7),
+    ("lead_arithmetic.factor", 4),
+    ("speed_lead.factor", 14),
+    ("completion_detector.still", 6),
+    ("completion_detector.elapsed", 6),
+    ("completion_detector.next_still", 6),
+    ("completion_detector.next_elapsed", 6),
 ];
 
 /// Circuits that only wire blocks which are driven alone: it takes whole jobs to move their bits,
@@ -264,6 +299,12 @@ const JOBS: &[&str] = &[
     "conventional_interpolator",
     "controller",
     "conventional_controller",
+    "time_lead",
+    "ram_time_lead",
+    "correction",
+    "compensator",
+    "ram_compensator",
+    "conventional_compensator",
 ];
 
 #[test]

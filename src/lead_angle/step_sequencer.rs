@@ -105,8 +105,9 @@ signals! {
     }
 }
 
-/// Step sequencer of 2^`A` steps, positions of `W` bits, rests of `N` bits. `drive` shows 3 ticks
-/// after `run`, and goes in the tick after `control` came.
+/// Step sequencer of 2^`A` steps, positions of `W` bits, rests of `N` bits. `load` shows in the tick
+/// after `run`, `drive` in the tick after the first sample from two ticks after `run` on; it goes in
+/// the tick after `control` came.
 #[derive(Debug, Clone, Default)]
 pub struct StepSequencer<const A: usize, const W: usize, const N: usize>;
 

@@ -4,6 +4,7 @@ mod comparing;
 mod history;
 mod learning;
 mod prediction;
+mod variants;
 mod whole;
 
 use motion_rtl::check::Random;
