@@ -205,7 +205,7 @@ const FAR: &[(&str, u32)] = &[
     ("ratio_logic.wide", 11),
     ("ratio_logic.rounded", 12),
     ("ratio_logic.halved", 11),
-    ("ratio_logic.product", 26),
+    ("ratio_logic.product", 25),
     ("ratio_logic.fifth", 8),
     ("ratio_logic.quotient", 8),
     ("correction_arithmetic.multiplicand", 24),

@@ -85,7 +85,9 @@ signals! {
         longer: L::U<C>,
         /// |Δtd| takes all of Δt1.
         vanishes: L::Bit,
-        /// Δt1 − |Δtd| as a code can be.
+        /// Δt1 − |Δtd|.
+        rest: L::U<R>,
+        /// The same as a code can be.
         shorter: L::U<C>,
     }
 }
@@ -124,7 +126,7 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
         let sum = time + i.quotient;
         let last: L::U<R> = Self::LAST.into();
         let vanishes = !i.quotient.below(time);
-        let rest = (time - i.quotient).resize();
+        let rest = time - i.quotient;
         Net {
             wanted,
             divided: q.dividing & i.done,
@@ -137,7 +139,8 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
             sum,
             longer: last.below(sum).mux(last, sum).resize(),
             vanishes,
-            shorter: vanishes.mux(1.into(), rest),
+            rest,
+            shorter: vanishes.mux(1.into(), rest.resize()),
         }
     }
 

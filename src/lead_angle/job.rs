@@ -130,7 +130,7 @@ impl<'a> ControlComputer<'a> {
 pub struct Positioning {
     /// The step it was.
     pub step: usize,
-    /// The tick in which it was armed.
+    /// The last tick in which it was armed.
     pub begun: u64,
     /// Sx.
     pub target: i64,
@@ -220,6 +220,8 @@ struct Bench<'a> {
     /// Ticks since something was complete.
     idle: u64,
     patience: u64,
+    /// A step was armed in the tick before.
+    arming: bool,
     /// The body is far past its target.
     past: bool,
     played: Played,
@@ -237,6 +239,10 @@ impl Bench<'_> {
         self.played.ticks += 1;
         self.idle += 1;
         if seen.arm {
+            if self.arming {
+                // The sample that ends it says where the body is.
+                self.played.positionings.pop();
+            }
             self.played.positionings.push(Positioning {
                 step: seen.step as usize,
                 begun: tick,
@@ -254,6 +260,7 @@ impl Bench<'_> {
                 learned: None,
             });
         }
+        self.arming = seen.arm;
         if let Some(current) = self.played.positionings.last_mut() {
             if seen.fire || seen.halting {
                 current.fired = tick;
@@ -301,6 +308,7 @@ pub fn play<P: LeadSource<C, W, N>>(
         completed: 0,
         idle: 0,
         patience: (PATIENCE_S * clock) as u64,
+        arming: false,
         past: false,
         played: Played::default(),
     };

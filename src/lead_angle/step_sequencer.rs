@@ -70,7 +70,7 @@ signals! {
         pub step: L::U<A> = 0,
         /// The step's target and time are read; one tick.
         pub load: L::Bit = 0,
-        /// The comparator begins; one tick.
+        /// The comparator is set back, until a sample is there.
         pub arm: L::Bit = 0,
         /// The motor is on.
         pub drive: L::Bit = 0,
