@@ -6,5 +6,6 @@ mod plotter;
 mod scenario;
 mod simulators;
 mod tools;
+mod turntable;
 mod yosys;
 mod zoo;

@@ -1,0 +1,80 @@
+//! Positionings of the turntable: what the compensators are driven with, encoder and all, applied to
+//! their Verilog.
+
+use super::tools::{Simulator, complete, write};
+use motion_rtl::kernel::{Circuit, Declarations, Without};
+use motion_rtl::lead_angle::job::{Conventional, Played, RamLead, ShiftLead, play, positioner};
+use motion_rtl::lead_angle::settings::{Comparing, Placement, Settings, Step};
+use motion_rtl::lead_angle::{Compensator, LeadSource};
+use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
+use motion_rtl::verilog::Verilog;
+use std::fs::File;
+
+/// Short ways, at a clock that is as slow as the encoder allows.
+fn settings(positionings: u32) -> Settings {
+    let step = |target, speed_counts_per_s, lead_ms| Step {
+        target,
+        speed_counts_per_s,
+        lead_ms,
+    };
+    let mut settings = Settings {
+        clock_hz: 50_000,
+        ck_ticks: 5,
+        steps: vec![step(900, 20_000, 15.0), step(-700, 30_000, 30.0)],
+        rest_ms: 2.0,
+        standstill_ms: 2.0,
+        positionings,
+        ..Settings::default()
+    };
+    settings.body.acceleration_counts_per_s2 = 2e6;
+    settings
+}
+
+/// Plays positionings, and drives the Verilog with the same inputs.
+fn hold<P: LeadSource<11, 24, 16> + 'static>(settings: &Settings, simulator: Simulator) -> Played {
+    let circuit = positioner::<P>(settings);
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let inner = &circuit.circuit;
+    let verilog = Verilog::of(inner).unwrap();
+    let modules = write(path, &verilog);
+    let name = <Compensator<P> as Circuit>::NAME;
+    let create = |extension: &str| File::create(path.join(format!("{name}.{extension}"))).unwrap();
+    let mut vcd = Vcd::new(create("vcd"), inner, Clock::default(), &Options::default()).unwrap();
+    let mut stimulus = StimulusFile::new(create("stimulus"));
+    let observers = (Without(&mut vcd), Without(&mut stimulus));
+    let played = play(&circuit, settings, observers).unwrap();
+    vcd.finish().unwrap();
+    stimulus.finish().unwrap();
+    assert_eq!(played.positionings.len(), settings.positionings as usize);
+    assert!(!played.lost && !played.unsettled);
+    let report = simulator.hold(path, name, &modules);
+    complete(&report, played.ticks, Declarations::of(inner).leaves.len());
+    played
+}
+
+#[test]
+fn positionings_are_the_same_in_verilator() {
+    let played = hold::<ShiftLead>(&settings(6), Simulator::Verilator);
+    assert!(played.positionings.iter().all(|one| one.learned.is_some()));
+}
+
+#[test]
+fn other_variants_are_the_same_in_icarus() {
+    let halves = Settings {
+        placement: Placement::Halves,
+        ..settings(2)
+    };
+    hold::<RamLead>(&halves, Simulator::Icarus);
+    let equal = Settings {
+        comparing: Comparing::Equal,
+        placement: Placement::Target,
+        ..settings(2)
+    };
+    hold::<ShiftLead>(&equal, Simulator::Icarus);
+}
+
+#[test]
+fn the_conventional_compensator_is_the_same_in_icarus() {
+    hold::<Conventional>(&settings(2), Simulator::Icarus);
+}
