@@ -25,7 +25,7 @@ const GROUP_END: u32 = 1 << 24;
 /// Signals up to which a group is open at first.
 const OPEN: usize = 16;
 /// Words up to which a memory is listed.
-const WORDS: usize = 64;
+const WORDS: usize = 256;
 /// Rows that an analog trace takes below its own.
 const ANALOG_ROWS: usize = 3;
 /// The window and the tree in it, in pixels.
@@ -41,7 +41,7 @@ const FRAME: f64 = 200.0;
 ///
 /// `clk` comes first, then the ports in and out, then a group for everything else in the circuit
 /// and one for every scope in it; large groups and those below the first level are closed.
-/// Memories of more than 64 words are not listed. The window shows the ticks of `focus`. The two
+/// Memories of more than 256 words are not listed. The window shows the ticks of `focus`. The two
 /// files may be moved together.
 ///
 /// # Errors
