@@ -42,8 +42,8 @@ const FRAME: f64 = 200.0;
 ///
 /// `clk` comes first, then the ports in and out, then a group for everything else in the circuit
 /// and one for every scope in it; large groups and those below the first level are closed.
-/// Memories of more than 64 words are not listed, nor are shift registers of more than 256 stages. The window shows the ticks of `focus`. The two
-/// files may be moved together.
+/// Memories of more than 64 words are not listed, nor are shift registers of more than 256 stages.
+/// The window shows the ticks of `focus`. The two files may be moved together.
 ///
 /// # Errors
 /// What [`Vcd::new`](super::Vcd::new) refuses.
