@@ -85,9 +85,18 @@ fn the_turntable_shows_what_the_circuit_is_for() {
     for (phase, loaded) in phases.iter().zip([false, true]) {
         assert_eq!(phase["loaded"], loaded);
         assert_eq!(list(phase, "steps").len(), 4);
-        // All that comes after is within a code too: the phase has six positionings of a step.
         for step in list(phase, "steps") {
-            assert!(whole(step, "/settled_after") < 6, "{step}");
+            let rows = list(&summary, "positionings").iter();
+            let rows = rows.filter(|row| row["loaded"] == loaded && row["step"] == step["step"]);
+            let within = |row: &Value| {
+                let error = row["error_counts"][learning].as_f64().unwrap();
+                error.abs() <= number(row, "code_travel_counts") + 1e-6
+            };
+            let within: Vec<bool> = rows.map(within).collect();
+            assert_eq!(within.len(), 6);
+            let after = (0..6).find(|&from| within[from..].iter().all(|&one| one));
+            assert_eq!(step["settled_after"], json!(after), "{within:?}");
+            assert!(after.is_some_and(|after| after > 0), "{step}");
         }
     }
     // The last of each step, by a limit that does not come from the summary: a code at 90000
