@@ -6,7 +6,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
 use motion_rtl::input::scenario::pulse_interpolator::{Scenario, VariantName};
-use motion_rtl::input::scenario::{self, BARE, Loaded};
+use motion_rtl::input::scenario::{self, BARE, BARE_LOG, Loaded};
 use motion_rtl::input::{Drawing, Fault, read_path};
 use motion_rtl::plan::{FEED_RANGE, MotionLimits, PlanError};
 use motion_rtl::pulse_interpolator::{
@@ -18,7 +18,7 @@ use std::time::Duration;
 /// What to run.
 #[derive(Debug, Default, Args)]
 pub struct Input {
-    /// Scenario (.toml), HPGL drawing or G-code program; without it the scenario that ships with
+    /// Scenario (.toml), HPGL drawing, G-code program or position log (.csv); without it the scenario that ships with
     /// the crate.
     pub input: Option<PathBuf>,
     /// Overrides a key of the scenario.
@@ -193,7 +193,11 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
         let given = loaded.scenario.input().cloned();
         (loaded, given.map_or(Origin::Nowhere, Origin::File))
     } else {
-        let loaded = Loaded::parse("defaults", BARE, &input.sets)?;
+        let is_log = path
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
+        let defaults = if is_log { BARE_LOG } else { BARE };
+        let loaded = Loaded::parse("defaults", defaults, &input.sets)?;
         if loaded.overrides("input") {
             let problem = format!("{} is the input", path.display());
             return Err(loaded.fault("input", problem, "input with a scenario only".to_owned()));

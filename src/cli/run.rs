@@ -46,7 +46,8 @@ pub struct Arguments {
     /// Writes the circuit as Verilog too, with a testbench and the run's inputs as its stimulus.
     #[arg(long)]
     pub(super) verilog: bool,
-    /// Prints every segment, not the worst alone (linear interpolator).
+    /// Prints every segment, positioning or signal, not the worst or the last alone (not of the
+    /// pulse interpolator).
     #[arg(long)]
     pub(super) segments: bool,
     /// Prints the summary as JSON.
@@ -79,7 +80,7 @@ fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
         return Err(Failure::Argument {
             field: "--segments",
             problem: "the pulse interpolator has no segments".into(),
-            allowed: "a scenario of the linear interpolator".into(),
+            allowed: "a scenario of the linear interpolator or the lead-angle compensator".into(),
         });
     }
     let options = options(arguments, job.vcd_ticks)?;

@@ -1,4 +1,5 @@
-//! Scenarios that ship with the crate, with the inputs of those that have one; the first runs where none is named.
+//! Scenarios that ship with the crate, with the inputs of those that have one; the first runs where
+//! none is named.
 
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault, read_text};

@@ -17,6 +17,11 @@ use std::path::PathBuf;
 /// A scenario with no key but the one that has no default: for an input given by itself.
 pub const BARE: &str = "circuit = \"pulse_interpolator\"\n";
 
+/// The same for a position log given by itself: two targets, and a lead to be judged.
+pub const BARE_LOG: &str = "circuit = \"lead_angle\"\n\
+     [[step]]\ntarget = 1000\nspeed_counts_per_s = 1000\nlead_ms = 10\n\
+     [[step]]\ntarget = 0\nspeed_counts_per_s = 1000\nlead_ms = 10\n";
+
 /// The most ticks that go into a VCD where neither a window nor the scenario says so.
 const VCD_TICKS: u64 = 1_000_000;
 

@@ -29,6 +29,11 @@ const PATIENCE_S: f64 = 600.0;
 /// A compensator with the body beside it in the waves.
 pub type Positioner<P> = With<Compensator<P>, waves::Body>;
 
+/// A lead source of the widths that jobs have.
+pub trait JobLead: LeadSource<C, W, N> + 'static {}
+
+impl<P: LeadSource<C, W, N> + 'static> JobLead for P {}
+
 /// Lead of a time, with the history as a shift register.
 pub type ShiftLead = TimeLead<PositionHistory<199, 8, W>, 199, 8, C, W>;
 /// Lead of a time, with the history as a RAM.
@@ -40,7 +45,7 @@ pub type Conventional = SpeedLead<W, N>;
 pub type Ports = compensator::In<Sim, C, W, A, D, N, S>;
 
 /// The compensator of these settings whose lead comes from `P`.
-pub fn positioner<P: LeadSource<C, W, N>>(settings: &Settings) -> Positioner<P> {
+pub fn positioner<P: JobLead>(settings: &Settings) -> Positioner<P> {
     let variant = Variant {
         placement: settings.placement,
         comparing: settings.comparing,
@@ -189,7 +194,7 @@ struct Seen {
     flow: ControlFlow<()>,
 }
 
-fn see<P: LeadSource<C, W, N>>(
+fn see<P: JobLead>(
     now: &Sample<'_, Positioner<P>>,
     observer: &mut impl Observer<Positioner<P>>,
 ) -> Result<Seen, RunError> {
@@ -212,8 +217,7 @@ fn see<P: LeadSource<C, W, N>>(
     })
 }
 
-/// Watches, stops by hand what missed its target, and writes down what comes
-/// of it.
+/// Watches, stops by hand what missed its target, and writes down what comes of it.
 struct Bench<'a> {
     settings: &'a Settings,
     completed: u32,
@@ -296,7 +300,7 @@ impl Bench<'_> {
 ///
 /// # Errors
 /// A parameter of the body is out of range, or what `observer` objects to.
-pub fn play<P: LeadSource<C, W, N>>(
+pub fn play<P: JobLead>(
     circuit: &Positioner<P>,
     settings: &Settings,
     mut observer: impl Observer<Positioner<P>>,

@@ -1,8 +1,7 @@
 //! A position log on a compensator: where it would have given its signals, and how good its
 //! predictions were.
 
-use super::LeadSource;
-use super::job::{C, ControlComputer, N, Ports, Positioner, W};
+use super::job::{ControlComputer, JobLead, Ports, Positioner};
 use super::settings::Settings;
 use crate::input::position_log::PositionLog;
 use crate::kernel::{Observer, RunError, Sample, Simulator, WithIn};
@@ -29,6 +28,9 @@ pub struct Signal {
     pub position_after: Option<f64>,
 }
 
+/// Parts of a log whose largest errors are told apart.
+pub const PARTS: usize = 400;
+
 /// How far off the predictions of all CKs were, in counts.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Predictions {
@@ -53,19 +55,26 @@ pub struct Replayed {
     pub signals: Vec<Signal>,
     /// All predictions that were made with a lead.
     pub predictions: Predictions,
+    /// Largest errors with the lead and without in each of [`PARTS`] equal parts of the log, in
+    /// counts; `NaN` where nothing was predicted.
+    pub parts: Vec<[f64; 2]>,
     /// The encoder was too fast.
     pub lost: bool,
 }
 
-/// The settings that a log is replayed with: targets count from its first sample, and nothing is
-/// learned, since no signal has an effect on it.
+/// The settings that a log is replayed with: targets count from its first sample. No signal has an
+/// effect on a log: nothing is learned, and the next step begins as soon as it can.
 #[must_use]
 pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
     let mut settings = settings.clone();
     for step in &mut settings.steps {
-        step.target -= origin(log);
+        step.target = step.target.saturating_sub(origin(log));
     }
     settings.learn = false;
+    let ck_ms = settings.ck_ms();
+    settings.standstill_ms = ck_ms;
+    settings.time_out_ms = ck_ms;
+    settings.rest_ms = ck_ms;
     settings
 }
 
@@ -88,7 +97,7 @@ struct Seen {
     flow: ControlFlow<()>,
 }
 
-fn see<P: LeadSource<C, W, N>>(
+fn see<P: JobLead>(
     now: &Sample<'_, Positioner<P>>,
     observer: &mut impl Observer<Positioner<P>>,
 ) -> Result<Seen, RunError> {
@@ -114,14 +123,17 @@ struct Sums {
     squares: [f64; 2],
     largest: [f64; 2],
     count: u64,
+    parts: Vec<[f64; 2]>,
 }
 
 impl Sums {
-    fn add(&mut self, errors: [f64; 2]) {
+    fn add(&mut self, part: usize, errors: [f64; 2]) {
         self.count += 1;
+        let part = &mut self.parts[part];
         for (index, error) in errors.into_iter().enumerate() {
             self.squares[index] += error * error;
             self.largest[index] = self.largest[index].max(error.abs());
+            part[index] = part[index].max(error.abs());
         }
     }
 
@@ -142,7 +154,7 @@ impl Sums {
 ///
 /// # Errors
 /// What `observer` objects to.
-pub fn replay<P: LeadSource<C, W, N>>(
+pub fn replay<P: JobLead>(
     circuit: &Positioner<P>,
     settings: &Settings,
     log: &PositionLog,
@@ -154,6 +166,7 @@ pub fn replay<P: LeadSource<C, W, N>>(
     let ticks = (log.seconds() / tick_s).floor() as u64;
     let at = |seconds: f64| log.position_at(seconds) - origin as f64;
     let (mut replayed, mut sums) = (Replayed::default(), Sums::default());
+    sums.parts = vec![[f64::NAN; 2]; PARTS];
     let computer = ControlComputer::new(settings);
     let mut before = 0.0;
     let mut simulator = Simulator::new(circuit);
@@ -181,7 +194,8 @@ pub fn replay<P: LeadSource<C, W, N>>(
             && seen.time > 0
         {
             let now = seen.position as f64;
-            sums.add([now + seen.lead as f64 - truth, now - truth]);
+            let part = u128::from(tick) * PARTS as u128 / (u128::from(ticks) + 1);
+            sums.add(part as usize, [now + seen.lead as f64 - truth, now - truth]);
         }
         if seen.fire {
             replayed.signals.push(Signal {
@@ -200,5 +214,6 @@ pub fn replay<P: LeadSource<C, W, N>>(
         }
     }
     replayed.predictions = sums.finish();
+    replayed.parts = sums.parts;
     Ok(replayed)
 }

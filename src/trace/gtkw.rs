@@ -1,6 +1,6 @@
 //! GTKWave save files: which signals of a dump are shown, in which order and how.
 
-use super::layout::{CLK, Layout, Scope, companion, is_word};
+use super::layout::{CLK, Layout, Scope, companion, is_stage, is_word};
 use super::{Clock, LayoutError, Options};
 use crate::kernel::{Circuit, Declaration, Format, Kind, Role};
 use std::fmt::Write;
@@ -24,8 +24,9 @@ const GROUP_END: u32 = 1 << 24;
 
 /// Signals up to which a group is open at first.
 const OPEN: usize = 16;
-/// Words up to which a memory is listed.
+/// Words up to which a memory is listed, and stages up to which a shift register is.
 const WORDS: usize = 64;
+const STAGES: usize = 256;
 /// Rows that an analog trace takes below its own.
 const ANALOG_ROWS: usize = 3;
 /// The window and the tree in it, in pixels.
@@ -41,8 +42,8 @@ const FRAME: f64 = 200.0;
 ///
 /// `clk` comes first, then the ports in and out, then a group for everything else in the circuit
 /// and one for every scope in it; large groups and those below the first level are closed.
-/// Memories of more than 64 words are not listed. The window shows the ticks of `focus`. The two
-/// files may be moved together.
+/// Memories of more than 64 words are not listed, nor are shift registers of more than 256 stages.
+/// The window shows the ticks of `focus`. The two files may be moved together.
 ///
 /// # Errors
 /// What [`Vcd::new`](super::Vcd::new) refuses.
@@ -151,19 +152,21 @@ impl Save<'_> {
 
     fn scope(&mut self, scope: &Scope, depth: usize) {
         let layout = self.layout;
-        let words = scope
-            .leaves
-            .iter()
-            .filter(|&&index| is_word(&layout.leaves[index]))
-            .count();
-        if words > WORDS {
+        let of_memory = |index: &&usize| is_word(&layout.leaves[**index]);
+        let words = scope.leaves.iter().filter(of_memory).count();
+        let stages = |&index: &usize| is_stage(&layout.leaves[index]);
+        let most = match scope.leaves.iter().any(stages) {
+            true => STAGES,
+            false => WORDS,
+        };
+        if words > most {
             self.comment(&format!("{}: {words} words", scope.name));
         }
         let listed: Vec<usize> = scope
             .leaves
             .iter()
             .copied()
-            .filter(|&index| words <= WORDS || !is_word(&layout.leaves[index]))
+            .filter(|&index| words <= most || !is_word(&layout.leaves[index]))
             .collect();
         if listed.is_empty() && scope.scopes.is_empty() {
             return;

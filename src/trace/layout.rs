@@ -131,7 +131,12 @@ pub(super) fn companion(leaf: &Declaration) -> Option<String> {
 
 /// Whether a leaf is a word of a memory or shift register.
 pub(super) fn is_word(leaf: &Declaration) -> bool {
-    std::ptr::eq(leaf.field, &WORD) || std::ptr::eq(leaf.field, &STAGE)
+    std::ptr::eq(leaf.field, &WORD) || is_stage(leaf)
+}
+
+/// Whether it is a stage of a shift register.
+pub(super) fn is_stage(leaf: &Declaration) -> bool {
+    std::ptr::eq(leaf.field, &STAGE)
 }
 
 /// Which leaves the paths select, on the boundaries of their components.

@@ -1,14 +1,428 @@
-//! Scenarios of the lead-angle compensator: what is refused, with its line.
+//! `run` of the lead-angle compensator: summary, files, logs, settings, refusals.
 
-use super::support::Bench;
+use super::support::{Bench, keys, whole};
+use expect_test::expect;
+use serde_json::{Value, json};
 
 const STEPS: &str = "[[step]]\ntarget = 9000\nspeed_counts_per_s = 20000\n\
                      [[step]]\ntarget = 0\nspeed_counts_per_s = 40000\nlead_ms = 39.9\n";
 
+/// A short job: six positionings to and fro, whose load changes after four.
+const SMALL: &str = "\
+circuit = \"lead_angle\"
+clock_hz = 200_000
+ck_ticks = 20
+positionings = 6
+load_change_after = 4
+load_inertia_factor = 2
+[[step]]
+target = 3000
+speed_counts_per_s = 20000
+lead_ms = 15
+[[step]]
+target = 0
+speed_counts_per_s = 40000
+lead_ms = 15
+";
+
+/// Two steps that a log of 10 counts a millisecond comes by.
+const LOG: &str = "\
+circuit = \"lead_angle\"
+input = \"log.csv\"
+log_column = \"right\"
+[[step]]
+target = 1000
+speed_counts_per_s = 10
+lead_ms = 10
+[[step]]
+target = 3000
+speed_counts_per_s = 10
+lead_ms = 40
+";
+
+/// A bench with the short job in it.
+fn small() -> Bench {
+    Bench::with("s.toml", SMALL)
+}
+
+/// A bench with a scenario of a log, and the log: half a second at 10 counts a millisecond.
+fn log() -> Bench {
+    let bench = Bench::with("s.toml", LOG);
+    let rows = (0..=500).map(|ms| format!("{},0,{}\n", 7000 + ms, 10 * ms));
+    bench.write(
+        "log.csv",
+        "time, left, right\n".to_owned() + &rows.collect::<String>(),
+    );
+    bench
+}
+
+fn list<'a>(value: &'a Value, key: &str) -> &'a Vec<Value> {
+    value[key].as_array().unwrap_or_else(|| panic!("no {key}"))
+}
+
+fn number(value: &Value, key: &str) -> f64 {
+    value[key].as_f64().unwrap_or_else(|| panic!("no {key}"))
+}
+
+/// Where a system is in the lists of errors.
+fn system(summary: &Value, name: &str) -> usize {
+    let place = list(summary, "systems")
+        .iter()
+        .position(|system| system["name"] == name);
+    place.unwrap_or_else(|| panic!("no {name}"))
+}
+
+#[test]
+fn the_turntable_shows_what_the_circuit_is_for() {
+    let run = ["run", "waves/turntable.toml", "--no-vcd"];
+    let summary = Bench::new().json(&run);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(summary["warnings"], json!([]));
+    assert_eq!(list(&summary, "positionings").len(), 48);
+    let learning = system(&summary, "learning");
+    let phases = list(&summary, "phases");
+    assert_eq!(phases.len(), 2);
+    for (phase, loaded) in phases.iter().zip([false, true]) {
+        assert_eq!(phase["loaded"], loaded);
+        assert_eq!(list(phase, "steps").len(), 4);
+        for step in list(phase, "steps") {
+            let rows = list(&summary, "positionings").iter();
+            let rows = rows.filter(|row| row["loaded"] == loaded && row["step"] == step["step"]);
+            let within = |row: &Value| {
+                let error = row["error_counts"][learning].as_f64().unwrap();
+                error.abs() <= number(row, "code_travel_counts") + 1e-6
+            };
+            let within: Vec<bool> = rows.map(within).collect();
+            assert_eq!(within.len(), 6);
+            let after = (0..6).find(|&from| within[from..].iter().all(|&one| one));
+            assert_eq!(step["settled_after"], json!(after), "{within:?}");
+            assert!(after.is_some_and(|after| after > 0), "{step}");
+        }
+    }
+    // The last of each step, by a limit that does not come from the summary: a code at 90000
+    // counts/s is 5 CKs of 0.1 ms, 45 counts.
+    for row in &list(&summary, "positionings")[44..] {
+        let error = |system: usize| row["error_counts"][system].as_i64().unwrap().abs();
+        assert!(error(learning) <= 45, "{row}");
+    }
+    let rms = |name: &str| {
+        number(
+            &summary["systems"][system(&summary, name)],
+            "error_rms_counts",
+        )
+    };
+    for other in ["no lead", "by speed", "fixed lead", "literal sign"] {
+        assert!(rms(other) > 2.5 * rms("learning"), "{other}");
+    }
+    for name in ["no lead", "literal sign"] {
+        let largest = &summary["systems"][system(&summary, name)]["error_max_counts"];
+        assert!(largest.as_u64().unwrap() > 5000, "{name}");
+    }
+    assert_eq!(summary["systems"][learning]["own"], true);
+    assert_eq!(summary["lead_times_of"], "learning");
+}
+
+#[test]
+fn the_literal_sign_drives_the_lead_times_to_their_ends() {
+    let run = [
+        "run",
+        "waves/turntable.toml",
+        "--no-vcd",
+        "--set",
+        "sign=literal",
+    ];
+    let summary = Bench::new().json(&run);
+    assert_eq!(summary["lead_times_of"], "literal sign");
+    assert_eq!(
+        summary["systems"][system(&summary, "literal sign")]["own"],
+        true
+    );
+    let last = &list(&summary, "positionings")[44..];
+    let leads: Vec<f64> = last.iter().map(|row| number(row, "lead_ms")).collect();
+    // The shortest code, and the longest where the first lead was too long.
+    assert_eq!(leads, [199.0, 0.1, 0.1, 0.1]);
+    for phase in list(&summary, "phases") {
+        for step in list(phase, "steps") {
+            assert_eq!(step["settled_after"], Value::Null);
+        }
+    }
+}
+
+#[test]
+fn the_summary_has_these_keys() {
+    let summary = small().json(&["run", "s.toml", "--no-vcd"]);
+    let expected = [
+        "circuit",
+        "ck_ticks",
+        "clock_hz",
+        "comparing",
+        "complaints",
+        "files",
+        "history",
+        "lead_times_of",
+        "learn",
+        "phases",
+        "placement",
+        "positionings",
+        "scenario",
+        "seconds",
+        "sign",
+        "systems",
+        "ticks",
+        "vcd_window",
+        "warnings",
+    ];
+    assert_eq!(keys(&summary), expected);
+    assert_eq!(summary["scenario"], "s");
+    assert_eq!(summary["vcd_window"], Value::Null);
+    assert_eq!(summary["files"], json!(["waves/s.svg"]));
+    let row = [
+        "code_travel_counts",
+        "error_counts",
+        "lead_ms",
+        "loaded",
+        "positioning",
+        "step",
+    ];
+    let rows = list(&summary, "positionings");
+    assert_eq!(keys(&rows[0]), row);
+    let of = |key: &str| rows.iter().map(|row| row[key].clone()).collect::<Vec<_>>();
+    assert_eq!(json!(of("step")), json!([0, 1, 0, 1, 0, 1]));
+    let loaded = json!([false, false, false, false, true, true]);
+    assert_eq!(json!(of("loaded")), loaded);
+    // The first two lead times are the scenario's; at 20000 counts/s one of 150 CKs has a code
+    // of 1 CK up to 199: 2 counts.
+    assert_eq!(number(&rows[0], "lead_ms"), 15.0);
+    assert!((number(&rows[0], "code_travel_counts") - 2.0).abs() < 0.01);
+}
+
+#[test]
+fn people_see_the_last_of_each_step_or_every_positioning() {
+    let text = small().succeed(&["run", "s.toml", "--no-vcd", "--segments"]);
+    expect![[r#"
+        s on lead_angle: 6 positionings, 225302 ticks, 1.127 s at 200000 Hz, CK of 20 ticks
+        history shift_register, lead on position, comparing crossing, learning, sign converging
+
+        stop error in counts   largest       rms  missed
+        no lead                   1554     910.0       0
+        by speed                   554     239.1       0
+        fixed lead                 954     464.3       0
+        learning                   568     299.1       0  in the waves
+        literal sign              1428     678.5       0
+
+        positionings 0 to 3: stop error of the last of each step; lead of learning
+        step    target   speed   no lead  by speed  fixed lead  learning  literal sign      lead  one code  settled after
+           0      3000   20000       366      -134          66        12           120   17.7 ms       2.0          never
+           1         0   40000      1010        10         410       160           652   21.2 ms       8.0          never
+
+        positionings 4 to 5, with the other load: stop error of the last of each step; lead of learning
+        step    target   speed   no lead  by speed  fixed lead  learning  literal sign      lead  one code  settled after
+           0      3000   20000       504         4         204       138           338   18.3 ms       2.0          never
+           1         0   40000      1554       554         954       568          1428   24.6 ms       8.0          never
+
+        positioning  step   no lead  by speed  fixed lead  learning  literal sign      lead  one code
+                  0     0       366      -134          66        66            66   15.0 ms       2.0
+                  1     1      1006         6         406       406           406   15.0 ms       4.0
+                  2     0       366      -134          66        12           120   17.7 ms       2.0
+                  3     1      1010        10         410       160           652   21.2 ms       8.0
+                  4     0       504         4         204       138           338   18.3 ms       2.0
+                  5     1      1554       554         954       568          1428   24.6 ms       8.0
+
+        wrote waves/s.svg
+    "#]].assert_eq(&text);
+    let short = small().succeed(&["run", "s.toml", "--no-vcd"]);
+    let (start, end) = text.split_at(text.find("positioning  step").unwrap());
+    let files = &end[end.find("wrote").unwrap()..];
+    assert_eq!(short, start.to_owned() + files);
+}
+
+#[test]
+fn a_ram_gives_the_same() {
+    let summary = |history: &str| {
+        let set = format!("history={history}");
+        let mut summary = small().json(&["run", "s.toml", "--no-vcd", "--set", &set]);
+        assert_eq!(summary["history"], history);
+        summary["history"] = Value::Null;
+        summary
+    };
+    assert_eq!(summary("ram"), summary("shift_register"));
+}
+
+#[test]
+fn what_is_missed_is_stopped_by_hand_and_said() {
+    // Only a prediction that is the target is a signal: at 9 counts a CK most targets are missed.
+    let sets = ["--set", "comparing=equal", "--set", "positionings=8"];
+    let run = [
+        "run",
+        "waves/turntable.toml",
+        "--no-vcd",
+        "--set",
+        "load_change_after=8",
+    ];
+    let summary = Bench::new().json(&[&run[..], &sets].concat());
+    let own = &summary["systems"][system(&summary, "learning")];
+    let missed = whole(own, "/missed");
+    assert!(missed > 0, "{own}");
+    let warning =
+        format!("{missed} of 8 positionings missed their target and were stopped by hand");
+    assert_eq!(summary["warnings"][0], warning);
+    assert_eq!(summary["complaints"], json!([]));
+}
+
+#[test]
+fn the_files_are_those_that_are_said_and_the_same_twice() {
+    let once = || {
+        let bench = small();
+        let text = bench.succeed(&["run", "s.toml", "--to", "3000", "--out", "a"]);
+        assert_eq!(
+            bench.names(),
+            ["a/", "a/s.gtkw", "a/s.svg", "a/s.vcd", "s.toml"]
+        );
+        assert!(
+            text.ends_with("wrote a/s.vcd\nwrote a/s.gtkw\nwrote a/s.svg\n"),
+            "{text}"
+        );
+        ["a/s.svg", "a/s.vcd", "a/s.gtkw"].map(|name| bench.read(name))
+    };
+    let [svg, vcd, save] = once();
+    assert!([svg.clone(), vcd, save.clone()] == once());
+    for text in [
+        "s: lead-angle compensator",
+        "stop error of learning, held at ±6",
+        "lead time, learning",
+        "lead time, literal sign",
+        "load change",
+    ] {
+        assert!(svg.contains(text), "{text}");
+    }
+    // Position and prediction are curves; the history is a group with its stages in one.
+    let after = |text: &str| &save[save.find(text).unwrap_or_else(|| panic!("no {text}"))..];
+    assert!(after("@88420\ncompensator.position[").contains("@20000"));
+    assert!(save.contains("@88420\ncompensator.predicted["));
+    let history = after("-history\n");
+    let end = history[1..].find("-history\n").unwrap();
+    assert!(history[..end].contains("-stages\n"));
+    let stages = history[..end].matches(".stages.").count();
+    assert_eq!(stages, 199);
+}
+
+#[test]
+fn waves_have_the_window_and_the_scopes_that_are_asked_for() {
+    let bench = small();
+    let only = "compensator.lead_source.history";
+    let run = ["run", "s.toml", "--from", "500", "--to", "3000", "--only"];
+    let summary = bench.json(&[&run[..], &[only]].concat());
+    assert_eq!(summary["vcd_window"], json!([500, 3000]));
+    let save = bench.read("waves/s.gtkw");
+    assert!(save.contains(&format!("{only}.")) && !save.contains("compensator.comparator."));
+    let done = bench.run(&[&run[..], &["compensator.pen"]].concat());
+    let start = "error: --only: there is no compensator.pen; allowed: a signal, or a scope: ";
+    assert!(done.stderr.starts_with(start), "{}", done.stderr);
+    let ticks = whole(&summary, "/ticks");
+    let most = format!("{ticks}");
+    bench.refuse(
+        &["run", "s.toml", "--from", &most, "--out", "new/deep"],
+        &format!(
+            "--from: is {ticks}; allowed: 0 to {}, the last tick of the run",
+            ticks - 1
+        ),
+    );
+}
+
+#[test]
+fn files_that_cannot_be_written_leave_nothing() {
+    const WRITABLE: &str = "allowed: a directory that can be written";
+    for bench in [small(), log()] {
+        let out = |out| ["run", "s.toml", "--to", "3000", "--out", out];
+        let text = format!("--out: s.toml: File exists (os error 17); {WRITABLE}");
+        bench.refuse(&out("s.toml"), &text);
+        bench.write("o/s.svg/inside", "");
+        let text = format!("--out: o/s.svg: is a directory; {WRITABLE}");
+        bench.refuse(&out("o"), &text);
+    }
+}
+
+#[test]
+fn a_log_is_predicted_and_signals_come_a_lead_before_their_targets() {
+    let summary = log().json(&["run", "s.toml", "--no-vcd"]);
+    assert_eq!(summary["input"], "log.csv");
+    assert_eq!(whole(&summary, "/samples"), 501);
+    assert_eq!(summary["seconds"], 0.5);
+    assert_eq!(summary["complaints"], json!([]));
+    // 5000 CKs, less what is not yet in the history and what lies after the end.
+    let predictions = whole(&summary, "/predictions");
+    assert!((4000..4900).contains(&predictions), "{predictions}");
+    // At a count a CK all samples are cut off alike: nothing is left but the cut.
+    assert!(number(&summary, "error_max_counts") <= 1.0);
+    assert!((100.0..410.0).contains(&number(&summary, "without_lead_rms_counts")));
+    let signals = list(&summary, "signals");
+    assert_eq!(signals.len(), 2);
+    for (signal, (step, target, lead)) in signals.iter().zip([(0, 1000, 10), (1, 3000, 40)]) {
+        assert_eq!(whole(signal, "/step"), step);
+        assert_eq!(whole(signal, "/target"), target);
+        assert_eq!(number(signal, "lead_ms"), lead as f64);
+        assert!((whole(signal, "/position") - (target - 10 * lead)).abs() <= 1);
+        assert!(number(signal, "error_counts").abs() <= 1.0, "{signal}");
+        let seconds = (target - 10 * lead) as f64 / 1e4;
+        assert!((number(signal, "seconds") - seconds).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn the_text_of_a_log_has_its_signals() {
+    let text = log().succeed(&["run", "s.toml", "--no-vcd"]);
+    expect![[r#"
+        log.csv on lead_angle: 501 samples, 0.500 s, 500001 ticks at 1000000 Hz, CK of 100 ticks
+
+        prediction error in counts   largest       rms
+        with the lead                    0.0       0.0
+        without                        400.0     251.2
+        in 4800 CKs
+
+        signal of step    target       time      lead  position  a lead later     error
+                     0      1000    0.090 s   10.0 ms       900        1000.0       0.0
+                     1      3000    0.260 s   40.0 ms      2600        3000.0       0.0
+
+        wrote waves/s.svg
+    "#]]
+    .assert_eq(&text);
+    let ram = log().succeed(&["run", "s.toml", "--no-vcd", "--set", "history=ram"]);
+    assert_eq!(ram, text);
+}
+
+#[test]
+fn a_log_runs_without_a_scenario() {
+    let bench = log();
+    let column = ["--set", "log_column=right"];
+    let run = ["run", "log.csv", "--no-vcd"];
+    let summary = bench.json(&[&run[..], &column].concat());
+    assert_eq!(list(&summary, "signals").len(), 1);
+    assert_eq!(list(&summary, "signals")[0]["target"], 1000);
+    let steps = "step=[{target=2000,speed_counts_per_s=10,lead_ms=5},\
+                 {target=4000,speed_counts_per_s=10}]";
+    let summary = bench.json(&[&run[..], &column, &["--set", steps]].concat());
+    let targets = list(&summary, "signals")
+        .iter()
+        .map(|signal| &signal["target"]);
+    assert_eq!(targets.collect::<Vec<_>>(), [2000, 4000]);
+    // Its first other column stands still.
+    let text = bench.succeed(&run);
+    let none = "no signal: the log does not reach the target of step 0; a scenario, or --set \
+                step=[...], has others\n";
+    assert!(text.contains(none), "{text}");
+    bench.refuse(
+        &["table", "log.csv"],
+        "defaults:1: circuit: the lead-angle compensator has no table; allowed: \
+         pulse_interpolator, or the command run",
+    );
+}
+
 /// The standard error of a run that must be refused.
 fn refusal(bench: &Bench, arguments: &[&str]) -> String {
+    let before = bench.names();
     let done = bench.run(&[&["run"], arguments].concat());
     assert_eq!((done.code, done.stdout.as_str()), (2, ""));
+    assert_eq!(bench.names(), before);
     done.stderr
 }
 
@@ -18,6 +432,11 @@ fn refused(keys: &str) -> String {
     let bench = Bench::with("s.toml", format!("circuit = \"lead_angle\"\n{keys}{good}"));
     bench.write("slow.csv", "ms, a, b\n0, 0, 0\n5, 100, 1\n");
     bench.write("fast.csv", "0,0\n0.001,2\n");
+    bench.write("word.csv", "time,counts\n0,0\n\n5,many\n");
+    bench.write("back.csv", "0,0\n5,1\n4,2\n");
+    bench.write("short.csv", "time,counts\n0,0\n5\n");
+    bench.write("high.csv", "0,-5000000\n5,-5000001\n");
+    bench.write("long.csv", "0,0\n9000,2097152\n18000,2097153\n");
     refusal(&bench, &["s.toml"])
 }
 
@@ -40,6 +459,21 @@ fn settings_are_checked_and_named_with_their_line() {
         refused("brake_torque_nm = -1\n"),
         "error: s.toml:2: brake_torque_nm: is -1; allowed: 0.000000001 to 1000000000\n"
     );
+    assert_eq!(
+        refused("load_change_after = 25\n"),
+        "error: s.toml:2: load_change_after: is 25; allowed: 1 to 24\n"
+    );
+    assert_eq!(
+        refused("sign = \"both\"\n"),
+        "error: s.toml:2: sign: unknown variant `both`; allowed: `converging` or `literal`\n"
+    );
+    let bench = small();
+    let set = ["s.toml", "--set", "common_time=true"];
+    assert_eq!(
+        refusal(&bench, &set),
+        "error: s.toml:14: step 1: lead_ms: is 15; allowed: 0: with common_time all steps take \
+         that of step 0\n"
+    );
 }
 
 #[test]
@@ -49,6 +483,7 @@ fn a_log_is_read_and_checked() {
         "error: s.toml:2: log_column: is a; allowed: it with an input, a position log in CSV, \
          only\n"
     );
+    let of = |file: &str| refused(&format!("input = \"{file}.csv\"\n"));
     assert_eq!(
         refused("input = \"slow.csv\"\nlog_time_unit_ms = 0\n"),
         "error: s.toml:3: log_time_unit_ms: is 0; allowed: 0.000000001 to 10000000\n"
@@ -58,27 +493,40 @@ fn a_log_is_read_and_checked() {
         "error: slow.csv:1: c: no such column; allowed: ms, a, b\n"
     );
     assert_eq!(
-        refused("input = \"fast.csv\"\n"),
+        of("fast"),
         "error: fast.csv:2: counts: 2000000 counts/s since the sample before; allowed: up to \
          1000000, one count per tick\n"
     );
     assert_eq!(
-        refused("input = \"none.csv\"\n"),
+        of("none"),
         "error: none.csv: file: cannot be read: No such file or directory (os error 2); allowed: \
          a readable file\n"
+    );
+    assert_eq!(
+        of("word"),
+        "error: word.csv:4: counts: is 'many'; allowed: a whole number, -2147483648 to \
+         2147483648\n"
+    );
+    let back = of("back");
+    assert!(back.starts_with("error: back.csv:3: time: "), "{back}");
+    assert_eq!(
+        of("short"),
+        "error: short.csv:3: counts: the line has only 1 of its fields; allowed: a number\n"
+    );
+    assert_eq!(
+        of("high"),
+        "error: s.toml:4: step 0: target: is 5009000 from the log's first count, -5000000; \
+         allowed: -2097152 to 2097152\n"
+    );
+    assert_eq!(
+        of("long"),
+        "error: long.csv:3: counts: is 2097153; allowed: up to 2097152 counts from the first, 0\n"
     );
 }
 
 #[test]
-fn it_needs_no_drawing_and_has_no_table() {
-    let message = "circuit: the lead-angle compensator cannot be run yet; allowed: \
-                   pulse_interpolator or linear_interpolator\n";
-    assert_eq!(refused(""), format!("error: s.toml:1: {message}"));
-    let log = "input = \"slow.csv\"\nlog_column = \"b\"\n";
-    assert_eq!(refused(log), format!("error: s.toml:1: {message}"));
+fn it_has_no_table() {
     let bench = Bench::new();
-    let shipped = refusal(&bench, &["waves/turntable.toml"]);
-    assert_eq!(shipped, format!("error: waves/turntable.toml:2: {message}"));
     let done = bench.run(&["table", "waves/turntable.toml"]);
     assert_eq!(
         done.stderr,

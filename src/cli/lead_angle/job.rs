@@ -3,12 +3,16 @@
 use crate::cli::Failure;
 use crate::cli::job::Source;
 use motion_rtl::input::Fault;
-use motion_rtl::input::position_log::{Columns, PositionLog};
+use motion_rtl::input::position_log::{Columns, PositionLog, Sample};
 use motion_rtl::input::scenario::Loaded;
-use motion_rtl::lead_angle::settings::{SettingError, Settings};
+use motion_rtl::lead_angle::replay::settings_for;
+use motion_rtl::lead_angle::settings::{POSITION_BITS, SettingError, Settings};
 
 /// Units of time that a log may have, in seconds.
 const TIME_UNITS_S: std::ops::RangeInclusive<f64> = 1e-12..=1e4;
+
+/// How far a log may go from its first count: no way to a target is half of what wraps.
+const FARTHEST_COUNTS: u64 = 1 << (POSITION_BITS - 3);
 
 /// A scenario ready to be run.
 #[derive(Debug)]
@@ -27,13 +31,15 @@ impl Job {
     /// Checks the settings and reads the log.
     pub fn prepare(source: Source, settings: Settings, columns: &Columns) -> Result<Self, Failure> {
         let loaded = &source.loaded;
-        settings
-            .validate()
-            .map_err(|error| setting_fault(loaded, error))?;
-        check_columns(loaded, columns)?;
+        check_time_unit(loaded, columns)?;
         let log = source.log(columns)?;
         if let Some(log) = &log {
-            check_log(log, &settings)?;
+            check_log(loaded, log, &settings)?;
+        } else {
+            refuse_columns(loaded, columns)?;
+            settings
+                .validate()
+                .map_err(|error| setting_fault(loaded, error))?;
         }
         let Source { stem, loaded, .. } = source;
         Ok(Job {
@@ -76,19 +82,7 @@ fn setting_fault(loaded: &Loaded, error: SettingError) -> Fault {
     }
 }
 
-fn check_columns(loaded: &Loaded, columns: &Columns) -> Result<(), Fault> {
-    let names = [
-        ("log_column", &columns.counts),
-        ("log_time_column", &columns.time),
-    ];
-    for (key, name) in names {
-        if let Some(name) = name
-            && loaded.scenario.input().is_none()
-        {
-            let allowed = "it with an input, a position log in CSV, only".to_owned();
-            return Err(loaded.fault(key, format!("is {name}"), allowed));
-        }
-    }
+fn check_time_unit(loaded: &Loaded, columns: &Columns) -> Result<(), Fault> {
     if TIME_UNITS_S.contains(&columns.time_unit_s) {
         return Ok(());
     }
@@ -97,17 +91,51 @@ fn check_columns(loaded: &Loaded, columns: &Columns) -> Result<(), Fault> {
     Err(loaded.fault("log_time_unit_ms", problem, format!("{least} to {most}")))
 }
 
-/// An encoder is counted at one count per tick.
-fn check_log(log: &PositionLog, settings: &Settings) -> Result<(), Fault> {
-    let (speed, line) = log.fastest();
-    if speed <= settings.clock_hz as f64 {
-        return Ok(());
+/// Without a log there are no columns.
+fn refuse_columns(loaded: &Loaded, columns: &Columns) -> Result<(), Fault> {
+    let names = [
+        ("log_column", &columns.counts),
+        ("log_time_column", &columns.time),
+    ];
+    for (key, name) in names {
+        if let Some(name) = name {
+            let allowed = "it with an input, a position log in CSV, only".to_owned();
+            return Err(loaded.fault(key, format!("is {name}"), allowed));
+        }
     }
-    Err(Fault {
+    Ok(())
+}
+
+/// Checks a log, and the settings that it is replayed with.
+fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<(), Fault> {
+    let first = log.samples.first().map_or(0, |sample| sample.counts);
+    settings_for(log, settings)
+        .validate()
+        .map_err(|mut error| {
+            if error.field == "target" {
+                error.value += &format!(" from the log's first count, {first}");
+            }
+            setting_fault(loaded, error)
+        })?;
+    let fault = |line, problem: String, allowed: String| Fault {
         file: log.file.clone(),
         line,
         field: "counts".to_owned(),
-        problem: format!("{speed:.0} counts/s since the sample before"),
-        allowed: format!("up to {}, one count per tick", settings.clock_hz),
-    })
+        problem,
+        allowed,
+    };
+    let far = |sample: &&Sample| sample.counts.abs_diff(first) > FARTHEST_COUNTS;
+    if let Some(sample) = log.samples.iter().find(far) {
+        let problem = format!("is {}", sample.counts);
+        let allowed = format!("up to {FARTHEST_COUNTS} counts from the first, {first}");
+        return Err(fault(sample.line, problem, allowed));
+    }
+    // An encoder is counted at one count per tick.
+    let (speed, line) = log.fastest();
+    if speed > settings.clock_hz as f64 {
+        let problem = format!("{speed:.0} counts/s since the sample before");
+        let allowed = format!("up to {}, one count per tick", settings.clock_hz);
+        return Err(fault(line, problem, allowed));
+    }
+    Ok(())
 }

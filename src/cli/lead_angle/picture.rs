@@ -1,79 +1,106 @@
-//! The picture of a run: stop errors per positioning, those of learning magnified, and the codes.
+//! The picture of a run: stop errors of all systems, those of learning in codes, and the lead times
+//! with either sign.
 
 use super::Job;
-use super::summary::code_travel;
-use super::systems::System;
-use motion_rtl::lead_angle::job::Played;
+use super::summary::{code_travel, of};
+use super::systems::{LEARNING, LITERAL, System};
+use motion_rtl::lead_angle::job::{Played, Positioning};
 use motion_rtl::picture::{Curve, Panel, Picture};
 
-const COLOURS: [&str; 5] = ["#8c8c8c", "#cc79a7", "#e69f00", "#0072b2", "#d55e00"];
-const STEP_COLOURS: [&str; 6] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
-];
-const BAND: &str = "#b0b0b0";
+const COLOURS: [&str; 5] = ["#8c8c8c", "#cc79a7", "#009e73", "#0072b2", "#d55e00"];
+const MARK: &str = "#b0b0b0";
+const AXIS: &str = "positioning";
+/// Errors in codes beyond this are drawn here: the first panel has them.
+const CODES_SHOWN: f64 = 6.0;
 
 /// The picture as SVG.
 pub fn draw(job: &Job, played: &[(System, Played)]) -> String {
     let settings = &job.settings;
-    let axis = "positioning";
-    let mut all = Panel::new("stop error", axis, "counts past the target");
-    for ((system, run), colour) in played.iter().zip(COLOURS) {
-        let curve = Curve::new(system.name, errors(run)).colour(colour);
-        let width = if system.own { 1.6 } else { 0.9 };
-        all = all.curve(curve.width(width));
+    let title = format!("{}: lead-angle compensator", job.stem);
+    let mut picture = Picture::new(title).panel(all_errors(job, played));
+    if let Some(learning) = of(played, LEARNING) {
+        picture = picture.panel(errors_in_codes(job, learning));
     }
-    let mut picture = Picture::new(format!("{}: lead-angle compensator", job.stem)).panel(all);
-    let learner = played.iter().find(|(system, _)| system.name == "learning");
-    if let Some((system, run)) = learner {
-        let travel = |sign: f64| {
-            let positionings = run.positionings.iter().enumerate();
-            positionings
-                .map(|(number, one)| (number as f64, sign * code_travel(settings, one)))
-                .collect::<Vec<_>>()
-        };
-        let limit = travel(1.0).iter().fold(0.0, |most: f64, at| most.max(at.1));
-        let near = |at: &(f64, f64)| at.1.abs() <= 6.0 * limit;
-        // What is far outside is in the panel above.
-        let shown = errors(run).into_iter();
-        let shown = shown.map(|at| if near(&at) { at } else { (f64::NAN, f64::NAN) });
-        let panel = Panel::new("stop error of learning, close", axis, "counts")
-            .curve(
-                Curve::new("a code's travel", travel(1.0))
-                    .colour(BAND)
-                    .dashed(),
-            )
-            .curve(Curve::new("and below", travel(-1.0)).colour(BAND).dashed())
-            .curve(Curve::new(system.name, shown.collect()).colour(COLOURS[3]));
-        picture = picture.panel(panel);
-        let mut codes = Panel::new("lead time of each step", axis, "lead time in ms");
-        for step in 0..settings.steps.len() {
-            let of_step = |run: &Played| -> Vec<(f64, f64)> {
-                let positionings = run.positionings.iter().enumerate();
-                positionings
-                    .filter(|(_, one)| one.step == step)
-                    .map(|(number, one)| (number as f64, one.code as f64 * settings.ck_ms()))
-                    .collect()
-            };
-            let colour = STEP_COLOURS[step % STEP_COLOURS.len()];
-            let name = format!("step {step}");
-            codes = codes.curve(Curve::new(name, of_step(run)).colour(colour));
-            let literal = played
-                .iter()
-                .find(|(system, _)| system.name == "literal sign");
-            if let Some((_, literal)) = literal {
-                let name = format!("step {step}, literal");
-                let curve = Curve::new(name, of_step(literal)).colour(colour);
-                codes = codes.curve(curve.width(0.7).dashed());
-            }
+    for (name, title) in [
+        (LEARNING, "lead time, learning"),
+        (LITERAL, "lead time, literal sign"),
+    ] {
+        if let Some(run) = of(played, name) {
+            let lead_ms = |one: &Positioning| one.code as f64 * settings.ck_ms();
+            let panel = Panel::new(title, AXIS, "ms");
+            let panel = by_step(panel, job, run, lead_ms);
+            let most = run.positionings.iter().map(lead_ms).fold(0.0, f64::max);
+            picture = picture.panel(load_change(panel, job, [0.0, most]));
         }
-        picture = picture.panel(codes);
     }
     picture.render()
 }
 
-fn errors(run: &Played) -> Vec<(f64, f64)> {
-    let positionings = run.positionings.iter().enumerate();
-    positionings
-        .map(|(number, one)| (number as f64, one.error as f64))
-        .collect()
+/// The stop errors of every system.
+fn all_errors(job: &Job, played: &[(System, Played)]) -> Panel {
+    let mut panel = Panel::new("stop error", AXIS, "counts past the target");
+    let mut range = [0.0, 0.0_f64];
+    for ((system, run), colour) in played.iter().zip(COLOURS) {
+        let errors = run.positionings.iter().map(|one| one.error as f64);
+        let points: Vec<_> = errors.enumerate().map(|(n, at)| (n as f64, at)).collect();
+        for (_, error) in &points {
+            range = [range[0].min(*error), range[1].max(*error)];
+        }
+        let width = if system.own { 1.8 } else { 0.9 };
+        let curve = Curve::new(system.name, points).colour(colour);
+        panel = panel.curve(curve.width(width));
+    }
+    load_change(panel, job, range)
+}
+
+/// The stop errors of learning by what a code is worth, in which it is to end within one.
+fn errors_in_codes(job: &Job, learning: &Played) -> Panel {
+    let title = format!("stop error of learning, held at ±{CODES_SHOWN}");
+    let last = learning.positionings.len().saturating_sub(1) as f64;
+    let limits = [
+        (0.0, 1.0),
+        (last, 1.0),
+        (f64::NAN, 0.0),
+        (0.0, -1.0),
+        (last, -1.0),
+    ];
+    let limits = Curve::new("± one code", limits.to_vec())
+        .colour(MARK)
+        .dashed();
+    let panel = Panel::new(title, AXIS, "codes").curve(limits);
+    let panel = by_step(panel, job, learning, |one| {
+        let codes = one.error as f64 / code_travel(&job.settings, one);
+        codes.clamp(-CODES_SHOWN, CODES_SHOWN)
+    });
+    load_change(panel, job, [-CODES_SHOWN, CODES_SHOWN])
+}
+
+/// A curve for each step, through its positionings.
+fn by_step(
+    mut panel: Panel,
+    job: &Job,
+    run: &Played,
+    value: impl Fn(&Positioning) -> f64,
+) -> Panel {
+    for step in 0..job.settings.steps.len() {
+        let all = run.positionings.iter().enumerate();
+        let own = all.filter(|(_, one)| one.step == step);
+        let points = own.map(|(number, one)| (number as f64, value(one)));
+        panel = panel.curve(Curve::new(format!("step {step}"), points.collect()));
+    }
+    panel
+}
+
+/// A mark between the positionings between which the load changes.
+fn load_change(panel: Panel, job: &Job, [least, most]: [f64; 2]) -> Panel {
+    let settings = &job.settings;
+    let change = settings
+        .load_change_after
+        .filter(|after| *after < settings.positionings);
+    let Some(change) = change else {
+        return panel;
+    };
+    let at = f64::from(change) - 0.5;
+    let mark = vec![(at, least), (at, most)];
+    panel.curve(Curve::new("load change", mark).colour(MARK).width(1.6))
 }

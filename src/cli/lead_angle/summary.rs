@@ -1,14 +1,15 @@
 //! What a run came to.
 
 use super::Job;
-use super::systems::System;
+use super::systems::{LEARNING, LITERAL, System};
 use motion_rtl::lead_angle::codes::{STAGES, code};
 use motion_rtl::lead_angle::job::{Played, Positioning};
 use motion_rtl::lead_angle::settings::{Comparing, History, Placement, Settings, Sign};
 use serde::Serialize;
+use std::ops::Range;
 
 /// Positionings of a step within which learning is to be settled.
-pub const SETTLED_WITHIN: usize = 6;
+const SETTLED_WITHIN: usize = 6;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
@@ -39,9 +40,12 @@ pub struct Summary {
     pub complaints: Vec<String>,
     /// All systems with their errors.
     pub systems: Vec<SystemSummary>,
+    /// The system whose lead times are shown: the scenario's own where it learns, or else the one
+    /// that does.
+    pub lead_times_of: &'static str,
     /// The steps before the load change and after it.
     pub phases: Vec<Phase>,
-    /// Every positioning of the scenario's own system, with the errors of all.
+    /// Every positioning, with the errors of all systems.
     pub positionings: Vec<Row>,
     /// Ticks that went into the VCD, half-open; `null` without one.
     pub vcd_window: Option<[u64; 2]>,
@@ -88,13 +92,15 @@ pub struct StepSummary {
     pub target: i64,
     /// Its speed.
     pub speed_counts_per_s: u32,
+    /// How many positionings of it the phase has.
+    pub positionings: usize,
     /// Stop error of its last positioning in the phase, for each system, in counts.
     pub last_error_counts: Vec<i64>,
-    /// Lead time of its last positioning in the phase, in the learning system, in milliseconds.
+    /// Lead time of its last positioning in the phase of `lead_times_of`, in milliseconds.
     pub lead_ms: f64,
     /// What one code is worth there, in counts.
     pub code_travel_counts: f64,
-    /// After how many positionings of the phase the learning system stays within a code's travel;
+    /// After how many positionings of the phase `lead_times_of` stays within a code's travel;
     /// `null` where it never does.
     pub settled_after: Option<usize>,
 }
@@ -110,7 +116,7 @@ pub struct Row {
     pub loaded: bool,
     /// Stop error of each system, in counts.
     pub error_counts: Vec<i64>,
-    /// Lead time of the learning system, in milliseconds.
+    /// Lead time of `lead_times_of`, in milliseconds.
     pub lead_ms: f64,
     /// What one code is worth there, in counts.
     pub code_travel_counts: f64,
@@ -123,23 +129,14 @@ pub fn code_travel(settings: &Settings, positioning: &Positioning) -> f64 {
 }
 
 /// Whether it stopped within a code's travel.
-pub fn settled(settings: &Settings, positioning: &Positioning) -> bool {
-    positioning.error.unsigned_abs() as f64 <= code_travel(settings, positioning) + 1.0
+fn settled(settings: &Settings, positioning: &Positioning) -> bool {
+    positioning.error.unsigned_abs() as f64 <= code_travel(settings, positioning) + 1e-6
 }
 
 /// The run of that name.
-fn of<'a>(played: &'a [(System, Played)], name: &str) -> Option<&'a Played> {
+pub fn of<'a>(played: &'a [(System, Played)], name: &str) -> Option<&'a Played> {
     let found = played.iter().find(|(system, _)| system.name == name);
     found.map(|(_, played)| played)
-}
-
-/// The system whose codes are shown: the scenario's own where it learns, or else the one that does.
-fn learner<'a>(settings: &Settings, played: &'a [(System, Played)]) -> Option<&'a Played> {
-    let own = match settings.sign {
-        Sign::Literal if settings.learn => "literal sign",
-        _ => "learning",
-    };
-    of(played, own)
 }
 
 impl Summary {
@@ -148,6 +145,10 @@ impl Summary {
         let settings = &job.settings;
         let own = played.iter().find(|(system, _)| system.own);
         let ticks = own.map_or(0, |(_, run)| run.ticks);
+        let lead_times_of = match settings.sign {
+            Sign::Literal if settings.learn => LITERAL,
+            _ => LEARNING,
+        };
         let mut summary = Summary {
             circuit: "lead_angle",
             scenario: job.stem.clone(),
@@ -162,13 +163,14 @@ impl Summary {
             seconds: ticks as f64 / settings.clock_hz as f64,
             complaints: own.map_or(Vec::new(), |(_, run)| complaints(settings, run)),
             systems: played.iter().map(system_summary).collect(),
+            lead_times_of,
             phases: Vec::new(),
             positionings: Vec::new(),
             vcd_window: None,
             warnings: Vec::new(),
             files: Vec::new(),
         };
-        if let Some(learner) = learner(settings, played) {
+        if let Some(learner) = of(played, lead_times_of) {
             summary.positionings = rows(settings, played, learner);
             summary.phases = phases(settings, played, learner);
         }
@@ -222,34 +224,42 @@ fn phases(settings: &Settings, played: &[(System, Played)], learner: &Played) ->
         None => vec![(0, all)],
     };
     let phase = |(from, to): (usize, usize)| {
-        let step = |step: usize| {
-            let of_step = |number: &usize| learner.positionings[*number].step == step;
-            let numbers: Vec<usize> = (from..to).filter(of_step).collect();
-            let last = *numbers.last()?;
-            let one = &learner.positionings[last];
-            let off = |number: &usize| !settled(settings, &learner.positionings[*number]);
-            let settled_after = match numbers.iter().rposition(off) {
-                None => Some(0),
-                Some(place) => Some(place + 1).filter(|after| *after < numbers.len()),
-            };
-            Some(StepSummary {
-                step,
-                target: one.target,
-                speed_counts_per_s: settings.steps[step].speed_counts_per_s,
-                last_error_counts: errors(played, last),
-                lead_ms: one.code as f64 * settings.ck_ms(),
-                code_travel_counts: code_travel(settings, one),
-                settled_after,
-            })
-        };
+        let steps = 0..settings.steps.len();
         Phase {
             from,
             to,
             loaded: loaded(settings, from),
-            steps: (0..settings.steps.len()).filter_map(step).collect(),
+            steps: steps
+                .filter_map(|step| step_summary(settings, played, learner, step, from..to))
+                .collect(),
         }
     };
     bounds.into_iter().map(phase).collect()
+}
+
+/// What became of a step in a phase; none where the phase is over before it.
+fn step_summary(
+    settings: &Settings,
+    played: &[(System, Played)],
+    learner: &Played,
+    step: usize,
+    phase: Range<usize>,
+) -> Option<StepSummary> {
+    let all = &learner.positionings;
+    let numbers: Vec<usize> = phase.filter(|number| all[*number].step == step).collect();
+    let last = *numbers.last()?;
+    let off = |number: &usize| !settled(settings, &all[*number]);
+    let settled_after = numbers.iter().rposition(off).map_or(0, |place| place + 1);
+    Some(StepSummary {
+        step,
+        target: all[last].target,
+        speed_counts_per_s: settings.steps[step].speed_counts_per_s,
+        positionings: numbers.len(),
+        last_error_counts: errors(played, last),
+        lead_ms: all[last].code as f64 * settings.ck_ms(),
+        code_travel_counts: code_travel(settings, &all[last]),
+        settled_after: Some(settled_after).filter(|after| *after < numbers.len()),
+    })
 }
 
 /// What keeps a run from being what it was to be.
@@ -281,21 +291,22 @@ fn warnings(summary: &Summary) -> Vec<String> {
             ));
         }
     }
-    if summary.learn {
-        for phase in &summary.phases {
-            for step in &phase.steps {
-                let late = step
-                    .settled_after
-                    .is_none_or(|after| after > SETTLED_WITHIN);
-                if late && summary.sign == Sign::Converging {
-                    all.push(format!(
-                        "step {}: not within a code's travel after {SETTLED_WITHIN} positionings \
-                         from positioning {} on",
-                        step.step, phase.from
-                    ));
-                }
-            }
-        }
+    if !(summary.learn && summary.sign == Sign::Converging) {
+        return all;
+    }
+    for phase in &summary.phases {
+        let settled = |after| after <= SETTLED_WITHIN;
+        // With fewer there is nothing to be said yet.
+        let late = |step: &&StepSummary| {
+            step.positionings >= SETTLED_WITHIN && !step.settled_after.is_some_and(settled)
+        };
+        all.extend(phase.steps.iter().filter(late).map(|step| {
+            format!(
+                "step {}: not within a code's travel after {SETTLED_WITHIN} positionings from \
+                 positioning {} on",
+                step.step, phase.from
+            )
+        }));
     }
     all
 }

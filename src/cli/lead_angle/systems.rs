@@ -3,6 +3,13 @@
 
 use motion_rtl::lead_angle::settings::{Settings, Sign};
 
+/// Name of the system that learns with the sign that converges.
+pub const LEARNING: &str = "learning";
+/// Name of the system that learns with the text's sign.
+pub const LITERAL: &str = "literal sign";
+/// Name of the system that keeps its lead times.
+const FIXED: &str = "fixed lead";
+
 /// One of the systems that play the positionings.
 #[derive(Debug, Clone)]
 pub struct System {
@@ -32,9 +39,9 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         step.lead_ms = 0.0;
     }
     let own = match (settings.learn, settings.sign) {
-        (false, _) => "fixed lead",
-        (true, Sign::Converging) => "learning",
-        (true, Sign::Literal) => "literal sign",
+        (false, _) => FIXED,
+        (true, Sign::Converging) => LEARNING,
+        (true, Sign::Literal) => LITERAL,
     };
     let system = |name, settings, conventional| System {
         name,
@@ -45,8 +52,8 @@ pub fn systems(settings: &Settings) -> Vec<System> {
     vec![
         system("no lead", none, false),
         system("by speed", fixed.clone(), true),
-        system("fixed lead", fixed, false),
-        system("learning", learning(Sign::Converging), false),
-        system("literal sign", learning(Sign::Literal), false),
+        system(FIXED, fixed, false),
+        system(LEARNING, learning(Sign::Converging), false),
+        system(LITERAL, learning(Sign::Literal), false),
     ]
 }

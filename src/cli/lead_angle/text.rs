@@ -1,7 +1,10 @@
 //! The summary for people.
 
-use super::summary::{Phase, Summary};
+use super::summary::{Phase, Summary, SystemSummary};
 use std::fmt::Write;
+
+/// Characters of a column of stop errors at least.
+const SHORTEST: usize = 8;
 
 /// A name of the settings as scenarios have it.
 fn name(value: impl serde::Serialize) -> String {
@@ -41,11 +44,11 @@ impl Summary {
                 false => "not learning".to_owned(),
             }
         )?;
-        writeln!(text, "stop error      largest        rms   missed")?;
+        writeln!(text, "stop error in counts   largest       rms  missed")?;
         for system in &self.systems {
             writeln!(
                 text,
-                "{:<13} {:>9}  {:>9.1}  {:>7}{}",
+                "{:<20}  {:>8}  {:>8.1}  {:>6}{}",
                 system.name,
                 system.error_max_counts,
                 system.error_rms_counts,
@@ -71,43 +74,54 @@ impl Summary {
 
     /// The names of the systems as heads of columns.
     fn heads(&self) -> String {
-        let names = self.systems.iter();
-        names.fold(String::new(), |mut heads, system| {
-            let _ = write!(heads, "  {:>12}", system.name);
-            heads
-        })
+        let names = self.systems.iter().map(|system| system.name);
+        names.map(|name| format!("  {name:>SHORTEST$}")).collect()
+    }
+
+    /// Stop errors below their heads.
+    fn errors(&self, errors: &[i64]) -> String {
+        let columns = self.systems.iter().zip(errors);
+        let cell = |(system, error): (&SystemSummary, &i64)| {
+            let width = system.name.len().max(SHORTEST);
+            format!("  {error:>width$}")
+        };
+        columns.map(cell).collect()
     }
 
     fn phase(&self, text: &mut String, phase: &Phase) -> std::fmt::Result {
         writeln!(
             text,
-            "positionings {} to {}{}: stop error of the last of each step",
+            "positionings {} to {}{}: stop error of the last of each step; lead of {}",
             phase.from,
             phase.to.saturating_sub(1),
-            match (phase.loaded, phase.from) {
-                (true, _) => ", with the other load",
-                (false, _) => "",
-            }
+            if phase.loaded {
+                ", with the other load"
+            } else {
+                ""
+            },
+            self.lead_times_of
         )?;
         writeln!(
             text,
-            "step   target   speed{}     lead  a code  settled after",
+            "step    target   speed{}      lead  one code  settled after",
             self.heads()
         )?;
         for step in &phase.steps {
             write!(
                 text,
-                "{:>4}  {:>7}  {:>6}",
-                step.step, step.target, step.speed_counts_per_s
+                "{:>4}  {:>8}  {:>6}{}",
+                step.step,
+                step.target,
+                step.speed_counts_per_s,
+                self.errors(&step.last_error_counts)
             )?;
-            columns(text, &step.last_error_counts)?;
             let settled = match step.settled_after {
                 Some(after) => after.to_string(),
                 None => "never".to_owned(),
             };
             writeln!(
                 text,
-                "  {:>4.1} ms  {:>6.1}  {:>13}",
+                "  {:>5.1} ms  {:>8.1}  {:>13}",
                 step.lead_ms, step.code_travel_counts, settled
             )?;
         }
@@ -116,23 +130,23 @@ impl Summary {
     }
 
     fn every_positioning(&self, text: &mut String) -> std::fmt::Result {
-        writeln!(text, "positioning  step{}     lead  a code", self.heads())?;
+        writeln!(
+            text,
+            "positioning  step{}      lead  one code",
+            self.heads()
+        )?;
         for row in &self.positionings {
-            write!(text, "{:>11}  {:>4}", row.positioning, row.step)?;
-            columns(text, &row.error_counts)?;
             writeln!(
                 text,
-                "  {:>4.1} ms  {:>6.1}",
-                row.lead_ms, row.code_travel_counts
+                "{:>11}  {:>4}{}  {:>5.1} ms  {:>8.1}",
+                row.positioning,
+                row.step,
+                self.errors(&row.error_counts),
+                row.lead_ms,
+                row.code_travel_counts
             )?;
         }
         text.push('\n');
         Ok(())
     }
-}
-
-fn columns(text: &mut String, errors: &[i64]) -> std::fmt::Result {
-    errors
-        .iter()
-        .try_for_each(|error| write!(text, "  {error:>12}"))
 }

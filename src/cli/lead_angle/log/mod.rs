@@ -1,0 +1,148 @@
+//! `run` on a position log: where signals would have been given, and how good the predictions were.
+
+mod picture;
+mod text;
+
+use super::{Job, Traces};
+use crate::cli::files::Files;
+use crate::cli::run::{Arguments, Progress, no_such_tick};
+use crate::cli::{Failure, print, print_json};
+use motion_rtl::input::position_log::PositionLog;
+use motion_rtl::lead_angle::job::{JobLead, RamLead, ShiftLead, positioner};
+use motion_rtl::lead_angle::replay::{Replayed, Signal, replay, settings_for};
+use motion_rtl::lead_angle::settings::{History, Settings};
+use motion_rtl::trace::Options;
+use serde::Serialize;
+use std::ops::Range;
+
+/// The summary of a log.
+#[derive(Debug, Serialize)]
+struct Summary {
+    circuit: &'static str,
+    input: String,
+    samples: usize,
+    seconds: f64,
+    ticks: u64,
+    clock_hz: u64,
+    ck_ticks: u32,
+    /// Predictions with a lead that the log can judge, and their errors in counts.
+    predictions: u64,
+    error_rms_counts: f64,
+    error_max_counts: f64,
+    without_lead_rms_counts: f64,
+    without_lead_max_counts: f64,
+    signals: Vec<Row>,
+    complaints: Vec<String>,
+    vcd_window: Option<[u64; 2]>,
+    files: Vec<String>,
+}
+
+/// One signal.
+#[derive(Debug, Serialize)]
+struct Row {
+    step: usize,
+    target: i64,
+    tick: u64,
+    seconds: f64,
+    lead_ms: f64,
+    /// Position at the signal.
+    position: i64,
+    /// Position a lead time later; `null` where the log is over by then.
+    position_after: Option<f64>,
+    /// The same less the target: what the prediction was off.
+    error_counts: Option<f64>,
+}
+
+/// Replays a log with its waves.
+pub fn run(
+    arguments: &Arguments,
+    job: &Job,
+    log: &PositionLog,
+    options: &Options,
+) -> Result<(), Failure> {
+    let settings = settings_for(log, &job.settings);
+    let ticks = (log.seconds() * settings.clock_hz as f64) as u64 + 1;
+    if options.ticks.start >= ticks {
+        return Err(no_such_tick(options, ticks));
+    }
+    let simulate = match settings.history {
+        History::ShiftRegister => simulate::<ShiftLead>,
+        History::Ram => simulate::<RamLead>,
+    };
+    let (replayed, mut files) = simulate(arguments, job, &settings, log, options)?;
+    files.write("svg", &picture::draw(job, log, &settings, &replayed))?;
+    let mut summary = summary(log, &settings, &replayed);
+    if !arguments.no_vcd {
+        let Range { start, end } = options.ticks;
+        summary.vcd_window = Some([start, end.min(replayed.ticks).max(start)]);
+    }
+    summary.files = files.commit()?;
+    match arguments.json {
+        true => print_json(&summary)?,
+        false => print(&summary.text(arguments.segments))?,
+    }
+    if summary.complaints.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::Check(summary.complaints.join("\n")))
+}
+
+/// Replays it with these settings.
+fn simulate<P: JobLead>(
+    arguments: &Arguments,
+    job: &Job,
+    settings: &Settings,
+    log: &PositionLog,
+    options: &Options,
+) -> Result<(Replayed, Files), Failure> {
+    let circuit = positioner::<P>(settings);
+    let ticks = (log.seconds() * settings.clock_hz as f64) as u64 + 1;
+    let mut traces = Traces::begin(&circuit, arguments, job, options, ticks)?;
+    let mut progress = Progress::new(ticks);
+    // Two calls, so that a run without waves is compiled without a trace of them.
+    let replayed = match traces.vcd.is_some() || traces.stimulus.is_some() {
+        true => {
+            let files = (traces.vcd.as_mut(), traces.stimulus.as_mut());
+            replay(&circuit, settings, log, (files, &mut progress))
+        }
+        false => replay(&circuit, settings, log, &mut progress),
+    };
+    let replayed = replayed.map_err(Failure::Run)?;
+    drop(progress);
+    let action = replayed.signals.first().map_or(0, |signal| signal.tick);
+    let files = traces.finish(&circuit, action, replayed.ticks)?;
+    Ok((replayed, files))
+}
+
+fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summary {
+    let row = |signal: &Signal| Row {
+        step: signal.step,
+        target: signal.target,
+        tick: signal.tick,
+        seconds: signal.tick as f64 / settings.clock_hz as f64,
+        lead_ms: signal.code as f64 * settings.ck_ms(),
+        position: signal.position,
+        position_after: signal.position_after,
+        error_counts: signal.position_after.map(|at| at - signal.target as f64),
+    };
+    let predictions = replayed.predictions;
+    let lost = "the encoder was too fast for the detector".to_owned();
+    Summary {
+        circuit: "lead_angle",
+        input: log.file.clone(),
+        samples: log.samples.len(),
+        seconds: log.seconds(),
+        ticks: replayed.ticks,
+        clock_hz: settings.clock_hz,
+        ck_ticks: settings.ck_ticks,
+        predictions: predictions.count,
+        error_rms_counts: predictions.rms,
+        error_max_counts: predictions.largest,
+        without_lead_rms_counts: predictions.rms_without,
+        without_lead_max_counts: predictions.largest_without,
+        signals: replayed.signals.iter().map(row).collect(),
+        complaints: replayed.lost.then_some(lost).into_iter().collect(),
+        vcd_window: None,
+        files: Vec::new(),
+    }
+}

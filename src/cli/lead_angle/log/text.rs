@@ -1,0 +1,98 @@
+//! The summary of a log for people.
+
+use super::Summary;
+use std::fmt::Write;
+
+/// Signals that are shown, unless all are asked for.
+const SHOWN: usize = 16;
+
+impl Summary {
+    /// The summary for people, with every signal if `all` are wanted.
+    pub fn text(&self, all: bool) -> String {
+        let mut text = String::new();
+        // Writing to a string does not fail.
+        let _ = self.write(&mut text, all);
+        text
+    }
+
+    fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
+        writeln!(
+            text,
+            "{} on {}: {} samples, {:.3} s, {} ticks at {} Hz, CK of {} ticks\n",
+            self.input,
+            self.circuit,
+            self.samples,
+            self.seconds,
+            self.ticks,
+            self.clock_hz,
+            self.ck_ticks
+        )?;
+        self.predictions(text)?;
+        self.signals(text, all)?;
+        for file in &self.files {
+            writeln!(text, "wrote {file}")?;
+        }
+        Ok(())
+    }
+
+    fn predictions(&self, text: &mut String) -> std::fmt::Result {
+        if self.predictions == 0 {
+            return writeln!(text, "no prediction with a lead\n");
+        }
+        writeln!(text, "prediction error in counts   largest       rms")?;
+        for (name, largest, rms) in [
+            (
+                "with the lead",
+                self.error_max_counts,
+                self.error_rms_counts,
+            ),
+            (
+                "without",
+                self.without_lead_max_counts,
+                self.without_lead_rms_counts,
+            ),
+        ] {
+            writeln!(text, "{name:<26}  {largest:>8.1}  {rms:>8.1}")?;
+        }
+        writeln!(text, "in {} CKs\n", self.predictions)
+    }
+
+    fn signals(&self, text: &mut String, all: bool) -> std::fmt::Result {
+        if self.signals.is_empty() {
+            return writeln!(
+                text,
+                "no signal: the log does not reach the target of step 0; a scenario, or \
+                 --set step=[...], has others\n"
+            );
+        }
+        let shown = match all {
+            true => self.signals.len(),
+            false => SHOWN.min(self.signals.len()),
+        };
+        writeln!(
+            text,
+            "signal of step    target       time      lead  position  a lead later     error"
+        )?;
+        for row in &self.signals[..shown] {
+            let [after, error] = [row.position_after, row.error_counts].map(tenths);
+            writeln!(
+                text,
+                "{:>14}  {:>8}  {:>7.3} s  {:>5.1} ms  {:>8}  {after:>12}  {error:>8}",
+                row.step, row.target, row.seconds, row.lead_ms, row.position
+            )?;
+        }
+        let more = self.signals.len() - shown;
+        if more > 0 {
+            writeln!(text, "and {more} more: --segments shows all")?;
+        }
+        text.push('\n');
+        Ok(())
+    }
+}
+
+/// Counts with a digit behind the point, without the sign of what rounds to nothing.
+fn tenths(counts: Option<f64>) -> String {
+    counts.map_or("-".to_owned(), |counts| {
+        format!("{:.1}", (counts * 10.0).round() / 10.0 + 0.0)
+    })
+}
