@@ -39,7 +39,9 @@ fn synthesis() -> String {
         });
         let warnings: Vec<&str> = said
             .lines()
-            .filter(|line| line.starts_with("Warning"))
+            .filter(|line| line.starts_with("Warning:"))
+            // A shift register is flip-flops; no other memory may become them.
+            .filter(|line| !line.contains(r"Replacing memory \stages with list of registers"))
             .collect();
         assert!(warnings.is_empty(), "{name}: {warnings:#?}");
         let widths = entry
