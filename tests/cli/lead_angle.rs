@@ -200,15 +200,15 @@ fn the_summary_has_these_keys() {
 fn people_see_the_last_of_each_step_or_every_positioning() {
     let text = small().succeed(&["run", "s.toml", "--no-vcd", "--segments"]);
     expect![[r#"
-        s on lead_angle: 6 positionings, 225302 ticks, 1.127 s at 200000 Hz, CK of 20 ticks
+        s on lead_angle: 6 positionings, 225442 ticks, 1.127 s at 200000 Hz, CK of 20 ticks
         history shift_register, lead on position, comparing crossing, learning, sign converging
 
         stop error in counts   largest       rms  missed
-        no lead                   1554     910.0       0
-        by speed                   554     239.1       0
-        fixed lead                 954     464.3       0
-        learning                   568     299.1       0  in the waves
-        literal sign              1428     678.5       0
+        no lead                   1555     910.3       0
+        by speed                   555     239.5       0
+        fixed lead                 955     464.6       0
+        learning                   569     299.4       0  in the waves
+        literal sign              1429     678.8       0
 
         positionings 0 to 3: stop error of the last of each step; lead of learning
         step    target   speed   no lead  by speed  fixed lead  learning  literal sign      lead  one code  settled after
@@ -218,7 +218,7 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
         positionings 4 to 5, with the other load: stop error of the last of each step; lead of learning
         step    target   speed   no lead  by speed  fixed lead  learning  literal sign      lead  one code  settled after
            0      3000   20000       504         4         204       138           338   18.3 ms       2.0          never
-           1         0   40000      1554       554         954       568          1428   24.6 ms       8.0          never
+           1         0   40000      1555       555         955       569          1429   24.6 ms       8.0          never
 
         positioning  step   no lead  by speed  fixed lead  learning  literal sign      lead  one code
                   0     0       366      -134          66        66            66   15.0 ms       2.0
@@ -226,7 +226,7 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
                   2     0       366      -134          66        12           120   17.7 ms       2.0
                   3     1      1010        10         410       160           652   21.2 ms       8.0
                   4     0       504         4         204       138           338   18.3 ms       2.0
-                  5     1      1554       554         954       568          1428   24.6 ms       8.0
+                  5     1      1555       555         955       569          1429   24.6 ms       8.0
 
         wrote waves/s.svg
     "#]].assert_eq(&text);
