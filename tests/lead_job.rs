@@ -29,10 +29,10 @@ fn with_lead(settings: &Settings) -> Played {
     played
 }
 
-/// Counts that one code is worth at the speed of a positioning, and one of rounding.
+/// Counts that one code is worth at the speed of a positioning.
 fn code_travel(settings: &Settings, one: &Positioning) -> f64 {
     let ratio = code(STAGES, one.code).map_or(1, |code| code.ratio) as f64;
-    one.speed_counts_per_s.abs() * settings.ck_ms() / 1e3 * ratio + 1.0
+    one.speed_counts_per_s.abs() * settings.ck_ms() / 1e3 * ratio + 1e-6
 }
 
 fn off(one: &Positioning) -> f64 {
