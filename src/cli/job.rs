@@ -18,8 +18,8 @@ use std::time::Duration;
 /// What to run.
 #[derive(Debug, Default, Args)]
 pub struct Input {
-    /// Scenario (.toml), HPGL drawing, G-code program or position log (.csv); without it the scenario that ships with
-    /// the crate.
+    /// Scenario (.toml), HPGL drawing, G-code program or position log (.csv); without it the
+    /// scenario that ships with the crate.
     pub input: Option<PathBuf>,
     /// Overrides a key of the scenario.
     #[arg(long = "set", value_name = "KEY=VALUE")]

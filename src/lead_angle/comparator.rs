@@ -8,14 +8,14 @@
 //!                               └────────────┘
 //! ```
 //!
-//! It looks, from the first `arm` on, where `evaluate` is high and what it is given is `valid`. A *crossing* is the arrival
-//! at the target, or the step over it, from either side; it counts once. The first after `arm` is
-//! `fire`, and holds the control signal until the next `arm`.
+//! It looks, from the first `arm` on, where `evaluate` is high and what it is given is `valid`. A
+//! *crossing* is the arrival at the target, or the step over it, from either side; it counts once.
+//! The first after `arm` is `fire`, and holds the control signal until the next `arm`.
 //!
 //! Departures: the text compares for equality, which hits only one target in v where the position
 //! moves on by v > 1 counts per CK. That is the variant [`Comparing::Equal`]. A crossing is told
-//! from the jump at the far side of the ring, where the difference changes its sign too: both
-//! variants want moves below a quarter of the range per CK. `arm`, the latch and `halt`, which
+//! from the jump at the far side of the ring, where the difference changes its sign too: for
+//! that, moves have to be below a quarter of the range per CK. `arm`, the latch and `halt`, which
 //! gives the control signal without a crossing, are additions.
 
 use crate::check::{Invariants, Specified, require};

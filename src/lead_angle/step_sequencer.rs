@@ -10,9 +10,9 @@
 //!                            └────────────────┘
 //! ```
 //!
-//! A step: *load* its target and its time, *arm* the comparator until a sample says which way it is, *move* until the control signal,
-//! *brake* until the positioning is complete, *correct* the time, *rest*. Then the next step, from
-//! step 0 again after the last, as long as `run` is high.
+//! A step: *load* its target and its time, *arm* the comparator until a sample says which way it is,
+//! *move* until the control signal, *brake* until the positioning is complete, *correct* the time,
+//! *rest*. Then the next step, from step 0 again after the last, as long as `run` is high.
 //!
 //! `halt` during *move* gives the control signal by hand; what comes of it is not learned from.
 

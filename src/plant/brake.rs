@@ -147,11 +147,6 @@ impl BrakedBody {
         self.parameters.brake_torque_nm * self.load.load_brake_factor * left
     }
 
-    /// The highest speed in counts a second at which every quarter is seen.
-    pub fn countable_counts_per_s(&self) -> f64 {
-        self.encoder.countable_counts_per_s(self.tick_s)
-    }
-
     /// What friction takes off the speed, in counts/s².
     #[inline]
     fn deceleration(&self) -> f64 {

@@ -170,7 +170,7 @@ fn with_the_right_sign_the_error_is_squared_every_time_and_with_the_literal_one_
     }
 }
 
-/// From anywhere between a twentieth and twice the true time, within six positionings.
+/// From a third of the true time to nearly twice of it, within six positionings.
 #[test]
 fn six_positionings_are_enough_and_the_literal_sign_runs_away() {
     let (right, literal) = (Full::new(Sign::Converging), Full::new(Sign::Literal));
