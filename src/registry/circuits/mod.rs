@@ -1,5 +1,6 @@
 //! The catalogue, a file for each patent.
 
+mod arc_generator;
 mod blocks;
 mod lead_angle;
 mod linear_interpolator;
@@ -8,11 +9,12 @@ mod pulse_interpolator;
 
 use super::Entry;
 
-const PARTS: [&[Entry]; 4] = [
+const PARTS: [&[Entry]; 5] = [
     pulse_interpolator::CIRCUITS,
     blocks::CIRCUITS,
     linear_interpolator::CIRCUITS,
     lead_angle::CIRCUITS,
+    arc_generator::CIRCUITS,
 ];
 
 const COUNT: usize = {

@@ -1,0 +1,148 @@
+//! Control of the rotation stage: which bit of the coefficients it is at.
+//!
+//! ```text
+//!         ┌──────────────────┐
+//!  step ─▶│                  ├──▶ begin, fraction, top, commit
+//!  halt ─▶│ rotation_control ├──▶ busy, done
+//!         └──────────────────┘
+//! ```
+//!
+//! A coefficient has two's complement bits of weights 2^−B … 2^−1, 1 and −2. The rows take them
+//! from the lowest up, a bit a tick; after a bit of the fraction they halve their sum.
+
+use crate::check::{Invariants, Specified, require};
+use crate::kernel::Circuit;
+use crate::logic::{Bit, Logic, Unsigned};
+use crate::signals;
+
+signals! {
+    /// Ports in.
+    pub struct In<L> {
+        /// On to the next point; not taken while `busy`.
+        pub step: L::Bit,
+        /// Gives a step up that is under way; one that comes with it is not taken.
+        pub halt: L::Bit,
+    }
+}
+
+signals! {
+    /// Flip-flops.
+    pub struct Reg<L> {
+        /// A step is under way.
+        pub busy: L::Bit = 0,
+        /// The bit the rows are at; those of the fraction come first.
+        bit: L::U<6> = 0,
+        /// The new point stands in this tick.
+        pub done: L::Bit = 0,
+    }
+}
+
+signals! {
+    /// Nets.
+    pub struct Net<L> {
+        /// A step is taken: the rows copy their coefficients.
+        pub begin: L::Bit,
+        /// The bit is one of the fraction.
+        pub fraction: L::Bit,
+        /// The bit is the sign, of weight −2.
+        pub top: L::Bit,
+        /// The sums are complete: they become the point.
+        pub commit: L::Bit,
+    }
+}
+
+/// Control for coefficients of `C` bits, of which B = `C` − 2 are fraction.
+///
+/// `done` is high B + 4 ticks after `step`.
+#[derive(Debug, Clone, Default)]
+pub struct RotationControl<const C: usize>;
+
+impl<const C: usize> RotationControl<C> {
+    /// Ticks from `step` to `done`.
+    pub const LATENCY: u64 = C as u64 + 2;
+}
+
+impl<const C: usize> Circuit for RotationControl<C> {
+    const NAME: &'static str = "rotation_control";
+    const ABOUT: &'static str = "counts the bits of the rotation's coefficients";
+    type In<L: Logic> = In<L>;
+    type Reg<L: Logic> = Reg<L>;
+    type Net<L: Logic> = Net<L>;
+
+    #[inline(always)]
+    fn comb<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Net<L> {
+        const {
+            assert!(
+                C >= 3 && C <= 63,
+                "a coefficient has a fraction, and its bits are counted"
+            )
+        };
+        Net {
+            begin: i.step & !q.busy & !i.halt,
+            fraction: q.busy & q.bit.below((C as u64 - 2).into()),
+            top: q.busy & q.bit.equals((C as u64 - 1).into()),
+            commit: q.busy & q.bit.equals((C as u64).into()) & !i.halt,
+        }
+    }
+
+    #[inline(always)]
+    fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, i: &In<L>) -> Reg<L> {
+        let busy = w.begin | (q.busy & !w.commit & !i.halt);
+        Reg {
+            busy,
+            bit: (busy & !w.begin).mux(q.bit + 1, 0.into()),
+            done: w.commit,
+        }
+    }
+}
+
+impl<const C: usize> Specified for RotationControl<C> {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step("a step is taken where none is under way", |now, next| {
+                let taken = now.i.step.get() && !now.i.halt.get() && !now.q.busy.get();
+                let begins = next.busy.get() && next.bit.get() == 0 && now.w.begin.get();
+                require(taken == begins, ["busy", "bit", "begin"], || {
+                    "not so".into()
+                })
+            })
+            .step("halt ends it", |now, next| {
+                let right = !next.busy.get() && !next.done.get();
+                require(right || !now.i.halt.get(), ["busy", "done"], || {
+                    "goes on".into()
+                })
+            })
+            .step("each bit comes once, in order", |now, next| {
+                let under_way = now.q.busy.get() && !now.i.halt.get();
+                let (bit, last) = (now.q.bit.get(), C as u64);
+                let expected = (bit < last).then_some(bit + 1);
+                let after = next.busy.get().then(|| next.bit.get());
+                let right = after == expected && next.done.get() == (bit == last);
+                require(right || !under_way, ["bit", "done"], || {
+                    format!("{after:?} after {bit}")
+                })
+            })
+            .step("done where a step ends, nowhere else", |now, next| {
+                let right = next.done.get() <= now.q.busy.get();
+                require(right, ["done"], || "without a step".into())
+            })
+            .always("fraction, a one, the sign, then the point", |now| {
+                let (bit, w) = (now.q.bit.get(), now.w);
+                let kinds = [w.fraction.get(), w.top.get(), w.commit.get()];
+                let count = kinds.iter().filter(|kind| **kind).count();
+                let expected = match now.q.busy.get() {
+                    false => [false; 3],
+                    true => [
+                        bit + 2 < C as u64,
+                        bit + 1 == C as u64,
+                        bit == C as u64 && !now.i.halt.get(),
+                    ],
+                };
+                require(
+                    kinds == expected && count <= 1,
+                    ["fraction", "top", "commit"],
+                    || format!("bit {bit}"),
+                )
+            })
+    }
+}
