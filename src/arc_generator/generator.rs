@@ -294,13 +294,13 @@ impl<
         let engine_y = Instance::settle(engine_y, &q.engine_y, engine());
         let engine_z = Instance::settle(engine_z, &q.engine_z, engine());
         let [command_x, command_y, command_z] = &self.commands;
-        let command = |polynomial, vector| position_command::In {
+        let command = |polynomial, offset| position_command::In {
             load: q.memory.load,
             word,
             data,
             rotating: sequencer.w.rotating,
             polynomial,
-            vector,
+            offset,
             present: sequencer.w.present,
         };
         let (x, y, z) = (rotation.w.x, rotation.w.y, rotation.w.z);

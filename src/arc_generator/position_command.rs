@@ -4,7 +4,7 @@
 //!                       ┌──────────────────┐
 //!  load, word, data ───▶│                  │
 //!  rotating ───────────▶│ position_command ├──▶ command
-//!  polynomial, vector ─▶│                  │
+//!  polynomial, offset ─▶│                  │
 //!  present ────────────▶│                  │
 //!                       └──────────────────┘
 //! ```
@@ -31,7 +31,7 @@ signals! {
         /// The coordinate as the difference engine has it.
         pub polynomial: L::I<P>,
         /// The coordinate of the vector from the centre, as the rotation has it.
-        pub vector: L::I<P>,
+        pub offset: L::I<P>,
         /// The point becomes the command.
         pub present: L::Bit,
     }
@@ -82,7 +82,7 @@ impl<const W: usize, const P: usize, const D: usize> Circuit for PositionCommand
                 "there are guard bits, and a record holds them"
             )
         };
-        let point = q.origin + i.rotating.mux(i.vector, i.polynomial);
+        let point = q.origin + i.rotating.mux(i.offset, i.polynomial);
         let raised = point + (1i64 << (P - W - 1));
         Net {
             point,
@@ -110,7 +110,7 @@ impl<const W: usize, const P: usize, const D: usize> Specified for PositionComma
                 "the command is the point to the nearest count",
                 move |now, next| {
                     let from = match now.i.rotating.get() {
-                        true => now.i.vector,
+                        true => now.i.offset,
                         false => now.i.polynomial,
                     };
                     // Half a count off at most, a half upwards, and as far as a command reaches.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!         ┌──────────────────┐
-//!  step ─▶│                  ├──▶ begin, fraction, top, commit
+//!  step ─▶│                  ├──▶ copy, fraction, top, commit
 //!  halt ─▶│ rotation_control ├──▶ busy, done
 //!         └──────────────────┘
 //! ```
@@ -31,7 +31,7 @@ signals! {
         /// A step is under way.
         pub busy: L::Bit = 0,
         /// The bit the rows are at; those of the fraction come first.
-        bit: L::U<6> = 0,
+        bit_index: L::U<6> = 0,
         /// The new point stands in this tick.
         pub done: L::Bit = 0,
     }
@@ -41,7 +41,7 @@ signals! {
     /// Nets.
     pub struct Net<L> {
         /// A step is taken: the rows copy their coefficients.
-        pub begin: L::Bit,
+        pub copy: L::Bit,
         /// The bit is one of the fraction.
         pub fraction: L::Bit,
         /// The bit is the sign, of weight −2.
@@ -78,19 +78,19 @@ impl<const C: usize> Circuit for RotationControl<C> {
             )
         };
         Net {
-            begin: i.step & !q.busy & !i.halt,
-            fraction: q.busy & q.bit.below((C as u64 - 2).into()),
-            top: q.busy & q.bit.equals((C as u64 - 1).into()),
-            commit: q.busy & q.bit.equals((C as u64).into()) & !i.halt,
+            copy: i.step & !q.busy & !i.halt,
+            fraction: q.busy & q.bit_index.below((C as u64 - 2).into()),
+            top: q.busy & q.bit_index.equals((C as u64 - 1).into()),
+            commit: q.busy & q.bit_index.equals((C as u64).into()) & !i.halt,
         }
     }
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, i: &In<L>) -> Reg<L> {
-        let busy = w.begin | (q.busy & !w.commit & !i.halt);
+        let busy = w.copy | (q.busy & !w.commit & !i.halt);
         Reg {
             busy,
-            bit: (busy & !w.begin).mux(q.bit + 1, 0.into()),
+            bit_index: (busy & !w.copy).mux(q.bit_index + 1, 0.into()),
             done: w.commit,
         }
     }
@@ -101,8 +101,8 @@ impl<const C: usize> Specified for RotationControl<C> {
         Invariants::<Self>::new()
             .step("a step is taken where none is under way", |now, next| {
                 let taken = now.i.step.get() && !now.i.halt.get() && !now.q.busy.get();
-                let begins = next.busy.get() && next.bit.get() == 0 && now.w.begin.get();
-                require(taken == begins, ["busy", "bit", "begin"], || {
+                let begins = next.busy.get() && next.bit_index.get() == 0 && now.w.copy.get();
+                require(taken == begins, ["busy", "bit_index", "copy"], || {
                     "not so".into()
                 })
             })
@@ -114,11 +114,11 @@ impl<const C: usize> Specified for RotationControl<C> {
             })
             .step("each bit comes once, in order", |now, next| {
                 let under_way = now.q.busy.get() && !now.i.halt.get();
-                let (bit, last) = (now.q.bit.get(), C as u64);
+                let (bit, last) = (now.q.bit_index.get(), C as u64);
                 let expected = (bit < last).then_some(bit + 1);
-                let after = next.busy.get().then(|| next.bit.get());
+                let after = next.busy.get().then(|| next.bit_index.get());
                 let right = after == expected && next.done.get() == (bit == last);
-                require(right || !under_way, ["bit", "done"], || {
+                require(right || !under_way, ["bit_index", "done"], || {
                     format!("{after:?} after {bit}")
                 })
             })
@@ -127,7 +127,7 @@ impl<const C: usize> Specified for RotationControl<C> {
                 require(right, ["done"], || "without a step".into())
             })
             .always("fraction, a one, the sign, then the point", |now| {
-                let (bit, w) = (now.q.bit.get(), now.w);
+                let (bit, w) = (now.q.bit_index.get(), now.w);
                 let kinds = [w.fraction.get(), w.top.get(), w.commit.get()];
                 let count = kinds.iter().filter(|kind| **kind).count();
                 let expected = match now.q.busy.get() {

@@ -4,7 +4,7 @@
 //! ```text
 //!                         ┌──────────────┐
 //!  load, word, data ─────▶│              │
-//!  begin, fraction, top ─▶│ rotation_row ├──▶ vector
+//!  copy, fraction, top ──▶│ rotation_row ├──▶ offset
 //!  commit ───────────────▶│              │
 //!  x, y, z ──────────────▶│              │
 //!                         └──────────────┘
@@ -28,8 +28,8 @@ signals! {
         pub word: L::U<5>,
         /// Its data.
         pub data: L::U<D> as Hex,
-        /// A step begins.
-        pub begin: L::Bit,
+        /// A step begins: the coefficients are copied.
+        pub copy: L::Bit,
         /// The bit is one of the fraction.
         pub fraction: L::Bit,
         /// The bit is the sign, of weight −2.
@@ -49,7 +49,7 @@ signals! {
     /// Flip-flops.
     pub struct Reg<L, const P: usize, const C: usize, const S: usize> {
         /// This row's coordinate of the vector from the centre to the point.
-        pub vector: L::I<P> as Analog = 0,
+        pub offset: L::I<P> as Analog = 0,
         /// Coefficient of x.
         by_x: L::U<C> as Hex = 0,
         /// Coefficient of y.
@@ -72,11 +72,19 @@ signals! {
 signals! {
     /// Nets.
     pub struct Net<L, const P: usize, const S: usize> {
-        /// Those of x, y, z whose coefficient has the bit, added.
+        /// X where its coefficient has the bit, else 0.
+        term_x: L::I<S>,
+        /// Y likewise.
+        term_y: L::I<S>,
+        /// Z likewise.
+        term_z: L::I<S>,
+        /// The three terms added.
         addend: L::I<S>,
         /// The sum with it.
         total: L::I<S>,
-        /// The sum, rounded.
+        /// The sum with what rounds it.
+        raised: L::I<S>,
+        /// The coordinate of the new point.
         rounded: L::I<P>,
     }
 }
@@ -116,16 +124,22 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
         };
         let term =
             |bits: L::U<C>, word: L::I<P>| -> L::I<S> { bits.bit(0).mux(word.resize(), 0.into()) };
-        let addend = term(q.bits_x, i.x) + term(q.bits_y, i.y) + term(q.bits_z, i.z);
+        let (term_x, term_y) = (term(q.bits_x, i.x), term(q.bits_y, i.y));
+        let term_z = term(q.bits_z, i.z);
+        let addend = term_x + term_y + term_z;
         let half: L::U<S> = q.half.word().resize();
-        let rounded = match self.rounding {
+        let raised = match self.rounding {
             Rounding::Nearest => q.sum + half.signed(),
             Rounding::Floor => q.sum,
         };
         Net {
+            term_x,
+            term_y,
+            term_z,
             addend,
             total: q.sum + i.top.mux(-addend.shift_left(1), addend),
-            rounded: rounded.resize(),
+            raised,
+            rounded: raised.resize(),
         }
     }
 
@@ -142,16 +156,16 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
         let by_x = is("x_word", first).mux(coefficient, q.by_x);
         let by_y = is("y_word", first + 1).mux(coefficient, q.by_y);
         let by_z = is("z_word", first + 2).mux(coefficient, q.by_z);
-        let vector = is("vector_word", 2 + self.coordinate);
+        let offset = is("offset_word", 2 + self.coordinate);
         Reg {
-            vector: vector.mux(i.data.resize().signed(), i.commit.mux(w.rounded, q.vector)),
-            bits_x: i.begin.mux(q.by_x, q.bits_x.shift_right(1)),
-            bits_y: i.begin.mux(q.by_y, q.bits_y.shift_right(1)),
-            bits_z: i.begin.mux(q.by_z, q.bits_z.shift_right(1)),
+            offset: offset.mux(i.data.resize().signed(), i.commit.mux(w.rounded, q.offset)),
+            bits_x: i.copy.mux(q.by_x, q.bits_x.shift_right(1)),
+            bits_y: i.copy.mux(q.by_y, q.bits_y.shift_right(1)),
+            bits_z: i.copy.mux(q.by_z, q.bits_z.shift_right(1)),
             by_x,
             by_y,
             by_z,
-            sum: i.begin.mux(
+            sum: i.copy.mux(
                 0.into(),
                 // Without bits left the total is the sum.
                 i.fraction.mux(w.total.shift_right(1), w.total),

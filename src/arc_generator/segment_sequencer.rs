@@ -88,8 +88,10 @@ signals! {
 signals! {
     /// Nets.
     pub struct Net<L> {
+        /// The word is a record's first.
+        header: L::Bit,
         /// A path begins.
-        begin: L::Bit,
+        begins: L::Bit,
         /// The segment's last point becomes the command.
         over: L::Bit,
         /// The segment is an arc.
@@ -128,13 +130,14 @@ impl<const F: usize, const N: usize, const D: usize> Circuit for SegmentSequence
             )
         };
         let is = |state: u64| q.state.equals(state.into());
-        let begin = is(IDLE) & i.start & i.available & !i.halt;
+        let begins = is(IDLE) & i.start & i.available & !i.halt;
         let present = is(READY) & i.sample & !i.halt;
         let over = present & q.remaining.is_zero();
         let rotating = q.kind.equals(ARC.into());
         let makes = is(STEP) & !i.halt;
         Net {
-            begin,
+            header: i.load & i.word.is_zero(),
+            begins,
             over,
             rotating,
             makes,
@@ -147,13 +150,12 @@ impl<const F: usize, const N: usize, const D: usize> Circuit for SegmentSequence
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, F, N>, w: &Net<L>, i: &In<L, D>) -> Reg<L, F, N> {
-        let word = |number: u64| i.load & i.word.equals(number.into());
-        let (header, modulus) = (word(0), word(1));
+        let modulus = i.load & i.word.equals(1.into());
         let to = |state: u64| -> L::U<3> { state.into() };
         let loaded = i.loaded & q.state.equals(FETCH.into());
         let rotated = i.rotated & q.state.equals(ROTATE.into());
         let ended = i.available.mux(to(FETCH), to(IDLE));
-        let state = w.begin.mux(to(FETCH), q.state);
+        let state = w.begins.mux(to(FETCH), q.state);
         let stands = q.first | q.remaining.is_zero();
         let state = loaded.mux(stands.mux(to(READY), to(STEP)), state);
         let made = w.rotating.mux(to(ROTATE), to(READY));
@@ -162,19 +164,19 @@ impl<const F: usize, const N: usize, const D: usize> Circuit for SegmentSequence
         let state = w.present.mux(w.over.mux(ended, to(STEP)), state);
         Reg {
             state: i.halt.mux(to(IDLE), state),
-            first: w.begin | (q.first & !w.present),
-            kind: header.mux(i.data.resize(), q.kind),
-            rests: header.mux(i.data.bit(2), q.rests),
-            remaining: header.mux(
+            first: w.begins | (q.first & !w.present),
+            kind: w.header.mux(i.data.resize(), q.kind),
+            rests: w.header.mux(i.data.bit(2), q.rests),
+            remaining: w.header.mux(
                 i.data.shift_right(3).resize(),
                 w.makes.mux(q.remaining - 1, q.remaining),
             ),
             modulus: modulus.mux(i.data.resize(), q.modulus),
-            take: w.begin | (w.over & i.available),
+            take: w.begins | (w.over & i.available),
             rotate: w.makes & w.rotating,
             sampled: w.present,
-            late: (q.late & !w.begin) | w.hurried,
-            starved: (q.starved & !w.begin) | (w.over & !q.rests & !i.available),
+            late: (q.late & !w.begins) | w.hurried,
+            starved: (q.starved & !w.begins) | (w.over & !q.rests & !i.available),
         }
     }
 }

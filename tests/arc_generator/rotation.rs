@@ -50,7 +50,7 @@ fn load<'c, const P: usize, const C: usize, const S: usize, const D: usize>(
 }
 
 fn vector<const P: usize, const C: usize, const S: usize>(q: &Reg<Sim, P, C, S>) -> [i128; 3] {
-    [&q.row_x, &q.row_y, &q.row_z].map(|row| row.vector.get().into())
+    [&q.row_x, &q.row_y, &q.row_z].map(|row| row.offset.get().into())
 }
 
 /// A step, with every tick of it looked at: nothing changes before its end.

@@ -24,11 +24,11 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         DifferenceColumn<40, 41, 42>,
         column(),
-        Some(2),
+        Some(3),
         "JPH0743606B2 [5], [10]: a difference",
         ["P" = 40, "F" = 41, "D" = 42],
         "width of wholes and parts",
-        proved_at!(2; [4 8], |given, W| column::<W, W, W>())
+        proved_at!(3; [4 8], |given, W| column::<W, W, W>())
     ),
     entry!(
         DifferenceEngine<40, 41, 42>,
@@ -77,9 +77,9 @@ pub(super) const CIRCUITS: &[Entry] = &[
         Some(2),
         "JPH0743606B2 [4]",
         ["W" = 24, "P" = 40, "D" = 42],
-        "width of commands; half as many guard bits",
+        "width of commands; as many guard bits",
         proved_at!(2; [4 8], |given, W| {
-            PositionCommand::<W, { W * 3 / 2 }, { W * 3 / 2 }>::default()
+            PositionCommand::<W, { 2 * W }, { 2 * W }>::default()
         })
     ),
     entry!(
