@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod arc_generator;
 pub mod blocks;
 pub mod check;
 pub mod compare;
