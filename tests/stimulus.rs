@@ -305,6 +305,7 @@ const JOBS: &[&str] = &[
     "compensator",
     "ram_compensator",
     "conventional_compensator",
+    "arc_generator",
 ];
 
 #[test]
