@@ -10,6 +10,7 @@ mod pack;
 mod probe;
 mod property;
 mod reset;
+mod running;
 mod signals;
 mod simulator;
 #[cfg(test)]
@@ -23,5 +24,6 @@ pub use pack::{Bits, pack, unpack, width, zero};
 pub use probe::{Changed, Probe, Source, Words};
 pub(crate) use probe::{STAGE, WORD};
 pub use property::{Moment, Property};
+pub(crate) use running::{Machine, Running, Values};
 pub use signals::{Field, Format, Kind, Make, Nothing, Role, Shape, Signals, Visit};
 pub use simulator::Simulator;

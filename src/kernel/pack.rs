@@ -1,4 +1,4 @@
-use super::probe::{Probe, Source};
+use super::probe::{Probe, Source, Supplied};
 use super::signals::{Field, Shape, Signals};
 use crate::logic::Sim;
 use bitvec::prelude::*;
@@ -43,19 +43,20 @@ pub fn width<S: Signals<Sim>>() -> usize {
         }
     }
     let mut counter = Counter(0);
-    S::make(const { &Field::named("") }, &mut counter);
+    S::make(const { &Field::named("") }, &mut Supplied(&mut counter));
     counter.0
 }
 
 /// A bundle with every bit low.
-#[inline(always)]
 pub fn zero<S: Signals<Sim>>() -> S {
-    struct Zero;
-    impl Source for Zero {
-        #[inline(always)]
-        fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
-            0
-        }
+    S::make(const { &Field::named("") }, &mut Supplied(&mut Zero))
+}
+
+struct Zero;
+
+impl Source for Zero {
+    #[inline(always)]
+    fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
+        0
     }
-    S::make(const { &Field::named("") }, &mut Zero)
 }
