@@ -1,5 +1,6 @@
 use super::Circuit;
 use super::probe::{Probe, Shown, Source, Supplied, Words};
+use super::running::show_power_on;
 use super::signals::{Field, Role, Shape, Signals};
 use crate::logic::Sim;
 use std::any::Any;
@@ -12,8 +13,7 @@ use std::collections::VecDeque;
 pub(super) fn reset<C: Circuit>(circuit: &C, edge: &C::Reg<Sim>) -> C::Reg<Sim> {
     let field = const { &Field::part(Role::Register) };
     let mut flip_flops = FlipFlops::default();
-    let power_on = circuit.power_on();
-    power_on.visit(field, &mut Shown(&mut flip_flops));
+    show_power_on(circuit, &mut flip_flops);
     let mut memories = Memories::default();
     edge.visit(field, &mut Shown(&mut memories));
     let mut registers = Registers {

@@ -98,6 +98,12 @@ impl<C: Circuit> Running for Machine<'_, C> {
     }
 }
 
+/// Shows the registers at power-on.
+pub(crate) fn show_power_on<C: Circuit>(circuit: &C, probe: &mut dyn Probe) {
+    let field = const { &Field::part(Role::Register) };
+    circuit.power_on().visit(field, &mut Shown(probe));
+}
+
 /// The words of a walk, in its order.
 #[derive(Default)]
 pub(crate) struct Values(pub(crate) Vec<u64>);

@@ -1,7 +1,7 @@
 use super::Netlist;
 use super::build::{constant, node, shape};
 use super::node::{BIT, Id, Node, Operator, signed, unsigned};
-use crate::kernel::{Field, Kind, Make, Shape, Signals, Visit};
+use crate::kernel::{Field, Make, Shape, Signals, Visit};
 use crate::logic::{Bit, Select, Signed, Unsigned};
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 
@@ -233,31 +233,3 @@ impl<const N: usize> Signed<Netlist, N> for NetInt<N> {
         NetUInt(node(Node::Cast(self.0), unsigned(N)))
     }
 }
-
-/// The node behind a word, and back.
-pub(super) trait Word: Copy {
-    /// Kind and width.
-    const SHAPE: Shape;
-    /// The node.
-    fn id(self) -> Id;
-    /// The word.
-    fn of(id: Id) -> Self;
-}
-
-macro_rules! word {
-    ($word:ty, $kind:ident, $width:expr $(, $n:ident)?) => {
-        impl$(<const $n: usize>)? Word for $word {
-            const SHAPE: Shape = Shape { kind: Kind::$kind, width: $width };
-            fn id(self) -> Id {
-                self.0
-            }
-            fn of(id: Id) -> Self {
-                Self(id)
-            }
-        }
-    };
-}
-
-word!(NetBit, Bit, 1);
-word!(NetUInt<N>, Unsigned, N, N);
-word!(NetInt<N>, Signed, N, N);
