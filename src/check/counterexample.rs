@@ -58,27 +58,18 @@ impl<C: Circuit> Counterexample<C> {
     /// The files cannot be written.
     pub fn save(&self, circuit: &C, clock: Clock, dir: &Path) -> Result<Vec<PathBuf>, RunError> {
         let inputs = self.inputs.iter().cloned();
-        let stem: String = format!("{} {}", C::NAME, self.invariant)
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-            .collect();
-        trace::replay(circuit, inputs, clock, dir, &stem)
+        trace::replay(circuit, inputs, clock, dir, &stem(C::NAME, &self.invariant))
     }
 }
 
 impl<C: Circuit> fmt::Display for Counterexample<C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Counterexample {
-            tick,
-            invariant,
-            message,
-            ..
-        } = self;
-        let signals = self.signals.join(", ");
-        writeln!(
-            f,
-            "tick {tick}: {invariant}: {message} (signals: {signals})"
-        )?;
+        f.write_str(&report(
+            self.tick,
+            &self.invariant,
+            &self.message,
+            &self.signals,
+        ))?;
         f.write_str(&self.table)
     }
 }
@@ -87,6 +78,20 @@ impl<C: Circuit> fmt::Debug for Counterexample<C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
     }
+}
+
+/// The name of its files.
+fn stem(circuit: &str, invariant: &str) -> String {
+    format!("{circuit} {invariant}")
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+        .collect()
+}
+
+/// What stands above its table.
+fn report(tick: u64, invariant: &str, message: &str, signals: &[String]) -> String {
+    let signals = signals.join(", ");
+    format!("tick {tick}: {invariant}: {message} (signals: {signals})\n")
 }
 
 /// The last ticks, a signal a row, those at fault first and marked; in the last column the
