@@ -1,4 +1,4 @@
-use super::probe::{Source, Supplied};
+use super::probe::{Source, supply};
 use super::property::{Moment, Property};
 use super::signals::{Field, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Logic, Sim};
@@ -57,8 +57,7 @@ pub trait Circuit {
                 field.power_on as u64
             }
         }
-        let mut maker = Supplied(&mut PowerOn);
-        Self::Reg::make(const { &Field::part(Role::Register) }, &mut maker)
+        supply(Role::Register, &mut PowerOn)
     }
 }
 

@@ -22,7 +22,7 @@ pub use declare::{Declaration, Declarations, MemoryDeclaration, Path};
 pub use observe::{Observer, RunError, Sample, StopWhen};
 pub use pack::{Bits, pack, unpack, width, zero};
 pub use probe::{Changed, Probe, Source, Words};
-pub(crate) use probe::{STAGE, WORD};
+pub(crate) use probe::{STAGE, WORD, part};
 pub use property::{Moment, Property};
 pub(crate) use running::{Machine, Running, Values, show_power_on};
 pub use signals::{Field, Format, Kind, Make, Nothing, Role, Shape, Signals, Visit};

@@ -1,5 +1,5 @@
-use super::probe::{Probe, Source, Supplied};
-use super::signals::{Field, Shape, Signals};
+use super::probe::{Probe, Source, supply};
+use super::signals::{Field, Role, Shape, Signals};
 use crate::logic::Sim;
 use bitvec::prelude::*;
 
@@ -43,13 +43,13 @@ pub fn width<S: Signals<Sim>>() -> usize {
         }
     }
     let mut counter = Counter(0);
-    S::make(const { &Field::named("") }, &mut Supplied(&mut counter));
+    supply::<S>(Role::Input, &mut counter);
     counter.0
 }
 
 /// A bundle with every bit low.
 pub fn zero<S: Signals<Sim>>() -> S {
-    S::make(const { &Field::named("") }, &mut Supplied(&mut Zero))
+    supply(Role::Input, &mut Zero)
 }
 
 struct Zero;

@@ -1,4 +1,4 @@
-use super::signals::{Field, Kind, Make, Shape, Visit};
+use super::signals::{Field, Kind, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Image, Signed, Sim, sim::*};
 use std::any::Any;
 
@@ -105,7 +105,28 @@ impl<P: Probe> Visit<Sim> for P {
     }
 }
 
-/// Any probe by one type, so that a walk is compiled once for all of them.
+/// Shows a part of a circuit: the same walk as any other, compiled once for all probes.
+#[inline(never)]
+pub(super) fn show<S: Signals<Sim>>(signals: &S, role: Role, probe: &mut dyn Probe) {
+    signals.visit(part(role), &mut Shown(probe));
+}
+
+/// Makes a part of a circuit: compiled once for all sources.
+#[inline(never)]
+pub(super) fn supply<S: Signals<Sim>>(role: Role, source: &mut dyn Source) -> S {
+    S::make(part(role), &mut Supplied(source))
+}
+
+/// What holds of the struct of a part.
+pub(crate) fn part(role: Role) -> &'static Field {
+    match role {
+        Role::Input => const { &Field::part(Role::Input) },
+        Role::Register => const { &Field::part(Role::Register) },
+        Role::Net => const { &Field::part(Role::Net) },
+    }
+}
+
+/// Any probe by one type.
 pub(super) struct Shown<'a>(pub(super) &'a mut dyn Probe);
 
 impl Probe for Shown<'_> {
@@ -212,8 +233,8 @@ impl<S: Source> Make<Sim> for S {
     }
 }
 
-/// Any source by one type, so that a walk is compiled once for all of them.
-pub(super) struct Supplied<'a>(pub(super) &'a mut dyn Source);
+/// Any source by one type.
+struct Supplied<'a>(&'a mut dyn Source);
 
 impl Source for Supplied<'_> {
     fn enter(&mut self, field: &'static Field) {

@@ -1,7 +1,6 @@
 use super::Circuit;
-use super::probe::{Probe, Shown, Source, Supplied, Words};
-use super::running::show_power_on;
-use super::signals::{Field, Role, Shape, Signals};
+use super::probe::{Probe, Source, Words, show, supply};
+use super::signals::{Field, Role, Shape};
 use crate::logic::Sim;
 use std::any::Any;
 use std::collections::VecDeque;
@@ -11,16 +10,15 @@ use std::collections::VecDeque;
 ///
 /// Memories are taken whole, with what they say they changed: waves look at nothing else.
 pub(super) fn reset<C: Circuit>(circuit: &C, edge: &C::Reg<Sim>) -> C::Reg<Sim> {
-    let field = const { &Field::part(Role::Register) };
     let mut flip_flops = FlipFlops::default();
-    show_power_on(circuit, &mut flip_flops);
+    show(&circuit.power_on(), Role::Register, &mut flip_flops);
     let mut memories = Memories::default();
-    edge.visit(field, &mut Shown(&mut memories));
+    show(edge, Role::Register, &mut memories);
     let mut registers = Registers {
         flip_flops,
         memories,
     };
-    C::Reg::make(field, &mut Supplied(&mut registers))
+    supply(Role::Register, &mut registers)
 }
 
 /// The flip-flops of a walk, in its order.

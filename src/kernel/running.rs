@@ -1,7 +1,7 @@
 use super::Circuit;
 use super::circuit::settled;
 use super::pack::zero;
-use super::probe::{Probe, Shown, Source, Supplied};
+use super::probe::{Probe, Source, show, supply};
 use super::reset::reset;
 use super::signals::{Field, Role, Shape, Signals};
 use crate::logic::Sim;
@@ -66,23 +66,17 @@ impl<C: Circuit> Running for Machine<'_, C> {
     }
 
     fn settle(&mut self, inputs: &mut dyn Source) {
-        let field = const { &Field::part(Role::Input) };
-        self.i = C::In::make(field, &mut Supplied(inputs));
+        self.i = supply(Role::Input, inputs);
         if let Some(q) = &self.q {
             self.w = settled(self.circuit, q, &self.i);
         }
     }
 
     fn part(&self, role: Role, probe: &mut dyn Probe) {
-        let mut probe = Shown(probe);
         match (role, &self.q) {
-            (Role::Input, _) => self
-                .i
-                .visit(const { &Field::part(Role::Input) }, &mut probe),
-            (Role::Net, _) => self.w.visit(const { &Field::part(Role::Net) }, &mut probe),
-            (Role::Register, Some(q)) => {
-                q.visit(const { &Field::part(Role::Register) }, &mut probe);
-            }
+            (Role::Input, _) => show(&self.i, role, probe),
+            (Role::Net, _) => show(&self.w, role, probe),
+            (Role::Register, Some(q)) => show(q, role, probe),
             (Role::Register, None) => {}
         }
     }
@@ -100,8 +94,7 @@ impl<C: Circuit> Running for Machine<'_, C> {
 
 /// Shows the registers at power-on.
 pub(crate) fn show_power_on<C: Circuit>(circuit: &C, probe: &mut dyn Probe) {
-    let field = const { &Field::part(Role::Register) };
-    circuit.power_on().visit(field, &mut Shown(probe));
+    show(&circuit.power_on(), Role::Register, probe);
 }
 
 /// The words of a walk, in its order.
@@ -109,14 +102,14 @@ pub(crate) fn show_power_on<C: Circuit>(circuit: &C, probe: &mut dyn Probe) {
 pub(crate) struct Values(pub(crate) Vec<u64>);
 
 impl Values {
-    /// Those of a bundle.
+    /// Those of ports in.
     pub(crate) fn of<S: Signals<Sim>>(signals: &S) -> Self {
         let mut values = Values::default();
-        signals.visit(const { &Field::named("") }, &mut Shown(&mut values));
+        show(signals, Role::Input, &mut values);
         values
     }
 
-    /// Gives them to a bundle of the same kind.
+    /// Gives them to the same ports.
     pub(crate) fn source(&self) -> impl Source {
         Given(self.0.iter())
     }

@@ -57,7 +57,7 @@ impl<C: Circuit> AnyModel for C {
     }
 
     fn layout(&self) -> Result<(), LayoutError> {
-        Layout::of(&Machine::new(self), None).map(drop)
+        Layout::check(&Machine::new(self))
     }
 
     fn chart(&self, chart: &Chart) -> Result<(), ChartFailure> {

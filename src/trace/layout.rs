@@ -82,6 +82,11 @@ pub(crate) struct Scope {
 }
 
 impl Layout {
+    /// Whether the signals of a circuit can be laid out.
+    pub fn check(circuit: &dyn Running) -> Result<(), LayoutError> {
+        Layout::of(circuit, None).map(drop)
+    }
+
     pub fn of(circuit: &dyn Running, only: Option<&[String]>) -> Result<Self, LayoutError> {
         let leaves = Declarations::walked(circuit).leaves;
         check(circuit.name(), &leaves)?;

@@ -3,7 +3,7 @@ use super::build::{Builder, Building, Elaboration, PowerOn, builder, elaboration
 use super::leaves::{Leaves, NextRegisters, Ports};
 use super::memory::State;
 use super::module::{Child, Design, Module, NetlistError, Register, Setting, Value};
-use super::nets::{Edge, Leaf, Nets};
+use super::nets::{Leaf, Nets};
 use super::node::Node;
 use super::properties::note_properties;
 use super::walk::{look, make};
@@ -17,27 +17,51 @@ use std::ops::Range;
 /// What a netlist cannot say of the circuit: it looks into a circuit inside it past the ports,
 /// replaces that circuit's registers, or uses a memory after its edge.
 pub fn elaborate<C: Circuit>(circuit: &C) -> Result<Design, Vec<NetlistError>> {
-    // A thread may be in the middle of another one.
-    let outer = elaboration(mem::take);
-    let mut values = PowerOnValues(Vec::new());
-    show_power_on(circuit, &mut values);
-    let (_, settings) = module(circuit, values.0);
-    finish(outer, settings)
+    let mut whole = Whole::begin();
+    show_power_on(circuit, &mut whole);
+    let (_, settings) = module(circuit, mem::take(&mut whole.power_on));
+    whole.end(settings)
 }
 
-/// What has been made; goes on with what was being made before.
-fn finish(outer: Elaboration, mut settings: Vec<Setting>) -> Result<Design, Vec<NetlistError>> {
-    let made = elaboration(|elaboration| mem::replace(elaboration, outer));
-    settings.retain(|setting| match setting.value {
-        Value::Number(_) => true,
-        Value::Words(_) => is_filled(&made.modules, &setting.path),
-    });
-    match made.errors.is_empty() {
-        true => Ok(Design {
-            modules: made.modules,
-            settings,
-        }),
-        false => Err(made.errors),
+/// The elaboration of a whole circuit.
+struct Whole {
+    /// A thread may be in the middle of another one.
+    outer: Elaboration,
+    power_on: Vec<PowerOn>,
+}
+
+impl Whole {
+    fn begin() -> Self {
+        Whole {
+            outer: elaboration(mem::take),
+            power_on: Vec::new(),
+        }
+    }
+
+    fn end(self, mut settings: Vec<Setting>) -> Result<Design, Vec<NetlistError>> {
+        let made = elaboration(|elaboration| mem::replace(elaboration, self.outer));
+        settings.retain(|setting| match setting.value {
+            Value::Number(_) => true,
+            Value::Words(_) => is_filled(&made.modules, &setting.path),
+        });
+        match made.errors.is_empty() {
+            true => Ok(Design {
+                modules: made.modules,
+                settings,
+            }),
+            false => Err(made.errors),
+        }
+    }
+}
+
+/// Collects power-on values.
+impl Probe for Whole {
+    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
+        self.power_on.push(PowerOn::Bits(bits));
+    }
+    fn memory(&mut self, _: &'static Field, words: &dyn Words) {
+        let words = (0..words.len()).map(|index| words.word(index));
+        self.power_on.push(PowerOn::Words(words.collect()));
     }
 }
 
@@ -51,7 +75,9 @@ fn module<C: Circuit>(circuit: &C, power_on: Vec<PowerOn>) -> (usize, Vec<Settin
     look(&w, Role::Net, &mut nets);
     let next = circuit.next::<Netlist>(q.clone(), &w, &i);
     note_properties(circuit, &i, &q, &w);
-    end(C::ABOUT, nets, &Edge::of(&next, Role::Register))
+    let mut edge = Vec::new();
+    look(&next, Role::Register, &mut edge);
+    end(C::ABOUT, nets, edge)
 }
 
 /// A module begins, inside the one that is being made.
@@ -66,13 +92,13 @@ fn begin(name: &'static str, power_on: Vec<PowerOn>) {
 }
 
 /// It ends; returns its number and its settings.
-fn end(about: &'static str, nets: Nets, edge: &[Leaf]) -> (usize, Vec<Setting>) {
+fn end(about: &'static str, nets: Nets, edge: Vec<Leaf>) -> (usize, Vec<Setting>) {
     elaboration(|elaboration| {
         let builder = elaboration.open.pop().unwrap_or_default();
         let (module, settings) = builder.finish(
             about,
             nets,
-            edge,
+            &edge,
             &elaboration.modules,
             &mut elaboration.errors,
         );
@@ -139,10 +165,12 @@ pub(super) fn settle<C: Circuit>(
     q: &C::Reg<Netlist>,
     i: &C::In<Netlist>,
 ) -> C::Net<Netlist> {
-    let registers = places(&Edge::of(q, Role::Register));
-    let inputs = Edge::of(i, Role::Input);
-    let (module, settings) = module(circuit, power_on(registers.clone()));
-    let instance = instance(C::NAME, registers, &inputs, module, settings);
+    let (mut registers, mut inputs) = (Vec::new(), Vec::new());
+    look(q, Role::Register, &mut registers);
+    look(i, Role::Input, &mut inputs);
+    let registers = places(registers);
+    let made = module(circuit, power_on(registers.clone()));
+    let instance = instance(C::NAME, registers, inputs, made);
     make(Role::Net, &mut Ports { instance, leaf: 0 })
 }
 
@@ -158,11 +186,10 @@ fn power_on(registers: Range<usize>) -> Vec<PowerOn> {
 fn instance(
     circuit: &'static str,
     registers: Range<usize>,
-    inputs: &[Leaf],
-    module: usize,
-    settings: Vec<Setting>,
+    inputs: Vec<Leaf>,
+    (module, settings): (usize, Vec<Setting>),
 ) -> usize {
-    let inputs = inputs.iter().filter_map(|leaf| match *leaf {
+    let inputs = inputs.into_iter().filter_map(|leaf| match leaf {
         Leaf::Word(id) => Some(id),
         Leaf::Memory(..) => None,
     });
@@ -183,17 +210,19 @@ fn instance(
 
 /// What a circuit inside the one that is being made makes of its registers.
 pub(super) fn clock<C: Circuit>(q: &C::Reg<Netlist>) -> C::Reg<Netlist> {
-    let place = places(&Edge::of(q, Role::Register)).start;
+    let mut registers = Vec::new();
+    look(q, Role::Register, &mut registers);
+    let place = places(registers).start;
     make(Role::Register, &mut NextRegisters { place })
 }
 
 /// Where the registers of a circuit stand among those of the one being made; none where they are
 /// not its registers in their order.
-fn places(leaves: &[Leaf]) -> Range<usize> {
+fn places(leaves: Vec<Leaf>) -> Range<usize> {
     builder(|builder| {
         let wanted: Vec<Option<Register>> = leaves
-            .iter()
-            .map(|leaf| match *leaf {
+            .into_iter()
+            .map(|leaf| match leaf {
                 Leaf::Word(id) => match builder.nodes.get(id) {
                     Some((Node::Signal(signal), _)) => Some(Register::Signal(*signal)),
                     _ => None,
@@ -214,17 +243,4 @@ fn places(leaves: &[Leaf]) -> Range<usize> {
         });
         if there { start..end } else { start..start }
     })
-}
-
-/// Collects power-on values.
-struct PowerOnValues(Vec<PowerOn>);
-
-impl Probe for PowerOnValues {
-    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
-        self.0.push(PowerOn::Bits(bits));
-    }
-    fn memory(&mut self, _: &'static Field, words: &dyn Words) {
-        let words = (0..words.len()).map(|index| words.word(index));
-        self.0.push(PowerOn::Words(words.collect()));
-    }
 }

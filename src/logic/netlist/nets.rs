@@ -1,11 +1,10 @@
 //! What a circuit's walks show: leaves as they come, and nets with the scopes of instances.
 
-use super::Netlist;
 use super::build::{builder, flat, signal};
 use super::memory::State;
 use super::node::{Id, Node};
-use super::walk::{Look, look};
-use crate::kernel::{Field, Path, Role, Shape, Signals};
+use super::walk::Look;
+use crate::kernel::{Field, Path, Role, Shape};
 
 /// A leaf after the edge, or of the inputs of an instance.
 #[derive(Debug, Clone, Copy)]
@@ -14,24 +13,12 @@ pub(super) enum Leaf {
     Memory(usize, State),
 }
 
-/// Collects leaves.
-pub(super) struct Edge(Vec<Leaf>);
-
-impl Edge {
-    /// The leaves of a part of a circuit.
-    pub(super) fn of<S: Signals<Netlist>>(signals: &S, role: Role) -> Vec<Leaf> {
-        let mut edge = Edge(Vec::new());
-        look(signals, role, &mut edge);
-        edge.0
-    }
-}
-
-impl Look for Edge {
+impl Look for Vec<Leaf> {
     fn word(&mut self, _: &'static Field, _: Shape, id: Id) {
-        self.0.push(Leaf::Word(id));
+        self.push(Leaf::Word(id));
     }
     fn memory(&mut self, memory: usize, state: State) {
-        self.0.push(Leaf::Memory(memory, state));
+        self.push(Leaf::Memory(memory, state));
     }
 }
 

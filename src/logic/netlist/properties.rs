@@ -4,10 +4,11 @@ use super::Netlist;
 use super::build::{builder, node};
 use super::memory::State;
 use super::module::Assertion;
-use super::nets::{Edge, Leaf};
+use super::nets::Leaf;
 use super::node::{Id, Node};
-use super::walk::{Give, make};
-use crate::kernel::{Circuit, Field, Moment, Property, Role, Shape, Signals};
+use super::walk::{Give, Look, look, make};
+use crate::kernel::{Circuit, Field, Moment, Property, Role, Shape};
+use std::collections::VecDeque;
 
 /// Adds the properties of a circuit to the module being made. Those that look over an edge are
 /// about the tick before and the registers of this one.
@@ -21,9 +22,13 @@ pub(super) fn note_properties<C: Circuit>(
     if properties.is_empty() {
         return;
     }
-    let past_i = past(i, Role::Input);
-    let past_q = past(q, Role::Register);
-    let past_w = past(w, Role::Net);
+    let mut past = Past::default();
+    look(i, Role::Input, &mut past);
+    look(q, Role::Register, &mut past);
+    look(w, Role::Net, &mut past);
+    let past_i = make(Role::Input, &mut past);
+    let past_q = make(Role::Register, &mut past);
+    let past_w = make(Role::Net, &mut past);
     let before = Moment {
         i: &past_i,
         q: &past_q,
@@ -46,23 +51,29 @@ fn add(always: Vec<Property<Netlist>>, steps: Vec<Property<Netlist>>) {
     }
 }
 
-/// A bundle as it was a tick ago; memories as they are.
-fn past<S: Signals<Netlist>>(signals: &S, role: Role) -> S {
-    make(role, &mut Past(Edge::of(signals, role).into_iter()))
-}
+/// Makes the bundles that were looked at as they were a tick ago; memories as they are.
+#[derive(Default)]
+struct Past(VecDeque<Leaf>);
 
-struct Past(std::vec::IntoIter<Leaf>);
+impl Look for Past {
+    fn word(&mut self, _: &'static Field, _: Shape, id: Id) {
+        self.0.push_back(Leaf::Word(id));
+    }
+    fn memory(&mut self, memory: usize, state: State) {
+        self.0.push_back(Leaf::Memory(memory, state));
+    }
+}
 
 impl Give for Past {
     fn word(&mut self, _: &'static Field, shape: Shape) -> Id {
-        match self.0.next() {
+        match self.0.pop_front() {
             Some(Leaf::Word(id)) => node(Node::Past(id), shape),
             // The same walk gives the same leaves.
             _ => 0,
         }
     }
     fn memory(&mut self, _: &'static Field, _: usize, _: usize) -> (usize, State) {
-        match self.0.next() {
+        match self.0.pop_front() {
             Some(Leaf::Memory(memory, state)) => (memory, state),
             _ => (0, State::Next),
         }

@@ -4,7 +4,7 @@ use super::Netlist;
 use super::memory::{NetRam, NetShiftRegister, State};
 use super::node::{BIT, Id, signed, unsigned};
 use super::words::{NetBit, NetInt, NetUInt};
-use crate::kernel::{Field, Make, Role, Shape, Signals, Visit};
+use crate::kernel::{Field, Make, Role, Shape, Signals, Visit, part};
 
 /// What is done with the leaves of a bundle.
 pub(super) trait Look {
@@ -35,21 +35,15 @@ pub(super) trait Give {
 }
 
 /// Shows a part of a circuit.
+#[inline(never)]
 pub(super) fn look<S: Signals<Netlist>>(signals: &S, role: Role, look: &mut dyn Look) {
     signals.visit(part(role), &mut Looking(look));
 }
 
 /// Makes a part of a circuit.
+#[inline(never)]
 pub(super) fn make<S: Signals<Netlist>>(role: Role, give: &mut dyn Give) -> S {
     S::make(part(role), &mut Giving(give))
-}
-
-fn part(role: Role) -> &'static Field {
-    match role {
-        Role::Input => const { &Field::part(Role::Input) },
-        Role::Register => const { &Field::part(Role::Register) },
-        Role::Net => const { &Field::part(Role::Net) },
-    }
 }
 
 struct Looking<'a>(&'a mut dyn Look);
