@@ -1,14 +1,43 @@
 //! The arc generator of JPH0743606B2.
+//!
+//! ```text
+//!  path ──▶ prepare ──▶ record ──▶ segments      A ┄┄ blend ┄┄▶ A⁺ ── rotation ──▶ C⁻ ┄┄ blend ┄┄▶ C
+//!                                  in memory        quartic         Δθ a sample        quartic
+//! ```
+//!
+//! A path of lines and arcs in space becomes *segments*, each of a whole number of sampling periods
+//! Ts: at its ends and corners *blends*, quartics of the duration 2ta that meet the pieces in
+//! position and velocity; between them lines and *rotations*, in which the vector from the centre is
+//! multiplied by one constant matrix a sample. What is known beforehand is computed once, in `f64`
+//! and exact integers; per sample the circuit adds, and on an arc multiplies by constants.
+//!
+//! Host side: [`circle`] (an arc from three points), [`path`] (pieces from taught points or a
+//! drawing), [`prepare`](mod@prepare) (pieces as segments), [`record`] (segments as words),
+//! [`bounds`] (how far the rotation may be off), [`reference`] (the same samples by division), [`conventional`] (what the patent compares itself
+//! with), [`measure`] (what came out).
 
+pub mod bounds;
+pub mod circle;
+pub mod conventional;
 pub mod difference_column;
 pub mod difference_engine;
+pub mod error;
 pub mod generator;
+pub mod measure;
+pub mod path;
 pub mod position_command;
+pub mod prepare;
+pub mod prepared;
+pub mod record;
+pub mod reference;
 pub mod rotation;
 pub mod rotation_control;
 pub mod rotation_row;
 pub mod segment_memory;
 pub mod segment_sequencer;
+pub mod settings;
+pub mod vector;
+pub mod widths;
 
 pub use difference_column::DifferenceColumn;
 pub use difference_engine::DifferenceEngine;

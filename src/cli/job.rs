@@ -138,6 +138,7 @@ impl Job {
             scenario::Scenario::PulseInterpolator(scenario) => Ok(scenario),
             scenario::Scenario::LinearInterpolator(_) => Err("linear interpolator"),
             scenario::Scenario::LeadAngle(_) => Err("lead-angle compensator"),
+            scenario::Scenario::ArcGenerator(_) => Err("arc generator"),
         };
         let scenario = scenario.map_err(|circuit| {
             let problem = format!("the {circuit} has no table");

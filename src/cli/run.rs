@@ -71,6 +71,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 &lead_angle::Job::prepare(source, settings, &columns)?,
             )
         }
+        Scenario::ArcGenerator(_) => {
+            let problem = "the arc generator cannot be run yet".to_owned();
+            let allowed = "another circuit".to_owned();
+            Err(source.loaded.fault("circuit", problem, allowed).into())
+        }
     }
 }
 

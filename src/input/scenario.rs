@@ -4,6 +4,7 @@
 //! their names; an unknown key, a value of the wrong type and a key given twice are faults with
 //! their line.
 
+pub mod arc_generator;
 pub mod lead_angle;
 pub mod linear_interpolator;
 mod loaded;
@@ -34,6 +35,8 @@ pub enum Scenario {
     LinearInterpolator(linear_interpolator::Scenario),
     /// JPH0646367B2.
     LeadAngle(lead_angle::Scenario),
+    /// JPH0743606B2.
+    ArcGenerator(arc_generator::Scenario),
 }
 
 impl Scenario {
@@ -43,6 +46,7 @@ impl Scenario {
             Scenario::PulseInterpolator(scenario) => scenario.input.as_ref(),
             Scenario::LinearInterpolator(scenario) => scenario.input.as_ref(),
             Scenario::LeadAngle(scenario) => scenario.input.as_ref(),
+            Scenario::ArcGenerator(scenario) => scenario.input.as_ref(),
         }
     }
 
@@ -52,6 +56,7 @@ impl Scenario {
             Scenario::PulseInterpolator(scenario) => scenario.input.as_mut(),
             Scenario::LinearInterpolator(scenario) => scenario.input.as_mut(),
             Scenario::LeadAngle(scenario) => scenario.input.as_mut(),
+            Scenario::ArcGenerator(scenario) => scenario.input.as_mut(),
         }
     }
 
@@ -61,6 +66,7 @@ impl Scenario {
             Scenario::PulseInterpolator(scenario) => scenario.clock_hz,
             Scenario::LinearInterpolator(scenario) => scenario.clock_hz,
             Scenario::LeadAngle(scenario) => scenario.clock_hz,
+            Scenario::ArcGenerator(scenario) => scenario.clock_hz,
         }
     }
 
@@ -70,6 +76,7 @@ impl Scenario {
             Scenario::PulseInterpolator(scenario) => scenario.vcd_ticks,
             Scenario::LinearInterpolator(scenario) => scenario.vcd_ticks,
             Scenario::LeadAngle(scenario) => scenario.vcd_ticks,
+            Scenario::ArcGenerator(scenario) => scenario.vcd_ticks,
         }
     }
 }
@@ -84,4 +91,6 @@ pub enum Runnable {
     LinearInterpolator,
     /// JPH0646367B2.
     LeadAngle,
+    /// JPH0743606B2.
+    ArcGenerator,
 }

@@ -173,7 +173,7 @@ pub(super) fn start_of(drawing: &Drawing, index: usize) -> Point {
     }
 }
 
-pub(super) fn norm(v: Point) -> f64 {
+pub(crate) fn norm(v: Point) -> f64 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 

@@ -15,7 +15,7 @@ mod sampler;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use geometry::check;
+pub(crate) use geometry::{check, norm};
 pub use profile::{Plan, Segment};
 pub use sampler::{Sample, Sampler};
 

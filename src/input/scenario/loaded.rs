@@ -67,7 +67,7 @@ impl Loaded {
         for (key, value) in pairs {
             table.insert(key.to_owned(), value);
             loaded.scenario = scenario(|| Ok(table.clone())).map_err(|error| {
-                let (problem, allowed) = split(error.message());
+                let (problem, allowed) = split(error.message(), key);
                 Fault::new(SET, 0, key, problem, allowed)
             })?;
             loaded.overridden.push(key.to_owned());
@@ -142,6 +142,7 @@ where
             Scenario::LinearInterpolator(Deserialize::deserialize(keys()?)?)
         }
         Runnable::LeadAngle => Scenario::LeadAngle(Deserialize::deserialize(keys()?)?),
+        Runnable::ArcGenerator => Scenario::ArcGenerator(Deserialize::deserialize(keys()?)?),
     })
 }
 
@@ -171,8 +172,11 @@ fn line_at(text: &[u8], place: usize) -> usize {
     before.iter().filter(|&&byte| byte == b'\n').count() + 1
 }
 
-/// A message of the TOML reader as problem and what is allowed.
-fn split(message: &str) -> (String, String) {
+/// Keys whose value is a point.
+const POINTS: [&str; 3] = ["start_mm", "to_mm", "via_mm"];
+
+/// A message of the TOML reader about a key as problem and what is allowed.
+fn split(message: &str, key: &str) -> (String, String) {
     // What the parser expects next, where the text is no TOML, is rarely what was meant.
     let of_a_value = message.starts_with("invalid ") || message.starts_with("unknown ");
     let (problem, allowed) = message
@@ -185,6 +189,9 @@ fn split(message: &str) -> (String, String) {
         "i64" => "a whole number",
         "f64" => "a number",
         "a boolean" => "true or false",
+        "an array of length 3" | "fewer elements in array" if POINTS.contains(&key) => {
+            "a list of three numbers, of X, Y and Z"
+        }
         "an array of length 2" | "fewer elements in array" => {
             "a list of two numbers, of X and of Y"
         }
@@ -226,8 +233,10 @@ fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
         key => key,
     };
     let (problem, allowed) = match message.split_once(", expected a sequence") {
-        Some((problem, _)) if field == "step" => (problem.to_owned(), "tables [[step]]".to_owned()),
-        _ => split(message),
+        Some((problem, _)) if ["step", "piece"].contains(&field) => {
+            (problem.to_owned(), format!("tables [[{field}]]"))
+        }
+        _ => split(message, field),
     };
     Fault::new(file, line, field, problem, allowed)
 }

@@ -1,0 +1,236 @@
+//! An arc in space: from three points, or from a centre and two points.
+
+use super::vector::{add, cross, distance, dot, norm, scale, sub, unit};
+use crate::input::{COORDINATES, Point, ZERO_MM};
+use std::f64::consts::{PI, TAU};
+
+/// Three points are on a line where the middle one is off it by less than this part of the
+/// longest distance between them: below it their circle is made of rounding errors.
+pub const COLLINEAR: f64 = 1e-9;
+
+/// How far a given centre may be moved for both radii to agree, as a part of the radius.
+pub const CENTRE_MOVE: f64 = 0.05;
+
+/// An arc: a vector from the centre that turns around an axis, counterclockwise as seen from the
+/// axis' end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Circle {
+    /// G.
+    pub centre: Point,
+    /// k, of length 1.
+    pub axis: Point,
+    /// A, where the arc begins.
+    pub start: Point,
+    /// R.
+    pub radius: f64,
+    /// θ: from the start to the end, above 0 and up to a whole turn, in radians.
+    pub angle: f64,
+}
+
+/// Points that make no arc.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum CircleError {
+    /// Two of the points are the same.
+    #[error("{} and {} are the same point", points[0], points[1])]
+    Coincident {
+        /// Which: "start", "via", "end", "centre".
+        points: [&'static str; 2],
+    },
+    /// The three points are on a line.
+    #[error("the point via is only {off:.3e} mm off the line from start to end, {chord} mm long")]
+    Collinear {
+        /// Distance of B from the line through A and C.
+        off: f64,
+        /// Distance of A and C.
+        chord: f64,
+    },
+    /// Start and end are not at the same height along the axis.
+    #[error("rises by {rise} mm along its axis: a helix")]
+    Helix {
+        /// Height of the end above the start.
+        rise: f64,
+    },
+    /// No centre near the given one has the same radius to both ends.
+    #[error("the radius is {from} mm at the start and {to} mm at the end")]
+    Radii {
+        /// Distance of the start from the centre.
+        from: f64,
+        /// Distance of the end from the centre.
+        to: f64,
+    },
+}
+
+impl Circle {
+    /// The arc from `a` over `b` to `c`: G is equidistant from all three, and the axis
+    /// (B − A)×(C − B) gives the right direction for any arc.
+    ///
+    /// # Errors
+    /// Two points are the same, or all three are on a line.
+    pub fn through(a: Point, b: Point, c: Point) -> Result<Self, CircleError> {
+        for (points, p, q) in [
+            (["start", "via"], a, b),
+            (["via", "end"], b, c),
+            (["start", "end"], a, c),
+        ] {
+            if p == q {
+                return Err(CircleError::Coincident { points });
+            }
+        }
+        // From A, for large coordinates not to cost digits.
+        let (u, v) = (sub(b, a), sub(c, a));
+        let normal = cross(u, v);
+        let chord = norm(v);
+        let longest = chord.max(norm(u)).max(distance(b, c));
+        let off = norm(normal) / chord;
+        if off * chord <= COLLINEAR * longest * longest {
+            return Err(CircleError::Collinear { off, chord });
+        }
+        let weighted = sub(scale(v, dot(u, u)), scale(u, dot(v, v)));
+        let to_centre = scale(cross(weighted, normal), -0.5 / dot(normal, normal));
+        let mut circle = Circle {
+            centre: add(a, to_centre),
+            axis: unit(normal),
+            start: a,
+            radius: norm(to_centre),
+            angle: TAU,
+        };
+        circle.angle = circle.angle_of(c);
+        Ok(circle)
+    }
+
+    /// The arc from `from` to `to` around an axis through `centre`; where they are the same point,
+    /// the whole circle. The centre is moved onto the bisector of the chord, so that both radii
+    /// agree, and along the axis into the plane of the arc.
+    ///
+    /// # Errors
+    /// The start is on the axis, the end is at another height, or the centre would have to be moved
+    /// by more than [`CENTRE_MOVE`] of the radius.
+    pub fn around(centre: Point, from: Point, to: Point, axis: Point) -> Result<Self, CircleError> {
+        let axis = unit(axis);
+        let chord = sub(to, from);
+        let rise = dot(chord, axis);
+        if rise.abs() > ZERO_MM {
+            return Err(CircleError::Helix { rise });
+        }
+        let flat = |p: Point| sub(p, scale(axis, dot(p, axis)));
+        let (near, far) = (flat(sub(from, centre)), flat(sub(to, centre)));
+        let (first, last) = (norm(near), norm(far));
+        if first == 0.0 {
+            let points = ["start", "centre"];
+            return Err(CircleError::Coincident { points });
+        }
+        let chord = flat(chord);
+        let span = norm(chord);
+        let moved = match span > 0.0 {
+            true => (first - last) * (first + last) / (2.0 * span),
+            false => 0.0,
+        };
+        if moved.abs() > CENTRE_MOVE * first.min(last) {
+            return Err(CircleError::Radii {
+                from: first,
+                to: last,
+            });
+        }
+        // From the moved centre to the start.
+        let vector = match span > 0.0 {
+            true => add(near, scale(chord, moved / span)),
+            false => near,
+        };
+        let mut circle = Circle {
+            centre: sub(from, vector),
+            axis,
+            start: from,
+            radius: norm(vector),
+            angle: TAU,
+        };
+        circle.angle = match circle.angle_of(to) {
+            angle if span > 0.0 && angle > 0.0 => angle,
+            _ => TAU,
+        };
+        Ok(circle)
+    }
+
+    /// The point at an angle from the start.
+    #[must_use]
+    pub fn point(&self, angle: f64) -> Point {
+        let (sin, cos) = angle.sin_cos();
+        let [u, w] = self.frame();
+        std::array::from_fn(|k| self.centre[k] + u[k] * cos + w[k] * sin)
+    }
+
+    /// Direction of motion at an angle from the start, of length 1.
+    #[must_use]
+    pub fn direction(&self, angle: f64) -> Point {
+        let (sin, cos) = angle.sin_cos();
+        let [u, w] = self.frame();
+        unit(sub(scale(w, cos), scale(u, sin)))
+    }
+
+    /// Where the arc ends.
+    #[must_use]
+    pub fn end(&self) -> Point {
+        self.point(self.angle)
+    }
+
+    /// Length along the arc.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.radius * self.angle
+    }
+
+    /// Distance of a point from the arc.
+    #[must_use]
+    pub fn distance(&self, point: Point) -> f64 {
+        let to_ends = distance(point, self.start).min(distance(point, self.end()));
+        if self.angle_of(point) > self.angle {
+            return to_ends;
+        }
+        let [outside, height] = self.off(point);
+        outside.hypot(height).min(to_ends)
+    }
+
+    /// How far a point is outside the circle, and above its plane.
+    #[must_use]
+    pub fn off(&self, point: Point) -> [f64; 2] {
+        let vector = sub(point, self.centre);
+        let height = dot(vector, self.axis);
+        let flat = norm(sub(vector, scale(self.axis, height)));
+        [flat - self.radius, height]
+    }
+
+    /// Least and largest value of each coordinate on the arc.
+    #[must_use]
+    pub fn extremes(&self) -> [[f64; 2]; COORDINATES] {
+        let [u, w] = self.frame();
+        let end = self.end();
+        std::array::from_fn(|k| {
+            let ends = [self.start[k].min(end[k]), self.start[k].max(end[k])];
+            let (top, swing) = (w[k].atan2(u[k]), u[k].hypot(w[k]));
+            let passes = |angle: f64| angle.rem_euclid(TAU) <= self.angle;
+            [
+                match passes(top + PI) {
+                    true => self.centre[k] - swing,
+                    false => ends[0],
+                },
+                match passes(top) {
+                    true => self.centre[k] + swing,
+                    false => ends[1],
+                },
+            ]
+        })
+    }
+
+    /// Angle of a point from the start on, 0 to below a whole turn.
+    fn angle_of(&self, point: Point) -> f64 {
+        let [u, w] = self.frame();
+        let vector = sub(point, self.centre);
+        let angle = dot(vector, w).atan2(dot(vector, u));
+        if angle < 0.0 { angle + TAU } else { angle }
+    }
+
+    /// The vector to the start, and what it becomes by a quarter turn.
+    fn frame(&self) -> [Point; 2] {
+        let vector = sub(self.start, self.centre);
+        [vector, cross(self.axis, vector)]
+    }
+}

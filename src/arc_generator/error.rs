@@ -1,0 +1,195 @@
+//! Why a path cannot be generated.
+
+use super::circle::CircleError;
+use std::fmt;
+
+/// A piece that cannot be generated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PathError {
+    /// The piece, from 0.
+    pub piece: usize,
+    /// Line of the input it stands in.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub reason: Reason,
+}
+
+impl std::error::Error for PathError {}
+
+impl fmt::Display for PathError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "piece {}", self.piece)?;
+        if let Some(line) = self.line {
+            write!(f, " (line {line})")?;
+        }
+        write!(f, ": {}; allowed: {}", self.reason, self.reason.allowed())
+    }
+}
+
+/// What is wrong with a piece.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum Reason {
+    /// The path has no piece.
+    #[error("the path is empty")]
+    Empty,
+    /// The piece has no speed and there is none for all.
+    #[error("missing")]
+    NoSpeed,
+    /// The speed is none.
+    #[error("is {speed} mm/s")]
+    Speed {
+        /// In mm/s.
+        speed: f64,
+    },
+    /// A coordinate is not a number.
+    #[error("{axis} is {value}")]
+    Coordinate {
+        /// "x", "y" or "z".
+        axis: &'static str,
+        /// In mm.
+        value: f64,
+    },
+    /// The points make no line or arc.
+    #[error(transparent)]
+    Circle(#[from] CircleError),
+    /// The arc does not begin or end where the path does.
+    #[error("the arc is {gap} mm off the path's points")]
+    Gap {
+        /// Distance in mm.
+        gap: f64,
+    },
+    /// A blend would reach farther around the arc than 60°.
+    #[error("at {speed} mm/s a blend reaches {chord} mm along an arc of {radius} mm radius")]
+    Tight {
+        /// The wanted speed.
+        speed: f64,
+        /// Vs·ta.
+        chord: f64,
+        /// R.
+        radius: f64,
+        /// The largest speed that fits.
+        most: f64,
+    },
+    /// The blends at both ends overlap.
+    #[error("at {speed} mm/s the blends at its ends take more than the piece, {length} mm")]
+    Overlap {
+        /// The wanted speed.
+        speed: f64,
+        /// Length of the piece.
+        length: f64,
+        /// The largest speed that fits.
+        most: f64,
+    },
+    /// More samples than a record can hold.
+    #[error("takes {samples} samples at {speed} mm/s")]
+    Samples {
+        /// The wanted speed.
+        speed: f64,
+        /// What it would take.
+        samples: f64,
+        /// What a record can hold.
+        most: u64,
+    },
+    /// A coordinate, centre or radius does not fit in the words.
+    #[error("{what} reaches {counts:.1} counts, which needs W = {needed}")]
+    Reach {
+        /// "x", "centre x", "radius" and so on.
+        what: &'static str,
+        /// How far it reaches, in counts, with the error of the arithmetic.
+        counts: f64,
+        /// The farthest that fits.
+        most: i64,
+        /// The width of the words.
+        width: u32,
+        /// The width that it would need.
+        needed: u32,
+    },
+}
+
+impl Reason {
+    /// The key of a scenario's piece that is at fault.
+    #[must_use]
+    pub fn field(&self) -> &'static str {
+        match self {
+            Reason::Empty => "piece",
+            Reason::NoSpeed
+            | Reason::Speed { .. }
+            | Reason::Tight { .. }
+            | Reason::Overlap { .. }
+            | Reason::Samples { .. } => "speed_mm_per_s",
+            Reason::Circle(CircleError::Collinear { .. })
+            | Reason::Circle(CircleError::Coincident {
+                points: ["start", "via"] | ["via", "end"],
+            }) => "via_mm",
+            Reason::Coordinate { .. }
+            | Reason::Circle(_)
+            | Reason::Gap { .. }
+            | Reason::Reach { .. } => "to_mm",
+        }
+    }
+
+    /// The word of a part program's block that is at fault.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Reason::Empty => "path",
+            Reason::NoSpeed
+            | Reason::Speed { .. }
+            | Reason::Tight { .. }
+            | Reason::Overlap { .. }
+            | Reason::Samples { .. } => "F",
+            Reason::Circle(CircleError::Helix { .. }) => "Z",
+            Reason::Circle(_) | Reason::Gap { .. } => "arc",
+            Reason::Reach { what, .. } => what,
+            Reason::Coordinate { axis, .. } => axis,
+        }
+    }
+
+    /// What would be right.
+    #[must_use]
+    pub fn allowed(&self) -> String {
+        let at_most = |speed: &f64| {
+            let least = round_down(*speed);
+            format!("at most {least} mm/s (F{})", round_down(60.0 * least))
+        };
+        match self {
+            Reason::Empty => "one piece or more".into(),
+            Reason::NoSpeed => "a speed of the piece, or one for all".into(),
+            Reason::Speed { .. } => "a speed above 0".into(),
+            Reason::Coordinate { .. } => "a number".into(),
+            Reason::Circle(CircleError::Coincident { .. }) => "points apart".into(),
+            Reason::Circle(CircleError::Collinear { .. }) => {
+                "a point off the line, or a line: no point via".into()
+            }
+            Reason::Circle(CircleError::Helix { .. }) => {
+                "an arc in a plane: a rotation has no feed along its axis".into()
+            }
+            Reason::Circle(CircleError::Radii { .. }) => "a centre as far from both".into(),
+            Reason::Gap { .. } => "an arc from the end of the piece before to its own end".into(),
+            Reason::Tight { most, .. } => {
+                format!(
+                    "{}, whose blends reach no farther than the radius",
+                    at_most(most)
+                )
+            }
+            Reason::Overlap { most, .. } => format!("{}, or shorter blends", at_most(most)),
+            Reason::Samples { most, .. } => {
+                format!("at most {most} samples: faster, shorter, or sampled less often")
+            }
+            Reason::Reach { most, width, .. } => {
+                format!("-{most} to {most} counts at W = {width}: fewer counts per mm")
+            }
+        }
+    }
+}
+
+/// Six digits, rounded down: what is said to be allowed must be.
+fn round_down(value: f64) -> f64 {
+    if value <= 0.0 || !value.is_finite() {
+        return value;
+    }
+    let unit = 10f64.powi(value.log10().floor() as i32 - 5);
+    let down = (value / unit).floor() * unit;
+    // The nearest short decimal of that.
+    format!("{down:.12e}").parse().unwrap_or(down)
+}

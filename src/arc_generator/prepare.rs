@@ -1,0 +1,302 @@
+//! Pieces as segments: every piece gets the speed at which a whole number of samples lies between
+//! its blends.
+
+use super::circle::{Circle, CircleError};
+use super::error::{PathError, Reason};
+use super::path::{Course, Piece};
+use super::prepared::{ArcReport, PieceReport, Prepared, Segment, Shape};
+use super::settings::ShortPieces;
+use super::vector::{add, angle_between, distance, scale, sub, unit};
+use crate::input::Point;
+
+/// Speeds that exceed what fits by no more than this part are taken for it: the rounding of numbers
+/// that were printed and read again.
+const ROUNDING: f64 = 1e-9;
+
+/// How far an arc may be off the path's points, as a part of its length and 1 mm.
+const GAP: f64 = 1e-6;
+
+/// The times of a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Timing {
+    /// Ts in seconds.
+    pub sample_s: f64,
+    /// M = 2ta/Ts, even.
+    pub blend_samples: u64,
+    /// Largest turn between two pieces that are joined without a stop, in radians.
+    pub corner: f64,
+    /// What becomes of a piece that is too short or too tight for its speed.
+    pub short_pieces: ShortPieces,
+    /// The most samples that a segment may have.
+    pub most_samples: u64,
+}
+
+impl Timing {
+    /// ta in seconds.
+    #[must_use]
+    pub fn half_blend_s(&self) -> f64 {
+        self.sample_s * self.blend_samples as f64 / 2.0
+    }
+}
+
+/// Makes the segments of a path that begins at `start` at rest and ends at rest.
+///
+/// A line of length L has the speed v = L/(Ts(N + M)) with the least N that keeps it within what is
+/// wanted; on an arc θ − 2φ = N·v·Ts/R with sin(φ/2) = v·ta/2R. Two pieces that meet at no more
+/// than the corner's turn are joined by one blend, others by a stop.
+///
+/// # Errors
+/// A piece without length, speed or number; one whose blends overlap or reach too far around the
+/// arc at the wanted speed; one of too many samples; an arc that is off the path.
+pub fn prepare(start: Point, pieces: &[Piece], timing: &Timing) -> Result<Prepared, PathError> {
+    let mut from = start;
+    let mut legs = Vec::with_capacity(pieces.len());
+    for (index, piece) in pieces.iter().enumerate() {
+        let refuse = |reason| PathError {
+            piece: index,
+            line: piece.line,
+            reason,
+        };
+        legs.push(leg(from, piece, timing).map_err(refuse)?);
+        from = piece.to;
+    }
+    if legs.is_empty() {
+        return Err(PathError {
+            piece: 0,
+            line: None,
+            reason: Reason::Empty,
+        });
+    }
+    Ok(Prepared {
+        segments: join(&legs, timing),
+        pieces: legs,
+        timing: *timing,
+    })
+}
+
+/// The segments of all pieces, each between two blends.
+fn join(legs: &[PieceReport], timing: &Timing) -> Vec<Segment> {
+    let mut segments = Vec::with_capacity(2 * legs.len() + 1);
+    let mut at = 0;
+    let mut push = |shape, samples, piece, next_piece, ends_at_rest| {
+        segments.push(Segment {
+            shape,
+            samples,
+            first_sample: at,
+            piece,
+            next_piece,
+            ends_at_rest,
+        });
+        at += samples;
+    };
+    let blend = timing.blend_samples;
+    let mut at_rest = true;
+    for (index, leg) in legs.iter().enumerate() {
+        let [entry, exit] = leg.between_blends();
+        if at_rest {
+            let shape = Shape::Blend {
+                before: leg.from,
+                corner: leg.from,
+                behind: entry,
+            };
+            push(shape, blend, index, None, false);
+        }
+        let shape = match leg.arc {
+            None => Shape::Line {
+                from: entry,
+                to: exit,
+            },
+            Some(arc) => Shape::Arc {
+                circle: arc.circle,
+                from: arc.blend_angle,
+                step: arc.step,
+            },
+        };
+        push(shape, leg.samples, index, None, false);
+        let next = legs.get(index + 1).filter(|next| {
+            let turn = angle_between(leg.directions()[1], next.directions()[0]);
+            turn <= timing.corner
+        });
+        at_rest = next.is_none();
+        let shape = Shape::Blend {
+            before: exit,
+            corner: leg.to,
+            behind: next.map_or(leg.to, |next| next.between_blends()[0]),
+        };
+        push(shape, blend, index, next.map(|_| index + 1), at_rest);
+    }
+    segments
+}
+
+/// Speed and samples of a piece.
+fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reason> {
+    for point in [from, piece.to] {
+        for (axis, value) in ["x", "y", "z"].into_iter().zip(point) {
+            if !value.is_finite() {
+                return Err(Reason::Coordinate { axis, value });
+            }
+        }
+    }
+    if !(piece.speed.is_finite() && piece.speed > 0.0) {
+        return Err(Reason::Speed { speed: piece.speed });
+    }
+    let length = match &piece.course {
+        Course::Line => distance(from, piece.to),
+        Course::Arc(circle) => circle.length(),
+    };
+    if length == 0.0 {
+        let points = ["start", "end"];
+        return Err(CircleError::Coincident { points }.into());
+    }
+    if let Course::Arc(circle) = &piece.course {
+        let gap = distance(circle.start, from).max(distance(circle.end(), piece.to));
+        // Written so that NaN fails.
+        if !(gap <= GAP * (1.0 + length)) {
+            return Err(Reason::Gap { gap });
+        }
+    }
+    let (sample, half_blend) = (timing.sample_s, timing.half_blend_s());
+    let speed = fitting(piece, length, timing)?;
+    // Samples between the blends at that speed: at most by so much more than a whole number as
+    // rounding makes.
+    let samples = match &piece.course {
+        Course::Line => length / (speed * sample) - timing.blend_samples as f64,
+        Course::Arc(circle) => {
+            let between = circle.angle - 2.0 * blend_angle(circle, speed * half_blend);
+            between * circle.radius / (speed * sample)
+        }
+    };
+    let samples = (samples * (1.0 - ROUNDING)).ceil().max(1.0);
+    if samples > timing.most_samples as f64 {
+        return Err(Reason::Samples {
+            speed,
+            samples,
+            most: timing.most_samples,
+        });
+    }
+    let speed = match &piece.course {
+        Course::Line => length / (sample * (samples + timing.blend_samples as f64)),
+        Course::Arc(circle) => arc_speed(circle, samples, timing),
+    };
+    let reach = speed * half_blend;
+    let arc = match &piece.course {
+        Course::Line => None,
+        Course::Arc(circle) => Some(arc_report(circle, speed, reach, samples)),
+    };
+    Ok(PieceReport {
+        line: piece.line,
+        course: piece.course,
+        from,
+        to: piece.to,
+        length,
+        wanted: piece.speed,
+        speed,
+        samples: samples as u64,
+        reach,
+        arc,
+    })
+}
+
+/// The wanted speed, or the largest that fits.
+fn fitting(piece: &Piece, length: f64, timing: &Timing) -> Result<f64, Reason> {
+    let (speed, half_blend) = (piece.speed, timing.half_blend_s());
+    // With one sample between the blends.
+    let (mut most, mut radius) = match &piece.course {
+        Course::Line => {
+            let samples = timing.blend_samples as f64 + 1.0;
+            (length / (timing.sample_s * samples), f64::INFINITY)
+        }
+        Course::Arc(circle) => (arc_speed(circle, 1.0, timing), circle.radius),
+    };
+    let room = match &piece.course {
+        Course::Line => length - 2.0 * speed * half_blend,
+        Course::Arc(circle) => circle.angle - 2.0 * blend_angle(circle, speed * half_blend),
+    };
+    let tight = speed * half_blend > radius * (1.0 + ROUNDING);
+    if !tight && (room > 0.0 || speed <= most * (1.0 + ROUNDING)) {
+        return Ok(speed);
+    }
+    most = most.min(radius / half_blend);
+    if timing.short_pieces == ShortPieces::Slower {
+        return Ok(most);
+    }
+    radius = radius.min(f64::MAX);
+    Err(match tight {
+        true => Reason::Tight {
+            speed,
+            chord: speed * half_blend,
+            radius,
+            most,
+        },
+        false => Reason::Overlap {
+            speed,
+            length,
+            most,
+        },
+    })
+}
+
+/// φ: angle of a chord.
+fn blend_angle(circle: &Circle, chord: f64) -> f64 {
+    2.0 * (chord / (2.0 * circle.radius)).min(1.0).asin()
+}
+
+/// The speed at which `samples` lie between the blends of an arc. What is left of the angle falls
+/// with the speed, so there is exactly one.
+fn arc_speed(circle: &Circle, samples: f64, timing: &Timing) -> f64 {
+    let Circle { radius, angle, .. } = *circle;
+    let left = |speed: f64| {
+        let blends = 2.0 * blend_angle(circle, speed * timing.half_blend_s());
+        angle - blends - samples * speed * timing.sample_s / radius
+    };
+    let [mut slow, mut fast] = [0.0, angle * radius / (samples * timing.sample_s)];
+    loop {
+        let speed = f64::midpoint(slow, fast);
+        if speed <= slow || speed >= fast {
+            return slow;
+        }
+        match left(speed) >= 0.0 {
+            true => slow = speed,
+            false => fast = speed,
+        }
+    }
+}
+
+fn arc_report(circle: &Circle, speed: f64, reach: f64, samples: f64) -> ArcReport {
+    let blend_angle = blend_angle(circle, reach);
+    let sagitta = (blend_angle / 4.0).sin();
+    ArcReport {
+        circle: *circle,
+        blend_angle,
+        step: (circle.angle - 2.0 * blend_angle) / samples,
+        direction_jump: blend_angle / 2.0,
+        acceleration_jump: speed * speed / circle.radius,
+        // 1 − cos without its cancellation.
+        blend_distance: 2.0 * circle.radius * sagitta * sagitta,
+        blend_distance_estimate: reach * reach / (8.0 * circle.radius),
+    }
+}
+
+impl PieceReport {
+    /// A⁺ and C⁻: where its first blend ends and its last begins.
+    #[must_use]
+    pub fn between_blends(&self) -> [Point; 2] {
+        match &self.arc {
+            None => {
+                let part = scale(unit(sub(self.to, self.from)), self.reach);
+                [add(self.from, part), sub(self.to, part)]
+            }
+            Some(arc) => [arc.blend_angle, arc.circle.angle - arc.blend_angle]
+                .map(|angle| arc.circle.point(angle)),
+        }
+    }
+
+    /// Direction of motion at its start and at its end.
+    #[must_use]
+    pub fn directions(&self) -> [Point; 2] {
+        match &self.course {
+            Course::Line => [unit(sub(self.to, self.from)); 2],
+            Course::Arc(circle) => [0.0, circle.angle].map(|angle| circle.direction(angle)),
+        }
+    }
+}

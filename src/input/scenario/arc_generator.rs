@@ -1,0 +1,135 @@
+//! The keys of the arc generator.
+
+use super::Runnable;
+use crate::arc_generator::Rounding;
+use crate::arc_generator::path::Taught;
+use crate::arc_generator::settings::{SettingError, Settings, ShortPieces};
+use crate::input::Point;
+use serde::Deserialize;
+use std::path::PathBuf;
+
+/// A scenario of the arc generator. Every key but `circuit` has a default; the path is a drawing or
+/// part program, or the tables `[[piece]]`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// The circuit that runs.
+    pub circuit: Runnable,
+    /// The drawing or part program; in a file relative to that file.
+    pub input: Option<PathBuf>,
+    /// Where the first piece begins.
+    #[serde(default)]
+    pub start_mm: Point,
+    /// The pieces.
+    #[serde(default)]
+    pub piece: Vec<PieceKeys>,
+    /// Reference clock in Hz.
+    #[serde(default = "default::clock_hz")]
+    pub clock_hz: u64,
+    /// Ts: time from one position command to the next.
+    #[serde(default = "default::sample_period_ms")]
+    pub sample_period_ms: f64,
+    /// 2ta: duration of a blend.
+    #[serde(default = "default::acceleration_ms")]
+    pub acceleration_ms: f64,
+    /// Counts of a position command per millimetre.
+    #[serde(default = "default::counts_per_mm")]
+    pub counts_per_mm: f64,
+    /// Speed of the pieces that have none of their own.
+    pub speed_mm_per_s: Option<f64>,
+    /// Speed of pen-up and G0 moves.
+    #[serde(default = "default::rapid_mm_per_s")]
+    pub rapid_mm_per_s: f64,
+    /// Largest turn between two pieces that are joined without a stop.
+    #[serde(default = "default::corner_deg")]
+    pub corner_deg: f64,
+    /// How the rotation rounds.
+    #[serde(default)]
+    pub rounding: Rounding,
+    /// What becomes of a piece that is too short or too tight for its speed.
+    #[serde(default)]
+    pub short_pieces: ShortPieces,
+    /// The most ticks that go into the VCD unless a window is asked for.
+    #[serde(default = "default::vcd_ticks")]
+    pub vcd_ticks: u64,
+}
+
+/// A table `[[piece]]`.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PieceKeys {
+    /// Where it ends.
+    pub to_mm: Point,
+    /// A point of the arc; without it the piece is a line.
+    pub via_mm: Option<Point>,
+    /// Its speed, where it has its own.
+    pub speed_mm_per_s: Option<f64>,
+}
+
+impl Scenario {
+    /// The settings it stands for.
+    #[must_use]
+    pub fn settings(&self) -> Settings {
+        Settings {
+            clock_hz: self.clock_hz,
+            sample_period_ms: self.sample_period_ms,
+            acceleration_ms: self.acceleration_ms,
+            counts_per_mm: self.counts_per_mm,
+            speed_mm_per_s: self.speed_mm_per_s,
+            rapid_mm_per_s: self.rapid_mm_per_s,
+            corner_deg: self.corner_deg,
+            rounding: self.rounding,
+            short_pieces: self.short_pieces,
+        }
+    }
+
+    /// The taught pieces, from [`Scenario::start_mm`] on; empty if the path is a drawing.
+    ///
+    /// # Errors
+    /// There are pieces, and a drawing too.
+    pub fn taught(&self) -> Result<Vec<Taught>, SettingError> {
+        if self.input.is_some() && !self.piece.is_empty() {
+            return Err(SettingError {
+                field: "input",
+                problem: "given beside tables [[piece]]".to_owned(),
+                allowed: "a drawing or pieces, not both".to_owned(),
+            });
+        }
+        let taught = |piece: &PieceKeys| Taught {
+            to: piece.to_mm,
+            via: piece.via_mm,
+            speed: piece.speed_mm_per_s,
+        };
+        Ok(self.piece.iter().map(taught).collect())
+    }
+}
+
+/// What a key is worth that is not given: what the settings are by default.
+mod default {
+    use super::Settings;
+
+    fn settings() -> Settings {
+        Settings::default()
+    }
+    pub(super) fn clock_hz() -> u64 {
+        settings().clock_hz
+    }
+    pub(super) fn sample_period_ms() -> f64 {
+        settings().sample_period_ms
+    }
+    pub(super) fn acceleration_ms() -> f64 {
+        settings().acceleration_ms
+    }
+    pub(super) fn counts_per_mm() -> f64 {
+        settings().counts_per_mm
+    }
+    pub(super) fn rapid_mm_per_s() -> f64 {
+        settings().rapid_mm_per_s
+    }
+    pub(super) fn corner_deg() -> f64 {
+        settings().corner_deg
+    }
+    pub(super) fn vcd_ticks() -> u64 {
+        super::super::VCD_TICKS
+    }
+}
