@@ -15,6 +15,8 @@
 //! drawing), [`prepare`](mod@prepare) (pieces as segments), [`record`] (segments as words),
 //! [`bounds`] (how far the rotation may be off), [`reference`] (the same samples by division), [`conventional`] (what the patent compares itself
 //! with), [`measure`] (what came out).
+//!
+//! `rtl_notes/arc_generator.md` is the note of this circuit.
 
 pub mod bounds;
 pub mod circle;
