@@ -86,7 +86,7 @@ impl Circle {
             return Err(CircleError::Collinear { off, chord });
         }
         let weighted = sub(scale(v, dot(u, u)), scale(u, dot(v, v)));
-        let to_centre = scale(cross(weighted, normal), -0.5 / dot(normal, normal));
+        let to_centre = scale(cross(weighted, normal), 0.5 / dot(normal, normal));
         let mut circle = Circle {
             centre: add(a, to_centre),
             axis: unit(normal),

@@ -11,12 +11,11 @@
 //! multiplied by one constant matrix a sample. What is known beforehand is computed once, in `f64`
 //! and exact integers; per sample the circuit adds, and on an arc multiplies by constants.
 //!
-//! Host side: [`circle`] (an arc from three points), [`path`] (pieces from taught points or a
-//! drawing), [`prepare`](mod@prepare) (pieces as segments), [`record`] (segments as words),
-//! [`bounds`] (how far the rotation may be off), [`reference`] (the same samples by division), [`conventional`] (what the patent compares itself
-//! with), [`measure`] (what came out).
-//!
-//! `rtl_notes/arc_generator.md` is the note of this circuit.
+//! On the control computer: [`circle`] (an arc from three points), [`path`] (pieces from taught
+//! points or a drawing), [`prepare`](mod@prepare) (pieces as segments), [`record`] (segments as
+//! words), [`bounds`] (how far the rotation may be off), [`reference`] (the same samples by
+//! division), [`conventional`] (what the patent compares itself with), [`job`] (a path on the
+//! circuit), [`measure`] (what came out). `rtl_notes/arc_generator.md` is the note of this circuit.
 
 pub mod bounds;
 pub mod circle;
@@ -25,6 +24,7 @@ pub mod difference_column;
 pub mod difference_engine;
 pub mod error;
 pub mod generator;
+pub mod job;
 pub mod measure;
 pub mod path;
 pub mod position_command;

@@ -1,8 +1,8 @@
 //! What the arc generator is run with: clock and sampling, machine, motion.
 
-use super::Rounding;
 use super::prepare::Timing;
 use super::widths::Widths;
+use super::{ArcGenerator, Rounding};
 use serde::Deserialize;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
@@ -10,9 +10,8 @@ use std::ops::RangeInclusive;
 /// Clocks that are accepted, in Hz.
 pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
 
-/// Shortest sampling period in ticks: a record of 32 words and a rotation, one coefficient bit a
-/// tick, must be done within it.
-pub const LEAST_SAMPLE_TICKS: u64 = 96;
+/// Shortest sampling period in ticks: a record is fetched and a rotation done within it.
+pub const LEAST_SAMPLE_TICKS: u64 = <ArcGenerator>::LEAST_PERIOD;
 
 /// Counts per millimetre that are accepted.
 pub const COUNTS_PER_MM_RANGE: RangeInclusive<f64> = 1e-6..=1e9;

@@ -1,0 +1,147 @@
+//! A path on the arc generator: the control computer that feeds it, and the commands that come out.
+
+use super::record::{Record, WORDS};
+use super::{ArcGenerator, Rounding, generator};
+use crate::input::COORDINATES;
+use crate::kernel::{Observer, RunError, Sample, Simulator};
+use crate::logic::Sim;
+use std::ops::ControlFlow;
+
+/// Width of a data word of the generator that plays a job.
+const D: usize = 42;
+/// Width of its sampling period.
+const T: usize = 24;
+/// Records that wait before the path begins, where there are so many: the memory is full then.
+const HEAD_START: usize = 16;
+
+/// The generator that plays a job.
+#[must_use]
+pub fn arc_generator(rounding: Rounding) -> ArcGenerator {
+    ArcGenerator::new(rounding)
+}
+
+/// The commands of one sampling time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Command {
+    /// The tick from which on they stand.
+    pub tick: u64,
+    /// x, y and z in counts.
+    pub counts: [i64; COORDINATES],
+}
+
+/// What came out of a path.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Played {
+    /// The ticks of the run.
+    pub ticks: u64,
+    /// A command for every sample, the start of the path first.
+    pub commands: Vec<Command>,
+    /// A sampling time began before its point was ready.
+    pub late: bool,
+    /// The path ended in motion.
+    pub starved: bool,
+}
+
+/// The control computer: it writes records as they find room.
+struct Host<'a> {
+    records: &'a [Record],
+    sample_ticks: u64,
+    /// The record and the word to be written next.
+    record: usize,
+    word: usize,
+    /// There was a free record in the tick before, and no push that may have taken the last.
+    free: bool,
+    started: bool,
+}
+
+impl Host<'_> {
+    fn ports(&mut self) -> generator::In<Sim, D, T> {
+        let start = !self.started && self.record == self.records.len().min(HEAD_START);
+        self.started |= start;
+        let record = self.records.get(self.record).filter(|_| self.free);
+        let (word, last) = (self.word, self.word + 1 == WORDS);
+        if record.is_some() {
+            self.word = (word + 1) % WORDS;
+            self.record += usize::from(last);
+        }
+        generator::In {
+            write: record.is_some().into(),
+            write_word: (word as u64).into(),
+            write_data: record.map_or(0, |record| record.words[word]).into(),
+            push: (record.is_some() && last).into(),
+            start: start.into(),
+            halt: false.into(),
+            sample_period: self.sample_ticks.into(),
+        }
+    }
+}
+
+/// What one tick shows.
+struct Seen {
+    flow: ControlFlow<()>,
+    ready: bool,
+    busy: bool,
+    command: Option<[i64; COORDINATES]>,
+}
+
+fn see(
+    now: &Sample<'_, ArcGenerator>,
+    observer: &mut impl Observer<ArcGenerator>,
+) -> Result<Seen, RunError> {
+    let w = now.w;
+    let counts = [w.x, w.y, w.z].map(|word| word.get());
+    Ok(Seen {
+        flow: observer.sample(now)?,
+        ready: w.ready.get(),
+        busy: w.busy.get(),
+        command: w.sampled.get().then_some(counts),
+    })
+}
+
+/// Plays a path on `circuit`, a sample every `sample_ticks` ticks, seen by `observer` too. An empty
+/// path makes no tick.
+///
+/// # Errors
+/// What `observer` objects to.
+pub fn play(
+    circuit: &ArcGenerator,
+    records: &[Record],
+    sample_ticks: u32,
+    mut observer: impl Observer<ArcGenerator>,
+) -> Result<Played, RunError> {
+    let mut host = Host {
+        records,
+        sample_ticks: u64::from(sample_ticks),
+        record: 0,
+        word: 0,
+        free: true,
+        started: false,
+    };
+    let mut played = Played::default();
+    let mut simulator = Simulator::new(circuit);
+    let (mut over, mut stopped) = (records.is_empty(), false);
+    while !over && !stopped {
+        let i = host.ports();
+        let (started, pushed) = (i.start.get(), i.push.get());
+        let (next, seen) = simulator.step(i, |now| see(now, &mut observer));
+        let Seen {
+            flow,
+            ready,
+            busy,
+            command,
+        } = seen?;
+        simulator = next;
+        host.free = ready && !pushed;
+        if let Some(counts) = command {
+            let tick = played.ticks;
+            played.commands.push(Command { tick, counts });
+        }
+        played.ticks += 1;
+        over = host.started && !started && !busy;
+        stopped = flow.is_break();
+    }
+    let q = simulator.registers();
+    played.late = q.sequencer.late.get();
+    played.starved = q.sequencer.starved.get();
+    Ok(played)
+}
