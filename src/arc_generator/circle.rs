@@ -45,9 +45,9 @@ pub enum CircleError {
         chord: f64,
     },
     /// Start and end are not at the same height along the axis.
-    #[error("rises by {rise} mm along its axis: a helix")]
+    #[error("climbs {rise} mm along its axis: a helix")]
     Helix {
-        /// Height of the end above the start.
+        /// Difference in height of start and end.
         rise: f64,
     },
     /// No centre near the given one has the same radius to both ends.
@@ -110,7 +110,7 @@ impl Circle {
         let chord = sub(to, from);
         let rise = dot(chord, axis);
         if rise.abs() > ZERO_MM {
-            return Err(CircleError::Helix { rise });
+            return Err(CircleError::Helix { rise: rise.abs() });
         }
         let flat = |p: Point| sub(p, scale(axis, dot(p, axis)));
         let (near, far) = (flat(sub(from, centre)), flat(sub(to, centre)));
