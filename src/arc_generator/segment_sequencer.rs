@@ -243,6 +243,16 @@ impl<const F: usize, const N: usize, const D: usize> Specified for SegmentSequen
                 },
             )
             .step(
+                "a path's first point is first until it becomes the command",
+                |now, next| {
+                    let begins = now.q.state.get() == IDLE && next.state.get() == FETCH;
+                    let expected = begins || (now.q.first.get() && !next.sampled.get());
+                    require(next.first.get() == expected, ["first"], || {
+                        format!("not {expected}")
+                    })
+                },
+            )
+            .step(
                 "late: a sample came while the next point was made",
                 |now, next| {
                     let making = [FETCH, STEP, ROTATE].contains(&now.q.state.get());

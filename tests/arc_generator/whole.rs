@@ -190,6 +190,7 @@ fn run(segments: &[Segment], rounding: Rounding, period: u64, start_with: usize)
     let (mut ready, mut over) = (true, 0);
     while over < 3 {
         let tick = simulator.tick();
+        assert!(tick < 1_000_000, "no end");
         let i = host.ports(ready, period);
         let pushed = i.push.get();
         let (next, (now, sampled, busy, free)) = simulator.step(i, |now| {
