@@ -48,6 +48,8 @@ signals! {
         pub top: L::Bit,
         /// The sums are complete: they become the point.
         pub commit: L::Bit,
+        /// A step is under way after this tick.
+        going: L::Bit,
     }
 }
 
@@ -77,20 +79,22 @@ impl<const C: usize> Circuit for RotationControl<C> {
                 "a coefficient has a fraction, and its bits are counted"
             )
         };
+        let copy = i.step & !q.busy & !i.halt;
+        let commit = q.busy & q.bit_index.equals((C as u64).into()) & !i.halt;
         Net {
-            copy: i.step & !q.busy & !i.halt,
+            copy,
             fraction: q.busy & q.bit_index.below((C as u64 - 2).into()),
             top: q.busy & q.bit_index.equals((C as u64 - 1).into()),
-            commit: q.busy & q.bit_index.equals((C as u64).into()) & !i.halt,
+            commit,
+            going: copy | (q.busy & !commit & !i.halt),
         }
     }
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, i: &In<L>) -> Reg<L> {
-        let busy = w.copy | (q.busy & !w.commit & !i.halt);
         Reg {
-            busy,
-            bit_index: (busy & !w.copy).mux(q.bit_index + 1, 0.into()),
+            busy: w.going,
+            bit_index: (w.going & !w.copy).mux(q.bit_index + 1, 0.into()),
             done: w.commit,
         }
     }
