@@ -12,6 +12,7 @@ pub mod run;
 mod shipped;
 mod summary;
 pub mod table;
+mod traces;
 mod verdict;
 pub mod verilog;
 
