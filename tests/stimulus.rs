@@ -221,6 +221,13 @@ const FAR: &[(&str, u32)] = &[
     ("completion_detector.next_still", 6),
     ("completion_detector.next_elapsed", 6),
     ("step_sequencer.count", 9),
+    // Never: the value of a record is whole, and nothing is below the fourth difference.
+    ("difference_engine.value.load_part", 0),
+    ("difference_engine.d4.by_whole", 0),
+    ("difference_engine.d4.by_part", 0),
+    // One word of 32, and most words are small.
+    ("rotation.row_y.by_y", 31),
+    ("rotation.row_y.bits_y", 41),
 ];
 
 /// At 8 bits: the pulses of a unit time of up to 255 ticks are at most 127, and a word of 8 bits
@@ -288,6 +295,12 @@ const NEVER: &[(&str, u32)] = &[
     ("completion_detector.elapsed", 6),
     ("completion_detector.next_still", 6),
     ("completion_detector.next_elapsed", 6),
+    ("difference_engine.value.load_part", 0),
+    ("difference_engine.d4.by_whole", 0),
+    ("difference_engine.d4.by_part", 0),
+    // Coefficients of 8 bits.
+    ("rotation_control.bit_index", 4),
+    ("rotation.control.bit_index", 4),
 ];
 
 /// Circuits that only wire blocks which are driven alone: it takes whole jobs to move their bits,
@@ -305,6 +318,7 @@ const JOBS: &[&str] = &[
     "compensator",
     "ram_compensator",
     "conventional_compensator",
+    "arc_generator",
 ];
 
 #[test]

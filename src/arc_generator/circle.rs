@@ -45,9 +45,9 @@ pub enum CircleError {
         chord: f64,
     },
     /// Start and end are not at the same height along the axis.
-    #[error("rises by {rise} mm along its axis: a helix")]
+    #[error("climbs {rise} mm along its axis: a helix")]
     Helix {
-        /// Height of the end above the start.
+        /// Difference in height of start and end.
         rise: f64,
     },
     /// No centre near the given one has the same radius to both ends.
@@ -86,7 +86,7 @@ impl Circle {
             return Err(CircleError::Collinear { off, chord });
         }
         let weighted = sub(scale(v, dot(u, u)), scale(u, dot(v, v)));
-        let to_centre = scale(cross(weighted, normal), -0.5 / dot(normal, normal));
+        let to_centre = scale(cross(weighted, normal), 0.5 / dot(normal, normal));
         let mut circle = Circle {
             centre: add(a, to_centre),
             axis: unit(normal),
@@ -110,7 +110,7 @@ impl Circle {
         let chord = sub(to, from);
         let rise = dot(chord, axis);
         if rise.abs() > ZERO_MM {
-            return Err(CircleError::Helix { rise });
+            return Err(CircleError::Helix { rise: rise.abs() });
         }
         let flat = |p: Point| sub(p, scale(axis, dot(p, axis)));
         let (near, far) = (flat(sub(from, centre)), flat(sub(to, centre)));

@@ -200,7 +200,7 @@ impl Segment {
         }
     }
 
-    /// How close a blend comes to its corner, at half its time: 3/16·|A⁻ − 2A + A⁺|. Other segments
+    /// Distance of a blend from its corner at half its time: 3/16·|A⁻ − 2A + A⁺|. Other segments
     /// have none.
     #[must_use]
     pub fn corner_distance(&self) -> Option<f64> {

@@ -1,8 +1,5 @@
 use super::Fault;
-use crate::kernel::{
-    Circuit, Declaration, Declarations, Field, Probe, Role, RunError, Sample, Shape, Signals,
-    Simulator,
-};
+use crate::kernel::{Circuit, Declaration, Declarations, Machine, Role, RunError, Running, Values};
 use crate::logic::Sim;
 use crate::trace::value::show;
 use crate::trace::{self, Clock};
@@ -42,7 +39,11 @@ impl<C: Circuit> Counterexample<C> {
         let Fault { signals, message } = fault;
         Counterexample {
             tick: (inputs.len() as u64).saturating_sub(1),
-            table: table(circuit, &inputs, &signals),
+            table: table(
+                &mut Machine::new(circuit),
+                &inputs.iter().map(Values::of).collect::<Vec<_>>(),
+                &signals,
+            ),
             inputs,
             invariant,
             signals,
@@ -57,27 +58,18 @@ impl<C: Circuit> Counterexample<C> {
     /// The files cannot be written.
     pub fn save(&self, circuit: &C, clock: Clock, dir: &Path) -> Result<Vec<PathBuf>, RunError> {
         let inputs = self.inputs.iter().cloned();
-        let stem: String = format!("{} {}", C::NAME, self.invariant)
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-            .collect();
-        trace::replay(circuit, inputs, clock, dir, &stem)
+        trace::replay(circuit, inputs, clock, dir, &stem(C::NAME, &self.invariant))
     }
 }
 
 impl<C: Circuit> fmt::Display for Counterexample<C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Counterexample {
-            tick,
-            invariant,
-            message,
-            ..
-        } = self;
-        let signals = self.signals.join(", ");
-        writeln!(
-            f,
-            "tick {tick}: {invariant}: {message} (signals: {signals})"
-        )?;
+        f.write_str(&report(
+            self.tick,
+            &self.invariant,
+            &self.message,
+            &self.signals,
+        ))?;
         f.write_str(&self.table)
     }
 }
@@ -88,39 +80,37 @@ impl<C: Circuit> fmt::Debug for Counterexample<C> {
     }
 }
 
-/// The leaves of a walk.
-#[derive(Default)]
-struct Values(Vec<u64>);
+/// The name of its files.
+fn stem(circuit: &str, invariant: &str) -> String {
+    format!("{circuit} {invariant}")
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+        .collect()
+}
 
-impl Probe for Values {
-    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
-        self.0.push(bits);
-    }
+/// What stands above its table.
+fn report(tick: u64, invariant: &str, message: &str, signals: &[String]) -> String {
+    let signals = signals.join(", ");
+    format!("tick {tick}: {invariant}: {message} (signals: {signals})\n")
 }
 
 /// The last ticks, a signal a row, those at fault first and marked; in the last column the
 /// registers after the edge.
-fn table<C: Circuit>(circuit: &C, inputs: &[C::In<Sim>], at_fault: &[String]) -> String {
-    let leaves = Declarations::of(circuit).leaves;
+fn table(running: &mut dyn Running, inputs: &[Values], at_fault: &[String]) -> String {
+    let leaves = Declarations::walked(running).leaves;
     let first = inputs.len().saturating_sub(TICKS);
     let mut columns = Vec::new();
-    let mut simulator = Simulator::new(circuit);
     for (tick, i) in inputs.iter().enumerate() {
-        let leaves_of = |now: &Sample<'_, C>| {
-            let mut values = Values::default();
-            now.visit(&mut values);
-            values.0
-        };
-        let (stepped, values) = simulator.step(i.clone(), leaves_of);
-        simulator = stepped;
+        running.settle(&mut i.source());
         if tick >= first {
-            columns.push(values);
+            let mut values = Values::default();
+            running.show(&mut values);
+            columns.push(values.0);
         }
+        running.clock(false);
     }
     let mut after = Values::default();
-    simulator
-        .registers()
-        .visit(const { &Field::part(Role::Register) }, &mut after);
+    running.part(Role::Register, &mut after);
     let mut after = after.0.into_iter();
 
     let text = |leaf: &Declaration, bits| show(leaf.shape, leaf.field.format, bits);
@@ -131,7 +121,7 @@ fn table<C: Circuit>(circuit: &C, inputs: &[C::In<Sim>], at_fault: &[String]) ->
         let path = leaf.path();
         let marked = at_fault.iter().any(|name| names(name, &path));
         let path = path
-            .strip_prefix(C::NAME)
+            .strip_prefix(running.name())
             .and_then(|path| path.strip_prefix('.'))
             .unwrap_or(&path);
         let mut row = vec![format!("{} {path}", if marked { '*' } else { ' ' })];

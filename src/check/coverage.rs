@@ -1,5 +1,6 @@
 use crate::kernel::{
-    Changed, Circuit, Field, Observer, Path, Probe, Role, RunError, Sample, Shape, Words,
+    Changed, Circuit, Field, Machine, Observer, Path, Probe, Role, RunError, Running, Sample,
+    Shape, Words,
 };
 use std::fmt;
 use std::ops::ControlFlow;
@@ -40,8 +41,13 @@ impl fmt::Display for Untoggled {
 impl Coverage {
     /// Nothing seen yet of this circuit.
     pub fn new<C: Circuit>(circuit: &C) -> Self {
+        Self::of(&Machine::new(circuit))
+    }
+
+    /// The same of a circuit whose type is forgotten.
+    pub(super) fn of(running: &dyn Running) -> Self {
         let mut names = Names::default();
-        Sample::at_power_on(circuit, |sample| sample.show(&mut names));
+        running.show(&mut names);
         let seen = vec![Seen::default(); names.signals.len()];
         Coverage {
             signals: names.signals,
@@ -52,6 +58,15 @@ impl Coverage {
             },
             last: None,
         }
+    }
+
+    /// Begins a tick; the probe is to see all of its signals.
+    pub(super) fn tick(&mut self, tick: u64) -> &mut dyn Probe {
+        // What a memory says it changed is what its last edge changed.
+        self.walk.every_word = self.last.is_none_or(|last| last + 1 != tick);
+        self.last = Some(tick);
+        self.walk.cursor = 0;
+        &mut self.walk
     }
 
     /// The bits seen at both levels, and all bits there are.
@@ -78,11 +93,7 @@ impl Coverage {
 
 impl<C: Circuit> Observer<C> for Coverage {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        // What a memory says it changed is what its last edge changed.
-        self.walk.every_word = self.last.is_none_or(|last| last + 1 != now.tick);
-        self.last = Some(now.tick);
-        self.walk.cursor = 0;
-        now.show(&mut self.walk);
+        now.show(self.tick(now.tick));
         Ok(ControlFlow::Continue(()))
     }
 }

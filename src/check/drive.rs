@@ -1,6 +1,6 @@
 use super::{Coverage, Stimulus};
-use crate::kernel::{Circuit, Observer, RunError, Simulator};
-use crate::trace::{Clock, Options, StimulusFile, Vcd};
+use crate::kernel::{Circuit, Machine, RunError, Running};
+use crate::trace::{Clock, Layout, Lines, Waves};
 use std::io::{self, Write};
 
 /// How long a circuit is driven, and by what.
@@ -26,7 +26,8 @@ pub struct Driven {
 }
 
 /// Drives a circuit from power-on with random inputs, and writes all of its signals as waves and
-/// what went into it as a [`StimulusFile`]: with both, another form of the circuit can be held
+/// what went into it as a
+/// [`StimulusFile`](crate::trace::StimulusFile): with both, another form of the circuit can be held
 /// against this one, tick by tick. The same [`Drive`] gives the same bytes.
 ///
 /// # Errors
@@ -34,29 +35,37 @@ pub struct Driven {
 pub fn drive<C: Circuit>(
     circuit: &C,
     drive: &Drive,
-    waves: impl Write,
-    stimulus: impl Write,
+    mut waves: impl Write,
+    mut stimulus: impl Write,
 ) -> Result<Driven, RunError> {
-    let vcd = Vcd::new(waves, circuit, drive.clock, &Options::default());
-    let mut vcd = vcd.map_err(io::Error::from)?;
-    let mut file = StimulusFile::<C, _>::new(stimulus);
-    let mut coverage = Coverage::new(circuit);
-    let mut random = Stimulus::new(drive.seed);
-    let mut resets = 0;
-    let mut simulator = Simulator::new(circuit);
-    for _ in 0..drive.ticks {
-        let rst = drive.resets && random.reset();
-        resets += u64::from(rst);
-        let (next, seen) =
-            simulator.step_with_reset(rst, random.inputs(), |now| -> Result<(), RunError> {
-                file.line(now.i, rst)?;
-                // Neither of them ends a run.
-                (&mut vcd, &mut coverage).sample(now).map(drop)
-            });
-        seen?;
-        simulator = next;
+    drive.run(&mut Machine::new(circuit), &mut waves, &mut stimulus)
+}
+
+impl Drive {
+    /// [`drive`] of a circuit whose type is forgotten, which stands at power-on.
+    fn run(
+        &self,
+        running: &mut dyn Running,
+        waves: &mut dyn Write,
+        stimulus: &mut dyn Write,
+    ) -> Result<Driven, RunError> {
+        let layout = Layout::of(running, None).map_err(io::Error::from)?;
+        let mut dump = Waves::new(&layout, self.clock);
+        let mut lines = Lines::of(running);
+        let mut coverage = Coverage::of(running);
+        let mut random = Stimulus::new(self.seed);
+        let mut resets = 0;
+        for tick in 0..self.ticks {
+            let rst = self.resets && random.reset();
+            resets += u64::from(rst);
+            running.settle(&mut random.ports());
+            lines.tick(running, rst, stimulus)?;
+            dump.tick(tick, running, waves)?;
+            running.show(coverage.tick(tick));
+            running.clock(rst);
+        }
+        dump.finish(waves)?;
+        lines.finish(stimulus)?;
+        Ok(Driven { resets, coverage })
     }
-    vcd.finish()?;
-    file.finish()?;
-    Ok(Driven { resets, coverage })
 }

@@ -88,6 +88,7 @@ mod invariant;
 mod lockstep;
 mod pair;
 mod reach;
+mod search;
 mod specified;
 mod stimulus;
 mod visited;

@@ -1,4 +1,5 @@
 use super::enumerate::{all, from_word, to_word};
+use super::search::{Report, Search};
 use super::visited::Visited;
 use super::{Counterexample, Fault, Invariants, TooWide};
 use crate::kernel::{Circuit, Sample};
@@ -9,8 +10,6 @@ use std::fmt;
 const INPUT_BITS: usize = 20;
 /// The widest registers: a state is one word.
 const STATE_BITS: usize = 64;
-/// A report of progress after this many states, and after every depth.
-const REPORT_EVERY: usize = 1 << 16;
 
 /// Every reachable state satisfies the invariants under every input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,7 +97,6 @@ impl<C: Circuit> fmt::Debug for Outcome<C> {
 }
 
 type Only<'a, C> = dyn Fn(&<C as Circuit>::In<Sim>) -> bool + 'a;
-type Report<'a> = dyn FnMut(&Progress) + 'a;
 type Assume<'a, C> = dyn Fn(&<C as Circuit>::Reg<Sim>, &<C as Circuit>::In<Sim>) -> bool + 'a;
 
 /// A search to be run; see [`reach`].
@@ -177,75 +175,44 @@ impl<'a, C: Circuit> Reach<'a, C> {
     pub fn run(mut self) -> Result<Outcome<C>, TooWide> {
         TooWide::check::<C::In<Sim>>("the inputs", INPUT_BITS)?;
         let bits = TooWide::check::<C::Reg<Sim>>("the registers", STATE_BITS)?;
-        let mut inputs: Vec<C::In<Sim>> = all()?.collect();
-        if let Some(possible) = &self.only {
-            inputs.retain(|i| possible(i));
+        let mut inputs: Vec<C::In<Sim>> = Vec::new();
+        for i in all()? {
+            if self.only.as_ref().is_none_or(|possible| possible(&i)) {
+                inputs.push(i);
+            }
         }
 
-        let mut found = Found::new(
-            to_word(&self.circuit.power_on()),
-            Visited::new(bits, self.bitmap_bits),
-        );
-        let mut transitions = 0;
-        let mut dead_ends = 0;
-        let mut depth = 0;
-        let mut deeper_from = 1;
-        let mut at = 0;
-        while let Some(&state) = found.states.get(at) {
-            let deeper = at == deeper_from;
-            if deeper {
-                depth += 1;
-                deeper_from = found.states.len();
-            }
-            let progress = |found: &Found, transitions| Progress {
-                states: found.states.len() as u64,
-                frontier: (found.states.len() - at) as u64,
-                transitions,
-                depth,
-            };
-            if (deeper || at.is_multiple_of(REPORT_EVERY))
-                && let Some(report) = &mut self.progress
-            {
-                report(&progress(&found, transitions));
-            }
-
+        let power_on = to_word(&self.circuit.power_on());
+        let visited = Visited::new(bits, self.bitmap_bits);
+        let mut search = Search::new(power_on, visited, self.limit, self.progress.take());
+        while let Some(state) = search.state() {
             let q: C::Reg<Sim> = from_word(state);
-            let before = transitions;
+            let before = search.transitions;
             for (index, i) in inputs.iter().enumerate() {
                 if !self.assume.iter().all(|possible| possible(&q, i)) {
                     continue;
                 }
-                transitions += 1;
+                search.transitions += 1;
                 let w = self.circuit.comb(&q, i);
                 let next = self.circuit.next(q.clone(), &w, i);
                 let now = Sample {
-                    tick: depth,
+                    tick: search.depth,
                     i,
                     q: &q,
                     w: &w,
                 };
                 if let Err((name, fault)) = self.invariants.check(&now, Some(&next)) {
-                    let way = found.way(at, index);
+                    let way = search.way(index);
                     let way = way.into_iter().map(|index| inputs[index].clone());
                     return Ok(self.violated(name, fault, way.collect()));
                 }
-                let next = to_word(&next);
-                if found.visited.insert(next) {
-                    if found.states.len() >= self.limit as usize {
-                        return Ok(Outcome::Limit(progress(&found, transitions)));
-                    }
-                    found.push(next, at, index);
+                if !search.found(to_word(&next), index) {
+                    return Ok(Outcome::Limit(search.progress()));
                 }
             }
-            dead_ends += u64::from(transitions == before);
-            at += 1;
+            search.tried(before);
         }
-        Ok(Outcome::Proof(Proof {
-            states: found.states.len() as u64,
-            transitions,
-            depth,
-            dead_ends,
-        }))
+        Ok(Outcome::Proof(search.proof()))
     }
 
     fn violated(&self, name: &str, fault: Fault, inputs: Vec<C::In<Sim>>) -> Outcome<C> {
@@ -262,43 +229,5 @@ impl<C: Circuit> fmt::Debug for Reach<'_, C> {
             .field("limit", &self.limit)
             .field("bitmap_bits", &self.bitmap_bits)
             .finish_non_exhaustive()
-    }
-}
-
-/// The states found, in the order of their distance from power-on, and how each was reached.
-struct Found {
-    visited: Visited,
-    states: Vec<u64>,
-    /// For every state the one before it on a shortest way and the input that leads on; both fit,
-    /// since the limit of states is a `u32` and inputs have 20 bits at most.
-    links: Vec<(u32, u32)>,
-}
-
-impl Found {
-    fn new(power_on: u64, mut visited: Visited) -> Self {
-        visited.insert(power_on);
-        Found {
-            visited,
-            states: vec![power_on],
-            links: vec![(0, 0)],
-        }
-    }
-
-    #[inline]
-    fn push(&mut self, state: u64, from: usize, input: usize) {
-        self.states.push(state);
-        self.links.push((from as u32, input as u32));
-    }
-
-    /// The inputs from power-on to state `at` and one more.
-    fn way(&self, mut at: usize, last: usize) -> Vec<usize> {
-        let mut way = vec![last];
-        while at != 0 {
-            let (from, input) = self.links[at];
-            way.push(input as usize);
-            at = from as usize;
-        }
-        way.reverse();
-        way
     }
 }

@@ -57,11 +57,15 @@ impl Stimulus {
 
     /// The inputs of the tick that comes next. Give them all to one circuit.
     pub fn inputs<S: Signals<Sim>>(&mut self) -> S {
-        let mut ports = Ports {
+        S::make(const { &Field::named("") }, &mut self.ports())
+    }
+
+    /// The inputs of the tick that comes next, one after the other.
+    pub(super) fn ports(&mut self) -> Ports<'_> {
+        Ports {
             stimulus: self,
             next: 0,
-        };
-        S::make(const { &Field::named("") }, &mut ports)
+        }
     }
 
     /// Whether the tick that comes next is one of reset: some are among the first hundreds, later
@@ -82,7 +86,7 @@ impl Stimulus {
 }
 
 /// The walk that gives every port its value.
-struct Ports<'a> {
+pub(super) struct Ports<'a> {
     stimulus: &'a mut Stimulus,
     next: usize,
 }

@@ -1,4 +1,4 @@
-use super::probe::Source;
+use super::probe::{Source, supply};
 use super::property::{Moment, Property};
 use super::signals::{Field, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Logic, Sim};
@@ -57,8 +57,15 @@ pub trait Circuit {
                 field.power_on as u64
             }
         }
-        Self::Reg::make(const { &Field::part(Role::Register) }, &mut PowerOn)
+        supply(Role::Register, &mut PowerOn)
     }
+}
+
+/// The nets of a circuit, for whom a call more makes no difference: of a large circuit this is
+/// the most code, so it is there once.
+#[inline(never)]
+pub(super) fn settled<C: Circuit>(circuit: &C, q: &C::Reg<Sim>, i: &C::In<Sim>) -> C::Net<Sim> {
+    circuit.comb(q, i)
 }
 
 /// One circuit inside another: what goes into it and its nets, in one scope.

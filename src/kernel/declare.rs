@@ -1,6 +1,7 @@
+use super::Circuit;
 use super::probe::{Probe, Words};
+use super::running::{Machine, Running};
 use super::signals::{Field, Kind, Role, Shape};
-use super::{Circuit, Sample};
 
 /// Where a walk is: the scopes around the next leaf and the part of the circuit it belongs to.
 ///
@@ -118,10 +119,15 @@ pub struct Declarations {
 }
 
 impl Declarations {
-    /// The signals of a circuit, in the order in which a [`Sample`] of it is walked.
+    /// The signals of a circuit, in the order in which a [`Sample`](super::Sample) of it is walked.
     pub fn of<C: Circuit>(circuit: &C) -> Self {
+        Self::walked(&Machine::new(circuit))
+    }
+
+    /// The signals of a circuit as it stands.
+    pub(crate) fn walked(running: &dyn Running) -> Self {
         let mut declarations = Declarations::default();
-        Sample::at_power_on(circuit, |sample| sample.show(&mut declarations));
+        running.show(&mut declarations);
         declarations
     }
 

@@ -1,6 +1,7 @@
-use super::probe::{Probe, Words};
-use super::signals::{Field, Role, Shape, Signals, Visit};
-use super::{Circuit, Instance};
+use super::Circuit;
+use super::circuit::settled;
+use super::probe::{Probe, Shown};
+use super::signals::{Field, Role, Signals, Visit};
 use crate::logic::Sim;
 use std::io;
 use std::ops::ControlFlow;
@@ -40,33 +41,13 @@ impl<C: Circuit> Sample<'_, C> {
     pub fn at_power_on<T>(circuit: &C, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
         let i = super::zero();
         let q = circuit.power_on();
-        let Instance::<C, Sim> { i, w } = Instance::settle(circuit, &q, i);
+        let w = settled(circuit, &q, &i);
         show(&Sample {
             tick: 0,
             i: &i,
             q: &q,
             w: &w,
         })
-    }
-}
-
-struct Shown<'a>(&'a mut dyn Probe);
-
-impl Probe for Shown<'_> {
-    fn enter(&mut self, field: &'static Field) {
-        self.0.enter(field);
-    }
-    fn leave(&mut self) {
-        self.0.leave();
-    }
-    fn element(&mut self, index: usize) {
-        self.0.element(index);
-    }
-    fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64) {
-        self.0.leaf(field, shape, bits);
-    }
-    fn memory(&mut self, field: &'static Field, words: &dyn Words) {
-        self.0.memory(field, words);
     }
 }
 

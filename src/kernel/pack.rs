@@ -1,5 +1,5 @@
-use super::probe::{Probe, Source};
-use super::signals::{Field, Shape, Signals};
+use super::probe::{Probe, Source, supply};
+use super::signals::{Field, Role, Shape, Signals};
 use crate::logic::Sim;
 use bitvec::prelude::*;
 
@@ -43,19 +43,20 @@ pub fn width<S: Signals<Sim>>() -> usize {
         }
     }
     let mut counter = Counter(0);
-    S::make(const { &Field::named("") }, &mut counter);
+    supply::<S>(Role::Input, &mut counter);
     counter.0
 }
 
 /// A bundle with every bit low.
-#[inline(always)]
 pub fn zero<S: Signals<Sim>>() -> S {
-    struct Zero;
-    impl Source for Zero {
-        #[inline(always)]
-        fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
-            0
-        }
+    supply(Role::Input, &mut Zero)
+}
+
+struct Zero;
+
+impl Source for Zero {
+    #[inline(always)]
+    fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
+        0
     }
-    S::make(const { &Field::named("") }, &mut Zero)
 }

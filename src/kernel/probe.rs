@@ -1,5 +1,6 @@
-use super::signals::{Field, Kind, Make, Shape, Visit};
+use super::signals::{Field, Kind, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Image, Signed, Sim, sim::*};
+use std::any::Any;
 
 /// What the last edge changed in a memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +29,8 @@ pub trait Words {
     fn changed(&self) -> Changed;
     /// What a word is called.
     fn label(&self) -> &'static Field;
+    /// A copy of the memory, with what it says it changed.
+    fn whole(&self) -> Box<dyn Any>;
 }
 
 /// A word of a RAM.
@@ -102,6 +105,48 @@ impl<P: Probe> Visit<Sim> for P {
     }
 }
 
+/// Shows a part of a circuit: the same walk as any other, compiled once for all probes.
+#[inline(never)]
+pub(super) fn show<S: Signals<Sim>>(signals: &S, role: Role, probe: &mut dyn Probe) {
+    signals.visit(part(role), &mut Shown(probe));
+}
+
+/// Makes a part of a circuit: compiled once for all sources.
+#[inline(never)]
+pub(super) fn supply<S: Signals<Sim>>(role: Role, source: &mut dyn Source) -> S {
+    S::make(part(role), &mut Supplied(source))
+}
+
+/// What holds of the struct of a part.
+pub(crate) fn part(role: Role) -> &'static Field {
+    match role {
+        Role::Input => const { &Field::part(Role::Input) },
+        Role::Register => const { &Field::part(Role::Register) },
+        Role::Net => const { &Field::part(Role::Net) },
+    }
+}
+
+/// Any probe by one type.
+pub(super) struct Shown<'a>(pub(super) &'a mut dyn Probe);
+
+impl Probe for Shown<'_> {
+    fn enter(&mut self, field: &'static Field) {
+        self.0.enter(field);
+    }
+    fn leave(&mut self) {
+        self.0.leave();
+    }
+    fn element(&mut self, index: usize) {
+        self.0.element(index);
+    }
+    fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64) {
+        self.0.leaf(field, shape, bits);
+    }
+    fn memory(&mut self, field: &'static Field, words: &dyn Words) {
+        self.0.memory(field, words);
+    }
+}
+
 /// A maker of simulated signals: it gives every leaf its bits.
 pub trait Source {
     /// A struct or a memory begins.
@@ -112,6 +157,18 @@ pub trait Source {
     fn element(&mut self, _index: usize) {}
     /// The bits of a leaf; those above `shape.width` are ignored.
     fn leaf(&mut self, field: &'static Field, shape: Shape) -> u64;
+    /// The memory that comes next, taken [`whole`](Words::whole) from the same walk; none where
+    /// its words come one by one.
+    fn memory(&mut self) -> Option<Box<dyn Any>> {
+        None
+    }
+}
+
+/// A memory that is taken whole; of another type than it has it could only be asked for in another
+/// walk.
+fn whole<S: Source, T: 'static>(source: &mut S) -> Option<T> {
+    let memory = source.memory()?.downcast().ok()?;
+    Some(*memory)
 }
 
 /// The words of a memory, one leaf each.
@@ -160,12 +217,39 @@ impl<S: Source> Make<Sim> for S {
         (self.leaf(field, Shape { kind, width: N }) as i64).into()
     }
     fn ram<const A: usize, const D: usize>(&mut self, field: &'static Field) -> SimRam<A, D> {
-        Image::new(words(self, field, &WORD, Image::<A, D>::WORDS, D)).into()
+        match whole(self) {
+            Some(ram) => ram,
+            None => Image::new(words(self, field, &WORD, Image::<A, D>::WORDS, D)).into(),
+        }
     }
     fn shift_register<const K: usize, const D: usize>(
         &mut self,
         field: &'static Field,
     ) -> SimShiftRegister<K, D> {
-        SimShiftRegister::new(words(self, field, &STAGE, K, D))
+        match whole(self) {
+            Some(register) => register,
+            None => SimShiftRegister::new(words(self, field, &STAGE, K, D)),
+        }
+    }
+}
+
+/// Any source by one type.
+struct Supplied<'a>(&'a mut dyn Source);
+
+impl Source for Supplied<'_> {
+    fn enter(&mut self, field: &'static Field) {
+        self.0.enter(field);
+    }
+    fn leave(&mut self) {
+        self.0.leave();
+    }
+    fn element(&mut self, index: usize) {
+        self.0.element(index);
+    }
+    fn leaf(&mut self, field: &'static Field, shape: Shape) -> u64 {
+        self.0.leaf(field, shape)
+    }
+    fn memory(&mut self) -> Option<Box<dyn Any>> {
+        self.0.memory()
     }
 }

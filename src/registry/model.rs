@@ -1,11 +1,11 @@
 //! Circuits whose types are forgotten.
 
 use crate::check::{Drive, Driven, Outcome, Progress, Proof, Specified, TooWide, drive, reach};
-use crate::kernel::{Circuit, Declarations, RunError};
+use crate::kernel::{Circuit, Declarations, Machine, RunError};
 use crate::trace::chart::{Chart, ChartFailure};
-use crate::trace::{Clock, LayoutError, Options, Vcd};
+use crate::trace::{Clock, Layout, LayoutError};
 use crate::verilog::{Verilog, VerilogError};
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// What any circuit can do, its type forgotten.
@@ -16,7 +16,7 @@ pub trait AnyModel {
     fn about(&self) -> &'static str;
     /// Its signals, in the order of its waves.
     fn declarations(&self) -> Declarations;
-    /// Prepares waves of it and throws them away.
+    /// Lays its signals out for waves.
     ///
     /// # Errors
     /// A name that is used twice in a scope, or that waveform files cannot carry.
@@ -57,7 +57,7 @@ impl<C: Circuit> AnyModel for C {
     }
 
     fn layout(&self) -> Result<(), LayoutError> {
-        Vcd::new(io::sink(), self, Clock::default(), &Options::default()).map(drop)
+        Layout::check(&Machine::new(self))
     }
 
     fn chart(&self, chart: &Chart) -> Result<(), ChartFailure> {

@@ -2,7 +2,7 @@
 
 use super::layout::{CLK, Layout, Scope, companion, is_stage, is_word};
 use super::{Clock, LayoutError, Options};
-use crate::kernel::{Circuit, Declaration, Format, Kind, Role};
+use crate::kernel::{Circuit, Declaration, Format, Kind, Machine, Role};
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -54,15 +54,20 @@ pub fn save_file<C: Circuit>(
     stem: &str,
     focus: Range<u64>,
 ) -> Result<String, LayoutError> {
-    let layout = Layout::of(circuit, options.only.as_deref())?;
+    let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
+    Ok(save(&layout, clock, stem, focus))
+}
+
+/// The save file of what is laid out.
+pub(super) fn save(layout: &Layout, clock: Clock, stem: &str, focus: Range<u64>) -> String {
     let mut save = Save {
         text: String::new(),
-        layout: &layout,
+        layout,
         flags: None,
     };
     save.window(clock, stem, focus);
     save.top();
-    Ok(save.text)
+    save.text
 }
 
 struct Save<'a> {

@@ -1,4 +1,4 @@
-use crate::kernel::{Circuit, Declaration, Declarations, Format, STAGE, WORD};
+use crate::kernel::{Declaration, Declarations, Format, Running, STAGE, WORD};
 use std::collections::HashSet;
 use std::io;
 use std::ops::Range;
@@ -63,7 +63,7 @@ pub(super) const CLK: &str = "clk";
 ///
 /// Ports in, registers and nets of a circuit share a scope, though a walk visits it three times.
 #[derive(Debug)]
-pub(super) struct Layout {
+pub(crate) struct Layout {
     /// Every leaf of the walk, in its order.
     pub leaves: Vec<Declaration>,
     /// For every leaf, whether it is selected.
@@ -74,7 +74,7 @@ pub(super) struct Layout {
 
 /// A scope with what is selected in it.
 #[derive(Debug, Default)]
-pub(super) struct Scope {
+pub(crate) struct Scope {
     pub name: String,
     /// Indices of its own leaves, in the order of the walk.
     pub leaves: Vec<usize>,
@@ -82,12 +82,17 @@ pub(super) struct Scope {
 }
 
 impl Layout {
-    pub fn of<C: Circuit>(circuit: &C, only: Option<&[String]>) -> Result<Self, LayoutError> {
-        let leaves = Declarations::of(circuit).leaves;
-        check(C::NAME, &leaves)?;
+    /// Whether the signals of a circuit can be laid out.
+    pub fn check(circuit: &dyn Running) -> Result<(), LayoutError> {
+        Layout::of(circuit, None).map(drop)
+    }
+
+    pub fn of(circuit: &dyn Running, only: Option<&[String]>) -> Result<Self, LayoutError> {
+        let leaves = Declarations::walked(circuit).leaves;
+        check(circuit.name(), &leaves)?;
         let selected = select(&leaves, only)?;
         let mut top = Scope {
-            name: C::NAME.to_owned(),
+            name: circuit.name().to_owned(),
             ..Scope::default()
         };
         for (index, leaf) in leaves.iter().enumerate() {

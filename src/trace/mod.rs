@@ -16,17 +16,19 @@ pub(crate) mod value;
 mod vcd;
 
 pub use clock::{Clock, ClockError};
+pub(crate) use layout::Layout;
 pub use layout::{LayoutError, Options};
 pub use record::{RecordError, Recorder};
+pub(crate) use stimulus_file::Lines;
 pub use stimulus_file::StimulusFile;
 pub use vcd::Vcd;
+pub(crate) use vcd::Waves;
 
-use crate::kernel::{Circuit, Observer, RunError, Simulator};
+use crate::kernel::{Circuit, Machine, RunError, Running, Values};
 use crate::logic::Sim;
 use atomic::AtomicFile;
 use std::fs;
 use std::io::{self, Write};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Ticks that the window of a replay shows at first.
@@ -46,22 +48,31 @@ pub fn replay<C: Circuit>(
     dir: &Path,
     stem: &str,
 ) -> Result<Vec<PathBuf>, RunError> {
-    let options = Options::default();
-    let file = AtomicFile::create(dir.join(format!("{stem}.vcd")))?;
-    let mut vcd = Vcd::new(file, circuit, clock, &options).map_err(io::Error::from)?;
-    let mut simulator = Simulator::new(circuit);
-    for i in inputs {
-        let (next, seen) = simulator.step(i, |now| vcd.sample(now));
-        simulator = next;
-        if let ControlFlow::Break(()) = seen? {
-            break;
-        }
-    }
-    let ticks = simulator.tick();
-    let dump = vcd.finish()?;
+    let mut inputs = inputs.into_iter().map(|i| Values::of(&i));
+    replay_values(&mut Machine::new(circuit), &mut inputs, clock, dir, stem)
+}
 
-    let focus = 0..ticks.min(FOCUS);
-    let save = gtkw::save_file(circuit, clock, &options, stem, focus).map_err(io::Error::from)?;
+/// The same of a circuit whose type is forgotten, which stands at power-on.
+fn replay_values(
+    running: &mut dyn Running,
+    inputs: &mut dyn Iterator<Item = Values>,
+    clock: Clock,
+    dir: &Path,
+    stem: &str,
+) -> Result<Vec<PathBuf>, RunError> {
+    let mut dump = AtomicFile::create(dir.join(format!("{stem}.vcd")))?;
+    let layout = Layout::of(running, None).map_err(io::Error::from)?;
+    let mut waves = Waves::new(&layout, clock);
+    let mut ticks = 0;
+    for i in inputs {
+        running.settle(&mut i.source());
+        waves.tick(ticks, running, &mut dump)?;
+        running.clock(false);
+        ticks += 1;
+    }
+    waves.finish(&mut dump)?;
+
+    let save = gtkw::save(&layout, clock, stem, 0..ticks.min(FOCUS));
     let mut save_file = AtomicFile::create(dir.join(format!("{stem}.gtkw")))?;
     save_file.write_all(save.as_bytes())?;
     let dump = dump.commit()?;

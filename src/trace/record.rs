@@ -1,7 +1,8 @@
 use super::layout::select;
 use super::{LayoutError, Options};
 use crate::kernel::{
-    Circuit, Declaration, Declarations, Field, Observer, Probe, RunError, Sample, Shape,
+    Circuit, Declaration, Declarations, Field, Machine, Observer, Probe, RunError, Running, Sample,
+    Shape,
 };
 use std::collections::HashMap;
 use std::io;
@@ -14,12 +15,7 @@ use std::ops::{ControlFlow, Range};
 /// signals, or the ticks, of a long run.
 #[derive(Debug)]
 pub struct Recorder<C> {
-    options: Range<u64>,
-    leaves: Vec<Declaration>,
-    by_path: HashMap<String, usize>,
-    columns: Columns,
-    /// The ticks recorded.
-    ticks: Range<u64>,
+    record: Record,
     circuit: PhantomData<fn(&C)>,
 }
 
@@ -50,27 +46,8 @@ impl<C: Circuit> Recorder<C> {
     /// # Errors
     /// A chosen path that does not exist.
     pub fn new(circuit: &C, options: &Options) -> Result<Self, LayoutError> {
-        let leaves = Declarations::of(circuit).leaves;
-        let selected = select(&leaves, options.only.as_deref())?;
-        let mut columns = Columns::default();
-        let mut kept = Vec::new();
-        for (leaf, selected) in leaves.into_iter().zip(selected) {
-            columns.place.push(selected.then_some(kept.len()));
-            if selected {
-                kept.push(leaf);
-            }
-        }
-        columns.values = vec![Vec::new(); kept.len()];
         Ok(Recorder {
-            options: options.ticks.clone(),
-            by_path: kept
-                .iter()
-                .enumerate()
-                .map(|(index, leaf)| (leaf.path(), index))
-                .collect(),
-            leaves: kept,
-            columns,
-            ticks: 0..0,
+            record: Record::new(&Machine::new(circuit), options)?,
             circuit: PhantomData,
         })
     }
@@ -79,12 +56,12 @@ impl<C: Circuit> Recorder<C> {
 impl<C> Recorder<C> {
     /// The recorded signals, in the order of the walk.
     pub fn leaves(&self) -> &[Declaration] {
-        &self.leaves
+        &self.record.leaves
     }
 
     /// The recorded ticks, half-open.
     pub fn ticks(&self) -> Range<u64> {
-        self.ticks.clone()
+        self.record.ticks.clone()
     }
 
     /// Where a signal stands in [`leaves`](Recorder::leaves).
@@ -92,13 +69,7 @@ impl<C> Recorder<C> {
     /// # Errors
     /// No such signal was recorded.
     pub fn index(&self, path: &str) -> Result<usize, RecordError> {
-        self.by_path
-            .get(path)
-            .copied()
-            .ok_or_else(|| RecordError::Unknown {
-                path: path.to_owned(),
-                near: near(path, self.by_path.keys().map(String::as_str)),
-            })
+        self.record.index(path)
     }
 
     /// The values of a signal, one a tick; words of less than 64 bits have zeros above.
@@ -112,7 +83,7 @@ impl<C> Recorder<C> {
     /// The values of the signal at `index` of [`leaves`](Recorder::leaves); none where the index
     /// is past the end.
     pub fn column_at(&self, index: usize) -> &[u64] {
-        self.columns.values.get(index).map_or(&[], Vec::as_slice)
+        self.record.column_at(index)
     }
 
     /// The value of a signal at a tick.
@@ -120,6 +91,92 @@ impl<C> Recorder<C> {
     /// # Errors
     /// No such signal, or not that tick, was recorded.
     pub fn at(&self, tick: u64, path: &str) -> Result<u64, RecordError> {
+        self.record.at(tick, path)
+    }
+}
+
+impl<C: Circuit> Observer<C> for Recorder<C> {
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        if let Some(columns) = self.record.tick(now.tick)? {
+            now.show(columns);
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+/// What a [`Recorder`] keeps, whatever the circuit.
+#[derive(Debug)]
+pub(super) struct Record {
+    options: Range<u64>,
+    leaves: Vec<Declaration>,
+    by_path: HashMap<String, usize>,
+    columns: Columns,
+    /// The ticks recorded.
+    ticks: Range<u64>,
+}
+
+impl Record {
+    pub(super) fn new(circuit: &dyn Running, options: &Options) -> Result<Self, LayoutError> {
+        let leaves = Declarations::walked(circuit).leaves;
+        let selected = select(&leaves, options.only.as_deref())?;
+        let mut columns = Columns::default();
+        let mut kept = Vec::new();
+        for (leaf, selected) in leaves.into_iter().zip(selected) {
+            columns.place.push(selected.then_some(kept.len()));
+            if selected {
+                kept.push(leaf);
+            }
+        }
+        columns.values = vec![Vec::new(); kept.len()];
+        Ok(Record {
+            options: options.ticks.clone(),
+            by_path: kept
+                .iter()
+                .enumerate()
+                .map(|(index, leaf)| (leaf.path(), index))
+                .collect(),
+            leaves: kept,
+            columns,
+            ticks: 0..0,
+        })
+    }
+
+    /// Begins a tick, if it is one of the chosen: the columns are to see all of its signals.
+    pub(super) fn tick(&mut self, tick: u64) -> io::Result<Option<&mut Columns>> {
+        if !self.options.contains(&tick) {
+            return Ok(None);
+        }
+        if self.ticks.is_empty() {
+            self.ticks = tick..tick;
+        }
+        if self.ticks.end != tick {
+            let message = format!("tick {tick} does not follow tick {}", self.ticks.end - 1);
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+        }
+        self.ticks.end += 1;
+        self.columns.cursor = 0;
+        Ok(Some(&mut self.columns))
+    }
+
+    fn index(&self, path: &str) -> Result<usize, RecordError> {
+        self.by_path
+            .get(path)
+            .copied()
+            .ok_or_else(|| RecordError::Unknown {
+                path: path.to_owned(),
+                near: near(path, self.by_path.keys().map(String::as_str)),
+            })
+    }
+
+    pub(super) fn column(&self, path: &str) -> Result<&[u64], RecordError> {
+        Ok(self.column_at(self.index(path)?))
+    }
+
+    fn column_at(&self, index: usize) -> &[u64] {
+        self.columns.values.get(index).map_or(&[], Vec::as_slice)
+    }
+
+    fn at(&self, tick: u64, path: &str) -> Result<u64, RecordError> {
         let column = self.column(path)?;
         let place = tick.checked_sub(self.ticks.start);
         place
@@ -127,35 +184,13 @@ impl<C> Recorder<C> {
             .copied()
             .ok_or_else(|| RecordError::Tick {
                 tick,
-                recorded: self.ticks(),
+                recorded: self.ticks.clone(),
             })
     }
 }
 
-impl<C: Circuit> Observer<C> for Recorder<C> {
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if self.options.contains(&now.tick) {
-            if self.ticks.is_empty() {
-                self.ticks = now.tick..now.tick;
-            }
-            if self.ticks.end != now.tick {
-                let message = format!(
-                    "tick {} does not follow tick {}",
-                    now.tick,
-                    self.ticks.end - 1
-                );
-                return Err(io::Error::new(io::ErrorKind::InvalidInput, message).into());
-            }
-            self.ticks.end += 1;
-            self.columns.cursor = 0;
-            now.show(&mut self.columns);
-        }
-        Ok(ControlFlow::Continue(()))
-    }
-}
-
 #[derive(Debug, Default)]
-struct Columns {
+pub(super) struct Columns {
     /// For every leaf of the walk, its column.
     place: Vec<Option<usize>>,
     values: Vec<Vec<u64>>,

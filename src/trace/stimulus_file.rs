@@ -1,4 +1,6 @@
-use crate::kernel::{Circuit, Field, Observer, Probe, RunError, Sample, Shape, Signals, width};
+use crate::kernel::{
+    Circuit, Field, Observer, Probe, Role, RunError, Running, Sample, Shape, Signals, width,
+};
 use crate::logic::Sim;
 use std::io::{self, Write};
 use std::marker::PhantomData;
@@ -21,9 +23,7 @@ const BUFFER: usize = 64 * 1024;
 #[must_use]
 pub struct StimulusFile<C, W> {
     out: W,
-    word: Word,
-    digits: usize,
-    buffer: Vec<u8>,
+    lines: Lines,
     circuit: PhantomData<fn(&C)>,
 }
 
@@ -32,9 +32,7 @@ impl<C: Circuit, W: Write> StimulusFile<C, W> {
     pub fn new(out: W) -> Self {
         StimulusFile {
             out,
-            word: Word::default(),
-            digits: Self::bits().div_ceil(4),
-            buffer: Vec::with_capacity(BUFFER + BUFFER / 8),
+            lines: Lines::new(Self::bits()),
             circuit: PhantomData,
         }
     }
@@ -49,17 +47,8 @@ impl<C: Circuit, W: Write> StimulusFile<C, W> {
     /// # Errors
     /// The writer failed.
     pub fn line(&mut self, i: &C::In<Sim>, rst: bool) -> io::Result<()> {
-        self.word.clear();
-        i.visit(const { &Field::named("") }, &mut self.word);
-        self.word.push(rst.into(), 1);
-        let digits = (0..self.digits).rev().map(|place| self.word.digit(place));
-        self.buffer.extend(digits);
-        self.buffer.push(b'\n');
-        if self.buffer.len() >= BUFFER {
-            self.out.write_all(&self.buffer)?;
-            self.buffer.clear();
-        }
-        Ok(())
+        i.visit(const { &Field::named("") }, self.lines.begin());
+        self.lines.end(rst, &mut self.out)
     }
 
     /// Hands everything to the writer, which it returns.
@@ -67,8 +56,7 @@ impl<C: Circuit, W: Write> StimulusFile<C, W> {
     /// # Errors
     /// The writer failed.
     pub fn finish(mut self) -> io::Result<W> {
-        self.out.write_all(&self.buffer)?;
-        self.out.flush()?;
+        self.lines.finish(&mut self.out)?;
         Ok(self.out)
     }
 }
@@ -77,6 +65,68 @@ impl<C: Circuit, W: Write> Observer<C> for StimulusFile<C, W> {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.line(now.i, false)?;
         Ok(ControlFlow::Continue(()))
+    }
+}
+
+/// The lines of a circuit whose type is forgotten: all of [`StimulusFile`] but the walk.
+#[derive(Debug)]
+pub(crate) struct Lines {
+    word: Word,
+    digits: usize,
+    buffer: Vec<u8>,
+}
+
+impl Lines {
+    /// None yet; a word has this many bits.
+    fn new(bits: usize) -> Self {
+        Lines {
+            word: Word::default(),
+            digits: bits.div_ceil(4),
+            buffer: Vec::with_capacity(BUFFER + BUFFER / 8),
+        }
+    }
+
+    /// Begins a line; the word is to see the ports in.
+    fn begin(&mut self) -> &mut Word {
+        self.word.clear();
+        &mut self.word
+    }
+
+    /// Ends it.
+    fn end(&mut self, rst: bool, out: &mut dyn Write) -> io::Result<()> {
+        self.word.push(rst.into(), 1);
+        let digits = (0..self.digits).rev().map(|place| self.word.digit(place));
+        self.buffer.extend(digits);
+        self.buffer.push(b'\n');
+        if self.buffer.len() >= BUFFER {
+            out.write_all(&self.buffer)?;
+            self.buffer.clear();
+        }
+        Ok(())
+    }
+
+    /// None yet, of this circuit.
+    pub(crate) fn of(running: &dyn Running) -> Self {
+        let mut word = Word::default();
+        running.part(Role::Input, &mut word);
+        Lines::new(word.filled + 1)
+    }
+
+    /// Writes a tick.
+    pub(crate) fn tick(
+        &mut self,
+        running: &dyn Running,
+        rst: bool,
+        out: &mut dyn Write,
+    ) -> io::Result<()> {
+        running.part(Role::Input, self.begin());
+        self.end(rst, out)
+    }
+
+    /// Hands everything to the writer.
+    pub(crate) fn finish(&self, out: &mut dyn Write) -> io::Result<()> {
+        out.write_all(&self.buffer)?;
+        out.flush()
     }
 }
 

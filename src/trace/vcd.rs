@@ -1,16 +1,14 @@
 mod dump;
+mod header;
+mod waves;
 
-use super::layout::{CLK, Layout, Scope, companion};
+use super::layout::Layout;
 use super::{Clock, LayoutError, Options};
-use crate::kernel::{Circuit, Observer, Role, RunError, Sample};
-use dump::{Dump, Id, Signal};
+use crate::kernel::{Circuit, Machine, Observer, RunError, Sample};
 use std::io::{self, Write};
 use std::marker::PhantomData;
 use std::ops::{ControlFlow, Range};
-use vcd::{ReferenceIndex, VarType};
-
-/// Bytes that are gathered before they are written.
-const BUFFER: usize = 256 * 1024;
+pub(crate) use waves::Waves;
 
 /// Writes every signal of a run, and `clk`, as a value change dump (IEEE 1364).
 ///
@@ -27,9 +25,7 @@ const BUFFER: usize = 256 * 1024;
 pub struct Vcd<C, W> {
     out: W,
     ticks: Range<u64>,
-    clock: Clock,
-    last: Option<u64>,
-    dump: Dump,
+    waves: Waves,
     circuit: PhantomData<fn(&C)>,
 }
 
@@ -40,30 +36,11 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
     /// A name that is used twice in a scope or cannot be written, a selected path that does not
     /// exist. Nothing is written to `out` before the run.
     pub fn new(out: W, circuit: &C, clock: Clock, options: &Options) -> Result<Self, LayoutError> {
-        let layout = Layout::of(circuit, options.only.as_deref())?;
-        let clk = Id::new(0);
-        let mut signals = Vec::with_capacity(layout.leaves.len());
-        let mut next = 1;
-        for (leaf, &selected) in layout.leaves.iter().zip(&layout.selected) {
-            signals.push(Signal::new(leaf, selected, &mut next));
-        }
-        let mut buffer = Vec::with_capacity(BUFFER + BUFFER / 8);
-        // Writing to memory does not fail.
-        let _ = header(&mut buffer, &layout, &signals, clock, clk);
+        let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
         Ok(Vcd {
             out,
             ticks: options.ticks.clone(),
-            clock,
-            last: None,
-            dump: Dump {
-                previous: vec![0; signals.len()],
-                signals,
-                clk,
-                cursor: 0,
-                first: true,
-                every_word: true,
-                buffer,
-            },
+            waves: Waves::new(&layout, clock),
             circuit: PhantomData,
         })
     }
@@ -73,46 +50,13 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
     /// # Errors
     /// The writer failed.
     pub fn finish(mut self) -> io::Result<W> {
-        if let Some(last) = self.last {
-            let end = self.clock.rise(last + 1).ok_or_else(too_late)?;
-            self.dump.time(end);
-        }
-        self.out.write_all(&self.dump.buffer)?;
-        self.out.flush()?;
+        self.waves.finish(&mut self.out)?;
         Ok(self.out)
     }
 
     fn tick(&mut self, now: &Sample<'_, C>) -> io::Result<()> {
-        let dump = &mut self.dump;
-        if self.last.is_some_and(|last| last >= now.tick) {
-            return Err(io::Error::new(
-                io::ErrorKind::InvalidInput,
-                format!("tick {} comes twice", now.tick),
-            ));
-        }
-        // What a memory says it changed is what its last edge changed; after a gap all is looked at.
-        dump.first = self.last.is_none();
-        dump.every_word = self.last.is_none_or(|last| last + 1 != now.tick);
-        self.last = Some(now.tick);
-
-        dump.time(self.clock.rise(now.tick).ok_or_else(too_late)?);
-        if dump.first {
-            dump.buffer.extend_from_slice(b"$dumpvars\n");
-        }
-        dump.scalar(b'1', dump.clk);
-        dump.cursor = 0;
-        now.visit(dump);
-        if dump.first {
-            dump.buffer.extend_from_slice(b"$end\n");
-        }
-        dump.time(self.clock.fall(now.tick).ok_or_else(too_late)?);
-        dump.scalar(b'0', dump.clk);
-
-        if dump.buffer.len() >= BUFFER {
-            self.out.write_all(&dump.buffer)?;
-            dump.buffer.clear();
-        }
-        Ok(())
+        now.visit(self.waves.begin(now.tick)?);
+        self.waves.end(now.tick, &mut self.out)
     }
 }
 
@@ -124,57 +68,4 @@ impl<C: Circuit, W: Write> Observer<C> for Vcd<C, W> {
         }
         Ok(ControlFlow::Continue(()))
     }
-}
-
-fn too_late() -> io::Error {
-    io::Error::new(
-        io::ErrorKind::InvalidInput,
-        "the time of this tick does not fit into 64 bits",
-    )
-}
-
-fn header(
-    out: &mut Vec<u8>,
-    layout: &Layout,
-    signals: &[Signal],
-    clock: Clock,
-    clk: Id,
-) -> io::Result<()> {
-    let mut out = vcd::Writer::new(out);
-    out.version(concat!("motion-rtl ", env!("CARGO_PKG_VERSION")))?;
-    out.comment(&clock.to_string())?;
-    let (factor, unit) = clock.timescale();
-    out.timescale(factor, unit)?;
-    out.add_module(&layout.top.name)?;
-    out.var_def(VarType::Wire, 1, clk.code(), CLK, None)?;
-    variables(&mut out, &layout.top, layout, signals)?;
-    out.upscope()?;
-    out.enddefinitions()
-}
-
-fn variables(
-    out: &mut vcd::Writer<&mut Vec<u8>>,
-    scope: &Scope,
-    layout: &Layout,
-    signals: &[Signal],
-) -> io::Result<()> {
-    for &index in &scope.leaves {
-        let (leaf, signal) = (&layout.leaves[index], &signals[index]);
-        let kind = match leaf.role {
-            Role::Register => VarType::Reg,
-            Role::Input | Role::Net => VarType::Wire,
-        };
-        let width = leaf.shape.width;
-        let range = (width > 1).then(|| ReferenceIndex::Range(width as i32 - 1, 0));
-        out.var_def(kind, width as u32, signal.id.code(), &leaf.name, range)?;
-        if let (Some((id, _)), Some(name)) = (signal.states, companion(leaf)) {
-            out.var_def(VarType::String, 1, id.code(), &name, None)?;
-        }
-    }
-    for inner in &scope.scopes {
-        out.add_module(&inner.name)?;
-        variables(out, inner, layout, signals)?;
-        out.upscope()?;
-    }
-    Ok(())
 }

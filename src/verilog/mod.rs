@@ -80,7 +80,11 @@ impl Verilog {
     /// # Errors
     /// The circuit is no netlist, or has names that Verilog does not take.
     pub fn of<C: Circuit>(circuit: &C) -> Result<Self, VerilogError> {
-        let design = elaborate(circuit).map_err(VerilogError::Netlist)?;
+        Self::from_design(elaborate(circuit))
+    }
+
+    fn from_design(design: Result<Design, Vec<NetlistError>>) -> Result<Self, VerilogError> {
+        let design = design.map_err(VerilogError::Netlist)?;
         check_names(&design)?;
         Ok(Verilog { design })
     }

@@ -7,5 +7,6 @@ mod scenario;
 mod simulators;
 mod tools;
 mod turntable;
+mod weld;
 mod yosys;
 mod zoo;

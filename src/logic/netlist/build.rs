@@ -84,6 +84,7 @@ pub(super) fn node(node: Node, shape: Shape) -> Id {
 }
 
 /// A constant, taken modulo 2^N.
+#[inline(never)]
 pub(super) fn constant(value: u64, shape: Shape) -> Id {
     node(Node::Constant(masked(value, shape)), shape)
 }

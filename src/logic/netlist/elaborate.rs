@@ -1,13 +1,15 @@
 use super::Netlist;
-use super::build::{Builder, Building, PowerOn, builder, elaboration};
+use super::build::{Builder, Building, Elaboration, PowerOn, builder, elaboration};
 use super::leaves::{Leaves, NextRegisters, Ports};
 use super::memory::State;
 use super::module::{Child, Design, Module, NetlistError, Register, Setting, Value};
-use super::nets::{Edge, Leaf, Nets};
+use super::nets::{Leaf, Nets};
 use super::node::Node;
 use super::properties::note_properties;
-use crate::kernel::{Circuit, Field, Probe, Role, Shape, Signals, Words};
+use super::walk::{look, make};
+use crate::kernel::{Circuit, Field, Probe, Role, Shape, Words, show_power_on};
 use std::mem;
+use std::ops::Range;
 
 /// The netlist of a circuit and of those inside it, with its power-on values.
 ///
@@ -15,54 +17,88 @@ use std::mem;
 /// What a netlist cannot say of the circuit: it looks into a circuit inside it past the ports,
 /// replaces that circuit's registers, or uses a memory after its edge.
 pub fn elaborate<C: Circuit>(circuit: &C) -> Result<Design, Vec<NetlistError>> {
-    // A thread may be in the middle of another one.
-    let outer = elaboration(mem::take);
-    let mut values = PowerOnValues(Vec::new());
-    circuit
-        .power_on()
-        .visit(const { &Field::part(Role::Register) }, &mut values);
-    let (_, mut settings) = module(circuit, values.0);
-    let made = elaboration(|elaboration| mem::replace(elaboration, outer));
-    settings.retain(|setting| match setting.value {
-        Value::Number(_) => true,
-        Value::Words(_) => is_filled(&made.modules, &setting.path),
-    });
-    match made.errors.is_empty() {
-        true => Ok(Design {
-            modules: made.modules,
-            settings,
-        }),
-        false => Err(made.errors),
+    let mut whole = Whole::begin();
+    show_power_on(circuit, &mut whole);
+    let (_, settings) = module(circuit, mem::take(&mut whole.power_on));
+    whole.end(settings)
+}
+
+/// The elaboration of a whole circuit.
+struct Whole {
+    /// A thread may be in the middle of another one.
+    outer: Elaboration,
+    power_on: Vec<PowerOn>,
+}
+
+impl Whole {
+    fn begin() -> Self {
+        Whole {
+            outer: elaboration(mem::take),
+            power_on: Vec::new(),
+        }
+    }
+
+    fn end(self, mut settings: Vec<Setting>) -> Result<Design, Vec<NetlistError>> {
+        let made = elaboration(|elaboration| mem::replace(elaboration, self.outer));
+        settings.retain(|setting| match setting.value {
+            Value::Number(_) => true,
+            Value::Words(_) => is_filled(&made.modules, &setting.path),
+        });
+        match made.errors.is_empty() {
+            true => Ok(Design {
+                modules: made.modules,
+                settings,
+            }),
+            false => Err(made.errors),
+        }
+    }
+}
+
+/// Collects power-on values.
+impl Probe for Whole {
+    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
+        self.power_on.push(PowerOn::Bits(bits));
+    }
+    fn memory(&mut self, _: &'static Field, words: &dyn Words) {
+        let words = (0..words.len()).map(|index| words.word(index));
+        self.power_on.push(PowerOn::Words(words.collect()));
     }
 }
 
 /// Makes the module of a circuit; returns its number and its settings.
 fn module<C: Circuit>(circuit: &C, power_on: Vec<PowerOn>) -> (usize, Vec<Setting>) {
+    begin(C::NAME, power_on);
+    let i: C::In<Netlist> = make(Role::Input, &mut Leaves::default());
+    let q: C::Reg<Netlist> = make(Role::Register, &mut Leaves::default());
+    let w = circuit.comb::<Netlist>(&q, &i);
+    let mut nets = Nets::default();
+    look(&w, Role::Net, &mut nets);
+    let next = circuit.next::<Netlist>(q.clone(), &w, &i);
+    note_properties(circuit, &i, &q, &w);
+    let mut edge = Vec::new();
+    look(&next, Role::Register, &mut edge);
+    end(C::ABOUT, nets, edge)
+}
+
+/// A module begins, inside the one that is being made.
+fn begin(name: &'static str, power_on: Vec<PowerOn>) {
     elaboration(|elaboration| {
         elaboration.open.push(Builder {
-            name: C::NAME,
+            name,
             power_on,
             ..Builder::default()
         });
     });
-    let i = C::In::<Netlist>::make(const { &Field::part(Role::Input) }, &mut Leaves::default());
-    let q = C::Reg::<Netlist>::make(
-        const { &Field::part(Role::Register) },
-        &mut Leaves::default(),
-    );
-    let w = circuit.comb::<Netlist>(&q, &i);
-    let mut nets = Nets::default();
-    w.visit(const { &Field::part(Role::Net) }, &mut nets);
-    let next = circuit.next::<Netlist>(q.clone(), &w, &i);
-    note_properties(circuit, &i, &q, &w);
-    let mut edge = Edge(Vec::new());
-    next.visit(const { &Field::part(Role::Register) }, &mut edge);
+}
+
+/// It ends; returns its number and its settings.
+fn end(about: &'static str, nets: Nets, edge: Vec<Leaf>) -> (usize, Vec<Setting>) {
     elaboration(|elaboration| {
         let builder = elaboration.open.pop().unwrap_or_default();
         let (module, settings) = builder.finish(
-            C::ABOUT,
+            about,
             nets,
-            edge.0,
+            &edge,
             &elaboration.modules,
             &mut elaboration.errors,
         );
@@ -129,53 +165,64 @@ pub(super) fn settle<C: Circuit>(
     q: &C::Reg<Netlist>,
     i: &C::In<Netlist>,
 ) -> C::Net<Netlist> {
-    let registers = places::<C>(q);
-    let mut inputs = Edge(Vec::new());
-    i.visit(const { &Field::part(Role::Input) }, &mut inputs);
-    let inputs = inputs.0.into_iter().filter_map(|leaf| match leaf {
+    let (mut registers, mut inputs) = (Vec::new(), Vec::new());
+    look(q, Role::Register, &mut registers);
+    look(i, Role::Input, &mut inputs);
+    let registers = places(registers);
+    let made = module(circuit, power_on(registers.clone()));
+    let instance = instance(C::NAME, registers, inputs, made);
+    make(Role::Net, &mut Ports { instance, leaf: 0 })
+}
+
+/// What registers of the module that is being made hold at power-on.
+fn power_on(registers: Range<usize>) -> Vec<PowerOn> {
+    builder(|builder| {
+        let values = builder.power_on.get(registers);
+        values.unwrap_or_default().to_vec()
+    })
+}
+
+/// Adds an instance to the module that is being made; returns its number.
+fn instance(
+    circuit: &'static str,
+    registers: Range<usize>,
+    inputs: Vec<Leaf>,
+    (module, settings): (usize, Vec<Setting>),
+) -> usize {
+    let inputs = inputs.into_iter().filter_map(|leaf| match leaf {
         Leaf::Word(id) => Some(id),
         Leaf::Memory(..) => None,
     });
-    let power_on = builder(|builder| {
-        let values = builder.power_on.get(registers.clone());
-        values.unwrap_or_default().to_vec()
-    });
-    let (module, settings) = module(circuit, power_on);
-    let instance = builder(|builder| {
+    builder(|builder| {
         builder.instances.push(Building {
             child: Child {
                 name: String::new(),
                 module,
                 inputs: inputs.collect(),
             },
-            circuit: C::NAME,
+            circuit,
             registers,
             settings,
         });
         builder.instances.len() - 1
-    });
-    let mut ports = Ports { instance, leaf: 0 };
-    C::Net::make(const { &Field::part(Role::Net) }, &mut ports)
+    })
 }
 
 /// What a circuit inside the one that is being made makes of its registers.
-pub(super) fn clock<C: Circuit>(q: C::Reg<Netlist>) -> C::Reg<Netlist> {
-    let mut next = NextRegisters {
-        place: places::<C>(&q).start,
-    };
-    C::Reg::make(const { &Field::part(Role::Register) }, &mut next)
+pub(super) fn clock<C: Circuit>(q: &C::Reg<Netlist>) -> C::Reg<Netlist> {
+    let mut registers = Vec::new();
+    look(q, Role::Register, &mut registers);
+    let place = places(registers).start;
+    make(Role::Register, &mut NextRegisters { place })
 }
 
 /// Where the registers of a circuit stand among those of the one being made; none where they are
 /// not its registers in their order.
-fn places<C: Circuit>(q: &C::Reg<Netlist>) -> std::ops::Range<usize> {
-    let mut leaves = Edge(Vec::new());
-    q.visit(const { &Field::part(Role::Register) }, &mut leaves);
+fn places(leaves: Vec<Leaf>) -> Range<usize> {
     builder(|builder| {
         let wanted: Vec<Option<Register>> = leaves
-            .0
-            .iter()
-            .map(|leaf| match *leaf {
+            .into_iter()
+            .map(|leaf| match leaf {
                 Leaf::Word(id) => match builder.nodes.get(id) {
                     Some((Node::Signal(signal), _)) => Some(Register::Signal(*signal)),
                     _ => None,
@@ -196,17 +243,4 @@ fn places<C: Circuit>(q: &C::Reg<Netlist>) -> std::ops::Range<usize> {
         });
         if there { start..end } else { start..start }
     })
-}
-
-/// Collects power-on values.
-struct PowerOnValues(Vec<PowerOn>);
-
-impl Probe for PowerOnValues {
-    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
-        self.0.push(PowerOn::Bits(bits));
-    }
-    fn memory(&mut self, _: &'static Field, words: &dyn Words) {
-        let words = (0..words.len()).map(|index| words.word(index));
-        self.0.push(PowerOn::Words(words.collect()));
-    }
 }

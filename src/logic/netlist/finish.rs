@@ -12,13 +12,13 @@ impl Builder {
         mut self,
         about: &'static str,
         nets: Nets,
-        edge: Vec<Leaf>,
+        edge: &[Leaf],
         modules: &[Module],
         errors: &mut Vec<NetlistError>,
     ) -> (Module, Vec<Setting>) {
         self.name_instances(nets.instances);
         self.claim(modules);
-        self.drive(&edge, errors);
+        self.drive(edge, errors);
         let settings = self.settings();
         let module = Module {
             name: self.name.to_owned(),

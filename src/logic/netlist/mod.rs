@@ -12,7 +12,7 @@ mod module;
 mod nets;
 mod node;
 mod properties;
-
+mod walk;
 mod words;
 
 pub use elaborate::elaborate;
@@ -55,6 +55,6 @@ impl Logic for Netlist {
         _: &C::Net<Self>,
         _: &C::In<Self>,
     ) -> C::Reg<Self> {
-        elaborate::clock::<C>(q)
+        elaborate::clock::<C>(&q)
     }
 }

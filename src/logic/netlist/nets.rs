@@ -1,11 +1,10 @@
 //! What a circuit's walks show: leaves as they come, and nets with the scopes of instances.
 
-use super::Netlist;
 use super::build::{builder, flat, signal};
-use super::memory::{NetRam, NetShiftRegister, State};
+use super::memory::State;
 use super::node::{Id, Node};
-use super::words::{NetBit, NetInt, NetUInt, Word};
-use crate::kernel::{Field, Path, Role, Visit};
+use super::walk::Look;
+use crate::kernel::{Field, Path, Role, Shape};
 
 /// A leaf after the edge, or of the inputs of an instance.
 #[derive(Debug, Clone, Copy)]
@@ -14,31 +13,12 @@ pub(super) enum Leaf {
     Memory(usize, State),
 }
 
-/// Collects leaves.
-pub(super) struct Edge(pub(super) Vec<Leaf>);
-
-impl Visit<Netlist> for Edge {
-    fn enter(&mut self, _: &'static Field) {}
-    fn leave(&mut self) {}
-    fn element(&mut self, _: usize) {}
-    fn bit(&mut self, _: &'static Field, value: NetBit) {
-        self.0.push(Leaf::Word(value.id()));
+impl Look for Vec<Leaf> {
+    fn word(&mut self, _: &'static Field, _: Shape, id: Id) {
+        self.push(Leaf::Word(id));
     }
-    fn unsigned<const N: usize>(&mut self, _: &'static Field, value: NetUInt<N>) {
-        self.0.push(Leaf::Word(value.id()));
-    }
-    fn signed<const N: usize>(&mut self, _: &'static Field, value: NetInt<N>) {
-        self.0.push(Leaf::Word(value.id()));
-    }
-    fn ram<const A: usize, const D: usize>(&mut self, _: &'static Field, ram: &NetRam<A, D>) {
-        self.0.push(Leaf::Memory(ram.memory, ram.state));
-    }
-    fn shift_register<const K: usize, const D: usize>(
-        &mut self,
-        _: &'static Field,
-        register: &NetShiftRegister<K, D>,
-    ) {
-        self.0.push(Leaf::Memory(register.memory, register.state));
+    fn memory(&mut self, memory: usize, state: State) {
+        self.push(Leaf::Memory(memory, state));
     }
 }
 
@@ -57,29 +37,7 @@ pub(super) struct Nets {
     pub(super) instances: Vec<(Vec<String>, Option<usize>)>,
 }
 
-impl Nets {
-    fn word<W: Word>(&mut self, field: &'static Field, value: W) {
-        let name = self.path.name(field);
-        if let Some((_, role)) = self.parts.first() {
-            self.leaves.push(None);
-            let node = builder(|builder| builder.nodes.get(value.id()).map(|(node, _)| *node));
-            let (Role::Net, Some(Node::Port { instance, .. })) = (role, node) else {
-                return;
-            };
-            if let Some((_, known)) = self.instances.last_mut() {
-                *known = Some(instance);
-            }
-            return;
-        }
-        let scopes = self.path.scopes().to_vec();
-        let mut signal = signal(flat(&scopes, &name), field, W::SHAPE);
-        signal.driver = Some(value.id());
-        let signal = builder(|builder| builder.signal(signal, scopes));
-        self.leaves.push(Some(signal));
-    }
-}
-
-impl Visit<Netlist> for Nets {
+impl Look for Nets {
     fn enter(&mut self, field: &'static Field) {
         self.path.enter(field);
         self.depth += 1;
@@ -118,23 +76,26 @@ impl Visit<Netlist> for Nets {
     fn element(&mut self, index: usize) {
         self.path.element(index);
     }
-    fn bit(&mut self, field: &'static Field, value: NetBit) {
-        self.word(field, value);
+    fn word(&mut self, field: &'static Field, shape: Shape, id: Id) {
+        let name = self.path.name(field);
+        if let Some((_, role)) = self.parts.first() {
+            self.leaves.push(None);
+            let node = builder(|builder| builder.nodes.get(id).map(|(node, _)| *node));
+            let (Role::Net, Some(Node::Port { instance, .. })) = (role, node) else {
+                return;
+            };
+            if let Some((_, known)) = self.instances.last_mut() {
+                *known = Some(instance);
+            }
+            return;
+        }
+        let scopes = self.path.scopes().to_vec();
+        let mut signal = signal(flat(&scopes, &name), field, shape);
+        signal.driver = Some(id);
+        let signal = builder(|builder| builder.signal(signal, scopes));
+        self.leaves.push(Some(signal));
     }
-    fn unsigned<const N: usize>(&mut self, field: &'static Field, value: NetUInt<N>) {
-        self.word(field, value);
-    }
-    fn signed<const N: usize>(&mut self, field: &'static Field, value: NetInt<N>) {
-        self.word(field, value);
-    }
-    fn ram<const A: usize, const D: usize>(&mut self, _: &'static Field, _: &NetRam<A, D>) {
-        self.leaves.push(None);
-    }
-    fn shift_register<const K: usize, const D: usize>(
-        &mut self,
-        _: &'static Field,
-        _: &NetShiftRegister<K, D>,
-    ) {
+    fn memory(&mut self, _: usize, _: State) {
         self.leaves.push(None);
     }
 }

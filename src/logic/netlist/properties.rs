@@ -2,13 +2,13 @@
 
 use super::Netlist;
 use super::build::{builder, node};
-use super::leaves::make_leaves;
-use super::memory::{NetRam, NetShiftRegister, State};
+use super::memory::State;
 use super::module::Assertion;
-use super::nets::{Edge, Leaf};
-use super::node::Node;
-use super::words::{NetBit, NetInt, NetUInt, Word};
-use crate::kernel::{Circuit, Field, Make, Moment, Role, Signals};
+use super::nets::Leaf;
+use super::node::{Id, Node};
+use super::walk::{Give, Look, look, make};
+use crate::kernel::{Circuit, Field, Moment, Property, Role, Shape};
+use std::collections::VecDeque;
 
 /// Adds the properties of a circuit to the module being made. Those that look over an edge are
 /// about the tick before and the registers of this one.
@@ -22,51 +22,60 @@ pub(super) fn note_properties<C: Circuit>(
     if properties.is_empty() {
         return;
     }
-    let (past_i, past_q, past_w) = (past(i), past(q), past(w));
+    let mut past = Past::default();
+    look(i, Role::Input, &mut past);
+    look(q, Role::Register, &mut past);
+    look(w, Role::Net, &mut past);
+    let past_i = make(Role::Input, &mut past);
+    let past_q = make(Role::Register, &mut past);
+    let past_w = make(Role::Net, &mut past);
     let before = Moment {
         i: &past_i,
         q: &past_q,
         w: &past_w,
     };
-    let steps = circuit.properties(&before, q);
-    for (always, step) in properties.into_iter().zip(steps) {
+    add(properties, circuit.properties(&before, q));
+}
+
+/// Adds each in that of its two forms that it has.
+fn add(always: Vec<Property<Netlist>>, steps: Vec<Property<Netlist>>) {
+    for (always, step) in always.into_iter().zip(steps) {
         let property = if always.step { step } else { always };
         builder(|builder| {
             builder.assertions.push(Assertion {
                 name: property.name,
                 step: property.step,
-                holds: property.holds.id(),
+                holds: property.holds.0,
             });
         });
     }
 }
 
-/// A bundle as it was a tick ago; memories as they are.
-fn past<S: Signals<Netlist>>(signals: &S) -> S {
-    let field = const { &Field::part(Role::Net) };
-    let mut leaves = Edge(Vec::new());
-    signals.visit(field, &mut leaves);
-    let mut past = Past(leaves.0.into_iter());
-    S::make(field, &mut past)
+/// Makes the bundles that were looked at as they were a tick ago; memories as they are.
+#[derive(Default)]
+struct Past(VecDeque<Leaf>);
+
+impl Look for Past {
+    fn word(&mut self, _: &'static Field, _: Shape, id: Id) {
+        self.0.push_back(Leaf::Word(id));
+    }
+    fn memory(&mut self, memory: usize, state: State) {
+        self.0.push_back(Leaf::Memory(memory, state));
+    }
 }
 
-struct Past(std::vec::IntoIter<Leaf>);
-
-impl Past {
-    fn word<W: Word>(&mut self) -> W {
-        match self.0.next() {
-            Some(Leaf::Word(id)) => W::of(node(Node::Past(id), W::SHAPE)),
+impl Give for Past {
+    fn word(&mut self, _: &'static Field, shape: Shape) -> Id {
+        match self.0.pop_front() {
+            Some(Leaf::Word(id)) => node(Node::Past(id), shape),
             // The same walk gives the same leaves.
-            _ => W::of(0),
+            _ => 0,
         }
     }
-
-    fn memory(&mut self) -> (usize, State) {
-        match self.0.next() {
+    fn memory(&mut self, _: &'static Field, _: usize, _: usize) -> (usize, State) {
+        match self.0.pop_front() {
             Some(Leaf::Memory(memory, state)) => (memory, state),
             _ => (0, State::Next),
         }
     }
 }
-
-make_leaves!(Past, Past::word, Past::memory);

@@ -1,7 +1,7 @@
 use super::Netlist;
 use super::build::{constant, node, shape};
 use super::node::{BIT, Id, Node, Operator, signed, unsigned};
-use crate::kernel::{Field, Kind, Make, Shape, Signals, Visit};
+use crate::kernel::{Field, Make, Shape, Signals, Visit};
 use crate::logic::{Bit, Select, Signed, Unsigned};
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 
@@ -17,21 +17,42 @@ pub struct NetUInt<const N: usize>(pub(super) Id);
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NetInt<const N: usize>(pub(super) Id);
 
+// A circuit's code is little else than calls of these: they are not copied into it.
+
+#[inline(never)]
 fn binary(operator: Operator, a: Id, b: Id, shape: Shape) -> Id {
     node(Node::Binary(operator, a, b), shape)
 }
 
+#[inline(never)]
+fn mux(choose: Id, then: Id, other: Id, shape: Shape) -> Id {
+    node(Node::Mux(choose, then, other), shape)
+}
+
+#[inline(never)]
+fn not(of: Id, shape: Shape) -> Id {
+    node(Node::Not(of), shape)
+}
+
+/// The same bits as another kind of word.
+#[inline(never)]
+fn cast(of: Id, shape: Shape) -> Id {
+    node(Node::Cast(of), shape)
+}
+
 /// Bits `low` to `low + width - 1` of a word, as another kind of word.
+#[inline(never)]
 fn slice(of: Id, low: usize, shape: Shape) -> Id {
     node(Node::Slice(of, low), shape)
 }
 
 /// Extended or cut to another width.
+#[inline(never)]
 fn resize(of: Id, to: Shape) -> Id {
     match self::shape(of).width {
         width if width < to.width => node(Node::Extend(of), to),
         width if width > to.width => slice(of, 0, to),
-        _ => node(Node::Cast(of), to),
+        _ => cast(of, to),
     }
 }
 
@@ -100,14 +121,14 @@ bit_operator!(BitXor, bitxor, Xor);
 impl Not for NetBit {
     type Output = Self;
     fn not(self) -> Self {
-        NetBit(node(Node::Not(self.0), BIT))
+        NetBit(not(self.0, BIT))
     }
 }
 
 impl<const N: usize> Not for NetUInt<N> {
     type Output = Self;
     fn not(self) -> Self {
-        NetUInt(node(Node::Not(self.0), unsigned(N)))
+        NetUInt(not(self.0, unsigned(N)))
     }
 }
 
@@ -122,7 +143,7 @@ macro_rules! leaf {
     ($word:ty, $shape:expr, $walk:ident $(, $n:ident)?) => {
         impl$(<const $n: usize>)? Select<Netlist> for $word {
             fn select(choose: NetBit, then: Self, other: Self) -> Self {
-                Self(node(Node::Mux(choose.0, then.0, other.0), $shape))
+                Self(mux(choose.0, then.0, other.0, $shape))
             }
         }
 
@@ -146,7 +167,7 @@ impl Bit<Netlist> for NetBit {
         T::select(self, then, other)
     }
     fn word(self) -> NetUInt<1> {
-        NetUInt(node(Node::Cast(self.0), unsigned(1)))
+        NetUInt(cast(self.0, unsigned(1)))
     }
 }
 
@@ -196,7 +217,7 @@ impl<const N: usize> Unsigned<Netlist, N> for NetUInt<N> {
         NetUInt(resize(joined, unsigned(P)))
     }
     fn signed(self) -> NetInt<N> {
-        NetInt(node(Node::Cast(self.0), signed(N)))
+        NetInt(cast(self.0, signed(N)))
     }
 }
 
@@ -230,34 +251,6 @@ impl<const N: usize> Signed<Netlist, N> for NetInt<N> {
         self.is_negative().mux((-self).unsigned(), self.unsigned())
     }
     fn unsigned(self) -> NetUInt<N> {
-        NetUInt(node(Node::Cast(self.0), unsigned(N)))
+        NetUInt(cast(self.0, unsigned(N)))
     }
 }
-
-/// The node behind a word, and back.
-pub(super) trait Word: Copy {
-    /// Kind and width.
-    const SHAPE: Shape;
-    /// The node.
-    fn id(self) -> Id;
-    /// The word.
-    fn of(id: Id) -> Self;
-}
-
-macro_rules! word {
-    ($word:ty, $kind:ident, $width:expr $(, $n:ident)?) => {
-        impl$(<const $n: usize>)? Word for $word {
-            const SHAPE: Shape = Shape { kind: Kind::$kind, width: $width };
-            fn id(self) -> Id {
-                self.0
-            }
-            fn of(id: Id) -> Self {
-                Self(id)
-            }
-        }
-    };
-}
-
-word!(NetBit, Bit, 1);
-word!(NetUInt<N>, Unsigned, N, N);
-word!(NetInt<N>, Signed, N, N);

@@ -1,6 +1,7 @@
 use super::{Sim, UInt, Wire};
 use crate::kernel::{Changed, Field, Make, STAGE, Signals, Visit, WORD, Words};
 use crate::logic::{Image, Ram, ShiftRegister};
+use std::any::Any;
 
 /// A RAM whose bits lie in a `bitvec`.
 #[derive(Debug, Clone)]
@@ -69,6 +70,9 @@ impl<const A: usize, const D: usize> Words for SimRam<A, D> {
     }
     fn label(&self) -> &'static Field {
         &WORD
+    }
+    fn whole(&self) -> Box<dyn Any> {
+        Box::new(self.clone())
     }
 }
 
@@ -140,6 +144,9 @@ impl<const K: usize, const D: usize> Words for SimShiftRegister<K, D> {
     }
     fn label(&self) -> &'static Field {
         &STAGE
+    }
+    fn whole(&self) -> Box<dyn Any> {
+        Box::new(self.clone())
     }
 }
 

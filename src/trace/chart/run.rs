@@ -1,11 +1,11 @@
 use super::{Cell, Chart, ChartError, Problem, Row};
 use crate::kernel::{
-    Circuit, Declaration, Declarations, Field, Format, Role, Shape, Signals, Simulator, Source,
+    Circuit, Declaration, Declarations, Field, Format, Machine, Role, RunError, Running, Shape,
+    Source, Values,
 };
-use crate::logic::Sim;
-use crate::trace::record::near;
+use crate::trace::Options;
+use crate::trace::record::{Record, near};
 use crate::trace::value::{mask, read, show};
-use crate::trace::{Options, Recorder};
 use std::fmt::{self, Write};
 
 /// Why a chart does not hold.
@@ -61,22 +61,26 @@ impl Chart {
     /// # Errors
     /// The chart does not fit the circuit, or the circuit does something else.
     pub fn run<C: Circuit>(&self, circuit: &C) -> Result<(), ChartFailure> {
-        if self.circuit != C::NAME {
+        self.run_on(&mut Machine::new(circuit))
+    }
+
+    fn run_on(&self, circuit: &mut dyn Running) -> Result<(), ChartFailure> {
+        if self.circuit != circuit.name() {
             let problem = Problem::Circuit {
                 chart: self.circuit.clone(),
-                circuit: C::NAME.to_owned(),
+                circuit: circuit.name().to_owned(),
             };
             return Err(problem.at(self.line).into());
         }
-        let leaves = Declarations::of(circuit).leaves;
-        let ports = &leaves[..port_count::<C>().min(leaves.len())];
+        let leaves = Declarations::walked(circuit).leaves;
+        let ports = &leaves[..port_count(circuit).min(leaves.len())];
         let inputs = resolve(&self.inputs, ports, "port in")?;
         let expected = resolve(&self.expected, &leaves, "signal")?;
 
-        let recorder = self.record(circuit, ports, &inputs)?;
+        let record = self.record(circuit, ports, &inputs)?;
         let actual: Vec<&[u64]> = expected
             .iter()
-            .map(|row| recorder.column(&row.leaf.path()).unwrap_or(&[]))
+            .map(|row| record.column(&row.leaf.path()).unwrap_or(&[]))
             .collect();
         for tick in 0..self.ticks {
             for (row, values) in expected.iter().zip(&actual) {
@@ -98,12 +102,12 @@ impl Chart {
         Ok(())
     }
 
-    fn record<C: Circuit>(
+    fn record(
         &self,
-        circuit: &C,
+        circuit: &mut dyn Running,
         ports: &[Declaration],
         inputs: &[Resolved<'_>],
-    ) -> Result<Recorder<C>, ChartError> {
+    ) -> Result<Record, ChartError> {
         // For every port its line, found once.
         let lines: Vec<Option<&Resolved<'_>>> = ports
             .iter()
@@ -112,24 +116,25 @@ impl Chart {
         let only = self
             .expected
             .iter()
-            .map(|row| format!("{}.{}", C::NAME, row.name));
+            .map(|row| format!("{}.{}", circuit.name(), row.name));
         let options = Options {
             only: Some(only.collect()),
             ..Options::default()
         };
         let failed = |problem: String| Problem::Run(problem).at(self.line);
-        let mut recorder = Recorder::new(circuit, &options).map_err(|e| failed(e.to_string()))?;
-        let stimulus = |tick: u64, _: &C::Reg<Sim>| {
-            let mut given = Given {
+        let mut record = Record::new(circuit, &options).map_err(|e| failed(e.to_string()))?;
+        for tick in 0..self.ticks {
+            circuit.settle(&mut Given {
                 lines: lines.iter(),
-                tick: usize::try_from(tick).unwrap_or(usize::MAX),
-            };
-            C::In::make(const { &Field::part(Role::Input) }, &mut given)
-        };
-        Simulator::new(circuit)
-            .run(self.ticks as u64, stimulus, &mut recorder)
-            .map_err(|e| failed(e.to_string()))?;
-        Ok(recorder)
+                tick,
+            });
+            let columns = record.tick(tick as u64);
+            if let Some(columns) = columns.map_err(|e| failed(RunError::from(e).to_string()))? {
+                circuit.show(columns);
+            }
+            circuit.clock(false);
+        }
+        Ok(record)
     }
 
     /// The chart with what the circuit does in place of what was expected.
@@ -288,17 +293,10 @@ fn texts(leaf: &Declaration, values: impl Iterator<Item = Option<u64>>) -> Vec<S
 }
 
 /// The number of leaves of a circuit's ports in, which a walk visits first.
-fn port_count<C: Circuit>() -> usize {
-    struct Count(usize);
-    impl Source for Count {
-        fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
-            self.0 += 1;
-            0
-        }
-    }
-    let mut count = Count(0);
-    C::In::<Sim>::make(const { &Field::part(Role::Input) }, &mut count);
-    count.0
+fn port_count(circuit: &dyn Running) -> usize {
+    let mut values = Values::default();
+    circuit.part(Role::Input, &mut values);
+    values.0.len()
 }
 
 /// The inputs of one tick.

@@ -1,0 +1,138 @@
+//! Measures of commands, against what the geometry says.
+
+use super::*;
+use motion_rtl::arc_generator::Rounding;
+use motion_rtl::arc_generator::bounds::command_error;
+use motion_rtl::arc_generator::measure::Measured;
+use motion_rtl::arc_generator::prepare::prepare;
+use motion_rtl::arc_generator::prepared::Kind;
+use motion_rtl::arc_generator::record::records;
+use motion_rtl::arc_generator::reference::commands;
+use motion_rtl::arc_generator::widths::Widths;
+
+const COUNTS: f64 = 1000.0;
+
+/// A half circle of 20 mm radius, a line that leaves it smoothly, and a corner.
+fn path() -> Prepared {
+    let (a, b, c) = ([0.0; 3], [20.0, 12.0, 16.0], [40.0, 0.0, 0.0]);
+    let down = [40.0, -18.0, -24.0];
+    let pieces = [
+        arc(a, b, c, 30.0),
+        line(down, 40.0),
+        line([80.0, -18.0, -24.0], 40.0),
+    ];
+    prepare(a, &pieces, &timing(64)).unwrap()
+}
+
+fn played(path: &Prepared) -> Vec<[i64; 3]> {
+    let records = records(path, COUNTS, &Widths::FULL, Rounding::Nearest).unwrap();
+    commands(&records, &Widths::FULL, Rounding::Nearest)
+}
+
+#[test]
+fn jumps_at_the_joints_are_those_of_the_report() {
+    let path = path();
+    let kinds: Vec<_> = path.segments.iter().map(Segment::kind).collect();
+    use Kind::{Arc, Blend, Line};
+    assert_eq!(kinds, [Blend, Arc, Blend, Line, Blend, Blend, Line, Blend]);
+    let measured = Measured::of(&path, COUNTS, &played(&path)).unwrap();
+    let report = path.pieces[0].arc.unwrap();
+    assert_eq!(measured.joints.len(), 7);
+    for (index, joint) in measured.joints.iter().enumerate() {
+        assert_eq!(
+            (joint.segment, joint.sample),
+            (index, path.segments[index].end())
+        );
+        println!(
+            "{joint:?} of {} {}",
+            report.direction_jump, report.acceleration_jump
+        );
+        // Into and out of the arc, else everything meets.
+        let (direction, acceleration) = match index {
+            0 | 1 => (report.direction_jump, report.acceleration_jump),
+            _ => (0.0, 0.0),
+        };
+        assert!(
+            (joint.direction_jump - direction).abs() < 0.004,
+            "{joint:?}"
+        );
+        assert!(
+            (joint.acceleration_jump - acceleration).abs() < 40.0,
+            "{joint:?}"
+        );
+        let speed = 2.0 * path.pieces[0].speed * (direction / 2.0).sin();
+        assert!((joint.velocity_jump - speed).abs() < 0.2, "{joint:?}");
+    }
+    // 4.8 mm/100 over 40 mm, and v²/R.
+    assert!((report.direction_jump - 0.024).abs() < 1e-3);
+    assert!((report.acceleration_jump - 45.0).abs() < 0.5);
+}
+
+#[test]
+fn speeds_and_distances_are_measured() {
+    let path = path();
+    let commands = played(&path);
+    let measured = Measured::of(&path, COUNTS, &commands).unwrap();
+    assert_eq!(measured.speeds.len(), commands.len() - 1);
+    assert_eq!(measured.accelerations.len(), commands.len() - 2);
+    let [before, arc] = [path.segments[0], path.segments[1]];
+    // A count a millisecond is 1 mm/s; each end of a step is off by √3/2 at most.
+    for (sample, speed) in measured.speeds.iter().enumerate() {
+        assert!(*speed < 40.0 + 3f64.sqrt(), "{sample}: {speed}");
+    }
+    let own = &measured.speeds[arc.first_sample as usize..arc.end() as usize];
+    assert!(
+        own.iter()
+            .all(|speed| (speed - 30.0).abs() < 0.1 + 3f64.sqrt())
+    );
+    let [round] = measured.arcs[..] else {
+        panic!("one arc")
+    };
+    assert_eq!(round.segment, 1);
+    let most = command_error(20_000.0, arc.samples, &Widths::FULL, Rounding::Nearest) / COUNTS;
+    assert!(-most <= round.radius_errors[0] && round.radius_errors[1] <= most);
+    assert!(round.radius_errors[0] < -0.0003 && round.radius_errors[1] > 0.0003);
+    assert!(round.off_plane < most && round.off_plane > 0.0003 && round.end_error < most);
+    assert!((round.speed / path.pieces[0].speed - 1.0).abs() < 0.01);
+    assert!(measured.largest_error < most && measured.largest_error > 0.0005);
+    // Blends: from rest on the chord.
+    let report = path.pieces[0].arc.unwrap();
+    assert_eq!(measured.blends.len(), 5);
+    let first = measured.blends[0];
+    assert!(
+        (first.off_path - report.blend_distance).abs() < 0.0009,
+        "{first:?}"
+    );
+    assert!((first.from_corner - 0.0).abs() < 1e-12);
+    let peak = before.peak_acceleration(&path.timing).unwrap();
+    // The second difference of counts is off by 4·√3/2 at most.
+    assert!(
+        (first.peak_acceleration - peak).abs() < 4.0 * 866.1,
+        "{first:?} {peak}"
+    );
+    // The stop ends at its corner, the blend from arc to line passes its own as its points do.
+    assert!(measured.blends[2].from_corner < 1e-12);
+    let points = (0..=64).map(|step| path.segments[2].point(step));
+    let nearest = points
+        .map(|p| length(minus(p, path.pieces[0].to)))
+        .fold(1.0, f64::min);
+    let corner = measured.blends[1];
+    assert!(
+        (corner.from_corner - nearest).abs() < 0.001 && nearest < 0.02,
+        "{corner:?}"
+    );
+}
+
+#[test]
+fn a_wrong_sample_is_found() {
+    let path = path();
+    let mut commands = played(&path);
+    let arc = path.segments[1];
+    let sample = (arc.first_sample + 100) as usize;
+    commands[sample][0] += 50;
+    let measured = Measured::of(&path, COUNTS, &commands).unwrap();
+    assert!(measured.largest_error > 0.049);
+    assert!(measured.accelerations[sample - 1] > 90_000.0);
+    commands.pop();
+    assert_eq!(Measured::of(&path, COUNTS, &commands), None);
+}

@@ -1,0 +1,169 @@
+//! Scenarios of the arc generator: keys, defaults, and faults with their lines.
+
+use motion_rtl::arc_generator::Rounding;
+use motion_rtl::arc_generator::path::{Taught, from_points};
+use motion_rtl::arc_generator::prepare::prepare;
+use motion_rtl::arc_generator::settings::{Settings, ShortPieces};
+use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::input::scenario::arc_generator::Scenario as Keys;
+use motion_rtl::input::scenario::{Loaded, Scenario};
+
+const HEAD: &str = "circuit = \"arc_generator\"\n";
+
+fn loaded(text: &str) -> Loaded {
+    Loaded::parse("s.toml", &format!("{HEAD}{text}"), &[]).unwrap()
+}
+
+fn keys(loaded: &Loaded) -> &Keys {
+    match &loaded.scenario {
+        Scenario::ArcGenerator(keys) => keys,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn refusal(text: &str) -> String {
+    let text = format!("{HEAD}{text}");
+    Loaded::parse("s.toml", &text, &[]).unwrap_err().to_string()
+}
+
+#[test]
+fn a_bare_scenario_has_the_default_settings() {
+    let loaded = loaded("");
+    let keys = keys(&loaded);
+    assert_eq!(keys.settings(), Settings::default());
+    assert_eq!((keys.start_mm, keys.taught()), ([0.0; 3], Ok(Vec::new())));
+    assert_eq!(loaded.scenario.clock_hz(), 1_000_000);
+    assert_eq!(loaded.scenario.vcd_ticks(), 1_000_000);
+    assert_eq!(loaded.scenario.input(), None);
+}
+
+#[test]
+fn every_key_is_read() {
+    let loaded = loaded(
+        "clock_hz = 2000000\nsample_period_ms = 0.5\nacceleration_ms = 32\ncounts_per_mm = 250\n\
+         speed_mm_per_s = 30\nrapid_mm_per_s = 90\ncorner_deg = 5\nrounding = \"floor\"\n\
+         short_pieces = \"slower\"\nvcd_ticks = 77\nstart_mm = [1, 2, 3]\n\
+         [[piece]]\nto_mm = [4, 5, 6.5]\n\
+         [[piece]]\nvia_mm = [7, 8, 9]\nto_mm = [10, 11, 12]\nspeed_mm_per_s = 3\n",
+    );
+    let keys = keys(&loaded);
+    let settings = Settings {
+        clock_hz: 2_000_000,
+        sample_period_ms: 0.5,
+        acceleration_ms: 32.0,
+        counts_per_mm: 250.0,
+        speed_mm_per_s: Some(30.0),
+        rapid_mm_per_s: 90.0,
+        corner_deg: 5.0,
+        rounding: Rounding::Floor,
+        short_pieces: ShortPieces::Slower,
+    };
+    assert_eq!(keys.settings(), settings);
+    assert_eq!(keys.settings().rounding.name(), "floor");
+    let taught = [
+        Taught {
+            to: [4.0, 5.0, 6.5],
+            via: None,
+            speed: None,
+        },
+        Taught {
+            to: [10.0, 11.0, 12.0],
+            via: Some([7.0, 8.0, 9.0]),
+            speed: Some(3.0),
+        },
+    ];
+    assert_eq!(keys.start_mm, [1.0, 2.0, 3.0]);
+    assert_eq!(keys.taught(), Ok(taught.to_vec()));
+    assert_eq!(loaded.scenario.vcd_ticks(), 77);
+}
+
+#[test]
+fn keys_of_the_wrong_shape_are_refused_with_their_line() {
+    assert_eq!(
+        refusal("[[piece]]\nvia_mm = [1, 2, 3]\n"),
+        "s.toml:2: to_mm: missing; allowed: a value for it: it has no default"
+    );
+    assert_eq!(
+        refusal("[[piece]]\nto_mm = [1, 2]\n"),
+        "s.toml:3: to_mm: invalid length 2; allowed: a list of three numbers, of X, Y and Z"
+    );
+    assert_eq!(
+        refusal("start_mm = [1, 2, 3, 4]\n"),
+        "s.toml:2: start_mm: invalid length 4; allowed: a list of three numbers, of X, Y and Z"
+    );
+    assert_eq!(
+        refusal("[[piece]]\nto_mm = [1, 2, \"z\"]\n"),
+        "s.toml:3: to_mm: invalid type: string \"z\"; allowed: a number"
+    );
+    assert_eq!(
+        refusal("piece = 3\n"),
+        "s.toml:2: piece: invalid type: integer `3`; allowed: tables [[piece]]"
+    );
+    assert_eq!(
+        refusal("rounding = \"up\"\n"),
+        "s.toml:2: rounding: unknown variant `up`; allowed: `nearest` or `floor`"
+    );
+    assert_eq!(
+        refusal("[[piece]]\nto_mm = [1, 2, 3]\nspeed = 3\n"),
+        "s.toml:4: speed: unknown field `speed`; allowed: one of `to_mm`, `via_mm`, \
+         `speed_mm_per_s`"
+    );
+    let set = ["start_mm=[1,2]".to_owned()];
+    assert_eq!(
+        Loaded::parse("s.toml", HEAD, &set).unwrap_err().to_string(),
+        "--set: start_mm: invalid length 2; allowed: a list of three numbers, of X, Y and Z"
+    );
+}
+
+#[test]
+fn a_path_is_given_once() {
+    let loaded = loaded("\ninput = \"x.ngc\"\n[[piece]]\nto_mm = [1, 2, 3]\n");
+    let error = keys(&loaded).taught().unwrap_err();
+    let fault = loaded.fault(error.field, error.problem, error.allowed);
+    assert_eq!(
+        fault.to_string(),
+        "s.toml:3: input: given beside tables [[piece]]; allowed: a drawing or pieces, not both"
+    );
+}
+
+#[test]
+fn faults_of_settings_and_pieces_have_their_lines() {
+    let loaded = loaded(
+        "speed_mm_per_s = 30\nacceleration_ms = 65\n\n\
+         [[piece]]\nto_mm = [50, 0, 0]\n\
+         [[piece]]\nto_mm = [70, 0, 0]\nvia_mm = [60, 0, 0]\n\
+         [[piece]]\nto_mm = [71, 0, 0]\n",
+    );
+    let keys = keys(&loaded);
+    let mut settings = keys.settings();
+    let error = settings.timing(&Widths::FULL).unwrap_err();
+    let fault = loaded.fault(error.field, error.problem, error.allowed);
+    assert_eq!(
+        fault.to_string(),
+        "s.toml:3: acceleration_ms: is 65: 65 samples; allowed: an even number of samples: \
+         64 or 66"
+    );
+    settings.acceleration_ms = 64.0;
+    let mut taught = keys.taught().unwrap();
+    let shown = |error: motion_rtl::arc_generator::error::PathError| {
+        let (reason, table) = (error.reason, ("piece", error.piece));
+        let (problem, allowed) = (reason.to_string(), reason.allowed());
+        let fault = loaded.table_fault(table, reason.field(), problem, allowed);
+        fault.to_string()
+    };
+    let error = from_points(keys.start_mm, &taught, &settings).unwrap_err();
+    assert_eq!(
+        shown(error),
+        "s.toml:9: piece 1: via_mm: the point via is only 0.000e0 mm off the line from start to \
+         end, 20 mm long; allowed: a point off the line, or a line: no point via"
+    );
+    taught[1].via = None;
+    let pieces = from_points(keys.start_mm, &taught, &settings).unwrap();
+    let timing = settings.timing(&Widths::FULL).unwrap();
+    let error = prepare(keys.start_mm, &pieces, &timing).unwrap_err();
+    assert_eq!(
+        shown(error),
+        "s.toml:10: piece 2: speed_mm_per_s: at 30 mm/s the blends at its ends take more than \
+         the piece, 1 mm; allowed: at most 15.3846 mm/s (F923.076), or shorter blends"
+    );
+}
