@@ -21,11 +21,12 @@ pub struct Traces<'a, C: Circuit, V: Circuit> {
     stem: &'a str,
     options: &'a Options,
     clock: Clock,
-    files: Files,
     /// Every signal at every tick.
     pub vcd: Option<Vcd<C, AtomicFile>>,
     /// The inputs.
     pub stimulus: Option<StimulusFile<V, AtomicFile>>,
+    // Last, as their directory can go only when the files above are gone.
+    files: Files,
 }
 
 /// What the save file's window shows.
