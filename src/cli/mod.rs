@@ -1,5 +1,6 @@
 //! The commands.
 
+mod arc;
 pub mod check;
 pub mod compare;
 mod files;

@@ -5,7 +5,7 @@ use super::job::{Input, Job, Source};
 use super::picture::{Following, draw};
 use super::summary::Summary;
 use super::traces::{Focus, Traces, conclude, no_such_tick};
-use super::{Failure, lead_angle, linear};
+use super::{Failure, arc, lead_angle, linear};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use motion_rtl::input::scenario::{Loaded, Scenario};
@@ -68,10 +68,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 &lead_angle::Job::prepare(source, settings, &columns)?,
             )
         }
-        Scenario::ArcGenerator(_) => {
-            let problem = "the arc generator cannot be run yet".to_owned();
-            let allowed = "another circuit".to_owned();
-            Err(source.loaded.fault("circuit", problem, allowed).into())
+        Scenario::ArcGenerator(scenario) => {
+            let scenario = scenario.clone();
+            arc::run(arguments, &arc::Job::prepare(source, &scenario)?)
         }
     }
 }
@@ -82,7 +81,7 @@ fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
         return Err(Failure::Argument {
             field: "--segments",
             problem: "the pulse interpolator has no segments".into(),
-            allowed: "a scenario of the linear interpolator or the lead-angle compensator".into(),
+            allowed: "a scenario of the linear interpolator, the lead-angle compensator or the arc generator".into(),
         });
     }
     let options = options(arguments, job.vcd_ticks)?;
