@@ -138,5 +138,9 @@ fn fault(
         }
         (word, _) => word,
     };
+    let allowed = match reason {
+        Reason::NoSpeed => "a feed, or speed_mm_per_s for all".to_owned(),
+        _ => allowed,
+    };
     drawing_fault(drawing, line.unwrap_or(0), field, problem, allowed)
 }

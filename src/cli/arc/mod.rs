@@ -8,6 +8,7 @@ mod rows;
 mod summary;
 mod text;
 mod verdict;
+mod view;
 
 pub use job::Job;
 

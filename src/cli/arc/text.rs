@@ -3,6 +3,7 @@
 use super::rows::{ArcRow, BlendRow, LineRow};
 use super::summary::Summary;
 use crate::cli::traces::Report;
+use motion_rtl::input::Point;
 use std::fmt::{self, Write};
 
 /// Arcs, lines and blends in the tables, unless all are asked for.
@@ -76,7 +77,7 @@ impl Report for Summary {
 /// The worst few of some rows, or all in their order, and how many are left out.
 fn worst<T>(rows: &[T], all: bool, badness: impl Fn(&T) -> f64) -> (Vec<&T>, usize) {
     let mut shown: Vec<&T> = rows.iter().collect();
-    if !all {
+    if !all && rows.len() > SHOWN {
         shown.sort_by(|a, b| badness(b).total_cmp(&badness(a)));
         shown.truncate(SHOWN);
     }
@@ -91,111 +92,91 @@ fn more(text: &mut String, left: usize, why: &str) -> fmt::Result {
     }
 }
 
-/// A line of the input, where there is one.
-fn line(line: Option<usize>) -> String {
-    line.map_or("-".to_owned(), |line| line.to_string())
+/// A table with these heads, every column as wide as its head or as said, its cells to the right.
+fn table<const N: usize>(
+    text: &mut String,
+    heads: [(&str, usize); N],
+    rows: impl IntoIterator<Item = [String; N]>,
+) -> fmt::Result {
+    let widths = heads.map(|(head, least)| least.max(head.len()));
+    let heads = heads.map(|(head, _)| head.to_owned());
+    for cells in std::iter::once(heads).chain(rows) {
+        let cells = cells.iter().zip(widths);
+        let cells: Vec<_> = cells
+            .map(|(cell, width)| format!("{cell:>width$}"))
+            .collect();
+        writeln!(text, "{}", cells.join("  "))?;
+    }
+    Ok(())
+}
+
+/// A number with so many decimals, without the sign of what rounds to nothing.
+fn fixed(value: f64, decimals: usize) -> String {
+    let shown = format!("{value:.decimals$}");
+    let nothing = shown.bytes().all(|byte| b"-0.".contains(&byte));
+    shown
+        .trim_start_matches(if nothing { "-" } else { "" })
+        .to_owned()
+}
+
+/// A number that may not be there.
+fn or_dash(value: Option<impl ToString>) -> String {
+    value.map_or("-".to_owned(), |value| value.to_string())
+}
+
+fn point(point: Point, decimals: usize) -> String {
+    point.map(|value| fixed(value, decimals)).join(", ")
 }
 
 impl Summary {
     fn arcs(&self, text: &mut String, all: bool) -> fmt::Result {
         let error = |row: &ArcRow| {
-            row.radius_error_um
-                .map(f64::abs)
-                .into_iter()
-                .fold(0.0, f64::max)
+            let [least, largest] = row.radius_error_um;
+            largest.max(-least)
         };
         let (rows, left) = worst(&self.arcs, all, error);
         if rows.is_empty() {
             return Ok(());
         }
-        writeln!(
-            text,
-            "arc                                                            radius error in um \
-             {:>33}",
-            "conven-"
-        )?;
-        writeln!(
-            text,
-            "piece  line  radius mm    angle  samples  step        mm/s  of wanted   \
-             least  largest    rms   at C-  bound  tional"
-        )?;
-        for row in &rows {
-            let [least, largest] = row.radius_error_um;
-            writeln!(
-                text,
-                "{:>5}  {:>4}  {:>9.3}  {:>7.3}  {:>7}  {:>6.4}  {:>8.3}  {:>9.3}  {:>6.3}  {:>7.3}  \
-                 {:>5.3}  {:>6.3}  {:>5.3}  {:>6.3}",
-                row.piece,
-                line(row.line),
-                row.radius_mm,
-                row.angle_deg,
-                row.samples,
-                row.step_deg,
-                row.speed_mm_per_s.expected,
-                row.speed_wanted_mm_per_s,
-                least,
-                largest,
-                row.radius_error_rms_um,
-                row.end_error_um,
-                row.bound_um,
-                row.conventional_radius_error_um,
-            )?;
-        }
+        let heads = [
+            ("arc: piece", 0),
+            ("line", 0),
+            ("radius mm", 9),
+            ("angle deg", 9),
+            ("samples", 7),
+            ("step deg", 8),
+            ("mm/s", 8),
+            ("wanted", 8),
+            ("measured", 8),
+            ("deviation", 0),
+        ];
+        let cells = rows.iter().map(|row| {
+            [
+                row.piece.to_string(),
+                or_dash(row.line),
+                fixed(row.radius_mm, 3),
+                fixed(row.angle_deg, 3),
+                row.samples.to_string(),
+                fixed(row.step_deg, 4),
+                fixed(row.speed_mm_per_s.expected, 3),
+                fixed(row.speed_wanted_mm_per_s, 3),
+                fixed(row.speed_mm_per_s.measured, 3),
+                fixed(row.speed_deviation_mm_per_s, 3),
+            ]
+        });
+        table(text, heads, cells)?;
         more(text, left, "of smaller radius error")?;
-        if all || rows.len() == 1 {
-            writeln!(
-                text,
-                "piece  centre in mm                      axis                       \
-                 speed mm/s  deviation"
-            )?;
-            for row in &rows {
-                let [gx, gy, gz] = row.centre_mm;
-                let [kx, ky, kz] = row.axis;
-                writeln!(
-                    text,
-                    "{:>5}  {:>31}  {:>25}  {:>10.3}  {:>9.3}",
-                    row.piece,
-                    format!("{gx:.3}, {gy:.3}, {gz:.3}"),
-                    format!("{kx:.4}, {ky:.4}, {kz:.4}"),
-                    row.speed_mm_per_s.measured,
-                    row.speed_deviation_mm_per_s,
-                )?;
-            }
+        if all || self.arcs.len() == 1 {
+            let heads = [("arc: piece", 0), ("centre in mm", 30), ("axis", 26)];
+            let cells = rows.iter().map(|row| {
+                let (centre, axis) = (point(row.centre_mm, 3), point(row.axis, 4));
+                [row.piece.to_string(), centre, axis]
+            });
+            table(text, heads, cells)?;
             text.push('\n');
         }
-        writeln!(
-            text,
-            "          direction jump, deg       acceleration jump, mm/s2   blend off the arc, um"
-        )?;
-        writeln!(
-            text,
-            "piece  at  measured  asin(v ta/2R)  measured       v2/R         \
-             measured   exact  (v ta)2/8R"
-        )?;
-        for row in rows {
-            for end in &row.ends {
-                let (direction, acceleration) =
-                    (end.direction_jump_deg, end.acceleration_jump_mm_per_s2);
-                let off = match (end.off_arc_um, end.off_arc_estimate_um) {
-                    (Some(off), Some(estimate)) => format!(
-                        "{:>8.3}  {:>6.3}  {:>10.3}",
-                        off.measured, off.expected, estimate
-                    ),
-                    _ => format!("{:>8}", "joint"),
-                };
-                writeln!(
-                    text,
-                    "{:>5}  {}  {:>8.4}  {:>13.4}  {:>8.3}  {:>9.3}         {off}",
-                    row.piece,
-                    end.at,
-                    direction.measured,
-                    direction.expected,
-                    acceleration.measured,
-                    acceleration.expected,
-                )?;
-            }
-        }
-        more(text, 0, "")
+        radius_errors(text, &rows)?;
+        ends(text, &rows)
     }
 
     fn lines(&self, text: &mut String, all: bool) -> fmt::Result {
@@ -204,22 +185,25 @@ impl Summary {
         if rows.is_empty() {
             return Ok(());
         }
-        writeln!(
-            text,
-            "line  in line  length mm  samples      mm/s  of wanted"
-        )?;
-        for row in rows {
-            writeln!(
-                text,
-                "{:>4}  {:>7}  {:>9.3}  {:>7}  {:>8.3}  {:>9.3}",
-                row.piece,
-                line(row.line),
-                row.length_mm,
-                row.samples,
-                row.speed_mm_per_s,
-                row.speed_wanted_mm_per_s
-            )?;
-        }
+        let heads = [
+            ("line: piece", 0),
+            ("line", 0),
+            ("length mm", 9),
+            ("samples", 7),
+            ("mm/s", 8),
+            ("wanted", 8),
+        ];
+        let cells = rows.into_iter().map(|row| {
+            [
+                row.piece.to_string(),
+                or_dash(row.line),
+                fixed(row.length_mm, 3),
+                row.samples.to_string(),
+                fixed(row.speed_mm_per_s, 3),
+                fixed(row.speed_wanted_mm_per_s, 3),
+            ]
+        });
+        table(text, heads, cells)?;
         more(text, left, "nearer to the wanted speed")
     }
 
@@ -229,34 +213,32 @@ impl Summary {
         if rows.is_empty() {
             return Ok(());
         }
-        writeln!(
-            text,
-            "blend                     peak acceleration, mm/s2   to the corner, um"
-        )?;
-        writeln!(
-            text,
-            "piece  line  kind         measured  3S/(2ta)2          measured     3S/16   \
-             off the path, um  turn, deg"
-        )?;
-        for row in rows {
-            let corner = match row.corner_distance_um {
-                Some(pair) => format!("{:>8.3}  {:>8.3}", pair.measured, pair.expected),
-                None => format!("{:>8}  {:>8}", "-", "-"),
-            };
-            let turn = row
-                .turn_deg
-                .map_or("-".to_owned(), |turn| format!("{turn:.3}"));
-            writeln!(
-                text,
-                "{:>5}  {:>4}  {:<9}  {:>10.3}  {:>9.3}          {corner}   {:>16.3}  {turn:>9}",
-                row.piece,
-                line(row.line),
-                row.kind,
-                row.peak_acceleration_mm_per_s2.measured,
-                row.peak_acceleration_mm_per_s2.expected,
-                row.off_path_um,
-            )?;
-        }
+        let heads = [
+            ("blend: piece", 0),
+            ("line", 0),
+            ("", 9),
+            ("turn deg", 8),
+            ("peak mm/s2", 0),
+            ("3S/(2ta)2", 9),
+            ("to the corner um", 0),
+            ("3S/16", 8),
+            ("off the path um", 0),
+        ];
+        let cells = rows.into_iter().map(|row| {
+            let (peak, corner) = (row.peak_acceleration_mm_per_s2, row.corner_distance_um);
+            [
+                row.piece.to_string(),
+                or_dash(row.line),
+                row.kind.to_owned(),
+                or_dash(row.turn_deg.map(|turn| fixed(turn, 3))),
+                fixed(peak.measured, 3),
+                fixed(peak.expected, 3),
+                or_dash(corner.map(|pair| fixed(pair.measured, 3))),
+                or_dash(corner.map(|pair| fixed(pair.expected, 3))),
+                fixed(row.off_path_um, 3),
+            ]
+        });
+        table(text, heads, cells)?;
         more(text, left, "of smaller acceleration")
     }
 
@@ -264,22 +246,89 @@ impl Summary {
         if self.operations.is_empty() {
             return Ok(());
         }
-        writeln!(
-            text,
-            "a sample costs              multiplications  additions  sines, cosines  ticks"
-        )?;
-        for row in &self.operations {
-            writeln!(
-                text,
-                "{:<26}  {:>15}  {:>9}  {:>14}  {:>5}",
-                row.method,
-                row.multiplications,
-                row.additions,
-                row.sines_and_cosines,
-                row.ticks.map_or("-".to_owned(), |ticks| ticks.to_string())
-            )?;
-        }
+        let heads = [
+            ("a sample costs            ", 0),
+            ("multiplications", 0),
+            ("additions", 0),
+            ("sines, cosines", 0),
+            ("ticks", 0),
+        ];
+        let cells = self.operations.iter().map(|row| {
+            [
+                format!("{:<26}", row.method),
+                row.multiplications.to_string(),
+                row.additions.to_string(),
+                row.sines_and_cosines.to_string(),
+                or_dash(row.ticks),
+            ]
+        });
+        table(text, heads, cells)?;
         text.push('\n');
         Ok(())
     }
+}
+
+fn radius_errors(text: &mut String, rows: &[&ArcRow]) -> fmt::Result {
+    let heads = [
+        ("radius error um: piece", 0),
+        ("least", 7),
+        ("largest", 7),
+        ("rms", 7),
+        ("at C-", 7),
+        ("bound", 7),
+        ("conventional", 0),
+    ];
+    let cells = rows.iter().map(|row| {
+        let [least, largest] = row.radius_error_um;
+        let (rms, end) = (row.radius_error_rms_um, row.end_error_um);
+        let [least, largest, rms, end, bound, conventional] = [
+            least,
+            largest,
+            rms,
+            end,
+            row.bound_um,
+            row.conventional_radius_error_um,
+        ]
+        .map(|um| fixed(um, 3));
+        let piece = row.piece.to_string();
+        [piece, least, largest, rms, end, bound, conventional]
+    });
+    table(text, heads, cells)?;
+    text.push('\n');
+    Ok(())
+}
+
+fn ends(text: &mut String, rows: &[&ArcRow]) -> fmt::Result {
+    let heads = [
+        ("jumps: piece", 0),
+        ("at", 0),
+        ("direction deg", 0),
+        ("asin(v ta/2R)", 0),
+        ("mm/s2", 8),
+        ("v2/R", 8),
+        ("blend off the arc um", 0),
+        ("exact", 7),
+        ("(v ta)2/8R", 0),
+    ];
+    let ends = rows
+        .iter()
+        .flat_map(|row| row.ends.iter().map(|end| (row.piece, end)));
+    let cells = ends.map(|(piece, end)| {
+        let (direction, acceleration) = (end.direction_jump_deg, end.acceleration_jump_mm_per_s2);
+        let off = end.off_arc_um;
+        [
+            piece.to_string(),
+            end.at.to_owned(),
+            fixed(direction.measured, 4),
+            fixed(direction.expected, 4),
+            fixed(acceleration.measured, 3),
+            fixed(acceleration.expected, 3),
+            off.map_or("joint".to_owned(), |pair| fixed(pair.measured, 3)),
+            or_dash(off.map(|pair| fixed(pair.expected, 3))),
+            or_dash(end.off_arc_estimate_um.map(|um| fixed(um, 3))),
+        ]
+    });
+    table(text, heads, cells)?;
+    text.push('\n');
+    Ok(())
 }
