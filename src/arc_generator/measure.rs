@@ -215,9 +215,10 @@ fn fit(values: impl Iterator<Item = f64>, span: f64, degree: usize) -> [f64; DEG
             if row == pivot {
                 continue;
             }
-            let factor = rows[row][pivot] / rows[pivot][pivot];
-            for column in 0..DEGREE + 2 {
-                rows[row][column] -= factor * rows[pivot][column];
+            let eliminated = rows[pivot];
+            let factor = rows[row][pivot] / eliminated[pivot];
+            for (cell, other) in rows[row].iter_mut().zip(eliminated) {
+                *cell -= factor * other;
             }
         }
     }

@@ -144,14 +144,14 @@ fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reaso
         Course::Line => distance(from, piece.to),
         Course::Arc(circle) => circle.length(),
     };
-    if length == 0.0 {
+    if length <= 0.0 {
         let points = ["start", "end"];
         return Err(CircleError::Coincident { points }.into());
     }
     if let Course::Arc(circle) = &piece.course {
         let gap = distance(circle.start, from).max(distance(circle.end(), piece.to));
-        // Written so that NaN fails.
-        if !(gap <= GAP * (1.0 + length)) {
+        let meets = gap <= GAP * (1.0 + length);
+        if !meets {
             return Err(Reason::Gap { gap });
         }
     }
@@ -252,7 +252,8 @@ fn arc_speed(circle: &Circle, samples: f64, timing: &Timing) -> f64 {
     let [mut slow, mut fast] = [0.0, angle * radius / (samples * timing.sample_s)];
     loop {
         let speed = f64::midpoint(slow, fast);
-        if speed <= slow || speed >= fast {
+        let between = slow < speed && speed < fast;
+        if !between {
             return slow;
         }
         match left(speed) >= 0.0 {

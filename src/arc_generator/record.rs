@@ -19,6 +19,7 @@ use super::prepared::{Prepared, Segment, Shape};
 use super::vector::{rodrigues, scale};
 use super::widths::Widths;
 use crate::input::{COORDINATES, Point};
+use fixed::types::I64F64;
 
 /// Words of a record.
 pub const WORDS: usize = 32;
@@ -192,7 +193,9 @@ fn blend_differences([before, corner, behind]: [i64; 3], samples: u64) -> [i128;
     ]
 }
 
-/// The nearest multiple of 2^-`fraction`, in units of it. Doubles hold words of up to 53 bits.
+/// The nearest multiple of 2^-`fraction`, in units of it, a half away from zero.
 fn quantise(value: f64, fraction: u32) -> i64 {
-    (value * f64::from(fraction).exp2()).round() as i64
+    // A number of 64 bits on either side of the point holds whatever fits into a word.
+    let units = I64F64::saturating_from_num(value).saturating_mul(I64F64::ONE << fraction);
+    units.round().saturating_to_num()
 }

@@ -144,7 +144,7 @@ impl<const F: usize, const N: usize, const D: usize> Circuit for SegmentSequence
             advance: makes & !rotating,
             present,
             busy: !is(IDLE),
-            hurried: i.sample & !q.first & (is(FETCH) | is(STEP) | is(ROTATE)),
+            hurried: i.sample & !q.first & !i.halt & (is(FETCH) | is(STEP) | is(ROTATE)),
         }
     }
 
@@ -243,10 +243,21 @@ impl<const F: usize, const N: usize, const D: usize> Specified for SegmentSequen
                 },
             )
             .step(
+                "a path's first point is first until it becomes the command",
+                |now, next| {
+                    let begins = now.q.state.get() == IDLE && next.state.get() == FETCH;
+                    let expected = begins || (now.q.first.get() && !next.sampled.get());
+                    require(next.first.get() == expected, ["first"], || {
+                        format!("not {expected}")
+                    })
+                },
+            )
+            .step(
                 "late: a sample came while the next point was made",
                 |now, next| {
                     let making = [FETCH, STEP, ROTATE].contains(&now.q.state.get());
-                    let missed = now.i.sample.get() && making && !now.q.first.get();
+                    let missed = now.i.sample.get() && !now.i.halt.get();
+                    let missed = missed && making && !now.q.first.get();
                     let begins = now.q.state.get() == IDLE && next.state.get() == FETCH;
                     let expected = missed || (now.q.late.get() && !begins);
                     require(next.late.get() == expected, ["late"], || {

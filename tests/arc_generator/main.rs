@@ -1,6 +1,7 @@
 //! The arc generator: difference engine, rotation, memory and the whole against programs.
 
 mod engine;
+mod example;
 mod memory;
 mod program;
 mod rotation;

@@ -190,6 +190,7 @@ fn run(segments: &[Segment], rounding: Rounding, period: u64, start_with: usize)
     let (mut ready, mut over) = (true, 0);
     while over < 3 {
         let tick = simulator.tick();
+        assert!(tick < 1_000_000, "no end");
         let i = host.ports(ready, period);
         let pushed = i.push.get();
         let (next, (now, sampled, busy, free)) = simulator.step(i, |now| {
@@ -364,5 +365,49 @@ fn halt_leaves_the_commands_where_they_are() {
             seen.extend(sampled.then_some(command));
         }
         assert_eq!(seen, commands(&segments), "after halt at {halted}");
+    }
+}
+
+/// A record that is written already can be pushed and started right after a halt, while a step of
+/// the rotation would still be under way.
+#[test]
+fn a_path_that_begins_right_after_a_halt_is_that_of_its_record() {
+    let segments = line_and_arc();
+    let [_, behind] = &segments;
+    for halted in 560..680 {
+        let circuit = Full::default();
+        let mut simulator = Simulator::new(&circuit);
+        let mut host = Host {
+            segments: &segments,
+            segment: 0,
+            word: 0,
+            start_with: 2,
+            started: false,
+        };
+        let mut seen = Vec::new();
+        let mut was_rotating = false;
+        for tick in 0..halted + 500 {
+            let mut i = host.ports(true, 100);
+            if (200..232).contains(&tick) {
+                i.write = true.into();
+                i.write_word = (tick - 200).into();
+                i.write_data = (behind.record[tick as usize - 200] as u64).into();
+            }
+            i.halt = (tick == halted).into();
+            i.push = (i.push.get() || tick == halted + 1).into();
+            i.start = (i.start.get() || tick == halted + 2).into();
+            was_rotating |= tick == halted && simulator.registers().rotation.control.busy.get();
+            let (next, (command, sampled)) = simulator.step(i, |now| {
+                let command = [now.w.x, now.w.y, now.w.z].map(|word| i128::from(word.get()));
+                (command, now.w.sampled.get())
+            });
+            simulator = next;
+            seen.extend((sampled && tick > halted + 1).then_some(command));
+        }
+        let expected = commands(std::slice::from_ref(behind));
+        assert_eq!(
+            seen, expected,
+            "after halt at {halted}, rotating: {was_rotating}"
+        );
     }
 }

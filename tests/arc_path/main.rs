@@ -4,6 +4,7 @@
 mod bounds;
 mod circles;
 mod conventional;
+mod drawings;
 mod measures;
 mod paths;
 mod records;

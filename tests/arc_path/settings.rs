@@ -30,12 +30,12 @@ fn every_field_has_its_limits() {
         "clock_hz: is 0; allowed: 1 to 10000000000"
     );
     assert_eq!(
-        shown(|s| s.sample_period_ms = 0.09),
-        "sample_period_ms: is 0.09; allowed: 0.096 to 16777.215 ms: 96 to 16777215 ticks"
+        shown(|s| s.sample_period_ms = 0.08),
+        "sample_period_ms: is 0.08; allowed: 0.082 to 16777.215 ms: 82 to 16777215 ticks"
     );
     assert_eq!(
         shown(|s| s.sample_period_ms = f64::NAN),
-        "sample_period_ms: is NaN; allowed: 0.096 to 16777.215 ms: 96 to 16777215 ticks"
+        "sample_period_ms: is NaN; allowed: 0.082 to 16777.215 ms: 82 to 16777215 ticks"
     );
     assert_eq!(
         shown(|s| s.sample_period_ms = 0.5005),

@@ -3,7 +3,7 @@
 //!
 //! `UPDATE_NOTES=1 cargo test --test notes` writes them anew.
 
-use super::{expect_none, miscounts, notes};
+use super::{expect_none, miscounts, notes, rotations};
 use motion_rtl::kernel::{Declaration, Format, Kind, MemoryDeclaration, Role};
 use motion_rtl::pulse_interpolator::counts;
 use motion_rtl::registry::{CATALOGUE, Entry, Verdict, find};
@@ -27,6 +27,8 @@ fn make(what: &str) -> Result<String, String> {
         ("miscounts", None) => Ok(miscounts::table()),
         ("vectors", None) => Ok(vectors()),
         ("counts", None) => Ok(offers()),
+        ("rotation_errors", None) => Ok(rotations::errors()),
+        ("operations", None) => Ok(rotations::operations()),
         _ => Err(format!("nothing is called `{what}`")),
     }
 }

@@ -4,6 +4,7 @@ mod catalogue;
 mod charts;
 mod generated;
 mod miscounts;
+mod rotations;
 
 use std::fs;
 use std::path::{Path, PathBuf};

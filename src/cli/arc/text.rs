@@ -42,7 +42,7 @@ impl Report for Summary {
         )?;
         writeln!(
             text,
-            "ends at {x}, {y}, {z} counts{}; commands are at most {:.3} um off their exact points, \
+            "ends at {x}, {y}, {z} counts{}\ncommands are at most {:.3} um off their exact points, \
              the bound is {:.3} um\n",
             match self.exact {
                 true => ", where the path does",
