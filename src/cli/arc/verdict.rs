@@ -84,3 +84,100 @@ fn straight(job: &Job) -> f64 {
     let unit = (-f64::from(Widths::FULL.guard())).exp2();
     3f64.sqrt() / 2.0 * (1.0 + 2.0 * unit) / job.settings.counts_per_mm
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::arc::rows::arcs;
+    use crate::cli::job::{Input, Source};
+    use motion_rtl::arc_generator::job::Command;
+    use motion_rtl::arc_generator::reference;
+    use motion_rtl::input::scenario::Scenario;
+
+    /// The weld seam that ships, and what its records say.
+    fn seam() -> (Job, Played) {
+        let input = Input {
+            input: Some("waves/weld.toml".into()),
+            ..Input::default()
+        };
+        let source = Source::read(&input).unwrap();
+        let Scenario::ArcGenerator(scenario) = source.loaded.scenario.clone() else {
+            panic!("another circuit");
+        };
+        let job = Job::prepare(source, &scenario).unwrap();
+        let commands = reference::commands(&job.records, &Widths::FULL, job.settings.rounding);
+        let commands = commands.into_iter().zip(0..);
+        let commands = commands.map(|(counts, tick)| Command { tick, counts });
+        let played = Played {
+            commands: commands.collect(),
+            ..Played::default()
+        };
+        (job, played)
+    }
+
+    fn judged(job: &Job, played: &Played) -> Vec<String> {
+        let figures = Figures::of(job, played);
+        complaints(job, played, &figures, &arcs(job, &figures))
+    }
+
+    #[test]
+    fn every_kind_is_complained_of() {
+        let (job, good) = seam();
+        assert_eq!(judged(&job, &good), [""; 0]);
+        let flags = Played {
+            late: true,
+            starved: true,
+            ..good.clone()
+        };
+        assert_eq!(
+            judged(&job, &flags),
+            [
+                "a sampling time began before its point was ready",
+                "the path ended in motion"
+            ]
+        );
+        let samples = good.commands.len();
+        let mut short = good.clone();
+        short.commands.pop();
+        let text = format!("{} samples where the path has {samples}", samples - 1);
+        assert_eq!(judged(&job, &short), [text]);
+
+        // A count beside the end is also farther off than rounding.
+        let mut beside = good.clone();
+        beside.commands[samples - 1].counts[2] += 1;
+        assert_eq!(
+            judged(&job, &beside),
+            [
+                "ends at [3648000, 1864000, 2640001] counts, the path at [3648000.000, \
+                 1864000.000, 2640000.000]"
+                    .to_owned(),
+                format!(
+                    "sample {} is 0.100 um off its exact point, its bound is 0.087 um",
+                    samples - 1
+                ),
+            ]
+        );
+        // Two counts outwards, and two across the plane, which no radius shows.
+        for (by, radius) in [([0, 0, -2], true), ([1, 1, 2], false)] {
+            let mut off = good.clone();
+            let counts = &mut off.commands[700].counts;
+            *counts = std::array::from_fn(|k| counts[k] + by[k]);
+            let texts = judged(&job, &off);
+            let kinds = ["piece 0: the radius is 0.", "sample 700 is 0."];
+            let kinds = &kinds[usize::from(!radius)..];
+            assert_eq!(texts.len(), kinds.len(), "{texts:?}");
+            for (text, kind) in texts.iter().zip(kinds) {
+                assert!(text.starts_with(kind), "{text}");
+            }
+        }
+        let mut many = good;
+        for command in &mut many.commands[100..110] {
+            command.counts[0] += 5;
+        }
+        let texts = judged(&job, &many);
+        assert!(
+            texts.last().unwrap().ends_with(" (and 9 more like it)"),
+            "{texts:?}"
+        );
+    }
+}
