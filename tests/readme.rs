@@ -69,6 +69,43 @@ fn the_first_commands_are_those_that_are_promised() {
     assert_eq!(blocks[0], ["cargo run --release", "cargo test"]);
 }
 
+/// A block of text behind a command is of what the command prints.
+#[test]
+fn what_commands_print_is_shown_as_it_is() {
+    let readme = read("README.md");
+    let mut lines = readme.lines();
+    let (mut command, mut shown) = (String::new(), 0);
+    while let Some(line) = lines.next() {
+        let Some(language) = line.strip_prefix("```") else {
+            continue;
+        };
+        let block = lines.by_ref().take_while(|line| !line.starts_with("```"));
+        let block: Vec<_> = block.collect();
+        match language {
+            "sh" => command = block.join("\n"),
+            "text" => {
+                let arguments = command.strip_prefix("cargo run --release -- ");
+                let arguments = arguments.expect("a command before the text");
+                let directory = tempfile::tempdir().expect("a directory");
+                let output = Command::new(env!("CARGO_BIN_EXE_motion-rtl"))
+                    .args(arguments.split_whitespace())
+                    .arg("--no-vcd")
+                    .current_dir(&directory)
+                    .output()
+                    .expect("the program starts");
+                let text = String::from_utf8_lossy(&output.stdout);
+                assert!(
+                    text.contains(&block.join("\n")),
+                    "{command} prints:\n{text}"
+                );
+                shown += 1;
+            }
+            _ => {}
+        }
+    }
+    assert_eq!(shown, 2);
+}
+
 /// Lets the program read the arguments of a command without doing what they ask for.
 fn understands(arguments: &[&str]) {
     let output = Command::new(env!("CARGO_BIN_EXE_motion-rtl"))

@@ -64,15 +64,19 @@ impl Source {
 
     /// Reads the input of a circuit that needs a drawing.
     pub fn drawing(&self) -> Result<Drawing, Fault> {
-        let drawing = match &self.origin {
-            Origin::File(path) => Some(read_path(path)),
-            Origin::Crate(shipped) => shipped.drawing(),
-            Origin::Nowhere => None,
-        };
-        drawing.unwrap_or_else(|| {
+        self.drawing_if_any().unwrap_or_else(|| {
             let allowed = "the path of an HPGL drawing or a G-code program".to_owned();
             Err(self.loaded.fault("input", "missing".to_owned(), allowed))
         })
+    }
+
+    /// Reads the input of a circuit that can do without: a drawing.
+    pub fn drawing_if_any(&self) -> Option<Result<Drawing, Fault>> {
+        match &self.origin {
+            Origin::File(path) => Some(read_path(path)),
+            Origin::Crate(shipped) => shipped.drawing(),
+            Origin::Nowhere => None,
+        }
     }
 
     /// Reads the input of a circuit that can do without: a position log.

@@ -1,5 +1,6 @@
 //! The commands.
 
+mod arc;
 pub mod check;
 pub mod compare;
 mod files;
@@ -12,6 +13,7 @@ pub mod run;
 mod shipped;
 mod summary;
 pub mod table;
+mod traces;
 mod verdict;
 pub mod verilog;
 

@@ -4,19 +4,16 @@ use super::files::Files;
 use super::job::{Input, Job, Source};
 use super::picture::{Following, draw};
 use super::summary::Summary;
-use super::{Failure, print, print_json};
-use super::{lead_angle, linear};
+use super::traces::{Focus, Traces, conclude, no_such_tick};
+use super::{Failure, arc, lead_angle, linear};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
 use motion_rtl::pulse_interpolator::job::{Played, group, play};
-use motion_rtl::trace::atomic::AtomicFile;
-use motion_rtl::trace::{Clock, LayoutError, Options, StimulusFile, Vcd, gtkw};
-use motion_rtl::verilog::Verilog;
-use std::io::{self, Write as _};
-use std::ops::{ControlFlow, Range};
-use std::path::{Path, PathBuf};
+use motion_rtl::trace::{Clock, Options};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
 
 /// Ticks between two looks at the progress bar.
 const PROGRESS: u64 = 1 << 18;
@@ -71,10 +68,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 &lead_angle::Job::prepare(source, settings, &columns)?,
             )
         }
-        Scenario::ArcGenerator(_) => {
-            let problem = "the arc generator cannot be run yet".to_owned();
-            let allowed = "another circuit".to_owned();
-            Err(source.loaded.fault("circuit", problem, allowed).into())
+        Scenario::ArcGenerator(scenario) => {
+            let scenario = scenario.clone();
+            arc::run(arguments, &arc::Job::prepare(source, &scenario)?)
         }
     }
 }
@@ -85,7 +81,7 @@ fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
         return Err(Failure::Argument {
             field: "--segments",
             problem: "the pulse interpolator has no segments".into(),
-            allowed: "a scenario of the linear interpolator or the lead-angle compensator".into(),
+            allowed: "a scenario of the linear interpolator, the lead-angle compensator or the arc generator".into(),
         });
     }
     let options = options(arguments, job.vcd_ticks)?;
@@ -94,37 +90,15 @@ fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
         2 => simulate::<2>(arguments, &job, &options),
         _ => simulate::<3>(arguments, &job, &options),
     }?;
-    if options.ticks.start >= played.ticks {
-        return Err(no_such_tick(&options, played.ticks));
-    }
+    no_such_tick(&options, played.ticks)?;
     let following =
         Following::new(&job, &played).map_err(|error| Failure::Check(error.to_string()))?;
-    let mut summary = Summary::new(&job, &played, &following.largest);
+    let summary = Summary::new(&job, &played, &following.largest);
     files.write("svg", &draw(&job, &played, &following))?;
-    if !arguments.no_vcd {
-        let Range { start, end } = options.ticks;
-        summary.vcd_window = Some([start, end.min(played.ticks).max(start)]);
-    }
-    summary.files = files.commit()?;
-    match arguments.json {
-        true => print_json(&summary)?,
-        false => print(&summary.text())?,
-    }
-    if summary.exact {
-        return Ok(());
-    }
-    Err(Failure::Check(summary.complaints.join("\n")))
+    conclude(arguments, &options, played.ticks, files, summary)
 }
 
-/// The run is over before the window begins.
-pub(super) fn no_such_tick(options: &Options, ticks: u64) -> Failure {
-    Failure::Argument {
-        field: "--from",
-        problem: format!("is {}", options.ticks.start),
-        allowed: format!("0 to {}, the last tick of the run", ticks.saturating_sub(1)),
-    }
-}
-
+/// The window and the signals that are asked for.
 pub(super) fn options(arguments: &Arguments, most: u64) -> Result<Options, Failure> {
     let from = arguments.from.unwrap_or(0);
     let to = arguments.to.unwrap_or_else(|| from.saturating_add(most));
@@ -148,64 +122,27 @@ fn simulate<const AXES: usize>(
     options: &Options,
 ) -> Result<(Played, Files), Failure> {
     let group = group::<AXES>(&job.table, job.variant);
-    let clock = clock(arguments, &job.loaded, job.table.total_ticks(), options)?;
-    let directory = arguments.out.as_deref().unwrap_or(Path::new("waves"));
-    let mut files = Files::begin(directory, &job.stem)?;
-    let mut vcd = match arguments.no_vcd {
-        true => None,
-        false => {
-            let dump = Vcd::new(files.create("vcd")?, &group, clock, options);
-            Some(dump.map_err(|error| not_selected(&error))?)
-        }
-    };
-    let mut stimulus = match arguments.verilog {
-        true => Some(verilog(&group, &mut files)?),
-        false => None,
-    };
-    let mut progress = Progress::new(job.table.total_ticks());
+    let ticks = job.table.total_ticks();
+    let scenario = (&job.loaded, job.stem.as_str());
+    let mut traces = Traces::begin((&group, &group), arguments, scenario, options, ticks)?;
+    let mut progress = Progress::new(ticks);
     // Two calls, so that a run without waves is compiled without a trace of them.
-    let played = match vcd.is_some() || stimulus.is_some() {
-        true => {
-            let files = (vcd.as_mut(), stimulus.as_mut());
+    let played = match traces.is_empty() {
+        false => {
+            let files = (traces.vcd.as_mut(), traces.stimulus.as_mut());
             play(&group, &job.table, (files, &mut progress))
         }
-        false => play(&group, &job.table, &mut progress),
+        true => play(&group, &job.table, &mut progress),
     }?;
     drop(progress);
-    if let Some(stimulus) = stimulus {
-        files.push(stimulus.finish()?);
-    }
-    if let Some(vcd) = vcd {
-        let units = u64::from(job.table.patterns().first().map_or(1, |first| first.period));
-        let Range { start, end } = options.ticks;
-        let action = played.first_step.unwrap_or(played.begun);
-        // A unit time before the first step, where that is in the dump.
-        let first = match action < end {
-            true => action.saturating_sub(units).max(start),
-            false => start,
-        };
-        let focus = first..(first + UNITS_SHOWN * units).min(played.ticks.max(first + 1));
-        let save = gtkw::save_file(&group, clock, options, &job.stem, focus);
-        files.push(vcd.finish()?);
-        files.write("gtkw", &save.map_err(io::Error::from)?)?;
-    }
+    let unit = u64::from(job.table.patterns().first().map_or(1, |first| first.period));
+    let focus = Focus {
+        action: played.first_step.unwrap_or(played.begun),
+        before: unit,
+        shown: UNITS_SHOWN * unit,
+    };
+    let files = traces.finish(&group, &focus, played.ticks)?;
     Ok((played, files))
-}
-
-/// The circuit's Verilog and its testbench; returns what writes the stimulus.
-pub(super) fn verilog<C: Circuit>(
-    circuit: &C,
-    files: &mut Files,
-) -> Result<StimulusFile<C, AtomicFile>, Failure> {
-    // Every circuit of the crate is printed by a test, so only a new one can fail here.
-    let verilog = Verilog::of(circuit).map_err(|error| Failure::Check(error.to_string()))?;
-    for source in verilog.sources().iter().chain(&verilog.testbench()) {
-        let mut file = files.create_as(&source.name)?;
-        file.write_all(source.text.as_bytes())?;
-        files.push(file);
-    }
-    let stimulus = files.create_as(&format!("{}.stimulus", C::NAME))?;
-    Ok(StimulusFile::new(stimulus))
 }
 
 /// The clock of the waves, in which the last tick must have a time.
@@ -230,21 +167,6 @@ pub(super) fn clock(
         return Err(refuse(problem, allowed.into()).into());
     }
     Ok(clock)
-}
-
-pub(super) fn not_selected(error: &LayoutError) -> Failure {
-    let (problem, allowed) = match error {
-        LayoutError::Unknown { wanted, scopes } => (
-            format!("there is no {wanted}"),
-            format!("a signal, or a scope: {}", scopes.join(", ")),
-        ),
-        other => (other.to_string(), "other signals".into()),
-    };
-    Failure::Argument {
-        field: "--only",
-        problem,
-        allowed,
-    }
 }
 
 /// A bar on standard error, where that is a terminal.

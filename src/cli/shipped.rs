@@ -47,7 +47,7 @@ macro_rules! input {
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 4] = [
+pub const SHIPPED: [Shipped; 7] = [
     shipped!(
         "waves/bracket.toml",
         "a bracket in G-code: lines at T2, arcs at T1; runs by default",
@@ -66,6 +66,19 @@ pub const SHIPPED: [Shipped; 4] = [
     shipped!(
         "waves/turntable.toml",
         "positionings of a rotary table whose load changes, on the lead-angle compensator"
+    ),
+    shipped!(
+        "waves/weld.toml",
+        "a weld seam taught by three points in space, from rest to rest, on the arc generator"
+    ),
+    shipped!(
+        "waves/joint.toml",
+        "line, arc and line in space without a stop, on the arc generator"
+    ),
+    shipped!(
+        "waves/flange.toml",
+        "a gas-cut flange in G-code, arcs joined to arcs, on the arc generator",
+        input: "waves/flange.ngc"
     ),
 ];
 

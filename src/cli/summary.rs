@@ -1,6 +1,7 @@
 //! What a run or a compilation came to, for people and for machines.
 
 use super::job::Job;
+use super::traces::Report;
 use super::verdict::complaints;
 use motion_rtl::pulse_interpolator::job::Played;
 use motion_rtl::pulse_interpolator::step_dir::TimingMinima;
@@ -203,16 +204,18 @@ impl Summary {
             files: Vec::new(),
         }
     }
+}
 
-    /// The summary for people.
-    pub fn text(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string does not fail.
-        let _ = self.write(&mut text);
-        text
+impl Report for Summary {
+    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
+        (self.vcd_window, self.files) = (vcd_window, files);
     }
 
-    fn write(&self, text: &mut String) -> std::fmt::Result {
+    fn complaints(&self) -> &[String] {
+        &self.complaints
+    }
+
+    fn write(&self, text: &mut String, _: bool) -> std::fmt::Result {
         let Summary {
             input,
             circuit,

@@ -1,6 +1,6 @@
 use super::scale::{Scale, label, range};
 use svg::node::element::path::Data;
-use svg::node::element::{Group, Line, Path, Rectangle, Text};
+use svg::node::element::{Circle, Group, Line, Path, Rectangle, Text};
 
 /// Colours of curves without one of their own, told apart by colour-blind eyes too.
 const COLOURS: [&str; 6] = [
@@ -78,6 +78,14 @@ impl Curve {
     }
 }
 
+fn text(words: &str, x: f64, y: f64) -> Text {
+    Text::new(words)
+        .set("x", hundredths(x))
+        .set("y", hundredths(y))
+        .set("font-size", 12)
+        .set("fill", "#333")
+}
+
 fn hundredths(pixel: f64) -> f32 {
     ((pixel * 100.0).round() / 100.0) as f32
 }
@@ -109,7 +117,10 @@ pub struct Panel {
     x_label: String,
     y_label: String,
     equal: bool,
+    /// Without grid and numbers.
+    bare: bool,
     curves: Vec<Curve>,
+    marks: Vec<((f64, f64), String)>,
 }
 
 impl Panel {
@@ -124,7 +135,9 @@ impl Panel {
             x_label: x_label.into(),
             y_label: y_label.into(),
             equal: false,
+            bare: false,
             curves: Vec::new(),
+            marks: Vec::new(),
         }
     }
 
@@ -132,6 +145,20 @@ impl Panel {
     #[must_use]
     pub fn equal_scales(mut self) -> Self {
         self.equal = true;
+        self
+    }
+
+    /// A view in which neither direction has a scale: no grid, no numbers.
+    #[must_use]
+    pub fn without_scales(mut self) -> Self {
+        self.bare = true;
+        self
+    }
+
+    /// Adds a dot with some words to its right. It does not widen the panel.
+    #[must_use]
+    pub fn mark(mut self, at: (f64, f64), words: impl Into<String>) -> Self {
+        self.marks.push((at, words.into()));
         self
     }
 
@@ -170,6 +197,24 @@ impl Panel {
             }
             group = group.add(path);
         }
+        for ((px, py), words) in &self.marks {
+            let (px, py) = (x.pixel(*px), y.pixel(*py));
+            let dot = Circle::new()
+                .set("cx", hundredths(px))
+                .set("cy", hundredths(py))
+                .set("r", 3)
+                .set("fill", "#333");
+            // The words stay in the frame.
+            let dy = match py - top - above < 18.0 {
+                true => 16.0,
+                false => -6.0,
+            };
+            let words = match px + 7.0 * (words.chars().count() as f64 + 1.0) > left + across {
+                true => text(words, px - 7.0, py + dy).set("text-anchor", "end"),
+                false => text(words, px + 7.0, py + dy),
+            };
+            group = group.add(dot).add(words);
+        }
         (self.legend(group, left, top), above + down + below)
     }
 
@@ -192,20 +237,17 @@ impl Panel {
                 .set("y2", hundredths(y2))
                 .set("stroke", "#e4e4e4")
         };
-        let text = |words: &str, x: f64, y: f64| {
-            Text::new(words)
-                .set("x", hundredths(x))
-                .set("y", hundredths(y))
-                .set("font-size", 12)
-                .set("fill", "#333")
-        };
         let mut group = Group::new();
-        for tick in x.ticks((across / 90.0).max(2.0)) {
+        let ticks = |scale: Scale, count: f64| match self.bare {
+            true => Vec::new(),
+            false => scale.ticks(count.max(2.0)),
+        };
+        for tick in ticks(x, across / 90.0) {
             let at = x.pixel(tick);
             let words = text(&label(tick), at, frame + down + 16.0).set("text-anchor", "middle");
             group = group.add(line(at, frame, at, frame + down)).add(words);
         }
-        for tick in y.ticks((down / if self.equal { 45.0 } else { 30.0 }).max(2.0)) {
+        for tick in ticks(y, down / if self.equal { 45.0 } else { 30.0 }) {
             let at = y.pixel(tick);
             let words = text(&label(tick), left - 6.0, at + 4.0).set("text-anchor", "end");
             group = group.add(line(left, at, left + across, at)).add(words);

@@ -398,7 +398,7 @@ fn segments_are_of_this_circuit_alone() {
     bench.refuse(
         &["run", "l.hpgl", "--segments"],
         "--segments: the pulse interpolator has no segments; allowed: a scenario of the linear \
-         interpolator or the lead-angle compensator",
+         interpolator, the lead-angle compensator or the arc generator",
     );
 }
 

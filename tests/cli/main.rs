@@ -1,5 +1,6 @@
 //! The command line: what it prints, writes, refuses and exits with.
 
+mod arc;
 mod checks;
 mod compare;
 mod compare_names;

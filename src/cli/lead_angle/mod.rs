@@ -7,22 +7,24 @@ mod picture;
 mod summary;
 mod systems;
 mod text;
-mod traces;
 
 pub use job::Job;
 
+use super::Failure;
 use super::files::Files;
-use super::run::{Arguments, Progress, no_such_tick, options};
-use super::{Failure, print, print_json};
+use super::run::{Arguments, Progress, options};
+use super::traces::{Focus, Traces, conclude, no_such_tick};
+use motion_rtl::kernel::Without;
 use motion_rtl::lead_angle::job::{
     Conventional, JobError, JobLead, Played, RamLead, ShiftLead, play, positioner,
 };
-use motion_rtl::lead_angle::settings::History;
+use motion_rtl::lead_angle::settings::{History, Settings};
 use motion_rtl::trace::Options;
-use std::ops::Range;
 use summary::Summary;
 use systems::{System, systems};
-use traces::Traces;
+
+/// CKs that the save file's window shows.
+const CKS_SHOWN: u64 = 400;
 
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
@@ -34,9 +36,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         History::ShiftRegister => simulate::<ShiftLead>(arguments, job, &options),
         History::Ram => simulate::<RamLead>(arguments, job, &options),
     }?;
-    if options.ticks.start >= own.ticks {
-        return Err(no_such_tick(&options, own.ticks));
-    }
+    no_such_tick(&options, own.ticks)?;
     let played = systems(&job.settings).into_iter().map(|system| {
         let played = match system.own {
             true => own.clone(),
@@ -46,20 +46,8 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     });
     let played = played.collect::<Result<Vec<_>, Failure>>()?;
     files.write("svg", &picture::draw(job, &played))?;
-    let mut summary = Summary::new(job, &played);
-    if !arguments.no_vcd {
-        let Range { start, end } = options.ticks;
-        summary.vcd_window = Some([start, end.min(summary.ticks).max(start)]);
-    }
-    summary.files = files.commit()?;
-    match arguments.json {
-        true => print_json(&summary)?,
-        false => print(&summary.text(arguments.segments))?,
-    }
-    if summary.complaints.is_empty() {
-        return Ok(());
-    }
-    Err(Failure::Check(summary.complaints.join("\n")))
+    let summary = Summary::new(job, &played);
+    conclude(arguments, &options, summary.ticks, files, summary)
 }
 
 fn refuse(error: JobError) -> Failure {
@@ -89,21 +77,33 @@ fn simulate<P: JobLead>(
 ) -> Result<(Played, Files), Failure> {
     let settings = &job.settings;
     let circuit = positioner::<P>(settings);
-    let ticks = job.ticks_at_least();
-    let mut traces = Traces::begin(&circuit, arguments, job, options, ticks)?;
+    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
+    let printed = &circuit.circuit;
+    let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
     // Two calls, so that a run without waves is compiled without a trace of them.
-    let played = match traces.vcd.is_some() || traces.stimulus.is_some() {
-        true => {
-            let files = (traces.vcd.as_mut(), traces.stimulus.as_mut());
+    let played = match traces.is_empty() {
+        false => {
+            let stimulus = traces.stimulus.as_mut().map(Without);
+            let files = (traces.vcd.as_mut(), stimulus);
             play(&circuit, settings, (files, &mut progress))
         }
-        false => play(&circuit, settings, &mut progress),
+        true => play(&circuit, settings, &mut progress),
     };
     let played = played.map_err(refuse)?;
     drop(progress);
     let first = played.positionings.first();
-    let action = first.map_or(0, |positioning| positioning.fired);
-    let files = traces.finish(&circuit, action, played.ticks)?;
+    let focus = focus(settings, first.map_or(0, |positioning| positioning.fired));
+    let files = traces.finish(&circuit, &focus, played.ticks)?;
     Ok((played, files))
+}
+
+/// A window with that tick in its middle.
+fn focus(settings: &Settings, action: u64) -> Focus {
+    let shown = CKS_SHOWN * u64::from(settings.ck_ticks);
+    Focus {
+        action,
+        before: shown / 2,
+        shown,
+    }
 }

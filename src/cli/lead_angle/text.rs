@@ -1,6 +1,7 @@
 //! The summary for people.
 
 use super::summary::{Phase, Summary, SystemSummary};
+use crate::cli::traces::Report;
 use std::fmt::Write;
 
 /// Characters of a column of stop errors at least.
@@ -12,13 +13,13 @@ fn name(value: impl serde::Serialize) -> String {
     json.as_str().unwrap_or_default().to_owned()
 }
 
-impl Summary {
-    /// The summary for people, with every positioning if `all` are wanted.
-    pub fn text(&self, all: bool) -> String {
-        let mut text = String::new();
-        // Writing to a string does not fail.
-        let _ = self.write(&mut text, all);
-        text
+impl Report for Summary {
+    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
+        (self.vcd_window, self.files) = (vcd_window, files);
+    }
+
+    fn complaints(&self) -> &[String] {
+        &self.complaints
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
@@ -71,7 +72,9 @@ impl Summary {
         }
         Ok(())
     }
+}
 
+impl Summary {
     /// The names of the systems as heads of columns.
     fn heads(&self) -> String {
         let names = self.systems.iter().map(|system| system.name);

@@ -2,18 +2,19 @@
 
 use super::rows::{Figures, Row};
 use super::summary::{Summary, SystemSummary};
+use crate::cli::traces::Report;
 use std::fmt::Write;
 
 /// Cycles in the table, unless all are asked for.
 const SHOWN: usize = 12;
 
-impl Summary {
-    /// The summary for people, with the worst cycles or with all.
-    pub fn text(&self, all: bool) -> String {
-        let mut text = String::new();
-        // Writing to a string does not fail.
-        let _ = self.write(&mut text, all);
-        text
+impl Report for Summary {
+    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
+        (self.vcd_window, self.files) = (vcd_window, files);
+    }
+
+    fn complaints(&self) -> &[String] {
+        &self.complaints
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
@@ -51,7 +52,9 @@ impl Summary {
         }
         Ok(())
     }
+}
 
+impl Summary {
     fn table(&self, text: &mut String, all: bool) -> std::fmt::Result {
         writeln!(
             text,

@@ -3,17 +3,18 @@
 mod picture;
 mod text;
 
-use super::{Job, Traces};
+use super::{Job, focus};
+use crate::cli::Failure;
 use crate::cli::files::Files;
-use crate::cli::run::{Arguments, Progress, no_such_tick};
-use crate::cli::{Failure, print, print_json};
+use crate::cli::run::{Arguments, Progress};
+use crate::cli::traces::{Traces, conclude, no_such_tick};
 use motion_rtl::input::position_log::PositionLog;
+use motion_rtl::kernel::Without;
 use motion_rtl::lead_angle::job::{JobLead, RamLead, ShiftLead, positioner};
 use motion_rtl::lead_angle::replay::{Replayed, Signal, replay, settings_for};
 use motion_rtl::lead_angle::settings::{History, Settings};
 use motion_rtl::trace::Options;
 use serde::Serialize;
-use std::ops::Range;
 
 /// The summary of a log.
 #[derive(Debug, Serialize)]
@@ -62,29 +63,15 @@ pub fn run(
 ) -> Result<(), Failure> {
     let settings = settings_for(log, &job.settings);
     let ticks = (log.seconds() * settings.clock_hz as f64) as u64 + 1;
-    if options.ticks.start >= ticks {
-        return Err(no_such_tick(options, ticks));
-    }
+    no_such_tick(options, ticks)?;
     let simulate = match settings.history {
         History::ShiftRegister => simulate::<ShiftLead>,
         History::Ram => simulate::<RamLead>,
     };
     let (replayed, mut files) = simulate(arguments, job, &settings, log, options)?;
     files.write("svg", &picture::draw(job, log, &settings, &replayed))?;
-    let mut summary = summary(log, &settings, &replayed);
-    if !arguments.no_vcd {
-        let Range { start, end } = options.ticks;
-        summary.vcd_window = Some([start, end.min(replayed.ticks).max(start)]);
-    }
-    summary.files = files.commit()?;
-    match arguments.json {
-        true => print_json(&summary)?,
-        false => print(&summary.text(arguments.segments))?,
-    }
-    if summary.complaints.is_empty() {
-        return Ok(());
-    }
-    Err(Failure::Check(summary.complaints.join("\n")))
+    let summary = summary(log, &settings, &replayed);
+    conclude(arguments, options, summary.ticks, files, summary)
 }
 
 /// Replays it with these settings.
@@ -97,20 +84,22 @@ fn simulate<P: JobLead>(
 ) -> Result<(Replayed, Files), Failure> {
     let circuit = positioner::<P>(settings);
     let ticks = (log.seconds() * settings.clock_hz as f64) as u64 + 1;
-    let mut traces = Traces::begin(&circuit, arguments, job, options, ticks)?;
+    let (printed, scenario) = (&circuit.circuit, (&job.loaded, job.stem.as_str()));
+    let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
     // Two calls, so that a run without waves is compiled without a trace of them.
-    let replayed = match traces.vcd.is_some() || traces.stimulus.is_some() {
-        true => {
-            let files = (traces.vcd.as_mut(), traces.stimulus.as_mut());
+    let replayed = match traces.is_empty() {
+        false => {
+            let stimulus = traces.stimulus.as_mut().map(Without);
+            let files = (traces.vcd.as_mut(), stimulus);
             replay(&circuit, settings, log, (files, &mut progress))
         }
-        false => replay(&circuit, settings, log, &mut progress),
+        true => replay(&circuit, settings, log, &mut progress),
     };
     let replayed = replayed.map_err(Failure::Run)?;
     drop(progress);
     let action = replayed.signals.first().map_or(0, |signal| signal.tick);
-    let files = traces.finish(&circuit, action, replayed.ticks)?;
+    let files = traces.finish(&circuit, &focus(settings, action), replayed.ticks)?;
     Ok((replayed, files))
 }
 

@@ -1,18 +1,19 @@
 //! The summary of a log for people.
 
 use super::Summary;
+use crate::cli::traces::Report;
 use std::fmt::Write;
 
 /// Signals that are shown, unless all are asked for.
 const SHOWN: usize = 16;
 
-impl Summary {
-    /// The summary for people, with every signal if `all` are wanted.
-    pub fn text(&self, all: bool) -> String {
-        let mut text = String::new();
-        // Writing to a string does not fail.
-        let _ = self.write(&mut text, all);
-        text
+impl Report for Summary {
+    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
+        (self.vcd_window, self.files) = (vcd_window, files);
+    }
+
+    fn complaints(&self) -> &[String] {
+        &self.complaints
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
@@ -34,7 +35,9 @@ impl Summary {
         }
         Ok(())
     }
+}
 
+impl Summary {
     fn predictions(&self, text: &mut String) -> std::fmt::Result {
         if self.predictions == 0 {
             return writeln!(text, "no prediction with a lead\n");

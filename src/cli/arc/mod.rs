@@ -1,0 +1,80 @@
+//! `run` of the arc generator: its path, waves, summary and picture.
+
+mod figures;
+mod job;
+mod operations;
+mod picture;
+mod rows;
+mod summary;
+mod text;
+mod verdict;
+mod view;
+
+pub use job::Job;
+
+use super::Failure;
+use super::files::Files;
+use super::run::{Arguments, Progress, options};
+use super::traces::{Focus, Traces, conclude, no_such_tick};
+use figures::Figures;
+use motion_rtl::arc_generator::job::{Played, arc_generator, play};
+use motion_rtl::trace::Options;
+use picture::draw;
+use summary::Summary;
+
+/// Samples that the save file's window shows, with the change into the rotation in its middle.
+const SAMPLES_SHOWN: u64 = 12;
+
+/// Runs a path.
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
+    let (played, mut files) = simulate(arguments, job, &options)?;
+    no_such_tick(&options, played.ticks)?;
+    let figures = Figures::of(job, &played);
+    files.write("svg", &draw(job, &figures))?;
+    let summary = Summary::new(job, &played, &figures);
+    conclude(arguments, &options, played.ticks, files, summary)
+}
+
+/// Plays the path with its waves.
+fn simulate(
+    arguments: &Arguments,
+    job: &Job,
+    options: &Options,
+) -> Result<(Played, Files), Failure> {
+    let circuit = arc_generator(job.settings.rounding);
+    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
+    let mut traces = Traces::begin((&circuit, &circuit), arguments, scenario, options, ticks)?;
+    let mut progress = Progress::new(ticks);
+    // Two calls, so that a run without waves is compiled without a trace of them.
+    let played = match traces.is_empty() {
+        false => {
+            let files = (traces.vcd.as_mut(), traces.stimulus.as_mut());
+            play(
+                &circuit,
+                &job.records,
+                job.sample_ticks,
+                (files, &mut progress),
+            )
+        }
+        true => play(&circuit, &job.records, job.sample_ticks, &mut progress),
+    }?;
+    drop(progress);
+    let shown = SAMPLES_SHOWN * u64::from(job.sample_ticks);
+    // Where the first segment ends and the second begins.
+    let change = job
+        .prepared
+        .segments
+        .first()
+        .map_or(0, |first| first.samples as usize);
+    let focus = Focus {
+        action: played
+            .commands
+            .get(change)
+            .map_or(0, |command| command.tick),
+        before: shown / 2,
+        shown,
+    };
+    let files = traces.finish(&circuit, &focus, played.ticks)?;
+    Ok((played, files))
+}

@@ -1,0 +1,64 @@
+//! What a sample costs: by the conventional method, as the patent's formulas are written, and in
+//! the circuit.
+
+use super::Job;
+use motion_rtl::arc_generator::RotationControl;
+use motion_rtl::arc_generator::conventional::{
+    Conventional, DIFFERENCE_ENGINE, blend, blend_terms, rotation,
+};
+use motion_rtl::arc_generator::vector::rodrigues;
+use motion_rtl::arc_generator::widths::Widths;
+use serde::Serialize;
+
+/// Ticks of a step of the rotation.
+const ROTATION_TICKS: u64 = RotationControl::<{ Widths::FULL.coefficient as usize }>::LATENCY;
+
+/// Operations of a sample.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    /// By what.
+    pub method: &'static str,
+    /// Products.
+    pub multiplications: u64,
+    /// Sums and differences.
+    pub additions: u64,
+    /// Sines and cosines.
+    pub sines_and_cosines: u64,
+    /// Ticks that the circuit takes.
+    pub ticks: Option<u64>,
+}
+
+/// Of each method; nothing where the path has no arc.
+pub fn rows(job: &Job) -> Vec<Row> {
+    let mut arcs = job.prepared.pieces.iter();
+    let found = arcs.find_map(|piece| Some((piece, piece.arc?)));
+    let Some((piece, arc)) = found else {
+        return Vec::new();
+    };
+    let run = Conventional::new(&arc.circle, piece.wanted, &job.prepared.timing);
+    let cost = |sample: u64| {
+        let mut samples = run.samples().map(|(_, operations)| operations);
+        samples.nth(sample as usize).unwrap_or_default()
+    };
+    let matrix = rodrigues(arc.circle.axis, arc.step);
+    let [from, to] = piece.between_blends();
+    let (_, rotation) = rotation(&matrix, &mut from.clone(), arc.circle.centre);
+    let (_, quartic) = blend(&blend_terms(piece.from, piece.from, to), 0.5);
+    [
+        ("conventional, arc", cost(run.ramp + 1), None),
+        ("conventional, accelerating", cost(1), None),
+        ("patent, arc", rotation, None),
+        ("patent, blend", quartic, None),
+        // Nine products at once, a bit of the coefficients a tick.
+        ("circuit, arc", rotation, Some(ROTATION_TICKS)),
+        ("circuit, blend and line", DIFFERENCE_ENGINE, Some(1)),
+    ]
+    .map(|(method, operations, ticks)| Row {
+        method,
+        multiplications: operations.multiplications,
+        additions: operations.additions,
+        sines_and_cosines: operations.trigonometric,
+        ticks,
+    })
+    .into()
+}

@@ -1,0 +1,213 @@
+//! The picture of a run: the path, speed and acceleration over time with the jumps where the
+//! rotation begins and ends, the radius error within its bound, a blend's distance from its arc.
+
+use super::Job;
+use super::figures::{ArcFigures, Figures};
+use super::rows::bound;
+use super::view::path;
+use motion_rtl::arc_generator::measure::Measured;
+use motion_rtl::arc_generator::prepared::Segment;
+use motion_rtl::arc_generator::vector::distance;
+use motion_rtl::picture::{Curve, Panel, Picture};
+
+pub const LINE: &str = "#0072b2";
+pub const ARC: &str = "#d55e00";
+pub const BLEND: &str = "#009e73";
+/// Closed forms, bounds and what is wanted.
+pub const EXPECTED: &str = "#8c8c8c";
+pub const GAP: (f64, f64) = (f64::NAN, f64::NAN);
+/// More arcs than these have no marks: their words would lie upon each other.
+pub const ARCS_MARKED: usize = 2;
+
+const TIME: &str = "time in s";
+
+/// A curve with gaps.
+pub type Points = Vec<(f64, f64)>;
+
+/// The picture as SVG.
+pub fn draw(job: &Job, figures: &Figures) -> String {
+    let title = format!("{}: arc generator", job.stem);
+    let mut picture = Picture::new(title).panel(path(job, figures));
+    let Some(measured) = &figures.measured else {
+        return picture.render();
+    };
+    picture = picture
+        .panel(speed(job, figures, measured))
+        .panel(acceleration(job, figures, measured));
+    if !figures.arcs.is_empty() {
+        picture = picture.panel(radius_error(job, figures));
+    }
+    // The blend that leaves its arc farthest.
+    let far = |arc: &&ArcFigures| arc.report.blend_distance;
+    let farthest = figures.arcs.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
+    if let Some(panel) = farthest.and_then(|arc| off_arc(job, figures, arc)) {
+        picture = picture.panel(panel);
+    }
+    picture.render()
+}
+
+fn seconds(job: &Job, sample: f64) -> f64 {
+    sample * job.prepared.timing.sample_s
+}
+
+/// A curve of what holds from one end of each segment to the other, in steps.
+fn steps<'a>(job: &Job, values: impl Iterator<Item = (&'a Segment, f64)>) -> Points {
+    let ends = |(segment, value): (&Segment, f64)| {
+        let ends = [segment.first_sample, segment.end()];
+        let [from, to] = ends.map(|sample| (seconds(job, sample as f64), value));
+        [from, to, GAP]
+    };
+    values.flat_map(ends).collect()
+}
+
+/// The segments that are arcs, with their figures.
+fn arcs<'a>(
+    job: &'a Job,
+    figures: &'a Figures,
+) -> impl Iterator<Item = (&'a Segment, &'a ArcFigures)> {
+    let segments = &job.prepared.segments;
+    figures.arcs.iter().map(|arc| (&segments[arc.segment], arc))
+}
+
+fn speed(job: &Job, figures: &Figures, measured: &Measured) -> Panel {
+    let pieces = &job.prepared.pieces;
+    let between = job.prepared.segments.iter().filter(|segment| {
+        // Blends have no speed of their own.
+        segment.corner_distance().is_none()
+    });
+    let wanted = steps(
+        job,
+        between.map(|segment| (segment, pieces[segment.piece].wanted)),
+    );
+    let speeds = measured.speeds.iter().enumerate();
+    let speeds: Points = speeds
+        .map(|(sample, speed)| (seconds(job, sample as f64 + 0.5), *speed))
+        .collect();
+    let mut panel = Panel::new("speed", TIME, "mm/s")
+        .curve(Curve::new("wanted", wanted).colour(EXPECTED).dashed())
+        .curve(Curve::new("of the commands", speeds).colour(LINE));
+    if figures.arcs.len() <= ARCS_MARKED {
+        for (segment, arc) in arcs(job, figures) {
+            let speed = pieces[arc.piece].speed;
+            for (name, sample) in [("A+", segment.first_sample), ("C-", segment.end())] {
+                let at = (seconds(job, sample as f64), speed);
+                panel = panel.mark(at, name);
+            }
+        }
+    }
+    panel
+}
+
+fn acceleration(job: &Job, figures: &Figures, measured: &Measured) -> Panel {
+    let accelerations = measured.accelerations.iter().enumerate();
+    let curve: Points = accelerations
+        .map(|(sample, value)| (seconds(job, sample as f64 + 1.0), *value))
+        .collect();
+    let towards_centre =
+        arcs(job, figures).map(|(segment, arc)| (segment, arc.report.acceleration_jump));
+    let towards_centre = steps(job, towards_centre);
+    let mut panel = Panel::new("acceleration", TIME, "mm/s²")
+        .curve(Curve::new("of the commands", curve).colour(LINE).width(0.9));
+    if !towards_centre.is_empty() {
+        let curve = Curve::new("v²/R", towards_centre);
+        panel = panel.curve(curve.colour(ARC).width(1.6));
+    }
+    if figures.arcs.len() <= ARCS_MARKED {
+        for (segment, arc) in arcs(job, figures) {
+            let jump = arc.report.acceleration_jump;
+            let (first, last) = (segment.first_sample as f64, segment.end() as f64);
+            panel = panel
+                .mark(
+                    (seconds(job, first), jump),
+                    format!("A+: jump of {jump:.2} mm/s²"),
+                )
+                .mark((seconds(job, last), jump), "C-");
+        }
+    }
+    panel
+}
+
+fn radius_error(job: &Job, figures: &Figures) -> Panel {
+    // The whole time, though there are not arcs all the time.
+    let last = job.prepared.samples() as f64 - 1.0;
+    let mut errors = vec![(0.0, f64::NAN), (seconds(job, last), f64::NAN)];
+    for (segment, arc) in arcs(job, figures) {
+        let samples = (segment.first_sample..).zip(&arc.radius_errors);
+        errors.extend(samples.map(|(sample, error)| (seconds(job, sample as f64), error * 1e3)));
+        errors.push(GAP);
+    }
+    let limit = |sign: f64| {
+        let bounds =
+            arcs(job, figures).map(|(segment, arc)| (segment, sign * bound(job, arc) * 1e3));
+        steps(job, bounds)
+    };
+    let limits = [limit(1.0), limit(-1.0)].concat();
+    Panel::new("radius error on the arcs", TIME, "µm")
+        .curve(Curve::new("bound", limits).colour(EXPECTED).dashed())
+        .curve(Curve::new("of the commands", errors).colour(ARC).width(0.8))
+}
+
+/// How far the blend into an arc leaves it, along the way.
+fn off_arc(job: &Job, figures: &Figures, arc: &ArcFigures) -> Option<Panel> {
+    let segments = &job.prepared.segments;
+    let blend = segments.get(arc.segment.checked_sub(1)?)?;
+    let rotation = segments.get(arc.segment)?;
+    let rest = blend.next_piece.is_none();
+    let off = |point| match rest {
+        true => arc.report.circle.off(point)[0] * 1e3,
+        false => job.prepared.distance(blend, point) * 1e3,
+    };
+    let (first, change) = (blend.first_sample as usize, blend.end() as usize);
+    // As much of the arc as of the blend.
+    let last = (change + blend.samples as usize).min(rotation.end() as usize);
+    let points = &figures.points[first..=last];
+    let ways = points.windows(2).scan(0.0, |way, pair| {
+        *way += distance(pair[0], pair[1]);
+        Some(*way)
+    });
+    let ways: Vec<f64> = std::iter::once(0.0).chain(ways).collect();
+    let curve: Points = ways
+        .iter()
+        .zip(points)
+        .map(|(way, point)| (*way, off(*point)))
+        .collect();
+    let (blended, rotated) = (
+        curve[..=change - first].to_vec(),
+        curve[change - first..].to_vec(),
+    );
+    let ([_, .., end], at) = (&blended[..], blended.last().copied()?) else {
+        return None;
+    };
+    let title = match job.prepared.pieces.len() {
+        1 => "distance of the blend from the arc".to_owned(),
+        _ => format!(
+            "distance of the blend into piece {} from the path",
+            arc.piece
+        ),
+    };
+    let mut panel = Panel::new(title, "way in mm", "µm");
+    if rest {
+        let depth = -arc.report.blend_distance * 1e3;
+        let curve = Curve::new("R(1 - cos(φ/2))", vec![(0.0, depth), (end.0, depth)]);
+        panel = panel.curve(curve.colour(EXPECTED).dashed());
+        let most = ways.last().copied()?;
+        let conventional: Points = arc
+            .conventional
+            .windows(2)
+            .scan(0.0, |way, pair| {
+                *way += distance(pair[0].0, pair[1].0);
+                Some((*way, pair[1].1 * 1e3))
+            })
+            .take_while(|(way, _)| *way <= most)
+            .collect();
+        let curve = Curve::new("conventional", conventional);
+        panel = panel.curve(curve.colour("#cc79a7").width(0.9));
+    }
+    let jump = arc.report.direction_jump.to_degrees();
+    Some(
+        panel
+            .curve(Curve::new("blend", blended).colour(BLEND).width(1.6))
+            .curve(Curve::new("rotation", rotated).colour(ARC))
+            .mark(at, format!("A+: the direction jumps by {jump:.3}°")),
+    )
+}

@@ -1,0 +1,334 @@
+//! The summary for people.
+
+use super::rows::{ArcRow, BlendRow, LineRow};
+use super::summary::Summary;
+use crate::cli::traces::Report;
+use motion_rtl::input::Point;
+use std::fmt::{self, Write};
+
+/// Arcs, lines and blends in the tables, unless all are asked for.
+const SHOWN: usize = 6;
+
+impl Report for Summary {
+    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
+        (self.vcd_window, self.files) = (vcd_window, files);
+    }
+
+    fn complaints(&self) -> &[String] {
+        &self.complaints
+    }
+
+    fn write(&self, text: &mut String, all: bool) -> fmt::Result {
+        let [x, y, z] = self.end_position;
+        writeln!(
+            text,
+            "{} on {} ({}): {} samples, {} ticks, {:.3} s at {} Hz",
+            self.input,
+            self.circuit,
+            self.rounding,
+            self.samples,
+            self.ticks,
+            self.seconds,
+            self.clock_hz
+        )?;
+        writeln!(
+            text,
+            "a sample in {} ticks, of which the circuit needs {}; blends of {} samples; a count is \
+             {:.3} um",
+            self.sample_ticks,
+            self.sample_ticks_needed,
+            self.blend_samples,
+            1e3 / self.counts_per_mm
+        )?;
+        writeln!(
+            text,
+            "ends at {x}, {y}, {z} counts{}\ncommands are at most {:.3} um off their exact points, \
+             the bound is {:.3} um\n",
+            match self.exact {
+                true => ", where the path does",
+                false => "",
+            },
+            self.error_max_um,
+            self.error_bound_um
+        )?;
+        self.arcs(text, all)?;
+        self.lines(text, all)?;
+        self.blends(text, all)?;
+        self.operations(text)?;
+        for warning in &self.warnings {
+            writeln!(text, "warning: {warning}")?;
+        }
+        if let Some([from, to]) = self.vcd_window
+            && (from > 0 || to < self.ticks)
+        {
+            writeln!(
+                text,
+                "the VCD shows ticks {from} to {to} of {}: --from and --to choose others",
+                self.ticks
+            )?;
+        }
+        for file in &self.files {
+            writeln!(text, "wrote {file}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The worst few of some rows, or all in their order, and how many are left out.
+fn worst<T>(rows: &[T], all: bool, badness: impl Fn(&T) -> f64) -> (Vec<&T>, usize) {
+    let mut shown: Vec<&T> = rows.iter().collect();
+    if !all && rows.len() > SHOWN {
+        shown.sort_by(|a, b| badness(b).total_cmp(&badness(a)));
+        shown.truncate(SHOWN);
+    }
+    let left = rows.len() - shown.len();
+    (shown, left)
+}
+
+fn more(text: &mut String, left: usize, why: &str) -> fmt::Result {
+    match left {
+        0 => writeln!(text),
+        _ => writeln!(text, "and {left} more, {why}: --segments shows all\n"),
+    }
+}
+
+/// A table with these heads, every column as wide as its head or as said, its cells to the right.
+fn table<const N: usize>(
+    text: &mut String,
+    heads: [(&str, usize); N],
+    rows: impl IntoIterator<Item = [String; N]>,
+) -> fmt::Result {
+    let widths = heads.map(|(head, least)| least.max(head.len()));
+    let heads = heads.map(|(head, _)| head.to_owned());
+    for cells in std::iter::once(heads).chain(rows) {
+        let cells = cells.iter().zip(widths);
+        let cells: Vec<_> = cells
+            .map(|(cell, width)| format!("{cell:>width$}"))
+            .collect();
+        writeln!(text, "{}", cells.join("  "))?;
+    }
+    Ok(())
+}
+
+/// A number with so many decimals, without the sign of what rounds to nothing.
+fn fixed(value: f64, decimals: usize) -> String {
+    let shown = format!("{value:.decimals$}");
+    let nothing = shown.bytes().all(|byte| b"-0.".contains(&byte));
+    shown
+        .trim_start_matches(if nothing { "-" } else { "" })
+        .to_owned()
+}
+
+/// A number that may not be there.
+fn or_dash(value: Option<impl ToString>) -> String {
+    value.map_or("-".to_owned(), |value| value.to_string())
+}
+
+fn point(point: Point, decimals: usize) -> String {
+    point.map(|value| fixed(value, decimals)).join(", ")
+}
+
+impl Summary {
+    fn arcs(&self, text: &mut String, all: bool) -> fmt::Result {
+        let error = |row: &ArcRow| {
+            let [least, largest] = row.radius_error_um;
+            largest.max(-least)
+        };
+        let (rows, left) = worst(&self.arcs, all, error);
+        if rows.is_empty() {
+            return Ok(());
+        }
+        let heads = [
+            ("arc: piece", 0),
+            ("line", 0),
+            ("radius mm", 9),
+            ("angle deg", 9),
+            ("samples", 7),
+            ("step deg", 8),
+            ("mm/s", 8),
+            ("wanted", 8),
+            ("measured", 8),
+            ("deviation", 0),
+        ];
+        let cells = rows.iter().map(|row| {
+            [
+                row.piece.to_string(),
+                or_dash(row.line),
+                fixed(row.radius_mm, 3),
+                fixed(row.angle_deg, 3),
+                row.samples.to_string(),
+                fixed(row.step_deg, 4),
+                fixed(row.speed_mm_per_s.expected, 3),
+                fixed(row.speed_wanted_mm_per_s, 3),
+                fixed(row.speed_mm_per_s.measured, 3),
+                fixed(row.speed_deviation_mm_per_s, 3),
+            ]
+        });
+        table(text, heads, cells)?;
+        more(text, left, "of smaller radius error")?;
+        if all || self.arcs.len() == 1 {
+            let heads = [("arc: piece", 0), ("centre in mm", 30), ("axis", 26)];
+            let cells = rows.iter().map(|row| {
+                let (centre, axis) = (point(row.centre_mm, 3), point(row.axis, 4));
+                [row.piece.to_string(), centre, axis]
+            });
+            table(text, heads, cells)?;
+            text.push('\n');
+        }
+        radius_errors(text, &rows)?;
+        ends(text, &rows)
+    }
+
+    fn lines(&self, text: &mut String, all: bool) -> fmt::Result {
+        let slower = |row: &LineRow| 1.0 - row.speed_mm_per_s / row.speed_wanted_mm_per_s;
+        let (rows, left) = worst(&self.lines, all, slower);
+        if rows.is_empty() {
+            return Ok(());
+        }
+        let heads = [
+            ("line: piece", 0),
+            ("line", 0),
+            ("length mm", 9),
+            ("samples", 7),
+            ("mm/s", 8),
+            ("wanted", 8),
+        ];
+        let cells = rows.into_iter().map(|row| {
+            [
+                row.piece.to_string(),
+                or_dash(row.line),
+                fixed(row.length_mm, 3),
+                row.samples.to_string(),
+                fixed(row.speed_mm_per_s, 3),
+                fixed(row.speed_wanted_mm_per_s, 3),
+            ]
+        });
+        table(text, heads, cells)?;
+        more(text, left, "nearer to the wanted speed")
+    }
+
+    fn blends(&self, text: &mut String, all: bool) -> fmt::Result {
+        let peak = |row: &BlendRow| row.peak_acceleration_mm_per_s2.measured;
+        let (rows, left) = worst(&self.blends, all, peak);
+        if rows.is_empty() {
+            return Ok(());
+        }
+        let heads = [
+            ("blend: piece", 0),
+            ("line", 0),
+            ("", 9),
+            ("turn deg", 8),
+            ("peak mm/s2", 0),
+            ("3S/(2ta)2", 9),
+            ("to the corner um", 0),
+            ("3S/16", 8),
+            ("off the path um", 0),
+        ];
+        let cells = rows.into_iter().map(|row| {
+            let (peak, corner) = (row.peak_acceleration_mm_per_s2, row.corner_distance_um);
+            [
+                row.piece.to_string(),
+                or_dash(row.line),
+                row.kind.to_owned(),
+                or_dash(row.turn_deg.map(|turn| fixed(turn, 3))),
+                fixed(peak.measured, 3),
+                fixed(peak.expected, 3),
+                or_dash(corner.map(|pair| fixed(pair.measured, 3))),
+                or_dash(corner.map(|pair| fixed(pair.expected, 3))),
+                fixed(row.off_path_um, 3),
+            ]
+        });
+        table(text, heads, cells)?;
+        more(text, left, "of smaller acceleration")
+    }
+
+    fn operations(&self, text: &mut String) -> fmt::Result {
+        if self.operations.is_empty() {
+            return Ok(());
+        }
+        let heads = [
+            ("a sample costs            ", 0),
+            ("multiplications", 0),
+            ("additions", 0),
+            ("sines, cosines", 0),
+            ("ticks", 0),
+        ];
+        let cells = self.operations.iter().map(|row| {
+            [
+                format!("{:<26}", row.method),
+                row.multiplications.to_string(),
+                row.additions.to_string(),
+                row.sines_and_cosines.to_string(),
+                or_dash(row.ticks),
+            ]
+        });
+        table(text, heads, cells)?;
+        text.push('\n');
+        Ok(())
+    }
+}
+
+fn radius_errors(text: &mut String, rows: &[&ArcRow]) -> fmt::Result {
+    let heads = [
+        ("radius error um: piece", 0),
+        ("least", 7),
+        ("largest", 7),
+        ("rms", 7),
+        ("at C-", 7),
+        ("bound", 7),
+        ("conventional", 0),
+    ];
+    let cells = rows.iter().map(|row| {
+        let [least, largest] = row.radius_error_um;
+        let (rms, end) = (row.radius_error_rms_um, row.end_error_um);
+        let [least, largest, rms, end, bound, conventional] = [
+            least,
+            largest,
+            rms,
+            end,
+            row.bound_um,
+            row.conventional_radius_error_um,
+        ]
+        .map(|um| fixed(um, 3));
+        let piece = row.piece.to_string();
+        [piece, least, largest, rms, end, bound, conventional]
+    });
+    table(text, heads, cells)?;
+    text.push('\n');
+    Ok(())
+}
+
+fn ends(text: &mut String, rows: &[&ArcRow]) -> fmt::Result {
+    let heads = [
+        ("jumps: piece", 0),
+        ("at", 0),
+        ("direction deg", 0),
+        ("asin(v ta/2R)", 0),
+        ("mm/s2", 8),
+        ("v2/R", 8),
+        ("blend off the arc um", 0),
+        ("exact", 7),
+        ("(v ta)2/8R", 0),
+    ];
+    let ends = rows
+        .iter()
+        .flat_map(|row| row.ends.iter().map(|end| (row.piece, end)));
+    let cells = ends.map(|(piece, end)| {
+        let (direction, acceleration) = (end.direction_jump_deg, end.acceleration_jump_mm_per_s2);
+        let off = end.off_arc_um;
+        [
+            piece.to_string(),
+            end.at.to_owned(),
+            fixed(direction.measured, 4),
+            fixed(direction.expected, 4),
+            fixed(acceleration.measured, 3),
+            fixed(acceleration.expected, 3),
+            off.map_or("joint".to_owned(), |pair| fixed(pair.measured, 3)),
+            or_dash(off.map(|pair| fixed(pair.expected, 3))),
+            or_dash(end.off_arc_estimate_um.map(|um| fixed(um, 3))),
+        ]
+    });
+    table(text, heads, cells)?;
+    text.push('\n');
+    Ok(())
+}

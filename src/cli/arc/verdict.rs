@@ -1,0 +1,183 @@
+//! Whether a run did what its path says.
+
+use super::Job;
+use super::figures::Figures;
+use super::rows::{ArcRow, bound};
+use motion_rtl::arc_generator::job::Played;
+use motion_rtl::arc_generator::vector::distance;
+use motion_rtl::arc_generator::widths::Widths;
+
+/// What is wrong with a run; empty where nothing is.
+pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]) -> Vec<String> {
+    let mut all = Vec::new();
+    if played.late {
+        all.push("a sampling time began before its point was ready".to_owned());
+    }
+    if played.starved {
+        all.push("the path ended in motion".to_owned());
+    }
+    let (sampled, wanted) = (played.commands.len() as u64, job.prepared.samples());
+    if sampled != wanted {
+        all.push(format!("{sampled} samples where the path has {wanted}"));
+        return all;
+    }
+    all.extend(end(job, played));
+    for arc in arcs {
+        let [least, most] = arc.radius_error_um;
+        let (error, bound) = (most.max(-least), arc.bound_um);
+        if error > bound {
+            let piece = arc.piece;
+            all.push(format!(
+                "piece {piece}: the radius is {error:.3} um off, its bound is {bound:.3} um"
+            ));
+        }
+    }
+    all.extend(astray(job, figures));
+    all
+}
+
+/// Whether the last command is the end of the path, rounded: twice, to guard units and to counts.
+fn end(job: &Job, played: &Played) -> Option<String> {
+    let (last, piece) = (played.commands.last()?, job.prepared.pieces.last()?);
+    let wanted = piece.to.map(|mm| mm * job.settings.counts_per_mm);
+    let tolerance = 0.5 + (-f64::from(Widths::FULL.guard())).exp2();
+    let mut pairs = last.counts.iter().zip(wanted);
+    // Written so that NaN fails.
+    let exact = pairs.all(|(counts, wanted)| (*counts as f64 - wanted).abs() <= tolerance);
+    let counts = last.counts;
+    (!exact).then(|| format!("ends at {counts:?} counts, the path at {wanted:.3?}"))
+}
+
+/// The first command that is farther from its exact point than arithmetic and rounding allow.
+fn astray(job: &Job, figures: &Figures) -> Option<String> {
+    let bounds = bounds(job, figures);
+    let samples = (0..).zip(&figures.points);
+    let mut astray = samples.filter_map(|(sample, point)| {
+        let off = distance(job.prepared.point(sample)?, *point);
+        let most = bounds.get(job.prepared.place(sample)?.segment)?;
+        // Written so that NaN fails.
+        let within = off <= *most;
+        (!within).then(|| {
+            let (off, most) = (off * 1e3, most * 1e3);
+            format!("sample {sample} is {off:.3} um off its exact point, its bound is {most:.3} um")
+        })
+    });
+    let text = astray.next()?;
+    Some(match astray.count() {
+        0 => text,
+        more => format!("{text} (and {more} more like it)"),
+    })
+}
+
+/// How far the samples of each segment may be off, in mm.
+pub fn bounds(job: &Job, figures: &Figures) -> Vec<f64> {
+    let mut bounds = vec![straight(job); job.prepared.segments.len()];
+    for arc in &figures.arcs {
+        bounds[arc.segment] = bound(job, arc);
+    }
+    bounds
+}
+
+/// The same on lines and blends, whose points are exact but for the rounding: √3/2 counts, and the
+/// same of a guard unit for what goes in and for what comes out.
+fn straight(job: &Job) -> f64 {
+    let unit = (-f64::from(Widths::FULL.guard())).exp2();
+    3f64.sqrt() / 2.0 * (1.0 + 2.0 * unit) / job.settings.counts_per_mm
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::arc::rows::arcs;
+    use crate::cli::job::{Input, Source};
+    use motion_rtl::arc_generator::job::Command;
+    use motion_rtl::arc_generator::reference;
+    use motion_rtl::input::scenario::Scenario;
+
+    /// The weld seam that ships, and what its records say.
+    fn seam() -> (Job, Played) {
+        let input = Input {
+            input: Some("waves/weld.toml".into()),
+            ..Input::default()
+        };
+        let source = Source::read(&input).unwrap();
+        let Scenario::ArcGenerator(scenario) = source.loaded.scenario.clone() else {
+            panic!("another circuit");
+        };
+        let job = Job::prepare(source, &scenario).unwrap();
+        let commands = reference::commands(&job.records, &Widths::FULL, job.settings.rounding);
+        let commands = commands.into_iter().zip(0..);
+        let commands = commands.map(|(counts, tick)| Command { tick, counts });
+        let played = Played {
+            commands: commands.collect(),
+            ..Played::default()
+        };
+        (job, played)
+    }
+
+    fn judged(job: &Job, played: &Played) -> Vec<String> {
+        let figures = Figures::of(job, played);
+        complaints(job, played, &figures, &arcs(job, &figures))
+    }
+
+    #[test]
+    fn every_kind_is_complained_of() {
+        let (job, good) = seam();
+        assert_eq!(judged(&job, &good), [""; 0]);
+        let flags = Played {
+            late: true,
+            starved: true,
+            ..good.clone()
+        };
+        assert_eq!(
+            judged(&job, &flags),
+            [
+                "a sampling time began before its point was ready",
+                "the path ended in motion"
+            ]
+        );
+        let samples = good.commands.len();
+        let mut short = good.clone();
+        short.commands.pop();
+        let text = format!("{} samples where the path has {samples}", samples - 1);
+        assert_eq!(judged(&job, &short), [text]);
+
+        // A count beside the end is also farther off than rounding.
+        let mut beside = good.clone();
+        beside.commands[samples - 1].counts[2] += 1;
+        assert_eq!(
+            judged(&job, &beside),
+            [
+                "ends at [3648000, 1864000, 2640001] counts, the path at [3648000.000, \
+                 1864000.000, 2640000.000]"
+                    .to_owned(),
+                format!(
+                    "sample {} is 0.100 um off its exact point, its bound is 0.087 um",
+                    samples - 1
+                ),
+            ]
+        );
+        // Two counts outwards, and two across the plane, which no radius shows.
+        for (by, radius) in [([0, 0, -2], true), ([1, 1, 2], false)] {
+            let mut off = good.clone();
+            let counts = &mut off.commands[700].counts;
+            *counts = std::array::from_fn(|k| counts[k] + by[k]);
+            let texts = judged(&job, &off);
+            let kinds = ["piece 0: the radius is 0.", "sample 700 is 0."];
+            let kinds = &kinds[usize::from(!radius)..];
+            assert_eq!(texts.len(), kinds.len(), "{texts:?}");
+            for (text, kind) in texts.iter().zip(kinds) {
+                assert!(text.starts_with(kind), "{text}");
+            }
+        }
+        let mut many = good;
+        for command in &mut many.commands[100..110] {
+            command.counts[0] += 5;
+        }
+        let texts = judged(&job, &many);
+        assert!(
+            texts.last().unwrap().ends_with(" (and 9 more like it)"),
+            "{texts:?}"
+        );
+    }
+}

@@ -1,0 +1,177 @@
+//! The files of a run while it goes on: waves, save file, and the circuit in Verilog with its
+//! stimulus; and how every run ends.
+
+use super::files::Files;
+use super::run::{Arguments, clock};
+use super::{Failure, print, print_json};
+use motion_rtl::input::scenario::Loaded;
+use motion_rtl::kernel::Circuit;
+use motion_rtl::trace::atomic::AtomicFile;
+use motion_rtl::trace::{Clock, LayoutError, Options, StimulusFile, Vcd, gtkw};
+use motion_rtl::verilog::Verilog;
+use serde::Serialize;
+use std::fmt;
+use std::io::{self, Write as _};
+use std::ops::Range;
+use std::path::Path;
+
+/// The files of a run of `C`, whose Verilog is that of `V`: the same, or what stands in it without
+/// its plant.
+pub struct Traces<'a, C: Circuit, V: Circuit> {
+    stem: &'a str,
+    options: &'a Options,
+    clock: Clock,
+    /// Every signal at every tick.
+    pub vcd: Option<Vcd<C, AtomicFile>>,
+    /// The inputs.
+    pub stimulus: Option<StimulusFile<V, AtomicFile>>,
+    // Last, as their directory can go only when the files above are gone.
+    files: Files,
+}
+
+/// What the save file's window shows.
+pub struct Focus {
+    /// The tick that matters.
+    pub action: u64,
+    /// Ticks before it, where they are in the dump.
+    pub before: u64,
+    /// Ticks shown.
+    pub shown: u64,
+}
+
+impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
+    /// Begins what is asked for of a run of about so many ticks.
+    pub fn begin(
+        (circuit, printed): (&C, &V),
+        arguments: &Arguments,
+        (loaded, stem): (&Loaded, &'a str),
+        options: &'a Options,
+        ticks: u64,
+    ) -> Result<Self, Failure> {
+        let clock = clock(arguments, loaded, ticks, options)?;
+        let directory = arguments.out.as_deref().unwrap_or(Path::new("waves"));
+        let mut files = Files::begin(directory, stem)?;
+        let vcd = match arguments.no_vcd {
+            true => None,
+            false => {
+                let dump = Vcd::new(files.create("vcd")?, circuit, clock, options);
+                Some(dump.map_err(|error| not_selected(&error))?)
+            }
+        };
+        let stimulus = match arguments.verilog {
+            true => Some(verilog(printed, &mut files)?),
+            false => None,
+        };
+        Ok(Traces {
+            stem,
+            options,
+            clock,
+            files,
+            vcd,
+            stimulus,
+        })
+    }
+
+    /// Whether nothing of the run is written: it is compiled without a trace of the files then.
+    pub fn is_empty(&self) -> bool {
+        self.vcd.is_none() && self.stimulus.is_none()
+    }
+
+    /// Closes them after so many ticks, and writes the save file.
+    pub fn finish(mut self, circuit: &C, focus: &Focus, ticks: u64) -> Result<Files, Failure> {
+        if let Some(stimulus) = self.stimulus {
+            self.files.push(stimulus.finish()?);
+        }
+        if let Some(vcd) = self.vcd {
+            let Range { start, end } = self.options.ticks;
+            let first = match focus.action < end {
+                true => focus.action.saturating_sub(focus.before).max(start),
+                false => start,
+            };
+            let window = first..(first + focus.shown).min(ticks.max(first + 1));
+            let save = gtkw::save_file(circuit, self.clock, self.options, self.stem, window);
+            self.files.push(vcd.finish()?);
+            self.files.write("gtkw", &save.map_err(io::Error::from)?)?;
+        }
+        Ok(self.files)
+    }
+}
+
+/// The circuit's Verilog and its testbench; returns what writes the stimulus.
+fn verilog<C: Circuit>(
+    circuit: &C,
+    files: &mut Files,
+) -> Result<StimulusFile<C, AtomicFile>, Failure> {
+    // Every circuit of the crate is printed by a test, so only a new one can fail here.
+    let verilog = Verilog::of(circuit).map_err(|error| Failure::Check(error.to_string()))?;
+    for source in verilog.sources().iter().chain(&verilog.testbench()) {
+        let mut file = files.create_as(&source.name)?;
+        file.write_all(source.text.as_bytes())?;
+        files.push(file);
+    }
+    let stimulus = files.create_as(&format!("{}.stimulus", C::NAME))?;
+    Ok(StimulusFile::new(stimulus))
+}
+
+fn not_selected(error: &LayoutError) -> Failure {
+    let (problem, allowed) = match error {
+        LayoutError::Unknown { wanted, scopes } => (
+            format!("there is no {wanted}"),
+            format!("a signal, or a scope: {}", scopes.join(", ")),
+        ),
+        other => (other.to_string(), "other signals".into()),
+    };
+    Failure::Argument {
+        field: "--only",
+        problem,
+        allowed,
+    }
+}
+
+/// The run is over before the window begins.
+pub fn no_such_tick(options: &Options, ticks: u64) -> Result<(), Failure> {
+    if options.ticks.start < ticks {
+        return Ok(());
+    }
+    Err(Failure::Argument {
+        field: "--from",
+        problem: format!("is {}", options.ticks.start),
+        allowed: format!("0 to {}, the last tick of the run", ticks.saturating_sub(1)),
+    })
+}
+
+/// The summary of a run.
+pub trait Report: Serialize {
+    /// Takes note of the ticks in the VCD, half-open, and of the files written.
+    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>);
+    /// What is wrong with the run; nothing where it did what it was to do.
+    fn complaints(&self) -> &[String];
+    /// Writes it for people, with every part of the run if `all` are wanted.
+    fn write(&self, text: &mut String, all: bool) -> fmt::Result;
+}
+
+/// Ends a run of so many ticks: names its files, prints its summary, fails where it complains.
+pub fn conclude(
+    arguments: &Arguments,
+    options: &Options,
+    ticks: u64,
+    files: Files,
+    mut summary: impl Report,
+) -> Result<(), Failure> {
+    let Range { start, end } = options.ticks;
+    let window = (!arguments.no_vcd).then(|| [start, end.min(ticks).max(start)]);
+    summary.written(window, files.commit()?);
+    match arguments.json {
+        true => print_json(&summary)?,
+        false => {
+            let mut text = String::new();
+            // Writing to a string does not fail.
+            let _ = summary.write(&mut text, arguments.segments);
+            print(&text)?;
+        }
+    }
+    match summary.complaints() {
+        [] => Ok(()),
+        complaints => Err(Failure::Check(complaints.join("\n"))),
+    }
+}

@@ -1,0 +1,733 @@
+//! `run` of the arc generator: summary against closed forms, files, windows, refusals.
+
+use super::support::{Bench, keys, whole};
+use serde_json::{Value, json};
+use std::f64::consts::{PI, TAU};
+
+/// Ts = 10 ms of 100 ticks, blends of 20 samples, 0.1 um a count.
+const HEAD: &str = "circuit = \"arc_generator\"\nclock_hz = 10_000\nsample_period_ms = 10\n\
+     acceleration_ms = 200\ncounts_per_mm = 10_000\nspeed_mm_per_s = 20\n";
+const TS: f64 = 0.01;
+const TA: f64 = 0.1;
+
+/// Half a circle of 10 mm, from the origin.
+const SEAM: &str = "[[piece]]\nvia_mm = [10, 10, 0]\nto_mm = [20, 0, 0]\n";
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    let found = value.pointer(pointer).and_then(Value::as_f64);
+    found.unwrap_or_else(|| panic!("no number at {pointer}: {value}"))
+}
+
+fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
+    value[name]
+        .as_array()
+        .unwrap_or_else(|| panic!("no {name}"))
+}
+
+#[track_caller]
+fn near(value: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (value - expected).abs() <= tolerance,
+        "{value}, not {expected} within {tolerance}"
+    );
+}
+
+/// A scenario with the usual head.
+fn with(text: &str) -> Bench {
+    Bench::with("s.toml", format!("{HEAD}{text}"))
+}
+
+fn summary(text: &str, more: &[&str]) -> Value {
+    with(text).json(&[&["run", "s.toml", "--no-vcd"], more].concat())
+}
+
+/// Of an arc from rest to rest at up to `wanted` mm/s: samples and speed, by trial of every N.
+fn samples_and_speed(radius: f64, angle: f64, wanted: f64) -> (i64, f64) {
+    // What is left of the angle after both blends and N samples falls with the speed.
+    let left =
+        |n: f64, v: f64| angle - 4.0 * (v * TA / (2.0 * radius)).asin() - n * v * TS / radius;
+    let n = (1..).find(|&n| left(n as f64, wanted) <= 0.0).unwrap();
+    let (mut slow, mut fast) = (0.0, wanted);
+    for _ in 0..100 {
+        let v = f64::midpoint(slow, fast);
+        match left(n as f64, v) > 0.0 {
+            true => slow = v,
+            false => fast = v,
+        }
+    }
+    (n, slow)
+}
+
+#[test]
+fn the_seam_is_what_closed_forms_say() {
+    let run = ["run", "waves/weld.toml", "--no-vcd"];
+    let bench = Bench::new();
+    let summary = bench.json(&run);
+    assert_eq!(
+        keys(&summary),
+        [
+            "arcs",
+            "blend_samples",
+            "blends",
+            "circuit",
+            "clock_hz",
+            "complaints",
+            "counts_per_mm",
+            "end_demanded",
+            "end_position",
+            "error_bound_um",
+            "error_max_um",
+            "exact",
+            "files",
+            "input",
+            "lines",
+            "operations",
+            "rounding",
+            "sample_ticks",
+            "sample_ticks_needed",
+            "samples",
+            "seconds",
+            "ticks",
+            "vcd_window",
+            "warnings"
+        ]
+    );
+    assert_eq!(summary["circuit"], "arc_generator");
+    assert_eq!(summary["input"], "weld");
+    assert_eq!(summary["rounding"], "nearest");
+    assert_eq!(summary["exact"], true);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(summary["files"], json!(["waves/weld.svg"]));
+    assert_eq!(
+        summary["end_position"],
+        json!([3_648_000, 1_864_000, 2_640_000])
+    );
+    assert_eq!(summary["lines"], json!([]));
+    assert_eq!(whole(&summary, "/sample_ticks"), 100);
+    assert_eq!(whole(&summary, "/sample_ticks_needed"), 82);
+    assert_eq!(whole(&summary, "/blend_samples"), 20);
+
+    // The points lie at cosines of 1, 0.6 and −0.8 on the circle.
+    let (radius, angle) = (100.0, (-0.8f64).acos());
+    let (n, v) = samples_and_speed(radius, angle, 20.0);
+    let [arc] = list(&summary, "arcs") else {
+        panic!("one arc");
+    };
+    near(number(arc, "/radius_mm"), radius, 1e-9);
+    near(number(arc, "/angle_deg"), angle.to_degrees(), 1e-9);
+    for (k, centre, axis) in [(0, 400.0, 0.36), (1, 100.0, 0.48), (2, 300.0, 0.8)] {
+        near(number(arc, &format!("/centre_mm/{k}")), centre, 1e-9);
+        near(number(arc, &format!("/axis/{k}")), axis, 1e-12);
+    }
+    assert_eq!(arc["line"], Value::Null);
+    assert_eq!(whole(arc, "/samples"), n);
+    near(number(arc, "/speed_mm_per_s/expected"), v, 1e-9);
+    // A chord for each sample.
+    near(number(arc, "/speed_mm_per_s/measured"), v, 1e-3);
+    // Half a count of each coordinate at both ends of a sample.
+    let count = 1e-4;
+    assert!(number(arc, "/speed_deviation_mm_per_s") < 3f64.sqrt() * count / TS);
+    let phi = 2.0 * (v * TA / (2.0 * radius)).asin();
+    near(number(arc, "/blend_angle_deg"), phi.to_degrees(), 1e-9);
+    let step = (angle - 2.0 * phi) / n as f64;
+    near(number(arc, "/step_deg"), step.to_degrees(), 1e-12);
+
+    // No error above √3/2 counts and what 1230 steps add; a rounding has 1/√12 counts rms.
+    let bound = number(arc, "/bound_um");
+    assert!(bound > 0.0866 && bound < 0.09, "{bound}");
+    let least = number(arc, "/radius_error_um/0");
+    let largest = number(arc, "/radius_error_um/1");
+    assert!(least < -0.03 && largest > 0.03 && largest.max(-least) < bound);
+    near(
+        number(arc, "/radius_error_rms_um"),
+        0.1 / 12f64.sqrt(),
+        0.002,
+    );
+    assert!(number(arc, "/end_error_um") < bound);
+    let conventional = number(arc, "/conventional_radius_error_um");
+    assert!(
+        conventional > 0.03 && conventional < 0.0867,
+        "{conventional}"
+    );
+    assert!(number(&summary, "/error_max_um") < number(&summary, "/error_bound_um"));
+
+    let ends = list(arc, "ends");
+    assert_eq!(
+        ends.iter().map(|end| &end["at"]).collect::<Vec<_>>(),
+        ["A+", "C-"]
+    );
+    for end in ends {
+        assert_eq!(end["rest"], true);
+        let direction = (v * TA / (2.0 * radius)).asin().to_degrees();
+        near(number(end, "/direction_jump_deg/expected"), direction, 1e-9);
+        near(number(end, "/direction_jump_deg/measured"), direction, 0.01);
+        let acceleration = v * v / radius;
+        let pointer = "/acceleration_jump_mm_per_s2";
+        near(
+            number(end, &format!("{pointer}/expected")),
+            acceleration,
+            1e-9,
+        );
+        near(
+            number(end, &format!("{pointer}/measured")),
+            acceleration,
+            0.3,
+        );
+        let off = radius * (1.0 - (phi / 2.0).cos()) * 1e3;
+        near(number(end, "/off_arc_um/expected"), off, 1e-6);
+        near(number(end, "/off_arc_um/measured"), off, 0.0867);
+        let estimate = (v * TA).powi(2) / (8.0 * radius) * 1e3;
+        near(number(end, "/off_arc_estimate_um"), estimate, 1e-9);
+        near(estimate, off, 0.01);
+    }
+
+    // From rest: 3·v·ta/(2ta)².
+    let blends = list(&summary, "blends");
+    assert_eq!(
+        blends
+            .iter()
+            .map(|blend| &blend["kind"])
+            .collect::<Vec<_>>(),
+        ["from rest", "to rest"]
+    );
+    for blend in blends {
+        let peak = 0.75 * v / TA;
+        near(
+            number(blend, "/peak_acceleration_mm_per_s2/expected"),
+            peak,
+            1e-9,
+        );
+        near(
+            number(blend, "/peak_acceleration_mm_per_s2/measured"),
+            peak,
+            4.0,
+        );
+        assert_eq!(blend["corner_distance_um"], Value::Null);
+    }
+
+    // The first command and one for every sample.
+    let samples = whole(&summary, "/samples");
+    assert_eq!(samples, 1 + n + 2 * 20);
+    let ticks = whole(&summary, "/ticks");
+    assert!(
+        ticks > (samples - 1) * 100 && ticks <= (samples + 6) * 100,
+        "{ticks}"
+    );
+    near(number(&summary, "/seconds"), ticks as f64 / 1e4, 1e-9);
+}
+
+#[test]
+fn a_sample_costs_what_the_patent_counts() {
+    let summary = Bench::new().json(&["run", "waves/weld.toml", "--no-vcd"]);
+    let cost = |method: &str| {
+        let rows = list(&summary, "operations").iter();
+        let row = rows.clone().find(|row| row["method"] == method).unwrap();
+        let names = ["multiplications", "additions", "sines_and_cosines"];
+        names.map(|name| row[name].as_u64().unwrap())
+    };
+    assert_eq!(cost("patent, arc"), [9, 6 + 3, 0]);
+    assert_eq!(cost("circuit, blend and line"), [0, 4 * 3, 0]);
+    for method in ["conventional, arc", "conventional, accelerating"] {
+        let [multiplications, additions, sines] = cost(method);
+        assert!(
+            multiplications > 18 && additions > 18 && sines == 2,
+            "{method}"
+        );
+    }
+}
+
+#[test]
+fn the_joint_does_not_stop() {
+    let summary = Bench::new().json(&["run", "waves/joint.toml", "--no-vcd"]);
+    assert_eq!(summary["complaints"], json!([]));
+    let kinds: Vec<_> = list(&summary, "blends")
+        .iter()
+        .map(|blend| &blend["kind"])
+        .collect();
+    assert_eq!(kinds, ["from rest", "joint", "joint", "to rest"]);
+    let [arc] = list(&summary, "arcs") else {
+        panic!("one arc");
+    };
+    near(number(arc, "/radius_mm"), 50.0, 1e-9);
+    let v = number(arc, "/speed_mm_per_s/expected");
+    assert!(v > 39.0 && v <= 40.0, "{v}");
+    for end in list(arc, "ends") {
+        assert_eq!(end["rest"], false);
+        assert_eq!(end["off_arc_um"], Value::Null);
+        let direction = (v * TA / 100.0).asin().to_degrees();
+        near(number(end, "/direction_jump_deg/measured"), direction, 0.01);
+        near(
+            number(end, "/acceleration_jump_mm_per_s2/measured"),
+            v * v / 50.0,
+            0.5,
+        );
+    }
+    for blend in &list(&summary, "blends")[1..3] {
+        near(number(blend, "/turn_deg"), 0.0, 1e-6);
+        let corner = |which: &str| number(blend, &format!("/corner_distance_um/{which}"));
+        near(corner("measured"), corner("expected"), 0.2);
+        // v·ta along the line, a chord of that length on the arc: 3/16 of what it leaves the line.
+        let chord = v * TA;
+        near(
+            corner("expected"),
+            3.0 / 16.0 * 1e3 * chord * chord / 100.0,
+            0.1,
+        );
+    }
+    let [first, last] = list(&summary, "lines") else {
+        panic!("two lines");
+    };
+    near(number(first, "/length_mm"), 50.0, 1e-9);
+    near(number(last, "/length_mm"), 80.0, 1e-9);
+    // L/(v·Ts) samples less those of a blend.
+    assert_eq!(whole(first, "/samples"), 50 * 100 / 40 - 20);
+    assert_eq!(whole(last, "/samples"), 80 * 100 / 40 - 20);
+}
+
+#[test]
+fn the_flange_is_the_whole_job() {
+    let bench = Bench::new();
+    let summary = bench.json(&["run", "waves/flange.toml", "--no-vcd"]);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(summary["end_position"], json!([0, 0, 0]));
+    let arcs = list(&summary, "arcs");
+    // Bore, four holes, four ends of slots, nine of the outline.
+    assert_eq!(arcs.len(), 1 + 4 + 4 + 9);
+    let full = arcs.iter().filter(|arc| number(arc, "/angle_deg") == 360.0);
+    assert_eq!(full.count(), 5);
+    let up = arcs
+        .iter()
+        .filter(|arc| arc["axis"] == json!([0.0, 0.0, 1.0]));
+    assert_eq!(up.count(), 5 + 5);
+    let lobe = arcs.iter().find(|arc| arc["line"] == 39).unwrap();
+    near(number(lobe, "/radius_mm"), 13.0, 1e-9);
+    near(
+        number(lobe, "/angle_deg"),
+        360.0 - 2.0 * 12f64.atan2(5.0).to_degrees(),
+        1e-9,
+    );
+    assert_eq!(number(lobe, "/speed_wanted_mm_per_s"), 20.0);
+    // Eleven pieces of the outline, joined without a stop.
+    let joints = list(&summary, "blends")
+        .iter()
+        .filter(|blend| blend["kind"] == "joint");
+    let lines: Vec<_> = joints
+        .map(|blend| whole(blend, "/line"))
+        .filter(|line| *line > 35)
+        .collect();
+    assert_eq!(lines, (36..=45).collect::<Vec<_>>());
+    for arc in arcs {
+        let error = |k: usize| number(arc, &format!("/radius_error_um/{k}")).abs();
+        assert!(error(0).max(error(1)) <= number(arc, "/bound_um"), "{arc}");
+    }
+
+    let text = bench.succeed(&["run", "waves/flange.toml", "--no-vcd"]);
+    let start = "waves/flange.ngc on arc_generator (nearest): ";
+    assert!(text.starts_with(start), "{text}");
+    let table = |text: &str, head: &str| {
+        let rows = text
+            .lines()
+            .skip_while(|line| !line.starts_with(head))
+            .skip(1);
+        rows.take_while(|line| line.starts_with(' ')).count()
+    };
+    assert_eq!(table(&text, "arc: piece"), 6);
+    assert!(text.contains("and 12 more, of smaller radius error: --segments shows all\n"));
+    assert_eq!(table(&text, "line: piece"), 6);
+    assert_eq!(table(&text, "blend: piece"), 6);
+    let text = bench.succeed(&["run", "waves/flange.toml", "--no-vcd", "--segments"]);
+    assert_eq!(table(&text, "arc: piece"), 18);
+    assert_eq!(table(&text, "radius error um: piece"), 18);
+    assert_eq!(table(&text, "jumps: piece"), 36);
+    assert_eq!(table(&text, "line: piece"), list(&summary, "lines").len());
+    assert_eq!(table(&text, "blend: piece"), list(&summary, "blends").len());
+    assert!(!text.contains("more, "), "{text}");
+    assert!(text.ends_with("wrote waves/flange.svg\n"));
+}
+
+#[test]
+fn both_roundings_keep_their_bounds() {
+    let bound = |rounding: &str| {
+        let set = format!("rounding={rounding}");
+        let summary = Bench::new().json(&["run", "waves/weld.toml", "--no-vcd", "--set", &set]);
+        assert_eq!(summary["rounding"], rounding);
+        assert_eq!(summary["exact"], true);
+        number(&summary, "/arcs/0/bound_um")
+    };
+    let (nearest, floor) = (bound("nearest"), bound("floor"));
+    // Half a guard unit of each coordinate and step more: N·√3·2^-17 counts of 0.1 um.
+    near(
+        floor - nearest,
+        1230.0 * 3f64.sqrt() * 0.5f64.powi(17) * 0.1,
+        1e-5,
+    );
+}
+
+#[test]
+fn a_circle_by_hand() {
+    // A full turn of 5 mm, from a part program that is given by itself.
+    let bench = Bench::with("c.ngc", "G3 I5 F600\n");
+    let arguments = ["run", "c.ngc", "--no-vcd", "--set", "circuit=arc_generator"];
+    let summary = bench.json(&arguments);
+    assert_eq!(summary["exact"], true);
+    assert_eq!(summary["end_position"], json!([0, 0, 0]));
+    let arc = &summary["arcs"][0];
+    assert_eq!(whole(arc, "/line"), 1);
+    near(number(arc, "/angle_deg"), 360.0, 1e-12);
+    // Ts is 1 ms, 2ta 64 ms: the chords of both blends and N arcs of v·Ts make the turn.
+    let (v, n) = (
+        number(arc, "/speed_mm_per_s/expected"),
+        whole(arc, "/samples"),
+    );
+    let turn = 4.0 * (v * 0.032 / 10.0).asin() + n as f64 * v * 1e-3 / 5.0;
+    near(turn, TAU, 1e-9);
+    assert!(v <= 10.0 && v > 10.0 * (1.0 - 1.0 / n as f64), "{v}");
+}
+
+#[test]
+fn speeds_of_pieces_and_slower_ones() {
+    let own = format!("{SEAM}speed_mm_per_s = 5\n");
+    let run = summary(&own, &[]);
+    assert_eq!(number(&run, "/arcs/0/speed_wanted_mm_per_s"), 5.0);
+    let (n, v) = samples_and_speed(10.0, PI, 5.0);
+    assert_eq!(whole(&run, "/arcs/0/samples"), n);
+    near(number(&run, "/arcs/0/speed_mm_per_s/expected"), v, 1e-9);
+
+    let fast = format!("{SEAM}speed_mm_per_s = 500\n");
+    let run = summary(&fast, &["--set", "short_pieces=slower"]);
+    let v = number(&run, "/arcs/0/speed_mm_per_s/expected");
+    // A blend reaches no farther than the radius.
+    assert!(v <= 100.0 && v > 80.0, "{v}");
+    assert_eq!(run["exact"], true);
+}
+
+#[test]
+fn files_windows_and_scopes() {
+    let bench = with(SEAM);
+    let text = bench.succeed(&["run", "s.toml", "--out", "a/b"]);
+    assert!(
+        text.ends_with("wrote a/b/s.vcd\nwrote a/b/s.gtkw\nwrote a/b/s.svg\n"),
+        "{text}"
+    );
+    let files = [
+        "a/",
+        "a/b/",
+        "a/b/s.gtkw",
+        "a/b/s.svg",
+        "a/b/s.vcd",
+        "s.toml",
+    ];
+    assert_eq!(bench.names(), files);
+    let svg = bench.read("a/b/s.svg");
+    for words in [
+        "s: arc generator",
+        "speed",
+        "acceleration",
+        "radius error on the arcs",
+        "distance of the blend from the arc",
+        "A+: the direction jumps by ",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+    // Flat: seen from above, with scales.
+    assert!(svg.contains("x in mm") && !svg.contains("isometric"));
+    let again = with(SEAM);
+    again.succeed(&["run", "s.toml", "--out", "a/b"]);
+    for name in ["a/b/s.svg", "a/b/s.vcd", "a/b/s.gtkw"] {
+        assert!(bench.read(name) == again.read(name), "{name} differs");
+    }
+
+    let window = ["run", "s.toml", "--from", "2000", "--to", "2600"];
+    let only = [
+        "--only",
+        "arc_generator.rotation",
+        "--only",
+        "arc_generator.x",
+    ];
+    let summary = bench.json(&[&window[..], &only].concat());
+    assert_eq!(summary["vcd_window"], json!([2000, 2600]));
+    let save = bench.read("waves/s.gtkw");
+    assert!(save.contains("arc_generator.rotation.") && !save.contains("arc_generator.engine_x."));
+    let text = bench.succeed(&window);
+    let ticks = whole(&summary, "/ticks");
+    let shown =
+        format!("the VCD shows ticks 2000 to 2600 of {ticks}: --from and --to choose others\n");
+    assert!(text.contains(&shown), "{text}");
+
+    let beyond = ticks.to_string();
+    let last = ticks - 1;
+    bench.refuse(
+        &["run", "s.toml", "--from", &beyond, "--out", "new"],
+        &format!("--from: is {beyond}; allowed: 0 to {last}, the last tick of the run"),
+    );
+    let done = bench.run(&["run", "s.toml", "--only", "arc_generator.pen"]);
+    assert_eq!(done.code, 2);
+    let start = "error: --only: there is no arc_generator.pen; allowed: a signal, or a scope: \
+         arc_generator, arc_generator.sample_counter, arc_generator.memory, ";
+    assert!(done.stderr.starts_with(start), "{}", done.stderr);
+}
+
+#[test]
+fn the_save_file_shows_the_change_into_the_rotation() {
+    let bench = with(SEAM);
+    bench.succeed(&["run", "s.toml"]);
+    let save = bench.read("waves/s.gtkw");
+    let start = save
+        .lines()
+        .find_map(|line| line.strip_prefix("[timestart] "));
+    // The first command stands in tick 200, the twentieth sample in tick 2200, six samples before
+    // which the window begins; a tick is 100 us.
+    assert_eq!(start, Some("160000"));
+}
+
+#[test]
+fn the_job_is_written_as_verilog_too() {
+    let bench = with(SEAM);
+    let summary = bench.json(&["run", "s.toml", "--no-vcd", "--verilog", "--out", "v"]);
+    let files: Vec<_> = list(&summary, "files")
+        .iter()
+        .map(|file| file.as_str().unwrap())
+        .collect();
+    for name in ["v/arc_generator.v", "v/arc_generator.stimulus", "v/s.svg"] {
+        assert!(files.contains(&name), "{name}: {files:?}");
+    }
+    let lines = bench.read("v/arc_generator.stimulus").lines().count() as i64;
+    assert!(lines >= whole(&summary, "/ticks"), "{lines}");
+}
+
+#[test]
+fn bad_settings_are_refused() {
+    const RANGE: &str = "allowed: 0.000001 to 1000000000";
+    let cases = [
+        ("sample_period_ms=-1", "sample_period_ms: is -1; allowed: "),
+        (
+            "sample_period_ms=10.05",
+            "sample_period_ms: is 10.05: 100.5 ticks; allowed: whole ticks: ",
+        ),
+        (
+            "acceleration_ms=30",
+            "acceleration_ms: is 30: 3 samples; allowed: an even number of samples: 20 or 40\n",
+        ),
+        (
+            "acceleration_ms=20000",
+            "acceleration_ms: is 20000; allowed: 20 to 10240 ms: 2 to 1024 samples\n",
+        ),
+        (
+            "counts_per_mm=0",
+            &format!("counts_per_mm: is 0; {RANGE}\n"),
+        ),
+        (
+            "speed_mm_per_s=0",
+            &format!("speed_mm_per_s: is 0; {RANGE}\n"),
+        ),
+        (
+            "rapid_mm_per_s=nan",
+            &format!("rapid_mm_per_s: is NaN; {RANGE}\n"),
+        ),
+        ("corner_deg=181", "corner_deg: is 181; allowed: 0 to 180\n"),
+        ("clock_hz=0", "clock_hz: is 0; allowed: 1 to 10000000000\n"),
+        (
+            "vcd_ticks=0",
+            "vcd_ticks: is 0; allowed: 1 to 9223372036854775807; --no-vcd for none\n",
+        ),
+        (
+            "rounding=up",
+            "rounding: unknown variant `up`; allowed: `nearest` or `floor`\n",
+        ),
+        (
+            "short_pieces=no",
+            "short_pieces: unknown variant `no`; allowed: `refuse` or `slower`\n",
+        ),
+        (
+            "feed=1",
+            "feed: unknown field `feed`; allowed: one of `circuit`, `input`, `start_mm`, `piece`, ",
+        ),
+        (
+            "input=p.ngc",
+            "input: given beside tables [[piece]]; allowed: a drawing or pieces, not both\n",
+        ),
+    ];
+    let bench = with(SEAM);
+    for (set, refusal) in cases {
+        let before = bench.names();
+        let done = bench.run(&["run", "s.toml", "--set", set, "--out", "new"]);
+        assert_eq!((done.code, done.stdout.as_str()), (2, ""), "{set}");
+        let start = format!("error: --set: {refusal}");
+        assert!(done.stderr.starts_with(&start), "{set}: {}", done.stderr);
+        assert_eq!(bench.names(), before, "{set} left something");
+    }
+    bench.write(
+        "s.toml",
+        format!("# Ts\n{HEAD}{SEAM}").replace("period_ms = 10", "period_ms = 0"),
+    );
+    let done = bench.run(&["run", "s.toml"]);
+    let start = "error: s.toml:4: sample_period_ms: is 0; allowed: ";
+    assert!(done.stderr.starts_with(start), "{}", done.stderr);
+}
+
+#[test]
+fn bad_pieces_are_refused_with_their_line() {
+    // The head has six lines, the seam three.
+    let cases = [
+        (
+            String::new(),
+            "s.toml: piece: missing; allowed: tables [[piece]], or an input: an HPGL drawing or a G-code program",
+        ),
+        (
+            "input = \"l.ngc\"\nstart_mm = [1, 0, 0]\n".into(),
+            "s.toml:8: start_mm: is [1.0, 0.0, 0.0] beside an input; allowed: where the drawing begins: no start_mm",
+        ),
+        (
+            format!("input = \"l.ngc\"\n{SEAM}"),
+            "s.toml:7: input: given beside tables [[piece]]; allowed: a drawing or pieces, not both",
+        ),
+        (
+            format!("{SEAM}[[piece]]\nto_mm = [20, 0, 0]\n"),
+            "s.toml:11: piece 1: to_mm: start and end are the same point; allowed: points apart",
+        ),
+        (
+            format!("{SEAM}[[piece]]\nvia_mm = [20, 0, 0]\nto_mm = [30, 0, 0]\n"),
+            "s.toml:11: piece 1: via_mm: start and via are the same point; allowed: points apart",
+        ),
+        (
+            format!("{SEAM}[[piece]]\nto_mm = [30, 0, 0]\nspeed_mm_per_s = 60\n"),
+            "s.toml:12: piece 1: speed_mm_per_s: at 60 mm/s the blends at its ends take more than the piece, 10 mm; allowed: at most 47.619 mm/s (F2857.14), or shorter blends",
+        ),
+        (
+            format!("{SEAM}[[piece]]\nto_mm = [30, 0, 0]\nspeed_mm_per_s = -1\n"),
+            "s.toml:12: piece 1: speed_mm_per_s: is -1 mm/s; allowed: a speed above 0",
+        ),
+        (
+            format!("{SEAM}speed_mm_per_s = 120\n"),
+            "s.toml:10: piece 0: speed_mm_per_s: at 120 mm/s a blend reaches 12 mm along an arc of 10 mm radius; allowed: at most 100 mm/s (F6000), whose blends reach no farther than the radius",
+        ),
+        (
+            "[[piece]]\nto_mm = [2000, 0, 0]\n".into(),
+            "s.toml:8: piece 0: to_mm: x reaches 19980000.0 counts, which needs W = 26; allowed: -8388607 to 8388607 counts at W = 24: fewer counts per mm",
+        ),
+        (
+            "[[piece]]\nto_mm = [200, 0, 0]\nspeed_mm_per_s = 0.0001\n".into(),
+            "s.toml:9: piece 0: speed_mm_per_s: takes 199999980 samples at 0.0001 mm/s; allowed: at most 1048575 samples: faster, shorter, or sampled less often",
+        ),
+        (
+            "[[piece]]\nto_mm = [200, 0]\n".into(),
+            "s.toml:8: to_mm: invalid length 2; allowed: a list of three numbers, of X, Y and Z",
+        ),
+        (
+            "[[piece]]\nvia = [200, 0, 0]\n".into(),
+            "s.toml:8: via: unknown field `via`; allowed: one of `to_mm`, `via_mm`, `speed_mm_per_s`",
+        ),
+        (
+            "[[piece]]\nvia_mm = [200, 0, 0]\n".into(),
+            "s.toml:7: to_mm: missing; allowed: a value for it: it has no default",
+        ),
+        (
+            "[[piece]]\nto_mm = [nan, 0, 0]\n".into(),
+            "s.toml:8: piece 0: to_mm: x is NaN; allowed: a number",
+        ),
+    ];
+    for (text, refusal) in cases {
+        let bench = with(&text);
+        bench.write("l.ngc", "G1 X20 F600\n");
+        bench.refuse(&["run", "s.toml", "--out", "new/deep"], refusal);
+    }
+    // The three points on a line.
+    let bench = with(&format!(
+        "{SEAM}[[piece]]\nvia_mm = [25, 0, 0]\nto_mm = [30, 0, 0]\n"
+    ));
+    let done = bench.run(&["run", "s.toml"]);
+    let start = "error: s.toml:11: piece 1: via_mm: the point via is only ";
+    let end = "allowed: a point off the line, or a line: no point via\n";
+    let text = done.stderr;
+    assert!(
+        done.code == 2 && text.starts_with(start) && text.ends_with(end),
+        "{text}"
+    );
+    // No speed of the piece, and none for all.
+    let bench = Bench::with("s.toml", format!("circuit = \"arc_generator\"\n{SEAM}"));
+    bench.refuse(
+        &["run", "s.toml"],
+        "s.toml:2: piece 0: speed_mm_per_s: missing; allowed: a speed of the piece, or one for all",
+    );
+    bench.write("l.ngc", "G1 X20 F600\n");
+    bench.refuse(
+        &[
+            "run",
+            "l.ngc",
+            "--set",
+            "circuit=arc_generator",
+            "--set",
+            "piece=[{to_mm=[1,2,3]}]",
+        ],
+        "--set: piece: given beside an input; allowed: a drawing or pieces, not both",
+    );
+}
+
+#[test]
+fn bad_moves_are_refused_with_their_line() {
+    let cases = [
+        (
+            "p.ngc",
+            "G1 X20 F600\nG2 X40 I10 Z5\n",
+            "p.ngc:2: Z: climbs 5 mm along its axis: a helix; allowed: an arc in a plane: a rotation has no feed along its axis",
+        ),
+        (
+            "p.ngc",
+            "G1 X60 F1200\n(fast)\nG3 I-2 F2400\n",
+            "p.ngc:3: F: at 40 mm/s a blend reaches 4 mm along an arc of 2 mm radius; allowed: at most 20 mm/s (F1200), whose blends reach no farther than the radius",
+        ),
+        (
+            "p.ngc",
+            "G1 X20 F6000\n",
+            "p.ngc:1: F: at 100 mm/s the blends at its ends take more than the piece, 20 mm; allowed: at most 95.238 mm/s (F5714.28), or shorter blends",
+        ),
+        (
+            "p.ngc",
+            "\nG0 X20\nG1 X40 F600\n",
+            "p.ngc:2: rapid_mm_per_s: at 200 mm/s the blends at its ends take more than the piece, 20 mm; allowed: at most 95.238 mm/s (F5714.28), or shorter blends",
+        ),
+        (
+            "p.ngc",
+            "G1 X1\n",
+            "p.ngc:1: speed_mm_per_s: at 20 mm/s the blends at its ends take more than the piece, 1 mm; allowed: at most 4.7619 mm/s (F285.714), or shorter blends",
+        ),
+        (
+            "p.ngc",
+            "G1 X20 F600\nG1 X2000\n",
+            "p.ngc:2: x: x reaches 19990000.0 counts, which needs W = 26; allowed: -8388607 to 8388607 counts at W = 24: fewer counts per mm",
+        ),
+        (
+            "p.ngc",
+            "G1 X20 F600\nG2 X40 Y1 I3\n",
+            "p.ngc:2: I, J: the radius is 3.0000 mm at the start and 17.0294 mm at the end; allowed: radii that agree to 0.005 mm or 0.1 %",
+        ),
+        (
+            "p.hpgl",
+            "PU4000,0;\nPD4200,0;",
+            "p.hpgl:2: speed_mm_per_s: at 20 mm/s the blends at its ends take more than the piece, 5 mm; allowed: at most 12.1951 mm/s (F731.706), or shorter blends",
+        ),
+    ];
+    for (name, text, refusal) in cases {
+        let bench = with(&format!("input = \"{name}\"\n"));
+        bench.write(name, text);
+        let slow = ["--set", "acceleration_ms=400"];
+        let more = match name {
+            "p.hpgl" => &slow[..],
+            _ => &[],
+        };
+        bench.refuse(
+            &[&["run", "s.toml", "--out", "new"], more].concat(),
+            refusal,
+        );
+    }
+    let bench = Bench::with("l.hpgl", "PD400,0;");
+    bench.refuse(
+        &["run", "l.hpgl", "--set", "circuit=arc_generator"],
+        "l.hpgl:1: F: missing; allowed: a feed, or speed_mm_per_s for all",
+    );
+    bench.refuse(
+        &["table", "waves/weld.toml"],
+        "waves/weld.toml:3: circuit: the arc generator has no table; allowed: pulse_interpolator, \
+         or the command run",
+    );
+}
