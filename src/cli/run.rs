@@ -43,8 +43,8 @@ pub struct Arguments {
     /// Writes the circuit as Verilog too, with a testbench and the run's inputs as its stimulus.
     #[arg(long)]
     pub(super) verilog: bool,
-    /// Prints every segment, positioning or signal, not the worst or the last alone (not of the
-    /// pulse interpolator).
+    /// Prints every segment, arc, positioning or signal, not the worst or the last alone (not of
+    /// the pulse interpolator).
     #[arg(long)]
     pub(super) segments: bool,
     /// Prints the summary as JSON.
