@@ -37,7 +37,7 @@ pub enum CircleError {
         points: [&'static str; 2],
     },
     /// The three points are on a line.
-    #[error("the point via is only {off:.3e} mm off the line from start to end, {chord} mm long")]
+    #[error("the point via is only {off} mm off the line from start to end, {chord} mm long")]
     Collinear {
         /// Distance of B from the line through A and C.
         off: f64,

@@ -91,7 +91,7 @@ impl<const C: usize> Circuit for RotationControl<C> {
     }
 
     #[inline(always)]
-    fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, i: &In<L>) -> Reg<L> {
+    fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, _: &In<L>) -> Reg<L> {
         Reg {
             busy: w.going,
             bit_index: (w.going & !w.copy).mux(q.bit_index + 1, 0.into()),

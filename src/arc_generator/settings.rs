@@ -113,21 +113,21 @@ impl Settings {
     pub fn sample_ticks(&self, widths: &Widths) -> Result<u32, SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         let field = "sample_period_ms";
-        let tick_ms = 1e3 / self.clock_hz as f64;
+        let ms = |ticks: f64| ticks * 1e3 / self.clock_hz as f64;
         let most = (1u64 << widths.period) - 1;
-        let ticks = self.sample_period_ms / tick_ms;
+        let ticks = self.sample_period_ms * self.clock_hz as f64 / 1e3;
         // Written so that NaN fails.
         if !(ticks >= LEAST_SAMPLE_TICKS as f64 - 0.5 && ticks <= most as f64 + 0.5) {
             let allowed = format!(
                 "{} to {} ms: {LEAST_SAMPLE_TICKS} to {most} ticks",
-                LEAST_SAMPLE_TICKS as f64 * tick_ms,
-                most as f64 * tick_ms
+                ms(LEAST_SAMPLE_TICKS as f64),
+                ms(most as f64)
             );
             let problem = format!("is {}", self.sample_period_ms);
             return Err(refusal(field, problem, allowed));
         }
         let whole = whole(ticks).ok_or_else(|| {
-            let [below, above] = [ticks.floor(), ticks.ceil()].map(|ticks| ticks * tick_ms);
+            let [below, above] = [ticks.floor(), ticks.ceil()].map(ms);
             let problem = format!("is {}: {ticks} ticks", self.sample_period_ms);
             refusal(field, problem, format!("whole ticks: {below} or {above}"))
         })?;

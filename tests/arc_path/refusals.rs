@@ -257,7 +257,7 @@ fn taught_points_that_make_no_piece() {
     let error = text(&taught(Some([2.0, 0.0, 0.0]), Some(5.0)));
     assert_eq!(
         error.to_string(),
-        "piece 0: the point via is only 0.000e0 mm off the line from start to end, 6 mm long; \
+        "piece 0: the point via is only 0 mm off the line from start to end, 6 mm long; \
          allowed: a point off the line, or a line: no point via"
     );
     assert_eq!(error.reason.field(), "via_mm");

@@ -154,7 +154,7 @@ fn faults_of_settings_and_pieces_have_their_lines() {
     let error = from_points(keys.start_mm, &taught, &settings).unwrap_err();
     assert_eq!(
         shown(error),
-        "s.toml:9: piece 1: via_mm: the point via is only 0.000e0 mm off the line from start to \
+        "s.toml:9: piece 1: via_mm: the point via is only 0 mm off the line from start to \
          end, 20 mm long; allowed: a point off the line, or a line: no point via"
     );
     taught[1].via = None;
