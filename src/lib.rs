@@ -18,6 +18,7 @@ pub mod plant;
 pub mod pulse_interpolator;
 pub mod registry;
 pub mod trace;
+pub mod trajectory_controller;
 pub mod verilog;
 
 /// The code in the note on conventions is compiled and run as a test.

@@ -1,0 +1,5 @@
+//! The trajectory controller: its blocks against programs.
+
+mod cordic;
+mod model;
+mod search;

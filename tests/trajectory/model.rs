@@ -1,0 +1,202 @@
+//! The reference model against its equations, and what the note says of gains and words.
+
+use motion_rtl::kernel::Simulator;
+use motion_rtl::logic::Sim;
+use motion_rtl::trajectory_controller::reference_model::{In, Reg};
+use motion_rtl::trajectory_controller::{ReferenceModel, Rounding};
+use proptest::prelude::*;
+
+type Bench<'c, const P: usize, const K: usize, const Q: usize> =
+    Simulator<'c, ReferenceModel<P, K, Q>>;
+
+/// p, v and a.
+type State = [i128; 3];
+
+fn state<const P: usize, const K: usize, const Q: usize>(q: &Reg<Sim, P, K, Q>) -> State {
+    let q = &q.state;
+    [q.position, q.velocity, q.acceleration].map(|word| word.get().into())
+}
+
+fn ports<const P: usize, const K: usize>(
+    target: i128,
+    gains: [u64; 2],
+    [step, preset]: [bool; 2],
+) -> In<Sim, P, K> {
+    In {
+        step: step.into(),
+        preset: preset.into(),
+        target: (target as i64).into(),
+        gain_1: gains[0].into(),
+        gain_2: gains[1].into(),
+    }
+}
+
+/// A step, with every tick of it looked at.
+fn step<'c, const P: usize, const K: usize, const Q: usize>(
+    mut simulator: Bench<'c, P, K, Q>,
+    target: i128,
+    gains: [u64; 2],
+) -> (Bench<'c, P, K, Q>, State) {
+    let before = state(simulator.registers());
+    let latency = ReferenceModel::<P, K, Q>::LATENCY;
+    for ticks in 1..=latency {
+        let i = ports(target, gains, [ticks == 1, false]);
+        simulator = simulator.step(i, |_| ()).0;
+        let q = simulator.registers();
+        assert_eq!(q.state.fresh.get(), ticks == latency, "after {ticks} ticks");
+        assert!(
+            ticks == latency || state(q) == before,
+            "after {ticks} ticks"
+        );
+    }
+    let after = state(simulator.registers());
+    (simulator, after)
+}
+
+/// The same by the equations: gains are `gains` / 2^(K − 1).
+fn model(
+    [p, v, _]: State,
+    target: i128,
+    gains: [u64; 2],
+    bits: usize,
+    rounding: Rounding,
+) -> State {
+    let unit = 1i128 << (bits - 1);
+    let [first, second] = gains.map(i128::from);
+    let exact = second * (first * (target - p) - v * unit);
+    let square = unit * unit;
+    let half = if rounding == Rounding::Nearest {
+        square / 2
+    } else {
+        0
+    };
+    // The first product has its whole fraction, so there is one rounding.
+    let amount = (exact.abs() + half) / square;
+    let a = exact.signum() * amount;
+    [p + v, v + a, a]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn every_step_is_that_of_the_equations(
+        targets in prop::collection::vec(-(1i128 << 36)..1i128 << 36, 1..12),
+        gains in prop::array::uniform2(0..1u64 << 16),
+        nearest in any::<bool>(),
+    ) {
+        let rounding = if nearest { Rounding::Nearest } else { Rounding::Floor };
+        let circuit = ReferenceModel::<40, 16, 57>::new(rounding);
+        let mut simulator = Simulator::new(&circuit);
+        let mut expected = [0; 3];
+        for &target in &targets {
+            expected = model(expected, target, gains, 16, rounding);
+            // Any gain is right as long as the numbers fit: an unstable pair is left in time.
+            if expected.iter().any(|word| word.abs() >= 1 << 38) {
+                break;
+            }
+            let (after, seen) = step(simulator, target, gains);
+            simulator = after;
+            prop_assert_eq!(seen, expected);
+        }
+    }
+}
+
+const P: usize = 12;
+const K: usize = 7;
+const Q: usize = 20;
+
+/// The gain 2^−`a`.
+fn power(a: u32) -> u64 {
+    1 << (K as u32 - 1 - a)
+}
+
+/// Positions on the way to `target` from rest at 0, until nothing changes any more.
+fn run(target: i128, gains: [u64; 2], rounding: Rounding) -> Vec<i128> {
+    let circuit = ReferenceModel::<P, K, Q>::new(rounding);
+    let mut simulator = Simulator::new(&circuit);
+    let mut positions = vec![0];
+    let mut before = [0; 3];
+    loop {
+        let (after, seen) = step(simulator, target, gains);
+        simulator = after;
+        positions.push(seen[0]);
+        if seen == before {
+            return positions;
+        }
+        assert!(positions.len() < 4000, "{target}, {gains:?}: no end");
+        before = seen;
+    }
+}
+
+/// Gain pairs whose response is monotone: K2 >= 4·K1 and K2 <= 2, by their exponents.
+fn monotone() -> impl Iterator<Item = [u32; 2]> {
+    (2..5).flat_map(|a| (0..=a - 2).map(move |b| [a, b]))
+}
+
+/// What is left at the end in units of a count of 2^`fraction`, a half upwards.
+fn counts(position: i128, fraction: u32) -> i128 {
+    (2 * position + (1 << fraction)) >> (fraction + 1)
+}
+
+#[test]
+fn the_target_is_reached_with_as_many_fraction_bits_as_the_gains_have() {
+    for [a, b] in monotone() {
+        for (rounding, fraction) in [(Rounding::Nearest, a + b), (Rounding::Floor, a + b + 1)] {
+            for target in -12..=12i128 {
+                let positions = run(target << fraction, [power(a), power(b)], rounding);
+                let end = *positions.last().expect("positions");
+                let seen = counts(end, fraction);
+                assert_eq!(seen, target, "2^-{a}, 2^-{b}, {rounding:?}: {end}");
+            }
+        }
+    }
+}
+
+#[test]
+fn with_a_bit_less_a_target_is_missed() {
+    for [a, b] in monotone().filter(|[a, b]| a + b >= 2) {
+        for (rounding, fraction) in [(Rounding::Nearest, a + b - 1), (Rounding::Floor, a + b)] {
+            // With K2 = 1 no way to a target of these ends where rounding down would hold it.
+            if rounding == Rounding::Floor && b == 0 {
+                continue;
+            }
+            let missed = (-12..=12i128).any(|target| {
+                let positions = run(target << fraction, [power(a), power(b)], rounding);
+                counts(*positions.last().expect("positions"), fraction) != target
+            });
+            assert!(missed, "2^-{a}, 2^-{b}, {rounding:?}");
+        }
+    }
+}
+
+#[test]
+fn the_response_is_monotone_and_mirrored() {
+    for [a, b] in monotone() {
+        for target in 0..=300i128 {
+            let gains = [power(a), power(b)];
+            let up = run(target, gains, Rounding::Nearest);
+            assert!(up.is_sorted(), "2^-{a}, 2^-{b} to {target}: {up:?}");
+            let down = run(-target, gains, Rounding::Nearest);
+            let mirrored: Vec<_> = down.iter().map(|position| -position).collect();
+            assert_eq!(up, mirrored);
+        }
+    }
+}
+
+#[test]
+fn preset_gives_up_a_step_in_every_tick_of_it() {
+    let circuit = ReferenceModel::<P, K, Q>::default();
+    for given_up in 1..=ReferenceModel::<P, K, Q>::LATENCY + 2 {
+        let mut simulator = Simulator::new(&circuit);
+        for tick in 0..=given_up {
+            let i = ports(500, [33, 50], [tick == 0, tick == given_up]);
+            simulator = simulator.step(i, |_| ()).0;
+        }
+        assert_eq!(state(simulator.registers()), [500, 0, 0]);
+        // And the next step is right, at once.
+        let (_, seen) = step(simulator, -200, [33, 50]);
+        let expected = model([500, 0, 0], -200, [33, 50], K, Rounding::Nearest);
+        assert_eq!(seen, expected, "given up in tick {given_up}");
+    }
+}
