@@ -128,6 +128,8 @@ impl Settings {
         }
         let whole = whole(ticks).ok_or_else(|| {
             let [below, above] = [ticks.floor(), ticks.ceil()].map(ms);
+            // Without the rounding of the division.
+            let ticks = (ticks * 1e6).round() / 1e6;
             let problem = format!("is {}: {ticks} ticks", self.sample_period_ms);
             refusal(field, problem, format!("whole ticks: {below} or {above}"))
         })?;

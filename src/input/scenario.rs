@@ -5,6 +5,7 @@
 //! their line.
 
 pub mod arc_generator;
+mod exactly;
 pub mod lead_angle;
 pub mod linear_interpolator;
 mod loaded;

@@ -123,7 +123,7 @@ fn points_that_make_no_arc_are_refused() {
     );
     assert_eq!(
         text(Circle::through(a, [10.0, 1e-9, 0.0], c)),
-        "the point via is only 1.000e-9 mm off the line from start to end, 20 mm long"
+        "the point via is only 0.000000001 mm off the line from start to end, 20 mm long"
     );
     // Beyond the end as well as between.
     assert!(Circle::through(a, c, b).is_err());

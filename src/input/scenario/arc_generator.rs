@@ -1,11 +1,12 @@
 //! The keys of the arc generator.
 
 use super::Runnable;
+use super::exactly::exactly;
 use crate::arc_generator::Rounding;
 use crate::arc_generator::path::Taught;
 use crate::arc_generator::settings::{SettingError, Settings, ShortPieces};
 use crate::input::Point;
-use serde::{Deserialize, Deserializer, de};
+use serde::{Deserialize, Deserializer};
 use std::path::PathBuf;
 
 /// A scenario of the arc generator. Every key but `circuit` has a default; the path is a drawing or
@@ -18,7 +19,7 @@ pub struct Scenario {
     /// The drawing or part program; in a file relative to that file.
     pub input: Option<PathBuf>,
     /// Where the first piece begins.
-    #[serde(default, deserialize_with = "point")]
+    #[serde(default, deserialize_with = "exactly")]
     pub start_mm: Point,
     /// The pieces.
     #[serde(default)]
@@ -59,7 +60,7 @@ pub struct Scenario {
 #[serde(deny_unknown_fields)]
 pub struct PieceKeys {
     /// Where it ends.
-    #[serde(deserialize_with = "point")]
+    #[serde(deserialize_with = "exactly")]
     pub to_mm: Point,
     /// A point of the arc; without it the piece is a line.
     #[serde(default, deserialize_with = "some_point")]
@@ -68,16 +69,8 @@ pub struct PieceKeys {
     pub speed_mm_per_s: Option<f64>,
 }
 
-/// Three numbers. An array would drop what is behind them.
-fn point<'de, D: Deserializer<'de>>(from: D) -> Result<Point, D::Error> {
-    let numbers = Vec::<f64>::deserialize(from)?;
-    let given = numbers.len();
-    let point = numbers.try_into();
-    point.map_err(|_| de::Error::invalid_length(given, &"an array of length 3"))
-}
-
 fn some_point<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Point>, D::Error> {
-    point(from).map(Some)
+    exactly(from).map(Some)
 }
 
 impl Scenario {

@@ -1,6 +1,7 @@
 //! The keys of the linear interpolator.
 
 use super::Runnable;
+use super::exactly::exactly;
 use crate::linear_interpolator::settings::{AxisSettings, Rule, Settings, ShortMoves};
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -24,7 +25,7 @@ pub struct Scenario {
     #[serde(default = "default::scan_ticks")]
     pub scan_ticks: u32,
     /// Encoder counts per millimetre: what the positions are in.
-    #[serde(default = "default::counts_per_mm")]
+    #[serde(default = "default::counts_per_mm", deserialize_with = "exactly")]
     pub counts_per_mm: [f64; 2],
     /// Feed of the moves that set none, in mm/min.
     #[serde(default = "default::feed")]
@@ -51,25 +52,25 @@ pub struct Scenario {
     #[serde(default = "default::in_position")]
     pub in_position_counts: u32,
     /// Kp of the position loops.
-    #[serde(default = "default::position_gain")]
+    #[serde(default = "default::position_gain", deserialize_with = "exactly")]
     pub position_gain_per_s: [f64; 2],
     /// Speed of the motors at the largest speed command.
-    #[serde(default = "default::rated_speed")]
+    #[serde(default = "default::rated_speed", deserialize_with = "exactly")]
     pub rated_speed_rev_per_min: [f64; 2],
     /// Counts per revolution of the motors.
-    #[serde(default = "default::counts_per_rev")]
+    #[serde(default = "default::counts_per_rev", deserialize_with = "exactly")]
     pub counts_per_rev: [u32; 2],
     /// Time constant of the drivers' velocity loops.
-    #[serde(default = "default::velocity_loop")]
+    #[serde(default = "default::velocity_loop", deserialize_with = "exactly")]
     pub velocity_loop_ms: [f64; 2],
     /// Inertia of motor and load, at the motor.
-    #[serde(default = "default::inertia")]
+    #[serde(default = "default::inertia", deserialize_with = "exactly")]
     pub inertia_kg_m2: [f64; 2],
     /// Largest torque of the motors.
-    #[serde(default = "default::max_torque")]
+    #[serde(default = "default::max_torque", deserialize_with = "exactly")]
     pub max_torque_nm: [f64; 2],
     /// Friction of motor and load, at the motor.
-    #[serde(default = "default::friction")]
+    #[serde(default = "default::friction", deserialize_with = "exactly")]
     pub friction_nm: [f64; 2],
     /// The most ticks that go into the VCD unless a window is asked for.
     #[serde(default = "default::vcd_ticks")]

@@ -67,7 +67,7 @@ impl Loaded {
         for (key, value) in pairs {
             table.insert(key.to_owned(), value);
             loaded.scenario = scenario(|| Ok(table.clone())).map_err(|error| {
-                let (problem, allowed) = split(error.message(), key);
+                let (problem, allowed) = split(error.message());
                 Fault::new(SET, 0, key, problem, allowed)
             })?;
             loaded.overridden.push(key.to_owned());
@@ -172,11 +172,8 @@ fn line_at(text: &[u8], place: usize) -> usize {
     before.iter().filter(|&&byte| byte == b'\n').count() + 1
 }
 
-/// Keys whose value is a point.
-const POINTS: [&str; 3] = ["start_mm", "to_mm", "via_mm"];
-
-/// A message of the TOML reader about a key as problem and what is allowed.
-fn split(message: &str, key: &str) -> (String, String) {
+/// A message of the TOML reader as problem and what is allowed.
+fn split(message: &str) -> (String, String) {
     // What the parser expects next, where the text is no TOML, is rarely what was meant.
     let of_a_value = message.starts_with("invalid ") || message.starts_with("unknown ");
     let (problem, allowed) = message
@@ -189,12 +186,8 @@ fn split(message: &str, key: &str) -> (String, String) {
         "i64" => "a whole number",
         "f64" => "a number",
         "a boolean" => "true or false",
-        "an array of length 3" | "fewer elements in array" if POINTS.contains(&key) => {
-            "a list of three numbers, of X, Y and Z"
-        }
-        "an array of length 2" | "fewer elements in array" => {
-            "a list of two numbers, of X and of Y"
-        }
+        "an array of length 2" => "a list of two numbers, of X and of Y",
+        "an array of length 3" => "a list of three numbers, of X, Y and Z",
         "a sequence" => "a list of numbers, one for each axis",
         "path string" => "a path",
         other => other,
@@ -236,7 +229,7 @@ fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
         Some((problem, _)) if ["step", "piece"].contains(&field) => {
             (problem.to_owned(), format!("tables [[{field}]]"))
         }
-        _ => split(message, field),
+        _ => split(message),
     };
     Fault::new(file, line, field, problem, allowed)
 }
@@ -277,6 +270,21 @@ mod tests {
             ),
             "s.toml:4: steps_per_mm: invalid type: string \"a\"; allowed: a number"
         );
+    }
+
+    #[test]
+    fn a_list_that_is_too_long_is_refused_in_a_file_too() {
+        for list in ["[1]", "[1, 2, 3]"] {
+            let text = format!("circuit = \"linear_interpolator\"\ncounts_per_mm = {list}\n");
+            let given = list.matches(',').count() + 1;
+            assert_eq!(
+                refusal(&text, &[]),
+                format!(
+                    "s.toml:2: counts_per_mm: invalid length {given}; allowed: a list of two \
+                     numbers, of X and of Y"
+                )
+            );
+        }
     }
 
     const STEPS: &str = "circuit = \"lead_angle\"\nrest_ms = 0\n[[step]]\ntarget = 1\n\
