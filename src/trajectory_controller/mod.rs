@@ -1,18 +1,28 @@
 //! The trajectory controller of CN104204977.
 
+pub mod arc_angle;
+pub mod axis_row;
 pub mod cordic;
 pub mod cordic_state;
 pub mod model_state;
+pub mod path_point;
+pub mod point_sequencer;
 pub mod reference_model;
 pub mod scaler;
 pub mod segment_search;
+pub mod segment_store;
 pub mod shifter;
 
 pub use crate::arc_generator::Rounding;
+pub use arc_angle::ArcAngle;
+pub use axis_row::AxisRow;
 pub use cordic::Cordic;
 pub use cordic_state::CordicState;
 pub use model_state::ModelState;
+pub use path_point::PathPoint;
+pub use point_sequencer::PointSequencer;
 pub use reference_model::ReferenceModel;
 pub use scaler::Scaler;
 pub use segment_search::SegmentSearch;
+pub use segment_store::SegmentStore;
 pub use shifter::Shifter;

@@ -2,4 +2,5 @@
 
 mod cordic;
 mod model;
+mod point;
 mod search;

@@ -1,0 +1,187 @@
+//! Points on paths of lines and arcs in space, against sine and cosine.
+
+use motion_rtl::kernel::Simulator;
+use motion_rtl::logic::Sim;
+use motion_rtl::trajectory_controller::PathPoint;
+use motion_rtl::trajectory_controller::cordic_state::GAIN;
+use motion_rtl::trajectory_controller::path_point::In;
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+const A: usize = 4;
+const P: usize = 47;
+const R: usize = 55;
+const C: usize = 42;
+const M: usize = 44;
+const H: usize = 44;
+const D: usize = 55;
+const K: usize = 8;
+type Full = PathPoint<3, A, P, R, C, 57, M, H, 52, D, K>;
+type Vector = [f64; 3];
+
+/// A segment in guard units.
+#[derive(Debug, Clone)]
+struct Segment {
+    length: u64,
+    base: [i64; 3],
+    along: Vector,
+    across: Vector,
+    /// Of an arc.
+    radius: Option<f64>,
+}
+
+fn two_to(exponent: i32) -> f64 {
+    f64::from(exponent).exp2()
+}
+
+impl Segment {
+    fn words(&self) -> [u64; 16] {
+        let mut words = [0; 16];
+        if let Some(radius) = self.radius {
+            let turn = TAU * radius;
+            // The mantissa has M bits: 2^(M − 1) <= 2^(M + n − 4) / turn.
+            let n = (turn.log2().ceil() as i32 + 3).min(H as i32);
+            let mantissa = (two_to(M as i32 + n - 4) / turn).round() as u64;
+            assert!(mantissa >> M == 0, "{radius}");
+            words[0] = 1 + ((H as i32 - n) as u64) * 2;
+            words[1] = mantissa;
+            words[2] = (radius / GAIN * two_to((R - P) as i32)).round() as u64;
+        }
+        let unit = two_to(C as i32 - 2);
+        let mask = (1u64 << D) - 1;
+        for axis in 0..3 {
+            words[3 + axis] = self.base[axis] as u64 & mask;
+            words[6 + axis] = (self.along[axis] * unit).round() as i64 as u64 & mask;
+            words[9 + axis] = (self.across[axis] * unit).round() as i64 as u64 & mask;
+        }
+        words
+    }
+
+    fn point(&self, offset: u64) -> Vector {
+        let offset = offset as f64;
+        let (a, b) = match self.radius {
+            None => (offset, 0.0),
+            Some(radius) => {
+                let (sin, cos) = (offset / radius).sin_cos();
+                (radius * cos, radius * sin)
+            }
+        };
+        [0, 1, 2].map(|k| self.base[k] as f64 + a * self.along[k] + b * self.across[k])
+    }
+
+    fn bound(&self) -> f64 {
+        // Rounding of the axes and of CORDIC, coefficients, and angles.
+        let size = self.radius.unwrap_or(self.length as f64);
+        2.0 + size * (3.0 * two_to(1 - C as i32) + 60.0 * TAU * two_to(-(H as i32)))
+    }
+}
+
+fn frame(azimuth: f64, height: f64, turn: f64) -> [Vector; 2] {
+    let flat = (1.0 - height * height).sqrt();
+    let u = [flat * azimuth.cos(), flat * azimuth.sin(), height];
+    let e = [-azimuth.sin(), azimuth.cos(), 0.0];
+    let f = [
+        u[1] * e[2] - u[2] * e[1],
+        u[2] * e[0] - u[0] * e[2],
+        u[0] * e[1] - u[1] * e[0],
+    ];
+    let w = [0, 1, 2].map(|k| turn.cos() * e[k] + turn.sin() * f[k]);
+    [u, w]
+}
+
+fn segment() -> impl Strategy<Value = Segment> {
+    let attitude = (0.0..TAU, -1.0..1.0f64, 0.0..TAU);
+    let base = prop::array::uniform3(-(1i64 << 38)..1i64 << 38);
+    let size = prop::option::of(17.0..38.0f64);
+    (attitude, base, size, 0.05..0.99f64, 10.0..38.0f64).prop_map(
+        |((azimuth, height, turn), base, size, part, length)| {
+            let [along, across] = frame(azimuth, height, turn);
+            let radius = size.map(f64::exp2);
+            let length = match radius {
+                Some(radius) => TAU * radius * part,
+                None => length.exp2(),
+            };
+            Segment {
+                length: length as u64 + 1,
+                base,
+                along,
+                across,
+                radius,
+            }
+        },
+    )
+}
+
+fn idle(last: u64) -> In<Sim, A, P, D, K> {
+    In {
+        start: false.into(),
+        length: 0.into(),
+        last: last.into(),
+        write_begin: false.into(),
+        begin_segment: 0.into(),
+        begin_length: 0.into(),
+        write: false.into(),
+        write_address: 0.into(),
+        write_data: 0.into(),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn every_length_has_its_point(
+        path in prop::collection::vec(segment(), 1..16),
+        shares in prop::collection::vec((0.0..1.0f64, any::<prop::sample::Index>()), 20),
+    ) {
+        let circuit = Full::default();
+        let mut simulator = Simulator::new(&circuit);
+        let last = path.len() as u64 - 1;
+        let mut begins = vec![0];
+        for (index, segment) in (0u64..).zip(&path) {
+            let begin = begins[index as usize];
+            begins.push(begin + segment.length);
+            for (word, data) in (0u64..).zip(segment.words()) {
+                let i = In {
+                    write_begin: (word == 0).into(),
+                    begin_segment: index.into(),
+                    begin_length: begin.into(),
+                    write: true.into(),
+                    write_address: (index << 4 | word).into(),
+                    write_data: data.into(),
+                    ..idle(last)
+                };
+                simulator = simulator.step(i, |_| ()).0;
+            }
+        }
+        // The ends of each segment too, the path's own among them.
+        let ends = begins.iter().flat_map(|&begin| [begin, begin.saturating_sub(1)]);
+        let within = shares.iter().map(|(share, index)| {
+            let segment = index.index(path.len());
+            begins[segment] + (share * path[segment].length as f64) as u64
+        });
+        for length in ends.chain(within) {
+            let index = begins[..path.len()].iter().rposition(|&begin| begin <= length);
+            let index = index.expect("the first begins at 0");
+            let mut ticks = 0;
+            loop {
+                let i = In { start: (ticks == 0).into(), length: length.into(), ..idle(last) };
+                simulator = simulator.step(i, |_| ()).0;
+                ticks += 1;
+                if simulator.registers().sequencer.done.get() {
+                    break;
+                }
+                prop_assert!(ticks < 400);
+            }
+            let q = simulator.registers();
+            prop_assert_eq!(q.search.segment.get(), index as u64);
+            let segment = &path[index];
+            let exact = segment.point(length - begins[index]);
+            for axis in 0..3 {
+                let off = q.axes[axis].point.get() as f64 - exact[axis];
+                let bound = segment.bound();
+                prop_assert!(off.abs() <= bound, "axis {}: {} off, {}", axis, off, bound);
+            }
+        }
+    }
+}
