@@ -12,7 +12,7 @@
 //! ```
 
 use crate::kernel::Circuit;
-use crate::logic::{Bit, Logic, Signed, Unsigned};
+use crate::logic::{Bit, Logic, Unsigned};
 use crate::signals;
 
 /// Names of the states.

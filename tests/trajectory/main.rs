@@ -1,5 +1,6 @@
 //! The trajectory controller: its blocks against programs.
 
+mod controller;
 mod cordic;
 mod model;
 mod point;

@@ -17,25 +17,25 @@ const H: usize = 44;
 const D: usize = 55;
 const K: usize = 8;
 type Full = PathPoint<3, A, P, R, C, 57, M, H, 52, D, K>;
-type Vector = [f64; 3];
+pub type Vector = [f64; 3];
 
 /// A segment in guard units.
 #[derive(Debug, Clone)]
-struct Segment {
-    length: u64,
-    base: [i64; 3],
-    along: Vector,
-    across: Vector,
+pub struct Segment {
+    pub length: u64,
+    pub base: [i64; 3],
+    pub along: Vector,
+    pub across: Vector,
     /// Of an arc.
-    radius: Option<f64>,
+    pub radius: Option<f64>,
 }
 
-fn two_to(exponent: i32) -> f64 {
+pub fn two_to(exponent: i32) -> f64 {
     f64::from(exponent).exp2()
 }
 
 impl Segment {
-    fn words(&self) -> [u64; 16] {
+    pub fn words(&self) -> [u64; 16] {
         let mut words = [0; 16];
         if let Some(radius) = self.radius {
             let turn = TAU * radius;

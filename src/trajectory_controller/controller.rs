@@ -1,0 +1,489 @@
+//! Trajectory controller 10 (Fig. 1): a path and its profile in, torques of all axes out.
+//!
+//! ```text
+//!  profile ─▶ interpolation and acceleration 1 ─┬─ qc ─▶ axis distribution 3 ─ Pc ─┬─▶ responses 51, 52 ─ Ps ─┐
+//!                                               │                                 │                         ▼
+//!                                               │                                 └────────▶ vector correction 4 ─ Pd ─▶ servo controls 6, 7
+//!                                               │                                                           ▲
+//!                                               └─▶ tangential response 50 ─ qs ─▶ reference point 2 ─ Pr ──┘
+//! ```
+
+use super::vector_correction::Correction;
+use super::{
+    ControlledAxis, LengthClamp, PathLength, PathPoint, PeriodJoin, ReferenceModel, Rounding,
+    controlled_axis, length_clamp, path_length, path_point, period_join, reference_model,
+};
+use crate::arc_generator::{
+    DifferenceEngine, SegmentMemory, SegmentSequencer, difference_engine, segment_memory,
+    segment_sequencer,
+};
+use crate::blocks::{EnableCounter, enable_counter};
+use crate::kernel::{Circuit, Instance, Nothing};
+use crate::logic::Logic;
+use crate::signals;
+use std::array::from_fn;
+
+/// Bits of an arc's curvature, and of an angle.
+pub const H: usize = 44;
+/// Records of the profile that wait, and the width of their address.
+const RECORDS: usize = 4;
+const ADDRESS: usize = RECORDS + 5;
+const TORQUE: &[&str] = &["torque_x", "torque_y", "torque_z"];
+const POSITION: &[&str] = &["position_x", "position_y", "position_z"];
+const A_NAMES: &[&str] = &["a_x", "a_y", "a_z"];
+const B_NAMES: &[&str] = &["b_x", "b_y", "b_z"];
+const POSITION_GAIN: &[&str] = &["position_gain_x", "position_gain_y", "position_gain_z"];
+const SPEED_GAIN: &[&str] = &["speed_gain_x", "speed_gain_y", "speed_gain_z"];
+const INTEGRAL_GAIN: &[&str] = &["integral_gain_x", "integral_gain_y", "integral_gain_z"];
+const INERTIA: &[&str] = &["inertia_x", "inertia_y", "inertia_z"];
+const LIMIT: &[&str] = &["limit_x", "limit_y", "limit_z"];
+
+signals! {
+    /// Ports in.
+    pub struct In<
+        L,
+        const AXES: usize,
+        const A: usize,
+        const P: usize,
+        const D: usize,
+        const E: usize,
+        const K: usize,
+        const T: usize,
+        const U: usize,
+    > {
+        /// Writes a word of the free profile record; not taken unless `ready`.
+        pub write: L::Bit,
+        /// Number of the word.
+        pub write_word: L::U<5>,
+        /// Its data.
+        pub write_data: L::U<D> as Hex,
+        /// The free profile record is complete; not taken unless `ready`.
+        pub push: L::Bit,
+        /// Begins to move along the path.
+        pub start: L::Bit,
+        /// Ends the movement where it is.
+        pub halt: L::Bit,
+        /// Another path, at rest: lengths are 0.
+        pub restart: L::Bit,
+        /// Writes where a segment of the path begins.
+        pub write_begin: L::Bit,
+        /// The segment.
+        pub begin_segment: L::U<A>,
+        /// The length at which it begins.
+        pub begin_length: L::U<P>,
+        /// Writes a word of a segment.
+        pub write_path: L::Bit,
+        /// The segment, and in the lower four bits the number of its word.
+        pub path_address: L::U<E> as Hex,
+        /// Its data.
+        pub path_data: L::U<D> as Hex,
+        /// The path's last segment.
+        pub last: L::U<A>,
+        /// L: the path's length.
+        pub end: L::I<P>,
+        /// Interpolation period in ticks.
+        pub period: L::U<U>,
+        /// K1 of all models.
+        pub gain_1: L::U<K>,
+        /// K2 of all models.
+        pub gain_2: L::U<K>,
+        /// Of the position controls 27.
+        pub position_gain: [L::U<K>; AXES] as Elements(POSITION_GAIN),
+        /// Of the speed controls 29, proportional.
+        pub speed_gain: [L::U<K>; AXES] as Elements(SPEED_GAIN),
+        /// Integral.
+        pub integral_gain: [L::U<K>; AXES] as Elements(INTEGRAL_GAIN),
+        /// Of the feed-forward 30.
+        pub inertia: [L::U<K>; AXES] as Elements(INERTIA),
+        /// Largest torques.
+        pub limit: [L::U<T>; AXES] as Elements(LIMIT),
+        /// Encoders, channel A.
+        pub a: [L::Bit; AXES] as Elements(A_NAMES),
+        /// Channel B.
+        pub b: [L::Bit; AXES] as Elements(B_NAMES),
+    }
+}
+
+signals! {
+    /// Registers of the blocks.
+    pub struct Reg<
+        L,
+        const AXES: usize,
+        const A: usize,
+        const W: usize,
+        const P: usize,
+        const R: usize,
+        const C: usize,
+        const S: usize,
+        const X: usize,
+        const D: usize,
+        const E: usize,
+        const F: usize,
+        const N: usize,
+        const K: usize,
+        const M: usize,
+        const Q: usize,
+        const T: usize,
+        const U: usize,
+    > {
+        /// Interpolation period.
+        pub period_counter: enable_counter::Reg<L, U>,
+        /// Records of the profile.
+        pub memory: segment_memory::Reg<L, RECORDS, ADDRESS, D>,
+        /// Phase after phase.
+        pub sequencer: segment_sequencer::Reg<L, F, N>,
+        /// Interpolation and acceleration 1.
+        pub profile: difference_engine::Reg<L, P, F>,
+        /// qc.
+        pub length: path_length::Reg<L, P>,
+        /// Tangential servo response 50.
+        pub tangential: reference_model::Reg<L, P, K, M>,
+        /// Axis distribution 3.
+        pub distribution: path_point::Reg<L, AXES, A, P, R, C, S, H, H, X, D, E>,
+        /// Reference point 2.
+        pub reference_point: path_point::Reg<L, AXES, A, P, R, C, S, H, H, X, D, E>,
+        /// All points of a period.
+        pub join: period_join::Reg<L>,
+        /// The axes.
+        pub axes: [controlled_axis::Reg<L, W, P, K, M, Q, T>; AXES] as Elements(&path_point::AXIS_NAMES),
+    }
+}
+
+signals! {
+    /// Nets of the blocks, and the ports out.
+    pub struct Net<
+        L,
+        const AXES: usize,
+        const A: usize,
+        const W: usize,
+        const P: usize,
+        const R: usize,
+        const C: usize,
+        const S: usize,
+        const X: usize,
+        const D: usize,
+        const E: usize,
+        const F: usize,
+        const N: usize,
+        const K: usize,
+        const M: usize,
+        const Q: usize,
+        const T: usize,
+        const U: usize,
+    > {
+        /// Interpolation period.
+        pub period_counter: Instance<EnableCounter<U>, L>,
+        /// Records of the profile.
+        pub memory: Instance<SegmentMemory<RECORDS, ADDRESS, D>, L>,
+        /// Phase after phase.
+        pub sequencer: Instance<SegmentSequencer<F, N, D>, L>,
+        /// Interpolation and acceleration 1.
+        pub profile: Instance<DifferenceEngine<P, F, D>, L>,
+        /// qc.
+        pub length: Instance<PathLength<P>, L>,
+        /// qc on the path.
+        pub clamp_command: Instance<LengthClamp<P>, L>,
+        /// Tangential servo response 50.
+        pub tangential: Instance<ReferenceModel<P, K, M>, L>,
+        /// qs on the path.
+        pub clamp_response: Instance<LengthClamp<P>, L>,
+        /// Axis distribution 3.
+        pub distribution: Instance<PathPoint<AXES, A, P, R, C, S, H, H, X, D, E>, L>,
+        /// Reference point 2.
+        pub reference_point: Instance<PathPoint<AXES, A, P, R, C, S, H, H, X, D, E>, L>,
+        /// All points of a period.
+        pub join: Instance<PeriodJoin, L>,
+        /// The axes.
+        pub axes: [Instance<ControlledAxis<W, P, K, M, Q, T>, L>; AXES] as Elements(&path_point::AXIS_NAMES),
+        /// Torques.
+        pub torque: [L::I<T>; AXES] as Elements(TORQUE),
+        /// Positions of the motors in counts.
+        pub position: [L::I<W>; AXES] as Elements(POSITION),
+        /// There is a free profile record.
+        pub ready: L::Bit,
+        /// A movement is under way.
+        pub busy: L::Bit,
+        /// The profile gave a new length in the tick before.
+        pub sampled: L::Bit,
+        /// A period begins with the length that stands.
+        pub fresh: L::Bit,
+        /// The profile was not ready, or the period too short for the arithmetic.
+        pub late: L::Bit,
+        /// The profile ended in motion.
+        pub starved: L::Bit,
+    }
+}
+
+/// Trajectory controller of `AXES` axes on paths of up to 2^`A` segments; for the other widths see
+/// the note.
+#[derive(Debug, Clone)]
+pub struct TrajectoryController<
+    const AXES: usize,
+    const A: usize,
+    const W: usize,
+    const P: usize,
+    const R: usize,
+    const C: usize,
+    const S: usize,
+    const X: usize,
+    const D: usize,
+    const E: usize,
+    const F: usize,
+    const N: usize,
+    const K: usize,
+    const M: usize,
+    const Q: usize,
+    const T: usize,
+    const U: usize,
+> {
+    /// Interpolation period.
+    pub period_counter: EnableCounter<U>,
+    /// Records of the profile.
+    pub memory: SegmentMemory<RECORDS, ADDRESS, D>,
+    /// Phase after phase.
+    pub sequencer: SegmentSequencer<F, N, D>,
+    /// Interpolation and acceleration 1.
+    pub profile: DifferenceEngine<P, F, D>,
+    /// qc.
+    pub length: PathLength<P>,
+    /// Lengths on the path.
+    pub clamp: LengthClamp<P>,
+    /// Tangential servo response 50.
+    pub tangential: ReferenceModel<P, K, M>,
+    /// Axis distribution 3 and reference point 2.
+    pub point: PathPoint<AXES, A, P, R, C, S, H, H, X, D, E>,
+    /// All points of a period.
+    pub join: PeriodJoin,
+    /// The axes.
+    pub axes: [ControlledAxis<W, P, K, M, Q, T>; AXES],
+}
+
+impl<
+    const AXES: usize,
+    const A: usize,
+    const W: usize,
+    const P: usize,
+    const R: usize,
+    const C: usize,
+    const S: usize,
+    const X: usize,
+    const D: usize,
+    const E: usize,
+    const F: usize,
+    const N: usize,
+    const K: usize,
+    const M: usize,
+    const Q: usize,
+    const T: usize,
+    const U: usize,
+> TrajectoryController<AXES, A, W, P, R, C, S, X, D, E, F, N, K, M, Q, T, U>
+{
+    /// A controller whose commands are corrected so.
+    pub fn new(correction: Correction) -> Self {
+        TrajectoryController {
+            period_counter: EnableCounter,
+            memory: SegmentMemory,
+            sequencer: SegmentSequencer,
+            profile: DifferenceEngine::new(0),
+            length: PathLength,
+            clamp: LengthClamp,
+            tangential: ReferenceModel::new(Rounding::Nearest),
+            point: PathPoint::default(),
+            join: PeriodJoin,
+            axes: from_fn(|_| ControlledAxis::new(correction)),
+        }
+    }
+}
+
+impl<
+    const AXES: usize,
+    const A: usize,
+    const W: usize,
+    const P: usize,
+    const R: usize,
+    const C: usize,
+    const S: usize,
+    const X: usize,
+    const D: usize,
+    const E: usize,
+    const F: usize,
+    const N: usize,
+    const K: usize,
+    const M: usize,
+    const Q: usize,
+    const T: usize,
+    const U: usize,
+> Circuit for TrajectoryController<AXES, A, W, P, R, C, S, X, D, E, F, N, K, M, Q, T, U>
+{
+    const NAME: &'static str = "trajectory_controller";
+    const ABOUT: &'static str = "a path and its profile in, torques that keep to the path out";
+    type In<L: Logic> = In<L, AXES, A, P, D, E, K, T, U>;
+    type Reg<L: Logic> = Reg<L, AXES, A, W, P, R, C, S, X, D, E, F, N, K, M, Q, T, U>;
+    type Net<L: Logic> = Net<L, AXES, A, W, P, R, C, S, X, D, E, F, N, K, M, Q, T, U>;
+
+    #[inline(always)]
+    fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
+        let period_counter = Instance::settle(
+            &self.period_counter,
+            &q.period_counter,
+            enable_counter::In { period: i.period },
+        );
+        let memory = Instance::settle(
+            &self.memory,
+            &q.memory,
+            segment_memory::In {
+                write: i.write,
+                write_word: i.write_word,
+                write_data: i.write_data,
+                push: i.push,
+                take: q.sequencer.take,
+                kind: q.sequencer.kind,
+                flush: i.halt,
+            },
+        );
+        let sequencer = Instance::settle(
+            &self.sequencer,
+            &q.sequencer,
+            segment_sequencer::In {
+                start: i.start,
+                halt: i.halt,
+                sample: period_counter.w.enable,
+                available: memory.w.available,
+                load: q.memory.load,
+                word: q.memory.word,
+                data: q.memory.data,
+                loaded: q.memory.loaded,
+                rotated: false.into(),
+            },
+        );
+        let profile = Instance::settle(
+            &self.profile,
+            &q.profile,
+            difference_engine::In {
+                load: memory.w.load_engines,
+                word: q.memory.word,
+                data: q.memory.data,
+                modulus: q.sequencer.modulus,
+                step: sequencer.w.advance,
+            },
+        );
+        let length = Instance::settle(
+            &self.length,
+            &q.length,
+            path_length::In {
+                sample: period_counter.w.enable,
+                present: sequencer.w.present,
+                profile: profile.w.nearest,
+                restart: i.restart,
+            },
+        );
+        let clamp = |length| {
+            let i = length_clamp::In { length, end: i.end };
+            Instance::settle(&self.clamp, &Nothing::new(), i)
+        };
+        let clamp_command = clamp(q.length.length);
+        let tangential = Instance::settle(
+            &self.tangential,
+            &q.tangential,
+            reference_model::In {
+                step: q.length.fresh,
+                preset: i.restart,
+                target: q.length.length,
+                gain_1: i.gain_1,
+                gain_2: i.gain_2,
+            },
+        );
+        let clamp_response = clamp(tangential.w.position);
+        let point = |start, length| path_point::In {
+            start,
+            length,
+            last: i.last,
+            write_begin: i.write_begin,
+            begin_segment: i.begin_segment,
+            begin_length: i.begin_length,
+            write: i.write_path,
+            write_address: i.path_address,
+            write_data: i.path_data,
+        };
+        let command = point(q.length.fresh, clamp_command.w.clamped);
+        let distribution = Instance::settle(&self.point, &q.distribution, command);
+        let answer = point(tangential.w.fresh, clamp_response.w.clamped);
+        let reference_point = Instance::settle(&self.point, &q.reference_point, answer);
+        let axes: [Instance<ControlledAxis<W, P, K, M, Q, T>, L>; AXES] = from_fn(|axis| {
+            Instance::settle(
+                &self.axes[axis],
+                &q.axes[axis],
+                controlled_axis::In {
+                    step: distribution.w.done,
+                    command: distribution.w.points[axis],
+                    correct: q.join.correct,
+                    target: reference_point.w.points[axis],
+                    a: i.a[axis],
+                    b: i.b[axis],
+                    gain_1: i.gain_1,
+                    gain_2: i.gain_2,
+                    position_gain: i.position_gain[axis],
+                    speed_gain: i.speed_gain[axis],
+                    integral_gain: i.integral_gain[axis],
+                    inertia: i.inertia[axis],
+                    limit: i.limit[axis],
+                },
+            )
+        });
+        let join = Instance::settle(
+            &self.join,
+            &q.join,
+            period_join::In {
+                begin: q.length.fresh,
+                referred: reference_point.w.done,
+                answered: axes[0].w.answered,
+                driven: axes[0].w.driven,
+                clear: i.restart,
+            },
+        );
+        Net {
+            torque: from_fn(|axis| axes[axis].w.torque),
+            position: from_fn(|axis| axes[axis].w.position),
+            ready: memory.w.ready,
+            busy: sequencer.w.busy,
+            sampled: q.sequencer.sampled,
+            fresh: q.length.fresh,
+            late: q.join.late,
+            starved: q.sequencer.starved,
+            period_counter,
+            memory,
+            sequencer,
+            profile,
+            length,
+            clamp_command,
+            tangential,
+            clamp_response,
+            distribution,
+            reference_point,
+            join,
+            axes,
+        }
+    }
+
+    #[inline(always)]
+    fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
+        let mut axis = 0..AXES;
+        Reg {
+            period_counter: w
+                .period_counter
+                .next(&self.period_counter, q.period_counter),
+            memory: w.memory.next(&self.memory, q.memory),
+            sequencer: w.sequencer.next(&self.sequencer, q.sequencer),
+            profile: w.profile.next(&self.profile, q.profile),
+            length: w.length.next(&self.length, q.length),
+            tangential: w.tangential.next(&self.tangential, q.tangential),
+            distribution: w.distribution.next(&self.point, q.distribution),
+            reference_point: w.reference_point.next(&self.point, q.reference_point),
+            join: w.join.next(&self.join, q.join),
+            axes: q.axes.map(|registers| {
+                let axis = axis.next().unwrap_or(0);
+                w.axes[axis].next(&self.axes[axis], registers)
+            }),
+        }
+    }
+}

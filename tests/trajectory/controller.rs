@@ -1,0 +1,335 @@
+//! The controller without motors: commands, responses and corrections on paths.
+
+use crate::point::{Segment, two_to};
+use motion_rtl::kernel::Simulator;
+use motion_rtl::logic::Sim;
+use motion_rtl::trajectory_controller::TrajectoryController;
+use motion_rtl::trajectory_controller::controller::In;
+use motion_rtl::trajectory_controller::vector_correction::Correction;
+use std::f64::consts::TAU;
+
+const AXES: usize = 2;
+const A: usize = 8;
+const P: usize = 47;
+const D: usize = 55;
+const E: usize = 12;
+type Full = TrajectoryController<AXES, A, 31, P, 55, 42, 57, 52, D, E, 41, 20, 16, 64, 51, 16, 24>;
+type Ports = In<Sim, AXES, A, P, D, E, 16, 16, 24>;
+
+/// Ticks of a period: enough for all arithmetic.
+const PERIOD: u64 = 600;
+/// Guard units of a count.
+const UNIT: f64 = 65_536.0;
+
+/// A phase of the profile: so many periods from (q, v) with an acceleration.
+#[derive(Debug, Clone, Copy)]
+struct Phase {
+    periods: u64,
+    length: f64,
+    speed: f64,
+    acceleration: f64,
+    rests: bool,
+}
+
+impl Phase {
+    fn words(&self) -> [u64; 32] {
+        let fraction = two_to(40);
+        let split = |value: f64| {
+            let parts = (value * fraction).round() as i128;
+            let mask = (1i128 << P) - 1;
+            [(parts >> 40) & mask, parts & ((1 << 40) - 1)].map(|word| word as u64)
+        };
+        let mut words = [0; 32];
+        words[0] = 1 | u64::from(self.rests) << 2 | self.periods << 3;
+        words[1] = 1 << 40;
+        words[2] = self.length.round() as u64;
+        let first = split(self.speed + self.acceleration / 2.0);
+        words[8..10].copy_from_slice(&first);
+        words[10..12].copy_from_slice(&split(self.acceleration));
+        words
+    }
+}
+
+/// Ramp up, cruise, ramp down, over a length; the end is told exactly.
+fn trapezoid(length: u64, ramp: u64, cruise: u64) -> Vec<Phase> {
+    let speed = length as f64 / (ramp + cruise) as f64;
+    let acceleration = speed / ramp as f64;
+    let phase = |periods, length: f64, speed, acceleration| Phase {
+        periods,
+        length,
+        speed,
+        acceleration,
+        rests: false,
+    };
+    let ramped = speed * ramp as f64 / 2.0;
+    let end = Phase {
+        rests: true,
+        ..phase(1, length as f64, 0.0, 0.0)
+    };
+    vec![
+        phase(ramp, 0.0, 0.0, acceleration),
+        phase(cruise, ramped, speed, 0.0),
+        phase(ramp, length as f64 - ramped, speed, -acceleration),
+        end,
+    ]
+}
+
+/// What stands when all points of a period do.
+#[derive(Debug, Clone, Copy)]
+pub struct Period {
+    command: [i64; AXES],
+    response: [i64; AXES],
+    correction: [i64; AXES],
+    corrected: [i64; AXES],
+    /// What the servo's own model makes of it: where the motor is held.
+    model: [i64; AXES],
+    length: i64,
+    answered: i64,
+}
+
+fn run(
+    path: &[Segment],
+    profile: &[Phase],
+    gains: [u64; 2],
+    correction: Correction,
+    periods: usize,
+) -> Vec<Period> {
+    let circuit = Full::new(correction);
+    let mut simulator = Simulator::new(&circuit);
+    let mut begins = vec![0u64];
+    for segment in path {
+        begins.push(begins.last().expect("one") + segment.length);
+    }
+    let end = *begins.last().expect("one") as i64;
+    let idle = || Ports {
+        write: false.into(),
+        write_word: 0.into(),
+        write_data: 0.into(),
+        push: false.into(),
+        start: false.into(),
+        halt: false.into(),
+        restart: false.into(),
+        write_begin: false.into(),
+        begin_segment: 0.into(),
+        begin_length: 0.into(),
+        write_path: false.into(),
+        path_address: 0.into(),
+        path_data: 0.into(),
+        last: (path.len() as u64 - 1).into(),
+        end: end.into(),
+        period: PERIOD.into(),
+        gain_1: gains[0].into(),
+        gain_2: gains[1].into(),
+        position_gain: [0.into(); AXES],
+        speed_gain: [0.into(); AXES],
+        integral_gain: [0.into(); AXES],
+        inertia: [0.into(); AXES],
+        limit: [0.into(); AXES],
+        a: [false.into(); AXES],
+        b: [false.into(); AXES],
+    };
+    let mut writes = Vec::new();
+    for (index, segment) in (0u64..).zip(path) {
+        for (word, data) in (0u64..).zip(segment.words()) {
+            writes.push(Ports {
+                write_begin: (word == 0).into(),
+                begin_segment: index.into(),
+                begin_length: begins[index as usize].into(),
+                write_path: true.into(),
+                path_address: (index << 4 | word).into(),
+                path_data: data.into(),
+                ..idle()
+            });
+        }
+    }
+    for phase in profile {
+        for (word, data) in (0u64..).zip(phase.words()) {
+            writes.push(Ports {
+                write: true.into(),
+                write_word: word.into(),
+                write_data: data.into(),
+                push: (word == 31).into(),
+                ..idle()
+            });
+        }
+    }
+    writes.push(Ports {
+        start: true.into(),
+        ..idle()
+    });
+    let mut writes = writes.into_iter();
+    let mut seen = Vec::new();
+    while seen.len() < periods {
+        let i = writes.next().unwrap_or_else(idle);
+        let (next, period) = simulator.step(i, |now| {
+            let (q, w) = (now.q, now.w);
+            w.axes[0].w.driven.get().then(|| {
+                let each = |of: &dyn Fn(usize) -> i64| [of(0), of(1)];
+                Period {
+                    command: each(&|axis| q.distribution.axes[axis].point.get()),
+                    response: each(&|axis| q.axes[axis].response.state.position.get()),
+                    correction: each(&|axis| q.axes[axis].correction.correction.get()),
+                    corrected: each(&|axis| q.axes[axis].correction.corrected.get()),
+                    model: each(&|axis| q.axes[axis].servo.model.state.position.get()),
+                    length: q.length.length.get(),
+                    answered: q.tangential.state.position.get(),
+                }
+            })
+        });
+        simulator = next;
+        seen.extend(period);
+        assert!(!simulator.registers().join.late.get());
+    }
+    assert!(!simulator.registers().sequencer.late.get());
+    seen
+}
+
+fn line(base: [i64; 2], direction: [f64; 2], length: u64) -> Segment {
+    Segment {
+        length,
+        base: [base[0], base[1], 0],
+        along: [direction[0], direction[1], 0.0],
+        across: [0.0; 3],
+        radius: None,
+    }
+}
+
+/// 50/s and 200/s in periods of a millisecond.
+const GAINS: [u64; 2] = [1638, 6554];
+
+#[test]
+fn moves_along_an_axis_are_never_corrected() {
+    for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+        let mut direction = [0.0, 0.0];
+        direction[axis] = sign;
+        let length = 30_000_123;
+        let path = [line([0, 0], direction, length)];
+        let profile = trapezoid(length, 40, 30);
+        // K2 < 4·K1 as well: the tangential response overshoots, and is clamped at the end alone.
+        for gains in [GAINS, [1638, 13_000]] {
+            for period in run(&path, &profile, gains, Correction::Vector, 300) {
+                assert_eq!(period.correction, [0, 0], "{period:?}");
+                assert_eq!(period.corrected, period.command);
+                assert_eq!(period.command[axis], sign as i64 * period.length);
+                assert_eq!(period.response[axis], sign as i64 * period.answered);
+            }
+        }
+    }
+}
+
+#[test]
+fn any_straight_path_is_corrected_by_its_rounding_alone() {
+    for turn in 0..12 {
+        let (sin, cos) = (0.3 + TAU * f64::from(turn) / 12.0).sin_cos();
+        let length = 20_000_000 + turn as u64 * 777_777;
+        let path = [line([0, 0], [cos, sin], length)];
+        let seen = run(
+            &path,
+            &trapezoid(length, 40, 30),
+            GAINS,
+            Correction::Vector,
+            250,
+        );
+        for period in &seen {
+            // Half a unit each of command and reference, and what the models make of theirs.
+            assert!(
+                period.correction.iter().all(|error| error.abs() <= 24),
+                "{period:?}"
+            );
+        }
+        let last = seen.last().expect("periods");
+        assert_eq!(last.length, length as i64);
+        let exact = [cos, sin].map(|part| part * length as f64);
+        for axis in 0..2 {
+            assert!((last.command[axis] as f64 - exact[axis]).abs() <= 1.0);
+            // The models come to rest within their rounding of the target.
+            let rest = last.response[axis] - last.command[axis];
+            assert!(rest.abs() as f64 <= UNIT / 2.0, "{rest}");
+        }
+    }
+}
+
+/// Mean distance of the servo's models from a circle of 10 mm in its steady part, in mm, at 10 rad/s
+/// with K1 = 50/s and K2 = 200/s, in periods of so many milliseconds.
+fn contour_error(correction: Correction, period_ms: f64) -> f64 {
+    // A count is a micrometre. The circle begins at the origin.
+    let radius = 10_000.0 * UNIT;
+    let length = (2.0 * TAU * radius) as u64;
+    let path = [Segment {
+        length,
+        base: [-(radius as i64), 0, 0],
+        along: [1.0, 0.0, 0.0],
+        across: [0.0, 1.0, 0.0],
+        radius: Some(radius),
+    }];
+    let (ramp, settled, looked_at) = (0.1, 0.5, 0.2);
+    let periods = |seconds: f64| (seconds * 1e3 / period_ms).round() as u64;
+    let cruise = periods(length as f64 / (100_000.0 * UNIT) - ramp);
+    let gains = [50.0, 200.0].map(|gain| (gain * period_ms / 1e3 * two_to(15)).round() as u64);
+    let first = periods(settled) as usize;
+    let last = first + periods(looked_at) as usize;
+    let profile = trapezoid(length, periods(ramp), cruise);
+    let seen = run(&path, &profile, gains, correction, last);
+    let errors = seen[first..].iter().map(|period| {
+        let [x, y] = period.model.map(|word| word as f64);
+        (radius - (x + radius).hypot(y)) / UNIT / 1000.0
+    });
+    errors.sum::<f64>() / (last - first) as f64
+}
+
+type Complex = [f64; 2];
+
+fn times([a, b]: Complex, [c, d]: Complex) -> Complex {
+    [a * c - b * d, a * d + b * c]
+}
+
+fn over(numerator: f64, [re, im]: Complex) -> Complex {
+    let square = re * re + im * im;
+    [numerator * re / square, -numerator * im / square]
+}
+
+/// What r(1 − |G|) and r|1 − |G(1 + e^(−jωτ) − G)|| make of a response and a lag.
+fn closed_forms(response: Complex, lag: f64) -> [f64; 2] {
+    let size = |[re, im]: Complex| re.hypot(im);
+    let sum = [1.0 + lag.cos() - response[0], -lag.sin() - response[1]];
+    let corrected = size(times(response, sum));
+    [
+        10.0 * (1.0 - size(response)),
+        10.0 * (1.0 - corrected).abs(),
+    ]
+}
+
+#[track_caller]
+fn close(seen: f64, expected: f64, part: f64) {
+    assert!(
+        (seen.abs() / expected - 1.0).abs() < part,
+        "{seen}, not {expected}"
+    );
+}
+
+/// The steps of the models are not small beside their gains: what is periodic with them has their
+/// own closed form, of z = e^(jωΔt). A response stands in the period of its command.
+#[test]
+fn a_circle_shrinks_as_the_steps_of_the_models_say() {
+    let (k1, k2, turn) = (0.05, 0.2, 0.01f64);
+    let z = [turn.cos(), turn.sin()];
+    let step = [z[0] - 1.0, z[1]];
+    let square = times(step, step);
+    let response = over(
+        k1 * k2,
+        [square[0] + k2 * step[0] + k1 * k2, square[1] + k2 * step[1]],
+    );
+    let response = times(z, response);
+    let [plain, corrected] = closed_forms(response, turn * (1.0 / k1 - 1.0));
+    close(contour_error(Correction::None, 1.0), plain, 0.005);
+    close(contour_error(Correction::Vector, 1.0), corrected, 0.02);
+}
+
+#[test]
+fn in_short_periods_a_circle_shrinks_as_the_continuous_forms_say() {
+    let (k1, k2, omega) = (50.0, 200.0, 10.0);
+    let response = over(k1 * k2, [k1 * k2 - omega * omega, k2 * omega]);
+    let [plain, corrected] = closed_forms(response, omega / k1);
+    close(contour_error(Correction::None, 0.1), plain, 0.02);
+    close(contour_error(Correction::Vector, 0.1), corrected, 0.02);
+}
