@@ -23,8 +23,6 @@ use crate::logic::Logic;
 use crate::signals;
 use std::array::from_fn;
 
-/// Bits of an arc's curvature, and of an angle.
-pub const H: usize = 44;
 /// Records of the profile that wait, and the width of their address.
 const RECORDS: usize = 4;
 const ADDRESS: usize = RECORDS + 5;
@@ -115,6 +113,7 @@ signals! {
         const R: usize,
         const C: usize,
         const S: usize,
+const H: usize,
         const X: usize,
         const D: usize,
         const E: usize,
@@ -160,6 +159,7 @@ signals! {
         const R: usize,
         const C: usize,
         const S: usize,
+const H: usize,
         const X: usize,
         const D: usize,
         const E: usize,
@@ -225,6 +225,7 @@ pub struct TrajectoryController<
     const R: usize,
     const C: usize,
     const S: usize,
+    const H: usize,
     const X: usize,
     const D: usize,
     const E: usize,
@@ -266,6 +267,7 @@ impl<
     const R: usize,
     const C: usize,
     const S: usize,
+    const H: usize,
     const X: usize,
     const D: usize,
     const E: usize,
@@ -276,7 +278,7 @@ impl<
     const Q: usize,
     const T: usize,
     const U: usize,
-> TrajectoryController<AXES, A, W, P, R, C, S, X, D, E, F, N, K, M, Q, T, U>
+> TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, Q, T, U>
 {
     /// A controller whose commands are corrected so.
     pub fn new(correction: Correction) -> Self {
@@ -303,6 +305,7 @@ impl<
     const R: usize,
     const C: usize,
     const S: usize,
+    const H: usize,
     const X: usize,
     const D: usize,
     const E: usize,
@@ -313,13 +316,13 @@ impl<
     const Q: usize,
     const T: usize,
     const U: usize,
-> Circuit for TrajectoryController<AXES, A, W, P, R, C, S, X, D, E, F, N, K, M, Q, T, U>
+> Circuit for TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, Q, T, U>
 {
     const NAME: &'static str = "trajectory_controller";
     const ABOUT: &'static str = "a path and its profile in, torques that keep to the path out";
     type In<L: Logic> = In<L, AXES, A, P, D, E, K, T, U>;
-    type Reg<L: Logic> = Reg<L, AXES, A, W, P, R, C, S, X, D, E, F, N, K, M, Q, T, U>;
-    type Net<L: Logic> = Net<L, AXES, A, W, P, R, C, S, X, D, E, F, N, K, M, Q, T, U>;
+    type Reg<L: Logic> = Reg<L, AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, Q, T, U>;
+    type Net<L: Logic> = Net<L, AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, Q, T, U>;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {

@@ -13,7 +13,8 @@ const A: usize = 8;
 const P: usize = 47;
 const D: usize = 55;
 const E: usize = 12;
-type Full = TrajectoryController<AXES, A, 31, P, 55, 42, 57, 52, D, E, 41, 20, 16, 64, 51, 16, 24>;
+type Full =
+    TrajectoryController<AXES, A, 31, P, 55, 42, 57, 44, 52, D, E, 41, 20, 16, 64, 51, 16, 24>;
 type Ports = In<Sim, AXES, A, P, D, E, 16, 16, 24>;
 
 /// Ticks of a period: enough for all arithmetic.
@@ -218,6 +219,8 @@ fn moves_along_an_axis_are_never_corrected() {
                 let mut correction = [0, 0];
                 correction[axis] = -beyond * sign as i64;
                 assert_eq!(period.correction, correction, "{period:?}");
+                let corrected = [0, 1].map(|k| period.command[k] + correction[k]);
+                assert_eq!(period.corrected, corrected);
                 assert_eq!(period.command[axis], sign as i64 * period.length);
                 assert_eq!(period.response[axis], sign as i64 * period.answered);
             }

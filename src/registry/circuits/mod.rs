@@ -6,15 +6,17 @@ mod lead_angle;
 mod linear_interpolator;
 mod make;
 mod pulse_interpolator;
+mod trajectory_controller;
 
 use super::Entry;
 
-const PARTS: [&[Entry]; 5] = [
+const PARTS: [&[Entry]; 6] = [
     pulse_interpolator::CIRCUITS,
     blocks::CIRCUITS,
     linear_interpolator::CIRCUITS,
     lead_angle::CIRCUITS,
     arc_generator::CIRCUITS,
+    trajectory_controller::CIRCUITS,
 ];
 
 const COUNT: usize = {
