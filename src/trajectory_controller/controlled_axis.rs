@@ -62,7 +62,7 @@ signals! {
         /// Servo response 51, 52.
         pub response: reference_model::Reg<L, P, K, M>,
         /// Vector correction 4.
-        pub correction: vector_correction::Reg<L, P>,
+        pub corrector: vector_correction::Reg<L, P>,
         /// Servo control 6, 7 (11).
         pub servo: servo::Reg<L, W, P, K, M, Q, T>,
     }
@@ -82,7 +82,7 @@ signals! {
         /// Servo response 51, 52.
         pub response: Instance<ReferenceModel<P, K, M>, L>,
         /// Vector correction 4.
-        pub correction: Instance<VectorCorrection<P>, L>,
+        pub corrector: Instance<VectorCorrection<P>, L>,
         /// Servo control 6, 7 (11).
         pub servo: Instance<Servo<W, P, K, M, Q, T>, L>,
         /// The servo response stands in this tick.
@@ -117,7 +117,7 @@ pub struct ControlledAxis<
     /// Servo response 51, 52.
     pub response: ReferenceModel<P, K, M>,
     /// Vector correction 4.
-    pub correction: VectorCorrection<P>,
+    pub corrector: VectorCorrection<P>,
     /// Servo control 6, 7 (11).
     pub servo: Servo<W, P, K, M, Q, T>,
 }
@@ -129,7 +129,7 @@ impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: us
     pub fn new(correction: Correction) -> Self {
         ControlledAxis {
             response: ReferenceModel::new(Rounding::Nearest),
-            correction: VectorCorrection { correction },
+            corrector: VectorCorrection { correction },
             servo: Servo::new(Rounding::Nearest),
         }
     }
@@ -157,9 +157,9 @@ impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: us
                 gain_2: i.gain_2,
             },
         );
-        let correction = Instance::settle(
-            &self.correction,
-            &q.correction,
+        let corrector = Instance::settle(
+            &self.corrector,
+            &q.corrector,
             vector_correction::In {
                 correct: i.correct,
                 target: i.target,
@@ -171,9 +171,9 @@ impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: us
             &self.servo,
             &q.servo,
             servo::In {
-                step: q.correction.fresh,
+                step: q.corrector.fresh,
                 preset: false.into(),
-                target: q.correction.corrected,
+                target: q.corrector.corrected,
                 a: i.a,
                 b: i.b,
                 home: false.into(),
@@ -188,15 +188,15 @@ impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: us
         );
         Net {
             answered: response.w.fresh,
-            vector: q.correction.correction,
-            corrected: q.correction.corrected,
+            vector: q.corrector.correction,
+            corrected: q.corrector.corrected,
             torque: servo.w.torque,
             saturated: servo.w.saturated,
             driven: servo.w.fresh,
             position: servo.w.position,
             lost: servo.w.lost,
             response,
-            correction,
+            corrector,
             servo,
         }
     }
@@ -205,7 +205,7 @@ impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: us
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
         Reg {
             response: w.response.next(&self.response, q.response),
-            correction: w.correction.next(&self.correction, q.correction),
+            corrector: w.corrector.next(&self.corrector, q.corrector),
             servo: w.servo.next(&self.servo, q.servo),
         }
     }

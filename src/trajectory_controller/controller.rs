@@ -78,7 +78,7 @@ signals! {
         /// The path's last segment.
         pub last: L::U<A>,
         /// L: the path's length.
-        pub end: L::I<P>,
+        pub path_end: L::I<P>,
         /// Interpolation period in ticks.
         pub period: L::U<U>,
         /// K1 of all models.
@@ -142,7 +142,7 @@ const H: usize,
         /// Reference point 2.
         pub reference_point: path_point::Reg<L, AXES, A, P, R, C, S, H, H, X, D, E>,
         /// All points of a period.
-        pub join: period_join::Reg<L>,
+        pub gather: period_join::Reg<L>,
         /// The axes.
         pub axes: [controlled_axis::Reg<L, W, P, K, M, Q, T>; AXES] as Elements(&path_point::AXIS_NAMES),
     }
@@ -192,7 +192,7 @@ const H: usize,
         /// Reference point 2.
         pub reference_point: Instance<PathPoint<AXES, A, P, R, C, S, H, H, X, D, E>, L>,
         /// All points of a period.
-        pub join: Instance<PeriodJoin, L>,
+        pub gather: Instance<PeriodJoin, L>,
         /// The axes.
         pub axes: [Instance<ControlledAxis<W, P, K, M, Q, T>, L>; AXES] as Elements(&path_point::AXIS_NAMES),
         /// Torques.
@@ -254,7 +254,7 @@ pub struct TrajectoryController<
     /// Axis distribution 3 and reference point 2.
     pub point: PathPoint<AXES, A, P, R, C, S, H, H, X, D, E>,
     /// All points of a period.
-    pub join: PeriodJoin,
+    pub gather: PeriodJoin,
     /// The axes.
     pub axes: [ControlledAxis<W, P, K, M, Q, T>; AXES],
 }
@@ -291,7 +291,7 @@ impl<
             clamp: LengthClamp,
             tangential: ReferenceModel::new(Rounding::Nearest),
             point: PathPoint::default(),
-            join: PeriodJoin,
+            gather: PeriodJoin,
             axes: from_fn(|_| ControlledAxis::new(correction)),
         }
     }
@@ -381,7 +381,8 @@ impl<
             },
         );
         let clamp = |length| {
-            let i = length_clamp::In { length, end: i.end };
+            let path_end = i.path_end;
+            let i = length_clamp::In { length, path_end };
             Instance::settle(&self.clamp, &Nothing::new(), i)
         };
         let clamp_command = clamp(q.length.length);
@@ -419,7 +420,7 @@ impl<
                 controlled_axis::In {
                     step: distribution.w.done,
                     command: distribution.w.points[axis],
-                    correct: q.join.correct,
+                    correct: q.gather.correct,
                     target: reference_point.w.points[axis],
                     a: i.a[axis],
                     b: i.b[axis],
@@ -433,11 +434,11 @@ impl<
                 },
             )
         });
-        let join = Instance::settle(
-            &self.join,
-            &q.join,
+        let gather = Instance::settle(
+            &self.gather,
+            &q.gather,
             period_join::In {
-                begin: q.length.fresh,
+                begins: q.length.fresh,
                 referred: reference_point.w.done,
                 answered: axes[0].w.answered,
                 driven: axes[0].w.driven,
@@ -451,7 +452,7 @@ impl<
             busy: sequencer.w.busy,
             sampled: q.sequencer.sampled,
             fresh: q.length.fresh,
-            late: q.join.late,
+            late: q.gather.late,
             starved: q.sequencer.starved,
             period_counter,
             memory,
@@ -463,7 +464,7 @@ impl<
             clamp_response,
             distribution,
             reference_point,
-            join,
+            gather,
             axes,
         }
     }
@@ -482,7 +483,7 @@ impl<
             tangential: w.tangential.next(&self.tangential, q.tangential),
             distribution: w.distribution.next(&self.point, q.distribution),
             reference_point: w.reference_point.next(&self.point, q.reference_point),
-            join: w.join.next(&self.join, q.join),
+            gather: w.gather.next(&self.gather, q.gather),
             axes: q.axes.map(|registers| {
                 let axis = axis.next().unwrap_or(0);
                 w.axes[axis].next(&self.axes[axis], registers)

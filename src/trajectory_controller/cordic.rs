@@ -29,7 +29,7 @@ signals! {
     /// Registers of the blocks.
     pub struct Reg<L, const R: usize, const H: usize> {
         /// Vector and angle.
-        pub state: cordic_state::Reg<L, R, H>,
+        pub turning: cordic_state::Reg<L, R, H>,
     }
 }
 
@@ -37,7 +37,7 @@ signals! {
     /// Nets of the blocks, and the ports out.
     pub struct Net<L, const R: usize, const H: usize> {
         /// Vector and angle.
-        pub state: Instance<CordicState<R, H>, L>,
+        pub turning: Instance<CordicState<R, H>, L>,
         /// `along` by 2^−iteration.
         pub shift_along: Instance<Shifter<R>, L>,
         /// `across` by 2^−iteration.
@@ -59,7 +59,7 @@ signals! {
 #[derive(Debug, Clone, Default)]
 pub struct Cordic<const R: usize, const H: usize> {
     /// Vector and angle.
-    pub state: CordicState<R, H>,
+    pub turning: CordicState<R, H>,
     /// Of both coordinates.
     pub shifter: Shifter<R>,
 }
@@ -75,13 +75,13 @@ impl<const R: usize, const H: usize> Circuit for Cordic<R, H> {
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> Net<L, R, H> {
         let shift = |word| {
-            let by = q.state.iteration;
+            let by = q.turning.iteration;
             Instance::settle(&self.shifter, &Nothing::new(), shifter::In { word, by })
         };
-        let (shift_along, shift_across) = (shift(q.state.along), shift(q.state.across));
-        let state = Instance::settle(
-            &self.state,
-            &q.state,
+        let (shift_along, shift_across) = (shift(q.turning.along), shift(q.turning.across));
+        let turning = Instance::settle(
+            &self.turning,
+            &q.turning,
             cordic_state::In {
                 start: i.start,
                 radius: i.radius,
@@ -91,11 +91,11 @@ impl<const R: usize, const H: usize> Circuit for Cordic<R, H> {
             },
         );
         Net {
-            along: q.state.along,
-            across: q.state.across,
-            done: q.state.done,
-            busy: state.w.busy,
-            state,
+            along: q.turning.along,
+            across: q.turning.across,
+            done: q.turning.done,
+            busy: q.turning.busy,
+            turning,
             shift_along,
             shift_across,
         }
@@ -104,7 +104,7 @@ impl<const R: usize, const H: usize> Circuit for Cordic<R, H> {
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, R, H>, w: &Net<L, R, H>, _: &In<L, R, H>) -> Reg<L, R, H> {
         Reg {
-            state: w.state.next(&self.state, q.state),
+            turning: w.turning.next(&self.turning, q.turning),
         }
     }
 }

@@ -41,7 +41,7 @@ signals! {
     /// Flip-flops.
     pub struct Reg<L, const R: usize, const H: usize> {
         /// A turn is under way.
-        busy: L::Bit = 0,
+        pub busy: L::Bit = 0,
         /// The iteration.
         pub iteration: L::U<6> = 0,
         /// radius · cos angle, from `done` on.
@@ -74,8 +74,6 @@ signals! {
         back: L::Bit,
         /// arctan 2^−iteration.
         turn: L::I<H>,
-        /// A start is not taken.
-        pub busy: L::Bit,
     }
 }
 
@@ -122,7 +120,6 @@ impl<const R: usize, const H: usize> Circuit for CordicState<R, H> {
             rest: (i.angle - (low + high)).signed(),
             back: q.left.is_negative(),
             turn: self.angles.read::<L>(q.iteration).signed(),
-            busy: q.busy,
         }
     }
 

@@ -21,7 +21,7 @@ signals! {
         /// A length along the path.
         pub length: L::I<P>,
         /// L: where the path ends; not negative.
-        pub end: L::I<P>,
+        pub path_end: L::I<P>,
     }
 }
 
@@ -48,8 +48,8 @@ impl<const P: usize> Circuit for LengthClamp<P> {
 
     #[inline(always)]
     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L, P>) -> Net<L, P> {
-        let beyond = i.end.below(i.length);
-        let on = beyond.mux(i.end.unsigned(), i.length.unsigned());
+        let beyond = i.path_end.below(i.length);
+        let on = beyond.mux(i.path_end.unsigned(), i.length.unsigned());
         Net {
             beyond,
             clamped: i.length.is_negative().mux(0.into(), on),
@@ -65,7 +65,7 @@ impl<const P: usize> Circuit for LengthClamp<P> {
 impl<const P: usize> Specified for LengthClamp<P> {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new().always("it is on the path, and the length where that is", |now| {
-            let end = now.i.end.get();
+            let end = now.i.path_end.get();
             let expected = now.i.length.get().clamp(0, end.max(0)) as u64;
             let right = end < 0 || now.w.clamped.get() == expected;
             require(right, ["clamped"], || format!("not {expected}"))

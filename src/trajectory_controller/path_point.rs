@@ -74,7 +74,7 @@ signals! {
         /// One after the other.
         pub sequencer: point_sequencer::Reg<L, M, R>,
         /// Length to angle.
-        pub angle: arc_angle::Reg<L, P, M, H, X>,
+        pub measure: arc_angle::Reg<L, P, M, H, X>,
         /// Angle to point.
         pub cordic: cordic::Reg<L, R, H>,
         /// Which bit the axes are at.
@@ -107,7 +107,7 @@ signals! {
         /// One after the other.
         pub sequencer: Instance<PointSequencer<P, R, M, D>, L>,
         /// Length to angle.
-        pub angle: Instance<ArcAngle<P, M, H, X>, L>,
+        pub measure: Instance<ArcAngle<P, M, H, X>, L>,
         /// Angle to point.
         pub cordic: Instance<Cordic<R, H>, L>,
         /// Which bit the axes are at.
@@ -147,7 +147,7 @@ pub struct PathPoint<
     /// One after the other.
     pub sequencer: PointSequencer<P, R, M, D>,
     /// Length to angle.
-    pub angle: ArcAngle<P, M, H, X>,
+    pub measure: ArcAngle<P, M, H, X>,
     /// Angle to point.
     pub cordic: Cordic<R, H>,
     /// Which bit the axes are at.
@@ -175,7 +175,7 @@ impl<
             search: SegmentSearch,
             store: SegmentStore,
             sequencer: PointSequencer,
-            angle: ArcAngle,
+            measure: ArcAngle,
             cordic: Cordic::default(),
             control: RotationControl,
             axes: from_fn(|axis| AxisRow {
@@ -232,9 +232,9 @@ impl<
             },
         );
         let (load, word, data) = (q.store.load, q.store.word, q.store.data);
-        let angle = Instance::settle(
-            &self.angle,
-            &q.angle,
+        let measure = Instance::settle(
+            &self.measure,
+            &q.measure,
             arc_angle::In {
                 start: q.sequencer.measure,
                 offset: q.search.offset,
@@ -248,7 +248,7 @@ impl<
             cordic::In {
                 start: q.sequencer.turn,
                 radius: q.sequencer.radius,
-                angle: q.angle.angle,
+                angle: q.measure.angle,
             },
         );
         let control = Instance::settle(
@@ -266,7 +266,7 @@ impl<
                 start: i.start,
                 found: q.search.done,
                 loaded: q.store.loaded,
-                measured: q.angle.done,
+                measured: q.measure.done,
                 turned: cordic.w.done,
                 projected: q.control.done,
                 load,
@@ -302,7 +302,7 @@ impl<
             search,
             store,
             sequencer,
-            angle,
+            measure,
             cordic,
             control,
             axes,
@@ -316,7 +316,7 @@ impl<
             search: w.search.next(&self.search, q.search),
             store: w.store.next(&self.store, q.store),
             sequencer: w.sequencer.next(&self.sequencer, q.sequencer),
-            angle: w.angle.next(&self.angle, q.angle),
+            measure: w.measure.next(&self.measure, q.measure),
             cordic: w.cordic.next(&self.cordic, q.cordic),
             control: w.control.next(&self.control, q.control),
             axes: q.axes.map(|registers| {

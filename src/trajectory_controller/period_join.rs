@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!                      ┌─────────────┐
-//!  begin ─────────────▶│             ├──▶ correct
+//!  begins ────────────▶│             ├──▶ correct
 //!  referred, answered ▶│ period_join ├──▶ busy, late
 //!  driven ────────────▶│             │
 //!                      └─────────────┘
@@ -17,7 +17,7 @@ signals! {
     /// Ports in.
     pub struct In<L> {
         /// A period begins.
-        pub begin: L::Bit,
+        pub begins: L::Bit,
         /// The reference point stands.
         pub referred: L::Bit,
         /// The servo responses stand.
@@ -77,11 +77,11 @@ impl Circuit for PeriodJoin {
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, i: &In<L>) -> Reg<L> {
         Reg {
-            refers: i.begin | (q.refers & !i.referred),
-            answers: i.begin | (q.answers & !i.answered),
-            busy: i.begin | (q.busy & !i.driven),
-            correct: w.complete & !i.begin,
-            late: (q.late & !i.clear) | (i.begin & q.busy),
+            refers: i.begins | (q.refers & !i.referred),
+            answers: i.begins | (q.answers & !i.answered),
+            busy: i.begins | (q.busy & !i.driven),
+            correct: w.complete & !i.begins,
+            late: (q.late & !i.clear) | (i.begins & q.busy),
         }
     }
 }
@@ -94,7 +94,7 @@ impl Specified for PeriodJoin {
                 let waits = q.refers.get() || q.answers.get();
                 let left =
                     (q.refers.get() && !i.referred.get()) || (q.answers.get() && !i.answered.get());
-                let due = waits && !left && !i.begin.get();
+                let due = waits && !left && !i.begins.get();
                 require(next.correct.get() == due, ["correct"], || {
                     format!("not {due}")
                 })
@@ -102,13 +102,13 @@ impl Specified for PeriodJoin {
             .step("both are awaited from a period's beginning", |now, next| {
                 let right = next.refers.get() && next.answers.get() && next.busy.get();
                 require(
-                    right || !now.i.begin.get(),
+                    right || !now.i.begins.get(),
                     ["refers", "answers", "busy"],
                     || "not awaited".into(),
                 )
             })
             .step("late: a period begins in another", |now, next| {
-                let clashes = now.i.begin.get() && now.q.busy.get();
+                let clashes = now.i.begins.get() && now.q.busy.get();
                 let due = clashes || (now.q.late.get() && !now.i.clear.get());
                 require(next.late.get() == due, ["late"], || format!("not {due}"))
             })

@@ -36,7 +36,7 @@ signals! {
     /// Registers of the blocks.
     pub struct Reg<L, const P: usize, const K: usize, const Q: usize> {
         /// 20, 22, 24, 25.
-        pub state: model_state::Reg<L, P>,
+        pub integrators: model_state::Reg<L, P>,
         /// 21, 23.
         pub scaler: scaler::Reg<L, K, Q>,
     }
@@ -46,7 +46,7 @@ signals! {
     /// Nets of the blocks, and the ports out.
     pub struct Net<L, const P: usize, const K: usize, const Q: usize> {
         /// 20, 22, 24, 25.
-        pub state: Instance<ModelState<P, K, Q>, L>,
+        pub integrators: Instance<ModelState<P, K, Q>, L>,
         /// 21, 23.
         pub scaler: Instance<Scaler<K, Q>, L>,
         /// p: the model's position.
@@ -66,7 +66,7 @@ signals! {
 #[derive(Debug, Clone, Default)]
 pub struct ReferenceModel<const P: usize, const K: usize, const Q: usize> {
     /// 20, 22, 24, 25.
-    pub state: ModelState<P, K, Q>,
+    pub integrators: ModelState<P, K, Q>,
     /// 21, 23.
     pub scaler: Scaler<K, Q>,
 }
@@ -78,7 +78,7 @@ impl<const P: usize, const K: usize, const Q: usize> ReferenceModel<P, K, Q> {
     /// A model whose acceleration is rounded by `rounding`.
     pub fn new(rounding: Rounding) -> Self {
         ReferenceModel {
-            state: ModelState { rounding },
+            integrators: ModelState { rounding },
             scaler: Scaler,
         }
     }
@@ -93,9 +93,9 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ReferenceModel<
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, K, Q>, i: &In<L, P, K>) -> Net<L, P, K, Q> {
-        let state = Instance::settle(
-            &self.state,
-            &q.state,
+        let integrators = Instance::settle(
+            &self.integrators,
+            &q.integrators,
             model_state::In {
                 step: i.step,
                 preset: i.preset,
@@ -110,19 +110,19 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ReferenceModel<
             &self.scaler,
             &q.scaler,
             scaler::In {
-                start: state.w.scale,
+                start: integrators.w.scale,
                 clear: i.preset,
-                value: state.w.value,
-                gain: state.w.gain,
+                value: integrators.w.value,
+                gain: integrators.w.gain,
             },
         );
         Net {
-            position: q.state.position,
-            velocity: q.state.velocity,
-            acceleration: q.state.acceleration,
-            fresh: q.state.fresh,
-            busy: state.w.busy,
-            state,
+            position: q.integrators.position,
+            velocity: q.integrators.velocity,
+            acceleration: q.integrators.acceleration,
+            fresh: q.integrators.fresh,
+            busy: integrators.w.busy,
+            integrators,
             scaler,
         }
     }
@@ -135,7 +135,7 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ReferenceModel<
         _: &In<L, P, K>,
     ) -> Reg<L, P, K, Q> {
         Reg {
-            state: w.state.next(&self.state, q.state),
+            integrators: w.integrators.next(&self.integrators, q.integrators),
             scaler: w.scaler.next(&self.scaler, q.scaler),
         }
     }

@@ -54,7 +54,7 @@ signals! {
         /// The bits that are decided; the segment, from `done` on.
         pub segment: L::U<A> = 0,
         /// Where the segment that is tried begins.
-        begin: L::U<Q> = 0,
+        tried_begin: L::U<Q> = 0,
         /// How far the length is behind the beginning of the last segment that fitted.
         pub offset: L::U<Q> = 0,
         /// Segment and offset stand in this tick.
@@ -100,7 +100,7 @@ impl<const A: usize, const Q: usize> Circuit for SegmentSearch<A, Q> {
     fn comb<L: Logic>(&self, q: &Reg<L, A, Q>, i: &In<L, A, Q>) -> Net<L, A> {
         let is = |state: u64| q.state.equals(state.into());
         let tried = q.segment | q.weight;
-        let beyond = i.last.below(tried) | q.wanted.below(q.begin);
+        let beyond = i.last.below(tried) | q.wanted.below(q.tried_begin);
         Net {
             take: i.start & is(IDLE),
             tried,
@@ -119,7 +119,7 @@ impl<const A: usize, const Q: usize> Circuit for SegmentSearch<A, Q> {
         let state = w.take.mux(to(READ), reads.mux(to(COMPARE), q.state));
         let wanted = w.take.mux(i.length, q.wanted);
         Reg {
-            begin: q.begins.read_when(reads, w.tried, q.begin),
+            tried_begin: q.begins.read_when(reads, w.tried, q.tried_begin),
             begins: q.begins.write(i.write, i.write_segment, i.write_begin),
             state: compares.mux(decided, state),
             weight: w.take.mux(
@@ -129,7 +129,7 @@ impl<const A: usize, const Q: usize> Circuit for SegmentSearch<A, Q> {
             segment: w.take.mux(0.into(), w.fits.mux(w.tried, q.segment)),
             offset: w
                 .take
-                .mux(i.length, w.fits.mux(q.wanted - q.begin, q.offset)),
+                .mux(i.length, w.fits.mux(q.wanted - q.tried_begin, q.offset)),
             wanted,
             done: w.over,
         }

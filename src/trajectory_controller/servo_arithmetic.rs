@@ -85,7 +85,7 @@ signals! {
         /// What is being scaled is negative.
         negative: L::Bit = 0,
         /// The feedback of the period before.
-        before: L::I<W> = 0,
+        previous: L::I<W> = 0,
         /// 28: the speed error.
         speed_error: L::I<Q> as Analog = 0,
         /// The parts of 31 so far, with FINE bits behind the torque's last.
@@ -187,7 +187,7 @@ impl<const W: usize, const P: usize, const K: usize, const Q: usize, const T: us
         let position_error = wide(i.model_position) - counts(i.feedback);
         let signed: L::I<Q> = i.scaled.signed();
         let product = q.negative.mux(-signed, signed);
-        let speed = counts(i.feedback) - counts(q.before);
+        let speed = counts(i.feedback) - counts(q.previous);
         let speed_demand = wide(i.model_velocity) + product - speed;
         let kept = at_proportional.mux(q.speed_error, wide(i.model_acceleration));
         let operand = take.mux(position_error, at_position.mux(speed_demand, kept));
@@ -250,7 +250,7 @@ impl<const W: usize, const P: usize, const K: usize, const Q: usize, const T: us
         Reg {
             state,
             negative: w.scale.mux(w.operand.is_negative(), q.negative),
-            before: (limits | i.clear).mux(i.feedback, q.before),
+            previous: (limits | i.clear).mux(i.feedback, q.previous),
             speed_error: at_position.mux(w.speed_demand, q.speed_error),
             sum,
             integral: i.clear.mux(zero(), integral),

@@ -117,7 +117,7 @@ fn run(
         path_address: 0.into(),
         path_data: 0.into(),
         last: (path.len() as u64 - 1).into(),
-        end: end.into(),
+        path_end: end.into(),
         period: PERIOD.into(),
         gain_1: gains[0].into(),
         gain_2: gains[1].into(),
@@ -168,18 +168,18 @@ fn run(
                 let each = |of: &dyn Fn(usize) -> i64| [of(0), of(1)];
                 Period {
                     command: each(&|axis| q.distribution.axes[axis].point.get()),
-                    response: each(&|axis| q.axes[axis].response.state.position.get()),
-                    correction: each(&|axis| q.axes[axis].correction.correction.get()),
-                    corrected: each(&|axis| q.axes[axis].correction.corrected.get()),
-                    model: each(&|axis| q.axes[axis].servo.model.state.position.get()),
+                    response: each(&|axis| q.axes[axis].response.integrators.position.get()),
+                    correction: each(&|axis| q.axes[axis].corrector.correction.get()),
+                    corrected: each(&|axis| q.axes[axis].corrector.corrected.get()),
+                    model: each(&|axis| q.axes[axis].servo.model.integrators.position.get()),
                     length: q.length.length.get(),
-                    answered: q.tangential.state.position.get(),
+                    answered: q.tangential.integrators.position.get(),
                 }
             })
         });
         simulator = next;
         seen.extend(period);
-        assert!(!simulator.registers().join.late.get());
+        assert!(!simulator.registers().gather.late.get());
     }
     assert!(!simulator.registers().sequencer.late.get());
     seen

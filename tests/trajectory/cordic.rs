@@ -18,10 +18,10 @@ fn point<const R: usize, const H: usize>(radius: i64, angle: u64) -> [i64; 2] {
             angle: if ticks == 1 { angle } else { 0 }.into(),
         };
         simulator = simulator.step(i, |_| ()).0;
-        let done = simulator.registers().state.done.get();
+        let done = simulator.registers().turning.done.get();
         assert_eq!(done, ticks == H as u64 + 1, "after {ticks} ticks");
     }
-    let q = &simulator.registers().state;
+    let q = &simulator.registers().turning;
     [q.along.get(), q.across.get()]
 }
 

@@ -13,7 +13,7 @@ type Bench<'c, const P: usize, const K: usize, const Q: usize> =
 type State = [i128; 3];
 
 fn state<const P: usize, const K: usize, const Q: usize>(q: &Reg<Sim, P, K, Q>) -> State {
-    let q = &q.state;
+    let q = &q.integrators;
     [q.position, q.velocity, q.acceleration].map(|word| word.get().into())
 }
 
@@ -43,7 +43,11 @@ fn step<'c, const P: usize, const K: usize, const Q: usize>(
         let i = ports(target, gains, [ticks == 1, false]);
         simulator = simulator.step(i, |_| ()).0;
         let q = simulator.registers();
-        assert_eq!(q.state.fresh.get(), ticks == latency, "after {ticks} ticks");
+        assert_eq!(
+            q.integrators.fresh.get(),
+            ticks == latency,
+            "after {ticks} ticks"
+        );
         assert!(
             ticks == latency || state(q) == before,
             "after {ticks} ticks"
