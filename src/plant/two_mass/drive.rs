@@ -89,24 +89,32 @@ impl TwoMassAxis {
         self.break_loose();
     }
 
-    /// Bodies at rest start where the torque on them exceeds their stiction.
+    /// Bodies at rest start where the torque on them exceeds what holds them.
     #[inline]
     fn break_loose(&mut self) {
         let shaft = self.shaft_torque_nm();
+        let held = self.held();
         for (body, torque) in [self.torque_nm - shaft, shaft].into_iter().enumerate() {
-            if self.grips[body] == Grip::Stuck && torque.abs() > self.stiction(body) {
+            if self.grips[body] == Grip::Stuck && torque.abs() > held[body] {
                 self.grips[body] = Grip::Slides(torque.signum());
             }
         }
     }
 
+    /// Up to which torque motor and load are held at rest: their stiction, and as much above it as
+    /// rounding may make of it. So a torque that is the stiction holds, and one that is above it
+    /// moves a body whatever rounding does.
     #[inline]
-    fn stiction(&self, body: usize) -> f64 {
+    fn held(&self) -> [f64; 2] {
         let p = &self.parameters;
-        match body {
-            0 => p.motor_friction_nm.max(p.motor_stiction_nm),
-            _ => p.load_friction_nm.max(p.load_stiction_nm),
-        }
+        let [motor, load, ..] = self.state;
+        let blur = 1e-12 * self.torque_nm.abs()
+            + 4.0 * f64::EPSILON * self.equations.stiffness * (motor.abs() + load.abs());
+        [
+            p.motor_friction_nm.max(p.motor_stiction_nm),
+            p.load_friction_nm.max(p.load_stiction_nm),
+        ]
+        .map(|stiction| stiction * (1.0 + 1e-12) + blur)
     }
 
     /// Torques on motor and load that do not depend on the state.
@@ -134,9 +142,10 @@ impl TwoMassAxis {
     fn guards(&self) -> Guards {
         let touches = matches!(self.flank, Flank::Touches(_));
         let mut guards = Guards::new();
+        let held = self.held();
         for (body, torque) in [self.torque_nm, 0.0].into_iter().enumerate() {
-            let held = (body, self.grips[body], self.stiction(body));
-            guards.body(held, torque, &self.equations, touches);
+            let grip = (body, self.grips[body], held[body]);
+            guards.body(grip, torque, &self.equations, touches);
         }
         if self.parameters.backlash_rad > 0.0 {
             let half = 0.5 * self.parameters.backlash_rad;

@@ -42,7 +42,7 @@ impl Flank {
 pub(super) enum Event {
     /// The speed of this body comes to 0.
     Rest(usize),
-    /// The torque on this body exceeds its stiction, with this sign.
+    /// The torque on this body exceeds what holds it, with this sign.
     Breaks(usize, f64),
     /// The flanks change.
     Flank(Flank),
@@ -110,11 +110,12 @@ impl Guards {
         self.count += 1;
     }
 
-    /// Motor (0) or load (1) under a drive torque, with a shaft that touches or not.
+    /// Motor (0) or load (1), held up to this torque, under a drive torque, with a shaft that
+    /// touches or not.
     #[inline]
     pub fn body(
         &mut self,
-        (body, grip, stiction): (usize, Grip, f64),
+        (body, grip, held): (usize, Grip, f64),
         torque: f64,
         equations: &Equations,
         touches: bool,
@@ -138,7 +139,7 @@ impl Guards {
                         sign * shaft * equations.stiffness,
                         sign * shaft * equations.damping,
                     );
-                    let rest = stiction - sign * torque;
+                    let rest = held - sign * torque;
                     self.push(Event::Breaks(body, sign), k, [c, -c], rest);
                 }
             }

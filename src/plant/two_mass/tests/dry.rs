@@ -1,6 +1,7 @@
 //! Coulomb friction and stiction.
 
 use super::*;
+use std::f64::consts::PI;
 
 #[test]
 fn stiction_of_the_motor_holds_and_lets_go() {
@@ -82,7 +83,7 @@ fn a_swing_against_dry_friction_loses_as_much_each_time_and_then_stands() {
         load_stiction_nm: 1e6,
         ..PARAMETERS
     };
-    let half = std::f64::consts::PI / (430.0f64 / 1e-3).sqrt();
+    let half = PI / (430.0f64 / 1e-3).sqrt();
     for tick_s in TICKS_S {
         let mut axis = axis(&parameters, tick_s);
         axis.state[0] = 0.0093;
@@ -158,5 +159,27 @@ fn friction_takes_its_torque_times_the_way() {
         assert!(!turned);
         let taken = 0.4 * axis.state[0] + 0.8 * axis.state[1];
         near(linear::energy(&axis) + taken, done, 1e-9);
+    }
+}
+
+#[test]
+fn a_peak_above_stiction_is_seen_within_a_piece() {
+    let parameters = TwoMassParameters {
+        load_friction_nm: 2.0,
+        load_stiction_nm: 3.0,
+        ..PARAMETERS
+    };
+    let omega = (430.0f64 / 1e-3).sqrt();
+    for tick_s in TICKS_S {
+        // The shaft's torque is above stiction for so many radians before and after its peak.
+        for window in [0.1, 0.01, 1e-3, -1e-3f64] {
+            let rise = window.signum() * (1.0 - window.cos());
+            let mut axis = axis(&parameters, tick_s);
+            for tick in 1..=ticks(5e-3, tick_s) {
+                axis.drive(3.0 / (2.0 - rise));
+                let breaks = window > 0.0 && tick as f64 * tick_s > (PI - window) / omega;
+                assert_eq!(axis.state[1] != 0.0 || axis.state[3] != 0.0, breaks);
+            }
+        }
     }
 }
