@@ -19,6 +19,15 @@
 //!                    └─────────────────────────────────────────────┘
 //! ```
 //!
+//! ```text
+//!              ┌───────────────────── two-mass axis ─────────────────────┐
+//!              │ ┌───────────┐ torque ┌──────────┐ twist ┌─────────┐     │
+//!  torque word ┼▶│ amplifier ├───────▶│ motor 32 ├───────┤ load 33 ├─────┼▶ load position
+//!              │ └───────────┘        └────┬─────┘       └─────────┘     │
+//!              │                           └─▶ encoder ──────────────────┼▶ a, b
+//!              └─────────────────────────────────────────────────────────┘
+//! ```
+//!
 //! `rtl_notes/plant.md` has the equations and what is idealised.
 
 pub mod axis;
@@ -26,6 +35,7 @@ pub mod brake;
 pub mod encoder;
 pub mod parameters;
 pub mod servo;
+pub mod two_mass;
 pub mod waves;
 
 pub use axis::ServoAxis;
@@ -33,6 +43,7 @@ pub use brake::{BodyParameters, BrakedBody, Load};
 pub use encoder::Encoder;
 pub use parameters::{ParameterError, ServoParameters};
 pub use servo::{Motor, ServoDriver};
+pub use two_mass::{TwoMassAxis, TwoMassParameters};
 
 #[cfg(test)]
 mod tests;

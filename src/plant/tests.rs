@@ -163,3 +163,40 @@ fn parameters_are_read_by_name() {
     assert_eq!(parameters.counts_per_rev, 4000.0);
     assert!(toml::from_str::<ServoParameters>("friction_nm = 0.1").is_err());
 }
+
+#[test]
+fn the_waves_show_the_two_masses_of_each_axis() {
+    let parameters = TwoMassParameters {
+        counts_per_rev: 10_000.0,
+        load_stiction_nm: 1.0,
+        ..TwoMassParameters::default()
+    };
+    fn machine<const AXES: usize>(parameters: &TwoMassParameters) -> [TwoMassAxis; AXES] {
+        std::array::from_fn(|axis| {
+            let mut plant = TwoMassAxis::new(parameters, 1e-4).expect("they are in range");
+            for _ in 0..50 {
+                plant.step([8_000, -8_000, 0][axis]);
+            }
+            plant
+        })
+    }
+    let axes = machine::<3>(&parameters);
+    let shown = waves::MachineSignals::of(&axes);
+    let [x, y, z] = &shown.axes;
+    let off = |seen: i64, wanted: f64| (seen as f64 - wanted).abs() <= 1.0;
+    for (signals, axis) in shown.axes.iter().zip(&axes) {
+        assert!(off(signals.position.get(), 256.0 * axis.position_counts()));
+        assert!(off(signals.speed.get(), axis.speed_counts_per_s()));
+        let load = 256.0 * axis.load_position_counts();
+        assert!(off(signals.load_position.get(), load));
+        assert!(off(signals.twist.get(), 1e6 * axis.twist_rad()));
+        assert!(off(signals.torque.get(), 1e3 * axis.torque_nm()));
+    }
+    assert!(x.position.get() > x.load_position.get() && x.load_position.get() > 256);
+    assert!(x.twist.get() > 1000 && x.speed.get() > 1000);
+    assert_eq!(x.torque.get(), 2441);
+    assert_eq!(x.position.get(), -y.position.get());
+    assert_eq!((z.position.get(), z.torque.get()), (0, 0));
+    let two = waves::MachineSignals::of(&machine::<2>(&parameters));
+    assert_eq!(two.axes[1].load_position.get(), y.load_position.get());
+}

@@ -1,6 +1,6 @@
 //! What a plant shows in the waves of the circuit that drives it.
 
-use super::{BrakedBody, ServoAxis};
+use super::{BrakedBody, ServoAxis, TwoMassAxis};
 use crate::kernel::Beside;
 use crate::logic::{Logic, Sim};
 use crate::signals;
@@ -100,6 +100,60 @@ impl BodySignals<Sim> {
             speed: (speed.round() as i64).into(),
             engaged: false.into(),
             friction: 0.into(),
+        }
+    }
+}
+
+signals! {
+    /// A motor with an elastic load as it really is.
+    pub struct TwoMassSignals<L> {
+        /// True position of the motor in 1/256 of a count.
+        pub position: L::I<48> as Analog,
+        /// True speed of the motor in counts a second.
+        pub speed: L::I<32> as Analog,
+        /// True position of the load in 1/256 of a count.
+        pub load_position: L::I<48> as Analog,
+        /// By how much the motor is ahead of the load, in millionths of a radian.
+        pub twist: L::I<32> as Analog,
+        /// The amplifier's torque in thousandths of a newton metre.
+        pub torque: L::I<32> as Analog,
+    }
+}
+
+signals! {
+    /// The axes of a machine with elastic loads.
+    pub struct MachineSignals<L, const AXES: usize> {
+        /// X, Y and, of three axes, Z.
+        pub axes: [TwoMassSignals<L>; AXES] as Elements(&["x", "y", "z"]),
+    }
+}
+
+/// `AXES` motors with elastic loads beside the circuit that drives them.
+#[derive(Debug)]
+pub struct Machine<const AXES: usize>;
+
+impl<const AXES: usize> Beside for Machine<AXES> {
+    const SCOPE: &'static str = "plant";
+    type Signals<L: Logic> = MachineSignals<L, AXES>;
+}
+
+impl<const AXES: usize> MachineSignals<Sim, AXES> {
+    /// The axes as they stand.
+    pub fn of(axes: &[TwoMassAxis; AXES]) -> Self {
+        MachineSignals {
+            axes: axes.each_ref().map(TwoMassSignals::of),
+        }
+    }
+}
+
+impl TwoMassSignals<Sim> {
+    fn of(axis: &TwoMassAxis) -> Self {
+        TwoMassSignals {
+            position: fine(axis.position_counts()).into(),
+            speed: (axis.speed_counts_per_s().round() as i64).into(),
+            load_position: fine(axis.load_position_counts()).into(),
+            twist: ((axis.twist_rad() * 1e6).round() as i64).into(),
+            torque: ((axis.torque_nm() * 1e3).round() as i64).into(),
         }
     }
 }

@@ -1,0 +1,185 @@
+//! A motor with an elastic load (13 = motor 32 and load 33 of CN104204977, Fig. 1): two inertias,
+//! shaft, friction, backlash, and an encoder on the motor.
+//!
+//! ```text
+//!              ┌───────────────────── two-mass axis ─────────────────────┐
+//!              │ ┌───────────┐ torque ┌──────────┐ twist ┌─────────┐     │
+//!  torque word ┼▶│ amplifier ├───────▶│ motor 32 ├───────┤ load 33 ├─────┼▶ load position
+//!              │ └───────────┘        └────┬─────┘       └─────────┘     │
+//!              │                           └─▶ encoder ──────────────────┼▶ a, b
+//!              └─────────────────────────────────────────────────────────┘
+//! ```
+//!
+//! Between events the motion is linear and is integrated without error; a tick is split at its
+//! events.
+
+mod drive;
+mod events;
+mod motion;
+mod parameters;
+#[cfg(test)]
+mod tests;
+
+pub use parameters::TwoMassParameters;
+
+use super::parameters::{POSITIVE, check_tick, within};
+use super::{Encoder, ParameterError};
+use events::{Flank, Grip};
+use motion::{Equations, REACH, Regime, State, Step};
+
+/// Most that the plant's fastest rate times a tick may be: a piece of the motion takes half of 1.
+const LONGEST: f64 = 1e4;
+
+/// Amplifier, motor 32, shaft, load 33 and encoder of one axis, stepped once per reference tick.
+#[derive(Debug, Clone)]
+pub struct TwoMassAxis {
+    parameters: TwoMassParameters,
+    encoder: Encoder,
+    tick_s: f64,
+    equations: Equations,
+    /// The whole tick without dry friction and backlash.
+    whole: Step,
+    /// A piece of a tick, for each regime.
+    pieces: [Step; 8],
+    count: u32,
+    torque_nm: f64,
+    /// Motor angle, load angle, motor speed, load speed, in rad and rad/s.
+    state: State,
+    grips: [Grip; 2],
+    flank: Flank,
+}
+
+impl TwoMassAxis {
+    /// The torque word that asks for the greatest torque; so does -32,768 with a minus.
+    pub const FULL_SCALE: i64 = 32_767;
+
+    /// An axis at rest at position 0, in the middle of its backlash, on a reference tick of
+    /// `tick_s` seconds.
+    ///
+    /// # Errors
+    ///
+    /// [`ParameterError`] names the parameter, or `tick_s`, that is out of range. A tick is also
+    /// too long where it is more than 10,000 / [`TwoMassParameters::fastest_per_s`].
+    pub fn new(parameters: &TwoMassParameters, tick_s: f64) -> Result<Self, ParameterError> {
+        parameters.validate()?;
+        check_tick(tick_s)?;
+        let fastest = parameters.fastest_per_s();
+        within("tick_s", tick_s, &(*POSITIVE.start()..=LONGEST / fastest))?;
+        let count = (tick_s * fastest / REACH).ceil().max(1.0);
+        let doublings = count.log2().ceil();
+        let equations = Equations::new(parameters);
+        let piece = |index: usize| {
+            let stuck = [index & 1 != 0, index & 2 != 0];
+            let touches = index & 4 != 0;
+            let regime = Regime { touches, stuck };
+            Step::new(&equations, regime, tick_s / count, 0)
+        };
+        let linear = Regime {
+            touches: true,
+            stuck: [false; 2],
+        };
+        let whole = Step::new(
+            &equations,
+            linear,
+            tick_s / doublings.exp2(),
+            doublings as u32,
+        );
+        let dry = [
+            parameters
+                .motor_friction_nm
+                .max(parameters.motor_stiction_nm),
+            parameters.load_friction_nm.max(parameters.load_stiction_nm),
+        ];
+        Ok(TwoMassAxis {
+            parameters: *parameters,
+            encoder: Encoder,
+            tick_s,
+            equations,
+            whole,
+            pieces: std::array::from_fn(piece),
+            count: count as u32,
+            torque_nm: 0.0,
+            state: [0.0; 4],
+            grips: dry.map(|dry| if dry > 0.0 { Grip::Stuck } else { Grip::Loose }),
+            flank: match parameters.backlash_rad > 0.0 {
+                true => Flank::Gap,
+                false => Flank::Touches(0.0),
+            },
+        })
+    }
+
+    /// One tick under this torque word of 16 bits, beyond [`TwoMassAxis::FULL_SCALE`] the greatest
+    /// torque. Gives the encoder's channels A and B of the tick to come.
+    #[inline]
+    pub fn step(&mut self, torque_word: i64) -> (bool, bool) {
+        let word = torque_word.clamp(-Self::FULL_SCALE, Self::FULL_SCALE);
+        self.drive(word as f64 / Self::FULL_SCALE as f64 * self.parameters.max_torque_nm);
+        self.channels()
+    }
+
+    /// The encoder's channels A and B as they stand.
+    #[inline]
+    pub fn channels(&self) -> (bool, bool) {
+        self.encoder.channels(self.position_counts())
+    }
+
+    /// Position of the motor in encoder counts.
+    #[inline]
+    pub fn position_counts(&self) -> f64 {
+        self.state[0] * self.parameters.counts_per_rad()
+    }
+
+    /// Speed of the motor in encoder counts a second.
+    #[inline]
+    pub fn speed_counts_per_s(&self) -> f64 {
+        self.state[2] * self.parameters.counts_per_rad()
+    }
+
+    /// Position of the load in encoder counts.
+    #[inline]
+    pub fn load_position_counts(&self) -> f64 {
+        self.state[1] * self.parameters.counts_per_rad()
+    }
+
+    /// Speed of the load in encoder counts a second.
+    #[inline]
+    pub fn load_speed_counts_per_s(&self) -> f64 {
+        self.state[3] * self.parameters.counts_per_rad()
+    }
+
+    /// Position of the load in mm.
+    #[inline]
+    pub fn load_position_mm(&self) -> f64 {
+        self.load_position_counts() / self.parameters.counts_per_mm()
+    }
+
+    /// By how much the motor is ahead of the load, in rad.
+    #[inline]
+    pub fn twist_rad(&self) -> f64 {
+        self.state[0] - self.state[1]
+    }
+
+    /// The amplifier's torque of the last tick, in N·m.
+    #[inline]
+    pub fn torque_nm(&self) -> f64 {
+        self.torque_nm
+    }
+
+    /// The torque of the shaft as it stands, on the load, in N·m.
+    #[inline]
+    pub fn shaft_torque_nm(&self) -> f64 {
+        let [motor, load, motor_speed, load_speed] = self.untwisted();
+        let Equations {
+            stiffness, damping, ..
+        } = self.equations;
+        match self.flank {
+            Flank::Touches(_) => stiffness * (motor - load) + damping * (motor_speed - load_speed),
+            _ => 0.0,
+        }
+    }
+
+    /// The highest speed in counts a second at which every quarter is seen.
+    pub fn countable_counts_per_s(&self) -> f64 {
+        self.encoder.countable_counts_per_s(self.tick_s)
+    }
+}
