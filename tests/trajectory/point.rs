@@ -2,9 +2,9 @@
 
 use motion_rtl::kernel::Simulator;
 use motion_rtl::logic::Sim;
-use motion_rtl::trajectory_controller::PathPoint;
-use motion_rtl::trajectory_controller::cordic_state::GAIN;
 use motion_rtl::trajectory_controller::path_point::In;
+use motion_rtl::trajectory_controller::widths::Widths;
+use motion_rtl::trajectory_controller::{PathPoint, segments};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -36,25 +36,16 @@ fn two_to(exponent: i32) -> f64 {
 
 impl Segment {
     fn words(&self) -> [u64; 16] {
-        let mut words = [0; 16];
-        if let Some(radius) = self.radius {
-            let turn = TAU * radius;
-            // The mantissa has M bits: 2^(M − 1) <= 2^(M + n − 4) / turn.
-            let n = (turn.log2().ceil() as i32 + 3).min(H as i32);
-            let mantissa = (two_to(M as i32 + n - 4) / turn).round() as u64;
-            assert!(mantissa >> M == 0, "{radius}");
-            words[0] = 1 + ((H as i32 - n) as u64) * 2;
-            words[1] = mantissa;
-            words[2] = (radius / GAIN * two_to((R - P) as i32)).round() as u64;
-        }
-        let unit = two_to(C as i32 - 2);
-        let mask = (1u64 << D) - 1;
-        for axis in 0..3 {
-            words[3 + axis] = self.base[axis] as u64 & mask;
-            words[6 + axis] = (self.along[axis] * unit).round() as i64 as u64 & mask;
-            words[9 + axis] = (self.across[axis] * unit).round() as i64 as u64 & mask;
-        }
-        words
+        let segment = segments::Segment {
+            base: self.base,
+            along: self.along,
+            across: self.across,
+            arc: self.radius.map(|radius| segments::Arc {
+                radius,
+                turn: TAU * radius,
+            }),
+        };
+        segment.words(&Widths::FULL)
     }
 
     fn point(&self, offset: u64) -> Vector {
