@@ -1,4 +1,8 @@
 //! The trajectory controller of CN104204977.
+//!
+//! On the control computer: [`segments`] (pieces of a path by their length), [`speed_limits`] and
+//! [`planner`] (how fast it is run where, by [`ramp`]s, as a [`profile`](mod@profile)),
+//! [`profile_record`] (the profile as words), [`settings`], [`widths`].
 
 pub mod arc_angle;
 pub mod axis_row;

@@ -1,6 +1,7 @@
 //! Profiles: limits, continuity, and time against the fastest there is.
 
 use super::{config, spans};
+use motion_rtl::arc_generator::circle::Circle;
 use motion_rtl::arc_generator::path::{Course, Piece};
 use motion_rtl::trajectory_controller::planner::plan;
 use motion_rtl::trajectory_controller::profile::{Cubic, Profile};
@@ -232,6 +233,45 @@ fn chords_of_a_curve_run_at_feed() {
         let stops = plan(&spans, motion.slope);
         assert!(stops.duration > 10.0 * profile.duration);
     }
+}
+
+#[test]
+fn a_tangent_arc_is_entered_without_a_stop_at_the_speed_of_its_radius() {
+    let speed = 80.0;
+    let mut piece = Piece {
+        course: Course::Line,
+        to: [50.0, 0.0, 0.0],
+        speed,
+        line: None,
+    };
+    let mut pieces = vec![piece];
+    let arc = Circle::around(
+        [50.0, 2.0, 0.0],
+        piece.to,
+        [50.0, 4.0, 0.0],
+        [0.0, 0.0, 1.0],
+    );
+    (piece.course, piece.to) = (Course::Arc(arc.unwrap()), [50.0, 4.0, 0.0]);
+    pieces.push(piece);
+    (piece.course, piece.to) = (Course::Line, [0.0, 4.0, 0.0]);
+    pieces.push(piece);
+    let settings = Settings {
+        normal_acceleration_mm_per_s2: 800.0,
+        corner_mm_per_s: 0.0,
+        ..Settings::default()
+    };
+    let motion = settings.motion(&Widths::FULL).unwrap();
+    let path = Path::of([0.0; 3], &pieces, 1000.0, &Widths::FULL).unwrap();
+    let spans = speed_limits::spans(&path, &motion);
+    let profile = plan(&spans, motion.slope);
+    check(&profile, &spans, motion.slope).unwrap();
+    // √(800 · 2) on the arc; from 0 to 80, and from 80 to 40 at its ends, with 2000 mm/s².
+    let (around, ramps) = (40.0, 80.0 / 2000.0 + 40.0 / 2000.0);
+    let ways = 80.0 * 80.0 / 4000.0 + (80.0 * 80.0 - 40.0 * 40.0) / 4000.0;
+    let line = ramps + (50.0 - ways) / 80.0;
+    let expected = 2.0 * line + std::f64::consts::PI * 2.0 / around;
+    let ratio = profile.duration / expected;
+    assert!((ratio - 1.0).abs() < 1e-6, "{ratio}");
 }
 
 #[test]
