@@ -90,7 +90,17 @@ pub enum Reason {
         /// What a record can hold.
         most: u64,
     },
-    /// A coordinate, centre or radius does not fit in the words.
+    /// The memory has no room for so many segments.
+    #[error("the path has {count} segments, which needs A = {needed}")]
+    Segments {
+        /// Segments of the path.
+        count: usize,
+        /// What the memory holds.
+        most: usize,
+        /// The width that its address would need.
+        needed: u32,
+    },
+    /// A coordinate, centre, radius or length does not fit in the words.
     #[error("{what} reaches {counts:.1} counts, which needs W = {needed}")]
     Reach {
         /// "x", "centre x", "radius" and so on.
@@ -111,7 +121,7 @@ impl Reason {
     #[must_use]
     pub fn field(&self) -> &'static str {
         match self {
-            Reason::Empty => "piece",
+            Reason::Empty | Reason::Segments { .. } => "piece",
             Reason::NoSpeed
             | Reason::Speed { .. }
             | Reason::Tight { .. }
@@ -132,7 +142,7 @@ impl Reason {
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
-            Reason::Empty => "path",
+            Reason::Empty | Reason::Segments { .. } => "path",
             Reason::NoSpeed
             | Reason::Speed { .. }
             | Reason::Tight { .. }
@@ -176,6 +186,7 @@ impl Reason {
             Reason::Samples { most, .. } => {
                 format!("at most {most} samples: faster, shorter, or sampled less often")
             }
+            Reason::Segments { most, .. } => format!("at most {most}"),
             Reason::Reach { most, width, .. } => {
                 format!("-{most} to {most} counts at W = {width}: fewer counts per mm")
             }

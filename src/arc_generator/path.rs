@@ -3,7 +3,11 @@
 use super::circle::{Circle, CircleError};
 use super::error::{PathError, Reason};
 use super::settings::Settings;
+use super::vector::{distance, sub, unit};
 use crate::input::{self, Drawing, Move, Point};
+
+/// How far an arc may be off the path's points, as a part of its length and 1 mm.
+const GAP: f64 = 1e-6;
 
 /// How a piece gets to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,6 +16,26 @@ pub enum Course {
     Line,
     /// On an arc, which begins where the piece before ends.
     Arc(Circle),
+}
+
+impl Course {
+    /// Length in mm.
+    #[must_use]
+    pub fn length(&self, from: Point, to: Point) -> f64 {
+        match self {
+            Course::Line => distance(from, to),
+            Course::Arc(circle) => circle.length(),
+        }
+    }
+
+    /// Direction of motion at its start and at its end; not a number for a line without length.
+    #[must_use]
+    pub fn directions(&self, from: Point, to: Point) -> [Point; 2] {
+        match self {
+            Course::Line => [unit(sub(to, from)); 2],
+            Course::Arc(circle) => [0.0, circle.angle].map(|angle| circle.direction(angle)),
+        }
+    }
 }
 
 /// One piece of a path, from the end of the piece before it.
@@ -25,6 +49,51 @@ pub struct Piece {
     pub speed: f64,
     /// Line of the input it stands in.
     pub line: Option<usize>,
+}
+
+impl Piece {
+    /// Checks that it is made of numbers, has a speed, and meets the path's points.
+    ///
+    /// # Errors
+    /// The first that does not hold.
+    pub(crate) fn check(&self, from: Point) -> Result<(), Reason> {
+        for point in [from, self.to] {
+            for (axis, value) in ["x", "y", "z"].into_iter().zip(point) {
+                if !value.is_finite() {
+                    return Err(Reason::Coordinate { axis, value });
+                }
+            }
+        }
+        if !(self.speed.is_finite() && self.speed > 0.0) {
+            return Err(Reason::Speed { speed: self.speed });
+        }
+        if let Course::Arc(circle) = &self.course {
+            let gap = distance(circle.start, from).max(distance(circle.end(), self.to));
+            let meets = gap <= GAP * (1.0 + circle.length());
+            if !meets {
+                return Err(Reason::Gap { gap });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The speeds of the pieces that have none of their own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Speeds {
+    /// Of all but rapid moves, in mm/s.
+    pub wanted: Option<f64>,
+    /// Of rapid moves, in mm/s.
+    pub rapid: f64,
+}
+
+impl From<&Settings> for Speeds {
+    fn from(settings: &Settings) -> Self {
+        Speeds {
+            wanted: settings.speed_mm_per_s,
+            rapid: settings.rapid_mm_per_s,
+        }
+    }
 }
 
 /// A piece as it is taught: by points.
@@ -41,12 +110,13 @@ pub struct Taught {
 /// The pieces of taught points.
 ///
 /// # Errors
-/// Three points that make no arc; a piece without a speed where the settings have none either.
+/// Three points that make no arc; a piece without a speed where there is none for all either.
 pub fn from_points(
     start: Point,
     taught: &[Taught],
-    settings: &Settings,
+    speeds: impl Into<Speeds>,
 ) -> Result<Vec<Piece>, PathError> {
+    let speeds = speeds.into();
     let mut from = start;
     let pieces = taught.iter().enumerate().map(|(piece, taught)| {
         let begin = std::mem::replace(&mut from, taught.to);
@@ -59,7 +129,7 @@ pub fn from_points(
             None => Ok(Course::Line),
             Some(via) => Circle::through(begin, via, taught.to).map(Course::Arc),
         };
-        let speed = taught.speed.or(settings.speed_mm_per_s);
+        let speed = taught.speed.or(speeds.wanted);
         Ok(Piece {
             course: course.map_err(|error| refuse(error.into()))?,
             to: taught.to,
@@ -73,9 +143,10 @@ pub fn from_points(
 /// The pieces of a drawing's or a part program's moves. The path begins at `drawing.start`.
 ///
 /// # Errors
-/// An arc that rises, or whose centre fits no arc; a move without a feed where the settings have no
-/// speed either.
-pub fn from_drawing(drawing: &Drawing, settings: &Settings) -> Result<Vec<Piece>, PathError> {
+/// An arc that rises, or whose centre fits no arc; a move without a feed where there is no speed for
+/// all either.
+pub fn from_drawing(drawing: &Drawing, speeds: impl Into<Speeds>) -> Result<Vec<Piece>, PathError> {
+    let speeds = speeds.into();
     let mut from = drawing.start;
     let pieces = drawing.moves.iter().enumerate().map(|(piece, step)| {
         let begin = std::mem::replace(&mut from, step.to);
@@ -85,11 +156,11 @@ pub fn from_drawing(drawing: &Drawing, settings: &Settings) -> Result<Vec<Piece>
             reason,
         };
         let speed = match step.rapid {
-            true => Some(settings.rapid_mm_per_s),
+            true => Some(speeds.rapid),
             false => step
                 .feed_mm_per_min
                 .map(|feed| feed / 60.0)
-                .or(settings.speed_mm_per_s),
+                .or(speeds.wanted),
         };
         Ok(Piece {
             course: course(begin, step).map_err(|error| refuse(error.into()))?,

@@ -6,15 +6,12 @@ use super::error::{PathError, Reason};
 use super::path::{Course, Piece};
 use super::prepared::{ArcReport, PieceReport, Prepared, Segment, Shape};
 use super::settings::ShortPieces;
-use super::vector::{add, angle_between, distance, scale, sub, unit};
+use super::vector::{add, angle_between, scale, sub, unit};
 use crate::input::Point;
 
 /// Speeds that exceed what fits by no more than this part are taken for it: the rounding of numbers
 /// that were printed and read again.
 const ROUNDING: f64 = 1e-9;
-
-/// How far an arc may be off the path's points, as a part of its length and 1 mm.
-const GAP: f64 = 1e-6;
 
 /// The times of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -130,30 +127,11 @@ fn join(legs: &[PieceReport], timing: &Timing) -> Vec<Segment> {
 
 /// Speed and samples of a piece.
 fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reason> {
-    for point in [from, piece.to] {
-        for (axis, value) in ["x", "y", "z"].into_iter().zip(point) {
-            if !value.is_finite() {
-                return Err(Reason::Coordinate { axis, value });
-            }
-        }
-    }
-    if !(piece.speed.is_finite() && piece.speed > 0.0) {
-        return Err(Reason::Speed { speed: piece.speed });
-    }
-    let length = match &piece.course {
-        Course::Line => distance(from, piece.to),
-        Course::Arc(circle) => circle.length(),
-    };
+    piece.check(from)?;
+    let length = piece.course.length(from, piece.to);
     if length <= 0.0 {
         let points = ["start", "end"];
         return Err(CircleError::Coincident { points }.into());
-    }
-    if let Course::Arc(circle) = &piece.course {
-        let gap = distance(circle.start, from).max(distance(circle.end(), piece.to));
-        let meets = gap <= GAP * (1.0 + length);
-        if !meets {
-            return Err(Reason::Gap { gap });
-        }
     }
     let (sample, half_blend) = (timing.sample_s, timing.half_blend_s());
     let speed = fitting(piece, length, timing)?;
@@ -295,9 +273,6 @@ impl PieceReport {
     /// Direction of motion at its start and at its end.
     #[must_use]
     pub fn directions(&self) -> [Point; 2] {
-        match &self.course {
-            Course::Line => [unit(sub(self.to, self.from)); 2],
-            Course::Arc(circle) => [0.0, circle.angle].map(|angle| circle.direction(angle)),
-        }
+        self.course.directions(self.from, self.to)
     }
 }

@@ -112,28 +112,13 @@ impl Settings {
     /// As [`Settings::check`], of the clock and the sampling period.
     pub fn sample_ticks(&self, widths: &Widths) -> Result<u32, SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
-        let field = "sample_period_ms";
-        let ms = |ticks: f64| ticks * 1e3 / self.clock_hz as f64;
-        let most = (1u64 << widths.period) - 1;
-        let ticks = self.sample_period_ms * self.clock_hz as f64 / 1e3;
-        // Written so that NaN fails.
-        if !(ticks >= LEAST_SAMPLE_TICKS as f64 - 0.5 && ticks <= most as f64 + 0.5) {
-            let allowed = format!(
-                "{} to {} ms: {LEAST_SAMPLE_TICKS} to {most} ticks",
-                ms(LEAST_SAMPLE_TICKS as f64),
-                ms(most as f64)
-            );
-            let problem = format!("is {}", self.sample_period_ms);
-            return Err(refusal(field, problem, allowed));
-        }
-        let whole = whole(ticks).ok_or_else(|| {
-            let [below, above] = [ticks.floor(), ticks.ceil()].map(ms);
-            // Without the rounding of the division.
-            let ticks = (ticks * 1e6).round() / 1e6;
-            let problem = format!("is {}: {ticks} ticks", self.sample_period_ms);
-            refusal(field, problem, format!("whole ticks: {below} or {above}"))
-        })?;
-        Ok(whole as u32)
+        let ticks = LEAST_SAMPLE_TICKS..=(1 << widths.period) - 1;
+        whole_ticks(
+            "sample_period_ms",
+            self.sample_period_ms,
+            self.clock_hz,
+            &ticks,
+        )
     }
 
     /// The times of a path, of which all that depend on the words are within them.
@@ -184,13 +169,42 @@ impl Settings {
     }
 }
 
+/// A time as ticks of the clock, which must be whole and within what is allowed.
+pub(crate) fn whole_ticks(
+    field: &'static str,
+    time_ms: f64,
+    clock_hz: u64,
+    allowed: &RangeInclusive<u64>,
+) -> Result<u32, SettingError> {
+    let ms = |ticks: f64| ticks * 1e3 / clock_hz as f64;
+    let (least, most) = (*allowed.start(), *allowed.end());
+    let ticks = time_ms * clock_hz as f64 / 1e3;
+    // Written so that NaN fails.
+    if !(ticks >= least as f64 - 0.5 && ticks <= most as f64 + 0.5) {
+        let allowed = format!(
+            "{} to {} ms: {least} to {most} ticks",
+            ms(least as f64),
+            ms(most as f64)
+        );
+        return Err(refusal(field, format!("is {time_ms}"), allowed));
+    }
+    let whole = whole(ticks).ok_or_else(|| {
+        let [below, above] = [ticks.floor(), ticks.ceil()].map(ms);
+        // Without the rounding of the division.
+        let ticks = (ticks * 1e6).round() / 1e6;
+        let problem = format!("is {time_ms}: {ticks} ticks");
+        refusal(field, problem, format!("whole ticks: {below} or {above}"))
+    })?;
+    Ok(whole as u32)
+}
+
 /// A whole number within the rounding of decimal fractions.
 fn whole(value: f64) -> Option<u64> {
     let nearest = value.round();
     ((value - nearest).abs() <= WHOLE * nearest).then_some(nearest as u64)
 }
 
-fn within<T: PartialOrd + Display>(
+pub(crate) fn within<T: PartialOrd + Display>(
     field: &'static str,
     value: T,
     allowed: &RangeInclusive<T>,
@@ -202,7 +216,7 @@ fn within<T: PartialOrd + Display>(
     Err(refusal(field, format!("is {value}"), range))
 }
 
-fn refusal(field: &'static str, problem: String, allowed: String) -> SettingError {
+pub(crate) fn refusal(field: &'static str, problem: String, allowed: String) -> SettingError {
     SettingError {
         field,
         problem,

@@ -16,6 +16,7 @@ mod sampler;
 mod tests;
 
 pub(crate) use geometry::{check, norm};
+pub(crate) use profile::junction;
 pub use profile::{Plan, Segment};
 pub use sampler::{Sample, Sampler};
 

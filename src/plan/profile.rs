@@ -157,13 +157,9 @@ fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> Vec<Segment> {
         let peak = nominal_speed(step, limits).min(curve.fastest(limits.acceleration_mm_per_s2));
         let [first, last] = curve.directions();
         let entry = before.map_or(0.0, |(peak_before, direction)| {
-            let turn = norm(std::array::from_fn(|k| first[k] - direction[k]));
-            let junction = if turn <= TANGENT {
-                f64::INFINITY
-            } else {
-                corner / turn
-            };
-            junction.min(peak).min(peak_before)
+            junction(direction, first, corner)
+                .min(peak)
+                .min(peak_before)
         });
         before = Some((peak, last));
         segments.push(Segment {
@@ -177,6 +173,15 @@ fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> Vec<Segment> {
         });
     }
     segments
+}
+
+/// The speed at which the velocity changes by `corner` between two directions.
+pub(crate) fn junction(before: Point, after: Point, corner: f64) -> f64 {
+    let turn = norm(std::array::from_fn(|k| after[k] - before[k]));
+    match turn <= TANGENT {
+        true => f64::INFINITY,
+        false => corner / turn,
+    }
 }
 
 /// Feed or rapid rate of a move, in mm/s.

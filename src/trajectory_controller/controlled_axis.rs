@@ -88,7 +88,7 @@ signals! {
         /// The servo response stands in this tick.
         pub answered: L::Bit,
         /// E: the correction.
-        pub vector: L::I<P> as Analog,
+        pub deviation: L::I<P> as Analog,
         /// Pd: the corrected command.
         pub corrected: L::I<P> as Analog,
         /// The torque.
@@ -188,7 +188,7 @@ impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: us
         );
         Net {
             answered: response.w.fresh,
-            vector: q.corrector.correction,
+            deviation: q.corrector.correction,
             corrected: q.corrector.corrected,
             torque: servo.w.torque,
             saturated: servo.w.saturated,

@@ -1,4 +1,8 @@
 //! The trajectory controller of CN104204977.
+//!
+//! On the control computer: [`segments`] (pieces of a path by their length), [`speed_limits`] and
+//! [`planner`] (how fast it is run where, by [`ramp`]s, as a [`profile`](mod@profile)),
+//! [`profile_record`] (the profile as words), [`settings`], [`widths`].
 
 pub mod arc_angle;
 pub mod axis_row;
@@ -11,15 +15,23 @@ pub mod model_state;
 pub mod path_length;
 pub mod path_point;
 pub mod period_join;
+pub mod planner;
 pub mod point_sequencer;
+pub mod profile;
+pub mod profile_record;
+pub mod ramp;
 pub mod reference_model;
 pub mod scaler;
 pub mod segment_search;
 pub mod segment_store;
+pub mod segments;
 pub mod servo;
 pub mod servo_arithmetic;
+pub mod settings;
 pub mod shifter;
+pub mod speed_limits;
 pub mod vector_correction;
+pub mod widths;
 
 pub use crate::arc_generator::Rounding;
 pub use arc_angle::ArcAngle;

@@ -1,0 +1,74 @@
+//! The length along the path in time (¶0033): pieces of constant jerk.
+
+/// A piece of a profile, from its start to that of the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cubic {
+    /// When it starts.
+    pub t: f64,
+    /// Length along the path there.
+    pub q: f64,
+    /// Speed there.
+    pub v: f64,
+    /// Acceleration there.
+    pub a: f64,
+    /// Its jerk.
+    pub jerk: f64,
+}
+
+impl Cubic {
+    /// Length, speed and acceleration at a time.
+    #[must_use]
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        let Cubic { q, v, a, jerk, .. } = *self;
+        let t = t - self.t;
+        [
+            q + t * (v + t * (a / 2.0 + t * jerk / 6.0)),
+            v + t * (a + t * jerk / 2.0),
+            a + t * jerk,
+        ]
+    }
+}
+
+/// A profile: q(t) from q(0) = 0 to q(T) = L, at rest at both ends.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Profile {
+    /// In order.
+    pub pieces: Vec<Cubic>,
+    /// T.
+    pub duration: f64,
+    /// L.
+    pub length: f64,
+}
+
+impl Profile {
+    /// The piece that a time is in.
+    #[must_use]
+    pub fn index(&self, t: f64) -> usize {
+        let after = self.pieces.partition_point(|piece| piece.t <= t);
+        after.saturating_sub(1)
+    }
+
+    /// Length, speed and acceleration at a time; at rest before the start and from the end on.
+    #[must_use]
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        match self.pieces.get(self.index(t)) {
+            Some(piece) if t < self.duration => piece.at(t.max(0.0)),
+            _ => [self.length, 0.0, 0.0],
+        }
+    }
+
+    /// Appends `time` of a piece, unless that is too short to be told from nothing.
+    pub(super) fn push(&mut self, time: f64, q: f64, [v, a, jerk]: [f64; 3]) {
+        let end = self.duration + time;
+        if end <= self.duration {
+            return;
+        }
+        let steady = |piece: &Cubic| piece.a == 0.0 && piece.jerk == 0.0 && piece.v == v;
+        let joins = a == 0.0 && jerk == 0.0 && self.pieces.last().is_some_and(steady);
+        if !joins {
+            let t = self.duration;
+            self.pieces.push(Cubic { t, q, v, a, jerk });
+        }
+        self.duration = end;
+    }
+}

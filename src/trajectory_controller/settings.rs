@@ -1,0 +1,245 @@
+//! What the trajectory controller is run with: clock and period, machine, motion, reference model.
+
+use super::Rounding;
+use super::ramp::Slope;
+use super::widths::Widths;
+use crate::arc_generator::path::Speeds;
+pub use crate::arc_generator::settings::SettingError;
+use crate::arc_generator::settings::{
+    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SPEED_RANGE_MM_PER_S, refusal, whole_ticks, within,
+};
+use crate::plan::ACCELERATION_RANGE;
+use serde::Deserialize;
+use std::ops::RangeInclusive;
+
+/// Shortest interpolation period in ticks: two points on the path, three model steps and a servo
+/// step are done within it.
+pub const LEAST_PERIOD_TICKS: u64 = 600;
+
+/// Longest jerk time that is accepted, in ms.
+pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;
+
+/// What is added to the path's point before it is given to the servo controls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Correction {
+    /// E = P_r − P_s, worked out in every period (equations (6), (7)).
+    #[default]
+    Vector,
+    /// Nothing.
+    None,
+    /// The prior art (¶0004): along the normal, by what is right at constant speed.
+    Steady,
+}
+
+impl Correction {
+    /// The name it has in scenarios.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Correction::Vector => "vector",
+            Correction::None => "none",
+            Correction::Steady => "steady",
+        }
+    }
+}
+
+/// Settings of a path and its run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Reference clock in Hz.
+    pub clock_hz: u64,
+    /// Δt: interpolation period.
+    pub period_ms: f64,
+    /// Counts per millimetre, of every axis.
+    pub counts_per_mm: f64,
+    /// F: speed of the pieces that have none of their own.
+    pub feed_mm_per_s: Option<f64>,
+    /// Speed of rapid moves.
+    pub rapid_mm_per_s: f64,
+    /// Largest acceleration along the path.
+    pub acceleration_mm_per_s2: f64,
+    /// Largest acceleration across it, on arcs.
+    pub normal_acceleration_mm_per_s2: f64,
+    /// Time in which the acceleration along the path comes and goes; 0 for a trapezoid of speed.
+    pub jerk_time_ms: f64,
+    /// Largest step of the velocity between two segments; 0 stops at every corner.
+    pub corner_mm_per_s: f64,
+    /// K1 in 1/s.
+    pub k1_per_s: f64,
+    /// K2 in 1/s.
+    pub k2_per_s: f64,
+    /// Gains with which the model goes beyond its target are allowed.
+    pub allow_overshoot: bool,
+    /// How the model rounds.
+    pub rounding: Rounding,
+    /// What is added to the path's point.
+    pub correction: Correction,
+}
+
+impl Default for Settings {
+    /// 1 µm a count, 1 ms at 1 MHz, K1 and K2 of the usual machine tool.
+    fn default() -> Self {
+        Self {
+            clock_hz: 1_000_000,
+            period_ms: 1.0,
+            counts_per_mm: 1000.0,
+            feed_mm_per_s: None,
+            rapid_mm_per_s: 200.0,
+            acceleration_mm_per_s2: 2000.0,
+            normal_acceleration_mm_per_s2: 2000.0,
+            jerk_time_ms: 0.0,
+            corner_mm_per_s: 10.0,
+            k1_per_s: 50.0,
+            k2_per_s: 200.0,
+            allow_overshoot: false,
+            rounding: Rounding::default(),
+            correction: Correction::default(),
+        }
+    }
+}
+
+/// What the planner needs of the settings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Guard units of a millimetre.
+    pub units_per_mm: f64,
+    /// Δt in seconds.
+    pub period: f64,
+    /// Ramps, in guard units and seconds.
+    pub slope: Slope,
+    /// Largest acceleration across the path, in mm/s².
+    pub normal_acceleration: f64,
+    /// Largest step of the velocity, in mm/s.
+    pub corner_speed: f64,
+}
+
+/// The reference model's gains as words: parts of 2^(K − 1) a period.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Gains {
+    /// K1·Δt.
+    pub k1: u64,
+    /// K2·Δt.
+    pub k2: u64,
+}
+
+impl From<&Settings> for Speeds {
+    fn from(settings: &Settings) -> Self {
+        Speeds {
+            wanted: settings.feed_mm_per_s,
+            rapid: settings.rapid_mm_per_s,
+        }
+    }
+}
+
+impl Settings {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// Names the first field at fault, its value and what is allowed.
+    pub fn check(&self, widths: &Widths) -> Result<(), SettingError> {
+        self.motion(widths)?;
+        self.gains(widths).map(drop)
+    }
+
+    /// Δt as ticks of the clock.
+    ///
+    /// # Errors
+    /// As [`Settings::check`], of the clock and the period.
+    pub fn period_ticks(&self, widths: &Widths) -> Result<u32, SettingError> {
+        within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
+        let ticks = LEAST_PERIOD_TICKS..=(1 << widths.period) - 1;
+        whole_ticks("period_ms", self.period_ms, self.clock_hz, &ticks)
+    }
+
+    /// What the planner needs.
+    ///
+    /// # Errors
+    /// As [`Settings::check`], of all but the model's gains.
+    pub fn motion(&self, widths: &Widths) -> Result<Motion, SettingError> {
+        let ticks = self.period_ticks(widths)?;
+        within("counts_per_mm", self.counts_per_mm, &COUNTS_PER_MM_RANGE)?;
+        let feed = self.feed_mm_per_s.map(|feed| ("feed_mm_per_s", feed));
+        let rapid = ("rapid_mm_per_s", self.rapid_mm_per_s);
+        for (field, speed) in feed.into_iter().chain([rapid]) {
+            within(field, speed, &SPEED_RANGE_MM_PER_S)?;
+        }
+        let accelerations = [
+            ("acceleration_mm_per_s2", self.acceleration_mm_per_s2),
+            (
+                "normal_acceleration_mm_per_s2",
+                self.normal_acceleration_mm_per_s2,
+            ),
+        ];
+        for (field, acceleration) in accelerations {
+            within(field, acceleration, &ACCELERATION_RANGE)?;
+        }
+        within("jerk_time_ms", self.jerk_time_ms, &JERK_TIME_RANGE_MS)?;
+        let corners = 0.0..=*SPEED_RANGE_MM_PER_S.end();
+        within("corner_mm_per_s", self.corner_mm_per_s, &corners)?;
+        let units_per_mm = self.counts_per_mm * f64::from(widths.guard()).exp2();
+        Ok(Motion {
+            units_per_mm,
+            period: f64::from(ticks) / self.clock_hz as f64,
+            slope: Slope {
+                acceleration: self.acceleration_mm_per_s2 * units_per_mm,
+                jerk_time: self.jerk_time_ms / 1e3,
+            },
+            normal_acceleration: self.normal_acceleration_mm_per_s2,
+            corner_speed: self.corner_mm_per_s,
+        })
+    }
+
+    /// The model's gains, to the nearest word.
+    ///
+    /// # Errors
+    /// As [`Settings::check`], of clock, period and gains. With gains k1, k2 a period: the model is
+    /// stable where k1 < 1 and k2·(2 − k1) < 4, which a word below 2 always is; it does not go beyond
+    /// its target where also 4·k1 <= k2; and it comes to the count it is told to where k1·k2 is a
+    /// guard unit or more, with [`Rounding::Floor`] two of them.
+    pub fn gains(&self, widths: &Widths) -> Result<Gains, SettingError> {
+        let ticks = self.period_ticks(widths)?;
+        let period = f64::from(ticks) / self.clock_hz as f64;
+        let bits = widths.gain - 1;
+        let one = 1u64 << bits;
+        let word = |per_s: f64| (per_s * period * one as f64).round();
+        let [k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
+        let refuse = |field, value: f64, word: f64, allowed: [u64; 2]| {
+            let part = |word: f64| word / one as f64;
+            let [least, most] = allowed.map(|word| part(word as f64));
+            let problem = format!("is {value}: {} a period", part(word));
+            let [first, last] = [least, most].map(|part| part / period);
+            let allowed = format!("{first} to {last}: {least} to {most} a period");
+            refusal(field, problem, allowed)
+        };
+        // What k1·k2 must be, as a product of words.
+        let exact = match self.rounding {
+            Rounding::Nearest => 1u64 << (2 * bits - widths.guard()),
+            Rounding::Floor => 2 << (2 * bits - widths.guard()),
+        };
+        // The K1 that some K2 goes with.
+        let most_k2 = 2 * one - 1;
+        let most_k1 = match self.allow_overshoot {
+            true => one - 1,
+            false => most_k2 / 4,
+        };
+        let allowed = [exact.div_ceil(most_k2), most_k1];
+        // Written so that NaN fails.
+        if !(k1 >= allowed[0] as f64 && k1 <= allowed[1] as f64) {
+            return Err(refuse("k1_per_s", self.k1_per_s, k1, allowed));
+        }
+        let first = k1 as u64;
+        let least = match self.allow_overshoot {
+            true => 1,
+            false => 4 * first,
+        };
+        let allowed = [least.max(exact.div_ceil(first)), most_k2];
+        if !(k2 >= allowed[0] as f64 && k2 <= allowed[1] as f64) {
+            return Err(refuse("k2_per_s", self.k2_per_s, k2, allowed));
+        }
+        Ok(Gains {
+            k1: first,
+            k2: k2 as u64,
+        })
+    }
+}

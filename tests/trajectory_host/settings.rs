@@ -1,0 +1,159 @@
+//! Settings: what is refused, and what gains make of a target.
+
+use super::config;
+use motion_rtl::trajectory_controller::Rounding;
+use motion_rtl::trajectory_controller::settings::{Correction, Settings};
+use motion_rtl::trajectory_controller::widths::Widths;
+use proptest::prelude::*;
+
+const WIDTHS: Widths = Widths::FULL;
+
+fn refused(change: impl FnOnce(&mut Settings)) -> String {
+    let mut settings = Settings::default();
+    change(&mut settings);
+    settings.check(&WIDTHS).unwrap_err().to_string()
+}
+
+#[test]
+fn what_is_not_allowed_is_refused_with_what_is() {
+    assert_eq!(Settings::default().check(&WIDTHS), Ok(()));
+    let gains = Settings::default().gains(&WIDTHS).unwrap();
+    // 0.05 and 0.2 a period.
+    assert_eq!([gains.k1, gains.k2], [1638, 6554]);
+    let field = |text: String| text.split(':').next().unwrap_or_default().to_owned();
+    type Change = fn(&mut Settings);
+    let changes: [(&str, Change); 14] = [
+        ("clock_hz", |s| s.clock_hz = 0),
+        ("period_ms", |s| s.period_ms = 0.0),
+        ("period_ms", |s| s.period_ms = f64::NAN),
+        ("counts_per_mm", |s| s.counts_per_mm = 0.0),
+        ("feed_mm_per_s", |s| s.feed_mm_per_s = Some(0.0)),
+        ("rapid_mm_per_s", |s| s.rapid_mm_per_s = f64::INFINITY),
+        ("acceleration_mm_per_s2", |s| s.acceleration_mm_per_s2 = 0.0),
+        ("normal_acceleration_mm_per_s2", |s| {
+            s.normal_acceleration_mm_per_s2 = -1.0
+        }),
+        ("jerk_time_ms", |s| s.jerk_time_ms = -1.0),
+        ("jerk_time_ms", |s| s.jerk_time_ms = f64::NAN),
+        ("corner_mm_per_s", |s| s.corner_mm_per_s = -1.0),
+        ("k1_per_s", |s| s.k1_per_s = f64::NAN),
+        ("k1_per_s", |s| s.k1_per_s = -50.0),
+        ("k2_per_s", |s| s.k2_per_s = f64::NAN),
+    ];
+    for (name, change) in changes {
+        assert_eq!(field(refused(change)), name);
+    }
+    assert_eq!(
+        refused(|s| s.period_ms = 0.5),
+        "period_ms: is 0.5; allowed: 0.6 to 16777.215 ms: 600 to 16777215 ticks"
+    );
+    assert_eq!(
+        refused(|s| s.period_ms = 1.0005),
+        "period_ms: is 1.0005: 1000.5 ticks; allowed: whole ticks: 1 or 1.001"
+    );
+    assert_eq!(
+        refused(|s| s.k2_per_s = 100.0),
+        "k2_per_s: is 100: 0.100006103515625 a period; \
+         allowed: 199.951171875 to 1999.969482421875: 0.199951171875 to 1.999969482421875 a period"
+    );
+    assert_eq!(
+        refused(|s| s.k1_per_s = 600.0),
+        "k1_per_s: is 600: 0.600006103515625 a period; \
+         allowed: 0.030517578125 to 499.969482421875: 0.000030517578125 to 0.499969482421875 a period"
+    );
+    // Beyond the monotone region, on demand.
+    let beyond = Settings {
+        k1_per_s: 600.0,
+        k2_per_s: 1000.0,
+        allow_overshoot: true,
+        ..Settings::default()
+    };
+    assert_eq!(beyond.check(&WIDTHS), Ok(()));
+    assert_eq!(
+        field(refused(|s| (s.k1_per_s, s.allow_overshoot) = (1000.0, true))),
+        "k1_per_s"
+    );
+    assert_eq!(field(refused(|s| s.k2_per_s = 2000.0)), "k2_per_s");
+}
+
+#[test]
+fn the_word_holds_the_product_of_both_gains() {
+    // 2^-9 and 2^-7 of a period: 16 bits, all there are.
+    let gains = |k1: f64, k2: f64, rounding| Settings {
+        k1_per_s: k1 * 1e3,
+        k2_per_s: k2 * 1e3,
+        rounding,
+        ..Settings::default()
+    };
+    let two_to = |exponent: i32| f64::from(exponent).exp2();
+    for (rounding, bits) in [(Rounding::Nearest, 16), (Rounding::Floor, 15)] {
+        let (k1, k2) = (two_to(-9), two_to(9 - bits));
+        assert_eq!(gains(k1, k2, rounding).check(&WIDTHS), Ok(()));
+        let less = gains(k1, k2 - two_to(-15), rounding);
+        assert_eq!(less.check(&WIDTHS).unwrap_err().field, "k2_per_s");
+    }
+}
+
+#[test]
+fn units_are_those_of_the_words() {
+    let settings = Settings {
+        jerk_time_ms: 20.0,
+        ..Settings::default()
+    };
+    let motion = settings.motion(&WIDTHS).unwrap();
+    assert_eq!(motion.units_per_mm, 65_536_000.0);
+    assert_eq!(motion.period, 1e-3);
+    assert_eq!(motion.slope.acceleration, 2000.0 * 65_536_000.0);
+    assert_eq!(motion.slope.jerk_time, 0.02);
+    let names = [Correction::Vector, Correction::None, Correction::Steady].map(Correction::name);
+    assert_eq!(names, ["vector", "none", "steady"]);
+}
+
+/// Positions in units of 2^-16 count from rest at 0 on, by the model's equations.
+fn response(target: i128, [k1, k2]: [i128; 2], rounding: Rounding) -> Vec<i128> {
+    let (mut p, mut v) = (0i128, 0i128);
+    let mut positions = vec![0];
+    for _ in 0..1_000_000 {
+        let twice = k2 * (k1 * (target - p) - (v << 15));
+        let amount = match rounding {
+            Rounding::Nearest => (twice.abs() + (1 << 29)) >> 30,
+            Rounding::Floor => twice.abs() >> 30,
+        };
+        let before = (p, v);
+        (p, v) = (p + v, v + amount * twice.signum());
+        positions.push(p);
+        if before == (p, v) {
+            break;
+        }
+    }
+    positions
+}
+
+proptest! {
+    #![proptest_config(config(1000))]
+
+    #[test]
+    fn allowed_gains_come_to_the_count_without_going_beyond_it(
+        k1 in -15.0..0.0f64,
+        k2 in -15.0..1.0f64,
+        counts in 1..1i64 << 20,
+        floor in any::<bool>(),
+    ) {
+        let settings = Settings {
+            k1_per_s: 1e3 * k1.exp2(),
+            k2_per_s: 1e3 * k2.exp2(),
+            rounding: if floor { Rounding::Floor } else { Rounding::Nearest },
+            ..Settings::default()
+        };
+        let Ok(gains) = settings.gains(&WIDTHS) else {
+            // Refused: nothing is said of them.
+            return Ok(());
+        };
+        let target = i128::from(counts) << 16;
+        let gains = [i128::from(gains.k1), i128::from(gains.k2)];
+        let positions = response(target, gains, settings.rounding);
+        let nearest = |position: i128| (position + (1 << 15)) >> 16;
+        prop_assert_eq!(nearest(positions[positions.len() - 1]), i128::from(counts));
+        prop_assert!(positions.iter().all(|&p| nearest(p) <= i128::from(counts)));
+    }
+}
