@@ -142,7 +142,7 @@ impl Conventional {
     }
 }
 
-/// [2]: the matrix of a rotation, each product made once.
+/// \[2\]: the matrix of a rotation, each product made once.
 fn rodrigues(axis: Point, angle: f64, count: &mut Operations) -> Matrix {
     let (sine, cosine) = (count.sine(angle), count.cosine(angle));
     let vers = count.minus(1.0, cosine);
@@ -169,7 +169,7 @@ fn rodrigues(axis: Point, angle: f64, count: &mut Operations) -> Matrix {
     ]
 }
 
-/// [9], [4]: the vector times the matrix, and the centre added.
+/// \[9\], \[4\]: the vector times the matrix, and the centre added.
 fn rotate(matrix: &Matrix, vector: &mut Point, centre: Point, count: &mut Operations) -> Point {
     let old = *vector;
     *vector = matrix.map(|row| {
@@ -180,7 +180,7 @@ fn rotate(matrix: &Matrix, vector: &mut Point, centre: Point, count: &mut Operat
     std::array::from_fn(|k| count.plus(centre[k], vector[k]))
 }
 
-/// One sample of an arc as the patent has it: [9] with a matrix that was computed once.
+/// One sample of an arc as the patent has it: \[9\] with a matrix that was computed once.
 #[must_use]
 pub fn rotation(matrix: &Matrix, vector: &mut Point, centre: Point) -> (Point, Operations) {
     let mut count = Operations::default();
@@ -188,7 +188,7 @@ pub fn rotation(matrix: &Matrix, vector: &mut Point, centre: Point) -> (Point, O
     (point, count)
 }
 
-/// The multiples of 1, h and (2 − h)h³ that [5] has for the points A⁻, A, A⁺: computed once.
+/// The multiples of 1, h and (2 − h)h³ that \[5\] has for the points A⁻, A, A⁺: computed once.
 #[must_use]
 pub fn blend_terms(before: Point, corner: Point, behind: Point) -> [Point; 3] {
     let to_corner = sub(corner, before);
@@ -196,7 +196,7 @@ pub fn blend_terms(before: Point, corner: Point, behind: Point) -> [Point; 3] {
     [before, to_corner.map(|x| 2.0 * x), bend]
 }
 
-/// One sample of a blend as [5] is written, at h.
+/// One sample of a blend as \[5\] is written, at h.
 #[must_use]
 pub fn blend(terms: &[Point; 3], h: f64) -> (Point, Operations) {
     let mut count = Operations::default();

@@ -1,4 +1,4 @@
-//! Difference engine of one coordinate: equation [5] and [10] of the text with four adders.
+//! Difference engine of one coordinate: equation \[5\] and \[10\] of the text with four adders.
 //!
 //! ```text
 //!                     ┌───────────────────┐

@@ -13,7 +13,7 @@
 //!
 //! On the control computer: [`circle`] (an arc from three points), [`path`] (pieces from taught
 //! points or a drawing), [`prepare`](mod@prepare) (pieces as segments), [`record`] (segments as
-//! words), [`bounds`] (how far the rotation may be off), [`reference`] (the same samples by
+//! words), [`bounds`] (how far the rotation may be off), [`mod@reference`] (the same samples by
 //! division), [`conventional`] (what the patent compares itself with), [`job`] (a path on the
 //! circuit), [`measure`] (what came out). `rtl_notes/arc_generator.md` is the note of this circuit.
 

@@ -9,7 +9,7 @@
 //!                       └──────────────────┘
 //! ```
 //!
-//! Equation [4] of the text, OPi = OG + GPi. On a blend or a line the origin is 0 and the
+//! Equation \[4\] of the text, OPi = OG + GPi. On a blend or a line the origin is 0 and the
 //! difference engine gives the point itself.
 
 use crate::check::{Invariants, Specified, require};

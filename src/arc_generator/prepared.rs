@@ -37,7 +37,7 @@ pub struct Segment {
 /// The points of a segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
-    /// [5], [10]: a quartic from one point to another, past the corner between them.
+    /// \[5\], \[10\]: a quartic from one point to another, past the corner between them.
     Blend {
         /// A⁻: where it begins; the corner itself if that is at rest.
         before: Point,
@@ -245,7 +245,7 @@ impl PieceReport {
     }
 }
 
-/// [5]: x = A⁻ + 2(A − A⁻)h + (A⁻ − 2A + A⁺)(2 − h)h³.
+/// \[5\]: x = A⁻ + 2(A − A⁻)h + (A⁻ − 2A + A⁺)(2 − h)h³.
 fn blend(before: Point, corner: Point, behind: Point, h: f64) -> Point {
     // As weights of the three points: at both ends exactly the point.
     let (rest, third) = (1.0 - h, h * h * h);

@@ -58,7 +58,7 @@ pub fn angle_between(a: Point, b: Point) -> f64 {
     norm(cross(a, b)).atan2(dot(a, b))
 }
 
-/// [2], [7]: the matrix that rotates by `angle` around the unit vector `axis`.
+/// \[2\], \[7\]: the matrix that rotates by `angle` around the unit vector `axis`.
 #[must_use]
 pub fn rodrigues(axis: Point, angle: f64) -> Matrix {
     let (sin, cos) = angle.sin_cos();
