@@ -299,7 +299,7 @@ const NEVER: &[(&str, u32)] = &[
     ("difference_engine.d4.by_whole", 0),
     ("difference_engine.d4.by_part", 0),
     // Coefficients of 8 bits.
-    ("rotation_control.bit_index", 4),
+    ("coefficient_control.bit_index", 4),
     ("rotation.control.bit_index", 4),
 ];
 

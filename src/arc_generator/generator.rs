@@ -9,11 +9,11 @@
 //!                          └───────────────┘
 //! ```
 
-use super::{
-    DifferenceEngine, PositionCommand, Rotation, Rounding, SegmentMemory, SegmentSequencer,
+use super::{PositionCommand, Rotation, Rounding, position_command, rotation};
+use crate::blocks::{
+    DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
+    enable_counter, record_memory, record_sequencer,
 };
-use super::{difference_engine, position_command, rotation, segment_memory, segment_sequencer};
-use crate::blocks::{EnableCounter, enable_counter};
 use crate::kernel::{Circuit, Instance};
 use crate::logic::Logic;
 use crate::signals;
@@ -56,9 +56,9 @@ signals! {
         /// Sampling time.
         pub sample_counter: enable_counter::Reg<L, T>,
         /// Coefficients of the segments to come.
-        pub memory: segment_memory::Reg<L, A, K, D>,
+        pub memory: record_memory::Reg<L, A, K, D>,
         /// Segment after segment.
-        pub sequencer: segment_sequencer::Reg<L, F, N>,
+        pub sequencer: record_sequencer::Reg<L, F, N>,
         /// Blends and lines, x.
         pub engine_x: difference_engine::Reg<L, P, F>,
         /// Blends and lines, y.
@@ -94,9 +94,9 @@ signals! {
         /// Sampling time.
         pub sample_counter: Instance<EnableCounter<T>, L>,
         /// Coefficients of the segments to come.
-        pub memory: Instance<SegmentMemory<A, K, D>, L>,
+        pub memory: Instance<RecordMemory<A, K, D>, L>,
         /// Segment after segment.
-        pub sequencer: Instance<SegmentSequencer<F, N, D>, L>,
+        pub sequencer: Instance<RecordSequencer<F, N, D>, L>,
         /// Blends and lines, x.
         pub engine_x: Instance<DifferenceEngine<P, F, D>, L>,
         /// Blends and lines, y.
@@ -124,7 +124,7 @@ signals! {
         /// A path is under way.
         pub busy: L::Bit,
         /// The segment that makes the points.
-        pub kind: L::U<2> as States(segment_memory::KINDS),
+        pub kind: L::U<2> as States(record_memory::KINDS),
         /// A sampling time began before its point was ready; until the next path begins.
         pub late: L::Bit,
         /// The path ended in motion, since no segment waited; until the next path begins.
@@ -152,9 +152,9 @@ pub struct ArcGenerator<
     /// Sampling time.
     pub sample_counter: EnableCounter<T>,
     /// Coefficients of the segments to come.
-    pub memory: SegmentMemory<A, K, D>,
+    pub memory: RecordMemory<A, K, D>,
     /// Segment after segment.
-    pub sequencer: SegmentSequencer<F, N, D>,
+    pub sequencer: RecordSequencer<F, N, D>,
     /// Blends and lines, for x, y and z.
     pub engines: [DifferenceEngine<P, F, D>; 3],
     /// Arcs.
@@ -177,7 +177,7 @@ impl<
 > ArcGenerator<W, P, C, S, F, D, N, A, K, T>
 {
     /// Ticks from `start` to the tick from which on a sampling time takes the first point.
-    pub const FIRST: u64 = SegmentMemory::<A, K, D>::LATENCY + 2;
+    pub const FIRST: u64 = RecordMemory::<A, K, D>::LATENCY + 2;
     /// The shortest sampling time, in ticks, in which the first point of an arc is made behind the
     /// last of the segment before.
     pub const LEAST_PERIOD: u64 = Self::FIRST + 1 + Rotation::<P, C, S, D>::LATENCY + 1;
@@ -186,8 +186,8 @@ impl<
     pub fn new(rounding: Rounding) -> Self {
         ArcGenerator {
             sample_counter: EnableCounter,
-            memory: SegmentMemory,
-            sequencer: SegmentSequencer,
+            memory: RecordMemory,
+            sequencer: RecordSequencer,
             engines: [0, 1, 2].map(DifferenceEngine::new),
             rotation: Rotation::new(rounding),
             commands: [0, 1, 2].map(|coordinate| PositionCommand { coordinate }),
@@ -245,7 +245,7 @@ impl<
         let memory = Instance::settle(
             &self.memory,
             &q.memory,
-            segment_memory::In {
+            record_memory::In {
                 write: i.write,
                 write_word: i.write_word,
                 write_data: i.write_data,
@@ -270,7 +270,7 @@ impl<
         let sequencer = Instance::settle(
             &self.sequencer,
             &q.sequencer,
-            segment_sequencer::In {
+            record_sequencer::In {
                 start: i.start,
                 halt: i.halt,
                 sample: sample_counter.w.enable,

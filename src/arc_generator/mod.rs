@@ -20,8 +20,6 @@
 pub mod bounds;
 pub mod circle;
 pub mod conventional;
-pub mod difference_column;
-pub mod difference_engine;
 pub mod error;
 pub mod generator;
 pub mod job;
@@ -33,23 +31,15 @@ pub mod prepared;
 pub mod record;
 pub mod reference;
 pub mod rotation;
-pub mod rotation_control;
 pub mod rotation_row;
-pub mod segment_memory;
-pub mod segment_sequencer;
 pub mod settings;
 pub mod vector;
 pub mod widths;
 
-pub use difference_column::DifferenceColumn;
-pub use difference_engine::DifferenceEngine;
 pub use generator::ArcGenerator;
 pub use position_command::PositionCommand;
 pub use rotation::Rotation;
-pub use rotation_control::RotationControl;
 pub use rotation_row::RotationRow;
-pub use segment_memory::SegmentMemory;
-pub use segment_sequencer::SegmentSequencer;
 
 /// How the rotation rounds its points to guard units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]

@@ -1,4 +1,4 @@
-//! Segments as records: 32 words each, as the segment memory holds them.
+//! Segments as records: 32 words each, as the record memory holds them.
 //!
 //! | word | blend, line | arc |
 //! |---|---|---|

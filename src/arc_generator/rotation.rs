@@ -11,7 +11,8 @@
 //! Nine products and six additions for each point, as a bit-serial multiply-accumulate in each
 //! row. All three coordinates change at once.
 
-use super::{RotationControl, RotationRow, Rounding, rotation_control, rotation_row};
+use super::{RotationRow, Rounding, rotation_row};
+use crate::blocks::{CoefficientControl, coefficient_control};
 use crate::kernel::{Circuit, Instance};
 use crate::logic::Logic;
 use crate::signals;
@@ -36,7 +37,7 @@ signals! {
     /// Registers of the blocks.
     pub struct Reg<L, const P: usize, const C: usize, const S: usize> {
         /// Which bit it is at.
-        pub control: rotation_control::Reg<L>,
+        pub control: coefficient_control::Reg<L>,
         /// X.
         pub row_x: rotation_row::Reg<L, P, C, S>,
         /// Y.
@@ -50,7 +51,7 @@ signals! {
     /// Nets of the blocks, and the ports out.
     pub struct Net<L, const P: usize, const C: usize, const S: usize, const D: usize> {
         /// Which bit it is at.
-        pub control: Instance<RotationControl<C>, L>,
+        pub control: Instance<CoefficientControl<C>, L>,
         /// X.
         pub row_x: Instance<RotationRow<P, C, S, D>, L>,
         /// Y.
@@ -74,7 +75,7 @@ signals! {
 #[derive(Debug, Clone, Default)]
 pub struct Rotation<const P: usize, const C: usize, const S: usize, const D: usize> {
     /// Which bit it is at.
-    pub control: RotationControl<C>,
+    pub control: CoefficientControl<C>,
     /// X.
     pub row_x: RotationRow<P, C, S, D>,
     /// Y.
@@ -85,7 +86,7 @@ pub struct Rotation<const P: usize, const C: usize, const S: usize, const D: usi
 
 impl<const P: usize, const C: usize, const S: usize, const D: usize> Rotation<P, C, S, D> {
     /// Ticks from `step` to the new point.
-    pub const LATENCY: u64 = RotationControl::<C>::LATENCY;
+    pub const LATENCY: u64 = CoefficientControl::<C>::LATENCY;
 
     /// A rotation that rounds by `rounding`.
     pub fn new(rounding: Rounding) -> Self {
@@ -94,7 +95,7 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Rotation<P,
             rounding,
         };
         Rotation {
-            control: RotationControl,
+            control: CoefficientControl,
             row_x: row(0),
             row_y: row(1),
             row_z: row(2),
@@ -116,7 +117,7 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
         let control = Instance::settle(
             &self.control,
             &q.control,
-            rotation_control::In {
+            coefficient_control::In {
                 step: i.step,
                 halt: i.halt,
             },

@@ -1,9 +1,19 @@
 //! Blocks that more than one circuit is made of.
 
+pub mod coefficient_control;
+pub mod difference_column;
+pub mod difference_engine;
 pub mod enable_counter;
 pub mod mul_div;
 pub mod quadrature_counter;
+pub mod record_memory;
+pub mod record_sequencer;
 
+pub use coefficient_control::CoefficientControl;
+pub use difference_column::DifferenceColumn;
+pub use difference_engine::DifferenceEngine;
 pub use enable_counter::EnableCounter;
 pub use mul_div::MulDiv;
 pub use quadrature_counter::QuadratureCounter;
+pub use record_memory::RecordMemory;
+pub use record_sequencer::RecordSequencer;

@@ -13,11 +13,10 @@ use super::{
     ControlledAxis, LengthClamp, PathLength, PathPoint, PeriodJoin, ReferenceModel, Rounding,
     controlled_axis, length_clamp, path_length, path_point, period_join, reference_model,
 };
-use crate::arc_generator::{
-    DifferenceEngine, SegmentMemory, SegmentSequencer, difference_engine, segment_memory,
-    segment_sequencer,
+use crate::blocks::{
+    DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
+    enable_counter, record_memory, record_sequencer,
 };
-use crate::blocks::{EnableCounter, enable_counter};
 use crate::kernel::{Circuit, Instance, Nothing};
 use crate::logic::Logic;
 use crate::signals;
@@ -128,9 +127,9 @@ const H: usize,
         /// Interpolation period.
         pub period_counter: enable_counter::Reg<L, U>,
         /// Records of the profile.
-        pub memory: segment_memory::Reg<L, RECORDS, ADDRESS, D>,
+        pub memory: record_memory::Reg<L, RECORDS, ADDRESS, D>,
         /// Phase after phase.
-        pub sequencer: segment_sequencer::Reg<L, F, N>,
+        pub sequencer: record_sequencer::Reg<L, F, N>,
         /// Interpolation and acceleration 1.
         pub profile: difference_engine::Reg<L, P, F>,
         /// qc.
@@ -174,9 +173,9 @@ const H: usize,
         /// Interpolation period.
         pub period_counter: Instance<EnableCounter<U>, L>,
         /// Records of the profile.
-        pub memory: Instance<SegmentMemory<RECORDS, ADDRESS, D>, L>,
+        pub memory: Instance<RecordMemory<RECORDS, ADDRESS, D>, L>,
         /// Phase after phase.
-        pub sequencer: Instance<SegmentSequencer<F, N, D>, L>,
+        pub sequencer: Instance<RecordSequencer<F, N, D>, L>,
         /// Interpolation and acceleration 1.
         pub profile: Instance<DifferenceEngine<P, F, D>, L>,
         /// qc.
@@ -240,9 +239,9 @@ pub struct TrajectoryController<
     /// Interpolation period.
     pub period_counter: EnableCounter<U>,
     /// Records of the profile.
-    pub memory: SegmentMemory<RECORDS, ADDRESS, D>,
+    pub memory: RecordMemory<RECORDS, ADDRESS, D>,
     /// Phase after phase.
-    pub sequencer: SegmentSequencer<F, N, D>,
+    pub sequencer: RecordSequencer<F, N, D>,
     /// Interpolation and acceleration 1.
     pub profile: DifferenceEngine<P, F, D>,
     /// qc.
@@ -284,8 +283,8 @@ impl<
     pub fn new(correction: Correction) -> Self {
         TrajectoryController {
             period_counter: EnableCounter,
-            memory: SegmentMemory,
-            sequencer: SegmentSequencer,
+            memory: RecordMemory,
+            sequencer: RecordSequencer,
             profile: DifferenceEngine::new(0),
             length: PathLength,
             clamp: LengthClamp,
@@ -334,7 +333,7 @@ impl<
         let memory = Instance::settle(
             &self.memory,
             &q.memory,
-            segment_memory::In {
+            record_memory::In {
                 write: i.write,
                 write_word: i.write_word,
                 write_data: i.write_data,
@@ -347,7 +346,7 @@ impl<
         let sequencer = Instance::settle(
             &self.sequencer,
             &q.sequencer,
-            segment_sequencer::In {
+            record_sequencer::In {
                 start: i.start,
                 halt: i.halt,
                 sample: period_counter.w.enable,

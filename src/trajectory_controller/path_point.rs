@@ -16,7 +16,7 @@ use super::{
     ArcAngle, AxisRow, Cordic, PointSequencer, SegmentSearch, SegmentStore, arc_angle, axis_row,
     cordic, point_sequencer, segment_search, segment_store,
 };
-use crate::arc_generator::{RotationControl, rotation_control};
+use crate::blocks::{CoefficientControl, coefficient_control};
 use crate::kernel::{Circuit, Instance};
 use crate::logic::Logic;
 use crate::signals;
@@ -78,7 +78,7 @@ signals! {
         /// Angle to point.
         pub cordic: cordic::Reg<L, R, H>,
         /// Which bit the axes are at.
-        pub control: rotation_control::Reg<L>,
+        pub control: coefficient_control::Reg<L>,
         /// The axes.
         pub axes: [axis_row::Reg<L, P, C, S>; AXES] as Elements(&AXIS_NAMES),
     }
@@ -111,7 +111,7 @@ signals! {
         /// Angle to point.
         pub cordic: Instance<Cordic<R, H>, L>,
         /// Which bit the axes are at.
-        pub control: Instance<RotationControl<C>, L>,
+        pub control: Instance<CoefficientControl<C>, L>,
         /// The axes.
         pub axes: [Instance<AxisRow<P, R, C, S, D>, L>; AXES] as Elements(&AXIS_NAMES),
         /// The point.
@@ -151,7 +151,7 @@ pub struct PathPoint<
     /// Angle to point.
     pub cordic: Cordic<R, H>,
     /// Which bit the axes are at.
-    pub control: RotationControl<C>,
+    pub control: CoefficientControl<C>,
     /// The axes.
     pub axes: [AxisRow<P, R, C, S, D>; AXES],
 }
@@ -177,7 +177,7 @@ impl<
             sequencer: PointSequencer,
             measure: ArcAngle,
             cordic: Cordic::default(),
-            control: RotationControl,
+            control: CoefficientControl,
             axes: from_fn(|axis| AxisRow {
                 coordinate: axis as u64,
             }),
@@ -254,7 +254,7 @@ impl<
         let control = Instance::settle(
             &self.control,
             &q.control,
-            rotation_control::In {
+            coefficient_control::In {
                 step: q.sequencer.project,
                 halt: false.into(),
             },

@@ -1,8 +1,8 @@
 //! The difference engine against the polynomial of the text.
 
 use crate::program::differences;
-use motion_rtl::arc_generator::DifferenceEngine;
-use motion_rtl::arc_generator::difference_engine::{In, Reg};
+use motion_rtl::blocks::DifferenceEngine;
+use motion_rtl::blocks::difference_engine::{In, Reg};
 use motion_rtl::kernel::Simulator;
 use motion_rtl::logic::Sim;
 use proptest::prelude::*;

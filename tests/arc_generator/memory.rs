@@ -1,8 +1,8 @@
-//! The segment memory against a queue.
+//! The record memory against a queue.
 
 use crate::below;
-use motion_rtl::arc_generator::SegmentMemory;
-use motion_rtl::arc_generator::segment_memory::{In, RECORD};
+use motion_rtl::blocks::RecordMemory;
+use motion_rtl::blocks::record_memory::{In, RECORD};
 use motion_rtl::check::Random;
 use motion_rtl::kernel::Simulator;
 use motion_rtl::logic::Sim;
@@ -54,7 +54,7 @@ impl Program {
 
 #[test]
 fn it_is_a_queue_of_records() {
-    let circuit = SegmentMemory::<1, 6, 8>;
+    let circuit = RecordMemory::<1, 6, 8>;
     let mut simulator = Simulator::new(&circuit);
     let mut random = Random::new(1);
     let mut program = Program::default();
@@ -116,7 +116,7 @@ fn it_is_a_queue_of_records() {
 
 #[test]
 fn a_record_takes_its_latency() {
-    let circuit = SegmentMemory::<1, 6, 8>;
+    let circuit = RecordMemory::<1, 6, 8>;
     let mut simulator = Simulator::new(&circuit);
     for tick in 0..200 {
         let i = In::<Sim, 8> {
@@ -132,7 +132,7 @@ fn a_record_takes_its_latency() {
         let q = simulator.registers();
         let shown = tick + 1;
         assert_eq!(q.load.get(), (52..84).contains(&shown), "tick {shown}");
-        let done = shown == 50 + SegmentMemory::<1, 6, 8>::LATENCY;
+        let done = shown == 50 + RecordMemory::<1, 6, 8>::LATENCY;
         assert_eq!(q.loaded.get(), done, "tick {shown}");
         if q.load.get() {
             assert_eq!(

@@ -2,16 +2,16 @@
 //! the circuit.
 
 use super::Job;
-use motion_rtl::arc_generator::RotationControl;
 use motion_rtl::arc_generator::conventional::{
     Conventional, DIFFERENCE_ENGINE, blend, blend_terms, rotation,
 };
 use motion_rtl::arc_generator::vector::rodrigues;
 use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::blocks::CoefficientControl;
 use serde::Serialize;
 
 /// Ticks of a step of the rotation.
-const ROTATION_TICKS: u64 = RotationControl::<{ Widths::FULL.coefficient as usize }>::LATENCY;
+const ROTATION_TICKS: u64 = CoefficientControl::<{ Widths::FULL.coefficient as usize }>::LATENCY;
 
 /// Operations of a sample.
 #[derive(Debug, Serialize)]

@@ -1,8 +1,5 @@
 use super::make::second;
-use crate::arc_generator::{
-    ArcGenerator, DifferenceColumn, DifferenceEngine, PositionCommand, Rotation, RotationControl,
-    RotationRow, Rounding, SegmentMemory, SegmentSequencer,
-};
+use crate::arc_generator::{ArcGenerator, PositionCommand, Rotation, RotationRow, Rounding};
 use crate::registry::Entry;
 use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
 
@@ -14,40 +11,8 @@ fn rounding(number: u64) -> Rounding {
     }
 }
 
-/// A first difference of x.
-fn column<const P: usize, const F: usize, const D: usize>() -> DifferenceColumn<P, F, D> {
-    DifferenceEngine::new(0).d1
-}
-
 /// The circuits of JPH0743606B2.
 pub(super) const CIRCUITS: &[Entry] = &[
-    entry!(
-        DifferenceColumn<40, 41, 42>,
-        column(),
-        Some(3),
-        "JPH0743606B2 [5], [10]: a difference",
-        ["P" = 40, "F" = 41, "D" = 42],
-        "width of wholes and parts",
-        proved_at!(3; [4 8], |given, W| column::<W, W, W>())
-    ),
-    entry!(
-        DifferenceEngine<40, 41, 42>,
-        DifferenceEngine::default(),
-        None,
-        "JPH0743606B2 [5], [10]",
-        ["P" = 40, "F" = 41, "D" = 42],
-        "width of points",
-        some_widths!([4 8], |given, W| DifferenceEngine::<W, { 2 * W + 1 }, { 2 * W + 1 }>::default())
-    ),
-    entry!(
-        RotationControl<42>,
-        RotationControl,
-        Some(4),
-        "JPH0743606B2 (ロ), which bit",
-        ["C" = 42],
-        "width of a coefficient",
-        proved_at!(4; [4 8], |given, W| RotationControl::<W>)
-    ),
     entry!(
         RotationRow<40, 42, 43, 42>,
         RotationRow::default(),
@@ -81,24 +46,6 @@ pub(super) const CIRCUITS: &[Entry] = &[
         proved_at!(2; [4 8], |given, W| {
             PositionCommand::<W, { 2 * W }, { 2 * W }>::default()
         })
-    ),
-    entry!(
-        SegmentMemory<4, 9, 42>,
-        SegmentMemory,
-        None,
-        "JPH0743606B2, coefficients",
-        ["A" = 4, "K" = 9, "D" = 42],
-        "width of a word (two records)",
-        some_widths!([4 8], |given, W| SegmentMemory::<1, 6, W>)
-    ),
-    entry!(
-        SegmentSequencer<41, 20, 42>,
-        SegmentSequencer,
-        Some(2),
-        "JPH0743606B2 (イ), (ロ), (ハ)",
-        ["F" = 41, "N" = 20, "D" = 42],
-        "width of moduli; a word has three bits more",
-        proved_at!(2; [4 8], |given, W| SegmentSequencer::<W, W, { W + 3 }>)
     ),
     entry!(
         ArcGenerator,

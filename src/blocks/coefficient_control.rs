@@ -1,10 +1,10 @@
-//! Control of the rotation stage: which bit of the coefficients it is at.
+//! Coefficient control: which bit of its coefficients a sequential product is at.
 //!
 //! ```text
-//!         ┌──────────────────┐
-//!  step ─▶│                  ├──▶ copy, fraction, top, commit
-//!  halt ─▶│ rotation_control ├──▶ busy, done
-//!         └──────────────────┘
+//!         ┌─────────────────────┐
+//!  step ─▶│                     ├──▶ copy, fraction, top, commit
+//!  halt ─▶│ coefficient_control ├──▶ busy, done
+//!         └─────────────────────┘
 //! ```
 //!
 //! A coefficient has two's complement bits of weights 2^−B … 2^−1, 1 and −2. The rows take them
@@ -57,15 +57,15 @@ signals! {
 ///
 /// `done` is high B + 4 ticks after `step`.
 #[derive(Debug, Clone, Default)]
-pub struct RotationControl<const C: usize>;
+pub struct CoefficientControl<const C: usize>;
 
-impl<const C: usize> RotationControl<C> {
+impl<const C: usize> CoefficientControl<C> {
     /// Ticks from `step` to `done`.
     pub const LATENCY: u64 = C as u64 + 2;
 }
 
-impl<const C: usize> Circuit for RotationControl<C> {
-    const NAME: &'static str = "rotation_control";
+impl<const C: usize> Circuit for CoefficientControl<C> {
+    const NAME: &'static str = "coefficient_control";
     const ABOUT: &'static str = "counts the bits of the rotation's coefficients";
     type In<L: Logic> = In<L>;
     type Reg<L: Logic> = Reg<L>;
@@ -100,7 +100,7 @@ impl<const C: usize> Circuit for RotationControl<C> {
     }
 }
 
-impl<const C: usize> Specified for RotationControl<C> {
+impl<const C: usize> Specified for CoefficientControl<C> {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step("a step is taken where none is under way", |now, next| {

@@ -1,4 +1,5 @@
-//! Difference engine of one coordinate: equation \[5\] and \[10\] of the text with four adders.
+//! Difference engine of one coordinate: equations \[5\] and \[10\] of JPH0743606B2
+//! with four adders.
 //!
 //! ```text
 //!                     ┌───────────────────┐

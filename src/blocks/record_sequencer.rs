@@ -1,16 +1,16 @@
-//! Segment sequencer: one segment after the other, one point for every sampling time.
+//! Record sequencer: one segment after the other, one point for every sampling time.
 //!
 //! ```text
 //!                     ┌───────────────────┐
 //!  start, halt ──────▶│                   ├──▶ take
 //!  sample ───────────▶│                   ├──▶ advance, rotate
-//!  available, loaded ▶│ segment_sequencer ├──▶ present, sampled
+//!  available, loaded ▶│ record_sequencer  ├──▶ present, sampled
 //!  load, word, data ─▶│                   ├──▶ kind, rotating, modulus
 //!  rotated ──────────▶│                   ├──▶ busy, late, starved
 //!                     └───────────────────┘
 //! ```
 //!
-//! A → A⁺ → (B) → C⁻ → C of the text is a blend, an arc and a blend; with lines it becomes line,
+//! A → A⁺ → (B) → C⁻ → C of JPH0743606B2 is a blend, an arc and a blend; with lines it becomes line,
 //! blend, arc, blend, line. The sequencer does not tell these apart: each segment begins at the
 //! point where the one before it has ended, and says how many samples it has.
 //!
@@ -19,7 +19,7 @@
 //! first. The first point of a path is the beginning of its first segment. A segment of 0 samples
 //! gives the point where it begins.
 
-use super::segment_memory::{ARC, KINDS};
+use super::record_memory::{ARC, KINDS};
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::Circuit;
 use crate::logic::{Bit, Logic, Sim, Unsigned};
@@ -112,10 +112,10 @@ signals! {
 /// Sequencer for segments of up to 2^`N` − 1 samples, moduli of `F` bits and records with words of
 /// `D` bits.
 #[derive(Debug, Clone, Default)]
-pub struct SegmentSequencer<const F: usize, const N: usize, const D: usize>;
+pub struct RecordSequencer<const F: usize, const N: usize, const D: usize>;
 
-impl<const F: usize, const N: usize, const D: usize> Circuit for SegmentSequencer<F, N, D> {
-    const NAME: &'static str = "segment_sequencer";
+impl<const F: usize, const N: usize, const D: usize> Circuit for RecordSequencer<F, N, D> {
+    const NAME: &'static str = "record_sequencer";
     const ABOUT: &'static str = "segment after segment, a point for every sampling time";
     type In<L: Logic> = In<L, D>;
     type Reg<L: Logic> = Reg<L, F, N>;
@@ -201,7 +201,7 @@ fn after<const F: usize, const N: usize, const D: usize>(
     }
 }
 
-impl<const F: usize, const N: usize, const D: usize> Specified for SegmentSequencer<F, N, D> {
+impl<const F: usize, const N: usize, const D: usize> Specified for RecordSequencer<F, N, D> {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step("state after state as described", |now, next| {

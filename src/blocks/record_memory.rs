@@ -1,9 +1,9 @@
-//! Segment memory: the coefficients of the segments to come, and the way they go to the blocks.
+//! Record memory: the records of the segments to come, and the way their words go to the blocks.
 //!
 //! ```text
 //!                           ┌────────────────┐
 //!  write, write_word, … ───▶│                ├──▶ ready, available
-//!  push ───────────────────▶│ segment_memory ├──▶ load, word, data
+//!  push ───────────────────▶│ record_memory  ├──▶ load, word, data
 //!  take, kind ─────────────▶│                ├──▶ load_engines, load_rotation
 //!  flush ──────────────────▶│                ├──▶ loaded
 //!                           └────────────────┘
@@ -20,9 +20,9 @@ use crate::signals;
 /// Words of a record.
 pub const RECORD: usize = 32;
 /// Names of the kinds of segments, by the lower bits of a record's first word.
-pub(super) const KINDS: &[&str] = &["blend", "line", "arc"];
+pub(crate) const KINDS: &[&str] = &["blend", "line", "arc"];
 /// An arc among them.
-pub(super) const ARC: u64 = 2;
+pub(crate) const ARC: u64 = 2;
 
 signals! {
     /// Ports in.
@@ -103,15 +103,15 @@ signals! {
 ///
 /// `load` is high from the second tick after `take` on, for 32 ticks; `loaded` in the tick after them.
 #[derive(Debug, Clone, Default)]
-pub struct SegmentMemory<const A: usize, const K: usize, const D: usize>;
+pub struct RecordMemory<const A: usize, const K: usize, const D: usize>;
 
-impl<const A: usize, const K: usize, const D: usize> SegmentMemory<A, K, D> {
+impl<const A: usize, const K: usize, const D: usize> RecordMemory<A, K, D> {
     /// Ticks from `take` to `loaded`.
     pub const LATENCY: u64 = RECORD as u64 + 2;
 }
 
-impl<const A: usize, const K: usize, const D: usize> Circuit for SegmentMemory<A, K, D> {
-    const NAME: &'static str = "segment_memory";
+impl<const A: usize, const K: usize, const D: usize> Circuit for RecordMemory<A, K, D> {
+    const NAME: &'static str = "record_memory";
     const ABOUT: &'static str = "coefficients of the segments to come, first in, first out";
     type In<L: Logic> = In<L, D>;
     type Reg<L: Logic> = Reg<L, A, K, D>;
