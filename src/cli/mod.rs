@@ -9,11 +9,13 @@ mod lead_angle;
 mod linear;
 pub mod list;
 mod picture;
+mod rows;
 pub mod run;
 mod shipped;
 mod summary;
 pub mod table;
 mod traces;
+mod trajectory;
 mod verdict;
 pub mod verilog;
 
