@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!                        ┌──────────────────────────┐
-//!  step, command ───────▶│ response ▶ correction    ├──▶ torque, saturated
+//!  step, preset, command ▶│ response ▶ correction    ├──▶ torque, saturated
 //!  correct, reference ──▶│            ▶ servo       ├──▶ answered, driven
 //!  a, b, gains… ────────▶│                          ├──▶ position, lost
 //!                        └──────────────────────────┘
@@ -21,6 +21,8 @@ signals! {
     pub struct In<L, const P: usize, const K: usize, const G: usize, const T: usize> {
         /// The position command is new.
         pub step: L::Bit,
+        /// The servo response goes to it at once, at rest; in the tick before `step`.
+        pub preset: L::Bit,
         /// Pc: the position command.
         pub command: L::I<P>,
         /// The reference point stands, and the responses.
@@ -168,7 +170,7 @@ impl<
             &q.response,
             reference_model::In {
                 step: i.step,
-                preset: false.into(),
+                preset: i.preset,
                 target: i.command,
                 gain_1: i.gain_1,
                 gain_2: i.gain_2,

@@ -62,7 +62,8 @@ signals! {
         pub start: L::Bit,
         /// Ends the movement where it is.
         pub halt: L::Bit,
-        /// Another path, at rest: lengths are 0.
+        /// Another path, at rest: its segments may be written from the second period after it up
+        /// to `start`. The servo controls hold the machine meanwhile.
         pub restart: L::Bit,
         /// Writes where a segment of the path begins.
         pub write_begin: L::Bit,
@@ -407,7 +408,7 @@ impl<
             &q.tangential,
             reference_model::In {
                 step: q.length.fresh,
-                preset: i.restart,
+                preset: q.length.preset,
                 target: q.length.length,
                 gain_1: i.gain_1,
                 gain_2: i.gain_2,
@@ -440,7 +441,8 @@ impl<
                 &self.axes[axis],
                 &q.axes[axis],
                 controlled_axis::In {
-                    step: distribution.w.done,
+                    step: q.gather.step,
+                    preset: q.gather.preset,
                     command: distribution.w.points[axis],
                     correct: q.gather.correct,
                     target: reference_point.w.points[axis],
@@ -461,6 +463,8 @@ impl<
             &q.gather,
             period_join::In {
                 begins: q.length.fresh,
+                held: q.length.held,
+                placed: distribution.w.done,
                 referred: reference_point.w.done,
                 answered: axes[0].w.answered,
                 driven: axes[0].w.driven,
