@@ -6,8 +6,8 @@ use motion_rtl::plant::{TwoMassAxis, TwoMassParameters};
 use motion_rtl::trajectory_controller::closed::Steady;
 use motion_rtl::trajectory_controller::job::{Controller, Played, Program, play};
 use motion_rtl::trajectory_controller::measure::Measured;
-use motion_rtl::trajectory_controller::settings::Settings;
-use motion_rtl::trajectory_controller::vector_correction::Correction;
+use motion_rtl::trajectory_controller::settings::{Correction, Settings};
+
 use motion_rtl::trajectory_controller::widths::Widths;
 
 type Point = [f64; 3];
@@ -38,14 +38,14 @@ fn run<const AXES: usize>(
     let program = Program::of(start, pieces, settings, &machine, &Widths::FULL).unwrap();
     let tick_s = 1.0 / settings.clock_hz as f64;
     let plants = machine.map(|axis| TwoMassAxis::new(&axis, tick_s).unwrap());
-    let circuit = Controller::<AXES>::new(correction);
+    let circuit = Controller::<AXES>::new(correction, settings.rounding);
     let played = play(&circuit, &program, plants, ()).unwrap();
     (program, played)
 }
 
 #[test]
 fn look() {
-    for correction in [Correction::None, Correction::Vector] {
+    for correction in [Correction::None, Correction::Vector, Correction::Steady] {
         let started = std::time::Instant::now();
         let settings = Settings::default();
         let machine = [TwoMassParameters::default(); 2];
