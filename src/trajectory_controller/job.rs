@@ -15,13 +15,14 @@ const P: usize = 47;
 const D: usize = 55;
 const E: usize = A + 4;
 const K: usize = 16;
+const G: usize = 24;
 const T: usize = 16;
 const U: usize = 24;
 
 /// The controller that plays a job.
 pub type Controller<const AXES: usize> =
-    TrajectoryController<AXES, A, 31, P, 55, 42, 57, 44, 52, D, E, 41, 20, K, 64, 51, T, U>;
-type Ports<const AXES: usize> = controller::In<Sim, AXES, A, P, D, E, K, T, U>;
+    TrajectoryController<AXES, A, 31, P, 55, 42, 57, 44, 52, D, E, 41, 20, K, 64, G, 58, T, U>;
+type Ports<const AXES: usize> = controller::In<Sim, AXES, A, P, D, E, K, G, T, U>;
 
 /// Words of a segment that are written.
 const SEGMENT_WORDS: usize = 13;

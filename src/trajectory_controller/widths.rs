@@ -50,8 +50,8 @@ impl Widths {
         samples: 20,
         period: 24,
         gain: 16,
-        servo_gain: 16,
-        torque_fraction: 19,
+        servo_gain: 24,
+        torque_fraction: 21,
     };
 
     /// G: bits below the count.
