@@ -50,6 +50,12 @@ pub struct Settings {
     pub rounding: Rounding,
     /// What is added to the path's point.
     pub correction: Correction,
+    /// Gain of the position controls in 1/s.
+    pub position_gain_per_s: f64,
+    /// Bandwidth of the speed controls in Hz: their gain is 2πf times the inertia.
+    pub speed_hz: f64,
+    /// Integral time of the speed controls; 0 for no integral.
+    pub integral_ms: f64,
 }
 
 impl Default for Settings {
@@ -70,6 +76,9 @@ impl Default for Settings {
             allow_overshoot: false,
             rounding: Rounding::default(),
             correction: Correction::default(),
+            position_gain_per_s: 30.0,
+            speed_hz: 17.0,
+            integral_ms: 40.0,
         }
     }
 }
@@ -96,6 +105,24 @@ pub struct Gains {
     pub k1: u64,
     /// K2·Δt.
     pub k2: u64,
+}
+
+impl Gains {
+    /// K1·Δt and K2·Δt as numbers.
+    #[must_use]
+    pub fn parts(&self, widths: &Widths) -> [f64; 2] {
+        let one = f64::from(widths.gain - 1).exp2();
+        [self.k1, self.k2].map(|word| word as f64 / one)
+    }
+
+    /// c = ½(1/K1² − Δt/K1 − 2/(K1·K2)) in s²: at the speed v a circle of the radius r shrinks by
+    /// c·v²/r, but for higher orders of v/r. Δt/K1 is what the steps of the model are, and is not
+    /// there in a continuous one.
+    #[must_use]
+    pub fn radial_s2(&self, widths: &Widths, period: f64) -> f64 {
+        let [k1, k2] = self.parts(widths);
+        (1.0 / (k1 * k1) - 1.0 / k1 - 2.0 / (k1 * k2)) / 2.0 * period * period
+    }
 }
 
 impl From<&Settings> for Speeds {
@@ -127,12 +154,20 @@ impl Settings {
         whole_ticks("period_ms", self.period_ms, self.clock_hz, &ticks)
     }
 
+    /// Δt in seconds.
+    ///
+    /// # Errors
+    /// As [`Settings::period_ticks`].
+    pub fn period_s(&self, widths: &Widths) -> Result<f64, SettingError> {
+        Ok(f64::from(self.period_ticks(widths)?) / self.clock_hz as f64)
+    }
+
     /// What the planner needs.
     ///
     /// # Errors
     /// As [`Settings::check`], of all but the model's gains.
     pub fn motion(&self, widths: &Widths) -> Result<Motion, SettingError> {
-        let ticks = self.period_ticks(widths)?;
+        let period = self.period_s(widths)?;
         within("counts_per_mm", self.counts_per_mm, &COUNTS_PER_MM_RANGE)?;
         let feed = self.feed_mm_per_s.map(|feed| ("feed_mm_per_s", feed));
         let rapid = ("rapid_mm_per_s", self.rapid_mm_per_s);
@@ -155,7 +190,7 @@ impl Settings {
         let units_per_mm = self.counts_per_mm * f64::from(widths.guard()).exp2();
         Ok(Motion {
             units_per_mm,
-            period: f64::from(ticks) / self.clock_hz as f64,
+            period,
             slope: Slope {
                 acceleration: self.acceleration_mm_per_s2 * units_per_mm,
                 jerk_time: self.jerk_time_ms / 1e3,
@@ -173,8 +208,7 @@ impl Settings {
     /// its target where also 4·k1 <= k2; and it comes to the count it is told to where k1·k2 is a
     /// guard unit or more, with [`Rounding::Floor`] two of them.
     pub fn gains(&self, widths: &Widths) -> Result<Gains, SettingError> {
-        let ticks = self.period_ticks(widths)?;
-        let period = f64::from(ticks) / self.clock_hz as f64;
+        let period = self.period_s(widths)?;
         let bits = widths.gain - 1;
         let one = 1u64 << bits;
         let word = |per_s: f64| (per_s * period * one as f64).round();
