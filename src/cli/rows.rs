@@ -37,7 +37,7 @@ pub fn table<const N: usize>(
         let cells: Vec<_> = cells
             .map(|(cell, width)| format!("{cell:>width$}"))
             .collect();
-        writeln!(text, "{}", cells.join("  "))?;
+        writeln!(text, "{}", cells.join("  ").trim_end())?;
     }
     Ok(())
 }

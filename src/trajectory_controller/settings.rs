@@ -14,7 +14,7 @@ use std::ops::RangeInclusive;
 
 /// Shortest interpolation period in ticks: two points on the path, three model steps and a servo
 /// step are done within it.
-pub const LEAST_PERIOD_TICKS: u64 = 600;
+pub const LEAST_PERIOD_TICKS: u64 = super::job::Controller::<3>::LEAST_PERIOD;
 
 /// Longest jerk time that is accepted, in ms.
 pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;

@@ -88,7 +88,10 @@ impl Summary {
             plural(path.segments, "segment"),
             plan.seconds,
             fixed(plan.speed_max_mm_per_s, 3),
-            plural(plan.stops, "stop"),
+            match plan.stops {
+                0 => "no stop".to_owned(),
+                stops => plural(stops, "stop"),
+            },
         )?;
         match plan.slowest_joint {
             None => writeln!(text, "\n"),
@@ -96,7 +99,7 @@ impl Summary {
                 let line = joint.line.map(|line| format!(", line {line}"));
                 writeln!(
                     text,
-                    ", slowest joint at feed else {} mm/s (segment {}{})\n",
+                    ", slowest joint at feed: {} mm/s (segment {}{})\n",
                     fixed(joint.speed_mm_per_s, 3),
                     joint.segment,
                     line.unwrap_or_default()
@@ -187,9 +190,9 @@ impl Summary {
             ("mm/s", 8),
             ("wanted", 8),
             ("entry", 8),
-            ("none um", 8),
-            ("steady um", 0),
-            ("vector um", 0),
+            ("load um: none", 0),
+            ("steady", 8),
+            ("vector", 8),
         ];
         let cells = rows.into_iter().map(|row| {
             let [none, steady, vector] = row.contour_um.map(|um| or_dash(um.map(|um| fixed(um, 3))));
