@@ -88,7 +88,10 @@ fn plants<const AXES: usize>(job: &Job) -> Result<[TwoMassAxis; AXES], Failure> 
 /// A machine that is too fast for the clock.
 fn too_fast(job: &Job, error: &ParameterError) -> Failure {
     let allowed = format!("a faster clock: a tick of at most {:e} s", error.most);
-    let problem = format!("is {}: a tick of {:e} s", job.settings.clock_hz, error.value);
+    let problem = format!(
+        "is {}: a tick of {:e} s",
+        job.settings.clock_hz, error.value
+    );
     job.loaded.fault("clock_hz", problem, allowed).into()
 }
 

@@ -44,9 +44,12 @@ pub fn draw(job: &Job, runs: &Runs) -> String {
         .panel(over_time(runs, "contour error of the loads", "µm", |one| {
             one.contour_mm * 1e3
         }))
-        .panel(over_time(runs, "following error of the loads", "mm", |one| {
-            one.following_mm
-        }))
+        .panel(over_time(
+            runs,
+            "following error of the loads",
+            "mm",
+            |one| one.following_mm,
+        ))
         .panel(speed(job, runs))
         .render()
 }
@@ -77,7 +80,10 @@ fn path(job: &Job, runs: &Runs) -> Panel {
 
 /// The diagonal of the path in the plane, in mm.
 fn size(job: &Job) -> f64 {
-    let points = ideal(job).into_iter().flatten().filter(|at| at.0.is_finite());
+    let points = ideal(job)
+        .into_iter()
+        .flatten()
+        .filter(|at| at.0.is_finite());
     let start = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let (least, most) = points.fold(start, |(least, most), (x, y)| {
         (
@@ -123,9 +129,9 @@ fn ideal(job: &Job) -> [Points; 2] {
             (x / unit, y / unit)
         });
         let begins = stretch.segment.point(0.0);
-        let gap = part.last().is_some_and(|&(x, y)| {
-            distance([x * unit, y * unit, begins[2]], begins) > 1e-3 * unit
-        });
+        let gap = part
+            .last()
+            .is_some_and(|&(x, y)| distance([x * unit, y * unit, begins[2]], begins) > 1e-3 * unit);
         part.extend(gap.then_some(GAP));
         part.extend(points);
     }
@@ -166,9 +172,12 @@ fn speed(job: &Job, runs: &Runs) -> Panel {
         let t = sample as f64 * period;
         (t, profile.at(t)[1] / unit)
     });
-    let loads = deviations.windows(2).map(|pair| {
+    // Positions are taken when the lookups are done: on arcs later in the period than on lines.
+    let loads = deviations.windows(2).zip(run.taken.windows(2));
+    let loads = loads.map(|(pair, taken)| {
         let way = distance(pair[1].actual, pair[0].actual);
-        (f64::midpoint(pair[0].time_s, pair[1].time_s), way / period)
+        let time = (taken[1] - taken[0]) as f64 / job.settings.clock_hz as f64;
+        (f64::midpoint(pair[0].time_s, pair[1].time_s), way / time)
     });
     let name = format!("loads, {}", run.correction.name());
     Panel::new("speed", "time in s", "mm/s")

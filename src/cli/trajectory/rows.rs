@@ -236,7 +236,9 @@ impl<'a> Speeds<'a> {
         let pieces = &self.profile.pieces;
         let index = pieces.partition_point(|piece| piece.q <= length);
         let from = pieces[..index].last().map_or(0.0, |piece| piece.t);
-        let to = pieces.get(index).map_or(self.profile.duration, |next| next.t);
+        let to = pieces
+            .get(index)
+            .map_or(self.profile.duration, |next| next.t);
         // The length never falls, so bisection finds it.
         let (mut early, mut late) = (from, to);
         for _ in 0..60 {

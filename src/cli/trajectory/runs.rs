@@ -1,6 +1,7 @@
 //! What a path came to by each correction.
 
 use super::Job;
+use motion_rtl::arc_generator::vector::distance;
 use motion_rtl::input::Point;
 use motion_rtl::trajectory_controller::closed::{ClosedForms, Steady};
 use motion_rtl::trajectory_controller::job::Played;
@@ -36,6 +37,8 @@ pub struct Run {
     pub start: u64,
     /// Interpolation periods.
     pub periods: usize,
+    /// The tick in which positions were taken, of each.
+    pub taken: Vec<u64>,
     /// Largest distance of a command from the path's exact point, in mm.
     pub command_error_mm: f64,
     /// Distance of the last command from the path's end, in mm.
@@ -103,6 +106,7 @@ impl Run {
             ticks: played.ticks,
             start: played.start,
             periods: played.periods.len(),
+            taken: played.periods.iter().map(|period| period.tick).collect(),
             command_error_mm: errors.fold(0.0, f64::max),
             end_mm: off(last.command, program.path.length as f64),
             end_counts: last.motor.to_vec(),
@@ -114,8 +118,4 @@ impl Run {
             settled: played.settled,
         })
     }
-}
-
-fn distance(one: Point, other: Point) -> f64 {
-    motion_rtl::arc_generator::vector::distance(one, other)
 }

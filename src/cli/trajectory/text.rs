@@ -195,7 +195,8 @@ impl Summary {
             ("vector", 8),
         ];
         let cells = rows.into_iter().map(|row| {
-            let [none, steady, vector] = row.contour_um.map(|um| or_dash(um.map(|um| fixed(um, 3))));
+            let [none, steady, vector] =
+                row.contour_um.map(|um| or_dash(um.map(|um| fixed(um, 3))));
             [
                 row.segment.to_string(),
                 or_dash(row.line),

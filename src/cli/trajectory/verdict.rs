@@ -28,11 +28,21 @@ fn of_run(job: &Job, run: &Run) -> Vec<String> {
         let within = mm <= bound;
         if !within {
             let (um, bound) = (mm * 1e3, bound * 1e3);
-            all.push(format!("{what}: {um:.3} um, where {bound:.3} um are allowed"));
+            all.push(format!(
+                "{what}: {um:.3} um, where {bound:.3} um are allowed"
+            ));
         }
     };
-    keep("a command beside the path", run.command_error_mm, 0.5 * count_mm);
-    keep("the last command beside the path's end", run.end_mm, 0.5 * count_mm);
+    keep(
+        "a command beside the path",
+        run.command_error_mm,
+        0.5 * count_mm,
+    );
+    keep(
+        "the last command beside the path's end",
+        run.end_mm,
+        0.5 * count_mm,
+    );
     // On a widened arc the path ends beside its end.
     if run.correction != Correction::Steady {
         // Half a count of each axis.

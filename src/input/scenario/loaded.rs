@@ -367,7 +367,10 @@ mod tests {
         // One key of the table, and what the others make of it.
         let set = ["machine.mm_per_rev=3"];
         assert_eq!(shown(&set, "mm_per_rev"), at("--set", "mm_per_rev"));
-        assert_eq!(shown(&set, "max_torque_nm"), at("s.toml:4", "max_torque_nm"));
+        assert_eq!(
+            shown(&set, "max_torque_nm"),
+            at("s.toml:4", "max_torque_nm")
+        );
         let loaded = Loaded::parse("s.toml", &text, &set.map(str::to_owned)).unwrap();
         let Scenario::TrajectoryController(scenario) = &loaded.scenario else {
             panic!("another circuit");
