@@ -1,6 +1,7 @@
 //! What the trajectory controller is run with: clock and period, machine, motion, reference model.
 
 use super::Rounding;
+use super::job::Controller;
 use super::ramp::Slope;
 pub use super::vector_correction::Correction;
 use super::widths::Widths;
@@ -9,12 +10,13 @@ pub use crate::arc_generator::settings::SettingError;
 use crate::arc_generator::settings::{
     CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SPEED_RANGE_MM_PER_S, refusal, whole_ticks, within,
 };
+use crate::input::COORDINATES;
 use crate::plan::ACCELERATION_RANGE;
 use std::ops::RangeInclusive;
 
 /// Shortest interpolation period in ticks: two points on the path, three model steps and a servo
 /// step are done within it.
-pub const LEAST_PERIOD_TICKS: u64 = 600;
+pub const LEAST_PERIOD_TICKS: u64 = Controller::<COORDINATES>::LEAST_PERIOD;
 
 /// Longest jerk time that is accepted, in ms.
 pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;
@@ -200,7 +202,8 @@ impl Settings {
         })
     }
 
-    /// The model's gains, to the nearest word.
+    /// The model's gains, to the nearest word; but K1 rounds down where rounding alone would make the
+    /// model go beyond its target.
     ///
     /// # Errors
     /// As [`Settings::check`], of clock, period and gains. With gains k1, k2 a period: the model is
@@ -212,7 +215,10 @@ impl Settings {
         let bits = widths.gain - 1;
         let one = 1u64 << bits;
         let word = |per_s: f64| (per_s * period * one as f64).round();
-        let [k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
+        let [mut k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
+        if 4.0 * self.k1_per_s <= self.k2_per_s {
+            k1 = k1.min((k2 / 4.0).floor());
+        }
         let refuse = |field, value: f64, word: f64, allowed: [u64; 2]| {
             let part = |word: f64| word / one as f64;
             let [least, most] = allowed.map(|word| part(word as f64));
