@@ -202,7 +202,8 @@ impl Settings {
         })
     }
 
-    /// The model's gains, to the nearest word.
+    /// The model's gains, to the nearest word; but K1 rounds down where rounding alone would make the
+    /// model go beyond its target.
     ///
     /// # Errors
     /// As [`Settings::check`], of clock, period and gains. With gains k1, k2 a period: the model is
@@ -215,7 +216,10 @@ impl Settings {
         let bits = widths.gain - 1;
         let one = 1u64 << bits;
         let word = |per_s: f64| (per_s * period * one as f64).round();
-        let [k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
+        let [mut k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
+        if 4.0 * self.k1_per_s <= self.k2_per_s {
+            k1 = k1.min((k2 / 4.0).floor());
+        }
         let refuse = |field, value: f64, word: f64, allowed: [u64; 2]| {
             let part = |word: f64| word / one as f64;
             let [least, most] = allowed.map(|word| part(word as f64));
