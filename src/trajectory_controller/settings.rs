@@ -1,6 +1,7 @@
 //! What the trajectory controller is run with: clock and period, machine, motion, reference model.
 
 use super::Rounding;
+use super::job::Controller;
 use super::ramp::Slope;
 pub use super::vector_correction::Correction;
 use super::widths::Widths;
@@ -9,12 +10,13 @@ pub use crate::arc_generator::settings::SettingError;
 use crate::arc_generator::settings::{
     CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SPEED_RANGE_MM_PER_S, refusal, whole_ticks, within,
 };
+use crate::input::COORDINATES;
 use crate::plan::ACCELERATION_RANGE;
 use std::ops::RangeInclusive;
 
 /// Shortest interpolation period in ticks: two points on the path, three model steps and a servo
 /// step are done within it.
-pub const LEAST_PERIOD_TICKS: u64 = super::job::Controller::<3>::LEAST_PERIOD;
+pub const LEAST_PERIOD_TICKS: u64 = Controller::<COORDINATES>::LEAST_PERIOD;
 
 /// Longest jerk time that is accepted, in ms.
 pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;
@@ -44,7 +46,7 @@ pub struct Settings {
     pub k1_per_s: f64,
     /// K2 in 1/s.
     pub k2_per_s: f64,
-    /// Gains with which the model goes beyond its target are allowed.
+    /// Gains with which the model goes beyond its target are allowed: K2 from 2·K1 on.
     pub allow_overshoot: bool,
     /// How the model rounds.
     pub rounding: Rounding,
@@ -200,19 +202,24 @@ impl Settings {
         })
     }
 
-    /// The model's gains, to the nearest word.
+    /// The model's gains, to the nearest word; but K1 rounds down where rounding alone would make the
+    /// model go beyond its target.
     ///
     /// # Errors
     /// As [`Settings::check`], of clock, period and gains. With gains k1, k2 a period: the model is
     /// stable where k1 < 1 and k2·(2 − k1) < 4, which a word below 2 always is; it does not go beyond
-    /// its target where also 4·k1 <= k2; and it comes to the count it is told to where k1·k2 is a
-    /// guard unit or more, with [`Rounding::Floor`] two of them.
+    /// its target where also 4·k1 <= k2; what rounding makes of it dies out where 2·k1 <= k2; and it
+    /// comes to the count it is told to where k1·k2 is a guard unit or more, with
+    /// [`Rounding::Floor`] two of them.
     pub fn gains(&self, widths: &Widths) -> Result<Gains, SettingError> {
         let period = self.period_s(widths)?;
         let bits = widths.gain - 1;
         let one = 1u64 << bits;
         let word = |per_s: f64| (per_s * period * one as f64).round();
-        let [k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
+        let [mut k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
+        if 4.0 * self.k1_per_s <= self.k2_per_s {
+            k1 = k1.min((k2 / 4.0).floor());
+        }
         let refuse = |field, value: f64, word: f64, allowed: [u64; 2]| {
             let part = |word: f64| word / one as f64;
             let [least, most] = allowed.map(|word| part(word as f64));
@@ -228,21 +235,18 @@ impl Settings {
         };
         // The K1 that some K2 goes with.
         let most_k2 = 2 * one - 1;
-        let most_k1 = match self.allow_overshoot {
-            true => one - 1,
-            false => most_k2 / 4,
+        let damping = match self.allow_overshoot {
+            true => 2,
+            false => 4,
         };
+        let most_k1 = most_k2 / damping;
         let allowed = [exact.div_ceil(most_k2), most_k1];
         // Written so that NaN fails.
         if !(k1 >= allowed[0] as f64 && k1 <= allowed[1] as f64) {
             return Err(refuse("k1_per_s", self.k1_per_s, k1, allowed));
         }
         let first = k1 as u64;
-        let least = match self.allow_overshoot {
-            true => 1,
-            false => 4 * first,
-        };
-        let allowed = [least.max(exact.div_ceil(first)), most_k2];
+        let allowed = [(damping * first).max(exact.div_ceil(first)), most_k2];
         if !(k2 >= allowed[0] as f64 && k2 <= allowed[1] as f64) {
             return Err(refuse("k2_per_s", self.k2_per_s, k2, allowed));
         }
