@@ -24,8 +24,9 @@ use runs::{Run, Runs};
 use std::thread;
 use summary::Summary;
 
-/// Periods that the save file's window shows, from before the path's start on.
-const PERIODS_SHOWN: u64 = 6;
+/// Periods that the save file's window shows, and the one in motion that is the second of them.
+const PERIODS_SHOWN: u64 = 4;
+const IN_MOTION: usize = 200;
 
 /// In the order in which they are shown.
 const CORRECTIONS: [Correction; 3] = [Correction::None, Correction::Steady, Correction::Vector];
@@ -125,7 +126,10 @@ fn simulate<const AXES: usize>(
     drop(progress);
     let shown = PERIODS_SHOWN * u64::from(job.program.period_ticks);
     let focus = Focus {
-        action: played.start,
+        action: played
+            .periods
+            .get(IN_MOTION)
+            .map_or(played.start, |period| period.tick),
         before: shown / PERIODS_SHOWN,
         shown,
     };
