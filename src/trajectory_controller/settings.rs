@@ -46,7 +46,7 @@ pub struct Settings {
     pub k1_per_s: f64,
     /// K2 in 1/s.
     pub k2_per_s: f64,
-    /// Gains with which the model goes beyond its target are allowed.
+    /// Gains with which the model goes beyond its target are allowed: K2 from 2·K1 on.
     pub allow_overshoot: bool,
     /// How the model rounds.
     pub rounding: Rounding,
@@ -208,8 +208,9 @@ impl Settings {
     /// # Errors
     /// As [`Settings::check`], of clock, period and gains. With gains k1, k2 a period: the model is
     /// stable where k1 < 1 and k2·(2 − k1) < 4, which a word below 2 always is; it does not go beyond
-    /// its target where also 4·k1 <= k2; and it comes to the count it is told to where k1·k2 is a
-    /// guard unit or more, with [`Rounding::Floor`] two of them.
+    /// its target where also 4·k1 <= k2; what rounding makes of it dies out where 2·k1 <= k2; and it
+    /// comes to the count it is told to where k1·k2 is a guard unit or more, with
+    /// [`Rounding::Floor`] two of them.
     pub fn gains(&self, widths: &Widths) -> Result<Gains, SettingError> {
         let period = self.period_s(widths)?;
         let bits = widths.gain - 1;
@@ -234,21 +235,18 @@ impl Settings {
         };
         // The K1 that some K2 goes with.
         let most_k2 = 2 * one - 1;
-        let most_k1 = match self.allow_overshoot {
-            true => one - 1,
-            false => most_k2 / 4,
+        let damping = match self.allow_overshoot {
+            true => 2,
+            false => 4,
         };
+        let most_k1 = most_k2 / damping;
         let allowed = [exact.div_ceil(most_k2), most_k1];
         // Written so that NaN fails.
         if !(k1 >= allowed[0] as f64 && k1 <= allowed[1] as f64) {
             return Err(refuse("k1_per_s", self.k1_per_s, k1, allowed));
         }
         let first = k1 as u64;
-        let least = match self.allow_overshoot {
-            true => 1,
-            false => 4 * first,
-        };
-        let allowed = [least.max(exact.div_ceil(first)), most_k2];
+        let allowed = [(damping * first).max(exact.div_ceil(first)), most_k2];
         if !(k2 >= allowed[0] as f64 && k2 <= allowed[1] as f64) {
             return Err(refuse("k2_per_s", self.k2_per_s, k2, allowed));
         }

@@ -6,4 +6,5 @@ mod cordic;
 mod model;
 mod point;
 mod search;
+mod servo;
 mod whole;

