@@ -224,7 +224,7 @@ fn see<const AXES: usize>(
             .get()
             .then(|| from_fn(|k| w.axes[k].w.position.get())),
         // Without a path the servo controls hold the machine: a period that began before the start.
-        period: (axis.driven.get() && !q.length.waiting.get()).then(period),
+        period: (axis.driven.get() && !q.progress.waiting.get()).then(period),
     })
 }
 
