@@ -3,8 +3,8 @@
 use super::job::{Period, Played, Program};
 use super::segments::{Path, Segment};
 use super::widths::Widths;
-use crate::arc_generator::vector::{add, distance, dot, norm, scale, sub};
-use crate::input::{COORDINATES, Point};
+use crate::arc_generator::vector::{distance, dot, norm, scale, sub};
+use crate::input::Point;
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
@@ -201,15 +201,4 @@ impl Segment {
         offsets.extend((from..=to).contains(&turns).then_some(turns));
         offsets
     }
-}
-
-/// The command of a period in mm.
-#[must_use]
-pub fn command_mm<const AXES: usize>(program: &Program, period: &Period<AXES>) -> Point {
-    let own = from_fn(|axis| match axis < AXES {
-        true => period.command[axis] as f64,
-        false => 0.0,
-    });
-    let origin: [f64; COORDINATES] = program.origin.map(|units| units as f64);
-    scale(add(origin, own), 1.0 / program.motion.units_per_mm)
 }
