@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!                        ┌──────────────────────────┐
-//!  step, command ───────▶│ response ▶ correction    ├──▶ torque, saturated
+//!  step, preset, command ▶│ response ▶ correction    ├──▶ torque, saturated
 //!  correct, reference ──▶│            ▶ servo       ├──▶ answered, driven
 //!  a, b, gains… ────────▶│                          ├──▶ position, lost
 //!                        └──────────────────────────┘
@@ -18,9 +18,11 @@ use crate::signals;
 
 signals! {
     /// Ports in.
-    pub struct In<L, const P: usize, const K: usize, const T: usize> {
+    pub struct In<L, const P: usize, const K: usize, const G: usize, const T: usize> {
         /// The position command is new.
         pub step: L::Bit,
+        /// The servo response goes to it at once, at rest; in the tick before `step`.
+        pub preset: L::Bit,
         /// Pc: the position command.
         pub command: L::I<P>,
         /// The reference point stands, and the responses.
@@ -36,13 +38,13 @@ signals! {
         /// K2.
         pub gain_2: L::U<K>,
         /// Of the position control 27.
-        pub position_gain: L::U<K>,
+        pub position_gain: L::U<G>,
         /// Of the speed control 29, proportional.
-        pub speed_gain: L::U<K>,
+        pub speed_gain: L::U<G>,
         /// Integral.
-        pub integral_gain: L::U<K>,
+        pub integral_gain: L::U<G>,
         /// Of the feed-forward 30.
-        pub inertia: L::U<K>,
+        pub inertia: L::U<G>,
         /// Largest torque.
         pub limit: L::U<T>,
     }
@@ -56,6 +58,7 @@ signals! {
         const P: usize,
         const K: usize,
         const M: usize,
+        const G: usize,
         const Q: usize,
         const T: usize,
     > {
@@ -64,7 +67,7 @@ signals! {
         /// Vector correction 4.
         pub corrector: vector_correction::Reg<L, P>,
         /// Servo control 6, 7 (11).
-        pub servo: servo::Reg<L, W, P, K, M, Q, T>,
+        pub servo: servo::Reg<L, W, P, K, M, G, Q, T>,
     }
 }
 
@@ -76,6 +79,7 @@ signals! {
         const P: usize,
         const K: usize,
         const M: usize,
+        const G: usize,
         const Q: usize,
         const T: usize,
     > {
@@ -84,7 +88,7 @@ signals! {
         /// Vector correction 4.
         pub corrector: Instance<VectorCorrection<P>, L>,
         /// Servo control 6, 7 (11).
-        pub servo: Instance<Servo<W, P, K, M, Q, T>, L>,
+        pub servo: Instance<Servo<W, P, K, M, G, Q, T>, L>,
         /// The servo response stands in this tick.
         pub answered: L::Bit,
         /// E: the correction.
@@ -111,6 +115,7 @@ pub struct ControlledAxis<
     const P: usize,
     const K: usize,
     const M: usize,
+    const G: usize,
     const Q: usize,
     const T: usize,
 > {
@@ -119,30 +124,44 @@ pub struct ControlledAxis<
     /// Vector correction 4.
     pub corrector: VectorCorrection<P>,
     /// Servo control 6, 7 (11).
-    pub servo: Servo<W, P, K, M, Q, T>,
+    pub servo: Servo<W, P, K, M, G, Q, T>,
 }
 
-impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: usize, const T: usize>
-    ControlledAxis<W, P, K, M, Q, T>
+impl<
+    const W: usize,
+    const P: usize,
+    const K: usize,
+    const M: usize,
+    const G: usize,
+    const Q: usize,
+    const T: usize,
+> ControlledAxis<W, P, K, M, G, Q, T>
 {
-    /// An axis whose commands are corrected so.
-    pub fn new(correction: Correction) -> Self {
+    /// An axis whose commands are corrected so, and whose models round so.
+    pub fn new(correction: Correction, rounding: Rounding) -> Self {
         ControlledAxis {
-            response: ReferenceModel::new(Rounding::Nearest),
+            response: ReferenceModel::new(rounding),
             corrector: VectorCorrection { correction },
-            servo: Servo::new(Rounding::Nearest),
+            servo: Servo::new(rounding),
         }
     }
 }
 
-impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: usize, const T: usize>
-    Circuit for ControlledAxis<W, P, K, M, Q, T>
+impl<
+    const W: usize,
+    const P: usize,
+    const K: usize,
+    const M: usize,
+    const G: usize,
+    const Q: usize,
+    const T: usize,
+> Circuit for ControlledAxis<W, P, K, M, G, Q, T>
 {
     const NAME: &'static str = "controlled_axis";
     const ABOUT: &'static str = "servo response, vector correction and servo control of an axis";
-    type In<L: Logic> = In<L, P, K, T>;
-    type Reg<L: Logic> = Reg<L, W, P, K, M, Q, T>;
-    type Net<L: Logic> = Net<L, W, P, K, M, Q, T>;
+    type In<L: Logic> = In<L, P, K, G, T>;
+    type Reg<L: Logic> = Reg<L, W, P, K, M, G, Q, T>;
+    type Net<L: Logic> = Net<L, W, P, K, M, G, Q, T>;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
@@ -151,7 +170,7 @@ impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: us
             &q.response,
             reference_model::In {
                 step: i.step,
-                preset: false.into(),
+                preset: i.preset,
                 target: i.command,
                 gain_1: i.gain_1,
                 gain_2: i.gain_2,

@@ -8,6 +8,7 @@
 //!                                               └─▶ tangential response 50 ─ qs ─▶ reference point 2 ─ Pr ──┘
 //! ```
 
+use super::point_sequencer::{RADIUS, STEADY_RADIUS};
 use super::vector_correction::Correction;
 use super::{
     ControlledAxis, LengthClamp, PathLength, PathPoint, PeriodJoin, ReferenceModel, Rounding,
@@ -45,6 +46,7 @@ signals! {
         const D: usize,
         const E: usize,
         const K: usize,
+        const G: usize,
         const T: usize,
         const U: usize,
     > {
@@ -60,7 +62,8 @@ signals! {
         pub start: L::Bit,
         /// Ends the movement where it is.
         pub halt: L::Bit,
-        /// Another path, at rest: lengths are 0.
+        /// Another path, at rest: its segments may be written from the second period after it up
+        /// to `start`. The servo controls hold the machine meanwhile.
         pub restart: L::Bit,
         /// Writes where a segment of the path begins.
         pub write_begin: L::Bit,
@@ -85,13 +88,13 @@ signals! {
         /// K2 of all models.
         pub gain_2: L::U<K>,
         /// Of the position controls 27.
-        pub position_gain: [L::U<K>; AXES] as Elements(POSITION_GAIN),
+        pub position_gain: [L::U<G>; AXES] as Elements(POSITION_GAIN),
         /// Of the speed controls 29, proportional.
-        pub speed_gain: [L::U<K>; AXES] as Elements(SPEED_GAIN),
+        pub speed_gain: [L::U<G>; AXES] as Elements(SPEED_GAIN),
         /// Integral.
-        pub integral_gain: [L::U<K>; AXES] as Elements(INTEGRAL_GAIN),
+        pub integral_gain: [L::U<G>; AXES] as Elements(INTEGRAL_GAIN),
         /// Of the feed-forward 30.
-        pub inertia: [L::U<K>; AXES] as Elements(INERTIA),
+        pub inertia: [L::U<G>; AXES] as Elements(INERTIA),
         /// Largest torques.
         pub limit: [L::U<T>; AXES] as Elements(LIMIT),
         /// Encoders, channel A.
@@ -112,7 +115,7 @@ signals! {
         const R: usize,
         const C: usize,
         const S: usize,
-const H: usize,
+        const H: usize,
         const X: usize,
         const D: usize,
         const E: usize,
@@ -120,6 +123,7 @@ const H: usize,
         const N: usize,
         const K: usize,
         const M: usize,
+        const G: usize,
         const Q: usize,
         const T: usize,
         const U: usize,
@@ -143,7 +147,7 @@ const H: usize,
         /// All points of a period.
         pub gather: period_join::Reg<L>,
         /// The axes.
-        pub axes: [controlled_axis::Reg<L, W, P, K, M, Q, T>; AXES] as Elements(&path_point::AXIS_NAMES),
+        pub axes: [controlled_axis::Reg<L, W, P, K, M, G, Q, T>; AXES] as Elements(&path_point::AXIS_NAMES),
     }
 }
 
@@ -158,7 +162,7 @@ signals! {
         const R: usize,
         const C: usize,
         const S: usize,
-const H: usize,
+        const H: usize,
         const X: usize,
         const D: usize,
         const E: usize,
@@ -166,6 +170,7 @@ const H: usize,
         const N: usize,
         const K: usize,
         const M: usize,
+        const G: usize,
         const Q: usize,
         const T: usize,
         const U: usize,
@@ -193,7 +198,7 @@ const H: usize,
         /// All points of a period.
         pub gather: Instance<PeriodJoin, L>,
         /// The axes.
-        pub axes: [Instance<ControlledAxis<W, P, K, M, Q, T>, L>; AXES] as Elements(&path_point::AXIS_NAMES),
+        pub axes: [Instance<ControlledAxis<W, P, K, M, G, Q, T>, L>; AXES] as Elements(&path_point::AXIS_NAMES),
         /// Torques.
         pub torque: [L::I<T>; AXES] as Elements(TORQUE),
         /// Positions of the motors in counts.
@@ -232,10 +237,13 @@ pub struct TrajectoryController<
     const N: usize,
     const K: usize,
     const M: usize,
+    const G: usize,
     const Q: usize,
     const T: usize,
     const U: usize,
 > {
+    /// What is added to the commands.
+    pub correction: Correction,
     /// Interpolation period.
     pub period_counter: EnableCounter<U>,
     /// Records of the profile.
@@ -250,12 +258,14 @@ pub struct TrajectoryController<
     pub clamp: LengthClamp<P>,
     /// Tangential servo response 50.
     pub tangential: ReferenceModel<P, K, M>,
-    /// Axis distribution 3 and reference point 2.
-    pub point: PathPoint<AXES, A, P, R, C, S, H, H, X, D, E>,
+    /// Axis distribution 3.
+    pub distribution: PathPoint<AXES, A, P, R, C, S, H, H, X, D, E>,
+    /// Reference point 2.
+    pub reference_point: PathPoint<AXES, A, P, R, C, S, H, H, X, D, E>,
     /// All points of a period.
     pub gather: PeriodJoin,
     /// The axes.
-    pub axes: [ControlledAxis<W, P, K, M, Q, T>; AXES],
+    pub axes: [ControlledAxis<W, P, K, M, G, Q, T>; AXES],
 }
 
 impl<
@@ -274,24 +284,31 @@ impl<
     const N: usize,
     const K: usize,
     const M: usize,
+    const G: usize,
     const Q: usize,
     const T: usize,
     const U: usize,
-> TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, Q, T, U>
+> TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>
 {
-    /// A controller whose commands are corrected so.
-    pub fn new(correction: Correction) -> Self {
+    /// A controller whose commands are corrected so, and whose models round so.
+    pub fn new(correction: Correction, rounding: Rounding) -> Self {
+        let radius_word = match correction {
+            Correction::Steady => STEADY_RADIUS,
+            Correction::Vector | Correction::None => RADIUS,
+        };
         TrajectoryController {
+            correction,
             period_counter: EnableCounter,
             memory: RecordMemory,
             sequencer: RecordSequencer,
             profile: DifferenceEngine::new(0),
             length: PathLength,
             clamp: LengthClamp,
-            tangential: ReferenceModel::new(Rounding::Nearest),
-            point: PathPoint::default(),
+            tangential: ReferenceModel::new(rounding),
+            distribution: PathPoint::default(),
+            reference_point: PathPoint::new(radius_word),
             gather: PeriodJoin,
-            axes: from_fn(|_| ControlledAxis::new(correction)),
+            axes: from_fn(|_| ControlledAxis::new(correction, rounding)),
         }
     }
 }
@@ -312,16 +329,17 @@ impl<
     const N: usize,
     const K: usize,
     const M: usize,
+    const G: usize,
     const Q: usize,
     const T: usize,
     const U: usize,
-> Circuit for TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, Q, T, U>
+> Circuit for TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>
 {
     const NAME: &'static str = "trajectory_controller";
     const ABOUT: &'static str = "a path and its profile in, torques that keep to the path out";
-    type In<L: Logic> = In<L, AXES, A, P, D, E, K, T, U>;
-    type Reg<L: Logic> = Reg<L, AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, Q, T, U>;
-    type Net<L: Logic> = Net<L, AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, Q, T, U>;
+    type In<L: Logic> = In<L, AXES, A, P, D, E, K, G, T, U>;
+    type Reg<L: Logic> = Reg<L, AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>;
+    type Net<L: Logic> = Net<L, AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
@@ -390,7 +408,7 @@ impl<
             &q.tangential,
             reference_model::In {
                 step: q.length.fresh,
-                preset: i.restart,
+                preset: q.length.preset,
                 target: q.length.length,
                 gain_1: i.gain_1,
                 gain_2: i.gain_2,
@@ -409,15 +427,22 @@ impl<
             write_data: i.path_data,
         };
         let command = point(q.length.fresh, clamp_command.w.clamped);
-        let distribution = Instance::settle(&self.point, &q.distribution, command);
-        let answer = point(tangential.w.fresh, clamp_response.w.clamped);
-        let reference_point = Instance::settle(&self.point, &q.reference_point, answer);
-        let axes: [Instance<ControlledAxis<W, P, K, M, Q, T>, L>; AXES] = from_fn(|axis| {
+        let distribution = Instance::settle(&self.distribution, &q.distribution, command);
+        // The prior art knows where the command is, not where the response is.
+        let answer = match self.correction {
+            Correction::Steady => point(q.length.fresh, clamp_command.w.clamped),
+            Correction::Vector | Correction::None => {
+                point(tangential.w.fresh, clamp_response.w.clamped)
+            }
+        };
+        let reference_point = Instance::settle(&self.reference_point, &q.reference_point, answer);
+        let axes: [Instance<ControlledAxis<W, P, K, M, G, Q, T>, L>; AXES] = from_fn(|axis| {
             Instance::settle(
                 &self.axes[axis],
                 &q.axes[axis],
                 controlled_axis::In {
-                    step: distribution.w.done,
+                    step: q.gather.step,
+                    preset: q.gather.preset,
                     command: distribution.w.points[axis],
                     correct: q.gather.correct,
                     target: reference_point.w.points[axis],
@@ -438,6 +463,8 @@ impl<
             &q.gather,
             period_join::In {
                 begins: q.length.fresh,
+                held: q.length.held,
+                placed: distribution.w.done,
                 referred: reference_point.w.done,
                 answered: axes[0].w.answered,
                 driven: axes[0].w.driven,
@@ -480,8 +507,10 @@ impl<
             profile: w.profile.next(&self.profile, q.profile),
             length: w.length.next(&self.length, q.length),
             tangential: w.tangential.next(&self.tangential, q.tangential),
-            distribution: w.distribution.next(&self.point, q.distribution),
-            reference_point: w.reference_point.next(&self.point, q.reference_point),
+            distribution: w.distribution.next(&self.distribution, q.distribution),
+            reference_point: w
+                .reference_point
+                .next(&self.reference_point, q.reference_point),
             gather: w.gather.next(&self.gather, q.gather),
             axes: q.axes.map(|registers| {
                 let axis = axis.next().unwrap_or(0);

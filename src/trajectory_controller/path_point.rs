@@ -168,13 +168,14 @@ impl<
     const X: usize,
     const D: usize,
     const K: usize,
-> Default for PathPoint<AXES, A, P, R, C, S, M, H, X, D, K>
+> PathPoint<AXES, A, P, R, C, S, M, H, X, D, K>
 {
-    fn default() -> Self {
+    /// Points on a path whose arcs have the radius that stands in a word of their segments.
+    pub fn new(radius_word: u64) -> Self {
         PathPoint {
             search: SegmentSearch,
             store: SegmentStore,
-            sequencer: PointSequencer,
+            sequencer: PointSequencer { radius_word },
             measure: ArcAngle,
             cordic: Cordic::default(),
             control: CoefficientControl,
@@ -182,6 +183,25 @@ impl<
                 coordinate: axis as u64,
             }),
         }
+    }
+}
+
+impl<
+    const AXES: usize,
+    const A: usize,
+    const P: usize,
+    const R: usize,
+    const C: usize,
+    const S: usize,
+    const M: usize,
+    const H: usize,
+    const X: usize,
+    const D: usize,
+    const K: usize,
+> Default for PathPoint<AXES, A, P, R, C, S, M, H, X, D, K>
+{
+    fn default() -> Self {
+        Self::new(point_sequencer::RADIUS)
     }
 }
 

@@ -2,11 +2,15 @@
 //!
 //! ```text
 //!                      ┌─────────────┐
-//!  begins ────────────▶│             ├──▶ correct
-//!  referred, answered ▶│ period_join ├──▶ busy, late
-//!  driven ────────────▶│             │
+//!  begins, held ──────▶│             ├──▶ preset, step
+//!  placed, referred ──▶│ period_join ├──▶ correct
+//!  answered, driven ──▶│             ├──▶ busy, late
+//!  clear ─────────────▶│             │
 //!                      └─────────────┘
 //! ```
+//!
+//! With the first point of a path the servo responses are put there, at rest: the path begins where
+//! the machine stands, and what rounding left of the path before is not corrected in this one.
 
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::Circuit;
@@ -16,15 +20,19 @@ use crate::signals;
 signals! {
     /// Ports in.
     pub struct In<L> {
-        /// A period begins.
+        /// A period begins with a length.
         pub begins: L::Bit,
+        /// A period begins without a path: the corrected commands stay, the servo controls go on.
+        pub held: L::Bit,
+        /// The position command stands.
+        pub placed: L::Bit,
         /// The reference point stands.
         pub referred: L::Bit,
         /// The servo responses stand.
         pub answered: L::Bit,
         /// The torques stand.
         pub driven: L::Bit,
-        /// A path begins: the flag goes.
+        /// Another path: its first point is awaited, and `late` goes.
         pub clear: L::Bit,
     }
 }
@@ -32,6 +40,12 @@ signals! {
 signals! {
     /// Flip-flops.
     pub struct Reg<L> {
+        /// The first point of a path is awaited.
+        first: L::Bit = 1,
+        /// The servo responses go to the position command.
+        pub preset: L::Bit = 0,
+        /// They take a step towards it.
+        pub step: L::Bit = 0,
         /// The reference point is awaited.
         refers: L::Bit = 0,
         /// The servo responses are awaited.
@@ -50,6 +64,8 @@ signals! {
     pub struct Net<L> {
         /// The last of both comes in this tick.
         complete: L::Bit,
+        /// A period begins.
+        period: L::Bit,
     }
 }
 
@@ -71,17 +87,21 @@ impl Circuit for PeriodJoin {
         let answers = q.answers & !i.answered;
         Net {
             complete: awaited & !refers & !answers,
+            period: i.begins | i.held,
         }
     }
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, i: &In<L>) -> Reg<L> {
         Reg {
+            first: i.clear | (q.first & !i.placed),
+            preset: i.placed & q.first,
+            step: i.placed,
             refers: i.begins | (q.refers & !i.referred),
             answers: i.begins | (q.answers & !i.answered),
-            busy: i.begins | (q.busy & !i.driven),
-            correct: w.complete & !i.begins,
-            late: (q.late & !i.clear) | (i.begins & q.busy),
+            busy: w.period | (q.busy & !i.driven),
+            correct: (w.complete & !i.begins) | i.held,
+            late: (q.late & !i.clear) | (w.period & q.busy),
         }
     }
 }
@@ -89,16 +109,19 @@ impl Circuit for PeriodJoin {
 impl Specified for PeriodJoin {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
-            .step("correct once both stand, once a period", |now, next| {
-                let (q, i) = (now.q, now.i);
-                let waits = q.refers.get() || q.answers.get();
-                let left =
-                    (q.refers.get() && !i.referred.get()) || (q.answers.get() && !i.answered.get());
-                let due = waits && !left && !i.begins.get();
-                require(next.correct.get() == due, ["correct"], || {
-                    format!("not {due}")
-                })
-            })
+            .step(
+                "correct once both stand, once a period; at once without a path",
+                |now, next| {
+                    let (q, i) = (now.q, now.i);
+                    let waits = q.refers.get() || q.answers.get();
+                    let left = (q.refers.get() && !i.referred.get())
+                        || (q.answers.get() && !i.answered.get());
+                    let due = (waits && !left && !i.begins.get()) || i.held.get();
+                    require(next.correct.get() == due, ["correct"], || {
+                        format!("not {due}")
+                    })
+                },
+            )
             .step("both are awaited from a period's beginning", |now, next| {
                 let right = next.refers.get() && next.answers.get() && next.busy.get();
                 require(
@@ -107,8 +130,34 @@ impl Specified for PeriodJoin {
                     || "not awaited".into(),
                 )
             })
+            .step(
+                "the first point of a path presets, every point is stepped to",
+                |now, next| {
+                    let (q, i) = (now.q, now.i);
+                    let due = [i.placed.get() && q.first.get(), i.placed.get()];
+                    let seen = [next.preset.get(), next.step.get()];
+                    require(due == seen, ["preset", "step"], || format!("not {due:?}"))
+                },
+            )
+            .step(
+                "the first point is awaited from power-on and clear to it",
+                |now, next| {
+                    let (q, i) = (now.q, now.i);
+                    let due = match (i.clear.get(), i.placed.get()) {
+                        (true, _) => true,
+                        (false, placed) => !placed && q.first.get(),
+                    };
+                    require(next.first.get() == due, ["first"], || format!("not {due}"))
+                },
+            )
+            .step("a period is under way to its torques", |now, next| {
+                let (q, i) = (now.q, now.i);
+                let begins = i.begins.get() || i.held.get();
+                let due = begins || (q.busy.get() && !i.driven.get());
+                require(next.busy.get() == due, ["busy"], || format!("not {due}"))
+            })
             .step("late: a period begins in another", |now, next| {
-                let clashes = now.i.begins.get() && now.q.busy.get();
+                let clashes = (now.i.begins.get() || now.i.held.get()) && now.q.busy.get();
                 let due = clashes || (now.q.late.get() && !now.i.clear.get());
                 require(next.late.get() == due, ["late"], || format!("not {due}"))
             })

@@ -103,8 +103,26 @@ signals! {
 }
 
 /// Sequencer for lengths of `P` bits, coordinates of `R`, curvatures of `M`, words of `D`.
-#[derive(Debug, Clone, Default)]
-pub struct PointSequencer<const P: usize, const R: usize, const M: usize, const D: usize>;
+#[derive(Debug, Clone)]
+pub struct PointSequencer<const P: usize, const R: usize, const M: usize, const D: usize> {
+    /// Word of a segment that is the radius of its arc.
+    pub radius_word: u64,
+}
+
+/// Word that is the radius of an arc.
+pub const RADIUS: u64 = 2;
+
+/// Word that is its radius with the steady correction.
+pub const STEADY_RADIUS: u64 = 12;
+
+impl<const P: usize, const R: usize, const M: usize, const D: usize> Default
+    for PointSequencer<P, R, M, D>
+{
+    fn default() -> Self {
+        let radius_word = RADIUS;
+        PointSequencer { radius_word }
+    }
+}
 
 impl<const P: usize, const R: usize, const M: usize, const D: usize> Circuit
     for PointSequencer<P, R, M, D>
@@ -156,7 +174,7 @@ impl<const P: usize, const R: usize, const M: usize, const D: usize> Circuit
             arc: header.mux(i.data.bit(0), q.arc),
             shift: header.mux(i.data.shift_right(1).resize(), q.shift),
             curvature: word(1).mux(i.data.resize(), q.curvature),
-            radius: word(2).mux(i.data.resize().signed(), q.radius),
+            radius: word(self.radius_word).mux(i.data.resize().signed(), q.radius),
             search: w.take,
             fetch: found,
             measure: w.on_arc,

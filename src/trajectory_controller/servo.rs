@@ -19,7 +19,7 @@ use crate::signals;
 
 signals! {
     /// Ports in.
-    pub struct In<L, const P: usize, const K: usize, const T: usize> {
+    pub struct In<L, const P: usize, const K: usize, const G: usize, const T: usize> {
         /// The corrected command is new.
         pub step: L::Bit,
         /// Between two paths: the model at the target, at rest; the loops begin anew.
@@ -37,13 +37,13 @@ signals! {
         /// K2.
         pub gain_2: L::U<K>,
         /// Of 27, see [`servo_arithmetic::In`].
-        pub position_gain: L::U<K>,
+        pub position_gain: L::U<G>,
         /// Of 29, proportional.
-        pub speed_gain: L::U<K>,
+        pub speed_gain: L::U<G>,
         /// Of 29, integral.
-        pub integral_gain: L::U<K>,
+        pub integral_gain: L::U<G>,
         /// Of 30.
-        pub inertia: L::U<K>,
+        pub inertia: L::U<G>,
         /// Largest torque.
         pub limit: L::U<T>,
     }
@@ -57,6 +57,7 @@ signals! {
         const P: usize,
         const K: usize,
         const M: usize,
+        const G: usize,
         const Q: usize,
         const T: usize,
     > {
@@ -67,7 +68,7 @@ signals! {
         /// 26 to 31.
         pub arithmetic: servo_arithmetic::Reg<L, W, Q, T>,
         /// Its products.
-        pub scaler: scaler::Reg<L, K, Q>,
+        pub scaler: scaler::Reg<L, G, Q>,
     }
 }
 
@@ -79,6 +80,7 @@ signals! {
         const P: usize,
         const K: usize,
         const M: usize,
+        const G: usize,
         const Q: usize,
         const T: usize,
     > {
@@ -87,9 +89,9 @@ signals! {
         /// Position of the motor.
         pub detector: Instance<QuadratureCounter<W>, L>,
         /// 26 to 31.
-        pub arithmetic: Instance<ServoArithmetic<W, P, K, Q, T>, L>,
+        pub arithmetic: Instance<ServoArithmetic<W, P, G, Q, T>, L>,
         /// Its products.
-        pub scaler: Instance<Scaler<K, Q>, L>,
+        pub scaler: Instance<Scaler<G, Q>, L>,
         /// The torque.
         pub torque: L::I<T> as Analog,
         /// It is limited.
@@ -103,14 +105,15 @@ signals! {
     }
 }
 
-/// Servo control with counts of `W` bits, points of `P`, gains of `K`, torques of `T`; `M` = P + K + 1
-/// and `Q` = P + 4 are the words of its products.
+/// Servo control with counts of `W` bits, points of `P`, gains of the model of `K` and of the loops of `G`, torques
+/// of `T`; `M` = P + K + 1 and `Q` = P + 11 are the words of its products.
 #[derive(Debug, Clone, Default)]
 pub struct Servo<
     const W: usize,
     const P: usize,
     const K: usize,
     const M: usize,
+    const G: usize,
     const Q: usize,
     const T: usize,
 > {
@@ -119,16 +122,23 @@ pub struct Servo<
     /// Position of the motor.
     pub detector: QuadratureCounter<W>,
     /// 26 to 31.
-    pub arithmetic: ServoArithmetic<W, P, K, Q, T>,
+    pub arithmetic: ServoArithmetic<W, P, G, Q, T>,
     /// Its products.
-    pub scaler: Scaler<K, Q>,
+    pub scaler: Scaler<G, Q>,
 }
 
-impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: usize, const T: usize>
-    Servo<W, P, K, M, Q, T>
+impl<
+    const W: usize,
+    const P: usize,
+    const K: usize,
+    const M: usize,
+    const G: usize,
+    const Q: usize,
+    const T: usize,
+> Servo<W, P, K, M, G, Q, T>
 {
     /// Ticks from `step` to `fresh`.
-    pub const LATENCY: u64 = ReferenceModel::<P, K, M>::LATENCY + 4 * Scaler::<K, Q>::LATENCY + 2;
+    pub const LATENCY: u64 = ReferenceModel::<P, K, M>::LATENCY + 4 * Scaler::<G, Q>::LATENCY + 2;
 
     /// A servo control whose model rounds by `rounding`.
     pub fn new(rounding: Rounding) -> Self {
@@ -139,14 +149,21 @@ impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: us
     }
 }
 
-impl<const W: usize, const P: usize, const K: usize, const M: usize, const Q: usize, const T: usize>
-    Circuit for Servo<W, P, K, M, Q, T>
+impl<
+    const W: usize,
+    const P: usize,
+    const K: usize,
+    const M: usize,
+    const G: usize,
+    const Q: usize,
+    const T: usize,
+> Circuit for Servo<W, P, K, M, G, Q, T>
 {
     const NAME: &'static str = "servo";
     const ABOUT: &'static str = "reference model, position and speed control of an axis";
-    type In<L: Logic> = In<L, P, K, T>;
-    type Reg<L: Logic> = Reg<L, W, P, K, M, Q, T>;
-    type Net<L: Logic> = Net<L, W, P, K, M, Q, T>;
+    type In<L: Logic> = In<L, P, K, G, T>;
+    type Reg<L: Logic> = Reg<L, W, P, K, M, G, Q, T>;
+    type Net<L: Logic> = Net<L, W, P, K, M, G, Q, T>;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {

@@ -12,8 +12,8 @@
 //!
 //! 26: position error = model position − feedback. 27: P. 28: speed error = model speed + P − speed,
 //! the speed being what the feedback moved in the period. 29: PI. 30: model acceleration times the
-//! inertia. 31: all three added. Departures: the torque is limited, and the integral of 29 holds while
-//! that would drive it farther.
+//! inertia. 31: all three added. Departures: the torque is limited; the integral of 29 stays within the limit,
+//! and holds while it would drive the torque farther beyond.
 
 use crate::kernel::Circuit;
 use crate::logic::{Bit, Logic, Signed, Unsigned};
@@ -38,13 +38,17 @@ const LIMIT: u64 = 5;
 /// Bits behind the torque's last that its sum keeps.
 pub const FINE: usize = 4;
 
+/// Bits by which what becomes a torque is shifted up before it is scaled, for gains up to
+/// 2^(LEFT − FINE + 1).
+pub const LEFT: usize = 6;
+
 signals! {
     /// Ports in.
     pub struct In<
         L,
         const W: usize,
         const P: usize,
-        const K: usize,
+        const G: usize,
         const Q: usize,
         const T: usize,
     > {
@@ -60,14 +64,14 @@ signals! {
         pub model_acceleration: L::I<P>,
         /// Position of the motor in counts.
         pub feedback: L::I<W>,
-        /// Of 27: speed for a position error, in units of 2^−(K − 1).
-        pub position_gain: L::U<K>,
-        /// Of 29, proportional: torque for a speed error, in units of 2^−(K − 1 + FINE).
-        pub speed_gain: L::U<K>,
+        /// Of 27: speed for a position error, in units of 2^−(G − 1).
+        pub position_gain: L::U<G>,
+        /// Of 29, proportional: torque for a speed error, in units of 2^(LEFT − FINE − G + 1).
+        pub speed_gain: L::U<G>,
         /// Of 29, integral, likewise, a period.
-        pub integral_gain: L::U<K>,
+        pub integral_gain: L::U<G>,
         /// Of 30: torque for an acceleration, likewise.
-        pub inertia: L::U<K>,
+        pub inertia: L::U<G>,
         /// Largest torque.
         pub limit: L::U<T>,
         /// The scaler is done.
@@ -105,7 +109,7 @@ signals! {
 
 signals! {
     /// Nets.
-    pub struct Net<L, const K: usize, const Q: usize> {
+    pub struct Net<L, const G: usize, const Q: usize> {
         /// A step is taken.
         take: L::Bit,
         /// A product is there.
@@ -123,9 +127,11 @@ signals! {
         /// With this value,
         pub value: L::U<Q>,
         /// by this gain.
-        pub gain: L::U<K>,
+        pub gain: L::U<G>,
         /// The integral with what the period adds.
         grown: L::I<Q>,
+        /// The same within the torque's limits.
+        held: L::I<Q>,
         /// 31: the whole torque with the fine bits.
         whole: L::I<Q>,
         /// The same to the nearest, a half upwards.
@@ -145,32 +151,32 @@ signals! {
     }
 }
 
-/// Arithmetic for counts of `W` bits, positions of `P` with P − W guard bits, gains of `K`, torques of `T`; `Q` = `P` + 4 is the word of
-/// its sums and of its scaler.
+/// Arithmetic for counts of `W` bits, positions of `P` with P − W guard bits, gains of `G`, torques
+/// of `T`; `Q` = `P` + 11 is the word of its sums and of its scaler.
 #[derive(Debug, Clone, Default)]
 pub struct ServoArithmetic<
     const W: usize,
     const P: usize,
-    const K: usize,
+    const G: usize,
     const Q: usize,
     const T: usize,
 >;
 
-impl<const W: usize, const P: usize, const K: usize, const Q: usize, const T: usize> Circuit
-    for ServoArithmetic<W, P, K, Q, T>
+impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: usize> Circuit
+    for ServoArithmetic<W, P, G, Q, T>
 {
     const NAME: &'static str = "servo_arithmetic";
     const ABOUT: &'static str = "position and speed control with the model torque, on one scaler";
-    type In<L: Logic> = In<L, W, P, K, Q, T>;
+    type In<L: Logic> = In<L, W, P, G, Q, T>;
     type Reg<L: Logic> = Reg<L, W, Q, T>;
-    type Net<L: Logic> = Net<L, K, Q>;
+    type Net<L: Logic> = Net<L, G, Q>;
 
     #[inline(always)]
-    fn comb<L: Logic>(&self, q: &Reg<L, W, Q, T>, i: &In<L, W, P, K, Q, T>) -> Net<L, K, Q> {
+    fn comb<L: Logic>(&self, q: &Reg<L, W, Q, T>, i: &In<L, W, P, G, Q, T>) -> Net<L, G, Q> {
         const {
             assert!(
-                Q == P + 4 && Q > T + FINE,
-                "sums of products that have a gain below 2"
+                Q == P + 5 + LEFT && Q > T + FINE + 1 && P > W,
+                "a product of the speed demand, the integral and the inertia's torque fit"
             )
         };
         let is = |state: u64| q.state.equals(state.into());
@@ -191,14 +197,18 @@ impl<const W: usize, const P: usize, const K: usize, const Q: usize, const T: us
         let speed_demand = wide(i.model_velocity) + product - speed;
         let kept = at_proportional.mux(q.speed_error, wide(i.model_acceleration));
         let operand = take.mux(position_error, at_position.mux(speed_demand, kept));
+        let size = operand.magnitude();
         let later = at_integral.mux(i.inertia, i.integral_gain);
         let gain = take.mux(i.position_gain, at_position.mux(i.speed_gain, later));
-        let grown = q.integral + q.increment;
-        let whole = q.sum + grown;
-        let wanted = (whole + (1i64 << (FINE - 1))).shift_right(FINE);
         let limit: L::U<Q> = i.limit.resize();
         let most = limit.signed();
         let least = -most;
+        let grown = q.integral + q.increment;
+        let ends = [least, most].map(|end| end.shift_left(FINE));
+        let held = ends[1].below(grown).mux(ends[1], grown);
+        let held = grown.below(ends[0]).mux(ends[0], held);
+        let whole = q.sum + held;
+        let wanted = (whole + (1i64 << (FINE - 1))).shift_right(FINE);
         let (above, below_least) = (most.below(wanted), wanted.below(least));
         let rising = !q.speed_error.is_negative() & above;
         let falling = q.speed_error.is_negative() & below_least;
@@ -210,9 +220,10 @@ impl<const W: usize, const P: usize, const K: usize, const Q: usize, const T: us
             speed_demand,
             operand,
             scale: take | (product_there & !at_inertia),
-            value: operand.magnitude(),
+            value: take.mux(size, size.shift_left(LEFT)),
             gain,
             grown,
+            held,
             whole,
             wanted,
             most,
@@ -228,8 +239,8 @@ impl<const W: usize, const P: usize, const K: usize, const Q: usize, const T: us
     fn next<L: Logic>(
         &self,
         q: Reg<L, W, Q, T>,
-        w: &Net<L, K, Q>,
-        i: &In<L, W, P, K, Q, T>,
+        w: &Net<L, G, Q>,
+        i: &In<L, W, P, G, Q, T>,
     ) -> Reg<L, W, Q, T> {
         let is = |state: u64| q.state.equals(state.into());
         let to = |state: u64| -> L::U<3> { state.into() };
@@ -246,7 +257,7 @@ impl<const W: usize, const P: usize, const K: usize, const Q: usize, const T: us
         let torque = w.above.mux(w.most, w.below_least.mux(w.least, w.wanted));
         let zero = || -> L::I<Q> { 0.into() };
         let sum = at_proportional.mux(w.product, at_inertia.mux(q.sum + w.product, q.sum));
-        let integral = (limits & w.integrates).mux(w.grown, q.integral);
+        let integral = (limits & w.integrates).mux(w.held, q.integral);
         Reg {
             state,
             negative: w.scale.mux(w.operand.is_negative(), q.negative),

@@ -2,6 +2,7 @@
 
 use super::Rounding;
 use super::ramp::Slope;
+pub use super::vector_correction::Correction;
 use super::widths::Widths;
 use crate::arc_generator::path::Speeds;
 pub use crate::arc_generator::settings::SettingError;
@@ -9,7 +10,6 @@ use crate::arc_generator::settings::{
     CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SPEED_RANGE_MM_PER_S, refusal, whole_ticks, within,
 };
 use crate::plan::ACCELERATION_RANGE;
-use serde::Deserialize;
 use std::ops::RangeInclusive;
 
 /// Shortest interpolation period in ticks: two points on the path, three model steps and a servo
@@ -18,31 +18,6 @@ pub const LEAST_PERIOD_TICKS: u64 = 600;
 
 /// Longest jerk time that is accepted, in ms.
 pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;
-
-/// What is added to the path's point before it is given to the servo controls.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Correction {
-    /// E = P_r − P_s, worked out in every period (equations (6), (7)).
-    #[default]
-    Vector,
-    /// Nothing.
-    None,
-    /// The prior art (¶0004): along the normal, by what is right at constant speed.
-    Steady,
-}
-
-impl Correction {
-    /// The name it has in scenarios.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Correction::Vector => "vector",
-            Correction::None => "none",
-            Correction::Steady => "steady",
-        }
-    }
-}
 
 /// Settings of a path and its run.
 #[derive(Debug, Clone, PartialEq)]

@@ -18,13 +18,28 @@ use crate::signals;
 
 /// What is added to the position commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "snake_case")]
 pub enum Correction {
-    /// The correction vector, from the servo response to the reference point.
+    /// E = Pr − Ps, worked out in every period (equations (6), (7)).
     #[default]
     Vector,
     /// Nothing.
     None,
+    /// The prior art (¶0004): along the normal, by what is right at constant speed. E = Pr − Pc, with
+    /// Pr on a path whose arcs are so much wider.
+    Steady,
+}
+
+impl Correction {
+    /// The name it has in scenarios.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Correction::Vector => "vector",
+            Correction::None => "none",
+            Correction::Steady => "steady",
+        }
+    }
 }
 
 signals! {
@@ -81,6 +96,7 @@ impl<const P: usize> Circuit for VectorCorrection<P> {
             vector: match self.correction {
                 Correction::Vector => i.target - i.response,
                 Correction::None => 0.into(),
+                Correction::Steady => i.target - i.command,
             },
         }
     }
@@ -107,6 +123,9 @@ impl<const P: usize> Specified for VectorCorrection<P> {
                     (true, Correction::Vector) => {
                         let vector = i.target.get() - i.response.get();
                         [vector, i.command.get() + vector]
+                    }
+                    (true, Correction::Steady) => {
+                        [i.target.get() - i.command.get(), i.target.get()]
                     }
                 };
                 let seen = [next.correction.get(), next.corrected.get()];

@@ -3,9 +3,9 @@
 use crate::point::{Segment, two_to};
 use motion_rtl::kernel::Simulator;
 use motion_rtl::logic::Sim;
-use motion_rtl::trajectory_controller::TrajectoryController;
 use motion_rtl::trajectory_controller::controller::In;
 use motion_rtl::trajectory_controller::vector_correction::Correction;
+use motion_rtl::trajectory_controller::{Rounding, TrajectoryController};
 use std::f64::consts::TAU;
 
 const AXES: usize = 2;
@@ -14,8 +14,8 @@ const P: usize = 47;
 const D: usize = 55;
 const E: usize = 12;
 type Full =
-    TrajectoryController<AXES, A, 31, P, 55, 42, 57, 44, 52, D, E, 41, 20, 16, 64, 51, 16, 24>;
-type Ports = In<Sim, AXES, A, P, D, E, 16, 16, 24>;
+    TrajectoryController<AXES, A, 31, P, 55, 42, 57, 44, 52, D, E, 41, 20, 16, 64, 24, 58, 16, 24>;
+type Ports = In<Sim, AXES, A, P, D, E, 16, 24, 16, 24>;
 
 /// Ticks of a period: enough for all arithmetic.
 const PERIOD: u64 = 450;
@@ -95,7 +95,7 @@ fn run(
     correction: Correction,
     periods: usize,
 ) -> Vec<Period> {
-    let circuit = Full::new(correction);
+    let circuit = Full::new(correction, Rounding::Nearest);
     let mut simulator = Simulator::new(&circuit);
     let mut begins = vec![0u64];
     for segment in path {

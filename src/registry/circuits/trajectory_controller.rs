@@ -20,15 +20,16 @@ fn rounding(number: u64) -> Rounding {
 fn correction(number: u64) -> Correction {
     match number {
         0 => Correction::Vector,
-        _ => Correction::None,
+        1 => Correction::None,
+        _ => Correction::Steady,
     }
 }
 
 /// The circuits of CN104204977.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
-        Scaler<16, 51>, Scaler, Some(3), "CN104204977 21, 23, 27, 29, 30: a gain",
-        ["K" = 16, "Q" = 51], "width of a gain; a value has as many bits",
+        Scaler<24, 58>, Scaler, Some(3), "CN104204977 21, 23, 27, 29, 30: a gain",
+        ["K" = 24, "Q" = 58], "width of a gain; a value has as many bits",
         proved_at!(3; [4 8], |given, W| Scaler::<W, { W + 1 }>)
     ),
     entry!(
@@ -86,9 +87,9 @@ pub(super) const CIRCUITS: &[Entry] = &[
         some_widths!([4 8], |given, W| AxisRow::<W, { W + 2 }, W, { W + 4 }, { W + 2 }>::default())
     ),
     entry!(
-        PointSequencer<47, 55, 44, 55>, PointSequencer, None, "CN104204977 2, 3",
+        PointSequencer<47, 55, 44, 55>, PointSequencer::default(), None, "CN104204977 2, 3",
         ["P" = 47, "R" = 55, "M" = 44, "D" = 55], "width of lengths; two bits more inside",
-        some_widths!([4 8], |given, W| PointSequencer::<W, { W + 2 }, W, { W + 2 }>)
+        some_widths!([4 8], |given, W| PointSequencer::<W, { W + 2 }, W, { W + 2 }>::default())
     ),
     entry!(
         PathPoint<3, 8, 47, 55, 42, 57, 44, 44, 52, 55, 12>, PathPoint::default(), None,
@@ -126,7 +127,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         Some(3),
         "CN104204977 4",
         ["P" = 47],
-        "width, 1 for no correction",
+        "width, 1 for no correction, 2 for the steady one",
         proved_at!(3; [4 8], |given, W| VectorCorrection::<W> {
             correction: correction(second(given, 0)),
         })
@@ -145,45 +146,44 @@ pub(super) const CIRCUITS: &[Entry] = &[
         }
     ),
     entry!(
-        ServoArithmetic<31, 47, 16, 51, 16>, ServoArithmetic, None, "CN104204977 26 to 31",
-        ["W" = 31, "P" = 47, "K" = 16, "Q" = 51, "T" = 16],
+        ServoArithmetic<31, 47, 24, 58, 16>, ServoArithmetic, None, "CN104204977 26 to 31",
+        ["W" = 31, "P" = 47, "G" = 24, "Q" = 58, "T" = 16],
         "width of counts, gains and torques; two guard bits",
-        some_widths!([4 8], |given, W| ServoArithmetic::<W, { W + 2 }, W, { W + 6 }, W>)
+        some_widths!([4 8], |given, W| ServoArithmetic::<W, { W + 2 }, W, { W + 13 }, W>)
     ),
     entry!(
-        Servo<31, 47, 16, 64, 51, 16>, Servo::default(), None, "CN104204977 11",
-        ["W" = 31, "P" = 47, "K" = 16, "M" = 64, "Q" = 51, "T" = 16],
+        Servo<31, 47, 16, 64, 24, 58, 16>, Servo::default(), None, "CN104204977 11",
+        ["W" = 31, "P" = 47, "K" = 16, "M" = 64, "G" = 24, "Q" = 58, "T" = 16],
         "width of counts, gains and torques; two guard bits",
-        some_widths!([4 8], |given, W| Servo::<W, { W + 2 }, W, { 2 * W + 3 }, { W + 6 }, W>::default())
+        some_widths!([4 8], |given, W| Servo::<W, { W + 2 }, W, { 2 * W + 3 }, W, { W + 13 }, W>::default())
     ),
     entry!(
-        ControlledAxis<31, 47, 16, 64, 51, 16>, ControlledAxis::default(), None,
+        ControlledAxis<31, 47, 16, 64, 24, 58, 16>, ControlledAxis::default(), None,
         "CN104204977 4, 11, 51",
-        ["W" = 31, "P" = 47, "K" = 16, "M" = 64, "Q" = 51, "T" = 16],
-        "width of counts, gains and torques, 1 for no correction; two guard bits",
+        ["W" = 31, "P" = 47, "K" = 16, "M" = 64, "G" = 24, "Q" = 58, "T" = 16],
+        "width of counts, gains and torques, 1 for no correction, 2 for the steady one; two guard bits",
         some_widths!([4 8], |given, W| {
-            ControlledAxis::<W, { W + 2 }, W, { 2 * W + 3 }, { W + 6 }, W>::new(
-                correction(second(given, 0)),
-            )
+            ControlledAxis::<W, { W + 2 }, W, { 2 * W + 3 }, W, { W + 13 }, W>::new(correction(second(given, 0)), Rounding::Nearest)
         })
     ),
     entry!(
-        TrajectoryController<2, 8, 31, 47, 55, 42, 57, 44, 52, 55, 12, 41, 20, 16, 64, 51, 16, 24>,
-        TrajectoryController::new(Correction::Vector),
+        TrajectoryController<2, 8, 31, 47, 55, 42, 57, 44, 52, 55, 12, 41, 20, 16, 64, 24, 58, 16, 24>,
+        TrajectoryController::new(Correction::Vector, Rounding::Nearest),
         None,
         "CN104204977 10",
         [
             "AXES" = 2, "A" = 8, "W" = 31, "P" = 47, "R" = 55, "C" = 42, "S" = 57, "H" = 44,
-            "X" = 52, "D" = 55, "E" = 12, "F" = 41, "N" = 20, "K" = 16, "M" = 64, "Q" = 51,
-            "T" = 16, "U" = 24
+            "X" = 52, "D" = 55, "E" = 12, "F" = 41, "N" = 20, "K" = 16, "M" = 64, "G" = 24,
+            "Q" = 58, "T" = 16, "U" = 24
         ],
-        "width of counts, gains and torques, 1 for no correction (two axes, two segments)",
+        "width of counts, gains and torques, 1 for no correction, 2 for the steady one (two axes, two segments)",
         some_widths!([4 8], |given, W| {
             TrajectoryController::<
                 2, 1, W, { W + 2 }, { W + 4 }, { W + 2 }, { W + 6 }, { W + 2 }, { W + 7 },
-                { 2 * W + 4 }, 5, { 2 * W + 1 }, { 2 * W - 2 }, W, { 2 * W + 3 }, { W + 6 }, W,
+                { 2 * W + 4 }, 5, { 2 * W + 1 }, { 2 * W - 2 }, W, { 2 * W + 3 }, W, { W + 13 },
+                W,
                 { 2 * W },
-            >::new(correction(second(given, 0)))
+            >::new(correction(second(given, 0)), Rounding::Nearest)
         })
     ),
 ];
