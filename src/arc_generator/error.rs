@@ -100,6 +100,12 @@ pub enum Reason {
         /// The width that its address would need.
         needed: u32,
     },
+    /// The path leaves the plane of two axes.
+    #[error("leaves the plane of x and y by {off} mm")]
+    Plane {
+        /// How far, in mm.
+        off: f64,
+    },
     /// A coordinate, centre, radius or length does not fit in the words.
     #[error("{what} reaches {counts:.1} counts, which needs W = {needed}")]
     Reach {
@@ -134,6 +140,7 @@ impl Reason {
             Reason::Coordinate { .. }
             | Reason::Circle(_)
             | Reason::Gap { .. }
+            | Reason::Plane { .. }
             | Reason::Reach { .. } => "to_mm",
         }
     }
@@ -148,7 +155,7 @@ impl Reason {
             | Reason::Tight { .. }
             | Reason::Overlap { .. }
             | Reason::Samples { .. } => "F",
-            Reason::Circle(CircleError::Helix { .. }) => "Z",
+            Reason::Circle(CircleError::Helix { .. }) | Reason::Plane { .. } => "Z",
             Reason::Circle(_) | Reason::Gap { .. } => "arc",
             Reason::Reach { what, .. } => what,
             Reason::Coordinate { axis, .. } => axis,
@@ -186,6 +193,7 @@ impl Reason {
             Reason::Samples { most, .. } => {
                 format!("at most {most} samples: faster, shorter, or sampled less often")
             }
+            Reason::Plane { .. } => "the height of the start, or three axes".into(),
             Reason::Segments { most, .. } => format!("at most {most}"),
             Reason::Reach { most, width, .. } => {
                 format!("-{most} to {most} counts at W = {width}: fewer counts per mm")

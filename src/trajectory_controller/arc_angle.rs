@@ -84,6 +84,11 @@ signals! {
 #[derive(Debug, Clone, Default)]
 pub struct ArcAngle<const P: usize, const M: usize, const H: usize, const X: usize>;
 
+impl<const P: usize, const M: usize, const H: usize, const X: usize> ArcAngle<P, M, H, X> {
+    /// Ticks from `start` to `done` where `shift` is 0.
+    pub const LATENCY: u64 = M as u64 + 1;
+}
+
 impl<const P: usize, const M: usize, const H: usize, const X: usize> Circuit
     for ArcAngle<P, M, H, X>
 {

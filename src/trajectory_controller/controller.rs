@@ -12,7 +12,7 @@ use super::point_sequencer::{RADIUS, STEADY_RADIUS};
 use super::vector_correction::Correction;
 use super::{
     ControlledAxis, LengthClamp, PathLength, PathPoint, PeriodJoin, ReferenceModel, Rounding,
-    controlled_axis, length_clamp, path_length, path_point, period_join, reference_model,
+    Servo, controlled_axis, length_clamp, path_length, path_point, period_join, reference_model,
 };
 use crate::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
@@ -290,6 +290,17 @@ impl<
     const U: usize,
 > TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>
 {
+    /// Ticks from the beginning of a period to its torques, at most.
+    pub const LATENCY: u64 = 2
+        + ReferenceModel::<P, K, M>::LATENCY
+        + PathPoint::<AXES, A, P, R, C, S, H, H, X, D, E>::LATENCY
+        + 2
+        + Servo::<W, P, K, M, G, Q, T>::LATENCY;
+
+    /// Shortest interpolation period in ticks: the next one begins when the torques stand. A longer
+    /// one is never late.
+    pub const LEAST_PERIOD: u64 = Self::LATENCY - 1;
+
     /// A controller whose commands are corrected so, and whose models round so.
     pub fn new(correction: Correction, rounding: Rounding) -> Self {
         let radius_word = match correction {

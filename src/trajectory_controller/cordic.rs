@@ -64,6 +64,11 @@ pub struct Cordic<const R: usize, const H: usize> {
     pub shifter: Shifter<R>,
 }
 
+impl<const R: usize, const H: usize> Cordic<R, H> {
+    /// Ticks from `start` to `done`.
+    pub const LATENCY: u64 = H as u64 + 1;
+}
+
 impl<const R: usize, const H: usize> Circuit for Cordic<R, H> {
     const NAME: &'static str = "cordic";
     const ABOUT: &'static str =

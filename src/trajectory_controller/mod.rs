@@ -2,15 +2,20 @@
 //!
 //! On the control computer: [`segments`] (pieces of a path by their length), [`speed_limits`] and
 //! [`planner`] (how fast it is run where, by [`ramp`]s, as a [`profile`](mod@profile)),
-//! [`profile_record`] (the profile as words), [`settings`], [`widths`].
+//! [`profile_record`] (the profile as words), [`servo_gains`], [`program`] (all of it together),
+//! [`job`] (a path on the circuit, with motors), [`measure`] (what came out), [`closed`] (what comes
+//! out on a circle), [`settings`], [`widths`].
 
 pub mod arc_angle;
 pub mod axis_row;
+pub mod closed;
 pub mod controlled_axis;
 pub mod controller;
 pub mod cordic;
 pub mod cordic_state;
+pub mod job;
 pub mod length_clamp;
+pub mod measure;
 pub mod model_state;
 pub mod path_length;
 pub mod path_point;
@@ -19,6 +24,7 @@ pub mod planner;
 pub mod point_sequencer;
 pub mod profile;
 pub mod profile_record;
+pub mod program;
 pub mod ramp;
 pub mod reference_model;
 pub mod scaler;
@@ -27,6 +33,7 @@ pub mod segment_store;
 pub mod segments;
 pub mod servo;
 pub mod servo_arithmetic;
+pub mod servo_gains;
 pub mod settings;
 pub mod shifter;
 pub mod speed_limits;
@@ -54,3 +61,4 @@ pub use servo::Servo;
 pub use servo_arithmetic::ServoArithmetic;
 pub use shifter::Shifter;
 pub use vector_correction::VectorCorrection;
+pub use widths::Widths;

@@ -38,7 +38,7 @@ signals! {
         /// qc: the length along the path.
         pub length: L::I<P> as Analog = 0,
         /// There is no path yet.
-        waiting: L::Bit = 1,
+        pub waiting: L::Bit = 1,
         /// A period has begun.
         begun: L::Bit = 0,
         /// The length is the first of a path: the tangential response goes there at once.

@@ -170,6 +170,20 @@ impl<
     const K: usize,
 > PathPoint<AXES, A, P, R, C, S, M, H, X, D, K>
 {
+    /// Ticks from `start` to `done` on a line: search, segment, projection, and a register after
+    /// each.
+    pub const LINE_LATENCY: u64 = SegmentSearch::<A, P>::LATENCY
+        + SegmentStore::<A, K, D>::LATENCY
+        + CoefficientControl::<C>::LATENCY
+        + 4;
+
+    /// The same on the smallest arc, whose angle is shifted most: it is measured and turned besides.
+    pub const LATENCY: u64 = Self::LINE_LATENCY
+        + ArcAngle::<P, M, H, X>::LATENCY
+        + (H as u64 - 3)
+        + Cordic::<R, H>::LATENCY
+        + 2;
+
     /// Points on a path whose arcs have the radius that stands in a word of their segments.
     pub fn new(radius_word: u64) -> Self {
         PathPoint {

@@ -8,7 +8,8 @@
 //! | 3, 4, 5 | where it begins | the centre |
 //! | 6, 7, 8 | way / length | direction to where it begins |
 //! | 9, 10, 11 | 0 | direction a quarter turn on |
-//! | 12 … 15 | 0 | 0 |
+//! | 12 | 0 | as word 2, the radius widened for constant speed |
+//! | 13 … 15 | 0 | 0 |
 //!
 //! Lengths are whole guard units of 2^-G count. A piece's own length is rounded, and what the
 //! rounding takes is spread over the piece: a line's coefficients are its way divided by the rounded
@@ -17,6 +18,7 @@
 
 use super::cordic_state::GAIN;
 use super::segment_store::WORDS;
+use super::speed_limits::Span;
 use super::widths::Widths;
 use crate::arc_generator::circle::Circle;
 use crate::arc_generator::error::{PathError, Reason};
@@ -47,6 +49,9 @@ pub struct Arc {
     pub radius: f64,
     /// Length of a whole turn: 2πr, but for the rounding of the length.
     pub turn: f64,
+    /// The radius of the command whose response has radius r at constant speed (¶0004); r before
+    /// [`Path::widen`].
+    pub widened: f64,
 }
 
 impl Segment {
@@ -62,7 +67,9 @@ impl Segment {
             words[0] = 1 | u64::from(widths.angle - n) << 1;
             words[1] = (mantissa.round() as u64).min((1 << widths.curvature) - 1);
             let inside = two_to(widths.radius - widths.point);
-            words[2] = (arc.radius / GAIN * inside).round() as u64;
+            let radius = |radius: f64| (radius / GAIN * inside).round() as u64;
+            words[2] = radius(arc.radius);
+            words[12] = radius(arc.widened);
         }
         let unit = two_to(widths.coefficient - 2);
         for axis in 0..COORDINATES {
@@ -71,6 +78,22 @@ impl Segment {
             words[9 + axis] = word((self.across[axis] * unit).round() as i64);
         }
         words
+    }
+
+    /// Whether both are arcs of one circle, run the same way.
+    #[must_use]
+    pub(super) fn same_circle(&self, other: &Segment) -> bool {
+        let near = |off: f64| off < 1e-6;
+        let axis = |segment: &Segment| cross(segment.along, segment.across);
+        match (self.arc, other.arc) {
+            (Some(one), Some(two)) => {
+                let apart = |k: usize| (self.base[k] - other.base[k]).abs() <= 2;
+                near((one.radius / two.radius - 1.0).abs())
+                    && (0..COORDINATES).all(apart)
+                    && near(crate::plan::norm(sub(axis(self), axis(other))))
+            }
+            _ => false,
+        }
     }
 
     /// The point at a length behind its beginning, unrounded.
@@ -143,6 +166,7 @@ impl Path {
             };
             piece.check(from).map_err(refuse)?;
             fits(from, piece, counts_per_mm, &widths.record()).map_err(refuse)?;
+            margin(start, piece, counts_per_mm, &widths.record()).map_err(refuse)?;
             let begin = std::mem::replace(&mut from, piece.to);
             let unit = counts_per_mm * two_to(widths.guard());
             let Some((segment, own)) = segment(begin, piece, unit) else {
@@ -191,6 +215,18 @@ impl Path {
         })
     }
 
+    /// Widens the radius of each arc by c·v²/r, v being the speed on its span; to twice the radius
+    /// at most, where the series that this is the first of is long worthless, and half of it at
+    /// least.
+    pub fn widen(&mut self, spans: &[Span], c: f64) {
+        for (stretch, span) in self.stretches.iter_mut().zip(spans) {
+            if let Some(arc) = &mut stretch.segment.arc {
+                let by = c * span.speed * span.speed / arc.radius;
+                arc.widened = arc.radius + by.clamp(-arc.radius / 2.0, arc.radius);
+            }
+        }
+    }
+
     /// The segment that a length belongs to: the last that begins at or before it.
     #[must_use]
     pub fn index(&self, length: f64) -> usize {
@@ -226,6 +262,7 @@ fn segment(from: Point, piece: &Piece, unit_per_mm: f64) -> Option<(Segment, u64
             let arc = Arc {
                 radius: circle.radius * unit_per_mm,
                 turn: length * (TAU / circle.angle),
+                widened: circle.radius * unit_per_mm,
             };
             (units(centre), along, cross(axis, along), Some(arc), length)
         }
@@ -260,6 +297,37 @@ fn fits(
     (0..2).try_for_each(|end| check(names, extremes.map(|extreme| extreme[end])))?;
     check(["centre x", "centre y", "centre z"], circle.centre)?;
     hold("radius", circle.radius * counts_per_mm, widths)
+}
+
+/// Checks that a piece stays within half the range around the path's start, where the motors are at
+/// 0: the other half is for the corrected command, and for a response that goes too far.
+fn margin(
+    start: Point,
+    piece: &Piece,
+    counts_per_mm: f64,
+    widths: &RecordWidths,
+) -> Result<(), Reason> {
+    let (extremes, radius) = match &piece.course {
+        Course::Line => (piece.to.map(|mm| [mm; 2]), 0.0),
+        Course::Arc(circle) => (circle.extremes(), circle.radius),
+    };
+    let ways = (0..COORDINATES).flat_map(|axis| {
+        let name = ["x from the start", "y from the start", "z from the start"][axis];
+        extremes[axis].map(|mm| (name, mm - start[axis]))
+    });
+    for (what, mm) in ways.chain([("radius", radius)]) {
+        let counts = mm * counts_per_mm;
+        if !widths.holds(2.0 * counts) {
+            return Err(Reason::Reach {
+                what,
+                counts,
+                most: widths.reach() / 2,
+                width: widths.position,
+                needed: RecordWidths::needed(2.0 * counts),
+            });
+        }
+    }
+    Ok(())
 }
 
 fn hold(what: &'static str, counts: f64, widths: &RecordWidths) -> Result<(), Reason> {

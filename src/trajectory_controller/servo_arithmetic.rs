@@ -11,9 +11,10 @@
 //! ```
 //!
 //! 26: position error = model position − feedback. 27: P. 28: speed error = model speed + P − speed,
-//! the speed being what the feedback moved in the period. 29: PI. 30: model acceleration times the
-//! inertia. 31: all three added. Departures: the torque is limited; the integral of 29 stays within the limit,
-//! and holds while it would drive the torque farther beyond.
+//! both being ways from step to step: of the model, what it moved in this step, which is its velocity
+//! before it; of the motor, what the feedback moved since the step before. 29: PI. 30: model
+//! acceleration times the inertia. 31: all three added. Departures: the torque is limited; the
+//! integral of 29 stays within the limit, and holds while it would drive the torque farther beyond.
 
 use crate::kernel::Circuit;
 use crate::logic::{Bit, Logic, Signed, Unsigned};
@@ -52,7 +53,8 @@ signals! {
         const Q: usize,
         const T: usize,
     > {
-        /// The model's state is new; not taken while `busy`. All words are constant during a step.
+        /// The model's state is new; not taken while `busy`. All words but the
+        /// feedback are constant during a step.
         pub step: L::Bit,
         /// Speed and integral to 0, feedback taken over; a step that is under way is given up.
         pub clear: L::Bit,
@@ -62,7 +64,7 @@ signals! {
         pub model_velocity: L::I<P>,
         /// Its acceleration, in a period squared.
         pub model_acceleration: L::I<P>,
-        /// Position of the motor in counts.
+        /// Position of the motor in counts; taken over with `step`.
         pub feedback: L::I<W>,
         /// Of 27: speed for a position error, in units of 2^−(G − 1).
         pub position_gain: L::U<G>,
@@ -88,8 +90,10 @@ signals! {
         state: L::U<3> as States(STATES) = 0,
         /// What is being scaled is negative.
         negative: L::Bit = 0,
-        /// The feedback of the period before.
+        /// The feedback of the last step.
         previous: L::I<W> = 0,
+        /// What it moved in that period.
+        speed: L::I<W> = 0,
         /// 28: the speed error.
         speed_error: L::I<Q> as Analog = 0,
         /// The parts of 31 so far, with FINE bits behind the torque's last.
@@ -193,8 +197,8 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
         let position_error = wide(i.model_position) - counts(i.feedback);
         let signed: L::I<Q> = i.scaled.signed();
         let product = q.negative.mux(-signed, signed);
-        let speed = counts(i.feedback) - counts(q.previous);
-        let speed_demand = wide(i.model_velocity) + product - speed;
+        let model_speed = wide(i.model_velocity) - wide(i.model_acceleration);
+        let speed_demand = model_speed + product - counts(q.speed);
         let kept = at_proportional.mux(q.speed_error, wide(i.model_acceleration));
         let operand = take.mux(position_error, at_position.mux(speed_demand, kept));
         let size = operand.magnitude();
@@ -261,7 +265,8 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
         Reg {
             state,
             negative: w.scale.mux(w.operand.is_negative(), q.negative),
-            previous: (limits | i.clear).mux(i.feedback, q.previous),
+            previous: (w.take | i.clear).mux(i.feedback, q.previous),
+            speed: w.take.mux(i.feedback - q.previous, q.speed),
             speed_error: at_position.mux(w.speed_demand, q.speed_error),
             sum,
             integral: i.clear.mux(zero(), integral),

@@ -1,6 +1,7 @@
 //! What the trajectory controller is run with: clock and period, machine, motion, reference model.
 
 use super::Rounding;
+use super::job::Controller;
 use super::ramp::Slope;
 pub use super::vector_correction::Correction;
 use super::widths::Widths;
@@ -9,12 +10,13 @@ pub use crate::arc_generator::settings::SettingError;
 use crate::arc_generator::settings::{
     CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SPEED_RANGE_MM_PER_S, refusal, whole_ticks, within,
 };
+use crate::input::COORDINATES;
 use crate::plan::ACCELERATION_RANGE;
 use std::ops::RangeInclusive;
 
 /// Shortest interpolation period in ticks: two points on the path, three model steps and a servo
 /// step are done within it.
-pub const LEAST_PERIOD_TICKS: u64 = 600;
+pub const LEAST_PERIOD_TICKS: u64 = Controller::<COORDINATES>::LEAST_PERIOD;
 
 /// Longest jerk time that is accepted, in ms.
 pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;
@@ -44,12 +46,18 @@ pub struct Settings {
     pub k1_per_s: f64,
     /// K2 in 1/s.
     pub k2_per_s: f64,
-    /// Gains with which the model goes beyond its target are allowed.
+    /// Gains with which the model goes beyond its target are allowed: K2 from 2·K1 on.
     pub allow_overshoot: bool,
     /// How the model rounds.
     pub rounding: Rounding,
     /// What is added to the path's point.
     pub correction: Correction,
+    /// Gain of the position controls in 1/s.
+    pub position_gain_per_s: f64,
+    /// Bandwidth of the speed controls in Hz: their gain is 2πf times the inertia.
+    pub speed_hz: f64,
+    /// Integral time of the speed controls; 0 for no integral.
+    pub integral_ms: f64,
 }
 
 impl Default for Settings {
@@ -70,6 +78,9 @@ impl Default for Settings {
             allow_overshoot: false,
             rounding: Rounding::default(),
             correction: Correction::default(),
+            position_gain_per_s: 30.0,
+            speed_hz: 17.0,
+            integral_ms: 40.0,
         }
     }
 }
@@ -96,6 +107,24 @@ pub struct Gains {
     pub k1: u64,
     /// K2·Δt.
     pub k2: u64,
+}
+
+impl Gains {
+    /// K1·Δt and K2·Δt as numbers.
+    #[must_use]
+    pub fn parts(&self, widths: &Widths) -> [f64; 2] {
+        let one = f64::from(widths.gain - 1).exp2();
+        [self.k1, self.k2].map(|word| word as f64 / one)
+    }
+
+    /// c = ½(1/K1² − Δt/K1 − 2/(K1·K2)) in s²: at the speed v a circle of the radius r shrinks by
+    /// c·v²/r, but for higher orders of v/r. Δt/K1 is what the steps of the model are, and is not
+    /// there in a continuous one.
+    #[must_use]
+    pub fn radial_s2(&self, widths: &Widths, period: f64) -> f64 {
+        let [k1, k2] = self.parts(widths);
+        (1.0 / (k1 * k1) - 1.0 / k1 - 2.0 / (k1 * k2)) / 2.0 * period * period
+    }
 }
 
 impl From<&Settings> for Speeds {
@@ -127,12 +156,20 @@ impl Settings {
         whole_ticks("period_ms", self.period_ms, self.clock_hz, &ticks)
     }
 
+    /// Δt in seconds.
+    ///
+    /// # Errors
+    /// As [`Settings::period_ticks`].
+    pub fn period_s(&self, widths: &Widths) -> Result<f64, SettingError> {
+        Ok(f64::from(self.period_ticks(widths)?) / self.clock_hz as f64)
+    }
+
     /// What the planner needs.
     ///
     /// # Errors
     /// As [`Settings::check`], of all but the model's gains.
     pub fn motion(&self, widths: &Widths) -> Result<Motion, SettingError> {
-        let ticks = self.period_ticks(widths)?;
+        let period = self.period_s(widths)?;
         within("counts_per_mm", self.counts_per_mm, &COUNTS_PER_MM_RANGE)?;
         let feed = self.feed_mm_per_s.map(|feed| ("feed_mm_per_s", feed));
         let rapid = ("rapid_mm_per_s", self.rapid_mm_per_s);
@@ -155,7 +192,7 @@ impl Settings {
         let units_per_mm = self.counts_per_mm * f64::from(widths.guard()).exp2();
         Ok(Motion {
             units_per_mm,
-            period: f64::from(ticks) / self.clock_hz as f64,
+            period,
             slope: Slope {
                 acceleration: self.acceleration_mm_per_s2 * units_per_mm,
                 jerk_time: self.jerk_time_ms / 1e3,
@@ -165,20 +202,24 @@ impl Settings {
         })
     }
 
-    /// The model's gains, to the nearest word.
+    /// The model's gains, to the nearest word; but K1 rounds down where rounding alone would make the
+    /// model go beyond its target.
     ///
     /// # Errors
     /// As [`Settings::check`], of clock, period and gains. With gains k1, k2 a period: the model is
     /// stable where k1 < 1 and k2·(2 − k1) < 4, which a word below 2 always is; it does not go beyond
-    /// its target where also 4·k1 <= k2; and it comes to the count it is told to where k1·k2 is a
-    /// guard unit or more, with [`Rounding::Floor`] two of them.
+    /// its target where also 4·k1 <= k2; what rounding makes of it dies out where 2·k1 <= k2; and it
+    /// comes to the count it is told to where k1·k2 is a guard unit or more, with
+    /// [`Rounding::Floor`] two of them.
     pub fn gains(&self, widths: &Widths) -> Result<Gains, SettingError> {
-        let ticks = self.period_ticks(widths)?;
-        let period = f64::from(ticks) / self.clock_hz as f64;
+        let period = self.period_s(widths)?;
         let bits = widths.gain - 1;
         let one = 1u64 << bits;
         let word = |per_s: f64| (per_s * period * one as f64).round();
-        let [k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
+        let [mut k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
+        if 4.0 * self.k1_per_s <= self.k2_per_s {
+            k1 = k1.min((k2 / 4.0).floor());
+        }
         let refuse = |field, value: f64, word: f64, allowed: [u64; 2]| {
             let part = |word: f64| word / one as f64;
             let [least, most] = allowed.map(|word| part(word as f64));
@@ -194,21 +235,18 @@ impl Settings {
         };
         // The K1 that some K2 goes with.
         let most_k2 = 2 * one - 1;
-        let most_k1 = match self.allow_overshoot {
-            true => one - 1,
-            false => most_k2 / 4,
+        let damping = match self.allow_overshoot {
+            true => 2,
+            false => 4,
         };
+        let most_k1 = most_k2 / damping;
         let allowed = [exact.div_ceil(most_k2), most_k1];
         // Written so that NaN fails.
         if !(k1 >= allowed[0] as f64 && k1 <= allowed[1] as f64) {
             return Err(refuse("k1_per_s", self.k1_per_s, k1, allowed));
         }
         let first = k1 as u64;
-        let least = match self.allow_overshoot {
-            true => 1,
-            false => 4 * first,
-        };
-        let allowed = [least.max(exact.div_ceil(first)), most_k2];
+        let allowed = [(damping * first).max(exact.div_ceil(first)), most_k2];
         if !(k2 >= allowed[0] as f64 && k2 <= allowed[1] as f64) {
             return Err(refuse("k2_per_s", self.k2_per_s, k2, allowed));
         }

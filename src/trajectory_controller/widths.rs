@@ -29,6 +29,10 @@ pub struct Widths {
     pub period: u32,
     /// K: gains of the reference model, with K − 1 fraction bits.
     pub gain: u32,
+    /// Gains of the servo controls; that of the position has all bits but one below the point.
+    pub servo_gain: u32,
+    /// Bits below the point of their other gains.
+    pub torque_fraction: u32,
 }
 
 impl Widths {
@@ -46,6 +50,8 @@ impl Widths {
         samples: 20,
         period: 24,
         gain: 16,
+        servo_gain: 24,
+        torque_fraction: 21,
     };
 
     /// G: bits below the count.

@@ -1,24 +1,14 @@
 //! The controller without motors: commands, responses and corrections on paths.
 
+use crate::bench::{Path, Period, Record, plane};
 use crate::point::{Segment, two_to};
-use motion_rtl::kernel::Simulator;
-use motion_rtl::logic::Sim;
-use motion_rtl::trajectory_controller::controller::In;
 use motion_rtl::trajectory_controller::vector_correction::Correction;
-use motion_rtl::trajectory_controller::{Rounding, TrajectoryController};
 use std::f64::consts::TAU;
 
-const AXES: usize = 2;
-const A: usize = 8;
 const P: usize = 47;
-const D: usize = 55;
-const E: usize = 12;
-type Full =
-    TrajectoryController<AXES, A, 31, P, 55, 42, 57, 44, 52, D, E, 41, 20, 16, 64, 24, 58, 16, 24>;
-type Ports = In<Sim, AXES, A, P, D, E, 16, 24, 16, 24>;
 
-/// Ticks of a period: enough for all arithmetic.
-const PERIOD: u64 = 450;
+/// Ticks of a period: the least that are enough, plus some.
+const PERIOD: u64 = 480;
 /// Guard units of a count.
 const UNIT: f64 = 65_536.0;
 
@@ -33,7 +23,7 @@ struct Phase {
 }
 
 impl Phase {
-    fn words(&self) -> [u64; 32] {
+    fn words(&self) -> Record {
         let fraction = two_to(40);
         let split = |value: f64| {
             let parts = (value * fraction).round() as i128;
@@ -75,114 +65,26 @@ fn trapezoid(length: u64, ramp: u64, cruise: u64) -> Vec<Phase> {
     ]
 }
 
-/// What stands when all points of a period do.
-#[derive(Debug, Clone, Copy)]
-pub struct Period {
-    command: [i64; AXES],
-    response: [i64; AXES],
-    correction: [i64; AXES],
-    corrected: [i64; AXES],
-    /// What the servo's own model makes of it: where the motor is held.
-    model: [i64; AXES],
-    length: i64,
-    answered: i64,
+fn path(segments: &[Segment]) -> Path {
+    let words = |segment: &Segment| (segment.length, segment.words());
+    segments.iter().map(words).collect()
 }
 
 fn run(
-    path: &[Segment],
+    segments: &[Segment],
     profile: &[Phase],
     gains: [u64; 2],
     correction: Correction,
     periods: usize,
-) -> Vec<Period> {
-    let circuit = Full::new(correction, Rounding::Nearest);
-    let mut simulator = Simulator::new(&circuit);
-    let mut begins = vec![0u64];
-    for segment in path {
-        begins.push(begins.last().expect("one") + segment.length);
-    }
-    let end = *begins.last().expect("one") as i64;
-    let idle = || Ports {
-        write: false.into(),
-        write_word: 0.into(),
-        write_data: 0.into(),
-        push: false.into(),
-        start: false.into(),
-        halt: false.into(),
-        restart: false.into(),
-        write_begin: false.into(),
-        begin_segment: 0.into(),
-        begin_length: 0.into(),
-        write_path: false.into(),
-        path_address: 0.into(),
-        path_data: 0.into(),
-        last: (path.len() as u64 - 1).into(),
-        path_end: end.into(),
-        period: PERIOD.into(),
-        gain_1: gains[0].into(),
-        gain_2: gains[1].into(),
-        position_gain: [0.into(); AXES],
-        speed_gain: [0.into(); AXES],
-        integral_gain: [0.into(); AXES],
-        inertia: [0.into(); AXES],
-        limit: [0.into(); AXES],
-        a: [false.into(); AXES],
-        b: [false.into(); AXES],
-    };
-    let mut writes = Vec::new();
-    for (index, segment) in (0u64..).zip(path) {
-        for (word, data) in (0u64..).zip(segment.words()) {
-            writes.push(Ports {
-                write_begin: (word == 0).into(),
-                begin_segment: index.into(),
-                begin_length: begins[index as usize].into(),
-                write_path: true.into(),
-                path_address: (index << 4 | word).into(),
-                path_data: data.into(),
-                ..idle()
-            });
-        }
-    }
-    for phase in profile {
-        for (word, data) in (0u64..).zip(phase.words()) {
-            writes.push(Ports {
-                write: true.into(),
-                write_word: word.into(),
-                write_data: data.into(),
-                push: (word == 31).into(),
-                ..idle()
-            });
-        }
-    }
-    writes.push(Ports {
-        start: true.into(),
-        ..idle()
-    });
-    let mut writes = writes.into_iter();
-    let mut seen = Vec::new();
-    while seen.len() < periods {
-        let i = writes.next().unwrap_or_else(idle);
-        let (next, period) = simulator.step(i, |now| {
-            let (q, w) = (now.q, now.w);
-            w.axes[0].w.driven.get().then(|| {
-                let each = |of: &dyn Fn(usize) -> i64| [of(0), of(1)];
-                Period {
-                    command: each(&|axis| q.distribution.axes[axis].point.get()),
-                    response: each(&|axis| q.axes[axis].response.integrators.position.get()),
-                    correction: each(&|axis| q.axes[axis].corrector.correction.get()),
-                    corrected: each(&|axis| q.axes[axis].corrector.corrected.get()),
-                    model: each(&|axis| q.axes[axis].servo.model.integrators.position.get()),
-                    length: q.length.length.get(),
-                    answered: q.tangential.integrators.position.get(),
-                }
-            })
-        });
-        simulator = next;
-        seen.extend(period);
-        assert!(!simulator.registers().gather.late.get());
-    }
-    assert!(!simulator.registers().sequencer.late.get());
-    seen
+) -> Vec<Period<2>> {
+    let profile: Vec<Record> = profile.iter().map(Phase::words).collect();
+    plane::run(
+        &path(segments),
+        &profile,
+        gains,
+        correction,
+        (PERIOD, periods),
+    )
 }
 
 fn line(base: [i64; 2], direction: [f64; 2], length: u64) -> Segment {

@@ -1,7 +1,10 @@
 //! The trajectory controller: its blocks against programs.
 
+mod bench;
 mod controller;
 mod cordic;
 mod model;
 mod point;
 mod search;
+mod servo;
+mod whole;

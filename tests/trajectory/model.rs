@@ -179,6 +179,51 @@ fn with_a_bit_less_a_target_is_missed() {
     assert_eq!(missed(Rounding::Floor, 0), [[3, 1], [4, 1], [4, 2]]);
 }
 
+/// Words of a gain of 1 and of a guard unit where counts have 4 of their bits, for all pairs.
+const ONE: u64 = 1 << 4;
+const FRACTION: u32 = 4;
+
+/// All stable positions that the model goes through at the end of its way to a target.
+fn ends(target: i128, gains: [u64; 2]) -> Vec<i128> {
+    let circuit = ReferenceModel::<14, 5, 20>::new(Rounding::Nearest);
+    let mut simulator = Simulator::new(&circuit);
+    let mut states: Vec<State> = Vec::new();
+    loop {
+        let (after, seen) = step(simulator, target, gains);
+        simulator = after;
+        if let Some(begin) = states.iter().position(|state| state[..2] == seen[..2]) {
+            return states[begin..].iter().map(|state| state[0]).collect();
+        }
+        states.push(seen);
+    }
+}
+
+/// Pairs of all words of 5 bits with a product of a guard unit at least: in the stated regions every
+/// target is reached to the count, however long one waits; and beyond them one is missed by a
+/// response that never ends.
+#[test]
+fn targets_are_reached_by_all_pairs_of_gains() {
+    let reached = |gains: [u64; 2]| {
+        (-6..=6i128).all(|target| {
+            let ends = ends(target << FRACTION, gains);
+            ends.iter().all(|&end| counts(end, FRACTION) == target)
+        })
+    };
+    let mut pairs = 0;
+    for first in 1..ONE {
+        for second in 2 * first..2 * ONE {
+            if first * second >= ONE * ONE >> FRACTION {
+                pairs += 1;
+                assert!(reached([first, second]), "{first}, {second}");
+            }
+        }
+    }
+    assert_eq!(pairs, 222);
+    // A product below a guard unit, and a response that is hardly damped.
+    assert!(!reached([1, 7]));
+    assert!(!reached([12, 2]));
+}
+
 #[test]
 fn the_response_is_monotone_and_mirrored() {
     for [a, b] in monotone() {

@@ -44,8 +44,8 @@ fn what_is_not_allowed_is_refused_with_what_is() {
         assert_eq!(field(refused(change)), name);
     }
     assert_eq!(
-        refused(|s| s.period_ms = 0.5),
-        "period_ms: is 0.5; allowed: 0.6 to 16777.215 ms: 600 to 16777215 ticks"
+        refused(|s| s.period_ms = 0.3),
+        "period_ms: is 0.3; allowed: 0.399 to 16777.215 ms: 399 to 16777215 ticks"
     );
     assert_eq!(
         refused(|s| s.period_ms = 1.0005),
@@ -64,7 +64,7 @@ fn what_is_not_allowed_is_refused_with_what_is() {
     // Beyond the monotone region, on demand.
     let beyond = Settings {
         k1_per_s: 600.0,
-        k2_per_s: 1000.0,
+        k2_per_s: 1201.0,
         allow_overshoot: true,
         ..Settings::default()
     };
@@ -73,6 +73,8 @@ fn what_is_not_allowed_is_refused_with_what_is() {
         field(refused(|s| (s.k1_per_s, s.allow_overshoot) = (1000.0, true))),
         "k1_per_s"
     );
+    let damped = field(refused(|s| (s.k2_per_s, s.allow_overshoot) = (99.0, true)));
+    assert_eq!(damped, "k2_per_s");
     assert_eq!(field(refused(|s| s.k2_per_s = 2000.0)), "k2_per_s");
 }
 

@@ -1,0 +1,301 @@
+//! A path on the trajectory controller, with a motor and its load on each axis: the control computer
+//! that feeds it, and what comes out, period by period.
+
+pub use super::program::{Program, ProgramError};
+use super::{TrajectoryController, Widths, controller};
+use crate::arc_generator::record::WORDS;
+use crate::kernel::{Observer, RunError, Sample, Simulator};
+use crate::logic::Sim;
+use crate::plant::TwoMassAxis;
+use std::array::from_fn;
+use std::ops::ControlFlow;
+
+const A: usize = 12;
+const P: usize = 47;
+const D: usize = 55;
+const E: usize = A + 4;
+const K: usize = 16;
+const G: usize = 24;
+const T: usize = 16;
+const U: usize = 24;
+
+/// The controller that plays a job.
+pub type Controller<const AXES: usize> =
+    TrajectoryController<AXES, A, 31, P, 55, 42, 57, 44, 52, D, E, 41, 20, K, 64, G, 58, T, U>;
+type Ports<const AXES: usize> = controller::In<Sim, AXES, A, P, D, E, K, G, T, U>;
+
+/// Words of a segment that are written.
+const SEGMENT_WORDS: usize = 13;
+/// Records of the profile that wait before the path begins, where there are so many.
+const HEAD_START: usize = 16;
+/// Periods in a row in which models and motors are where they belong: then they have settled.
+const CALM: u32 = 10;
+/// How far a settled motor is from its model, in counts.
+const NEAR_COUNTS: f64 = 2.0;
+
+/// An interpolation period. Positions are from where the path begins, in guard units where nothing
+/// else is said.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Period<const AXES: usize> {
+    /// The tick in which the servo's models have moved, and the motors are compared with them.
+    pub tick: u64,
+    /// q_c.
+    pub length: i64,
+    /// q_s.
+    pub answered: i64,
+    /// P_c.
+    pub command: [i64; AXES],
+    /// P_r.
+    pub reference: [i64; AXES],
+    /// P_s.
+    pub response: [i64; AXES],
+    /// P_d.
+    pub corrected: [i64; AXES],
+    /// Of the servo's own model.
+    pub model: [i64; AXES],
+    /// Of the motor, in encoder counts.
+    pub motor: [i64; AXES],
+    /// Of the load, in encoder counts.
+    pub load: [f64; AXES],
+    /// Torque from this period on, in words of the amplifier.
+    pub torque: [i64; AXES],
+    /// It is limited.
+    pub saturated: [bool; AXES],
+}
+
+/// What came out of a path.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Played<const AXES: usize> {
+    /// The periods from the path's start on, its first length 0.
+    pub periods: Vec<Period<AXES>>,
+    /// The tick in which the path was started: before it, it was written.
+    pub start: u64,
+    /// The ticks of the run.
+    pub ticks: u64,
+    /// A period began before the one before was over.
+    pub late: bool,
+    /// The profile ended in motion.
+    pub starved: bool,
+    /// An encoder was too fast.
+    pub lost: bool,
+    /// Models and motors came to rest at the path's end.
+    pub settled: bool,
+}
+
+/// The control computer: it writes the path, then starts, and writes records as they find room.
+struct Host<'a> {
+    program: &'a Program,
+    /// The segment and the word of it that are written next, and the segment's words.
+    segment: usize,
+    word: usize,
+    words: [u64; 16],
+    record: usize,
+    record_word: usize,
+    /// There was a free record in the tick before, and no push that may have taken the last.
+    free: bool,
+    started: bool,
+}
+
+impl<'a> Host<'a> {
+    fn new(program: &'a Program) -> Self {
+        let mut host = Host {
+            program,
+            segment: 0,
+            word: 0,
+            words: [0; 16],
+            record: 0,
+            record_word: 0,
+            free: true,
+            started: false,
+        };
+        host.prepare();
+        host
+    }
+
+    /// The words of the segment that is written next: the motors are at 0 where the path begins.
+    fn prepare(&mut self) {
+        let Some(stretch) = self.program.path.stretches.get(self.segment) else {
+            return;
+        };
+        let mut segment = stretch.segment;
+        for (base, origin) in segment.base.iter_mut().zip(self.program.origin) {
+            *base -= origin;
+        }
+        self.words = segment.words(&Widths::FULL);
+    }
+
+    fn ports<const AXES: usize>(&mut self, channels: [(bool, bool); AXES]) -> Ports<AXES> {
+        let program = self.program;
+        let stretches = &program.path.stretches;
+        let (segment, word) = (self.segment, self.word);
+        let writing = stretches.get(segment);
+        let record = program.records.get(self.record).filter(|_| self.free);
+        let (record_word, last) = (self.record_word, self.record_word + 1 == WORDS);
+        let waiting = program.records.len().min(HEAD_START);
+        let start = !self.started && writing.is_none() && self.record == waiting;
+        self.started |= start;
+        let ports = Ports {
+            write: record.is_some().into(),
+            write_word: (record_word as u64).into(),
+            write_data: record.map_or(0, |record| record.words[record_word]).into(),
+            push: (record.is_some() && last).into(),
+            start: start.into(),
+            halt: false.into(),
+            restart: false.into(),
+            write_begin: (writing.is_some() && word == 0).into(),
+            begin_segment: (segment as u64).into(),
+            begin_length: writing.map_or(0, |stretch| stretch.begin).into(),
+            write_path: writing.is_some().into(),
+            path_address: ((segment as u64) << 4 | word as u64).into(),
+            path_data: self.words[word].into(),
+            last: (stretches.len() as u64 - 1).into(),
+            path_end: (program.path.length as i64).into(),
+            period: u64::from(program.period_ticks).into(),
+            gain_1: program.gains.k1.into(),
+            gain_2: program.gains.k2.into(),
+            position_gain: from_fn(|axis| program.servo[axis].position.into()),
+            speed_gain: from_fn(|axis| program.servo[axis].speed.into()),
+            integral_gain: from_fn(|axis| program.servo[axis].integral.into()),
+            inertia: from_fn(|axis| program.servo[axis].inertia.into()),
+            limit: from_fn(|axis| program.servo[axis].limit.into()),
+            a: channels.map(|(a, _)| a.into()),
+            b: channels.map(|(_, b)| b.into()),
+        };
+        if record.is_some() {
+            self.record_word = (record_word + 1) % WORDS;
+            self.record += usize::from(last);
+        }
+        if writing.is_some() {
+            self.word = (word + 1) % SEGMENT_WORDS;
+            if self.word == 0 {
+                self.segment += 1;
+                self.prepare();
+            }
+        }
+        ports
+    }
+}
+
+/// What one tick shows.
+struct Seen<const AXES: usize> {
+    flow: ControlFlow<()>,
+    ready: bool,
+    busy: bool,
+    late: bool,
+    lost: bool,
+    /// The motors are compared with their models, at these positions.
+    compared: Option<[i64; AXES]>,
+    /// All of a period stands, but for where the motors and loads were.
+    period: Option<Period<AXES>>,
+}
+
+fn see<const AXES: usize>(
+    now: &Sample<'_, Controller<AXES>>,
+    observer: &mut impl Observer<Controller<AXES>>,
+) -> Result<Seen<AXES>, RunError> {
+    let (q, w) = (now.q, now.w);
+    let period = |_| Period {
+        tick: 0,
+        length: q.length.length.get(),
+        answered: q.tangential.integrators.position.get(),
+        command: from_fn(|k| q.distribution.axes[k].point.get()),
+        reference: from_fn(|k| q.reference_point.axes[k].point.get()),
+        response: from_fn(|k| q.axes[k].response.integrators.position.get()),
+        corrected: from_fn(|k| q.axes[k].corrector.corrected.get()),
+        model: from_fn(|k| q.axes[k].servo.model.integrators.position.get()),
+        motor: [0; AXES],
+        load: [0.0; AXES],
+        torque: from_fn(|k| w.axes[k].w.torque.get()),
+        saturated: from_fn(|k| w.axes[k].w.saturated.get()),
+    };
+    let axis = &w.axes[0].w;
+    Ok(Seen {
+        flow: observer.sample(now)?,
+        ready: w.ready.get(),
+        busy: w.busy.get(),
+        late: w.late.get() || q.sequencer.late.get(),
+        lost: w.axes.iter().any(|axis| axis.w.lost.get()),
+        compared: axis
+            .servo
+            .w
+            .model
+            .w
+            .fresh
+            .get()
+            .then(|| from_fn(|k| w.axes[k].w.position.get())),
+        period: axis.driven.get().then_some(()).map(period),
+    })
+}
+
+/// How long models and motors may take to settle, in periods: 20 times their slowest decay, and a
+/// second.
+fn patience(program: &Program) -> usize {
+    let [k1, k2] = program.gains.parts(&Widths::FULL);
+    let slowest = 1.0 / k1 + 1.0 / k2;
+    (20.0 * slowest + 1.0 / program.motion.period) as usize
+}
+
+/// Plays a program on `circuit`, with `plants` on its axes, seen by `observer` too, until the path is
+/// over and models and motors have settled, for a bounded time.
+///
+/// The path is written to the circuit before it begins, a word a tick, and the profile's records as
+/// they find room. The plants are stepped once a tick, with the torques of the tick before.
+///
+/// # Errors
+/// What `observer` objects to.
+pub fn play<const AXES: usize>(
+    circuit: &Controller<AXES>,
+    program: &Program,
+    mut plants: [TwoMassAxis; AXES],
+    mut observer: impl Observer<Controller<AXES>>,
+) -> Result<Played<AXES>, RunError> {
+    let mut host = Host::new(program);
+    let mut played = Played::default();
+    let mut simulator = Simulator::new(circuit);
+    let mut compared = ([0; AXES], [0.0; AXES], 0);
+    let (mut rests, mut calm, patience) = (0, 0, patience(program));
+    let unit = f64::from(Widths::FULL.guard()).exp2();
+    loop {
+        let torques = &simulator.registers().axes;
+        let channels = from_fn(|axis| {
+            let torque = torques[axis].servo.arithmetic.torque.get();
+            plants[axis].step(torque)
+        });
+        let i = host.ports(channels);
+        let (starts, pushed) = (i.start.get(), i.push.get());
+        let (next, seen) = simulator.step(i, |now| see(now, &mut observer));
+        simulator = next;
+        let seen = seen?;
+        host.free = seen.ready && !pushed;
+        if starts {
+            played.start = played.ticks;
+        }
+        if let Some(motor) = seen.compared {
+            let load = from_fn(|axis| plants[axis].load_position_counts());
+            compared = (motor, load, played.ticks);
+        }
+        played.ticks += 1;
+        played.late |= seen.late;
+        played.lost |= seen.lost;
+        if let Some(mut period) = seen.period.filter(|_| host.started) {
+            (period.motor, period.load, period.tick) = compared;
+            played.periods.push(period);
+            if !starts && !seen.busy {
+                rests += 1;
+                let near = (0..AXES).all(|axis| {
+                    let model = period.model[axis] as f64 / unit;
+                    let target = period.corrected[axis] as f64 / unit;
+                    let motor = period.motor[axis] as f64;
+                    (model - target).abs() < 0.5 && (motor - model).abs() <= NEAR_COUNTS
+                });
+                calm = if near { calm + 1 } else { 0 };
+            }
+        }
+        played.settled = calm >= CALM;
+        if played.settled || rests > patience || seen.flow.is_break() {
+            break;
+        }
+    }
+    played.starved = simulator.registers().sequencer.starved.get();
+    Ok(played)
+}

@@ -1,0 +1,146 @@
+//! What a run is made of: the path, its profile in time, and the words of both and of the servos.
+
+use super::planner::plan;
+use super::profile::Profile;
+use super::profile_record::records;
+use super::segments::Path;
+use super::servo_gains::ServoGains;
+use super::settings::{Gains, Motion, SettingError, Settings};
+use super::speed_limits::spans;
+use super::widths::Widths;
+use crate::arc_generator::error::{PathError, Reason};
+use crate::arc_generator::path::{Course, Piece};
+use crate::arc_generator::record::Record;
+use crate::arc_generator::settings::refusal;
+use crate::input::{COORDINATES, Point, ZERO_MM};
+use crate::plant::TwoMassParameters;
+
+/// How far the counts of a millimetre on the path and at the encoder may be apart, as a part.
+const SAME: f64 = 1e-9;
+
+/// A path that is ready to be run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Program {
+    /// By its length.
+    pub path: Path,
+    /// Its length in time: guard units and seconds.
+    pub profile: Profile,
+    /// The profile's words.
+    pub records: Vec<Record>,
+    /// Δt.
+    pub period_ticks: u32,
+    /// What it was planned by.
+    pub motion: Motion,
+    /// K1 and K2.
+    pub gains: Gains,
+    /// Of the axes, of which there are as many as there are machine parameters; the others are 0.
+    pub servo: [ServoGains; COORDINATES],
+    /// Where the path begins, in guard units: the motors stand at 0 there.
+    pub origin: [i64; COORDINATES],
+}
+
+/// Why there is no program.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ProgramError {
+    /// A piece of the path is at fault.
+    #[error(transparent)]
+    Path(#[from] PathError),
+    /// A setting, or a parameter of axis `axis`.
+    #[error("{error}")]
+    Setting {
+        /// The axis, from 0, where it is one of an axis.
+        axis: Option<usize>,
+        /// What is wrong.
+        error: SettingError,
+    },
+}
+
+impl From<SettingError> for ProgramError {
+    fn from(error: SettingError) -> Self {
+        ProgramError::Setting { axis: None, error }
+    }
+}
+
+impl Program {
+    /// Plans the path of `pieces` from `start` on, for two or three axes: as many as `machine` has.
+    ///
+    /// # Errors
+    /// A setting, a piece or an axis that is at fault: the first. Two axes run in the plane of
+    /// `start` only.
+    pub fn of(
+        start: Point,
+        pieces: &[Piece],
+        settings: &Settings,
+        machine: &[TwoMassParameters],
+        widths: &Widths,
+    ) -> Result<Self, ProgramError> {
+        let motion = settings.motion(widths)?;
+        let gains = settings.gains(widths)?;
+        if !(2..=COORDINATES).contains(&machine.len()) {
+            let problem = format!("is {}", machine.len());
+            return Err(refusal("axes", problem, "2 or 3".into()).into());
+        }
+        let mut servo = [ServoGains::default(); COORDINATES];
+        for (axis, parameters) in machine.iter().enumerate() {
+            let of_axis = |error| ProgramError::Setting {
+                axis: Some(axis),
+                error,
+            };
+            servo[axis] = ServoGains::of(settings, parameters, widths).map_err(of_axis)?;
+            let (own, path) = (parameters.counts_per_mm(), settings.counts_per_mm);
+            if (own / path - 1.0).abs() > SAME {
+                let problem = format!("is {}: {own} counts a millimetre", parameters.mm_per_rev);
+                let allowed = format!(
+                    "{}: {path}, as counts_per_mm",
+                    parameters.counts_per_rev / path
+                );
+                return Err(of_axis(refusal("mm_per_rev", problem, allowed)));
+            }
+        }
+        if machine.len() < COORDINATES {
+            flat(start, pieces)?;
+        }
+        let mut path = Path::of(start, pieces, settings.counts_per_mm, widths)?;
+        let spans = spans(&path, &motion);
+        path.widen(&spans, gains.radial_s2(widths, motion.period));
+        let profile = plan(&spans, motion.slope);
+        let origin = path.point(0.0).map(|units| units.round() as i64);
+        Ok(Program {
+            records: records(&profile, motion.period, widths),
+            path,
+            profile,
+            period_ticks: settings.period_ticks(widths)?,
+            motion,
+            gains,
+            servo,
+            origin,
+        })
+    }
+
+    /// The exact point of a period's length, in mm.
+    #[must_use]
+    pub fn point_mm(&self, length: f64) -> Point {
+        self.path
+            .point(length)
+            .map(|units| units / self.motion.units_per_mm)
+    }
+}
+
+/// Checks that a path stays at its z.
+fn flat(start: Point, pieces: &[Piece]) -> Result<(), PathError> {
+    for (piece, of) in pieces.iter().enumerate() {
+        let [low, high] = match &of.course {
+            Course::Line => [of.to[2]; 2],
+            Course::Arc(circle) => circle.extremes()[2],
+        };
+        let leaves = [low, high].map(|z| z - start[2]);
+        if let Some(&off) = leaves.iter().find(|off| off.abs() > ZERO_MM) {
+            return Err(PathError {
+                piece,
+                line: of.line,
+                reason: Reason::Plane { off },
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,92 @@
+//! The gains of a servo control as words, from what its axis is made of.
+
+use super::settings::{SettingError, Settings};
+use super::widths::Widths;
+use crate::arc_generator::settings::{refusal, within};
+use crate::plant::{TwoMassAxis, TwoMassParameters};
+use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
+
+/// Gains and bandwidths that are accepted, in 1/s and Hz.
+pub const RATE_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
+
+/// Integral times that are accepted, in ms; 0 for no integral.
+pub const INTEGRAL_RANGE_MS: RangeInclusive<f64> = 0.0..=1e9;
+
+/// Words of servo control 11 of one axis.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct ServoGains {
+    /// Of the position control 27: parts of 2^-(G - 1) a period.
+    pub position: u64,
+    /// Of the speed control 29: torque for a guard unit a period.
+    pub speed: u64,
+    /// Its integral, likewise, a period.
+    pub integral: u64,
+    /// Of the feed-forward 30: torque for a guard unit a period squared.
+    pub inertia: u64,
+    /// Largest torque.
+    pub limit: u64,
+}
+
+impl ServoGains {
+    /// The gains for an axis.
+    ///
+    /// With J = J_motor + J_load the speed control has Kp = J·2πf and an integral of Kp/Ti, and the
+    /// feed-forward has J.
+    ///
+    /// # Errors
+    /// A setting or a parameter of the axis that is out of range, or makes a gain that is no word.
+    pub fn of(
+        settings: &Settings,
+        axis: &TwoMassParameters,
+        widths: &Widths,
+    ) -> Result<Self, SettingError> {
+        let period = settings.period_s(widths)?;
+        axis.validate().map_err(|error| {
+            let range = format!("{} to {}", error.least, error.most);
+            refusal(error.field, format!("is {}", error.value), range)
+        })?;
+        let (rate, hz) = (settings.position_gain_per_s, settings.speed_hz);
+        within("position_gain_per_s", rate, &RATE_RANGE)?;
+        within("speed_hz", hz, &RATE_RANGE)?;
+        within("integral_ms", settings.integral_ms, &INTEGRAL_RANGE_MS)?;
+        let inertia = axis.motor_inertia_kg_m2 + axis.load_inertia_kg_m2;
+        let full_scale = TwoMassAxis::FULL_SCALE as f64;
+        let units_per_rad = axis.counts_per_rad() * f64::from(widths.guard()).exp2();
+        // Torque word for 1 N·m, of an angle in guard units.
+        let torque = full_scale / axis.max_torque_nm / units_per_rad;
+        let fine = f64::from(widths.torque_fraction).exp2();
+        let speed = inertia * TAU * hz * torque / period * fine;
+        let integral = match settings.integral_ms > 0.0 {
+            true => speed * period / (settings.integral_ms / 1e3),
+            false => 0.0,
+        };
+        let most = (1u64 << widths.servo_gain) - 1;
+        let word = |field, value: f64, exact: f64, least: u64| {
+            let nearest = exact.round();
+            // Written so that NaN fails.
+            if nearest >= least as f64 && nearest <= most as f64 {
+                return Ok(nearest as u64);
+            }
+            let problem = format!("is {value}: a gain of {nearest}");
+            let allowed = format!("a gain of {least} to {most}");
+            Err(refusal(field, problem, allowed))
+        };
+        let one = f64::from(widths.servo_gain - 1).exp2();
+        Ok(ServoGains {
+            position: word("position_gain_per_s", rate, rate * period * one, 1)?,
+            speed: word("speed_hz", hz, speed, 1)?,
+            integral: match settings.integral_ms > 0.0 {
+                true => word("integral_ms", settings.integral_ms, integral, 1)?,
+                false => 0,
+            },
+            inertia: word(
+                "max_torque_nm",
+                axis.max_torque_nm,
+                inertia * torque / (period * period) * fine,
+                1,
+            )?,
+            limit: full_scale as u64,
+        })
+    }
+}

@@ -1,0 +1,76 @@
+//! Paths on the trajectory controller, with motors and loads.
+
+mod circle;
+mod measure;
+mod paths;
+mod refusals;
+mod servo;
+
+use motion_rtl::arc_generator::circle::Circle;
+use motion_rtl::arc_generator::path::{Course, Piece};
+use motion_rtl::plant::{TwoMassAxis, TwoMassParameters};
+use motion_rtl::trajectory_controller::job::{Controller, Played, Program, play};
+use motion_rtl::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
+use motion_rtl::trajectory_controller::widths::Widths;
+
+type Point = [f64; 3];
+
+/// Guard units of a count, and of a millimetre.
+const COUNT: f64 = 65_536.0;
+const MM: f64 = 1000.0 * COUNT;
+
+/// 1 ms in as few ticks as are allowed, K1 and K2 of 50 and 200/s.
+fn settings() -> Settings {
+    Settings {
+        clock_hz: 1000 * LEAST_PERIOD_TICKS,
+        ..Settings::default()
+    }
+}
+
+fn line(to: Point, speed: f64) -> Piece {
+    Piece {
+        course: Course::Line,
+        to,
+        speed,
+        line: None,
+    }
+}
+
+/// An arc in the plane of x and y, from the origin upwards, around a centre on x.
+fn arc(radius: f64, angle: f64, speed: f64) -> Piece {
+    let circle = Circle {
+        centre: [-radius, 0.0, 0.0],
+        axis: [0.0, 0.0, 1.0],
+        start: [0.0; 3],
+        radius,
+        angle,
+    };
+    Piece {
+        course: Course::Arc(circle),
+        ..line(circle.end(), speed)
+    }
+}
+
+/// What is run, and what came of it.
+struct Run<const AXES: usize> {
+    program: Program,
+    played: Played<AXES>,
+}
+
+fn run<const AXES: usize>(
+    start: Point,
+    pieces: &[Piece],
+    settings: &Settings,
+    machine: [TwoMassParameters; AXES],
+    correction: Correction,
+) -> Run<AXES> {
+    let program = Program::of(start, pieces, settings, &machine, &Widths::FULL).unwrap();
+    let tick_s = 1.0 / settings.clock_hz as f64;
+    let plants = machine.map(|axis| TwoMassAxis::new(&axis, tick_s).unwrap());
+    let circuit = Controller::<AXES>::new(correction, settings.rounding);
+    let played = play(&circuit, &program, plants, ()).unwrap();
+    assert!(!played.late && !played.starved && !played.lost);
+    Run { program, played }
+}
+
+const ALL: [Correction; 3] = [Correction::None, Correction::Vector, Correction::Steady];
