@@ -103,7 +103,7 @@ fn what_commands_print_is_shown_as_it_is() {
             _ => {}
         }
     }
-    assert_eq!(shown, 2);
+    assert_eq!(shown, 3);
 }
 
 /// Lets the program read the arguments of a command without doing what they ask for.

@@ -143,6 +143,7 @@ impl Job {
             scenario::Scenario::LinearInterpolator(_) => Err("linear interpolator"),
             scenario::Scenario::LeadAngle(_) => Err("lead-angle compensator"),
             scenario::Scenario::ArcGenerator(_) => Err("arc generator"),
+            scenario::Scenario::TrajectoryController(_) => Err("trajectory controller"),
         };
         let scenario = scenario.map_err(|circuit| {
             let problem = format!("the {circuit} has no table");

@@ -8,12 +8,15 @@ mod job;
 mod lead_angle;
 mod linear;
 pub mod list;
+mod magnification;
 mod picture;
+mod rows;
 pub mod run;
 mod shipped;
 mod summary;
 pub mod table;
 mod traces;
+mod trajectory;
 mod verdict;
 pub mod verilog;
 

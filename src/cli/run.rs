@@ -5,7 +5,7 @@ use super::job::{Input, Job, Source};
 use super::picture::{Following, draw};
 use super::summary::Summary;
 use super::traces::{Focus, Traces, conclude, no_such_tick};
-use super::{Failure, arc, lead_angle, linear};
+use super::{Failure, arc, lead_angle, linear, trajectory};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use motion_rtl::input::scenario::{Loaded, Scenario};
@@ -72,6 +72,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             let scenario = scenario.clone();
             arc::run(arguments, &arc::Job::prepare(source, &scenario)?)
         }
+        Scenario::TrajectoryController(scenario) => {
+            let scenario = scenario.clone();
+            trajectory::run(arguments, &trajectory::Job::prepare(source, &scenario)?)
+        }
     }
 }
 
@@ -81,7 +85,7 @@ fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
         return Err(Failure::Argument {
             field: "--segments",
             problem: "the pulse interpolator has no segments".into(),
-            allowed: "a scenario of the linear interpolator, the lead-angle compensator or the arc generator".into(),
+            allowed: "a scenario of another circuit".into(),
         });
     }
     let options = options(arguments, job.vcd_ticks)?;

@@ -47,7 +47,7 @@ macro_rules! input {
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 7] = [
+pub const SHIPPED: [Shipped; 11] = [
     shipped!(
         "waves/bracket.toml",
         "a bracket in G-code: lines at T2, arcs at T1; runs by default",
@@ -79,6 +79,24 @@ pub const SHIPPED: [Shipped; 7] = [
         "waves/flange.toml",
         "a gas-cut flange in G-code, arcs joined to arcs, on the arc generator",
         input: "waves/flange.ngc"
+    ),
+    shipped!(
+        "waves/circle.toml",
+        "a circle of 10 mm at 100 mm/s, on the trajectory controller"
+    ),
+    shipped!(
+        "waves/corner.toml",
+        "a corner of 90 degrees, on the trajectory controller"
+    ),
+    shipped!(
+        "waves/cam.toml",
+        "a cam of 3600 short chords in G-code, run at feed, on the trajectory controller",
+        input: "waves/cam.ngc"
+    ),
+    shipped!(
+        "waves/pocket.toml",
+        "a pocket in G-code with lines, arcs and ramps, on the trajectory controller of three axes",
+        input: "waves/pocket.ngc"
     ),
 ];
 

@@ -10,6 +10,7 @@ pub mod lead_angle;
 pub mod linear_interpolator;
 mod loaded;
 pub mod pulse_interpolator;
+pub mod trajectory_controller;
 
 pub use loaded::Loaded;
 
@@ -38,6 +39,8 @@ pub enum Scenario {
     LeadAngle(lead_angle::Scenario),
     /// JPH0743606B2.
     ArcGenerator(arc_generator::Scenario),
+    /// CN104204977.
+    TrajectoryController(Box<trajectory_controller::Scenario>),
 }
 
 impl Scenario {
@@ -48,6 +51,7 @@ impl Scenario {
             Scenario::LinearInterpolator(scenario) => scenario.input.as_ref(),
             Scenario::LeadAngle(scenario) => scenario.input.as_ref(),
             Scenario::ArcGenerator(scenario) => scenario.input.as_ref(),
+            Scenario::TrajectoryController(scenario) => scenario.input.as_ref(),
         }
     }
 
@@ -58,6 +62,7 @@ impl Scenario {
             Scenario::LinearInterpolator(scenario) => scenario.input.as_mut(),
             Scenario::LeadAngle(scenario) => scenario.input.as_mut(),
             Scenario::ArcGenerator(scenario) => scenario.input.as_mut(),
+            Scenario::TrajectoryController(scenario) => scenario.input.as_mut(),
         }
     }
 
@@ -68,6 +73,7 @@ impl Scenario {
             Scenario::LinearInterpolator(scenario) => scenario.clock_hz,
             Scenario::LeadAngle(scenario) => scenario.clock_hz,
             Scenario::ArcGenerator(scenario) => scenario.clock_hz,
+            Scenario::TrajectoryController(scenario) => scenario.clock_hz,
         }
     }
 
@@ -78,6 +84,7 @@ impl Scenario {
             Scenario::LinearInterpolator(scenario) => scenario.vcd_ticks,
             Scenario::LeadAngle(scenario) => scenario.vcd_ticks,
             Scenario::ArcGenerator(scenario) => scenario.vcd_ticks,
+            Scenario::TrajectoryController(scenario) => scenario.vcd_ticks,
         }
     }
 }
@@ -94,4 +101,6 @@ pub enum Runnable {
     LeadAngle,
     /// JPH0743606B2.
     ArcGenerator,
+    /// CN104204977.
+    TrajectoryController,
 }

@@ -1,9 +1,9 @@
 //! A path on the trajectory controller, with a motor and its load on each axis: the control computer
 //! that feeds it, and what comes out, period by period.
 
+use super::host::Host;
 pub use super::program::{Program, ProgramError};
 use super::{TrajectoryController, Widths, controller};
-use crate::arc_generator::record::WORDS;
 use crate::kernel::{Observer, RunError, Sample, Simulator};
 use crate::logic::Sim;
 use crate::plant::TwoMassAxis;
@@ -22,12 +22,9 @@ const U: usize = 24;
 /// The controller that plays a job.
 pub type Controller<const AXES: usize> =
     TrajectoryController<AXES, A, 31, P, 55, 42, 57, 44, 52, D, E, 41, 20, K, 64, G, 58, T, U>;
-type Ports<const AXES: usize> = controller::In<Sim, AXES, A, P, D, E, K, G, T, U>;
+/// Its ports in.
+pub(super) type Ports<const AXES: usize> = controller::In<Sim, AXES, A, P, D, E, K, G, T, U>;
 
-/// Words of a segment that are written.
-const SEGMENT_WORDS: usize = 13;
-/// Records of the profile that wait before the path begins, where there are so many.
-const HEAD_START: usize = 16;
 /// Periods in a row in which models and motors are where they belong: then they have settled.
 const CALM: u32 = 10;
 /// How far a settled motor is from its model, in counts.
@@ -80,100 +77,6 @@ pub struct Played<const AXES: usize> {
     pub lost: bool,
     /// Models and motors came to rest at the path's end.
     pub settled: bool,
-}
-
-/// The control computer: it writes the path, then starts, and writes records as they find room.
-struct Host<'a> {
-    program: &'a Program,
-    /// The segment and the word of it that are written next, and the segment's words.
-    segment: usize,
-    word: usize,
-    words: [u64; 16],
-    record: usize,
-    record_word: usize,
-    /// There was a free record in the tick before, and no push that may have taken the last.
-    free: bool,
-    started: bool,
-}
-
-impl<'a> Host<'a> {
-    fn new(program: &'a Program) -> Self {
-        let mut host = Host {
-            program,
-            segment: 0,
-            word: 0,
-            words: [0; 16],
-            record: 0,
-            record_word: 0,
-            free: true,
-            started: false,
-        };
-        host.prepare();
-        host
-    }
-
-    /// The words of the segment that is written next: the motors are at 0 where the path begins.
-    fn prepare(&mut self) {
-        let Some(stretch) = self.program.path.stretches.get(self.segment) else {
-            return;
-        };
-        let mut segment = stretch.segment;
-        for (base, origin) in segment.base.iter_mut().zip(self.program.origin) {
-            *base -= origin;
-        }
-        self.words = segment.words(&Widths::FULL);
-    }
-
-    fn ports<const AXES: usize>(&mut self, channels: [(bool, bool); AXES]) -> Ports<AXES> {
-        let program = self.program;
-        let stretches = &program.path.stretches;
-        let (segment, word) = (self.segment, self.word);
-        let writing = stretches.get(segment);
-        let record = program.records.get(self.record).filter(|_| self.free);
-        let (record_word, last) = (self.record_word, self.record_word + 1 == WORDS);
-        let waiting = program.records.len().min(HEAD_START);
-        let start = !self.started && writing.is_none() && self.record == waiting;
-        self.started |= start;
-        let ports = Ports {
-            write: record.is_some().into(),
-            write_word: (record_word as u64).into(),
-            write_data: record.map_or(0, |record| record.words[record_word]).into(),
-            push: (record.is_some() && last).into(),
-            start: start.into(),
-            halt: false.into(),
-            restart: false.into(),
-            write_begin: (writing.is_some() && word == 0).into(),
-            begin_segment: (segment as u64).into(),
-            begin_length: writing.map_or(0, |stretch| stretch.begin).into(),
-            write_path: writing.is_some().into(),
-            path_address: ((segment as u64) << 4 | word as u64).into(),
-            path_data: self.words[word].into(),
-            last: (stretches.len() as u64 - 1).into(),
-            path_end: (program.path.length as i64).into(),
-            period: u64::from(program.period_ticks).into(),
-            gain_1: program.gains.k1.into(),
-            gain_2: program.gains.k2.into(),
-            position_gain: from_fn(|axis| program.servo[axis].position.into()),
-            speed_gain: from_fn(|axis| program.servo[axis].speed.into()),
-            integral_gain: from_fn(|axis| program.servo[axis].integral.into()),
-            inertia: from_fn(|axis| program.servo[axis].inertia.into()),
-            limit: from_fn(|axis| program.servo[axis].limit.into()),
-            a: channels.map(|(a, _)| a.into()),
-            b: channels.map(|(_, b)| b.into()),
-        };
-        if record.is_some() {
-            self.record_word = (record_word + 1) % WORDS;
-            self.record += usize::from(last);
-        }
-        if writing.is_some() {
-            self.word = (word + 1) % SEGMENT_WORDS;
-            if self.word == 0 {
-                self.segment += 1;
-                self.prepare();
-            }
-        }
-        ports
-    }
 }
 
 /// What one tick shows.

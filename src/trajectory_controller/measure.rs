@@ -3,10 +3,13 @@
 use super::job::{Period, Played, Program};
 use super::segments::{Path, Segment};
 use super::widths::Widths;
-use crate::arc_generator::vector::{add, distance, dot, norm, scale, sub};
-use crate::input::{COORDINATES, Point};
+use crate::arc_generator::vector::{distance, dot, norm, scale, sub};
+use crate::input::Point;
 use std::array::from_fn;
 use std::f64::consts::TAU;
+
+/// Guard units of a count.
+const COUNT: f64 = (1u64 << Widths::FULL.guard()) as f64;
 
 /// A period of a run, in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,10 +78,9 @@ impl Measured {
     #[must_use]
     pub fn of<const AXES: usize>(program: &Program, played: &Played<AXES>) -> Option<Self> {
         played.periods.first()?;
-        let count = f64::from(Widths::FULL.guard()).exp2();
         let model = |period: &Period<AXES>, axis: usize| period.model[axis] as f64;
-        let motor = |period: &Period<AXES>, axis: usize| period.motor[axis] as f64 * count;
-        let load = |period: &Period<AXES>, axis: usize| period.load[axis] * count;
+        let motor = |period: &Period<AXES>, axis: usize| period.motor[axis] as f64 * COUNT;
+        let load = |period: &Period<AXES>, axis: usize| period.load[axis] * COUNT;
         let each = |axis: usize| played.periods.iter().map(move |period| (period, axis));
         let torque = |(period, axis): (&Period<AXES>, usize)| period.torque[axis].abs();
         let limited = |(period, axis): &(&Period<AXES>, usize)| period.saturated[*axis];
@@ -109,15 +111,16 @@ fn errors<const AXES: usize>(
             program.origin[axis] as f64 + moved
         })
     };
-    let (mut at, mut final_mm) = (0.0, 0.0);
+    let mut final_mm = 0.0;
     let deviations = played.periods.iter().enumerate().map(|(index, period)| {
         let actual = place(&|axis| position(period, axis));
         let command = place(&|axis| period.command[axis] as f64);
         let following = distance(actual, command);
-        // The nearest point is no farther off than the command; it may go back as far.
-        let window = [at - following, period.length as f64 + following];
-        let (length, nearest) = path.nearest(actual, window);
-        at = length;
+        // It is about where the tangential response is. What is nearer is within twice the way to
+        // there; beyond that the path may come by again.
+        let answered = period.answered as f64;
+        let reach = 2.0 * distance(actual, path.point(answered)) + COUNT;
+        let (length, nearest) = path.nearest(actual, [answered - reach, answered + reach]);
         final_mm = mm * distance(actual, path.point(end));
         Deviation {
             time_s: index as f64 * program.motion.period,
@@ -198,15 +201,4 @@ impl Segment {
         offsets.extend((from..=to).contains(&turns).then_some(turns));
         offsets
     }
-}
-
-/// The command of a period in mm.
-#[must_use]
-pub fn command_mm<const AXES: usize>(program: &Program, period: &Period<AXES>) -> Point {
-    let own = from_fn(|axis| match axis < AXES {
-        true => period.command[axis] as f64,
-        false => 0.0,
-    });
-    let origin: [f64; COORDINATES] = program.origin.map(|units| units as f64);
-    scale(add(origin, own), 1.0 / program.motion.units_per_mm)
 }

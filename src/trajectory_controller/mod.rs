@@ -13,6 +13,8 @@ pub mod controlled_axis;
 pub mod controller;
 pub mod cordic;
 pub mod cordic_state;
+mod extent;
+mod host;
 pub mod job;
 pub mod length_clamp;
 pub mod measure;

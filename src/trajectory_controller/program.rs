@@ -116,14 +116,6 @@ impl Program {
             origin,
         })
     }
-
-    /// The exact point of a period's length, in mm.
-    #[must_use]
-    pub fn point_mm(&self, length: f64) -> Point {
-        self.path
-            .point(length)
-            .map(|units| units / self.motion.units_per_mm)
-    }
 }
 
 /// Checks that a path stays at its z.

@@ -17,6 +17,7 @@
 //! The speed is off by as little: half a guard unit in the length of the piece.
 
 use super::cordic_state::GAIN;
+use super::extent::{fits, hold, margin};
 use super::segment_store::WORDS;
 use super::speed_limits::Span;
 use super::widths::Widths;
@@ -24,7 +25,6 @@ use crate::arc_generator::circle::Circle;
 use crate::arc_generator::error::{PathError, Reason};
 use crate::arc_generator::path::{Course, Piece};
 use crate::arc_generator::vector::{add, cross, scale, sub, unit};
-use crate::arc_generator::widths::Widths as RecordWidths;
 use crate::input::{COORDINATES, Point};
 use std::f64::consts::TAU;
 
@@ -274,73 +274,6 @@ fn segment(from: Point, piece: &Piece, unit_per_mm: f64) -> Option<(Segment, u64
         arc,
     };
     (length >= 1.0).then_some((segment, length as u64))
-}
-
-/// Checks that a piece's points, centre and radius are words.
-fn fits(
-    from: Point,
-    piece: &Piece,
-    counts_per_mm: f64,
-    widths: &RecordWidths,
-) -> Result<(), Reason> {
-    let check = |names: [&'static str; COORDINATES], point: Point| {
-        let mut coordinates = names.into_iter().zip(point);
-        coordinates.try_for_each(|(what, mm)| hold(what, mm * counts_per_mm, widths))
-    };
-    let names = ["x", "y", "z"];
-    check(names, from)?;
-    check(names, piece.to)?;
-    let Course::Arc(circle) = &piece.course else {
-        return Ok(());
-    };
-    let extremes = circle.extremes();
-    (0..2).try_for_each(|end| check(names, extremes.map(|extreme| extreme[end])))?;
-    check(["centre x", "centre y", "centre z"], circle.centre)?;
-    hold("radius", circle.radius * counts_per_mm, widths)
-}
-
-/// Checks that a piece stays within half the range around the path's start, where the motors are at
-/// 0: the other half is for the corrected command, and for a response that goes too far.
-fn margin(
-    start: Point,
-    piece: &Piece,
-    counts_per_mm: f64,
-    widths: &RecordWidths,
-) -> Result<(), Reason> {
-    let (extremes, radius) = match &piece.course {
-        Course::Line => (piece.to.map(|mm| [mm; 2]), 0.0),
-        Course::Arc(circle) => (circle.extremes(), circle.radius),
-    };
-    let ways = (0..COORDINATES).flat_map(|axis| {
-        let name = ["x from the start", "y from the start", "z from the start"][axis];
-        extremes[axis].map(|mm| (name, mm - start[axis]))
-    });
-    for (what, mm) in ways.chain([("radius", radius)]) {
-        let counts = mm * counts_per_mm;
-        if !widths.holds(2.0 * counts) {
-            return Err(Reason::Reach {
-                what,
-                counts,
-                most: widths.reach() / 2,
-                width: widths.position,
-                needed: RecordWidths::needed(2.0 * counts),
-            });
-        }
-    }
-    Ok(())
-}
-
-fn hold(what: &'static str, counts: f64, widths: &RecordWidths) -> Result<(), Reason> {
-    match widths.holds(counts) {
-        true => Ok(()),
-        false => Err(Reason::Reach {
-            what,
-            counts,
-            most: widths.reach(),
-            width: widths.position,
-            needed: RecordWidths::needed(counts),
-        }),
-    }
 }
 
 fn two_to(exponent: u32) -> f64 {

@@ -61,7 +61,9 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// 1 µm a count, 1 ms at 1 MHz, K1 and K2 of the usual machine tool.
+    /// 1 µm a count, 1 ms at 1 MHz, K1 and K2 of the usual machine tool. Speed control of a fifth of
+    /// the resonance of the usual axis, 87 Hz; position gain and integral of a quarter of that in
+    /// 1/s, 27/s and 37 ms.
     fn default() -> Self {
         Self {
             clock_hz: 1_000_000,

@@ -397,8 +397,8 @@ fn segments_are_of_this_circuit_alone() {
     let bench = Bench::with("l.hpgl", LINE);
     bench.refuse(
         &["run", "l.hpgl", "--segments"],
-        "--segments: the pulse interpolator has no segments; allowed: a scenario of the linear \
-         interpolator, the lead-angle compensator or the arc generator",
+        "--segments: the pulse interpolator has no segments; allowed: a scenario of another \
+         circuit",
     );
 }
 

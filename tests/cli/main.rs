@@ -16,4 +16,5 @@ mod settings;
 mod streams;
 mod support;
 mod tables;
+mod trajectory;
 mod verilog;

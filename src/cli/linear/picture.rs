@@ -2,12 +2,11 @@
 //! and the speed over time.
 
 use super::{Job, Runs};
+use crate::cli::magnification::magnification;
 use motion_rtl::linear_interpolator::measure::{Cycle, Played, ScanRecord};
 use motion_rtl::linear_interpolator::settings::Settings;
 use motion_rtl::picture::{Curve, Panel, Picture};
 
-/// The largest error is drawn as large as this part of the drawing.
-const PART: f64 = 0.0625;
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
 const IDEAL: &str = "#d8d8d8";
@@ -40,21 +39,6 @@ pub fn draw(job: &Job, runs: &Runs) -> String {
         speed = speed.curve(curve.colour(colour).width(0.8));
     }
     picture.panel(error).panel(speed).render()
-}
-
-/// By what errors are multiplied, for `largest` to become a visible part of a drawing of `size`:
-/// 1, 2 or 5 times a power of ten, and 1 where that is too much already.
-fn magnification(largest: f64, size: f64) -> f64 {
-    let wanted = PART * size / largest;
-    if !(wanted.is_finite() && wanted > 1.0) {
-        return 1.0;
-    }
-    let decade = 10f64.powf(wanted.log10().floor());
-    let steps = [10.0, 5.0, 2.0, 1.0].map(|step| step * decade);
-    steps
-        .into_iter()
-        .find(|step| *step <= wanted)
-        .unwrap_or(1.0)
 }
 
 /// The diagonal of the targets, in millimetres.
@@ -178,25 +162,6 @@ fn speeds(played: &Played, settings: &Settings) -> Points {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_largest_error_becomes_a_round_multiple_that_is_visible() {
-        // A sixteenth of 32 mm is 2 mm.
-        for (largest, factor) in [
-            (2.0, 1.0),
-            (50.0, 1.0),
-            (1.0, 2.0),
-            (0.5, 2.0),
-            (0.4, 5.0),
-            (0.2, 10.0),
-            (0.0021, 500.0),
-            (0.0019, 1000.0),
-        ] {
-            assert_eq!(magnification(largest, 32.0), factor, "{largest}");
-        }
-        assert_eq!(magnification(0.0, 100.0), 1.0);
-        assert_eq!(magnification(0.0, 0.0), 1.0);
-    }
 
     #[test]
     fn a_point_is_moved_away_from_its_line_and_not_along_it() {

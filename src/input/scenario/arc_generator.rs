@@ -95,20 +95,28 @@ impl Scenario {
     /// # Errors
     /// There are pieces, and a drawing too.
     pub fn taught(&self) -> Result<Vec<Taught>, SettingError> {
-        if self.input.is_some() && !self.piece.is_empty() {
-            return Err(SettingError {
-                field: "input",
-                problem: "given beside tables [[piece]]".to_owned(),
-                allowed: "a drawing or pieces, not both".to_owned(),
-            });
-        }
-        let taught = |piece: &PieceKeys| Taught {
-            to: piece.to_mm,
-            via: piece.via_mm,
-            speed: piece.speed_mm_per_s,
-        };
-        Ok(self.piece.iter().map(taught).collect())
+        taught(self.input.as_ref(), &self.piece)
     }
+}
+
+/// The pieces as they are taught; empty if the path is a drawing.
+pub(super) fn taught(
+    input: Option<&PathBuf>,
+    piece: &[PieceKeys],
+) -> Result<Vec<Taught>, SettingError> {
+    if input.is_some() && !piece.is_empty() {
+        return Err(SettingError {
+            field: "input",
+            problem: "given beside tables [[piece]]".to_owned(),
+            allowed: "a drawing or pieces, not both".to_owned(),
+        });
+    }
+    let taught = |piece: &PieceKeys| Taught {
+        to: piece.to_mm,
+        via: piece.via_mm,
+        speed: piece.speed_mm_per_s,
+    };
+    Ok(piece.iter().map(taught).collect())
 }
 
 /// What a key is worth that is not given: what the settings are by default.

@@ -65,7 +65,7 @@ impl Loaded {
         // The circuit decides which other keys there are.
         pairs.sort_by_key(|(key, _)| *key != CIRCUIT);
         for (key, value) in pairs {
-            table.insert(key.to_owned(), value);
+            insert(&mut table, key, value);
             loaded.scenario = scenario(|| Ok(table.clone())).map_err(|error| {
                 let (problem, allowed) = split(error.message());
                 Fault::new(SET, 0, key, problem, allowed)
@@ -89,6 +89,30 @@ impl Loaded {
         let line = self.text.lines().position(|line| key_of(line) == key);
         let line = line.map_or(0, |before| before + 1);
         Fault::new(&self.file, line, key, problem, allowed)
+    }
+
+    /// A fault of the value of `key` in the table `[name]`, with the line it stands in; where it has
+    /// its default, the line of the table.
+    pub fn part_fault(&self, name: &str, key: &str, problem: String, allowed: String) -> Fault {
+        let field = format!("{name}.{key}");
+        if self.overrides(name) || self.overrides(&field) {
+            return Fault::new(SET, 0, field, problem, allowed);
+        }
+        let mut lines = self.text.lines().enumerate();
+        let header = lines.find(|(_, line)| {
+            let inner = line.trim_start().strip_prefix('[');
+            let inner = inner.and_then(|rest| rest.split_once(']'));
+            inner.is_some_and(|(header, _)| header.trim() == name)
+        });
+        let Some((header, _)) = header else {
+            // Not given, or on one line.
+            let fault = self.fault(name, problem, allowed);
+            return Fault { field, ..fault };
+        };
+        let mut keys = lines.take_while(|(_, line)| !line.trim_start().starts_with('['));
+        let line = keys.find(|(_, line)| key_of(line) == key);
+        let line = line.map_or(header, |(line, _)| line) + 1;
+        Fault::new(&self.file, line, field, problem, allowed)
     }
 
     /// A fault of the value of `key` in the table `[[name]]` number `index` from 0, with the line
@@ -143,7 +167,21 @@ where
         }
         Runnable::LeadAngle => Scenario::LeadAngle(Deserialize::deserialize(keys()?)?),
         Runnable::ArcGenerator => Scenario::ArcGenerator(Deserialize::deserialize(keys()?)?),
+        Runnable::TrajectoryController => {
+            Scenario::TrajectoryController(Deserialize::deserialize(keys()?)?)
+        }
     })
+}
+
+/// Gives a key a value; `name.key` is one of the table `[name]` where there is that.
+fn insert(table: &mut Table, key: &str, value: Value) {
+    if let Some((name, inner)) = key.split_once('.')
+        && let Some(Value::Table(table)) = table.get_mut(name)
+    {
+        table.insert(inner.to_owned(), value);
+    } else {
+        table.insert(key.to_owned(), value);
+    }
 }
 
 fn key_value(set: &str) -> Result<(&str, Value), Fault> {
@@ -309,6 +347,41 @@ mod tests {
         let inline = "circuit = \"lead_angle\"\nstep = [{target = 3, speed_counts_per_s = 4}]\n";
         let loaded = Loaded::parse("s.toml", inline, &[]).unwrap();
         assert_eq!(shown(&loaded, 0, "target"), text("s.toml:2", "0: target"));
+    }
+
+    #[test]
+    fn a_fault_in_a_single_table_has_its_line() {
+        let machine = "max_torque_nm = 1\nmotor_inertia_kg_m2 = 1\nload_inertia_kg_m2 = 1\n\
+                       stiffness_nm_per_rad = 1\ncounts_per_rev = 1\nmm_per_rev = 1\n";
+        let head = "circuit = \"trajectory_controller\"\n";
+        let text = format!("{head}\n[machine] # all\n{machine}\n[[piece]]\nto_mm = [1, 0, 0]\n");
+        let shown = |sets: &[&str], key| {
+            let sets: Vec<_> = sets.iter().map(|&set| set.to_owned()).collect();
+            let loaded = Loaded::parse("s.toml", &text, &sets).unwrap();
+            let fault = loaded.part_fault("machine", key, "is bad".into(), "good".into());
+            fault.to_string()
+        };
+        let at = |line: &str, key: &str| format!("{line}: machine.{key}: is bad; allowed: good");
+        assert_eq!(shown(&[], "mm_per_rev"), at("s.toml:9", "mm_per_rev"));
+        assert_eq!(shown(&[], "backlash_rad"), at("s.toml:3", "backlash_rad"));
+        // One key of the table, and what the others make of it.
+        let set = ["machine.mm_per_rev=3"];
+        assert_eq!(shown(&set, "mm_per_rev"), at("--set", "mm_per_rev"));
+        assert_eq!(
+            shown(&set, "max_torque_nm"),
+            at("s.toml:4", "max_torque_nm")
+        );
+        let loaded = Loaded::parse("s.toml", &text, &set.map(str::to_owned)).unwrap();
+        let Scenario::TrajectoryController(scenario) = &loaded.scenario else {
+            panic!("another circuit");
+        };
+        assert_eq!(scenario.machine.mm_per_rev, 3.0);
+        assert_eq!(scenario.machine.max_torque_nm, 1.0);
+        assert!(refusal(&text, &["machine.mass=3"]).starts_with("--set: machine.mass: unknown"));
+        // Without the table in the file, the default is at fault.
+        let loaded = Loaded::parse("s.toml", head, &[]).unwrap();
+        let fault = loaded.part_fault("machine", "mm_per_rev", "is bad".into(), "good".into());
+        assert_eq!(fault.to_string(), at("s.toml", "mm_per_rev"));
     }
 
     #[test]

@@ -1,0 +1,138 @@
+//! `run` of the trajectory controller: its path by every correction, waves, summary and picture.
+
+mod job;
+mod picture;
+mod rows;
+mod runs;
+mod summary;
+mod text;
+mod verdict;
+
+pub use job::Job;
+
+use super::Failure;
+use super::files::Files;
+use super::run::{Arguments, Progress, options};
+use super::traces::{Focus, Traces, conclude, no_such_tick};
+use motion_rtl::kernel::RunError;
+use motion_rtl::plant::{ParameterError, TwoMassAxis};
+use motion_rtl::trace::Options;
+use motion_rtl::trajectory_controller::job::{Controller, Played, play};
+use motion_rtl::trajectory_controller::settings::Correction;
+use picture::draw;
+use runs::{Run, Runs};
+use std::thread;
+use summary::Summary;
+
+/// Periods that the save file's window shows, and the one in motion that is the second of them.
+const PERIODS_SHOWN: u64 = 4;
+const IN_MOTION: usize = 200;
+
+/// In the order in which they are shown.
+const CORRECTIONS: [Correction; 3] = [Correction::None, Correction::Steady, Correction::Vector];
+
+/// Runs a path.
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
+    let (runs, mut files) = match job.axes() {
+        2 => all::<2>(arguments, job, &options),
+        _ => all::<3>(arguments, job, &options),
+    }?;
+    no_such_tick(&options, runs.traced().ticks)?;
+    files.write("svg", &draw(job, &runs))?;
+    let summary = Summary::new(job, &runs);
+    conclude(arguments, &options, runs.traced().ticks, files, summary)
+}
+
+/// Plays the path by every correction, that of the scenario with its waves.
+fn all<const AXES: usize>(
+    arguments: &Arguments,
+    job: &Job,
+    options: &Options,
+) -> Result<(Runs, Files), Failure> {
+    let traced = job.settings.correction;
+    thread::scope(|scope| {
+        let others = CORRECTIONS.map(|correction| {
+            let untraced = move || untraced::<AXES>(job, correction);
+            (correction != traced).then(|| scope.spawn(untraced))
+        });
+        let own = simulate::<AXES>(arguments, job, options);
+        let others = others.map(|other| other.map(thread::ScopedJoinHandle::join));
+        let (own, files) = own?;
+        let mut own = Some(own);
+        let mut runs = Vec::new();
+        for (correction, other) in CORRECTIONS.into_iter().zip(others) {
+            let played = match other {
+                Some(Ok(played)) => Some(played?),
+                // A panic there is one here.
+                Some(Err(panic)) => std::panic::resume_unwind(panic),
+                None => own.take(),
+            };
+            runs.extend(played.and_then(|played| Run::of(job, correction, &played)));
+        }
+        Ok((Runs { runs, traced }, files))
+    })
+}
+
+/// Motors and loads at rest.
+fn plants<const AXES: usize>(job: &Job) -> Result<[TwoMassAxis; AXES], Failure> {
+    let tick_s = 1.0 / job.settings.clock_hz as f64;
+    let plants = job.machines.iter().map(|machine| {
+        // What the settings let through, a motor takes but for the length of a tick.
+        TwoMassAxis::new(machine, tick_s).map_err(|error| too_fast(job, &error))
+    });
+    let plants: Vec<_> = plants.collect::<Result<_, _>>()?;
+    let wanted = format!("{AXES} axes, not {}", plants.len());
+    plants.try_into().map_err(|_| Failure::Check(wanted))
+}
+
+/// A machine that is too fast for the clock.
+fn too_fast(job: &Job, error: &ParameterError) -> Failure {
+    let allowed = format!("a faster clock: a tick of at most {:e} s", error.most);
+    let problem = format!(
+        "is {}: a tick of {:e} s",
+        job.settings.clock_hz, error.value
+    );
+    job.loaded.fault("clock_hz", problem, allowed).into()
+}
+
+/// Plays the path without waves.
+fn untraced<const AXES: usize>(job: &Job, correction: Correction) -> Result<Played<AXES>, Failure> {
+    let circuit = Controller::<AXES>::new(correction, job.settings.rounding);
+    Ok(play(&circuit, &job.program, plants(job)?, ())?)
+}
+
+/// Plays the path with its waves.
+fn simulate<const AXES: usize>(
+    arguments: &Arguments,
+    job: &Job,
+    options: &Options,
+) -> Result<(Played<AXES>, Files), Failure> {
+    let settings = &job.settings;
+    let circuit = Controller::<AXES>::new(settings.correction, settings.rounding);
+    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
+    let plants = plants(job)?;
+    let mut traces = Traces::begin((&circuit, &circuit), arguments, scenario, options, ticks)?;
+    let mut progress = Progress::new(ticks);
+    // Two calls, so that a run without waves is compiled without a trace of them.
+    let played: Result<_, RunError> = match traces.is_empty() {
+        false => {
+            let files = (traces.vcd.as_mut(), traces.stimulus.as_mut());
+            play(&circuit, &job.program, plants, (files, &mut progress))
+        }
+        true => play(&circuit, &job.program, plants, &mut progress),
+    };
+    let played = played?;
+    drop(progress);
+    let shown = PERIODS_SHOWN * u64::from(job.program.period_ticks);
+    let focus = Focus {
+        action: played
+            .periods
+            .get(IN_MOTION)
+            .map_or(played.start, |period| period.tick),
+        before: shown / PERIODS_SHOWN,
+        shown,
+    };
+    let files = traces.finish(&circuit, &focus, played.ticks)?;
+    Ok((played, files))
+}

@@ -1,0 +1,263 @@
+//! The figures of a run: by each correction, of each axis, of each segment.
+
+use super::Job;
+use super::runs::{CircleError, Run, Runs};
+use motion_rtl::plant::TwoMassAxis;
+use motion_rtl::trajectory_controller::closed::Variants;
+use motion_rtl::trajectory_controller::measure::Errors;
+use motion_rtl::trajectory_controller::profile::Profile;
+use motion_rtl::trajectory_controller::settings::Correction;
+use motion_rtl::trajectory_controller::speed_limits::spans;
+use serde::Serialize;
+
+/// Names of the axes.
+pub const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
+
+/// What one correction came to.
+#[derive(Debug, Serialize)]
+pub struct CorrectionRow {
+    /// The correction.
+    pub correction: &'static str,
+    /// Its waves are written.
+    pub in_waves: bool,
+    /// Ticks of the run.
+    pub ticks: u64,
+    /// Interpolation periods until models and motors have settled.
+    pub periods: usize,
+    /// Of the servos' models: what the motors are held to.
+    pub model: ErrorRow,
+    /// Of the motors, by their encoders.
+    pub motor: ErrorRow,
+    /// Of the loads.
+    pub load: ErrorRow,
+    /// Each axis.
+    pub axes: Vec<AxisRow>,
+    /// On a circle, where the path has one that is long enough.
+    pub circle: Option<CircleRow>,
+}
+
+/// How far something was from the path and from its commands.
+#[derive(Debug, Serialize)]
+pub struct ErrorRow {
+    /// Largest distance from the path.
+    pub contour_max_um: f64,
+    /// Root of the mean square of it.
+    pub contour_rms_um: f64,
+    /// Where the largest is: length along the path.
+    pub at_mm: f64,
+    /// The tick of it.
+    pub at_tick: u64,
+    /// Largest distance from the command of the same period.
+    pub following_max_mm: f64,
+    /// Distance from the path's end when the run is over.
+    pub end_um: f64,
+}
+
+/// An axis of a run.
+#[derive(Debug, Serialize)]
+pub struct AxisRow {
+    /// Its name.
+    pub axis: &'static str,
+    /// Where its motor ended, in counts from where the path begins.
+    pub end_position: i64,
+    /// Largest torque.
+    pub torque_max_nm: f64,
+    /// Periods in which the torque was limited.
+    pub saturated_periods: usize,
+}
+
+/// Mean of the steady part on a circle, inwards positive where there is a sign.
+#[derive(Debug, Serialize)]
+pub struct CircleRow {
+    /// r.
+    pub radius_mm: f64,
+    /// v.
+    pub speed_mm_per_s: f64,
+    /// Periods of the steady part.
+    pub periods: usize,
+    /// Distance of the models from the circle.
+    pub model_um: f64,
+    /// Of the loads.
+    pub load_um: f64,
+    /// What the closed form of continuous models says.
+    pub continuous_um: f64,
+    /// What that of the sampled models says.
+    pub sampled_um: f64,
+}
+
+/// A segment of the path.
+#[derive(Debug, Serialize)]
+pub struct SegmentRow {
+    /// Its number.
+    pub segment: usize,
+    /// Its piece.
+    pub piece: usize,
+    /// Line of the input.
+    pub line: Option<usize>,
+    /// "line", "arc" or "rapid".
+    pub kind: &'static str,
+    /// Length.
+    pub length_mm: f64,
+    /// r, of an arc.
+    pub radius_mm: Option<f64>,
+    /// F.
+    pub speed_wanted_mm_per_s: f64,
+    /// What the acceleration across the path allows of it.
+    pub speed_limit_mm_per_s: f64,
+    /// Highest speed where it begins, by the turn.
+    pub entry_limit_mm_per_s: f64,
+    /// The planned speed there.
+    pub entry_mm_per_s: f64,
+    /// The highest planned speed within it.
+    pub speed_mm_per_s: f64,
+    /// Largest distance of the loads from the path next to it, by each correction; without a period
+    /// there none.
+    pub contour_um: [Option<f64>; 3],
+}
+
+/// By each correction.
+pub fn corrections(job: &Job, runs: &Runs) -> Vec<CorrectionRow> {
+    let row = |run: &Run| CorrectionRow {
+        correction: run.correction.name(),
+        in_waves: run.correction == runs.traced,
+        ticks: run.ticks,
+        periods: run.periods,
+        model: error_row(&run.measured.model),
+        motor: error_row(&run.measured.motor),
+        load: error_row(&run.measured.load),
+        axes: axes(job, run),
+        circle: run.circle.map(|circle| circle_row(run.correction, &circle)),
+    };
+    runs.runs.iter().map(row).collect()
+}
+
+fn error_row(errors: &Errors) -> ErrorRow {
+    ErrorRow {
+        contour_max_um: errors.contour.mm * 1e3,
+        contour_rms_um: errors.contour_rms_mm * 1e3,
+        at_mm: errors.contour.length_mm,
+        at_tick: errors.contour.tick,
+        following_max_mm: errors.following.mm,
+        end_um: errors.final_mm * 1e3,
+    }
+}
+
+fn axes(job: &Job, run: &Run) -> Vec<AxisRow> {
+    let machines = job.machines.iter().enumerate();
+    machines
+        .map(|(axis, machine)| AxisRow {
+            axis: AXIS_NAMES[axis],
+            end_position: run.end_counts[axis],
+            torque_max_nm: run.measured.torque[axis] as f64 / TwoMassAxis::FULL_SCALE as f64
+                * machine.max_torque_nm,
+            saturated_periods: run.measured.saturated[axis],
+        })
+        .collect()
+}
+
+fn circle_row(correction: Correction, circle: &CircleError) -> CircleRow {
+    let um = |forms: &Variants| forms.of(correction) * 1e3;
+    CircleRow {
+        radius_mm: circle.forms.radius_mm,
+        speed_mm_per_s: circle.forms.speed_mm_per_s,
+        periods: circle.periods,
+        model_um: circle.model_mm * 1e3,
+        load_um: circle.load_mm * 1e3,
+        continuous_um: um(&circle.forms.continuous),
+        sampled_um: um(&circle.forms.sampled),
+    }
+}
+
+/// Every segment.
+pub fn segments(job: &Job, runs: &Runs) -> Vec<SegmentRow> {
+    let (path, motion) = (&job.program.path, &job.program.motion);
+    let unit = motion.units_per_mm;
+    let spans = spans(path, motion);
+    let errors = errors_of_segments(job, runs);
+    let speeds = Speeds::of(&job.program.profile);
+    let stretches = path.stretches.iter().zip(&spans).enumerate();
+    stretches
+        .map(|(number, (stretch, span))| {
+            let begin = stretch.begin as f64;
+            let before = number.checked_sub(1).map_or(0.0, |k| spans[k].speed);
+            SegmentRow {
+                segment: number,
+                piece: stretch.piece,
+                line: stretch.line,
+                kind: match (job.is_rapid(stretch.piece), stretch.radius) {
+                    (true, _) => "rapid",
+                    (false, None) => "line",
+                    (false, Some(_)) => "arc",
+                },
+                length_mm: stretch.length as f64 / unit,
+                radius_mm: stretch.radius,
+                speed_wanted_mm_per_s: stretch.speed,
+                speed_limit_mm_per_s: span.speed / unit,
+                entry_limit_mm_per_s: span.entry.min(span.speed).min(before) / unit,
+                entry_mm_per_s: speeds.at(begin) / unit,
+                speed_mm_per_s: speeds.highest(begin, begin + stretch.length as f64) / unit,
+                contour_um: std::array::from_fn(|k| errors[k][number]),
+            }
+        })
+        .collect()
+}
+
+/// Largest contour error of the loads next to each segment, in um, by each correction.
+fn errors_of_segments(job: &Job, runs: &Runs) -> [Vec<Option<f64>>; 3] {
+    let (path, unit) = (&job.program.path, job.program.motion.units_per_mm);
+    std::array::from_fn(|k| {
+        let mut largest = vec![None; path.stretches.len()];
+        let deviations = runs.runs.get(k).map(|run| &run.measured.load.deviations);
+        for deviation in deviations.into_iter().flatten() {
+            let of = &mut largest[path.index(deviation.length_mm * unit)];
+            *of = Some(of.unwrap_or(0.0f64).max(deviation.contour_mm * 1e3));
+        }
+        largest
+    })
+}
+
+/// The planned speed by the length along the path.
+struct Speeds<'a> {
+    profile: &'a Profile,
+}
+
+impl<'a> Speeds<'a> {
+    fn of(profile: &'a Profile) -> Self {
+        Speeds { profile }
+    }
+
+    /// The speed at a length.
+    fn at(&self, length: f64) -> f64 {
+        self.profile.at(self.time(length))[1]
+    }
+
+    /// When a length is reached.
+    fn time(&self, length: f64) -> f64 {
+        let pieces = &self.profile.pieces;
+        let index = pieces.partition_point(|piece| piece.q <= length);
+        let from = pieces[..index].last().map_or(0.0, |piece| piece.t);
+        let to = pieces
+            .get(index)
+            .map_or(self.profile.duration, |next| next.t);
+        // The length never falls, so bisection finds it.
+        let (mut early, mut late) = (from, to);
+        for _ in 0..60 {
+            let middle = f64::midpoint(early, late);
+            match self.profile.at(middle)[0] < length {
+                true => early = middle,
+                false => late = middle,
+            }
+        }
+        early
+    }
+
+    /// The highest speed between two lengths: at one of them, or where a piece begins.
+    fn highest(&self, from: f64, to: f64) -> f64 {
+        let pieces = &self.profile.pieces;
+        let first = pieces.partition_point(|piece| piece.q <= from);
+        let inside = pieces[first..].iter().take_while(|piece| piece.q < to);
+        inside
+            .map(|piece| piece.v)
+            .fold(self.at(from).max(self.at(to)), f64::max)
+    }
+}

@@ -1,0 +1,190 @@
+//! What the runs came to.
+
+use super::Job;
+use super::rows::{self, CorrectionRow, SegmentRow};
+use super::runs::Runs;
+use super::verdict::complaints;
+use motion_rtl::trajectory_controller::settings::LEAST_PERIOD_TICKS;
+use serde::Serialize;
+
+/// The summary of a run.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    /// The circuit that ran.
+    pub circuit: &'static str,
+    /// The input file, or the scenario's name.
+    pub input: String,
+    /// The correction in the waves.
+    pub correction: &'static str,
+    /// How the models round.
+    pub rounding: &'static str,
+    /// Axes.
+    pub axes: usize,
+    /// Reference clock in Hz.
+    pub clock_hz: u64,
+    /// Δt in ticks.
+    pub period_ticks: u32,
+    /// Ticks that the circuit needs of them.
+    pub period_ticks_needed: u64,
+    /// Δt.
+    pub period_ms: f64,
+    /// K1.
+    pub k1_per_s: f64,
+    /// K2.
+    pub k2_per_s: f64,
+    /// Counts of a millimetre.
+    pub counts_per_mm: f64,
+    /// Ticks of the run in the waves.
+    pub ticks: u64,
+    /// The same in seconds.
+    pub seconds: f64,
+    /// Ticks of it in which the path was written, before it began.
+    pub loading_ticks: u64,
+    /// Interpolation periods.
+    pub periods: usize,
+    /// Whether every command is on the path, and every run came to rest at the path's end.
+    pub exact: bool,
+    /// What is wrong where it is not.
+    pub complaints: Vec<String>,
+    /// The path.
+    pub path: PathSummary,
+    /// The look-ahead.
+    pub plan: PlanSummary,
+    /// By each correction.
+    pub corrections: Vec<CorrectionRow>,
+    /// Every segment.
+    pub segments: Vec<SegmentRow>,
+    /// Ticks that went into the VCD, half-open; `null` without one.
+    pub vcd_window: Option<[u64; 2]>,
+    /// What was skipped or assumed.
+    pub warnings: Vec<String>,
+    /// The files written.
+    pub files: Vec<String>,
+}
+
+/// A path by its length.
+#[derive(Debug, Serialize)]
+pub struct PathSummary {
+    /// Its segments.
+    pub segments: usize,
+    /// L.
+    pub length_mm: f64,
+    /// Pieces without a segment: they begin and end at the same guard unit.
+    pub zero_length: usize,
+}
+
+/// What the look-ahead made of it.
+#[derive(Debug, Serialize)]
+pub struct PlanSummary {
+    /// T: from the first period to the last command.
+    pub seconds: f64,
+    /// Highest speed.
+    pub speed_max_mm_per_s: f64,
+    /// Joints of two segments at which the path stops.
+    pub stops: usize,
+    /// The slowest of the other joints of two segments that are no rapid moves.
+    pub slowest_joint: Option<Joint>,
+}
+
+/// Where two segments meet.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Joint {
+    /// The segment that begins.
+    pub segment: usize,
+    /// Line of the input it stands in.
+    pub line: Option<usize>,
+    /// The speed there.
+    pub speed_mm_per_s: f64,
+    /// What the turn allows.
+    pub limit_mm_per_s: f64,
+}
+
+impl Summary {
+    /// The summary of a path that was run by each correction.
+    pub fn new(job: &Job, runs: &Runs) -> Self {
+        let (settings, program) = (&job.settings, &job.program);
+        let complaints = complaints(job, runs);
+        let segments = rows::segments(job, runs);
+        let traced = runs.traced();
+        Summary {
+            circuit: "trajectory_controller",
+            input: match &job.drawing {
+                Some(drawing) => drawing.file.clone(),
+                None => job.stem.clone(),
+            },
+            correction: settings.correction.name(),
+            rounding: settings.rounding.name(),
+            axes: job.axes(),
+            clock_hz: settings.clock_hz,
+            period_ticks: program.period_ticks,
+            period_ticks_needed: LEAST_PERIOD_TICKS,
+            period_ms: settings.period_ms,
+            k1_per_s: settings.k1_per_s,
+            k2_per_s: settings.k2_per_s,
+            counts_per_mm: settings.counts_per_mm,
+            ticks: traced.ticks,
+            seconds: traced.ticks as f64 / settings.clock_hz as f64,
+            loading_ticks: traced.start,
+            periods: traced.periods,
+            exact: complaints.is_empty(),
+            complaints,
+            path: PathSummary {
+                segments: program.path.stretches.len(),
+                length_mm: program.path.length as f64 / program.motion.units_per_mm,
+                zero_length: program.path.zero_length,
+            },
+            plan: plan(job, &segments),
+            corrections: rows::corrections(job, runs),
+            segments,
+            vcd_window: None,
+            warnings: warnings(job, runs),
+            files: Vec::new(),
+        }
+    }
+}
+
+fn plan(job: &Job, segments: &[SegmentRow]) -> PlanSummary {
+    let joints = segments.windows(2);
+    let stop = |row: &SegmentRow| row.entry_limit_mm_per_s <= 0.0;
+    let at_feed = joints.clone().filter(|pair| {
+        let rapid = pair.iter().any(|row| row.kind == "rapid");
+        !rapid && !stop(&pair[1])
+    });
+    let passed = at_feed.map(|pair| Joint {
+        segment: pair[1].segment,
+        line: pair[1].line,
+        speed_mm_per_s: pair[1].entry_mm_per_s,
+        limit_mm_per_s: pair[1].entry_limit_mm_per_s,
+    });
+    let speeds = segments.iter().map(|row| row.speed_mm_per_s);
+    PlanSummary {
+        seconds: job.program.profile.duration,
+        speed_max_mm_per_s: speeds.fold(0.0, f64::max),
+        stops: joints.filter(|pair| stop(&pair[1])).count(),
+        slowest_joint: passed.min_by(|a, b| a.speed_mm_per_s.total_cmp(&b.speed_mm_per_s)),
+    }
+}
+
+/// What was skipped or assumed on the way to the path, and torques at their limits.
+fn warnings(job: &Job, runs: &Runs) -> Vec<String> {
+    let own = job.drawing.iter().flat_map(|drawing| &drawing.warnings);
+    let mut warnings: Vec<String> = own.map(ToString::to_string).collect();
+    match job.program.path.zero_length {
+        0 => {}
+        1 => warnings.push("1 piece left out that has no length".to_owned()),
+        many => warnings.push(format!("{many} pieces left out that have no length")),
+    }
+    for run in &runs.runs {
+        for (axis, &periods) in run.measured.saturated.iter().enumerate() {
+            if periods > 0 {
+                warnings.push(format!(
+                    "{}: in {periods} periods {} asks for more than {} Nm",
+                    run.correction.name(),
+                    rows::AXIS_NAMES[axis],
+                    job.machines[axis].max_torque_nm
+                ));
+            }
+        }
+    }
+    warnings
+}

@@ -1,0 +1,217 @@
+//! The summary for people.
+
+use super::rows::{AxisRow, CorrectionRow, SegmentRow};
+use super::summary::Summary;
+use crate::cli::rows::{fixed, more, or_dash, table, worst};
+use crate::cli::traces::Report;
+use std::fmt::{self, Write};
+
+/// Width of the column that says what a row is of.
+const NAME: usize = 18;
+
+impl Report for Summary {
+    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
+        (self.vcd_window, self.files) = (vcd_window, files);
+    }
+
+    fn complaints(&self) -> &[String] {
+        &self.complaints
+    }
+
+    fn write(&self, text: &mut String, all: bool) -> fmt::Result {
+        writeln!(
+            text,
+            "{} on {} ({}, {}): {} axes, {} periods, {} ticks, {:.3} s at {} Hz",
+            self.input,
+            self.circuit,
+            self.correction,
+            self.rounding,
+            self.axes,
+            self.periods,
+            self.ticks,
+            self.seconds,
+            self.clock_hz
+        )?;
+        writeln!(
+            text,
+            "a period of {} ms in {} ticks, of which the circuit needs {}; K1 = {}/s, K2 = {}/s; a \
+             count is {:.3} um",
+            self.period_ms,
+            self.period_ticks,
+            self.period_ticks_needed,
+            self.k1_per_s,
+            self.k2_per_s,
+            1e3 / self.counts_per_mm
+        )?;
+        self.path(text)?;
+        self.errors(text)?;
+        self.circle(text)?;
+        self.segments(text, all)?;
+        for warning in &self.warnings {
+            writeln!(text, "warning: {warning}")?;
+        }
+        if let Some([from, to]) = self.vcd_window
+            && (from > 0 || to < self.ticks)
+        {
+            writeln!(
+                text,
+                "the VCD shows ticks {from} to {to} of {}: --from and --to choose others",
+                self.ticks
+            )?;
+        }
+        for file in &self.files {
+            writeln!(text, "wrote {file}")?;
+        }
+        Ok(())
+    }
+}
+
+/// A name, to the left.
+fn name(name: &str) -> String {
+    format!("{name:<NAME$}")
+}
+
+fn plural(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
+    }
+}
+
+impl Summary {
+    fn path(&self, text: &mut String) -> fmt::Result {
+        let (path, plan) = (&self.path, &self.plan);
+        write!(
+            text,
+            "path of {:.3} mm in {}, planned in {:.3} s at up to {} mm/s; {}",
+            path.length_mm,
+            plural(path.segments, "segment"),
+            plan.seconds,
+            fixed(plan.speed_max_mm_per_s, 3),
+            match plan.stops {
+                0 => "no stop".to_owned(),
+                stops => plural(stops, "stop"),
+            },
+        )?;
+        match plan.slowest_joint {
+            None => writeln!(text, "\n"),
+            Some(joint) => {
+                let line = joint.line.map(|line| format!(", line {line}"));
+                writeln!(
+                    text,
+                    ", slowest joint at feed: {} mm/s (segment {}{})\n",
+                    fixed(joint.speed_mm_per_s, 3),
+                    joint.segment,
+                    line.unwrap_or_default()
+                )
+            }
+        }
+    }
+
+    fn errors(&self, text: &mut String) -> fmt::Result {
+        let title = name("contour error um");
+        let heads = [
+            (title.as_str(), 0),
+            ("model", 8),
+            ("rms", 8),
+            ("load", 8),
+            ("rms", 8),
+            ("at mm", 8),
+            ("following mm", 0),
+            ("end um", 6),
+            ("torque Nm", 0),
+            ("", 12),
+        ];
+        let cells = self.corrections.iter().map(|row| {
+            let torques = row.axes.iter().map(|axis: &AxisRow| axis.torque_max_nm);
+            [
+                name(row.correction),
+                fixed(row.model.contour_max_um, 3),
+                fixed(row.model.contour_rms_um, 3),
+                fixed(row.load.contour_max_um, 3),
+                fixed(row.load.contour_rms_um, 3),
+                fixed(row.load.at_mm, 3),
+                fixed(row.load.following_max_mm, 4),
+                fixed(row.load.end_um, 2),
+                fixed(torques.fold(0.0, f64::max), 3),
+                if row.in_waves { "in the waves" } else { "" }.to_owned(),
+            ]
+        });
+        table(text, heads, cells)?;
+        text.push('\n');
+        Ok(())
+    }
+
+    fn circle(&self, text: &mut String) -> fmt::Result {
+        let mut rows = self.corrections.iter();
+        let Some(first) = rows.find_map(|row| row.circle.as_ref()) else {
+            return Ok(());
+        };
+        writeln!(
+            text,
+            "circle of {} mm at {} mm/s: mean contour error of {} steady periods",
+            fixed(first.radius_mm, 3),
+            fixed(first.speed_mm_per_s, 3),
+            first.periods
+        )?;
+        let title = name("um");
+        let heads = [
+            (title.as_str(), 0),
+            ("model", 8),
+            ("sampled", 8),
+            ("continuous", 0),
+            ("load", 8),
+        ];
+        let circles = self.corrections.iter().filter_map(|row: &CorrectionRow| {
+            let circle = row.circle.as_ref()?;
+            Some([
+                name(row.correction),
+                fixed(circle.model_um, 3),
+                fixed(circle.sampled_um, 3),
+                fixed(circle.continuous_um, 3),
+                fixed(circle.load_um, 3),
+            ])
+        });
+        table(text, heads, circles)?;
+        text.push('\n');
+        Ok(())
+    }
+
+    fn segments(&self, text: &mut String, all: bool) -> fmt::Result {
+        let shown = self.corrections.iter().position(|row| row.in_waves);
+        let error = |row: &SegmentRow| row.contour_um[shown.unwrap_or(0)].unwrap_or(-1.0);
+        let (rows, left) = worst(&self.segments, all, error);
+        let heads = [
+            ("segment", 0),
+            ("line", 4),
+            ("kind", 5),
+            ("length mm", 0),
+            ("radius", 8),
+            ("mm/s", 8),
+            ("wanted", 8),
+            ("entry", 8),
+            ("load um: none", 0),
+            ("steady", 8),
+            ("vector", 8),
+        ];
+        let cells = rows.into_iter().map(|row| {
+            let [none, steady, vector] =
+                row.contour_um.map(|um| or_dash(um.map(|um| fixed(um, 3))));
+            [
+                row.segment.to_string(),
+                or_dash(row.line),
+                row.kind.to_owned(),
+                fixed(row.length_mm, 3),
+                or_dash(row.radius_mm.map(|mm| fixed(mm, 3))),
+                fixed(row.speed_mm_per_s, 3),
+                fixed(row.speed_wanted_mm_per_s, 3),
+                fixed(row.entry_mm_per_s, 3),
+                none,
+                steady,
+                vector,
+            ]
+        });
+        table(text, heads, cells)?;
+        more(text, left, "of smaller contour error")
+    }
+}

@@ -1,0 +1,659 @@
+//! `run` of the trajectory controller: figures against closed forms, files, windows, refusals.
+
+use super::support::{Bench, keys, whole};
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+
+/// A millisecond of 400 ticks, 1 um a count.
+const HEAD: &str = "circuit = \"trajectory_controller\"\nclock_hz = 400_000\nperiod_ms = 1\n\
+     counts_per_mm = 1000\nfeed_mm_per_s = 50\n";
+
+/// Ten millimetres along x.
+const LINE: &str = "[[piece]]\nto_mm = [10, 0, 0]\n";
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    let found = value.pointer(pointer).and_then(Value::as_f64);
+    found.unwrap_or_else(|| panic!("no number at {pointer}: {value}"))
+}
+
+fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
+    value[name]
+        .as_array()
+        .unwrap_or_else(|| panic!("no {name}"))
+}
+
+#[track_caller]
+fn near(value: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (value - expected).abs() <= tolerance,
+        "{value}, not {expected} within {tolerance}"
+    );
+}
+
+/// Within so large a part.
+#[track_caller]
+fn close(value: f64, expected: f64, part: f64) {
+    near(value, expected, part * expected.abs());
+}
+
+fn with(text: &str) -> Bench {
+    Bench::with("s.toml", format!("{HEAD}{text}"))
+}
+
+fn summary(text: &str, more: &[&str]) -> Value {
+    with(text).json(&[&["run", "s.toml", "--no-vcd"], more].concat())
+}
+
+/// The row of a correction.
+fn of<'a>(summary: &'a Value, correction: &str) -> &'a Value {
+    let mut rows = list(summary, "corrections").iter();
+    rows.find(|row| row["correction"] == correction).unwrap()
+}
+
+/// r(1 − |G|) and r(1 − |G(1 + e^(−jωτ) − G)|) of continuous models, in um.
+fn closed_forms(radius_mm: f64, speed: f64, [k1, k2]: [f64; 2]) -> [f64; 2] {
+    let omega = speed / radius_mm;
+    // G = K1·K2 / (K1·K2 − ω² + jωK2), as amplitude and phase.
+    let (re, im) = (k1 * k2 - omega * omega, omega * k2);
+    let (size, phase) = (k1 * k2 / re.hypot(im), -im.atan2(re));
+    let lag = -omega / k1;
+    let sum = [
+        1.0 + lag.cos() - size * phase.cos(),
+        lag.sin() - size * phase.sin(),
+    ];
+    let corrected = size * sum[0].hypot(sum[1]);
+    [size, corrected].map(|size| radius_mm * (1.0 - size) * 1e3)
+}
+
+#[test]
+fn the_circle_is_what_closed_forms_say() {
+    let bench = Bench::new();
+    let summary = bench.json(&["run", "waves/circle.toml", "--no-vcd"]);
+    assert_eq!(
+        keys(&summary),
+        [
+            "axes",
+            "circuit",
+            "clock_hz",
+            "complaints",
+            "correction",
+            "corrections",
+            "counts_per_mm",
+            "exact",
+            "files",
+            "input",
+            "k1_per_s",
+            "k2_per_s",
+            "loading_ticks",
+            "path",
+            "period_ms",
+            "period_ticks",
+            "period_ticks_needed",
+            "periods",
+            "plan",
+            "rounding",
+            "seconds",
+            "segments",
+            "ticks",
+            "vcd_window",
+            "warnings"
+        ]
+    );
+    assert_eq!(summary["circuit"], "trajectory_controller");
+    assert_eq!(summary["input"], "circle");
+    assert_eq!(summary["correction"], "vector");
+    assert_eq!(summary["rounding"], "nearest");
+    assert_eq!(summary["exact"], true);
+    assert_eq!(summary["files"], json!(["waves/circle.svg"]));
+    assert_eq!(whole(&summary, "/axes"), 2);
+    assert_eq!(whole(&summary, "/period_ticks"), 400);
+    assert!(whole(&summary, "/period_ticks_needed") <= 400);
+    let ticks = whole(&summary, "/ticks");
+    near(
+        number(&summary, "/seconds"),
+        ticks as f64 / 3_276_800.0,
+        1e-9,
+    );
+    // Two segments, of 13 words each.
+    assert!(whole(&summary, "/loading_ticks") >= 26);
+
+    // 2πr, at v but for two ramps, which take v/a each and half of it as way.
+    near(number(&summary, "/path/length_mm"), TAU * 10.0, 1e-6);
+    assert_eq!(whole(&summary, "/path/segments"), 2);
+    near(
+        number(&summary, "/plan/seconds"),
+        TAU * 10.0 / 100.0 + 100.0 / 2000.0,
+        1e-6,
+    );
+    near(number(&summary, "/plan/speed_max_mm_per_s"), 100.0, 1e-9);
+    assert_eq!(whole(&summary, "/plan/stops"), 0);
+    assert_eq!(whole(&summary, "/plan/slowest_joint/segment"), 1);
+
+    let [plain, corrected] = closed_forms(10.0, 100.0, [50.0, 200.0]);
+    // The figures of the patent's two cases: 0.099 mm and 0.0042 mm.
+    near(plain, 99.0, 0.05);
+    near(corrected, 4.19, 0.005);
+    let circle = |correction: &str, which: &str| {
+        number(of(&summary, correction), &format!("/circle/{which}"))
+    };
+    for (correction, form) in [("none", plain), ("vector", corrected)] {
+        near(circle(correction, "radius_mm"), 10.0, 1e-6);
+        near(circle(correction, "speed_mm_per_s"), 100.0, 1e-9);
+        close(circle(correction, "continuous_um"), form, 1e-6);
+        close(
+            circle(correction, "model_um"),
+            circle(correction, "sampled_um"),
+            0.005,
+        );
+        // The shaft's twist, m·ω²r outwards, and the noise of counts.
+        let twist = 2e-3 * 100.0 / 5000.0 * 10_000.0;
+        near(
+            circle(correction, "load_um"),
+            circle(correction, "model_um") - twist,
+            0.25,
+        );
+    }
+    close(circle("none", "model_um"), plain, 0.02);
+    // Steps of 1/8192 s are still seen in what is left by the correction.
+    close(circle("vector", "model_um"), corrected, 0.03);
+    // The prior art is made for this, and for this alone: the arc ends widened.
+    assert!(circle("steady", "model_um") < 0.01);
+    near(number(of(&summary, "steady"), "/model/end_um"), plain, 1.3);
+    for correction in ["none", "vector"] {
+        let row = of(&summary, correction);
+        assert!(number(row, "/model/end_um") < 0.2, "{row}");
+        assert!(number(row, "/load/end_um") < 1.0, "{row}");
+        for axis in list(row, "axes") {
+            assert!(whole(axis, "/end_position").abs() <= 2, "{axis}");
+        }
+        // v/K1 of the tangential response, and its sagitta.
+        let following = number(row, "/load/following_max_mm");
+        near(following, 2.0, 0.04);
+    }
+    // J·ω·v at the load and the motor, and what the ramps take: within the motor.
+    for row in list(&summary, "corrections") {
+        for axis in list(row, "axes") {
+            let torque = number(axis, "/torque_max_nm");
+            assert!(torque > 1.8 && torque < 5.0, "{axis}");
+        }
+    }
+}
+
+#[test]
+fn in_shorter_periods_the_continuous_forms_hold() {
+    // Two fifths of a circle, in periods of 1/16384 s.
+    let text = "circuit = \"trajectory_controller\"\nclock_hz = 6_553_600\n\
+         period_ms = 0.06103515625\ncounts_per_mm = 5000\nfeed_mm_per_s = 100\n\
+         acceleration_mm_per_s2 = 4000\nstart_mm = [10, 0, 0]\n\
+         [[piece]]\nvia_mm = [0, 10, 0]\nto_mm = [-8, 6, 0]\n\
+         [machine]\nmax_torque_nm = 20\nmotor_inertia_kg_m2 = 1e-3\nload_inertia_kg_m2 = 2e-3\n\
+         stiffness_nm_per_rad = 5000\ndamping_nm_s_per_rad = 0.2\n\
+         counts_per_rev = 50_000\nmm_per_rev = 10\n";
+    let bench = Bench::with("s.toml", text);
+    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    let [plain, corrected] = closed_forms(10.0, 100.0, [50.0, 200.0]);
+    for (correction, form) in [("none", plain), ("vector", corrected)] {
+        let model = number(of(&summary, correction), "/circle/model_um");
+        close(model, form, 0.02);
+    }
+}
+
+#[test]
+fn a_straight_path_needs_no_correction() {
+    let bench = with("[[piece]]\nto_mm = [8, 6, 0]\n");
+    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    assert_eq!(summary["complaints"], json!([]));
+    near(number(&summary, "/path/length_mm"), 10.0, 1e-6);
+    for row in list(&summary, "corrections") {
+        assert_eq!(row["circle"], Value::Null);
+        // Rounding alone: half a count is 0.5 um.
+        assert!(number(row, "/model/contour_max_um") < 0.01, "{row}");
+        // Equal motors see equal ways but for their counts.
+        assert!(number(row, "/load/contour_max_um") < 3.0, "{row}");
+        let end = |axis: usize| whole(row, &format!("/axes/{axis}/end_position"));
+        assert!((end(0) - 8000).abs() <= 2 && (end(1) - 6000).abs() <= 2);
+        // v/K1 less the period in which the model already moves.
+        near(
+            number(row, "/load/following_max_mm"),
+            50.0 / 50.0 - 0.05,
+            0.005,
+        );
+    }
+    assert_eq!(summary["plan"]["slowest_joint"], Value::Null);
+    let text = bench.succeed(&["run", "s.toml", "--no-vcd"]);
+    assert!(
+        text.starts_with("s on trajectory_controller (vector, nearest): 2 axes, "),
+        "{text}"
+    );
+    assert!(
+        text.contains("mm/s; no stop\n\ncontour error um "),
+        "{text}"
+    );
+    assert!(!text.contains("circle of"), "{text}");
+}
+
+#[test]
+fn the_correction_of_the_waves_is_chosen() {
+    for correction in ["none", "steady", "vector"] {
+        let set = format!("correction={correction}");
+        let run = summary(LINE, &["--set", &set]);
+        assert_eq!(run["correction"], correction);
+        let shown = list(&run, "corrections").iter();
+        let shown: Vec<_> = shown
+            .filter(|row| row["in_waves"] == true)
+            .map(|row| &row["correction"])
+            .collect();
+        assert_eq!(shown, [correction]);
+        assert_eq!(of(&run, correction)["ticks"], run["ticks"]);
+    }
+}
+
+/// The cam as its own header has it.
+fn cam() -> String {
+    let rise = |u: f64| u - (TAU * u).sin() / TAU;
+    let s = |t: f64| match t {
+        t if t < 60.0 => 0.0,
+        t if t < 180.0 => rise((t - 60.0) / 120.0),
+        t if t < 240.0 => 1.0,
+        t => 1.0 - rise((t - 240.0) / 120.0),
+    };
+    let mut text = String::new();
+    for k in 1..=3600 {
+        let t = f64::from(k) / 10.0;
+        let (sin, cos) = t.to_radians().sin_cos();
+        let r = 20.0 + 6.0 * s(t);
+        let point = format!("X{:.4} Y{:.4}\n", r * cos, r * sin);
+        text.push_str(&point.replace("-0.0000", "0.0000"));
+    }
+    text
+}
+
+#[test]
+fn the_cam_is_its_formula_and_is_run_at_feed() {
+    let program = Path::new(env!("CARGO_MANIFEST_DIR")).join("waves/cam.ngc");
+    let program = fs::read_to_string(program).unwrap();
+    let begin = program.find("X20.0000").unwrap();
+    let end = program.find("X20 Y5").unwrap();
+    assert!(program[begin..end] == cam(), "the points of the cam");
+
+    let bench = Bench::new();
+    let summary = bench.json(&["run", "waves/cam.toml", "--no-vcd"]);
+    assert_eq!(summary["complaints"], json!([]));
+    let segments = list(&summary, "segments");
+    assert_eq!(segments.len(), 1 + 1 + 3600 + 1);
+    // Every chord at feed, from its start to its end.
+    for chord in &segments[2..3602] {
+        near(number(chord, "/entry_mm_per_s"), 100.0, 1e-6);
+        near(number(chord, "/speed_mm_per_s"), 100.0, 1e-6);
+    }
+    near(
+        number(&summary, "/plan/slowest_joint/speed_mm_per_s"),
+        100.0,
+        1e-6,
+    );
+    assert_eq!(segments[0]["kind"], "rapid");
+    // The word of each of 13 words a segment.
+    assert!(whole(&summary, "/loading_ticks") >= 3603 * 13);
+    let rms = |correction: &str| number(of(&summary, correction), "/load/contour_rms_um");
+    assert!(rms("vector") < rms("none") / 4.0);
+    // Chords have no radius.
+    assert_eq!(rms("steady"), rms("none"));
+
+    let text = bench.succeed(&["run", "waves/cam.toml", "--no-vcd"]);
+    assert!(text.contains("and 3597 more, of smaller contour error: --segments shows all\n"));
+    let text = bench.succeed(&["run", "waves/cam.toml", "--no-vcd", "--segments"]);
+    assert!(!text.contains(" more, "));
+    assert_eq!(
+        text.lines().filter(|line| line.contains(" line ")).count(),
+        3603
+    );
+}
+
+#[test]
+fn the_pocket_moves_three_axes() {
+    let bench = Bench::new();
+    let summary = bench.json(&["run", "waves/pocket.toml", "--no-vcd"]);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(whole(&summary, "/axes"), 3);
+    let kinds = |kind: &str| {
+        let segments = list(&summary, "segments").iter();
+        segments.filter(|row| row["kind"] == kind).count()
+    };
+    assert_eq!((kinds("rapid"), kinds("arc"), kinds("line")), (2, 9, 13));
+    for row in list(&summary, "corrections") {
+        let ends: Vec<_> = list(row, "axes")
+            .iter()
+            .map(|axis| whole(axis, "/end_position"))
+            .collect();
+        assert!(ends[0].abs() <= 2 && ends[1].abs() <= 2, "{ends:?}");
+        assert!((ends[2] - 2000).abs() <= 2, "{ends:?}");
+    }
+    // A corner of 4 mm at 80 mm/s, by v²/r of K1 and K2.
+    let arc = &list(&summary, "segments")[8];
+    near(number(arc, "/radius_mm"), 4.0, 1e-6);
+    near(number(arc, "/speed_mm_per_s"), 80.0, 1e-6);
+    let [plain, _] = closed_forms(4.0, 80.0, [50.0, 200.0]);
+    close(number(arc, "/contour_um/0"), plain, 0.25);
+    let rms = |correction: &str| number(of(&summary, correction), "/load/contour_rms_um");
+    assert!(rms("vector") < rms("none") / 2.0);
+    let svg = bench.read("waves/pocket.svg");
+    assert!(svg.contains("path from above, errors of the loads times 10"));
+}
+
+#[test]
+fn the_files_of_a_run() {
+    let bench = with(LINE);
+    let summary = bench.json(&["run", "s.toml", "--to", "3000", "--out", "o"]);
+    assert_eq!(summary["files"], json!(["o/s.vcd", "o/s.gtkw", "o/s.svg"]));
+    assert_eq!(summary["vcd_window"], json!([0, 3000]));
+    assert_eq!(
+        bench.names(),
+        ["o/", "o/s.gtkw", "o/s.svg", "o/s.vcd", "s.toml"]
+    );
+    let svg = bench.read("o/s.svg");
+    for title in [
+        "s: trajectory controller",
+        "contour error of the loads",
+        "following error of the loads",
+        "speed",
+        "none",
+        "steady",
+        "vector",
+    ] {
+        assert!(svg.contains(&format!("\n{title}\n")), "{title}");
+    }
+    let only = "trajectory_controller.tangential";
+    let summary = bench.json(&["run", "s.toml", "--only", only, "--out", "o"]);
+    assert_eq!(summary["vcd_window"], json!([0, whole(&summary, "/ticks")]));
+    let wide = bench.read("o/s.vcd");
+    assert!(wide.contains("$scope module tangential") && !wide.contains("distribution"));
+    let verilog = bench.json(&["run", "s.toml", "--no-vcd", "--verilog", "--out", "o"]);
+    let files = list(&verilog, "files");
+    assert!(files.contains(&json!("o/trajectory_controller.v")));
+    assert!(files.contains(&json!("o/trajectory_controller.stimulus")));
+}
+
+#[test]
+fn every_key_of_a_scenario_is_taken() {
+    let text = "circuit = \"trajectory_controller\"\ninput = \"l.ngc\"\naxes = 3\n\
+         clock_hz = 500_000\nperiod_ms = 2\ncounts_per_mm = 500\nfeed_mm_per_s = 20\n\
+         rapid_mm_per_s = 40\nacceleration_mm_per_s2 = 500\nnormal_acceleration_mm_per_s2 = 100\n\
+         jerk_time_ms = 10\ncorner_mm_per_s = 0\nk1_per_s = 40\nk2_per_s = 90\n\
+         allow_overshoot = true\nrounding = \"floor\"\ncorrection = \"none\"\n\
+         position_gain_per_s = 20\nspeed_hz = 15\nintegral_ms = 0\nvcd_ticks = 100\n\
+         [[axis]]\nmax_torque_nm = 5\nmotor_inertia_kg_m2 = 1e-3\nload_inertia_kg_m2 = 1e-3\n\
+         stiffness_nm_per_rad = 300\ncounts_per_rev = 5000\nmm_per_rev = 10\n\
+         damping_nm_s_per_rad = 0.02\n";
+    let axis = "[[axis]]\nmax_torque_nm = 6\nmotor_inertia_kg_m2 = 1e-3\n\
+         load_inertia_kg_m2 = 1e-3\nstiffness_nm_per_rad = 300\ncounts_per_rev = 2500\n\
+         mm_per_rev = 5\ndamping_nm_s_per_rad = 0.02\n";
+    let bench = Bench::with("all.toml", format!("{text}{axis}{axis}"));
+    bench.write("l.ngc", "G0 X5\nG1 Y5\nG3 X0 Y10 I-5\nG1 X-5 F600\n");
+    let summary = bench.json(&["run", "all.toml"]);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(summary["rounding"], "floor");
+    assert_eq!(summary["correction"], "none");
+    assert_eq!(whole(&summary, "/axes"), 3);
+    assert_eq!(whole(&summary, "/clock_hz"), 500_000);
+    assert_eq!(whole(&summary, "/period_ticks"), 1000);
+    assert_eq!(summary["vcd_window"], json!([0, 100]));
+    let row = |k: usize, name: &str| number(&summary, &format!("/segments/{k}/{name}"));
+    assert_eq!(row(0, "speed_wanted_mm_per_s"), 40.0);
+    assert_eq!(row(1, "speed_wanted_mm_per_s"), 20.0);
+    // √(a·r) of the arc is more; F of the program goes before the feed.
+    near(row(2, "speed_limit_mm_per_s"), 20.0, 1e-9);
+    assert_eq!(row(3, "speed_wanted_mm_per_s"), 10.0);
+    // A corner is a stop where no step of the velocity is allowed; the arc is tangential.
+    assert_eq!(row(1, "entry_limit_mm_per_s"), 0.0);
+    assert_eq!(whole(&summary, "/plan/stops"), 1);
+    near(row(2, "entry_mm_per_s"), 20.0, 1e-6);
+    near(row(3, "entry_mm_per_s"), 10.0, 1e-6);
+    let ends: Vec<_> = list(of(&summary, "none"), "axes")
+        .iter()
+        .map(|axis| whole(axis, "/end_position"))
+        .collect();
+    assert!(
+        (ends[0] + 2500).abs() <= 4 && (ends[1] - 5000).abs() <= 4,
+        "{ends:?}"
+    );
+
+    // Across the path less is allowed than the feed on the arc.
+    let slow = bench.json(&[
+        "run",
+        "all.toml",
+        "--no-vcd",
+        "--set",
+        "normal_acceleration_mm_per_s2=20",
+    ]);
+    near(
+        number(&slow, "/segments/2/speed_mm_per_s"),
+        (20.0f64 * 5.0).sqrt(),
+        1e-6,
+    );
+}
+
+#[test]
+fn a_drawing_by_itself() {
+    let bench = Bench::with("l.ngc", "G1 X5 F1200\nG1 Z1\n");
+    let run = [
+        "run",
+        "l.ngc",
+        "--no-vcd",
+        "--set",
+        "circuit=trajectory_controller",
+    ];
+    let summary = bench.json(&run);
+    assert_eq!(summary["input"], "l.ngc");
+    assert_eq!(whole(&summary, "/axes"), 3);
+    bench.refuse(
+        &[&run[..], &["--set", "axes=2"]].concat(),
+        "l.ngc:2: Z: leaves the plane of x and y by 1 mm; allowed: the height of the start, or \
+         three axes",
+    );
+    bench.write("l.hpgl", "PD400,0;");
+    let run = [
+        "run",
+        "l.hpgl",
+        "--no-vcd",
+        "--set",
+        "circuit=trajectory_controller",
+    ];
+    bench.refuse(
+        &run,
+        "l.hpgl:1: F: missing; allowed: a feed, or feed_mm_per_s for all",
+    );
+    let summary = bench.json(&[&run[..], &["--set", "feed_mm_per_s=30"]].concat());
+    assert_eq!(whole(&summary, "/axes"), 2);
+    near(number(&summary, "/path/length_mm"), 10.0, 1e-6);
+}
+
+const MACHINE: &str = "max_torque_nm = 10\nmotor_inertia_kg_m2 = 1e-3\n\
+     load_inertia_kg_m2 = 2e-3\nstiffness_nm_per_rad = 200\ncounts_per_rev = 10_000\n\
+     mm_per_rev = 10\n";
+
+#[test]
+fn bad_settings_are_refused_with_their_line() {
+    // The head has five lines, the piece two.
+    let cases = [
+        (
+            "",
+            "s.toml: piece: missing; allowed: tables [[piece]], or an input: an HPGL drawing or a G-code program",
+        ),
+        (
+            "start_mm = [1, 0, 0]\ninput = \"l.ngc\"\n",
+            "s.toml:6: start_mm: is [1.0, 0.0, 0.0] beside an input; allowed: where the drawing begins: no start_mm",
+        ),
+        (
+            "input = \"l.ngc\"\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: input: given beside tables [[piece]]; allowed: a drawing or pieces, not both",
+        ),
+        (
+            "axes = 4\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: axes: is 4; allowed: 2 or 3",
+        ),
+        (
+            "axes = 2\n[[piece]]\nto_mm = [10, 0, 1]\n",
+            "s.toml:8: piece 0: to_mm: leaves the plane of x and y by 1 mm; allowed: the height of the start, or three axes",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[piece]]\nvia_mm = [20, 0, 0]\nto_mm = [30, 0, 0]\nspeed_mm_per_s = 3\n",
+            "",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\nspeed_mm_per_s = 0\n",
+            "s.toml:8: piece 0: speed_mm_per_s: is 0 mm/s; allowed: a speed above 0",
+        ),
+        (
+            "k1_per_s = 0\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: k1_per_s: is 0: ",
+        ),
+        (
+            "k2_per_s = 100\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: k2_per_s: is 100: ",
+        ),
+        (
+            "correction = \"both\"\n",
+            "s.toml:6: correction: unknown variant `both`; allowed: one of `vector`, `none`, `steady`",
+        ),
+        (
+            "acceleration_mm_per_s2 = nan\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: acceleration_mm_per_s2: is NaN; allowed: ",
+        ),
+        (
+            "jerk_time_ms = -1\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: jerk_time_ms: is -1; allowed: 0 to ",
+        ),
+        (
+            "position_gain_per_s = 0\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: position_gain_per_s: is 0; allowed: ",
+        ),
+        (
+            "speed_hz = 1e6\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: speed_hz: is 1000000: ",
+        ),
+        (
+            "integral_ms = -1\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: integral_ms: is -1; allowed: 0 to ",
+        ),
+        (
+            "[[piece]]\nto_mm = [2e6, 0, 0]\n",
+            "s.toml:7: piece 0: to_mm: x reaches ",
+        ),
+        (
+            "[machine]\nmass = 1\n",
+            "s.toml:7: mass: unknown field `mass`; allowed: one of `max_torque_nm`, ",
+        ),
+        (
+            "[machine]\nmax_torque_nm = 1\n",
+            "s.toml:6: motor_inertia_kg_m2: missing; allowed: a value for it: it has no default",
+        ),
+    ];
+    for (text, refusal) in cases {
+        let bench = with(text);
+        bench.write("l.ngc", "G1 X20 F600\n");
+        let before = bench.names();
+        let done = bench.run(&["run", "s.toml", "--no-vcd"]);
+        let start = match refusal {
+            // The three points on a line.
+            "" => "error: s.toml:9: piece 1: via_mm: the point via is only ".to_owned(),
+            refusal => format!("error: {refusal}"),
+        };
+        assert!(done.stderr.starts_with(&start), "{text}: {}", done.stderr);
+        assert_eq!((done.code, done.stdout.as_str()), (2, ""), "{text}");
+        assert_eq!(bench.names(), before, "{text}");
+    }
+}
+
+#[test]
+fn bad_machines_are_refused_with_their_line() {
+    let piece = "[[piece]]\nto_mm = [10, 0, 0]\n";
+    let with_machine = |change: (&str, &str)| {
+        let machine = MACHINE.replace(change.0, change.1);
+        format!("{piece}[machine]\n{machine}")
+    };
+    // The head has five lines, the piece two, the table begins in the eighth.
+    let bench = with(&with_machine(("mm_per_rev = 10", "mm_per_rev = 5")));
+    bench.refuse(
+        &["run", "s.toml"],
+        "s.toml:14: machine.mm_per_rev: is 5: 2000 counts a millimetre; allowed: 10: 1000, as \
+         counts_per_mm",
+    );
+    let bench = with(&with_machine(("= 200", "= -1")));
+    bench.refuse(
+        &["run", "s.toml"],
+        "s.toml:12: machine.stiffness_nm_per_rad: is -1; allowed: 0.000000001 to 1000000000",
+    );
+    // A key of the table by an override.
+    bench.refuse(
+        &["run", "s.toml", "--set", "machine.stiffness_nm_per_rad=0"],
+        "--set: machine.stiffness_nm_per_rad: is 0; allowed: 0.000000001 to 1000000000",
+    );
+    let run = [
+        "run",
+        "s.toml",
+        "--no-vcd",
+        "--set",
+        "machine.stiffness_nm_per_rad=300",
+    ];
+    assert_eq!(bench.json(&run)["exact"], true);
+    let bench = with(&format!("{piece}[[axis]]\n{MACHINE}"));
+    bench.refuse(
+        &["run", "s.toml"],
+        "s.toml: axis: given 1 times; allowed: 2 tables [[axis]], or one table [machine] for all",
+    );
+    let second = MACHINE.replace("= 2e-3", "= 0");
+    let bench = with(&format!("{piece}[[axis]]\n{MACHINE}[[axis]]\n{second}"));
+    bench.refuse(
+        &["run", "s.toml"],
+        "s.toml:18: axis 1: load_inertia_kg_m2: is 0; allowed: 0.000000001 to 1000000000",
+    );
+}
+
+#[test]
+fn bad_moves_are_refused_with_their_line() {
+    let cases = [
+        (
+            "G1 X20 F600\nG2 X40 I10 Z5\n",
+            "p.ngc:2: Z: climbs 5 mm along its axis: a helix; allowed: an arc in a plane: a rotation has no feed along its axis",
+        ),
+        (
+            "G1 X20 F600\nG2 X40 Y1 I3\n",
+            "p.ngc:2: I, J: the radius is 3.0000 mm at the start and 17.0294 mm at the end; allowed: radii that agree to 0.005 mm or 0.1 %",
+        ),
+    ];
+    for (text, refusal) in cases {
+        let bench = with("input = \"p.ngc\"\n");
+        bench.write("p.ngc", text);
+        bench.refuse(&["run", "s.toml", "--out", "new"], refusal);
+    }
+    let many: String = (1..=4097)
+        .map(|k| format!("G1 X{k} Y{}\n", k % 2))
+        .collect();
+    let bench = with("input = \"p.ngc\"\n");
+    bench.write("p.ngc", format!("G1 F600\n{many}"));
+    bench.refuse(
+        &["run", "s.toml", "--out", "new"],
+        "p.ngc:4098: path: the path has 4097 segments, which needs A = 13; allowed: at most 4096",
+    );
+    bench.refuse(
+        &["table", "waves/corner.toml"],
+        "waves/corner.toml:2: circuit: the trajectory controller has no table; allowed: \
+         pulse_interpolator, or the command run",
+    );
+}
+
+#[test]
+fn a_torque_that_is_not_enough_is_said() {
+    let weak = MACHINE.replace("max_torque_nm = 10", "max_torque_nm = 1");
+    let text = format!("{LINE}[machine]\n{weak}");
+    let done = with(&text).run(&["run", "s.toml", "--no-vcd"]);
+    let warning = "warning: vector: in ";
+    let line = done.stdout.lines().find(|line| line.starts_with(warning));
+    let line = line.unwrap_or_else(|| panic!("{}", done.stdout));
+    assert!(
+        line.ends_with(" periods x asks for more than 1 Nm"),
+        "{line}"
+    );
+}
