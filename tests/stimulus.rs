@@ -228,6 +228,14 @@ const FAR: &[(&str, u32)] = &[
     // One word of 32, and most words are small.
     ("rotation.row_y.by_y", 31),
     ("rotation.row_y.bits_y", 41),
+    // Never: a gain of 24 bits; what is shifted up, and what has room for the sum of two.
+    ("scaler.bit_index", 5),
+    ("model_state.motion", 0),
+    ("arc_angle.factor", 0),
+    ("arc_angle.product", 51),
+    ("cordic_state.turn", 42),
+    ("point_sequencer.ahead", 0),
+    ("servo_arithmetic.most", 16),
 ];
 
 /// At 8 bits: the pulses of a unit time of up to 255 ticks are at most 127, and a word of 8 bits
@@ -301,6 +309,15 @@ const NEVER: &[(&str, u32)] = &[
     // Coefficients of 8 bits.
     ("coefficient_control.bit_index", 4),
     ("rotation.control.bit_index", 4),
+    // As above.
+    ("scaler.bit_index", 3),
+    ("model_state.motion", 0),
+    ("arc_angle.factor", 0),
+    ("arc_angle.product", 12),
+    ("cordic_state.iteration", 3),
+    ("cordic_state.turn", 6),
+    ("point_sequencer.ahead", 0),
+    ("servo_arithmetic.most", 8),
 ];
 
 /// Circuits that only wire blocks which are driven alone: it takes whole jobs to move their bits,
@@ -319,6 +336,12 @@ const JOBS: &[&str] = &[
     "ram_compensator",
     "conventional_compensator",
     "arc_generator",
+    "reference_model",
+    "cordic",
+    "path_point",
+    "servo",
+    "controlled_axis",
+    "trajectory_controller",
 ];
 
 #[test]

@@ -137,7 +137,7 @@ signals! {
         /// Interpolation and acceleration 1.
         pub profile: difference_engine::Reg<L, P, F>,
         /// qc.
-        pub length: path_length::Reg<L, P>,
+        pub progress: path_length::Reg<L, P>,
         /// Tangential servo response 50.
         pub tangential: reference_model::Reg<L, P, K, M>,
         /// Axis distribution 3.
@@ -184,7 +184,7 @@ signals! {
         /// Interpolation and acceleration 1.
         pub profile: Instance<DifferenceEngine<P, F, D>, L>,
         /// qc.
-        pub length: Instance<PathLength<P>, L>,
+        pub progress: Instance<PathLength<P>, L>,
         /// qc on the path.
         pub clamp_command: Instance<LengthClamp<P>, L>,
         /// Tangential servo response 50.
@@ -253,7 +253,7 @@ pub struct TrajectoryController<
     /// Interpolation and acceleration 1.
     pub profile: DifferenceEngine<P, F, D>,
     /// qc.
-    pub length: PathLength<P>,
+    pub progress: PathLength<P>,
     /// Lengths on the path.
     pub clamp: LengthClamp<P>,
     /// Tangential servo response 50.
@@ -313,7 +313,7 @@ impl<
             memory: RecordMemory,
             sequencer: RecordSequencer,
             profile: DifferenceEngine::new(0),
-            length: PathLength,
+            progress: PathLength,
             clamp: LengthClamp,
             tangential: ReferenceModel::new(rounding),
             distribution: PathPoint::default(),
@@ -398,9 +398,9 @@ impl<
                 step: sequencer.w.advance,
             },
         );
-        let length = Instance::settle(
-            &self.length,
-            &q.length,
+        let progress = Instance::settle(
+            &self.progress,
+            &q.progress,
             path_length::In {
                 sample: period_counter.w.enable,
                 present: sequencer.w.present,
@@ -413,14 +413,14 @@ impl<
             let i = length_clamp::In { length, path_end };
             Instance::settle(&self.clamp, &Nothing::new(), i)
         };
-        let clamp_command = clamp(q.length.length);
+        let clamp_command = clamp(q.progress.length);
         let tangential = Instance::settle(
             &self.tangential,
             &q.tangential,
             reference_model::In {
-                step: q.length.fresh,
-                preset: q.length.preset,
-                target: q.length.length,
+                step: q.progress.fresh,
+                preset: q.progress.preset,
+                target: q.progress.length,
                 gain_1: i.gain_1,
                 gain_2: i.gain_2,
             },
@@ -437,11 +437,11 @@ impl<
             write_address: i.path_address,
             write_data: i.path_data,
         };
-        let command = point(q.length.fresh, clamp_command.w.clamped);
+        let command = point(q.progress.fresh, clamp_command.w.clamped);
         let distribution = Instance::settle(&self.distribution, &q.distribution, command);
         // The prior art knows where the command is, not where the response is.
         let answer = match self.correction {
-            Correction::Steady => point(q.length.fresh, clamp_command.w.clamped),
+            Correction::Steady => point(q.progress.fresh, clamp_command.w.clamped),
             Correction::Vector | Correction::None => {
                 point(tangential.w.fresh, clamp_response.w.clamped)
             }
@@ -473,8 +473,8 @@ impl<
             &self.gather,
             &q.gather,
             period_join::In {
-                begins: q.length.fresh,
-                held: q.length.held,
+                begins: q.progress.fresh,
+                held: q.progress.held,
                 placed: distribution.w.done,
                 referred: reference_point.w.done,
                 answered: axes[0].w.answered,
@@ -488,14 +488,14 @@ impl<
             ready: memory.w.ready,
             busy: sequencer.w.busy,
             sampled: q.sequencer.sampled,
-            fresh: q.length.fresh,
+            fresh: q.progress.fresh,
             late: q.gather.late,
             starved: q.sequencer.starved,
             period_counter,
             memory,
             sequencer,
             profile,
-            length,
+            progress,
             clamp_command,
             tangential,
             clamp_response,
@@ -516,7 +516,7 @@ impl<
             memory: w.memory.next(&self.memory, q.memory),
             sequencer: w.sequencer.next(&self.sequencer, q.sequencer),
             profile: w.profile.next(&self.profile, q.profile),
-            length: w.length.next(&self.length, q.length),
+            progress: w.progress.next(&self.progress, q.progress),
             tangential: w.tangential.next(&self.tangential, q.tangential),
             distribution: w.distribution.next(&self.distribution, q.distribution),
             reference_point: w

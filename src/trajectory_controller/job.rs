@@ -196,7 +196,7 @@ fn see<const AXES: usize>(
     let (q, w) = (now.q, now.w);
     let period = |_| Period {
         tick: 0,
-        length: q.length.length.get(),
+        length: q.progress.length.get(),
         answered: q.tangential.integrators.position.get(),
         command: from_fn(|k| q.distribution.axes[k].point.get()),
         reference: from_fn(|k| q.reference_point.axes[k].point.get()),

@@ -121,7 +121,7 @@ macro_rules! bench {
                     let i = writes.next().unwrap_or_else(|| idle(path, gains, period));
                     let (next, ended) = simulator.step(i, |now| {
                         let (q, w) = (now.q, now.w);
-                        let ended = w.axes[0].w.driven.get() && !q.length.waiting.get();
+                        let ended = w.axes[0].w.driven.get() && !q.progress.waiting.get();
                         ended.then(|| Period {
                             command: from_fn(|k| q.distribution.axes[k].point.get()),
                             response: from_fn(|k| q.axes[k].response.integrators.position.get()),
@@ -129,7 +129,7 @@ macro_rules! bench {
                             correction: from_fn(|k| q.axes[k].corrector.correction.get()),
                             corrected: from_fn(|k| q.axes[k].corrector.corrected.get()),
                             model: from_fn(|k| q.axes[k].servo.model.integrators.position.get()),
-                            length: q.length.length.get(),
+                            length: q.progress.length.get(),
                             answered: q.tangential.integrators.position.get(),
                             looked_up: [w.clamp_command.w.clamped.get(), w.clamp_response.w.clamped.get()],
                             segments: [

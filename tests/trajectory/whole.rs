@@ -309,7 +309,7 @@ fn a_second_path_begins_where_the_first_has_ended() {
                 let driven = now.w.axes[0].w.driven.get();
                 let corrected = [0, 1].map(|k| now.q.axes[k].corrector.corrected.get());
                 let correction = [0, 1].map(|k| now.q.axes[k].corrector.correction.get());
-                (driven, now.q.length.waiting.get(), corrected, correction)
+                (driven, now.q.progress.waiting.get(), corrected, correction)
             });
             simulator = next;
             driven += u64::from(seen.0);
