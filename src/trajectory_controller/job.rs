@@ -194,7 +194,7 @@ fn see<const AXES: usize>(
     observer: &mut impl Observer<Controller<AXES>>,
 ) -> Result<Seen<AXES>, RunError> {
     let (q, w) = (now.q, now.w);
-    let period = |_| Period {
+    let period = || Period {
         tick: 0,
         length: q.progress.length.get(),
         answered: q.tangential.integrators.position.get(),
@@ -223,7 +223,8 @@ fn see<const AXES: usize>(
             .fresh
             .get()
             .then(|| from_fn(|k| w.axes[k].w.position.get())),
-        period: axis.driven.get().then_some(()).map(period),
+        // Without a path the servo controls hold the machine: a period that began before the start.
+        period: (axis.driven.get() && !q.progress.waiting.get()).then(period),
     })
 }
 
@@ -277,7 +278,7 @@ pub fn play<const AXES: usize>(
         played.ticks += 1;
         played.late |= seen.late;
         played.lost |= seen.lost;
-        if let Some(mut period) = seen.period.filter(|_| host.started) {
+        if let Some(mut period) = seen.period {
             (period.motor, period.load, period.tick) = compared;
             played.periods.push(period);
             if !starts && !seen.busy {

@@ -62,31 +62,39 @@ impl ServoGains {
             false => 0.0,
         };
         let most = (1u64 << widths.servo_gain) - 1;
-        let word = |field, value: f64, exact: f64, least: u64| {
-            let nearest = exact.round();
+        let word = |field, value: f64, exact: f64, grows: bool| {
             // Written so that NaN fails.
-            if nearest >= least as f64 && nearest <= most as f64 {
-                return Ok(nearest as u64);
+            if exact >= 0.5 && exact.round() <= most as f64 {
+                return Ok(exact.round() as u64);
             }
-            let problem = format!("is {value}: a gain of {nearest}");
-            let allowed = format!("a gain of {least} to {most}");
+            // The values that make the least and the greatest word, a thousandth inside.
+            let ends = match grows {
+                true => [value / exact, value / exact * most as f64],
+                false => [value * exact / most as f64, value * exact],
+            };
+            let allowed = format!("{} to {}", short(ends[0] * 1.001), short(ends[1] * 0.999));
+            let problem = format!(
+                "is {value}: its gain is {}, of {most} at most",
+                short(exact)
+            );
             Err(refusal(field, problem, allowed))
         };
         let one = f64::from(widths.servo_gain - 1).exp2();
+        let (torque_nm, inertia) = (axis.max_torque_nm, inertia * torque / (period * period));
         Ok(ServoGains {
-            position: word("position_gain_per_s", rate, rate * period * one, 1)?,
-            speed: word("speed_hz", hz, speed, 1)?,
-            integral: match settings.integral_ms > 0.0 {
-                true => word("integral_ms", settings.integral_ms, integral, 1)?,
+            position: word("position_gain_per_s", rate, rate * period * one, true)?,
+            speed: word("speed_hz", hz, speed, true)?,
+            integral: match integral > 0.0 {
+                true => word("integral_ms", settings.integral_ms, integral, false)?,
                 false => 0,
             },
-            inertia: word(
-                "max_torque_nm",
-                axis.max_torque_nm,
-                inertia * torque / (period * period) * fine,
-                1,
-            )?,
+            inertia: word("max_torque_nm", torque_nm, inertia * fine, false)?,
             limit: full_scale as u64,
         })
     }
+}
+
+/// Four digits of a number.
+fn short(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -6,6 +6,7 @@ mod plotter;
 mod scenario;
 mod simulators;
 mod tools;
+mod trajectory;
 mod turntable;
 mod weld;
 mod yosys;

@@ -187,8 +187,8 @@ proptest! {
             let q = simulator.registers();
             prop_assert_eq!(q.search.segment.get(), index as u64);
             let exact = segment.point(length - begins[index]);
-            for axis in 0..3 {
-                let off = q.axes[axis].point.get() as f64 - exact[axis];
+            for (axis, exact) in exact.into_iter().enumerate() {
+                let off = q.axes[axis].point.get() as f64 - exact;
                 let bound = segment.bound();
                 prop_assert!(off.abs() <= bound, "axis {}: {} off, {}", axis, off, bound);
             }

@@ -141,12 +141,20 @@ fn what_does_not_fit_is_refused_with_the_width_it_needs() {
         "piece 0: x reaches 1073742000.0 counts, which needs W = 32; \
          allowed: -1073741823 to 1073741823 counts at W = 31: fewer counts per mm"
     );
-    assert!(Path::of(origin, &[far(1_073_741.0)], 1000.0, &Widths::FULL).is_ok());
+    // Half of them are for what is beside the path: from its start it may go as far as the rest.
+    assert_eq!(
+        refusal(origin, &[far(-536_871.0)], 1000.0),
+        "piece 0: x from the start reaches -536871000.0 counts, which needs W = 32; \
+         allowed: -536870911 to 536870911 counts at W = 31: fewer counts per mm"
+    );
+    assert!(Path::of(origin, &[far(536_870.0)], 1000.0, &Widths::FULL).is_ok());
+    let away = [500_000.0, 0.0, 0.0];
+    assert!(Path::of(away, &[far(1_036_000.0)], 1000.0, &Widths::FULL).is_ok());
     // There and back the length is too long where no point is.
-    let there = [far(600_000.0), far(0.0)];
+    let there = [far(400_000.0), far(0.0), far(400_000.0)];
     assert_eq!(
         refusal(origin, &there, 1000.0),
-        "piece 1: length reaches 1200000000.0 counts, which needs W = 32; \
+        "piece 2: length reaches 1200000000.0 counts, which needs W = 32; \
          allowed: -1073741823 to 1073741823 counts at W = 31: fewer counts per mm"
     );
     let flat = Circle::through(origin, [1000.0, 1e-4, 0.0], [2000.0, 0.0, 0.0]).unwrap();

@@ -96,6 +96,23 @@ fn the_word_holds_the_product_of_both_gains() {
     }
 }
 
+/// 50/s and 200/s in a tenth of a millisecond are 163.84 and 655.36: 164 and 655 would overshoot.
+#[test]
+fn rounding_alone_does_not_make_the_model_overshoot() {
+    let settings = Settings {
+        clock_hz: 10_000_000,
+        period_ms: 0.1,
+        ..Settings::default()
+    };
+    let gains = settings.gains(&WIDTHS).unwrap();
+    assert_eq!([gains.k1, gains.k2], [163, 655]);
+    let less = Settings {
+        k2_per_s: 199.9,
+        ..settings
+    };
+    assert_eq!(less.gains(&WIDTHS).unwrap_err().field, "k2_per_s");
+}
+
 #[test]
 fn units_are_those_of_the_words() {
     let settings = Settings {

@@ -1,10 +1,174 @@
 //! What is measured, against places that are known, and against a search of all lengths.
 
 use super::*;
+use motion_rtl::trajectory_controller::job::Period;
 use motion_rtl::trajectory_controller::measure::Measured;
+use motion_rtl::trajectory_controller::segments::Path;
+use proptest::prelude::*;
+use std::f64::consts::TAU;
 
 impl<const AXES: usize> Run<AXES> {
     pub fn measured(&self) -> Measured {
         Measured::of(&self.program, &self.played).unwrap()
+    }
+}
+
+fn off(a: Point, b: Point) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// A line, three quarters of a circle, a line back across the first.
+fn pieces() -> [Piece; 3] {
+    let circle = Circle {
+        centre: [10.0, 4.0, 0.0],
+        axis: [0.0, 0.0, 1.0],
+        start: [10.0, 0.0, 0.0],
+        radius: 4.0,
+        angle: 0.75 * TAU,
+    };
+    [
+        line([10.0, 0.0, 0.0], 100.0),
+        Piece {
+            course: Course::Arc(circle),
+            ..line([6.0, 4.0, 0.0], 100.0)
+        },
+        line([6.0, -5.0, 0.0], 100.0),
+    ]
+}
+
+proptest! {
+    #[test]
+    fn the_nearest_point_is_that_of_a_search(
+        x in -5.0..20.0f64,
+        y in -8.0..12.0f64,
+        ends in [0.0..1.0f64, 0.0..1.0],
+    ) {
+        let path = Path::of([0.0; 3], &pieces(), 1000.0, &Widths::FULL).unwrap();
+        let point = [x, y, 0.0].map(|mm| mm * MM);
+        let length = path.length as f64;
+        let window = [ends[0].min(ends[1]) * length, ends[0].max(ends[1]) * length];
+        let (at, near) = path.nearest(point, window);
+        prop_assert!(window[0] <= at && at <= window[1]);
+        prop_assert!(off(near, path.point(at)) < 2.0);
+        let steps = 4000;
+        let searched = (0..=steps).map(|k| {
+            let part = f64::from(k) / f64::from(steps);
+            off(point, path.point(window[0] + part * (window[1] - window[0])))
+        });
+        let least = searched.fold(f64::INFINITY, f64::min);
+        let step = (window[1] - window[0]) / f64::from(steps);
+        let found = off(point, near);
+        prop_assert!(found <= least + 2.0 && least <= found + step, "{} {}", found, least);
+    }
+}
+
+/// A run that never was: everything is beside the path by its normal, and behind its command.
+fn beside(program: &Program, off_mm: [f64; 3], behind_mm: f64) -> Played<2> {
+    let path = &program.path;
+    let steps = 900;
+    let periods = (0..=steps).map(|k| {
+        let length = path.length as f64 * f64::from(k) / f64::from(steps);
+        let command = path.point(length);
+        let at = (length - behind_mm * MM).max(0.0);
+        // Not across the corner at the end of the arc.
+        let [here, next] = [at - 10.0, at + 10.0].map(|length| path.point(length));
+        let way = off(here, next);
+        let normal = [(next[1] - here[1]) / way, (here[0] - next[0]) / way];
+        let place = |axis: usize, mm: f64| path.point(at)[axis] + normal[axis] * mm * MM;
+        let each = |mm: f64| [place(0, mm), place(1, mm)];
+        Period {
+            tick: 1000 + k as u64,
+            length: length as i64,
+            answered: 0,
+            command: [command[0] as i64, command[1] as i64],
+            reference: [0; 2],
+            response: [0; 2],
+            corrected: [0; 2],
+            model: each(off_mm[0]).map(|units| units as i64),
+            motor: each(off_mm[1]).map(|units| (units / COUNT).round() as i64),
+            load: each(off_mm[2]).map(|units| units / COUNT),
+            torque: [k as i64 - 300, 7],
+            saturated: [k % 3 == 0, false],
+        }
+    });
+    Played {
+        periods: periods.collect(),
+        ..Played::default()
+    }
+}
+
+#[test]
+fn what_is_beside_the_path_is_measured_so() {
+    let machine = [TwoMassParameters::default(); 2];
+    let program = Program::of(
+        [0.0; 3],
+        &pieces()[..2],
+        &settings(),
+        &machine,
+        &Widths::FULL,
+    )
+    .unwrap();
+    for side in [1.0, -1.0] {
+        let offs = [0.02, 0.1, 0.3].map(|mm| side * mm);
+        let played = beside(&program, offs, 1.5);
+        let measured = Measured::of(&program, &played).unwrap();
+        let all = [&measured.model, &measured.motor, &measured.load];
+        for ((errors, off_mm), near) in all.into_iter().zip(offs).zip([1e-4, 2e-3, 1e-4]) {
+            let off_mm = off_mm.abs();
+            assert!(
+                (errors.contour_rms_mm - off_mm).abs() < near,
+                "{}",
+                errors.contour_rms_mm
+            );
+            assert!((errors.contour.mm - off_mm).abs() < near);
+            // Farther by the way of the lag, on the arc by its chord.
+            let far = off_mm.hypot(1.5);
+            assert!(
+                (errors.following.mm - far).abs() < 0.15,
+                "{}",
+                errors.following.mm
+            );
+            assert!(errors.following_rms_mm < errors.following.mm);
+            let (last, peak) = (errors.deviations.last().unwrap(), errors.contour);
+            let end = program.path.length as f64 / MM;
+            assert!(
+                (last.length_mm - end + 1.5).abs() < 0.01,
+                "{}",
+                last.length_mm
+            );
+            assert!((errors.final_mm - last.following_mm).abs() < 1e-9);
+            assert_eq!(peak.tick, 1000 + peak.period as u64);
+            assert_eq!(errors.deviations[peak.period].contour_mm, peak.mm);
+            for pair in errors.deviations.windows(2) {
+                assert!(pair[0].length_mm <= pair[1].length_mm + 1e-3);
+            }
+        }
+        assert_eq!(measured.torque, [600, 7]);
+        assert_eq!(measured.saturated, [301, 0]);
+    }
+}
+
+#[test]
+fn a_run_without_periods_has_no_measures() {
+    let machine = [TwoMassParameters::default(); 2];
+    let program = Program::of([0.0; 3], &pieces(), &settings(), &machine, &Widths::FULL).unwrap();
+    assert_eq!(Measured::of(&program, &Played::<2>::default()), None);
+}
+
+/// Where the path passes itself, what is there belongs to the pass that is under way.
+#[test]
+fn a_path_that_meets_itself_is_measured_where_it_is() {
+    let run = run(
+        [0.0; 3],
+        &pieces(),
+        &settings(),
+        [Default::default(); 2],
+        Correction::Vector,
+    );
+    let deviations = run.measured().model.deviations;
+    let command = |period: &Period<2>| period.length as f64 / MM;
+    for (deviation, period) in deviations.iter().zip(&run.played.periods) {
+        let behind = command(period) - deviation.length_mm;
+        assert!((-0.1..2.5).contains(&behind), "{behind}");
     }
 }

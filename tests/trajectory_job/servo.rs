@@ -1,37 +1,67 @@
-//! Torque limit, stiction, latency.
+//! Torque limit, friction, and how long a period is at least.
 
 use super::*;
 use motion_rtl::kernel::{Observer, RunError, Sample};
 use std::ops::ControlFlow;
 
+/// A line that asks for 3.8 N·m at 2000 mm/s².
+fn line_with(torque: f64) -> Run<2> {
+    let weak = TwoMassParameters {
+        max_torque_nm: torque,
+        ..TwoMassParameters::default()
+    };
+    let machine = [weak, TwoMassParameters::default()];
+    let pieces = [line([40.0, 0.0, 0.0], 150.0)];
+    run([0.0; 3], &pieces, &settings(), machine, Correction::Vector)
+}
+
 #[test]
 fn a_motor_that_is_too_weak_is_late_and_comes_back() {
-    // 3.8 N·m are asked for at 2000 mm/s².
-    for torque in [1.0, 2.0, 3.0] {
-        let weak = TwoMassParameters {
-            max_torque_nm: torque,
-            ..TwoMassParameters::default()
-        };
-        let pieces = [line([40.0, 0.0, 0.0], 150.0)];
-        let run = run(
-            [0.0; 3],
-            &pieces,
-            &settings(),
-            [weak, TwoMassParameters::default()],
-            Correction::Vector,
-        );
+    // How far the load goes beyond the end at most, in counts: a weak motor cannot stop sooner.
+    for (torque, beyond) in [(10.0, 30.0), (3.0, 750.0), (2.0, 3800.0)] {
+        let run = line_with(torque);
         let measured = run.measured();
-        println!(
-            "{torque}: saturated {:?} torque {:?} off {:?} final {} {}",
-            measured.saturated,
-            measured.torque,
-            run.off_model(),
-            measured.load.final_mm,
-            run.played.settled
-        );
-        let beyond = run.played.periods.iter().map(|p| p.load[0] - 40_000.0);
-        println!("beyond {}", beyond.fold(0.0, f64::max));
+        assert_eq!(measured.saturated[0] > 0, torque < 3.8);
+        assert_eq!(measured.torque[0] == 32_767, torque < 3.8);
+        assert_eq!(measured.saturated[1], 0);
+        let over = run
+            .played
+            .periods
+            .iter()
+            .map(|period| period.load[0] - 40_000.0);
+        let over = over.fold(0.0, f64::max);
+        assert!(over < beyond, "{torque}: {over}");
+        assert!(run.played.settled, "{torque}");
+        assert!(measured.load.final_mm < 0.004, "{}", measured.load.final_mm);
+        for period in &run.played.periods {
+            assert_eq!(period.motor[1], 0);
+            let limited = period.torque[0].abs() == 32_767;
+            assert!(limited || !period.saturated[0], "{period:?}");
+        }
     }
+}
+
+#[test]
+fn a_motor_that_cannot_follow_is_given_up() {
+    let run = line_with(0.2);
+    assert!(!run.played.settled);
+    assert!(run.played.periods.len() < 4000);
+}
+
+#[test]
+fn friction_is_what_the_integral_is_for() {
+    let dry = TwoMassParameters {
+        motor_friction_nm: 0.3,
+        load_friction_nm: 0.3,
+        ..TwoMassParameters::default()
+    };
+    let pieces = [line([30.0, 20.0, 0.0], 100.0)];
+    let run = run([0.0; 3], &pieces, &settings(), [dry; 2], Correction::Vector);
+    let measured = run.measured();
+    assert!(run.played.settled);
+    let (peak, last) = (measured.motor.contour.mm, measured.motor.final_mm);
+    println!("{peak} {last} {:?}", run.off_model());
+    assert!(last < 0.004, "{last}");
 }
 
 /// Ticks from a period's beginning to its torques.
@@ -41,8 +71,8 @@ struct Latency {
     longest: u64,
 }
 
-impl Observer<Controller<2>> for &mut Latency {
-    fn sample(&mut self, now: &Sample<'_, Controller<2>>) -> Result<ControlFlow<()>, RunError> {
+impl<const AXES: usize> Observer<Controller<AXES>> for &mut Latency {
+    fn sample(&mut self, now: &Sample<'_, Controller<AXES>>) -> Result<ControlFlow<()>, RunError> {
         if now.w.period_counter.w.enable.get() {
             self.began = Some(now.tick);
         }
@@ -53,24 +83,28 @@ impl Observer<Controller<2>> for &mut Latency {
     }
 }
 
+fn latency<const AXES: usize>(pieces: &[Piece], correction: Correction) -> u64 {
+    // Twice as long as needed, for what is late to be seen as late.
+    let settings = Settings {
+        clock_hz: 2000 * LEAST_PERIOD_TICKS,
+        ..settings()
+    };
+    let machine = [TwoMassParameters::default(); AXES];
+    let program = Program::of([0.0; 3], pieces, &settings, &machine, &Widths::FULL).unwrap();
+    let plants = machine.map(|axis| TwoMassAxis::new(&axis, 1e-6).unwrap());
+    let mut latency = Latency::default();
+    let circuit = Controller::<AXES>::new(correction, settings.rounding);
+    play(&circuit, &program, plants, &mut latency).unwrap();
+    latency.longest
+}
+
 #[test]
-fn the_shortest_period_is_what_the_arithmetic_takes() {
-    let pieces = [line([0.0, 0.5, 0.0], 100.0), arc(0.5, 3.0, 100.0)];
-    let _ = pieces;
+fn the_arithmetic_is_done_within_the_shortest_period() {
     for correction in ALL {
-        let settings = settings();
-        let machine = [TwoMassParameters::default(); 2];
-        let pieces = [arc(1.0, 3.0, 100.0)];
-        let program = Program::of([0.0; 3], &pieces, &settings, &machine, &Widths::FULL).unwrap();
-        let plants = machine.map(|axis| TwoMassAxis::new(&axis, 1e-6).unwrap());
-        let mut latency = Latency::default();
-        play(
-            &Controller::<2>::new(correction, settings.rounding),
-            &program,
-            plants,
-            &mut latency,
-        )
-        .unwrap();
-        println!("{correction:?} {}", latency.longest);
+        let [small, large] = [1e-4, 1.0].map(|radius| [arc(radius, 3.0, 100.0)]);
+        let longest = latency::<2>(&small, correction);
+        assert!(longest <= LEAST_PERIOD_TICKS + 1, "{longest}");
+        let longer = latency::<3>(&large, correction);
+        assert!(longer <= longest && 350 < longer, "{longer}");
     }
 }

@@ -1,0 +1,87 @@
+//! Paths of the trajectory controller with motors and loads: what the control computer writes and
+//! the encoders say, applied to its Verilog.
+
+use super::tools::{Simulator, complete, write};
+use motion_rtl::arc_generator::Rounding;
+use motion_rtl::arc_generator::path::{Speeds, Taught, from_points};
+use motion_rtl::input::Point;
+use motion_rtl::kernel::Declarations;
+use motion_rtl::plant::{TwoMassAxis, TwoMassParameters};
+use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
+use motion_rtl::trajectory_controller::job::{Controller, Program, play};
+use motion_rtl::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
+use motion_rtl::trajectory_controller::widths::Widths;
+use motion_rtl::verilog::Verilog;
+use std::fs::File;
+
+/// Lines and an arc that begins without a stop, in mm; flat, or in space.
+fn pieces(z: f64) -> [(Point, Option<Point>); 3] {
+    [
+        ([0.5, 0.0, 0.0], None),
+        ([1.0, 0.5, z], Some([0.85, 0.15, z / 2.0])),
+        ([0.6, 0.9, 0.0], None),
+    ]
+}
+
+/// Plays the path in the shortest periods, and drives the Verilog with the same inputs.
+fn hold<const AXES: usize>(correction: Correction, rounding: Rounding, simulator: Simulator) {
+    let settings = Settings {
+        clock_hz: 1000 * LEAST_PERIOD_TICKS,
+        feed_mm_per_s: Some(30.0),
+        jerk_time_ms: 4.0,
+        corner_mm_per_s: 5.0,
+        rounding,
+        correction,
+        ..Settings::default()
+    };
+    let taught = pieces(if AXES == 3 { 0.4 } else { 0.0 }).map(|(to, via)| Taught {
+        to,
+        via,
+        speed: None,
+    });
+    let start = [0.0; 3];
+    let pieces = from_points(start, &taught, Speeds::from(&settings)).unwrap();
+    let machine = [TwoMassParameters {
+        load_friction_nm: 0.1,
+        ..TwoMassParameters::default()
+    }; AXES];
+    let program = Program::of(start, &pieces, &settings, &machine, &Widths::FULL).unwrap();
+    assert_eq!(program.path.stretches.len(), 3);
+    let tick_s = 1.0 / settings.clock_hz as f64;
+    let plants = machine.map(|axis| TwoMassAxis::new(&axis, tick_s).unwrap());
+
+    let circuit = Controller::<AXES>::new(correction, rounding);
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let modules = write(path, &Verilog::of(&circuit).unwrap());
+    let name = "trajectory_controller";
+    let create = |extension| File::create(path.join(format!("{name}.{extension}"))).unwrap();
+    let (clock, options) = (Clock::default(), Options::default());
+    let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &options).unwrap();
+    let mut stimulus = StimulusFile::new(create("stimulus"));
+    let played = play(&circuit, &program, plants, (&mut vcd, &mut stimulus)).unwrap();
+    vcd.finish().unwrap();
+    stimulus.finish().unwrap();
+    assert!(!played.late && !played.starved && !played.lost && played.settled);
+    let moved = played
+        .periods
+        .iter()
+        .any(|period| period.corrected != period.command);
+    assert!(moved, "a correction");
+    let report = simulator.hold(path, name, &modules);
+    complete(
+        &report,
+        played.ticks,
+        Declarations::of(&circuit).leaves.len(),
+    );
+}
+
+#[test]
+fn a_corrected_path_in_space_is_the_same_in_verilator() {
+    hold::<3>(Correction::Vector, Rounding::Nearest, Simulator::Verilator);
+}
+
+#[test]
+fn the_prior_art_that_rounds_down_is_the_same_in_icarus() {
+    hold::<2>(Correction::Steady, Rounding::Floor, Simulator::Icarus);
+}
