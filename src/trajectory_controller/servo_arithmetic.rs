@@ -74,7 +74,7 @@ signals! {
         pub integral_gain: L::U<G>,
         /// Of 30: torque for an acceleration, likewise.
         pub inertia: L::U<G>,
-        /// Largest torque.
+        /// Largest torque, below 2^(T − 1).
         pub limit: L::U<T>,
         /// The scaler is done.
         pub done: L::Bit,
