@@ -66,7 +66,7 @@ impl<const C: usize> CoefficientControl<C> {
 
 impl<const C: usize> Circuit for CoefficientControl<C> {
     const NAME: &'static str = "coefficient_control";
-    const ABOUT: &'static str = "counts the bits of the rotation's coefficients";
+    const ABOUT: &'static str = "counts the bits of the coefficients of a sequential product";
     type In<L: Logic> = In<L>;
     type Reg<L: Logic> = Reg<L>;
     type Net<L: Logic> = Net<L>;

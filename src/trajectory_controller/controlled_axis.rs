@@ -21,7 +21,7 @@ signals! {
     pub struct In<L, const P: usize, const K: usize, const G: usize, const T: usize> {
         /// The position command is new.
         pub step: L::Bit,
-        /// The servo response goes to it at once, at rest; in the tick before `step`.
+        /// The servo response goes to it at once, at rest; beats a step of its tick.
         pub preset: L::Bit,
         /// Pc: the position command.
         pub command: L::I<P>,

@@ -211,7 +211,7 @@ signals! {
         pub sampled: L::Bit,
         /// A period begins with the length that stands.
         pub fresh: L::Bit,
-        /// The profile was not ready, or the period too short for the arithmetic.
+        /// A period began before the one before was over; until the next path.
         pub late: L::Bit,
         /// The profile ended in motion.
         pub starved: L::Bit,

@@ -100,7 +100,7 @@ impl<const R: usize, const H: usize> Default for CordicState<R, H> {
 
 impl<const R: usize, const H: usize> Circuit for CordicState<R, H> {
     const NAME: &'static str = "cordic_state";
-    const ABOUT: &'static str = "a vector turned by halves of halves of an angle";
+    const ABOUT: &'static str = "a vector and what is left of its angle, an iteration a tick";
     type In<L: Logic> = In<L, R, H>;
     type Reg<L: Logic> = Reg<L, R, H>;
     type Net<L: Logic> = Net<L, R, H>;

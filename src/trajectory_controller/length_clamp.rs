@@ -1,14 +1,15 @@
 //! Length clamp: a length is held on the path.
 //!
 //! ```text
-//!           ┌──────────────┐
-//!  length ─▶│ length_clamp ├──▶ clamped
-//!  end ────▶│              │
-//!           └──────────────┘
+//!             ┌──────────────┐
+//!  length ───▶│ length_clamp ├──▶ clamped
+//!  path_end ─▶│              │
+//!             └──────────────┘
 //! ```
 //!
 //! Departure: the text has no answer where the tangential response overshoots the path's end, as it
-//! does with K2 < 4·K1. There is no path behind it: the reference point stays on the end.
+//! does with K2 < 4·K1. There is no path behind it: the reference point stays on the end. The
+//! command's length goes through the same, whatever the profile says.
 
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::{Circuit, Nothing};

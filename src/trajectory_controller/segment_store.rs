@@ -26,7 +26,7 @@ signals! {
         pub write_address: L::U<K> as Hex,
         /// Its data.
         pub write_data: L::U<D> as Hex,
-        /// A segment goes to the blocks, unless one is on its way.
+        /// A segment goes to the blocks, unless words are being read.
         pub fetch: L::Bit,
         /// Which; constant while it is on its way.
         pub segment: L::U<A>,

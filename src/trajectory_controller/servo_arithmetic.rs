@@ -74,7 +74,7 @@ signals! {
         pub integral_gain: L::U<G>,
         /// Of 30: torque for an acceleration, likewise.
         pub inertia: L::U<G>,
-        /// Largest torque.
+        /// Largest torque, below 2^(T − 1).
         pub limit: L::U<T>,
         /// The scaler is done.
         pub done: L::Bit,
@@ -118,20 +118,32 @@ signals! {
         take: L::Bit,
         /// A product is there.
         product_there: L::Bit,
+        /// The feedback in guard units.
+        actual: L::I<Q>,
         /// 26: the position error.
         position_error: L::I<Q>,
         /// The product with its sign.
         product: L::I<Q>,
+        /// What the model moved in this step.
+        model_way: L::I<Q>,
+        /// What the motor moved, in guard units.
+        motor_way: L::I<Q>,
         /// 28, when the product of 27 is there.
         speed_demand: L::I<Q>,
         /// What is scaled next.
         operand: L::I<Q>,
+        /// Its magnitude.
+        size: L::U<Q>,
         /// The scaler begins.
         pub scale: L::Bit,
         /// With this value,
         pub value: L::U<Q>,
         /// by this gain.
         pub gain: L::U<G>,
+        /// Largest integral.
+        highest: L::I<Q>,
+        /// Least integral.
+        lowest: L::I<Q>,
         /// The integral with what the period adds.
         grown: L::I<Q>,
         /// The same within the torque's limits.
@@ -148,6 +160,8 @@ signals! {
         above: L::Bit,
         /// It is below the least.
         below_least: L::Bit,
+        /// The torque within its limits.
+        limited: L::I<Q>,
         /// The integral may take what the period adds.
         integrates: L::Bit,
         /// A step is not taken.
@@ -190,15 +204,17 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
         let (at_integral, at_inertia) = (is(INTEGRAL), is(INERTIA));
         let multiplies = at_position | at_proportional | at_integral | at_inertia;
         let product_there = i.done & multiplies & !i.clear;
-        let counts = |word: L::I<W>| -> L::I<Q> {
+        let units = |word: L::I<W>| -> L::I<Q> {
             let wide: L::I<Q> = word.resize();
             wide.shift_left(P - W)
         };
-        let position_error = wide(i.model_position) - counts(i.feedback);
+        let actual = units(i.feedback);
+        let position_error = wide(i.model_position) - actual;
         let signed: L::I<Q> = i.scaled.signed();
         let product = q.negative.mux(-signed, signed);
-        let model_speed = wide(i.model_velocity) - wide(i.model_acceleration);
-        let speed_demand = model_speed + product - counts(q.speed);
+        let model_way = wide(i.model_velocity) - wide(i.model_acceleration);
+        let motor_way = units(q.speed);
+        let speed_demand = model_way + product - motor_way;
         let kept = at_proportional.mux(q.speed_error, wide(i.model_acceleration));
         let operand = take.mux(position_error, at_position.mux(speed_demand, kept));
         let size = operand.magnitude();
@@ -208,9 +224,9 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
         let most = limit.signed();
         let least = -most;
         let grown = q.integral + q.increment;
-        let ends = [least, most].map(|end| end.shift_left(FINE));
-        let held = ends[1].below(grown).mux(ends[1], grown);
-        let held = grown.below(ends[0]).mux(ends[0], held);
+        let (highest, lowest) = (most.shift_left(FINE), least.shift_left(FINE));
+        let held = highest.below(grown).mux(highest, grown);
+        let held = grown.below(lowest).mux(lowest, held);
         let whole = q.sum + held;
         let wanted = (whole + (1i64 << (FINE - 1))).shift_right(FINE);
         let (above, below_least) = (most.below(wanted), wanted.below(least));
@@ -219,13 +235,19 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
         Net {
             take,
             product_there,
+            actual,
             position_error,
             product,
+            model_way,
+            motor_way,
             speed_demand,
             operand,
+            size,
             scale: take | (product_there & !at_inertia),
             value: take.mux(size, size.shift_left(LEFT)),
             gain,
+            highest,
+            lowest,
             grown,
             held,
             whole,
@@ -234,6 +256,7 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
             least,
             above,
             below_least,
+            limited: above.mux(most, below_least.mux(least, wanted)),
             integrates: !(rising | falling),
             busy: !is(IDLE),
         }
@@ -258,7 +281,6 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
         let state = at_integral.mux(to(INERTIA), state);
         let state = at_inertia.mux(to(LIMIT), state);
         let state = (limits | i.clear).mux(to(IDLE), state);
-        let torque = w.above.mux(w.most, w.below_least.mux(w.least, w.wanted));
         let zero = || -> L::I<Q> { 0.into() };
         let sum = at_proportional.mux(w.product, at_inertia.mux(q.sum + w.product, q.sum));
         let integral = (limits & w.integrates).mux(w.held, q.integral);
@@ -271,7 +293,9 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
             sum,
             integral: i.clear.mux(zero(), integral),
             increment: i.clear.mux(zero(), at_integral.mux(w.product, q.increment)),
-            torque: i.clear.mux(0.into(), limits.mux(torque.resize(), q.torque)),
+            torque: i
+                .clear
+                .mux(0.into(), limits.mux(w.limited.resize(), q.torque)),
             saturated: limits.mux(w.above | w.below_least, q.saturated) & !i.clear,
             fresh: limits,
         }

@@ -69,10 +69,23 @@ impl Segment {
         [0, 1, 2].map(|k| self.base[k] as f64 + a * self.along[k] + b * self.across[k])
     }
 
+    /// What the note's tables of errors add up to, and what doubles leave out.
     fn bound(&self) -> f64 {
-        // Rounding of the axes and of CORDIC, coefficients, and angles.
-        let size = self.radius.unwrap_or(self.length as f64);
-        2.0 + size * (3.0 * two_to(1 - C as i32) + 60.0 * TAU * two_to(-(H as i32)))
+        let words = match self.radius {
+            Some(radius) => 0.87 + radius * 9.6e-12,
+            None => 0.5 + self.length as f64 * two_to(1 - C as i32),
+        };
+        words + 0.001
+    }
+
+    /// Ticks from `start` to `done`.
+    fn latency(&self) -> u64 {
+        let line = 2 * A + C + 25;
+        let turned = match self.radius {
+            Some(_) => M + H + 4 + (self.words()[0] >> 1) as usize,
+            None => 0,
+        };
+        (line + turned) as u64
     }
 }
 
@@ -163,19 +176,16 @@ proptest! {
         for length in ends.chain(within) {
             let index = begins[..path.len()].iter().rposition(|&begin| begin <= length);
             let index = index.expect("the first begins at 0");
-            let mut ticks = 0;
-            loop {
-                let i = In { start: (ticks == 0).into(), length: length.into(), ..idle(last) };
+            let segment = &path[index];
+            let latency = segment.latency();
+            for ticks in 1..=latency {
+                let i = In { start: (ticks == 1).into(), length: length.into(), ..idle(last) };
                 simulator = simulator.step(i, |_| ()).0;
-                ticks += 1;
-                if simulator.registers().sequencer.done.get() {
-                    break;
-                }
-                prop_assert!(ticks < 400);
+                let done = simulator.registers().sequencer.done.get();
+                prop_assert_eq!(done, ticks == latency, "after {} ticks", ticks);
             }
             let q = simulator.registers();
             prop_assert_eq!(q.search.segment.get(), index as u64);
-            let segment = &path[index];
             let exact = segment.point(length - begins[index]);
             for (axis, exact) in exact.into_iter().enumerate() {
                 let off = q.axes[axis].point.get() as f64 - exact;
