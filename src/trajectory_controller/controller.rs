@@ -62,8 +62,8 @@ signals! {
         pub start: L::Bit,
         /// Ends the movement where it is.
         pub halt: L::Bit,
-        /// Another path, at rest: its segments may be written from the second period after it up
-        /// to `start`. The servo controls hold the machine meanwhile.
+        /// Another path, at rest: its segments may be written from the next beginning of a period
+        /// up to `start`. The servo controls hold the machine meanwhile.
         pub restart: L::Bit,
         /// Writes where a segment of the path begins.
         pub write_begin: L::Bit,
@@ -213,6 +213,8 @@ signals! {
         pub fresh: L::Bit,
         /// A period began before the one before was over; until the next path.
         pub late: L::Bit,
+        /// A period began before the profile had its length; until the next start.
+        pub profile_late: L::Bit,
         /// The profile ended in motion.
         pub starved: L::Bit,
     }
@@ -290,10 +292,12 @@ impl<
     const U: usize,
 > TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>
 {
-    /// Ticks from the beginning of a period to its torques, at most.
+    /// Ticks from the beginning of a period to its torques, at most: the longest way is over the
+    /// point of the command and the servo response to it.
     pub const LATENCY: u64 = 2
-        + ReferenceModel::<P, K, M>::LATENCY
         + PathPoint::<AXES, A, P, R, C, S, H, H, X, D, E>::LATENCY
+        + 1
+        + ReferenceModel::<P, K, M>::LATENCY
         + 2
         + Servo::<W, P, K, M, G, Q, T>::LATENCY;
 
@@ -490,6 +494,7 @@ impl<
             sampled: q.sequencer.sampled,
             fresh: q.progress.fresh,
             late: q.gather.late,
+            profile_late: q.sequencer.late,
             starved: q.sequencer.starved,
             period_counter,
             memory,

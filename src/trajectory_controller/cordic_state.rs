@@ -68,6 +68,10 @@ signals! {
         upright: L::Bit,
         /// It is the first or second: `along` is negative, or `across` in the first.
         half: L::Bit,
+        /// The nearest quarter.
+        quarter: L::U<H>,
+        /// The vector's coordinate that is not 0 there.
+        beginning: L::I<R>,
         /// The angle without its quarters.
         rest: L::I<H>,
         /// What is left is below zero: the vector is turned back.
@@ -111,13 +115,16 @@ impl<const R: usize, const H: usize> Circuit for CordicState<R, H> {
         let (upright, half) = (raised.bit(H - 2), raised.bit(H - 1));
         let low: L::U<H> = upright.mux((1u64 << (H - 2)).into(), 0.into());
         let high: L::U<H> = half.mux((1u64 << (H - 1)).into(), 0.into());
+        let quarter = low + high;
         Net {
             take: i.start & !q.busy,
             last: q.iteration.equals((self.iterations - 1).into()),
             raised,
             upright,
             half,
-            rest: (i.angle - (low + high)).signed(),
+            quarter,
+            beginning: half.mux(-i.radius, i.radius),
+            rest: (i.angle - quarter).signed(),
             back: q.left.is_negative(),
             turn: self.angles.read::<L>(q.iteration).signed(),
         }
@@ -125,9 +132,8 @@ impl<const R: usize, const H: usize> Circuit for CordicState<R, H> {
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, R, H>, w: &Net<L, R, H>, i: &In<L, R, H>) -> Reg<L, R, H> {
-        let first = w.half.mux(-i.radius, i.radius);
-        let begin_along = w.upright.mux(0.into(), first);
-        let begin_across = w.upright.mux(first, 0.into());
+        let begin_along = w.upright.mux(0.into(), w.beginning);
+        let begin_across = w.upright.mux(w.beginning, 0.into());
         let turned_along = w
             .back
             .mux(q.along + i.small_across, q.along - i.small_across);

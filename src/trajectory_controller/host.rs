@@ -56,10 +56,10 @@ impl<'a> Host<'a> {
     }
 
     /// What it gives in this tick, with the encoders' channels.
-    pub(super) fn ports<const AXES: usize>(
+    pub(super) fn ports<const AXES: usize, const A: usize, const E: usize>(
         &mut self,
         channels: [(bool, bool); AXES],
-    ) -> Ports<AXES> {
+    ) -> Ports<AXES, A, E> {
         let program = self.program;
         let stretches = &program.path.stretches;
         let (segment, word) = (self.segment, self.word);

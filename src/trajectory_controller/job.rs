@@ -10,20 +10,19 @@ use crate::plant::TwoMassAxis;
 use std::array::from_fn;
 use std::ops::ControlFlow;
 
-const A: usize = 12;
 const P: usize = 47;
 const D: usize = 55;
-const E: usize = A + 4;
 const K: usize = 16;
 const G: usize = 24;
 const T: usize = 16;
 const U: usize = 24;
 
-/// The controller that plays a job.
-pub type Controller<const AXES: usize> =
+/// The controller that plays a job, on paths of up to 2^`A` segments; `E` = `A` + 4.
+pub type Controller<const AXES: usize, const A: usize = 12, const E: usize = 16> =
     TrajectoryController<AXES, A, 31, P, 55, 42, 57, 44, 52, D, E, 41, 20, K, 64, G, 58, T, U>;
 /// Its ports in.
-pub(super) type Ports<const AXES: usize> = controller::In<Sim, AXES, A, P, D, E, K, G, T, U>;
+pub(super) type Ports<const AXES: usize, const A: usize, const E: usize> =
+    controller::In<Sim, AXES, A, P, D, E, K, G, T, U>;
 
 /// Periods in a row in which models and motors are where they belong: then they have settled.
 const CALM: u32 = 10;
@@ -92,9 +91,9 @@ struct Seen<const AXES: usize> {
     period: Option<Period<AXES>>,
 }
 
-fn see<const AXES: usize>(
-    now: &Sample<'_, Controller<AXES>>,
-    observer: &mut impl Observer<Controller<AXES>>,
+fn see<const AXES: usize, const A: usize, const E: usize>(
+    now: &Sample<'_, Controller<AXES, A, E>>,
+    observer: &mut impl Observer<Controller<AXES, A, E>>,
 ) -> Result<Seen<AXES>, RunError> {
     let (q, w) = (now.q, now.w);
     let period = || Period {
@@ -116,7 +115,7 @@ fn see<const AXES: usize>(
         flow: observer.sample(now)?,
         ready: w.ready.get(),
         busy: w.busy.get(),
-        late: w.late.get() || q.sequencer.late.get(),
+        late: w.late.get() || w.profile_late.get(),
         lost: w.axes.iter().any(|axis| axis.w.lost.get()),
         compared: axis
             .servo
@@ -139,7 +138,7 @@ fn patience(program: &Program) -> usize {
     (20.0 * slowest + 1.0 / program.motion.period) as usize
 }
 
-/// Plays a program on `circuit`, with `plants` on its axes, seen by `observer` too, until the path is
+/// Plays a program of up to 2^`A` segments on `circuit`, with `plants` on its axes, seen by `observer` too, until the path is
 /// over and models and motors have settled, for a bounded time.
 ///
 /// The path is written to the circuit before it begins, a word a tick, and the profile's records as
@@ -147,11 +146,11 @@ fn patience(program: &Program) -> usize {
 ///
 /// # Errors
 /// What `observer` objects to.
-pub fn play<const AXES: usize>(
-    circuit: &Controller<AXES>,
+pub fn play<const AXES: usize, const A: usize, const E: usize>(
+    circuit: &Controller<AXES, A, E>,
     program: &Program,
     mut plants: [TwoMassAxis; AXES],
-    mut observer: impl Observer<Controller<AXES>>,
+    mut observer: impl Observer<Controller<AXES, A, E>>,
 ) -> Result<Played<AXES>, RunError> {
     let mut host = Host::new(program);
     let mut played = Played::default();

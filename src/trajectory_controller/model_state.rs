@@ -88,6 +88,8 @@ signals! {
         pub gain: L::U<K>,
         /// The product with what rounds it.
         raised: L::U<Q>,
+        /// The same without its fraction.
+        cut: L::U<Q>,
         /// |a|.
         amount: L::I<P>,
         /// a.
@@ -140,7 +142,8 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ModelState<P, K
             Rounding::Nearest => i.scaled + (1u64 << (K - 2)),
             Rounding::Floor => i.scaled,
         };
-        let amount: L::I<P> = raised.shift_right(K - 1).signed().resize();
+        let cut = raised.shift_right(K - 1);
+        let amount: L::I<P> = cut.signed().resize();
         Net {
             take,
             second,
@@ -153,6 +156,7 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ModelState<P, K
             value: second.mux(difference.magnitude(), whole.shift_left(K - 1)),
             gain: second.mux(i.gain_2, i.gain_1),
             raised,
+            cut,
             amount,
             change: signed_by::<L, P>(q.negative, amount),
             busy: !is(IDLE),

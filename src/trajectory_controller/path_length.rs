@@ -26,8 +26,8 @@ signals! {
         pub present: L::Bit,
         /// The length.
         pub profile: L::I<P>,
-        /// Another path: the length is 0, and there is no path before its first length. What was
-        /// begun with the last length goes on: segments are written a period later.
+        /// Another path: there is none before its first length. What was begun with the last
+        /// length goes on: segments are written from the next beginning of a period on.
         pub restart: L::Bit,
     }
 }
@@ -80,9 +80,8 @@ impl<const P: usize> Circuit for PathLength<P> {
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L>, i: &In<L, P>) -> Reg<L, P> {
-        let length = i.present.mux(i.profile, q.length);
         Reg {
-            length: i.restart.mux(0.into(), length),
+            length: (i.present & !i.restart).mux(i.profile, q.length),
             waiting: w.none,
             begun: i.sample,
             preset: i.present & q.waiting & !i.restart,
@@ -96,13 +95,12 @@ impl<const P: usize> Specified for PathLength<P> {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "the length is that of the profile's last, or 0 on a new path",
+                "the length is the profile's last, but for one that comes with restart",
                 |now, next| {
                     let i = now.i;
-                    let expected = match (i.restart.get(), i.present.get()) {
-                        (true, _) => 0.into(),
-                        (false, true) => i.profile,
-                        (false, false) => now.q.length,
+                    let expected = match i.present.get() && !i.restart.get() {
+                        true => i.profile,
+                        false => now.q.length,
                     };
                     let right = next.length == expected;
                     require(right, ["length"], || format!("not {expected:?}"))

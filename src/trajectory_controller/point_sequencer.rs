@@ -87,10 +87,20 @@ signals! {
     pub struct Net<L, const R: usize> {
         /// A start is taken.
         take: L::Bit,
+        /// The search is over.
+        searched: L::Bit,
+        /// The segment is there.
+        fetched: L::Bit,
+        /// The word is a segment's first.
+        header: L::Bit,
         /// The segment is there, an arc.
         on_arc: L::Bit,
         /// The segment is there, a line, or the point on the arc is.
         placed: L::Bit,
+        /// The angle is there.
+        angled: L::Bit,
+        /// The point is there.
+        reached: L::Bit,
         /// The length on a line, with bits behind the guard unit.
         ahead: L::I<R>,
         /// First coordinate of the point in the segment.
@@ -147,8 +157,13 @@ impl<const P: usize, const R: usize, const M: usize, const D: usize> Circuit
         let ahead = wide.shift_left(R - P).signed();
         Net {
             take: i.start & is(IDLE),
+            searched: is(SEARCH) & i.found,
+            fetched,
+            header: i.load & i.word.equals(0.into()),
             on_arc: fetched & q.arc,
             placed: (fetched & !q.arc) | (is(TURN) & i.turned),
+            angled: is(MEASURE) & i.measured,
+            reached: is(PROJECT) & i.projected,
             ahead,
             along: q.arc.mux(i.arc_along, ahead),
             across: q.arc.mux(i.arc_across, 0.into()),
@@ -158,29 +173,25 @@ impl<const P: usize, const R: usize, const M: usize, const D: usize> Circuit
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, M, R>, w: &Net<L, R>, i: &In<L, P, R, D>) -> Reg<L, M, R> {
-        let is = |state: u64| q.state.equals(state.into());
         let to = |state: u64| -> L::U<3> { state.into() };
         let word = |number: u64| i.load & i.word.equals(number.into());
-        let (header, found) = (word(0), is(SEARCH) & i.found);
-        let measured = is(MEASURE) & i.measured;
-        let projected = is(PROJECT) & i.projected;
         let state = w.take.mux(to(SEARCH), q.state);
-        let state = found.mux(to(FETCH), state);
+        let state = w.searched.mux(to(FETCH), state);
         let state = w.on_arc.mux(to(MEASURE), state);
-        let state = measured.mux(to(TURN), state);
+        let state = w.angled.mux(to(TURN), state);
         let state = w.placed.mux(to(PROJECT), state);
         Reg {
-            state: projected.mux(to(IDLE), state),
-            arc: header.mux(i.data.bit(0), q.arc),
-            shift: header.mux(i.data.shift_right(1).resize(), q.shift),
+            state: w.reached.mux(to(IDLE), state),
+            arc: w.header.mux(i.data.bit(0), q.arc),
+            shift: w.header.mux(i.data.shift_right(1).resize(), q.shift),
             curvature: word(1).mux(i.data.resize(), q.curvature),
             radius: word(self.radius_word).mux(i.data.resize().signed(), q.radius),
             search: w.take,
-            fetch: found,
+            fetch: w.searched,
             measure: w.on_arc,
-            turn: measured,
+            turn: w.angled,
             project: w.placed,
-            done: projected,
+            done: w.reached,
         }
     }
 }

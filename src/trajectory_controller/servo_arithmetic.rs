@@ -124,6 +124,8 @@ signals! {
         position_error: L::I<Q>,
         /// The product with its sign.
         product: L::I<Q>,
+        /// The model's acceleration.
+        change: L::I<Q>,
         /// What the model moved in this step.
         model_way: L::I<Q>,
         /// What the motor moved, in guard units.
@@ -164,6 +166,8 @@ signals! {
         limited: L::I<Q>,
         /// The integral may take what the period adds.
         integrates: L::Bit,
+        /// The torque is limited, and the step ends.
+        ends: L::Bit,
         /// A step is not taken.
         pub busy: L::Bit,
     }
@@ -212,10 +216,11 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
         let position_error = wide(i.model_position) - actual;
         let signed: L::I<Q> = i.scaled.signed();
         let product = q.negative.mux(-signed, signed);
-        let model_way = wide(i.model_velocity) - wide(i.model_acceleration);
+        let change = wide(i.model_acceleration);
+        let model_way = wide(i.model_velocity) - change;
         let motor_way = units(q.speed);
         let speed_demand = model_way + product - motor_way;
-        let kept = at_proportional.mux(q.speed_error, wide(i.model_acceleration));
+        let kept = at_proportional.mux(q.speed_error, change);
         let operand = take.mux(position_error, at_position.mux(speed_demand, kept));
         let size = operand.magnitude();
         let later = at_integral.mux(i.inertia, i.integral_gain);
@@ -238,6 +243,7 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
             actual,
             position_error,
             product,
+            change,
             model_way,
             motor_way,
             speed_demand,
@@ -258,6 +264,7 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
             below_least,
             limited: above.mux(most, below_least.mux(least, wanted)),
             integrates: !(rising | falling),
+            ends: is(LIMIT) & !i.clear,
             busy: !is(IDLE),
         }
     }
@@ -274,16 +281,15 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
         let there = w.product_there;
         let (at_position, at_proportional) = (there & is(POSITION), there & is(PROPORTIONAL));
         let (at_integral, at_inertia) = (there & is(INTEGRAL), there & is(INERTIA));
-        let limits = is(LIMIT) & !i.clear;
         let state = w.take.mux(to(POSITION), q.state);
         let state = at_position.mux(to(PROPORTIONAL), state);
         let state = at_proportional.mux(to(INTEGRAL), state);
         let state = at_integral.mux(to(INERTIA), state);
         let state = at_inertia.mux(to(LIMIT), state);
-        let state = (limits | i.clear).mux(to(IDLE), state);
+        let state = (w.ends | i.clear).mux(to(IDLE), state);
         let zero = || -> L::I<Q> { 0.into() };
         let sum = at_proportional.mux(w.product, at_inertia.mux(q.sum + w.product, q.sum));
-        let integral = (limits & w.integrates).mux(w.held, q.integral);
+        let integral = (w.ends & w.integrates).mux(w.held, q.integral);
         Reg {
             state,
             negative: w.scale.mux(w.operand.is_negative(), q.negative),
@@ -295,9 +301,9 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
             increment: i.clear.mux(zero(), at_integral.mux(w.product, q.increment)),
             torque: i
                 .clear
-                .mux(0.into(), limits.mux(w.limited.resize(), q.torque)),
-            saturated: limits.mux(w.above | w.below_least, q.saturated) & !i.clear,
-            fresh: limits,
+                .mux(0.into(), w.ends.mux(w.limited.resize(), q.torque)),
+            saturated: w.ends.mux(w.above | w.below_least, q.saturated) & !i.clear,
+            fresh: w.ends,
         }
     }
 }

@@ -23,6 +23,10 @@ fn pieces(z: f64) -> [(Point, Option<Point>); 3] {
     ]
 }
 
+/// Four segments in memory: of as many as a job has no simulator writes the waves in good time.
+const A: usize = 2;
+const E: usize = A + 4;
+
 /// Plays the path in the shortest periods, and drives the Verilog with the same inputs.
 fn hold<const AXES: usize>(correction: Correction, rounding: Rounding, simulator: Simulator) {
     let settings = Settings {
@@ -45,12 +49,16 @@ fn hold<const AXES: usize>(correction: Correction, rounding: Rounding, simulator
         load_friction_nm: 0.1,
         ..TwoMassParameters::default()
     }; AXES];
-    let program = Program::of(start, &pieces, &settings, &machine, &Widths::FULL).unwrap();
+    let widths = Widths {
+        segment: A as u32,
+        ..Widths::FULL
+    };
+    let program = Program::of(start, &pieces, &settings, &machine, &widths).unwrap();
     assert_eq!(program.path.stretches.len(), 3);
     let tick_s = 1.0 / settings.clock_hz as f64;
     let plants = machine.map(|axis| TwoMassAxis::new(&axis, tick_s).unwrap());
 
-    let circuit = Controller::<AXES>::new(correction, rounding);
+    let circuit = Controller::<AXES, A, E>::new(correction, rounding);
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
     let modules = write(path, &Verilog::of(&circuit).unwrap());

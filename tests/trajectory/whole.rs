@@ -264,8 +264,8 @@ fn the_steady_correction_is_a_wider_radius() {
 /// tick less it is.
 #[test]
 fn the_least_period_is_enough_and_one_tick_less_is_not() {
-    // A turn is just above a guard unit; the search takes the same time for any path.
-    let radius = 1.01 / TAU;
+    // A turn is just below a guard unit, the length of its segment; the search takes the same time for any path.
+    let radius = 0.99 / TAU;
     let path = words(&[segment(1, [0.0; 2], [1.0, 0.0], Some(radius))]);
     let least = plane::Controller::LEAST_PERIOD;
     for period in [least - 1, least] {

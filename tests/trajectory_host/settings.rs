@@ -45,7 +45,7 @@ fn what_is_not_allowed_is_refused_with_what_is() {
     }
     assert_eq!(
         refused(|s| s.period_ms = 0.3),
-        "period_ms: is 0.3; allowed: 0.399 to 16777.215 ms: 399 to 16777215 ticks"
+        "period_ms: is 0.3; allowed: 0.4 to 16777.215 ms: 400 to 16777215 ticks"
     );
     assert_eq!(
         refused(|s| s.period_ms = 1.0005),
