@@ -42,10 +42,6 @@ fn with(text: &str) -> Bench {
     Bench::with("s.toml", format!("{HEAD}{text}"))
 }
 
-fn summary(text: &str, more: &[&str]) -> Value {
-    with(text).json(&[&["run", "s.toml", "--no-vcd"], more].concat())
-}
-
 /// The row of a correction.
 fn of<'a>(summary: &'a Value, correction: &str) -> &'a Value {
     let mut rows = list(summary, "corrections").iter();
