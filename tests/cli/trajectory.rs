@@ -42,10 +42,6 @@ fn with(text: &str) -> Bench {
     Bench::with("s.toml", format!("{HEAD}{text}"))
 }
 
-fn summary(text: &str, more: &[&str]) -> Value {
-    with(text).json(&[&["run", "s.toml", "--no-vcd"], more].concat())
-}
-
 /// The row of a correction.
 fn of<'a>(summary: &'a Value, correction: &str) -> &'a Value {
     let mut rows = list(summary, "corrections").iter();
@@ -236,9 +232,11 @@ fn a_straight_path_needs_no_correction() {
 
 #[test]
 fn the_correction_of_the_waves_is_chosen() {
+    let quarter = "[[piece]]\nvia_mm = [3, 1, 0]\nto_mm = [4, 4, 0]\n";
+    let only = "trajectory_controller.x.corrector.correction";
     for correction in ["none", "steady", "vector"] {
-        let set = format!("correction={correction}");
-        let run = summary(LINE, &["--set", &set]);
+        let bench = with(&format!("correction = \"{correction}\"\n{quarter}"));
+        let run = bench.json(&["run", "s.toml", "--only", only, "--out", "o"]);
         assert_eq!(run["correction"], correction);
         let shown = list(&run, "corrections").iter();
         let shown: Vec<_> = shown
@@ -246,7 +244,17 @@ fn the_correction_of_the_waves_is_chosen() {
             .map(|row| &row["correction"])
             .collect();
         assert_eq!(shown, [correction]);
-        assert_eq!(of(&run, correction)["ticks"], run["ticks"]);
+        let own = of(&run, correction);
+        assert_eq!(
+            (&own["ticks"], &own["periods"]),
+            (&run["ticks"], &run["periods"])
+        );
+        let name = format!("loads, {correction}");
+        assert!(bench.read("o/s.svg").contains(&name), "{name}");
+        // Without a correction nothing is added but at first.
+        let dump = bench.read("o/s.vcd");
+        let values = dump.lines().filter(|line| line.starts_with('b')).count();
+        assert_eq!(values == 1, correction == "none", "{values}");
     }
 }
 
@@ -417,6 +425,22 @@ fn every_key_of_a_scenario_is_taken() {
         (ends[0] + 2500).abs() <= 4 && (ends[1] - 5000).abs() <= 4,
         "{ends:?}"
     );
+
+    // What shows in no single figure changes some.
+    let figures = |summary: &Value| [&summary["plan"], &summary["corrections"]].map(Value::clone);
+    for set in [
+        "jerk_time_ms=0",
+        "acceleration_mm_per_s2=400",
+        "k1_per_s=30",
+        "k2_per_s=100",
+        "position_gain_per_s=10",
+        "speed_hz=10",
+        "integral_ms=100",
+        "rounding=nearest",
+    ] {
+        let changed = bench.json(&["run", "all.toml", "--no-vcd", "--set", set]);
+        assert_ne!(figures(&changed), figures(&summary), "{set}");
+    }
 
     // Across the path less is allowed than the feed on the arc.
     let slow = bench.json(&[

@@ -16,7 +16,7 @@ pub fn complaints(job: &Job, runs: &Runs) -> Vec<String> {
 fn of_run(job: &Job, run: &Run) -> Vec<String> {
     let count_mm = 1.0 / job.settings.counts_per_mm;
     let flags = [
-        (run.late, "a period began before that before it was over"),
+        (run.late, "a period began before the last was over"),
         (run.starved, "the path ended in motion"),
         (run.lost, "an encoder was too fast"),
         (!run.settled, "models and motors did not settle at the end"),
@@ -50,4 +50,109 @@ fn of_run(job: &Job, run: &Run) -> Vec<String> {
         keep("the models beside the path's end", model, bound);
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::job::{Input, Source};
+    use crate::cli::trajectory::CORRECTIONS;
+    use motion_rtl::input::scenario::Scenario;
+    use motion_rtl::trajectory_controller::job::{Period, Played};
+    use motion_rtl::trajectory_controller::profile_record::lengths;
+    use motion_rtl::trajectory_controller::widths::Widths;
+    use std::array::from_fn;
+
+    /// Guard units of a count.
+    const COUNT: i64 = 1 << 16;
+
+    /// The corner that ships, and a run that is on its path all the time.
+    fn corner() -> (Job, Played<2>) {
+        let input = Input {
+            input: Some("waves/corner.toml".into()),
+            ..Input::default()
+        };
+        let source = Source::read(&input).unwrap();
+        let Scenario::TrajectoryController(scenario) = source.loaded.scenario.clone() else {
+            panic!("another circuit");
+        };
+        let job = Job::prepare(source, &scenario).unwrap();
+        let lengths = lengths(&job.program.records, &Widths::FULL);
+        let periods = lengths.into_iter().zip(0..).map(|(length, tick)| {
+            let exact = job.program.path.point(length as f64);
+            let at: [i64; 2] = from_fn(|axis| exact[axis].round() as i64);
+            Period {
+                tick,
+                length,
+                answered: length,
+                command: at,
+                reference: at,
+                response: at,
+                corrected: at,
+                model: at,
+                motor: at.map(|units| units / COUNT),
+                load: at.map(|units| units as f64 / COUNT as f64),
+                torque: [0; 2],
+                saturated: [false; 2],
+            }
+        });
+        let played = Played {
+            periods: periods.collect(),
+            settled: true,
+            ..Played::default()
+        };
+        (job, played)
+    }
+
+    fn judged(job: &Job, played: &Played<2>) -> Vec<String> {
+        let run = |correction| Run::of(job, correction, played);
+        let runs = Runs {
+            runs: CORRECTIONS.into_iter().filter_map(run).collect(),
+            traced: Correction::Vector,
+        };
+        complaints(job, &runs)
+    }
+
+    #[test]
+    fn every_kind_is_complained_of() {
+        let (job, good) = corner();
+        assert_eq!(judged(&job, &good), [""; 0]);
+        let flags = Played {
+            late: true,
+            starved: true,
+            lost: true,
+            settled: false,
+            ..good.clone()
+        };
+        let texts = [
+            "a period began before the last was over",
+            "the path ended in motion",
+            "an encoder was too fast",
+            "models and motors did not settle at the end",
+        ];
+        let each = ["none", "steady", "vector"];
+        let texts = each.map(|name| texts.map(|text| format!("{name}: {text}")));
+        assert_eq!(judged(&job, &flags), texts.concat());
+
+        // A count beside the path, on the way and at its end.
+        let last = good.periods.len() - 1;
+        for (at, kinds) in [(last / 2, 1), (last, 2)] {
+            let mut beside = good.clone();
+            beside.periods[at].command[0] -= COUNT;
+            let text = |what: &str| format!("{what}: 1.000 um, where 0.500 um are allowed");
+            let texts = [
+                text("a command beside the path"),
+                text("the last command beside the path's end"),
+            ];
+            let texts = each.map(|name| [0, 1].map(|k| format!("{name}: {}", texts[k])));
+            let texts = texts.map(|own| own[..kinds].to_vec());
+            assert_eq!(judged(&job, &beside), texts.concat());
+        }
+        // The widened path ends where it does.
+        let mut short = good;
+        short.periods[last].model[1] -= COUNT;
+        let text = "the models beside the path's end: 1.000 um, where 0.866 um are allowed";
+        let texts = ["none", "vector"].map(|name| format!("{name}: {text}"));
+        assert_eq!(judged(&job, &short), texts);
+    }
 }
