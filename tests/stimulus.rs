@@ -236,6 +236,13 @@ const FAR: &[(&str, u32)] = &[
     ("cordic_state.turn", 42),
     ("point_sequencer.ahead", 0),
     ("servo_arithmetic.most", 16),
+    ("model_state.cut", 49),
+    ("cordic_state.quarter", 0),
+    ("servo_arithmetic.actual", 0),
+    ("servo_arithmetic.motor_way", 0),
+    ("servo_arithmetic.size", 57),
+    ("servo_arithmetic.highest", 0),
+    ("servo_arithmetic.lowest", 0),
 ];
 
 /// At 8 bits: the pulses of a unit time of up to 255 ticks are at most 127, and a word of 8 bits
@@ -318,6 +325,12 @@ const NEVER: &[(&str, u32)] = &[
     ("cordic_state.turn", 6),
     ("point_sequencer.ahead", 0),
     ("servo_arithmetic.most", 8),
+    ("model_state.cut", 10),
+    ("cordic_state.quarter", 0),
+    ("servo_arithmetic.actual", 0),
+    ("servo_arithmetic.motor_way", 0),
+    ("servo_arithmetic.highest", 0),
+    ("servo_arithmetic.lowest", 0),
 ];
 
 /// Circuits that only wire blocks which are driven alone: it takes whole jobs to move their bits,
