@@ -1,6 +1,6 @@
 //! The reference model against its equations, and what the note says of gains and words.
 
-use motion_rtl::kernel::Simulator;
+use motion_rtl::kernel::{Circuit, Simulator};
 use motion_rtl::logic::Sim;
 use motion_rtl::trajectory_controller::reference_model::{In, Reg};
 use motion_rtl::trajectory_controller::{ReferenceModel, Rounding};
@@ -177,6 +177,47 @@ fn with_a_bit_less_a_target_is_missed() {
         [[2, 0], [3, 0], [4, 0], [4, 2]]
     );
     assert_eq!(missed(Rounding::Floor, 0), [[3, 1], [4, 1], [4, 2]]);
+}
+
+/// Every state of a model of 4 bits that some way leads to, with every target and every pair of
+/// gains of 3 bits: the products fit whatever they are of, and each step is that of the equations,
+/// modulo the word of positions.
+#[test]
+fn no_product_overflows_in_any_state() {
+    type Small = ReferenceModel<4, 3, 8>;
+    let circuit = Small::new(Rounding::Nearest);
+    let wrap = |word: i128| (word + 8).rem_euclid(16) - 8;
+    let after = |q: &Reg<Sim, 4, 3, 8>, target: i128, gains: [u64; 2]| {
+        let mut q = q.clone();
+        for tick in 0..Small::LATENCY {
+            let i = ports(target, gains, [tick == 0, false]);
+            let w = circuit.comb(&q, &i);
+            q = circuit.next(q, &w, &i);
+        }
+        q
+    };
+    let mut found = std::collections::HashSet::from([[0, 0]]);
+    let mut open = vec![circuit.power_on()];
+    while let Some(q) = open.pop() {
+        let [p, v, _] = state(&q);
+        for target in -8..8i128 {
+            for first in 0..8 {
+                for second in 0..8 {
+                    let gains = [first, second];
+                    let next = after(&q, target, gains);
+                    // The distance is a word of positions too.
+                    let near = p + wrap(target - p);
+                    let exact = model([p, v, 0], near, gains, 3, Rounding::Nearest);
+                    let seen = state(&next);
+                    assert_eq!(seen, exact.map(wrap), "{p}, {v} to {target}, {gains:?}");
+                    if found.insert([seen[0], seen[1]]) {
+                        open.push(next);
+                    }
+                }
+            }
+        }
+    }
+    assert_eq!(found.len(), 256);
 }
 
 /// Words of a gain of 1 and of a guard unit where counts have 4 of their bits, for all pairs.
