@@ -243,6 +243,7 @@ const FAR: &[(&str, u32)] = &[
     ("servo_arithmetic.size", 57),
     ("servo_arithmetic.highest", 0),
     ("servo_arithmetic.lowest", 0),
+    ("period_join.count", 0),
 ];
 
 /// At 8 bits: the pulses of a unit time of up to 255 ticks are at most 127, and a word of 8 bits
@@ -331,6 +332,7 @@ const NEVER: &[(&str, u32)] = &[
     ("servo_arithmetic.motor_way", 0),
     ("servo_arithmetic.highest", 0),
     ("servo_arithmetic.lowest", 0),
+    ("period_join.count", 0),
 ];
 
 /// Circuits that only wire blocks which are driven alone: it takes whole jobs to move their bits,

@@ -292,18 +292,24 @@ impl<
     const U: usize,
 > TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>
 {
-    /// Ticks from the beginning of a period to its torques, at most: the longest way is over the
-    /// point of the command and the servo response to it.
-    pub const LATENCY: u64 = 2
-        + PathPoint::<AXES, A, P, R, C, S, H, H, X, D, E>::LATENCY
-        + 1
-        + ReferenceModel::<P, K, M>::LATENCY
-        + 2
-        + Servo::<W, P, K, M, G, Q, T>::LATENCY;
+    /// Ticks that a period's correction waits for: those of the longest way, over the point of the
+    /// command and the servo response to it.
+    pub const WAIT: u64 = PathPoint::<AXES, A, P, R, C, S, H, H, X, D, E>::LATENCY
+        + ReferenceModel::<P, K, M>::LATENCY;
+
+    /// Ticks from the beginning of a period to its torques.
+    pub const LATENCY: u64 = 2 + Self::WAIT + 3 + Servo::<W, P, K, M, G, Q, T>::LATENCY;
 
     /// Shortest interpolation period in ticks: the next one begins when the torques stand. A longer
     /// one is never late.
     pub const LEAST_PERIOD: u64 = Self::LATENCY - 1;
+
+    /// The same, whose corrections wait for so many ticks.
+    #[must_use]
+    pub fn waiting(self, wait: u64) -> Self {
+        let gather = PeriodJoin { wait };
+        TrajectoryController { gather, ..self }
+    }
 
     /// A controller whose commands are corrected so, and whose models round so.
     pub fn new(correction: Correction, rounding: Rounding) -> Self {
@@ -322,7 +328,7 @@ impl<
             tangential: ReferenceModel::new(rounding),
             distribution: PathPoint::default(),
             reference_point: PathPoint::new(radius_word),
-            gather: PeriodJoin,
+            gather: PeriodJoin { wait: Self::WAIT },
             axes: from_fn(|_| ControlledAxis::new(correction, rounding)),
         }
     }

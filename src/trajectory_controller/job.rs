@@ -85,10 +85,11 @@ struct Seen<const AXES: usize> {
     busy: bool,
     late: bool,
     lost: bool,
-    /// The motors are compared with their models, at these positions.
-    compared: Option<[i64; AXES]>,
-    /// All of a period stands, but for where the motors and loads were.
+    /// The motors are compared with their models: all of a period stands, but for the loads and the
+    /// torques.
     period: Option<Period<AXES>>,
+    /// The torques stand, and whether they are limited.
+    driven: Option<([i64; AXES], [bool; AXES])>,
 }
 
 fn see<const AXES: usize, const A: usize, const E: usize>(
@@ -105,10 +106,14 @@ fn see<const AXES: usize, const A: usize, const E: usize>(
         response: from_fn(|k| q.axes[k].response.integrators.position.get()),
         corrected: from_fn(|k| q.axes[k].corrector.corrected.get()),
         model: from_fn(|k| q.axes[k].servo.model.integrators.position.get()),
-        motor: [0; AXES],
+        motor: from_fn(|k| w.axes[k].w.position.get()),
         load: [0.0; AXES],
-        torque: from_fn(|k| w.axes[k].w.torque.get()),
-        saturated: from_fn(|k| w.axes[k].w.saturated.get()),
+        torque: [0; AXES],
+        saturated: [false; AXES],
+    };
+    let torques = || {
+        let torque = from_fn(|k| w.axes[k].w.torque.get());
+        (torque, from_fn(|k| w.axes[k].w.saturated.get()))
     };
     let axis = &w.axes[0].w;
     Ok(Seen {
@@ -117,16 +122,9 @@ fn see<const AXES: usize, const A: usize, const E: usize>(
         busy: w.busy.get(),
         late: w.late.get() || w.profile_late.get(),
         lost: w.axes.iter().any(|axis| axis.w.lost.get()),
-        compared: axis
-            .servo
-            .w
-            .model
-            .w
-            .fresh
-            .get()
-            .then(|| from_fn(|k| w.axes[k].w.position.get())),
         // Without a path the servo controls hold the machine: a period that began before the start.
-        period: (axis.driven.get() && !q.progress.waiting.get()).then(period),
+        period: (axis.servo.w.model.w.fresh.get() && !q.progress.waiting.get()).then(period),
+        driven: axis.driven.get().then(torques),
     })
 }
 
@@ -138,8 +136,8 @@ fn patience(program: &Program) -> usize {
     (20.0 * slowest + 1.0 / program.motion.period) as usize
 }
 
-/// Plays a program of up to 2^`A` segments on `circuit`, with `plants` on its axes, seen by `observer` too, until the path is
-/// over and models and motors have settled, for a bounded time.
+/// Plays a program of up to 2^`A` segments on `circuit`, with `plants` on its axes, seen by
+/// `observer` too, until the path is over and models and motors have settled, for a bounded time.
 ///
 /// The path is written to the circuit before it begins, a word a tick, and the profile's records as
 /// they find room. The plants are stepped once a tick, with the torques of the tick before.
@@ -155,7 +153,7 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
     let mut host = Host::new(program);
     let mut played = Played::default();
     let mut simulator = Simulator::new(circuit);
-    let mut compared = ([0; AXES], [0.0; AXES], 0);
+    let mut compared = None;
     let (mut rests, mut calm, patience) = (0, 0, patience(program));
     let unit = f64::from(Widths::FULL.guard()).exp2();
     loop {
@@ -173,15 +171,17 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
         if starts {
             played.start = played.ticks;
         }
-        if let Some(motor) = seen.compared {
-            let load = from_fn(|axis| plants[axis].load_position_counts());
-            compared = (motor, load, played.ticks);
+        if let Some(mut period) = seen.period {
+            period.tick = played.ticks;
+            period.load = from_fn(|axis| plants[axis].load_position_counts());
+            compared = Some(period);
         }
         played.ticks += 1;
         played.late |= seen.late;
         played.lost |= seen.lost;
-        if let Some(mut period) = seen.period {
-            (period.motor, period.load, period.tick) = compared;
+        if let (Some(torques), Some(mut period)) = (seen.driven, compared) {
+            compared = None;
+            (period.torque, period.saturated) = torques;
             played.periods.push(period);
             if !starts && !seen.busy {
                 rests += 1;

@@ -9,12 +9,15 @@
 //!                      └─────────────┘
 //! ```
 //!
+//! The commands are corrected at the same tick of every period, whatever its points took: the servo
+//! controls look at their motors then, and what a motor moves between two looks is its speed.
+//!
 //! With the first point of a path the servo responses are put there, at rest: the path begins where
 //! the machine stands, and what rounding left of the path before is not corrected in this one.
 
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::Circuit;
-use crate::logic::Logic;
+use crate::logic::{Bit, Logic, Unsigned};
 use crate::signals;
 
 signals! {
@@ -50,6 +53,10 @@ signals! {
         refers: L::Bit = 0,
         /// The servo responses are awaited.
         answers: L::Bit = 0,
+        /// The correction is awaited.
+        pending: L::Bit = 0,
+        /// Ticks of the period, up to those that are waited for.
+        count: L::U<10> = 0,
         /// A period is under way.
         pub busy: L::Bit = 0,
         /// Both stand: the commands are corrected.
@@ -62,7 +69,9 @@ signals! {
 signals! {
     /// Nets.
     pub struct Net<L> {
-        /// The last of both comes in this tick.
+        /// The period is as old as a correction must be.
+        due: L::Bit,
+        /// Both stand, and it is due.
         complete: L::Bit,
         /// A period begins.
         period: L::Bit,
@@ -70,8 +79,14 @@ signals! {
 }
 
 /// Join of the reference point and the servo responses.
+///
+/// `correct` is high `wait` + 2 ticks after `begins`, or later where points take longer; after
+/// `held` too, but at once where nothing is waited for.
 #[derive(Debug, Clone, Default)]
-pub struct PeriodJoin;
+pub struct PeriodJoin {
+    /// Ticks that every period waits, below 1023: those of the longest.
+    pub wait: u64,
+}
 
 impl Circuit for PeriodJoin {
     const NAME: &'static str = "period_join";
@@ -82,17 +97,20 @@ impl Circuit for PeriodJoin {
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Net<L> {
-        let awaited = q.refers | q.answers;
+        let due = q.count.equals(self.wait.into());
         let refers = q.refers & !i.referred;
         let answers = q.answers & !i.answered;
         Net {
-            complete: awaited & !refers & !answers,
+            due,
+            complete: q.pending & due & !refers & !answers,
             period: i.begins | i.held,
         }
     }
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, i: &In<L>) -> Reg<L> {
+        let at_once: L::Bit = (self.wait == 0).into();
+        let begins = i.begins | (i.held & !at_once);
         Reg {
             first: i.clear | (q.first & !i.placed),
             preset: i.placed & q.first,
@@ -100,7 +118,9 @@ impl Circuit for PeriodJoin {
             refers: i.begins | (q.refers & !i.referred),
             answers: i.begins | (q.answers & !i.answered),
             busy: w.period | (q.busy & !i.driven),
-            correct: (w.complete & !i.begins) | i.held,
+            pending: begins | (q.pending & !w.complete),
+            count: w.period.mux(0.into(), w.due.mux(q.count, q.count + 1)),
+            correct: (w.complete & !w.period) | (i.held & at_once),
             late: (q.late & !i.clear) | (w.period & q.busy),
         }
     }
@@ -110,16 +130,37 @@ impl Specified for PeriodJoin {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "correct once both stand, once a period; at once without a path",
+                "correct once both stand and the wait is over, once a period",
                 |now, next| {
                     let (q, i) = (now.q, now.i);
-                    let waits = q.refers.get() || q.answers.get();
+                    let [begins, held] = [i.begins.get(), i.held.get()];
                     let left = (q.refers.get() && !i.referred.get())
                         || (q.answers.get() && !i.answered.get());
-                    let due = (waits && !left && !i.begins.get()) || i.held.get();
-                    require(next.correct.get() == due, ["correct"], || {
-                        format!("not {due}")
+                    let over = q.count.get() >= self.wait;
+                    let due = match (begins || held, self.wait) {
+                        (true, 0) => held,
+                        (true, _) => false,
+                        (false, _) => q.pending.get() && !left && over,
+                    };
+                    let waits = match (begins, held && self.wait > 0) {
+                        (false, false) => q.pending.get() && (left || !over),
+                        _ => true,
+                    };
+                    let right = next.correct.get() == due && next.pending.get() == waits;
+                    require(right, ["correct", "pending"], || {
+                        format!("not {due}, {waits}")
                     })
+                },
+            )
+            .step(
+                "ticks are counted from a period's beginning to the wait",
+                |now, next| {
+                    let begins = now.i.begins.get() || now.i.held.get();
+                    let due = match begins {
+                        true => 0,
+                        false => (now.q.count.get() + 1).min(self.wait),
+                    };
+                    require(next.count.get() == due, ["count"], || format!("not {due}"))
                 },
             )
             .step("both are awaited from a period's beginning", |now, next| {

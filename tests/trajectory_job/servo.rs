@@ -2,6 +2,7 @@
 
 use super::*;
 use motion_rtl::kernel::{Observer, RunError, Sample};
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 /// A line that asks for 3.8 N·m at 2000 mm/s².
@@ -68,7 +69,7 @@ fn friction_is_what_the_integral_is_for() {
 #[derive(Default)]
 struct Latency {
     began: Option<u64>,
-    longest: u64,
+    seen: BTreeSet<u64>,
 }
 
 impl<const AXES: usize> Observer<Controller<AXES>> for &mut Latency {
@@ -77,13 +78,13 @@ impl<const AXES: usize> Observer<Controller<AXES>> for &mut Latency {
             self.began = Some(now.tick);
         }
         if let (true, Some(began)) = (now.w.axes[0].w.driven.get(), self.began) {
-            self.longest = self.longest.max(now.tick - began);
+            self.seen.insert(now.tick - began);
         }
         Ok(ControlFlow::Continue(()))
     }
 }
 
-fn latency<const AXES: usize>(pieces: &[Piece], correction: Correction) -> u64 {
+fn latency<const AXES: usize>(pieces: &[Piece], correction: Correction) -> BTreeSet<u64> {
     // Twice as long as needed, for what is late to be seen as late.
     let settings = Settings {
         clock_hz: 2000 * LEAST_PERIOD_TICKS,
@@ -95,16 +96,21 @@ fn latency<const AXES: usize>(pieces: &[Piece], correction: Correction) -> u64 {
     let mut latency = Latency::default();
     let circuit = Controller::<AXES>::new(correction, settings.rounding);
     play(&circuit, &program, plants, &mut latency).unwrap();
-    latency.longest
+    latency.seen
 }
 
+/// On lines and on arcs of any size alike: the motors are looked at as often as there are periods.
 #[test]
-fn the_arithmetic_is_done_within_the_shortest_period() {
+fn torques_come_at_the_same_tick_of_every_period() {
     for correction in ALL {
         let [small, large] = [1e-4, 1.0].map(|radius| [arc(radius, 3.0, 100.0)]);
-        let longest = latency::<2>(&small, correction);
-        assert!(longest <= LEAST_PERIOD_TICKS + 1, "{longest}");
-        let longer = latency::<3>(&large, correction);
-        assert!(longer <= longest && 350 < longer, "{longer}");
+        let straight = [line([3.0, 4.0, 0.0], 100.0)];
+        let flat = BTreeSet::from([Controller::<2>::LATENCY]);
+        for pieces in [&small, &large, &straight] {
+            assert_eq!(latency::<2>(pieces, correction), flat);
+        }
+        let seen = latency::<3>(&large, correction);
+        assert_eq!(seen, BTreeSet::from([Controller::<3>::LATENCY]));
     }
+    assert_eq!(Controller::<3>::LATENCY, LEAST_PERIOD_TICKS + 1);
 }

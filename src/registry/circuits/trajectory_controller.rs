@@ -25,6 +25,12 @@ fn correction(number: u64) -> Correction {
     }
 }
 
+/// A join that waits for so many ticks.
+fn join(given: &[u64]) -> PeriodJoin {
+    let wait = given.first().copied().unwrap_or(0);
+    PeriodJoin { wait }
+}
+
 /// The circuits of CN104204977.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
@@ -134,14 +140,14 @@ pub(super) const CIRCUITS: &[Entry] = &[
     ),
     entry!(
         PeriodJoin,
-        PeriodJoin,
+        PeriodJoin { wait: 200 },
         Some(2),
         "CN104204977 Fig. 1, order",
         [],
-        "nothing",
+        "ticks to wait",
         Made {
-            make: |_given| Some(Box::new(PeriodJoin)),
-            model: |_given| Some(Box::new(PeriodJoin)),
+            make: |given| Some(Box::new(join(given))),
+            model: |given| Some(Box::new(join(given))),
             offered: &[],
         }
     ),
@@ -176,7 +182,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             "X" = 52, "D" = 55, "E" = 12, "F" = 41, "N" = 20, "K" = 16, "M" = 64, "G" = 24,
             "Q" = 58, "T" = 16, "U" = 24
         ],
-        "width of counts, gains and torques, 1 for no correction, 2 for the steady one (two axes, two segments)",
+        "width of counts, gains and torques, 1 for no correction, 2 for the steady one (two axes, two segments; no wait)",
         some_widths!([4 8], |given, W| {
             TrajectoryController::<
                 2, 1, W, { W + 2 }, { W + 4 }, { W + 2 }, { W + 6 }, { W + 2 }, { W + 7 },
@@ -184,6 +190,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
                 W,
                 { 2 * W },
             >::new(correction(second(given, 0)), Rounding::Nearest)
+            .waiting(0)
         })
     ),
 ];
