@@ -156,8 +156,8 @@ fn any_straight_path_is_corrected_by_its_rounding_alone() {
         let last = seen.last().expect("periods");
         assert_eq!(last.length, length as i64);
         let exact = [cos, sin].map(|part| part * length as f64);
-        for axis in 0..2 {
-            assert!((last.command[axis] as f64 - exact[axis]).abs() <= 1.0);
+        for (axis, exact) in exact.into_iter().enumerate() {
+            assert!((last.command[axis] as f64 - exact).abs() <= 1.0);
             // The models come to rest within their rounding of the target.
             let rest = last.response[axis] - last.command[axis];
             assert!(rest.abs() <= ROUNDING, "{rest}");

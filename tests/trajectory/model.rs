@@ -253,7 +253,7 @@ fn targets_are_reached_by_all_pairs_of_gains() {
     let mut pairs = 0;
     for first in 1..ONE {
         for second in 2 * first..2 * ONE {
-            if first * second >= ONE * ONE >> FRACTION {
+            if first * second >= (ONE * ONE) >> FRACTION {
                 pairs += 1;
                 assert!(reached([first, second]), "{first}, {second}");
             }

@@ -248,8 +248,8 @@ fn the_steady_correction_is_a_wider_radius() {
             true => [0.0, 0.0],
             false => [turned.sin(), -turned.cos()].map(|part| part * (wider - radius)),
         };
-        for k in 0..2 {
-            let off = period.correction[k] as f64 - expected[k];
+        for (k, expected) in expected.into_iter().enumerate() {
+            let off = period.correction[k] as f64 - expected;
             assert!(off.abs() <= 2.5, "{off}: {period:?}");
             assert_eq!(
                 period.corrected[k],
