@@ -264,8 +264,8 @@ fn preset_begins_anew_in_every_tick() {
     let settings = Settings {
         model: [16_384, 32_768],
         position: 1 << 22,
-        speed: 1 << 20,
-        integral: 1 << 18,
+        speed: 1 << 18,
+        integral: 1 << 16,
         inertia: 1 << 18,
         limit: 30_000,
     };
@@ -277,8 +277,22 @@ fn preset_begins_anew_in_every_tick() {
             let i = ports(900_000, &settings, [tick == 0, false], [false; 2]);
             simulator = simulator.step(i, |_| ()).0;
         }
+        // The motor has moved since.
+        for count in 1..=3 {
+            for _ in 0..4 {
+                let i = ports(900_000, &settings, [false; 2], channels(count));
+                simulator = simulator.step(i, |_| ()).0;
+            }
+        }
+        let feedback = i128::from(simulator.registers().detector.position.get());
+        assert_eq!(feedback.abs(), 3);
         for tick in 0..=given_up {
-            let i = ports(70_000, &settings, [tick == 0, tick == given_up], [false; 2]);
+            let i = ports(
+                70_000,
+                &settings,
+                [tick == 0, tick == given_up],
+                channels(3),
+            );
             simulator = simulator.step(i, |_| ()).0;
         }
         let q = simulator.registers();
@@ -290,13 +304,15 @@ fn preset_begins_anew_in_every_tick() {
         // The preset itself is a step of the loops on the model that it has put there.
         let start = Loop {
             model: [70_000, 0],
+            previous: feedback,
             ..Loop::default()
         };
         for _ in 0..2 * Full::LATENCY {
-            let i = ports(70_000, &settings, [false; 2], [false; 2]);
+            let i = ports(70_000, &settings, [false; 2], channels(3));
             simulator = simulator.step(i, |_| ()).0;
         }
-        let expected = start.step(70_000, 0, &settings, FULL);
+        let expected = start.step(70_000, feedback, &settings, FULL);
+        assert!(!expected.saturated);
         let q = simulator.registers();
         let seen = (
             i128::from(q.arithmetic.torque.get()),
