@@ -10,6 +10,7 @@ mod linear;
 pub mod list;
 mod magnification;
 mod picture;
+mod pieces;
 mod rows;
 pub mod run;
 mod shipped;

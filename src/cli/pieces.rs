@@ -1,0 +1,94 @@
+//! The pieces of a path, from a scenario's tables or its drawing, and what is wrong with one.
+
+use super::Failure;
+use super::job::{Source, drawing_fault};
+use motion_rtl::arc_generator::error::{PathError, Reason};
+use motion_rtl::arc_generator::path::{Piece, Speeds, Taught, from_drawing, from_points};
+use motion_rtl::input::scenario::Loaded;
+use motion_rtl::input::{Drawing, Fault, Point};
+
+/// Where the path begins if nothing says so.
+const ORIGIN: Point = [0.0; 3];
+
+/// A scenario's speeds, and the key of that of the pieces that have none of their own.
+#[derive(Debug, Clone, Copy)]
+pub struct SpeedKeys {
+    /// The speeds.
+    pub speeds: Speeds,
+    /// The key.
+    pub key: &'static str,
+}
+
+/// Where a path begins, its pieces, and the drawing they are from; none where the scenario has them.
+pub fn pieces(
+    source: &Source,
+    start_mm: Point,
+    taught: &[Taught],
+    keys: SpeedKeys,
+) -> Result<(Option<Drawing>, Point, Vec<Piece>), Failure> {
+    let loaded = &source.loaded;
+    let drawing = match (source.drawing_if_any(), taught.is_empty()) {
+        (Some(_), false) => return Err(not_both(loaded).into()),
+        (Some(drawing), true) => Some(drawing?),
+        (None, false) => None,
+        (None, true) => return Err(no_path(loaded).into()),
+    };
+    let (start, pieces) = match &drawing {
+        Some(_) if start_mm != ORIGIN => {
+            let problem = format!("is {start_mm:?} beside an input");
+            let allowed = "where the drawing begins: no start_mm".to_owned();
+            return Err(loaded.fault("start_mm", problem, allowed).into());
+        }
+        Some(drawing) => (drawing.start, from_drawing(drawing, keys.speeds)),
+        None => (start_mm, from_points(start_mm, taught, keys.speeds)),
+    };
+    let pieces = pieces.map_err(|error| fault(loaded, drawing.as_ref(), keys, &error))?;
+    Ok((drawing, start, pieces))
+}
+
+fn no_path(loaded: &Loaded) -> Fault {
+    let allowed = "tables [[piece]], or an input: an HPGL drawing or a G-code program".to_owned();
+    loaded.fault("piece", "missing".to_owned(), allowed)
+}
+
+fn not_both(loaded: &Loaded) -> Fault {
+    let allowed = "a drawing or pieces, not both".to_owned();
+    loaded.fault("piece", "given beside an input".to_owned(), allowed)
+}
+
+/// What cannot be run, with the file and line it stands in.
+pub fn fault(
+    loaded: &Loaded,
+    drawing: Option<&Drawing>,
+    keys: SpeedKeys,
+    error: &PathError,
+) -> Fault {
+    let PathError {
+        piece,
+        line,
+        reason,
+    } = error;
+    let (problem, allowed) = (reason.to_string(), reason.allowed());
+    if let Reason::Empty = reason {
+        return loaded.fault(reason.field(), problem, allowed);
+    }
+    let Some(drawing) = drawing else {
+        return match reason {
+            Reason::Segments { .. } => loaded.fault(reason.field(), problem, allowed),
+            _ => loaded.table_fault(("piece", *piece), reason.field(), problem, allowed),
+        };
+    };
+    let step = drawing.moves.get(*piece);
+    let told = keys.speeds.wanted.is_some();
+    // A speed may come from the scenario: its key is at fault then, on account of this line.
+    let field = match (reason.word(), step) {
+        ("F", Some(step)) if step.rapid => "rapid_mm_per_s",
+        ("F", Some(step)) if step.feed_mm_per_min.is_none() && told => keys.key,
+        (word, _) => word,
+    };
+    let allowed = match reason {
+        Reason::NoSpeed => format!("a feed, or {} for all", keys.key),
+        _ => allowed,
+    };
+    drawing_fault(drawing, line.unwrap_or(0), field, problem, allowed)
+}
