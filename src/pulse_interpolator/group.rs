@@ -5,6 +5,7 @@
 //!  command… ──────▶│       ├──▶ step_x, step_y, …
 //!  period, write ─▶│ group ├──▶ dir_x, dir_y, …
 //!  write… ────────▶│       ├──▶ ready, busy, unit_rst
+//!  unit_end ──────▶│       │
 //!                  └───────┘
 //! ```
 //!
@@ -17,7 +18,7 @@ use super::{
 use super::{address_sequencer, axis, command_port, unit_time_counter, unit_time_register};
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::{Circuit, Instance};
-use crate::logic::{Logic, Sim, Unsigned};
+use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 use std::array::from_fn;
 
@@ -49,6 +50,8 @@ signals! {
         pub period: L::U<T>,
         /// Rewrites the unit time, in force from the next RST on.
         pub write_period: L::Bit,
+        /// The unit time ends in this tick, whatever T is: for a group that another counter leads.
+        pub unit_end: L::Bit,
         /// Writes a word of the pattern memory.
         pub write: L::Bit,
         /// The axis written to.
@@ -161,7 +164,8 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
             &self.counter,
             &q.counter,
             unit_time_counter::In {
-                period: q.unit_time.active,
+                // A T of 0 ends the unit time at once.
+                period: i.unit_end.mux(0.into(), q.unit_time.active),
             },
         );
         let unit_rst = counter.w.unit_rst;

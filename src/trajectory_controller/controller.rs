@@ -19,7 +19,7 @@ use crate::blocks::{
     enable_counter, record_memory, record_sequencer,
 };
 use crate::kernel::{Circuit, Instance, Nothing};
-use crate::logic::Logic;
+use crate::logic::{Bit, Logic};
 use crate::signals;
 use std::array::from_fn;
 
@@ -34,6 +34,7 @@ const POSITION_GAIN: &[&str] = &["position_gain_x", "position_gain_y", "position
 const SPEED_GAIN: &[&str] = &["speed_gain_x", "speed_gain_y", "speed_gain_z"];
 const INTEGRAL_GAIN: &[&str] = &["integral_gain_x", "integral_gain_y", "integral_gain_z"];
 const INERTIA: &[&str] = &["inertia_x", "inertia_y", "inertia_z"];
+const GIVEN_COMMAND: &[&str] = &["given_command_x", "given_command_y", "given_command_z"];
 const LIMIT: &[&str] = &["limit_x", "limit_y", "limit_z"];
 
 signals! {
@@ -97,6 +98,10 @@ signals! {
         pub inertia: [L::U<G>; AXES] as Elements(INERTIA),
         /// Largest torques.
         pub limit: [L::U<T>; AXES] as Elements(LIMIT),
+        /// Position commands come from elsewhere, and not from the axis distribution.
+        pub given: L::Bit,
+        /// These; they stay from one beginning of a period to the next.
+        pub given_command: [L::I<P>; AXES] as Elements(GIVEN_COMMAND),
         /// Encoders, channel A.
         pub a: [L::Bit; AXES] as Elements(A_NAMES),
         /// Channel B.
@@ -464,7 +469,9 @@ impl<
                 controlled_axis::In {
                     step: q.gather.step,
                     preset: q.gather.preset,
-                    command: distribution.w.points[axis],
+                    command: i
+                        .given
+                        .mux(i.given_command[axis], distribution.w.points[axis]),
                     correct: q.gather.correct,
                     target: reference_point.w.points[axis],
                     a: i.a[axis],
