@@ -28,6 +28,7 @@ const RECORDS: usize = 4;
 const ADDRESS: usize = RECORDS + 5;
 const TORQUE: &[&str] = &["torque_x", "torque_y", "torque_z"];
 const POSITION: &[&str] = &["position_x", "position_y", "position_z"];
+const LOST: &[&str] = &["lost_x", "lost_y", "lost_z"];
 const A_NAMES: &[&str] = &["a_x", "a_y", "a_z"];
 const B_NAMES: &[&str] = &["b_x", "b_y", "b_z"];
 const POSITION_GAIN: &[&str] = &["position_gain_x", "position_gain_y", "position_gain_z"];
@@ -208,6 +209,8 @@ signals! {
         pub torque: [L::I<T>; AXES] as Elements(TORQUE),
         /// Positions of the motors in counts.
         pub position: [L::I<W>; AXES] as Elements(POSITION),
+        /// Encoders that were too fast.
+        pub lost: [L::Bit; AXES] as Elements(LOST),
         /// There is a free profile record.
         pub ready: L::Bit,
         /// A movement is under way.
@@ -502,6 +505,7 @@ impl<
         Net {
             torque: from_fn(|axis| axes[axis].w.torque),
             position: from_fn(|axis| axes[axis].w.position),
+            lost: from_fn(|axis| axes[axis].w.lost),
             ready: memory.w.ready,
             busy: sequencer.w.busy,
             sampled: q.sequencer.sampled,
