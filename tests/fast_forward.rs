@@ -220,6 +220,7 @@ fn both((drawing, settings): &(Drawing, Settings), variant: Variant) -> (u64, u6
     let mut samples = Samples(0);
     let jumped = fast_forward(&group, &table, &mut samples).expect("no observer objects");
     assert!(stepped == jumped, "the drivers saw something else");
+    println!("{} of {} ticks looked at", samples.0, jumped.ticks);
     (jumped.ticks, samples.0)
 }
 

@@ -224,7 +224,7 @@ fn the_literal_variant_fails_and_says_where_it_first_miscounts() {
 
 #[test]
 fn without_waves_everything_else_is_the_same() {
-    let run = ["run", "line.hpgl", "--set", "variant=literal"];
+    let run = ["run", "line.hpgl"];
     let [with, without] = [&[][..], &["--no-vcd"]].map(|no_vcd| {
         let bench = Bench::with("line.hpgl", LINE);
         let mut summary = bench.json(&[&run, no_vcd, &SHORT[..]].concat());
