@@ -63,7 +63,7 @@ fn act() -> impl Strategy<Value = (u64, Port)> {
         duration(65_535),
     );
     let wait = prop_oneof![0..3u64, 0..3000u64];
-    (wait, 0..8u8, any::<[bool; 4]>(), words).prop_map(|(wait, kind, flags, words)| {
+    (wait, 0..9u8, any::<[bool; 4]>(), words).prop_map(|(wait, kind, flags, words)| {
         let [cyclic, stop, now, write_direction] = flags;
         let (base, last, period, axis, half_period) = words;
         let port = Port {
@@ -75,7 +75,8 @@ fn act() -> impl Strategy<Value = (u64, Port)> {
             now: now.into(),
             period: period.into(),
             write_period: (kind == 4).into(),
-            write: (kind > 4).into(),
+            unit_end: (kind == 5).into(),
+            write: (kind > 5).into(),
             write_axis: axis.into(),
             write_address: base.into(),
             write_half_period: half_period.into(),
@@ -108,6 +109,7 @@ fn drive(acts: &[(u64, Port)], tick: u64) -> (Port, u64) {
             let quiet = Port {
                 command: false.into(),
                 write_period: false.into(),
+                unit_end: false.into(),
                 write: false.into(),
                 ..lines
             };

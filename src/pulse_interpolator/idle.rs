@@ -13,7 +13,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> FastForw
 {
     #[inline(always)]
     fn idle(&self, q: &group::Reg<Sim, AXES, N, T, A>, i: &group::In<Sim, N, T, A>) -> u64 {
-        if (i.command | i.write_period | i.write).get() {
+        if (i.command | i.write_period | i.unit_end | i.write).get() {
             return 0;
         }
         let unit = ticks_below(q.counter.count.get(), q.unit_time.active.get());

@@ -65,7 +65,8 @@ fn compare<const AXES: usize, const W: usize>(variant: Variant) {
         for strobe in [&mut i.command, &mut i.write_period, &mut i.write] {
             *strobe = (take(&mut strobes, 1) == 1).into();
         }
-        let acts = (i.command | i.write_period | i.write).get();
+        i.unit_end = random.word().is_multiple_of(8).into();
+        let acts = (i.command | i.write_period | i.unit_end | i.write).get();
         let idle = group.idle(&q, &i);
         longest = longest.max(idle);
         assert!(!acts || idle == 0, "{i:?}");
