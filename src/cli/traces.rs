@@ -161,7 +161,7 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
             let window = first..(first + focus.shown).min(ticks.max(first + 1));
             let dump = format!("{}.{}", self.stem, self.format.extension());
             let save = gtkw::save_file(circuit, self.clock, self.options, &dump, window);
-            self.files.push(waves.finish()?);
+            self.files.push(waves.finish().map_err(RunError::Waves)?);
             self.files.write("gtkw", &save.map_err(io::Error::from)?)?;
         }
         Ok(self.files)
