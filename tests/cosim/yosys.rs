@@ -31,7 +31,8 @@ fn synthesis() -> String {
     let mut text = String::from(
         "| circuit | widths | LUTs | flip-flops | carries | block RAMs |\n|---|---|---|---|---|---|\n",
     );
-    for entry in CATALOGUE {
+    // The machine is the sum of its parts, which stand in the table one by one.
+    for entry in CATALOGUE.iter().filter(|entry| entry.name != "machine") {
         let circuit = (entry.full)();
         let name = circuit.name();
         let said = yosys(&*circuit, |files| {
