@@ -154,8 +154,8 @@ const FAR: &[(&str, u32)] = &[
     ("unit_law.generator.next", 13),
     ("unit_law.pulses", 13),
     ("unit_law.counted", 13),
-    ("pulse_interpolator.counter.count", 14),
-    ("pulse_interpolator.counter.next", 14),
+    ("pulse_interpolator.counter.count", 10),
+    ("pulse_interpolator.counter.next", 10),
     ("pulse_interpolator.x.generator.count", 13),
     ("pulse_interpolator.x.generator.next", 13),
     ("pulse_interpolator.y.generator.count", 11),
@@ -372,8 +372,11 @@ const JOBS: &[&str] = &[
 fn every_bit_that_can_move_moves() {
     let mut left = Vec::new();
     for entry in CATALOGUE {
-        let narrow = (entry.model)(&[8]).expect(entry.name);
-        for (size, model, allowed) in [("full", (entry.full)(), FAR), ("8", narrow, NEVER)] {
+        let full = ("full", (entry.full)(), FAR);
+        // One without a width is the same at all.
+        let narrow = entry.offered.contains(&8).then(|| (entry.model)(&[8]));
+        let narrow = narrow.map(|model| ("8", model.expect(entry.name), NEVER));
+        for (size, model, allowed) in [full].into_iter().chain(narrow) {
             let driven = model.drive(&run(3, 100_000, true), &mut io::sink(), &mut io::sink());
             let Driven { coverage, resets } = driven.expect(entry.name);
             let (covered, all) = coverage.bits();

@@ -33,7 +33,11 @@ impl Parameter {
                     literal(value, shape)
                 )
             }
-            None if top => format!("parameter {name} = \"{}.hex\"", self.path.join("_")),
+            None if top => {
+                // What is deep inside has a long name, twice.
+                let between = if name.len() > 40 { "\n        " } else { " " };
+                format!("parameter {name} ={between}\"{}.hex\"", self.path.join("_"))
+            }
             None => format!("parameter {name} = \"\""),
         }
     }
