@@ -10,7 +10,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
-use motion_rtl::pulse_interpolator::job::{Played, group, play};
+use motion_rtl::pulse_interpolator::job::{Played, fast_forward, group, play};
 use motion_rtl::trace::{Clock, Options};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -139,7 +139,7 @@ fn simulate<const AXES: usize>(
             let files = (traces.waves.as_mut(), traces.stimulus.as_mut());
             play(&group, &job.table, (files, &mut progress))
         }
-        true => play(&group, &job.table, &mut progress),
+        true => fast_forward(&group, &job.table, &mut progress),
     }?;
     drop(progress);
     let unit = u64::from(job.table.patterns().first().map_or(1, |first| first.period));
@@ -179,6 +179,8 @@ pub(super) fn clock(
 /// A bar on standard error, where that is a terminal.
 pub(super) struct Progress {
     bar: ProgressBar,
+    /// The tick at which it is looked at again.
+    due: u64,
 }
 
 impl Progress {
@@ -189,15 +191,16 @@ impl Progress {
         if let Ok(style) = style {
             bar.set_style(style);
         }
-        Progress { bar }
+        Progress { bar, due: 0 }
     }
 }
 
 impl<C: Circuit> Observer<C> for Progress {
     #[inline]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if now.tick.is_multiple_of(PROGRESS) {
+        if now.tick >= self.due {
             self.bar.set_position(now.tick);
+            self.due = now.tick + PROGRESS;
         }
         Ok(ControlFlow::Continue(()))
     }
