@@ -53,9 +53,9 @@ fn peak(millimetres: u32, format: &str) -> (u64, u64) {
 #[test]
 fn a_run_eight_times_as_long_takes_no_more() {
     for format in ["vcd", "fst"] {
-        let (short, long) = (peak(40, format), peak(320, format));
+        let (short, long) = (peak(80, format), peak(640, format));
         assert!(
-            long.1 > 6 * short.1,
+            long.1 > 2 * short.1,
             "{format}: {} and {} bytes",
             short.1,
             long.1

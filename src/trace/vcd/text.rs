@@ -179,7 +179,7 @@ impl Text {
 /// The bits of a byte as text, the highest first: each to a byte of its own, moved to its lowest
 /// bit by the carry, and a `0` added.
 pub fn eight_digits(byte: u8) -> [u8; 8] {
-    let apart = u64::from(byte) * 0x0101_0101_0101_0101 & 0x0102_0408_1020_4080;
+    let apart = (u64::from(byte) * 0x0101_0101_0101_0101) & 0x0102_0408_1020_4080;
     let ones = (apart + 0x7f7f_7f7f_7f7f_7f7f) >> 7 & 0x0101_0101_0101_0101;
     (ones | 0x3030_3030_3030_3030).to_le_bytes()
 }
