@@ -229,15 +229,16 @@ fn gnu_parallel_does_the_parts() {
     let whole = timeless(&bench.succeed(&WORK));
     let work = WORK[1..].join(" ");
     let program = super::support::PROGRAM;
-    let command = format!("{program} check {work} --shard {{}}/4 --json > part{{}}.json");
+    let command = format!("{program} check {work} --shard {{}}/4 --json");
     let output = std::process::Command::new("parallel")
-        .args(["--will-cite", &command, ":::", "1", "2", "3", "4"])
+        .args(["--will-cite", "--results", "part{}", &command, ":::"])
+        .args(["1", "2", "3", "4"])
         .current_dir(bench.path("."))
         .output()
         .expect("GNU parallel");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}");
-    let files = [1, 2, 3, 4].map(|part| format!("part{part}.json"));
+    let files = [1, 2, 3, 4].map(|part| format!("part{part}"));
     let done = merge(&bench, &files);
     assert_eq!((done.code, done.stderr.as_str()), (0, ""));
     assert_eq!(timeless(&done.stdout), whole);
