@@ -12,6 +12,7 @@ pub mod kernel;
 pub mod lead_angle;
 pub mod linear_interpolator;
 pub mod logic;
+pub mod machine;
 pub mod picture;
 pub mod plan;
 pub mod plant;

@@ -1,6 +1,7 @@
 //! A path on the arc generator: the control computer that feeds it, and the commands that come out.
 
-use super::record::{Record, WORDS};
+use super::record::Record;
+use super::record_writer::RecordWriter;
 use super::{ArcGenerator, Rounding, generator};
 use crate::input::COORDINATES;
 use crate::kernel::{Observer, RunError, Sample, Simulator};
@@ -44,31 +45,23 @@ pub struct Played {
 
 /// The control computer: it writes records as they find room.
 struct Host<'a> {
-    records: &'a [Record],
+    records: RecordWriter<'a>,
+    /// Records that are written before the path begins.
+    waiting: usize,
     sample_ticks: u64,
-    /// The record and the word to be written next.
-    record: usize,
-    word: usize,
-    /// There was a free record in the tick before, and no push that may have taken the last.
-    free: bool,
     started: bool,
 }
 
 impl Host<'_> {
     fn ports(&mut self) -> generator::In<Sim, D, T> {
-        let start = !self.started && self.record == self.records.len().min(HEAD_START);
+        let start = !self.started && self.records.written() == self.waiting;
         self.started |= start;
-        let record = self.records.get(self.record).filter(|_| self.free);
-        let (word, last) = (self.word, self.word + 1 == WORDS);
-        if record.is_some() {
-            self.word = (word + 1) % WORDS;
-            self.record += usize::from(last);
-        }
+        let record = self.records.write();
         generator::In {
-            write: record.is_some().into(),
-            write_word: (word as u64).into(),
-            write_data: record.map_or(0, |record| record.words[word]).into(),
-            push: (record.is_some() && last).into(),
+            write: record.write.into(),
+            write_word: record.word.into(),
+            write_data: record.data.into(),
+            push: record.push.into(),
             start: start.into(),
             halt: false.into(),
             sample_period: self.sample_ticks.into(),
@@ -110,11 +103,9 @@ pub fn play(
     mut observer: impl Observer<ArcGenerator>,
 ) -> Result<Played, RunError> {
     let mut host = Host {
-        records,
+        records: RecordWriter::new(records),
+        waiting: records.len().min(HEAD_START),
         sample_ticks: u64::from(sample_ticks),
-        record: 0,
-        word: 0,
-        free: true,
         started: false,
     };
     let mut played = Played::default();
@@ -131,7 +122,7 @@ pub fn play(
             command,
         } = seen?;
         simulator = next;
-        host.free = ready && !pushed;
+        host.records.free = ready && !pushed;
         if let Some(counts) = command {
             let tick = played.ticks;
             played.commands.push(Command { tick, counts });

@@ -29,6 +29,7 @@ pub mod position_command;
 pub mod prepare;
 pub mod prepared;
 pub mod record;
+pub(crate) mod record_writer;
 pub mod reference;
 pub mod rotation;
 pub mod rotation_row;

@@ -147,7 +147,8 @@ impl<const AXES: usize> MachineSignals<Sim, AXES> {
 }
 
 impl TwoMassSignals<Sim> {
-    fn of(axis: &TwoMassAxis) -> Self {
+    /// The axis as it stands.
+    pub fn of(axis: &TwoMassAxis) -> Self {
         TwoMassSignals {
             position: fine(axis.position_counts()).into(),
             speed: (axis.speed_counts_per_s().round() as i64).into(),

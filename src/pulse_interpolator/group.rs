@@ -5,6 +5,7 @@
 //!  command… ──────▶│       ├──▶ step_x, step_y, …
 //!  period, write ─▶│ group ├──▶ dir_x, dir_y, …
 //!  write… ────────▶│       ├──▶ ready, busy, unit_rst
+//!  unit_end ──────▶│       │
 //!                  └───────┘
 //! ```
 //!
@@ -17,7 +18,7 @@ use super::{
 use super::{address_sequencer, axis, command_port, unit_time_counter, unit_time_register};
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::{Circuit, Instance};
-use crate::logic::{Logic, Sim, Unsigned};
+use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 use std::array::from_fn;
 
@@ -49,6 +50,8 @@ signals! {
         pub period: L::U<T>,
         /// Rewrites the unit time, in force from the next RST on.
         pub write_period: L::Bit,
+        /// The unit time ends in this tick, whatever T is: for a group that another counter leads.
+        pub unit_end: L::Bit,
         /// Writes a word of the pattern memory.
         pub write: L::Bit,
         /// The axis written to.
@@ -161,7 +164,8 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
             &self.counter,
             &q.counter,
             unit_time_counter::In {
-                period: q.unit_time.active,
+                // A T of 0 ends the unit time at once.
+                period: i.unit_end.mux(0.into(), q.unit_time.active),
             },
         );
         let unit_rst = counter.w.unit_rst;
@@ -203,23 +207,21 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
                 take_period: q.port.pending_period,
             },
         );
-        let axes: [Instance<Axis<N, A>, L>; AXES] = from_fn(|axis| {
-            Instance::settle(
-                &self.axes[axis],
-                &q.axes[axis],
-                axis::In {
-                    unit_rst,
-                    read: sequencer.w.read,
-                    blank: sequencer.w.blank,
-                    address: sequencer.w.next_address,
-                    write: i.write,
-                    write_axis: i.write_axis,
-                    write_address: i.write_address,
-                    write_half_period: i.write_half_period,
-                    write_direction: i.write_direction,
-                },
-            )
-        });
+        let axes = Instance::settle_each(
+            &self.axes,
+            &q.axes,
+            from_fn(|_| axis::In {
+                unit_rst,
+                read: sequencer.w.read,
+                blank: sequencer.w.blank,
+                address: sequencer.w.next_address,
+                write: i.write,
+                write_axis: i.write_axis,
+                write_address: i.write_address,
+                write_half_period: i.write_half_period,
+                write_direction: i.write_direction,
+            }),
+        );
         Net {
             step: from_fn(|axis| axes[axis].w.step),
             dir: from_fn(|axis| axes[axis].w.dir),
@@ -241,16 +243,12 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
         w: &Net<L, AXES, N, T, A>,
         _: &In<L, N, T, A>,
     ) -> Reg<L, AXES, N, T, A> {
-        let mut axis = 0..AXES;
         Reg {
             unit_time: w.unit_time.next(&self.unit_time, q.unit_time),
             counter: w.counter.next(&self.counter, q.counter),
             port: w.port.next(&self.port, q.port),
             sequencer: w.sequencer.next(&self.sequencer, q.sequencer),
-            axes: q.axes.map(|registers| {
-                let axis = axis.next().unwrap_or(0);
-                w.axes[axis].next(&self.axes[axis], registers)
-            }),
+            axes: Instance::next_each(&w.axes, &self.axes, q.axes),
         }
     }
 

@@ -130,7 +130,7 @@ fn see<const AXES: usize, const A: usize, const E: usize>(
 
 /// How long models and motors may take to settle, in periods: 20 times their slowest decay, and a
 /// second.
-fn patience(program: &Program) -> usize {
+pub(crate) fn patience(program: &Program) -> usize {
     let [k1, k2] = program.gains.parts(&Widths::FULL);
     let slowest = 1.0 / k1 + 1.0 / k2;
     (20.0 * slowest + 1.0 / program.motion.period) as usize
@@ -167,7 +167,7 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
         let (next, seen) = simulator.step(i, |now| see(now, &mut observer));
         simulator = next;
         let seen = seen?;
-        host.free = seen.ready && !pushed;
+        host.records.free = seen.ready && !pushed;
         if starts {
             played.start = played.ticks;
         }

@@ -21,6 +21,7 @@ pub mod measure;
 pub mod model_state;
 pub mod path_length;
 pub mod path_point;
+pub(crate) mod path_writer;
 pub mod period_join;
 pub mod planner;
 pub mod point_sequencer;

@@ -1,0 +1,324 @@
+//! The control computer of the machine: one job for everything at once, tick by tick.
+//!
+//! The steppers play their table from power-on. The servos take the job move by move: when both
+//! motors are in position the next line is pushed, or the next arc started, and with it the length
+//! in time. Between a rapid move and one with the pen down the lift has its step first. Records go
+//! to arc generator and trajectory controller as they find room.
+
+use super::circuit::{In, Net, Reg};
+use super::program::{Program, Way};
+use super::settings::Settings;
+use super::{enables, ports};
+use crate::arc_generator::record_writer::RecordWriter;
+use crate::kernel::zero;
+use crate::lead_angle::settings::SPEED_UNIT_COUNTS_PER_S;
+use crate::logic::Sim;
+use crate::pulse_interpolator::ControlComputer;
+use crate::trajectory_controller::path_writer::PathWriter;
+use std::array::from_fn;
+
+/// Address width of the pattern memory.
+const A: usize = 12;
+/// Ticks from the beginning of a move in which nobody says yet that it is busy.
+const DEAF: u32 = 8;
+/// Records of a move that wait before it begins, where there are so many.
+const HEAD_START: usize = 4;
+/// Sampling times in a row for which the motors must be in position.
+const CALM: u32 = 4;
+
+/// What the servos and the lift are at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// The path is written, and the lift's steps.
+    Write,
+    /// The next move is awaited: records, pen.
+    Ready,
+    /// The lift is to begin its step; it has begun.
+    Lift(bool),
+    /// A move is under way, begun so many ticks ago.
+    Move(u32),
+    /// The commands stand; the motors come.
+    Settle,
+    /// The last count to the job's end, where rounding left one.
+    Close(u32),
+    /// The job is done.
+    Done,
+}
+
+/// The control computer.
+#[derive(Debug)]
+pub(super) struct Host<'a> {
+    program: &'a Program,
+    settings: &'a Settings,
+    pulses: ControlComputer<'a, A>,
+    path: PathWriter<'a>,
+    arcs: RecordWriter<'a>,
+    profile: RecordWriter<'a>,
+    /// Lift steps that are written.
+    lift_words: usize,
+    pub(super) stage: Stage,
+    /// The move that is next, or under way.
+    pub(super) index: usize,
+    /// Records up to the end of the move that is next, or under way.
+    arcs_due: usize,
+    profile_due: usize,
+    pen_down: bool,
+    calm: u32,
+}
+
+impl<'a> Host<'a> {
+    pub(super) fn new(program: &'a Program, settings: &'a Settings) -> Self {
+        Host {
+            program,
+            settings,
+            pulses: ControlComputer::new(&program.table),
+            path: PathWriter::new(&program.path),
+            arcs: RecordWriter::new(&program.arcs),
+            profile: RecordWriter::new(&program.profile),
+            lift_words: 0,
+            stage: Stage::Write,
+            index: 0,
+            arcs_due: 0,
+            profile_due: 0,
+            pen_down: false,
+            calm: 0,
+        }
+    }
+
+    /// What it gives in this tick, from the registers; the encoders are left low.
+    pub(super) fn ports(&mut self, q: &Reg<Sim>) -> In<Sim> {
+        let settings = self.settings;
+        let period = |ticks: u32| u64::from(ticks).into();
+        let mut i = In {
+            halt: false.into(),
+            rates: enables::In {
+                unit_period: period(settings.unit_ticks),
+                scan_period: period(settings.scan_ticks),
+                ck_period: period(settings.ck_ticks),
+                sample_period: period(settings.sample_ticks),
+            },
+            pulse: self.pulse(q),
+            lines: zero(),
+            arcs: self.arc_words(),
+            trajectory: self.trajectory(),
+            lift: self.lift(),
+        };
+        match self.stage {
+            Stage::Write if self.path.is_done() && self.lift_words > 2 => {
+                self.stage = self.turn_to(0);
+            }
+            Stage::Ready => self.begin(q, &mut i),
+            Stage::Lift(begun) => i.lift.run = (!begun).into(),
+            Stage::Close(0) => {
+                let to = self.program.moves.last().map_or([0; 2], |step| step.to);
+                self.push_line(q, to, 1, &mut i);
+            }
+            _ => {}
+        }
+        i
+    }
+
+    /// Begins the next move, or what must come before it.
+    fn begin(&mut self, q: &Reg<Sim>, i: &mut In<Sim>) {
+        let Some(step) = self.program.moves.get(self.index) else {
+            return;
+        };
+        if step.rapid == self.pen_down {
+            self.stage = Stage::Lift(false);
+            i.lift.run = true.into();
+            return;
+        }
+        let written = [
+            (&self.arcs, self.arcs_due, step.arcs()),
+            (&self.profile, self.profile_due, step.records),
+        ]
+        .iter()
+        .all(|(writer, due, records)| {
+            writer.written() >= due - records + (*records).min(HEAD_START)
+        });
+        if !written {
+            return;
+        }
+        match step.way {
+            Way::Line { speed } => self.push_line(q, step.to, speed, i),
+            Way::Arc { .. } => i.arcs.start = true.into(),
+        }
+        i.trajectory.start = true.into();
+        self.stage = Stage::Move(0);
+    }
+
+    /// Gives a target: what lines have to add to the arcs' way.
+    fn push_line(&self, q: &Reg<Sim>, to: [i64; 2], speed: u64, i: &mut In<Sim>) {
+        let arcs = &q.arc_generator;
+        i.lines = ports::Lines {
+            push: true.into(),
+            target_x: (to[0] - arcs.command_x.command.get()).into(),
+            target_y: (to[1] - arcs.command_y.command.get()).into(),
+            speed: speed.into(),
+            acceleration_time: self.program.ramp_scans.into(),
+            deceleration_time: self.program.ramp_scans.into(),
+        };
+    }
+
+    fn pulse(&mut self, q: &Reg<Sim>) -> ports::Pulse<Sim> {
+        let given = self.pulses.drive(&q.pulse_interpolator);
+        ports::Pulse {
+            command: given.command,
+            base: given.base,
+            last: given.last,
+            run: given.run,
+            now: given.now,
+            write: given.write,
+            write_axis: given.write_axis,
+            write_address: given.write_address,
+            write_half_period: given.write_half_period,
+            write_direction: given.write_direction,
+        }
+    }
+
+    fn arc_words(&mut self) -> ports::Arcs<Sim> {
+        let written = self.arcs.write_up_to(self.arcs_due);
+        ports::Arcs {
+            write: written.write.into(),
+            write_word: written.word.into(),
+            write_data: written.data.into(),
+            push: written.push.into(),
+            start: false.into(),
+        }
+    }
+
+    fn trajectory(&mut self) -> ports::Trajectory<Sim> {
+        let written = self.profile.write_up_to(self.profile_due);
+        let path = self.path.write();
+        let program = &self.program.path;
+        let servo = &program.servo;
+        ports::Trajectory {
+            write: written.write.into(),
+            write_word: written.word.into(),
+            write_data: written.data.into(),
+            push: written.push.into(),
+            start: false.into(),
+            write_begin: path.write_begin.into(),
+            begin_segment: path.segment.into(),
+            begin_length: path.begin.into(),
+            write_path: path.write.into(),
+            path_address: (path.segment << 4 | path.word).into(),
+            path_data: path.data.into(),
+            last: (program.path.stretches.len() as u64 - 1).into(),
+            path_end: (program.path.length as i64).into(),
+            gain_1: program.gains.k1.into(),
+            gain_2: program.gains.k2.into(),
+            position_gain: from_fn(|axis| servo[axis].position.into()),
+            speed_gain: from_fn(|axis| servo[axis].speed.into()),
+            integral_gain: from_fn(|axis| servo[axis].integral.into()),
+            inertia: from_fn(|axis| servo[axis].inertia.into()),
+            limit: from_fn(|axis| servo[axis].limit.into()),
+            a: [false.into(); 2],
+            b: [false.into(); 2],
+        }
+    }
+
+    fn lift(&mut self) -> ports::Lift<Sim> {
+        let lift = self.settings.lift();
+        let cks = |ms: f64| u64::from(lift.cks(ms));
+        let (place, step) = (self.lift_words, lift.steps.get(self.lift_words));
+        self.lift_words = (place + 1).min(lift.steps.len() + 1);
+        ports::Lift {
+            a: false.into(),
+            b: false.into(),
+            run: false.into(),
+            learn: true.into(),
+            last_step: (lift.steps.len() as u64 - 1).into(),
+            standstill: cks(lift.standstill_ms).into(),
+            time_out: cks(lift.time_out_ms).into(),
+            rest: cks(lift.rest_ms).into(),
+            seed: lift.code(lift.seed_ms).unwrap_or(0).into(),
+            write_target: step.is_some().into(),
+            write_step: (place as u64).into(),
+            step_target: step.map_or(0, |step| step.target).into(),
+            step_speed: step
+                .map_or(0, |step| {
+                    u64::from(step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S)
+                })
+                .into(),
+        }
+    }
+
+    /// Whether the steppers' table is given whole.
+    pub(super) fn pulses_given(&self) -> bool {
+        self.pulses.has_given_all()
+    }
+
+    /// Where the lift has the pen down.
+    pub(super) fn pen_down_counts(&self) -> i64 {
+        self.settings.pen_down_counts
+    }
+
+    /// Whether the step that the lift is at lowers the pen.
+    pub(super) fn lowers(&self) -> bool {
+        !self.pen_down
+    }
+
+    /// Takes up what the tick shows.
+    pub(super) fn take(&mut self, i: &In<Sim>, w: &Net<Sim>) {
+        self.arcs.free = w.arcs_ready.get() && !i.arcs.push.get();
+        self.profile.free = w.profile_ready.get() && !i.trajectory.push.get();
+        let busy = w.lines_busy.get() || w.arcs_busy.get() || w.profile_busy.get();
+        self.stage = match self.stage {
+            Stage::Lift(false) => Stage::Lift(w.lift_busy.get()),
+            Stage::Lift(true) if !w.lift_busy.get() => {
+                self.pen_down = !self.pen_down;
+                Stage::Ready
+            }
+            Stage::Move(age) if age < DEAF => Stage::Move(age + 1),
+            Stage::Move(_) if !busy => Stage::Settle,
+            Stage::Close(age) if age < DEAF => Stage::Close(age + 1),
+            Stage::Close(_) if !busy => Stage::Settle,
+            Stage::Settle => self.settle(w),
+            stage => stage,
+        };
+    }
+
+    /// Both motors within the window for some sampling times: the move is over.
+    fn settle(&mut self, w: &Net<Sim>) -> Stage {
+        if !w.enables.w.sample.get() {
+            return Stage::Settle;
+        }
+        let last = self.index + 1 >= self.program.moves.len();
+        // The end is where it is, to the count.
+        let window = if last {
+            0
+        } else {
+            u64::from(self.settings.in_position_counts)
+        };
+        let near = [
+            (w.counts_x.get(), w.position_x.get()),
+            (w.counts_y.get(), w.position_y.get()),
+        ]
+        .iter()
+        .all(|(command, motor)| command.abs_diff(*motor) <= window);
+        self.calm = if near { self.calm + 1 } else { 0 };
+        if self.calm < CALM {
+            return Stage::Settle;
+        }
+        self.calm = 0;
+        let to = self.program.moves.last().map_or([0; 2], |step| step.to);
+        if last && [w.counts_x.get(), w.counts_y.get()] != to {
+            return Stage::Close(0);
+        }
+        self.turn_to(self.index + 1)
+    }
+
+    /// The records of a move may be written: the one before is over.
+    fn turn_to(&mut self, index: usize) -> Stage {
+        self.index = index;
+        match self.program.moves.get(index) {
+            None => Stage::Done,
+            Some(step) => {
+                self.arcs_due += step.arcs();
+                self.profile_due += step.records;
+                Stage::Ready
+            }
+        }
+    }
+}
