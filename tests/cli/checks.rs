@@ -12,8 +12,7 @@ fn a_proof_names_states_and_invariants() {
         .code(0)
         .stderr("")
         .stdout(
-            predicate::str::is_match(r"(?m)^sync_stage +3 +2 +8 +1 +\d+\.\d\d s  proved:$")
-                .unwrap(),
+            predicate::str::is_match(r"(?m)^sync_stage +3 +2 +8 +1 +\d+\.\d\d s  proved$").unwrap(),
         )
         .stdout(predicate::str::contains("low in the tick after RST"));
 }
@@ -22,7 +21,7 @@ fn a_proof_names_states_and_invariants() {
 fn a_width_is_taken_up() {
     let bench = Bench::new();
     let text = bench.succeed(&["check", "unit_time_counter", "--width", "2"]);
-    assert!(text.contains("unit_time_counter        2 "), "{text}");
+    assert!(text.contains("unit_time_counter          2 "), "{text}");
     assert!(bench.names().is_empty(), "a proof writes nothing");
 }
 

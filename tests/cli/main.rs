@@ -1,6 +1,7 @@
 //! The command line: what it prints, writes, refuses and exits with.
 
 mod arc;
+mod check_parts;
 mod checks;
 mod compare;
 mod compare_names;

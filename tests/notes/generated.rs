@@ -7,6 +7,7 @@ use super::{expect_none, miscounts, notes, rotations};
 use motion_rtl::kernel::{Declaration, Format, Kind, MemoryDeclaration, Role};
 use motion_rtl::pulse_interpolator::counts;
 use motion_rtl::registry::{CATALOGUE, Entry, Verdict, find};
+use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::fs;
@@ -193,22 +194,25 @@ fn proofs(patent: &str) -> String {
     let mut text = String::from(
         "| circuit | width | states | transitions | depth | holds |\n|---|---|---|---|---|---|\n",
     );
-    for (entry, width) in of(patent).filter_map(|entry| Some((entry, entry.proof_width?))) {
+    let entries: Vec<_> = of(patent)
+        .filter_map(|entry| Some((entry, entry.proof_width?)))
+        .collect();
+    let rows = entries.into_par_iter().map(|(entry, width)| {
         let circuit = (entry.make)(&[width]).expect("it is made for its proof");
         let verdict = circuit.prove(LIMIT, None, &mut |_| {});
         let Ok(Verdict::Proved(proof)) = verdict else {
             panic!("{} is not proved: {verdict:?}", entry.name);
         };
-        let _ = writeln!(
-            text,
-            "| `{}` | {width} | {} | {} | {} | {} |",
+        format!(
+            "| `{}` | {width} | {} | {} | {} | {} |\n",
             entry.name,
             thousands(proof.states),
             thousands(proof.transitions),
             proof.depth,
             circuit.invariants().join("; ")
-        );
-    }
+        )
+    });
+    text.extend(rows.collect::<Vec<_>>());
     text
 }
 

@@ -15,8 +15,9 @@ use std::path::PathBuf;
 /// What to prove.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// A circuit; without it all.
-    circuit: Option<String>,
+    /// Circuits; without them all.
+    #[arg(value_name = "CIRCUIT")]
+    circuits: Vec<String>,
     /// Width of the words, in bits.
     #[arg(long, value_name = "BITS")]
     width: Option<u64>,
@@ -26,7 +27,7 @@ pub struct Arguments {
         long,
         value_name = "NUMBERS",
         value_delimiter = ',',
-        requires = "circuit"
+        requires = "circuits"
     )]
     with: Vec<u64>,
     /// States after which a proof is given up.
@@ -43,7 +44,7 @@ pub struct Arguments {
         long,
         value_name = "FILES",
         num_args = 1..,
-        conflicts_with_all = ["circuit", "width", "with", "limit", "out", "shard"]
+        conflicts_with_all = ["circuits", "width", "with", "limit", "out", "shard"]
     )]
     merge: Vec<PathBuf>,
     /// Prints the table as JSON.
@@ -67,7 +68,7 @@ pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let report = if arguments.merge.is_empty() {
         let asked = Asked {
-            circuit: arguments.circuit.clone(),
+            circuits: arguments.circuits.clone(),
             width: arguments.width,
             with: arguments.with.clone(),
             limit: arguments.limit,

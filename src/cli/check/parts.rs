@@ -214,7 +214,8 @@ fn told(asked: &Asked) -> String {
         }
     };
     let numbers: Vec<_> = asked.with.iter().map(u64::to_string).collect();
-    add("", asked.circuit.clone());
+    let circuits = asked.circuits.join(" ");
+    add("", (!circuits.is_empty()).then_some(circuits));
     add("--width ", asked.width.map(|width| width.to_string()));
     add("--with ", (!numbers.is_empty()).then(|| numbers.join(",")));
     add("--limit ", Some(asked.limit.to_string()));

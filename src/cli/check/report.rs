@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Asked {
-    pub circuit: Option<String>,
+    pub circuits: Vec<String>,
     pub width: Option<u64>,
     pub with: Vec<u64>,
     pub limit: u32,

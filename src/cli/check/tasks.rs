@@ -31,10 +31,11 @@ impl Task {
 
 /// What was asked for, and the circuits of which nothing can be proved or swept.
 pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
-    let entries: Vec<&Entry> = match &asked.circuit {
-        None => CATALOGUE.iter().collect(),
-        Some(name) => vec![entry(name)?],
-    };
+    let named = asked.circuits.iter().map(|name| entry(name));
+    let mut entries = named.collect::<Result<Vec<_>, _>>()?;
+    if entries.is_empty() {
+        entries.extend(CATALOGUE);
+    }
     let (mut tasks, mut others) = (Vec::new(), Vec::new());
     for entry in entries {
         let before = tasks.len();
@@ -48,16 +49,17 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
             others.push(entry.name.to_owned());
         }
     }
-    if let (Some(name), []) = (&asked.circuit, &tasks[..]) {
+    if !asked.circuits.is_empty()
+        && let Some(name) = others.first()
+    {
         return Err(Failure::Argument {
             field: "CIRCUIT",
             problem: format!("{name} is too wide for a proof by exhaustion"),
             allowed: "its blocks; what is tested of it stands in its note".into(),
         });
     }
-    match asked.width {
-        Some(width) => widths(asked, width, &tasks)?,
-        None => {}
+    if let Some(width) = asked.width {
+        widths(width, &tasks)?;
     }
     for task in &tasks {
         made(task)?;
@@ -65,14 +67,20 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
     Ok((tasks, others))
 }
 
-/// A width that nothing has is refused; that of one circuit's sweep only where it is asked for.
-fn widths(asked: &Asked, width: u64, tasks: &[Task]) -> Result<(), Failure> {
-    let allowed = match (&asked.circuit, tasks) {
-        (Some(_), [Task::Sweep(sweep, _)]) => {
-            let widths: Vec<_> = sweep.widths.iter().map(u64::to_string).collect();
-            (!sweep.widths.contains(&width)).then(|| widths.join(", "))
+/// A width that no proof is made at is refused; where there are sweeps alone, one that none has.
+fn widths(width: u64, tasks: &[Task]) -> Result<(), Failure> {
+    let sweeps = tasks.iter().map(|task| match task {
+        Task::Sweep(sweep, _) => Some(sweep.widths),
+        Task::Proof(..) => None,
+    });
+    let allowed = match sweeps.collect::<Option<Vec<_>>>() {
+        Some(widths) if !widths.concat().contains(&width) => {
+            let widths = widths.concat();
+            let widths: Vec<_> = widths.iter().map(u64::to_string).collect();
+            Some(widths.join(", "))
         }
-        _ => (!WIDTHS.contains(&width)).then(|| format!("{} to {}", WIDTHS.start(), WIDTHS.end())),
+        None if !WIDTHS.contains(&width) => Some(format!("{} to {}", WIDTHS.start(), WIDTHS.end())),
+        _ => None,
     };
     match allowed {
         None => Ok(()),

@@ -38,23 +38,28 @@ impl Bars {
     }
 }
 
-/// The rows of a part of the tasks, in their order: every so-manieth proof, and so much of every
-/// sweep.
+/// The rows of a part of the tasks, in their order. Proofs run side by side, a thread each; then the
+/// sweeps one by one, each on all threads, so that the time of a row is its own.
 pub fn run(tasks: &[Task], shard: Shard, limit: u32, out: &Path) -> Result<Vec<Row>, Failure> {
     let mine = shard.of(tasks);
     let bars = Bars::new(mine.len());
-    let rows: Vec<Result<Row, Failure>> = mine
-        .into_par_iter()
-        .map(|task| {
-            let line = bars.line(task);
-            let row = row(task, shard, limit, out, &line);
-            line.finish_and_clear();
-            bars.all.inc(1);
-            row
-        })
-        .collect();
+    let done = |(index, task): (usize, &Task)| {
+        let line = bars.line(task);
+        let row = row(task, shard, limit, out, &line);
+        line.finish_and_clear();
+        bars.all.inc(1);
+        row.map(|row| (index, row))
+    };
+    let (proofs, sweeps): (Vec<_>, Vec<_>) = mine
+        .into_iter()
+        .enumerate()
+        .partition(|(_, task)| task.kind() == Kind::Proof);
+    let proofs: Vec<_> = proofs.into_par_iter().map(done).collect();
+    let rows = proofs.into_iter().chain(sweeps.into_iter().map(done));
+    let mut rows = rows.collect::<Result<Vec<_>, _>>()?;
     bars.all.finish_and_clear();
-    rows.into_iter().collect()
+    rows.sort_by_key(|(index, _)| *index);
+    Ok(rows.into_iter().map(|(_, row)| row).collect())
 }
 
 fn row(
