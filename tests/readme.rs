@@ -141,6 +141,16 @@ fn every_command_exists() {
                     assert!(checkout.join(file).exists(), "{line}: no {file}");
                 }
             }
+            [
+                "/usr/bin/time",
+                "-v",
+                "target/release/motion-rtl",
+                ref arguments @ ..,
+            ] => {
+                understands(arguments);
+            }
+            // Makes a drawing.
+            ["awk", .., ">", "spiral.hpgl"] => {}
             ["cargo", "test"] | ["cargo", "test", "--features", "cosim"] => {}
             ["cargo", "bench", "--bench", name] => {
                 let named = |bench: &toml::Value| bench["name"].as_str() == Some(name);

@@ -159,9 +159,11 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
                 false => start,
             };
             let window = first..(first + focus.shown).min(ticks.max(first + 1));
+            // First, as both take memory for every word of the circuit's memories.
+            let file = waves.finish().map_err(RunError::Waves)?;
+            self.files.push(file);
             let dump = format!("{}.{}", self.stem, self.format.extension());
             let save = gtkw::save_file(circuit, self.clock, self.options, &dump, window);
-            self.files.push(waves.finish()?);
             self.files.write("gtkw", &save.map_err(io::Error::from)?)?;
         }
         Ok(self.files)

@@ -1,3 +1,7 @@
+//! Dumps in the format of `fstapi.c`, which comes with GTKWave.
+//!
+//! The crate `fst-writer` knows no strings of varying length and takes every value as text.
+
 mod encoder;
 mod header;
 mod section;

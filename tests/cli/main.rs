@@ -7,8 +7,11 @@ mod compare_names;
 mod compare_refusals;
 mod drawings;
 mod files;
+mod fst;
 mod lead_angle;
 mod linear;
+#[cfg(target_os = "linux")]
+mod memory;
 mod refusals;
 mod runs;
 mod scenarios;

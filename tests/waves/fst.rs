@@ -10,9 +10,9 @@ use std::io::{self, Cursor};
 use wellen::VarType;
 
 /// Several sections of the file, none of which ends with a repetition of the inputs.
-const TICKS: u64 = 20_000;
+pub const TICKS: u64 = 20_000;
 
-fn both(ticks: u64, clock: Clock, options: &Options) -> [Vec<u8>; 2] {
+pub fn both(ticks: u64, clock: Clock, options: &Options) -> [Vec<u8>; 2] {
     let mut vcd = Vcd::new(Vec::new(), &Zoo, clock, options).unwrap();
     let mut fst = Fst::new(Cursor::new(Vec::new()), &Zoo, clock, options).unwrap();
     let mut inputs = inputs(SEED);
