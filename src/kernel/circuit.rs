@@ -2,7 +2,10 @@ use super::probe::{Source, supply};
 use super::property::{Moment, Property};
 use super::signals::{Field, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Logic, Sim};
+use std::array::from_fn;
 use std::fmt;
+use std::mem::ManuallyDrop;
+use std::process::abort;
 
 /// A clocked circuit as two pure functions.
 ///
@@ -86,6 +89,17 @@ macro_rules! each {
     };
 }
 
+/// What was made, in an array; all of it was.
+#[inline(always)]
+fn all<T, const K: usize>(made: [Option<T>; K]) -> [T; K] {
+    let mut made = ManuallyDrop::new(made);
+    from_fn(|k| match made[k].take() {
+        Some(one) => one,
+        // A panic would have to drop the others, and for that they would stand in memory.
+        None => abort(),
+    })
+}
+
 /// One circuit inside another: what goes into it and its nets, in one scope.
 pub struct Instance<C: Circuit, L: Logic> {
     /// What the surrounding circuit applies to its ports in.
@@ -119,10 +133,7 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
         each!(k below K {
             made[k] = Some(Self::settle(&circuits[k], &q[k], inputs[k].clone()));
         });
-        made.map(|made| match made {
-            Some(instance) => instance,
-            None => unreachable!("an array has at most {MOST} circuits"),
-        })
+        all(made)
     }
 
     /// The registers of the next tick of an array of circuits.
@@ -132,16 +143,15 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
         circuits: &[C; K],
         q: [C::Reg<L>; K],
     ) -> [C::Reg<L>; K] {
-        let mut registers = q.map(Some);
+        // All are taken out of it, so there is nothing to drop.
+        let mut registers = ManuallyDrop::new(q.into_iter());
+        let mut made = [const { None }; K];
         each!(k below K {
-            if let Some(q) = registers[k].take() {
-                registers[k] = Some(each[k].next(&circuits[k], q));
+            if let Some(q) = registers.next() {
+                made[k] = Some(each[k].next(&circuits[k], q));
             }
         });
-        registers.map(|registers| match registers {
-            Some(q) => q,
-            None => unreachable!("an array has at most {MOST} circuits"),
-        })
+        all(made)
     }
 }
 

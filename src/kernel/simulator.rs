@@ -1,6 +1,7 @@
 use super::reset::reset;
 use super::{Circuit, FastForward, Observer, RunError, Sample};
 use crate::logic::Sim;
+use std::mem::ManuallyDrop;
 use std::ops::ControlFlow;
 
 /// A circuit in the meaning [`Sim`], clocked tick by tick.
@@ -50,11 +51,14 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     ) -> Result<Self, RunError> {
         let Simulator {
             circuit,
-            mut q,
+            q,
             tick: start,
         } = self;
+        // What an unwinding panic had to drop would stand in memory all the time.
+        let mut q = ManuallyDrop::new(q);
         let mut tick = start;
         let end = start.saturating_add(ticks);
+        let mut failed = None;
         while tick < end {
             let i = stimulus(tick, &q);
             let w = circuit.comb(&q, &i);
@@ -63,14 +67,26 @@ impl<'c, C: Circuit> Simulator<'c, C> {
                 i: &i,
                 q: &q,
                 w: &w,
-            })?;
-            q = circuit.next(q, &w, &i);
+            });
+            let flow = match flow {
+                Ok(flow) => flow,
+                Err(error) => {
+                    failed = Some(error);
+                    break;
+                }
+            };
+            q = ManuallyDrop::new(circuit.next(ManuallyDrop::into_inner(q), &w, &i));
             tick += 1;
             if let ControlFlow::Break(()) = flow {
                 break;
             }
         }
-        Ok(Simulator { circuit, q, tick })
+        let q = ManuallyDrop::into_inner(q);
+        let simulator = Simulator { circuit, q, tick };
+        match failed {
+            None => Ok(simulator),
+            Some(error) => Err(error),
+        }
     }
 
     /// Runs like [`run`](Simulator::run), but goes over idle ticks in one.
@@ -152,6 +168,8 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         after: impl FnOnce(&C, C::Reg<Sim>) -> C::Reg<Sim>,
     ) -> (Self, T) {
         let Simulator { circuit, q, tick } = self;
+        // As in `run`.
+        let q = ManuallyDrop::new(q);
         let w = circuit.comb(&q, &i);
         let shown = show(&Sample {
             tick,
@@ -159,7 +177,8 @@ impl<'c, C: Circuit> Simulator<'c, C> {
             q: &q,
             w: &w,
         });
-        let q = after(circuit, circuit.next(q, &w, &i));
+        let q = circuit.next(ManuallyDrop::into_inner(q), &w, &i);
+        let q = after(circuit, q);
         (
             Simulator {
                 circuit,

@@ -108,7 +108,9 @@ impl<const K: usize, const D: usize> ShiftRegister<Sim, K, D> for SimShiftRegist
             return UInt::default();
         }
         let place = self.head + index;
-        self.ring[if place < K { place } else { place - K }]
+        let place = if place < K { place } else { place - K };
+        // Without a panic, as in `Image`.
+        self.ring.get(place).copied().unwrap_or_default()
     }
 
     #[inline(always)]
@@ -121,7 +123,9 @@ impl<const K: usize, const D: usize> ShiftRegister<Sim, K, D> for SimShiftRegist
         self.changed = Changed::None;
         if enable.get() && K > 0 {
             self.head = if self.head == 0 { K - 1 } else { self.head - 1 };
-            self.ring[self.head] = input;
+            if let Some(stage) = self.ring.get_mut(self.head) {
+                *stage = input;
+            }
             self.changed = Changed::All;
         }
         self

@@ -1,0 +1,205 @@
+//! The circuits at the widths of jobs, and what goes into them during the jobs that ship with the
+//! crate.
+
+use super::ours::{Mix, Outputs};
+use super::stimulus::{Recorder, Stimulus};
+use motion_rtl::arc_generator::job::arc_generator;
+use motion_rtl::arc_generator::path::{Speeds, from_drawing, from_points};
+use motion_rtl::arc_generator::prepare::prepare;
+use motion_rtl::arc_generator::record::records;
+use motion_rtl::arc_generator::{self, ArcGenerator};
+use motion_rtl::input::scenario::{Loaded, Scenario};
+use motion_rtl::input::{Drawing, read_path};
+use motion_rtl::kernel::{Sample, Without, zero};
+use motion_rtl::lead_angle::job::{ShiftLead, positioner};
+use motion_rtl::lead_angle::{self, Compensator};
+use motion_rtl::linear_interpolator::job::plotter;
+use motion_rtl::linear_interpolator::targets;
+use motion_rtl::linear_interpolator::{self, Controller, LinearInterpolator};
+use motion_rtl::logic::Sim;
+use motion_rtl::plan::MotionLimits;
+use motion_rtl::plant::TwoMassAxis;
+use motion_rtl::pulse_interpolator::{self, Group, Settings, Variant, compile};
+use motion_rtl::trajectory_controller::{self, job as trajectory};
+use std::path::Path;
+
+/// A circuit and what goes into it.
+pub struct Job<C> {
+    pub circuit: C,
+    pub stimulus: Stimulus,
+}
+
+fn scenario(name: &str) -> Scenario {
+    let waves = Path::new(env!("CARGO_MANIFEST_DIR")).join("waves");
+    let loaded = Loaded::read(&waves.join(name).with_extension("toml"), &[]);
+    loaded.expect("a good scenario").scenario
+}
+
+fn drawing(scenario: &Scenario) -> Drawing {
+    let input = scenario.input().expect("it has an input");
+    read_path(input).expect("a good drawing")
+}
+
+macro_rules! outputs {
+    ([$($generic:tt)*] $circuit:ty: $($port:ident)*) => {
+        impl<$($generic)*> Outputs for $circuit {
+            #[inline(always)]
+            fn outputs(now: &Sample<'_, Self>) -> Mix {
+                Mix::default()$(.with(&now.w.$port))*
+            }
+        }
+    };
+}
+
+outputs!([const AXES: usize] Group<AXES>: step dir unit_rst ready busy);
+
+/// The bracket on two axes.
+pub fn bracket(ticks: u64) -> Job<Group<2>> {
+    let whole = scenario("bracket");
+    let Scenario::PulseInterpolator(scenario) = &whole else {
+        unreachable!("the pulse interpolator's")
+    };
+    let settings = Settings {
+        clock_hz: scenario.clock_hz,
+        steps_per_mm: scenario.steps_per_mm.clone().expect("given"),
+        motion: MotionLimits {
+            feed_mm_per_min: scenario.feed_mm_per_min,
+            rapid_mm_per_min: scenario.rapid_mm_per_min,
+            corner_mm_per_min: scenario.corner_mm_per_min,
+            acceleration_mm_per_s2: scenario.acceleration_mm_per_s2,
+        },
+        line_unit_ticks: scenario.line_unit_ticks,
+        arc_unit_ticks: scenario.arc_unit_ticks.expect("given"),
+        ..Settings::default()
+    };
+    let (table, _) = compile(&drawing(&whole), &settings).expect("it fits");
+    let circuit = pulse_interpolator::job::group(&table, Variant::Safe);
+    let mut recorder = Recorder::new(ticks);
+    pulse_interpolator::job::play(&circuit, &table, &mut recorder).expect("nobody objects");
+    let stimulus = recorder.finish();
+    Job { circuit, stimulus }
+}
+
+/// Eight axes that play a pattern of 64 unit times, each its own, both ways.
+pub fn eight_axes(ticks: u64) -> Job<Group<8>> {
+    const WORDS: u64 = 64;
+    let mut recorder = Recorder::new(ticks);
+    let idle: pulse_interpolator::group::In<Sim, 16, 24, 12> = zero();
+    for (axis, unit) in (0..8).flat_map(|axis| (0..WORDS).map(move |unit| (axis, unit))) {
+        recorder.tick(&pulse_interpolator::group::In {
+            write: true.into(),
+            write_axis: axis.into(),
+            write_address: unit.into(),
+            write_half_period: (10 + (unit * 37 + axis * 101) % 491).into(),
+            write_direction: (unit / 8 % 2 == 1).into(),
+            ..idle.clone()
+        });
+    }
+    recorder.tick(&pulse_interpolator::group::In {
+        command: true.into(),
+        last: (WORDS - 1).into(),
+        cyclic: true.into(),
+        run: true.into(),
+        period: 1000.into(),
+        ..idle.clone()
+    });
+    recorder.tick(&idle);
+    let mut stimulus = recorder.finish();
+    stimulus.ticks = ticks;
+    let circuit = Group::new(Variant::Safe, 1000);
+    Job { circuit, stimulus }
+}
+
+outputs!([] Controller<LinearInterpolator>:
+    scan command_x command_y feedback_x feedback_y reference_x reference_y start load ready busy
+    late refused lost_x lost_y);
+
+/// The plotter's drawing.
+pub fn plotting(ticks: u64) -> Job<Controller<LinearInterpolator>> {
+    let whole = scenario("plotter");
+    let Scenario::LinearInterpolator(scenario) = &whole else {
+        unreachable!("the linear interpolator's")
+    };
+    let settings = scenario.settings();
+    let targets = targets::compile(&drawing(&whole), &settings).expect("it fits");
+    let circuit = plotter(settings.rule);
+    let mut recorder = Recorder::new(ticks);
+    let observer = Without(&mut recorder);
+    linear_interpolator::job::play(&circuit, &targets.targets, &settings, observer)
+        .expect("nobody objects");
+    Job {
+        circuit: circuit.circuit,
+        stimulus: recorder.finish(),
+    }
+}
+
+outputs!([] Compensator<ShiftLead>:
+    ck position predicted target lead_time step busy drive reverse speed fire brake complete
+    timed_out overrun error learned learned_time refused lost);
+
+/// The turntable's positionings.
+pub fn turntable(ticks: u64) -> Job<Compensator<ShiftLead>> {
+    let Scenario::LeadAngle(scenario) = scenario("turntable") else {
+        unreachable!("the lead-angle compensator's")
+    };
+    let settings = scenario.settings();
+    let circuit = positioner::<ShiftLead>(&settings);
+    let mut recorder = Recorder::new(ticks);
+    lead_angle::job::play(&circuit, &settings, Without(&mut recorder)).expect("nobody objects");
+    Job {
+        circuit: circuit.circuit,
+        stimulus: recorder.finish(),
+    }
+}
+
+outputs!([] ArcGenerator: x y z sampled ready busy kind late starved);
+
+/// The weld seam.
+pub fn weld(ticks: u64) -> Job<ArcGenerator> {
+    let Scenario::ArcGenerator(scenario) = scenario("weld") else {
+        unreachable!("the arc generator's")
+    };
+    let (settings, widths) = (scenario.settings(), arc_generator::widths::Widths::FULL);
+    let taught = scenario.taught().expect("it is taught");
+    let pieces = from_points(scenario.start_mm, &taught, Speeds::from(&settings));
+    let timing = settings.timing(&widths).expect("it fits");
+    let prepared = prepare(scenario.start_mm, &pieces.expect("arcs"), &timing).expect("it fits");
+    let (scale, rounding) = (settings.counts_per_mm, settings.rounding);
+    let records = records(&prepared, scale, &widths, rounding).expect("it fits");
+    let sample_ticks = settings.sample_ticks(&widths).expect("it fits");
+    let circuit = arc_generator(rounding);
+    let mut recorder = Recorder::new(ticks);
+    arc_generator::job::play(&circuit, &records, sample_ticks, &mut recorder)
+        .expect("nobody objects");
+    let stimulus = recorder.finish();
+    Job { circuit, stimulus }
+}
+
+outputs!([const AXES: usize] trajectory::Controller<AXES>:
+    torque position ready busy sampled fresh late profile_late starved);
+
+/// The pocket on three axes.
+pub fn pocket(ticks: u64) -> Job<trajectory::Controller<3>> {
+    let whole = scenario("pocket");
+    let Scenario::TrajectoryController(scenario) = &whole else {
+        unreachable!("the trajectory controller's")
+    };
+    let settings = scenario.settings();
+    let drawing = drawing(&whole);
+    let pieces = from_drawing(&drawing, Speeds::from(&settings)).expect("arcs");
+    let machines = scenario.machines(3).expect("three");
+    let widths = trajectory_controller::widths::Widths::FULL;
+    let program = trajectory::Program::of(drawing.start, &pieces, &settings, &machines, &widths);
+    let tick_s = 1.0 / settings.clock_hz as f64;
+    let plants: Vec<_> = machines
+        .iter()
+        .map(|machine| TwoMassAxis::new(machine, tick_s).expect("slow enough"))
+        .collect();
+    let plants = plants.try_into().expect("three");
+    let circuit = trajectory::Controller::new(settings.correction, settings.rounding);
+    let mut recorder = Recorder::new(ticks);
+    trajectory::play(&circuit, &program.expect("it fits"), plants, &mut recorder)
+        .expect("nobody objects");
+    let stimulus = recorder.finish();
+    Job { circuit, stimulus }
+}

@@ -1,0 +1,144 @@
+//! The model beside its own Verilog, compiled by Verilator: nanoseconds a tick, on the same inputs,
+//! with outputs that are compared.
+//!
+//! Both get the inputs of a job that ships with the crate, as they were recorded. They run in turn,
+//! and the medians are shown. Settings are inputs on both sides, so neither folds them. Waves are
+//! those of every signal and of `clk`; words of memories with more than 256 are in ours only.
+//!
+//! `--quick` runs each once over few ticks; a word is looked for in the names of the circuits.
+
+mod jobs;
+mod ours;
+mod stimulus;
+mod theirs;
+
+use jobs::Job;
+use ours::{Outputs, Waves};
+use std::time::Duration;
+use theirs::{Build, Verilated};
+
+/// Outputs that are read now and then are read in every so many ticks.
+const SELDOM: u64 = 1024;
+
+/// Ticks of a run at most, and of one with waves: the jobs' beginnings.
+const UNTRACED: u64 = 1_000_000;
+const TRACED: u64 = 100_000;
+
+/// What is asked for on the command line.
+struct Asked {
+    /// Few ticks, to see that all of it works.
+    quick: bool,
+    /// The circuits whose names contain this.
+    only: Option<String>,
+}
+
+impl Asked {
+    fn rounds(&self) -> usize {
+        if self.quick { 1 } else { 7 }
+    }
+
+    fn ticks(&self, all: u64) -> u64 {
+        if self.quick { all / 50 } else { all }
+    }
+}
+
+/// Nanoseconds a tick of both.
+#[derive(Default)]
+struct Times {
+    theirs: Vec<f64>,
+    ours: Vec<f64>,
+}
+
+/// Of an odd number of times.
+fn median(times: &[f64]) -> f64 {
+    let mut times = times.to_vec();
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+impl Times {
+    /// Runs both in turn.
+    fn measure(
+        asked: &Asked,
+        ticks: u64,
+        mut theirs: impl FnMut() -> (Duration, u64),
+        mut ours: impl FnMut() -> (Duration, u64),
+    ) -> Self {
+        let mut times = Times::default();
+        let each = |taken: Duration| taken.as_secs_f64() * 1e9 / ticks as f64;
+        for _ in 0..asked.rounds() {
+            let ((taken, sum), (their_time, their_sum)) = (ours(), theirs());
+            assert_eq!(their_sum, sum, "the outputs differ");
+            times.ours.push(each(taken));
+            times.theirs.push(each(their_time));
+        }
+        times
+    }
+
+    fn print(&self, circuit: &str, what: &str) {
+        let (theirs, ours) = (median(&self.theirs), median(&self.ours));
+        let ratio = theirs / ours;
+        println!("{circuit:<28} {what:<28} {theirs:>9.1} {ours:>9.1} {ratio:>6.1}");
+    }
+}
+
+/// Measures a circuit: untraced over all of the stimulus, with waves over its beginning.
+fn circuit<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C>) {
+    if asked.only.as_ref().is_some_and(|only| !name.contains(only)) {
+        return;
+    }
+    let Job { circuit, stimulus } = job(asked.ticks(UNTRACED));
+    let (circuit, stimulus) = (&circuit, &stimulus);
+    let directory = tempfile::tempdir().expect("room");
+    let path = directory.path();
+    let build = |what, stimulus, name| Verilated::new(circuit, stimulus, what, &path.join(name));
+    {
+        let mut theirs = build(Build::Untraced, stimulus, "untraced");
+        let run = || ours::run::<C, 1>(circuit, stimulus);
+        let every = Times::measure(asked, stimulus.ticks, || theirs.run(1), run);
+        every.print(name, "every output at every tick");
+        let run = || ours::run::<C, SELDOM>(circuit, stimulus);
+        let seldom = Times::measure(asked, stimulus.ticks, || theirs.run(SELDOM), run);
+        seldom.print(name, "outputs now and then");
+    }
+    let begin = &stimulus.first(asked.ticks(TRACED));
+    let (a, b) = (&path.join("a"), &path.join("b"));
+    let mut theirs = build(Build::Vcd, begin, "vcd");
+    for (waves, what) in [
+        (Waves::Vcd, "VCD, one thread"),
+        (Waves::VcdBehind, "VCD, writer thread"),
+    ] {
+        let run = || ours::dump(circuit, begin, waves, a);
+        let dump = || theirs.dump(b);
+        Times::measure(asked, begin.ticks, dump, run).print(name, what);
+    }
+    let mut theirs = build(Build::Fst, begin, "fst");
+    let run = || ours::dump(circuit, begin, Waves::Fst, a);
+    let dump = || theirs.dump(b);
+    Times::measure(asked, begin.ticks, dump, run).print(name, "FST");
+}
+
+fn main() {
+    let mut asked = Asked {
+        quick: false,
+        only: None,
+    };
+    for argument in std::env::args().skip(1) {
+        match argument.as_str() {
+            "--quick" => asked.quick = true,
+            "--bench" => {}
+            _ => asked.only = Some(argument),
+        }
+    }
+    let asked = &asked;
+    println!(
+        "{:<28} {:<28} {:>9} {:>9} {:>6}",
+        "nanoseconds a tick", "", "Verilator", "ours", "ratio"
+    );
+    circuit(asked, "pulse interpolator, 2 axes", jobs::bracket);
+    circuit(asked, "pulse interpolator, 8 axes", jobs::eight_axes);
+    circuit(asked, "linear interpolator", jobs::plotting);
+    circuit(asked, "lead-angle compensator", jobs::turntable);
+    circuit(asked, "arc generator", jobs::weld);
+    circuit(asked, "trajectory controller", jobs::pocket);
+}

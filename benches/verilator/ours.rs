@@ -1,0 +1,160 @@
+//! The model on a recorded stimulus.
+
+use super::stimulus::{Replay, Stimulus};
+use super::theirs::ROTATION;
+use motion_rtl::kernel::{Circuit, Observer, RunError, Sample, Simulator};
+use motion_rtl::logic::sim::{Int, UInt, Wire};
+use motion_rtl::logic::{Signed, Sim};
+use motion_rtl::trace::{Clock, Fst, Options, Vcd, WriteBehind};
+use std::fs::File;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// A circuit whose outputs can be read.
+pub trait Outputs: Circuit + Sized {
+    /// One word that all of them have a part in, in the order of the ports.
+    fn outputs(now: &Sample<'_, Self>) -> Mix;
+}
+
+/// What the outputs of a tick come to.
+#[derive(Default)]
+pub struct Mix {
+    word: u64,
+    place: u32,
+}
+
+impl Mix {
+    #[inline(always)]
+    pub fn with<P: Port>(self, port: &P) -> Self {
+        port.mix(self)
+    }
+
+    #[inline(always)]
+    fn word(self, word: u64) -> Self {
+        Mix {
+            word: self.word ^ word.rotate_left(self.place),
+            place: (self.place + ROTATION) % 64,
+        }
+    }
+}
+
+/// A port out, or some.
+pub trait Port {
+    fn mix(&self, mix: Mix) -> Mix;
+}
+
+impl Port for Wire {
+    #[inline(always)]
+    fn mix(&self, mix: Mix) -> Mix {
+        mix.word(self.get().into())
+    }
+}
+
+impl<const N: usize> Port for UInt<N> {
+    #[inline(always)]
+    fn mix(&self, mix: Mix) -> Mix {
+        mix.word(self.get())
+    }
+}
+
+impl<const N: usize> Port for Int<N> {
+    #[inline(always)]
+    fn mix(&self, mix: Mix) -> Mix {
+        mix.word(Signed::<Sim, N>::unsigned(*self).get())
+    }
+}
+
+impl<P: Port, const K: usize> Port for [P; K] {
+    #[inline(always)]
+    fn mix(&self, mix: Mix) -> Mix {
+        self.iter().fold(mix, Mix::with)
+    }
+}
+
+/// Reads the outputs of every so many ticks.
+struct Checksum<const EVERY: u64>(u64);
+
+impl<C: Outputs, const EVERY: u64> Observer<C> for Checksum<EVERY> {
+    #[inline(always)]
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        if now.tick.is_multiple_of(EVERY) {
+            self.0 = self.0.rotate_left(1).wrapping_add(C::outputs(now).word);
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+/// A run, and the checksum over the outputs of every so many ticks.
+#[inline(never)]
+pub fn run<C: Outputs, const EVERY: u64>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
+    let mut replay = Replay::<C>::new(stimulus);
+    let mut sum = Checksum::<EVERY>(0);
+    let simulator = Simulator::new(circuit);
+    let begun = Instant::now();
+    let run = simulator.run(stimulus.ticks, |tick, _| replay.tick(tick), &mut sum);
+    let taken = begun.elapsed();
+    drop(run.expect("no observer objects"));
+    (taken, sum.0)
+}
+
+/// Waves of every signal.
+#[derive(Debug, Clone, Copy)]
+pub enum Waves {
+    /// VCD, written by the run itself.
+    Vcd,
+    /// VCD, written by a thread behind the run.
+    VcdBehind,
+    /// FST, which has a thread of its own.
+    Fst,
+}
+
+/// A run with waves, from behind their head to their end, and the checksum.
+pub fn dump<C: Outputs>(
+    circuit: &C,
+    stimulus: &Stimulus,
+    waves: Waves,
+    path: &Path,
+) -> (Duration, u64) {
+    let clock = Clock::from_hz(100_000_000).expect("a good rate");
+    let options = Options::default();
+    let file = File::create(path).expect("a file");
+    match waves {
+        Waves::Vcd => {
+            let mut vcd = Vcd::new(file, circuit, clock, &options).expect("a good circuit");
+            let (begun, sum) = seen(circuit, stimulus, &mut vcd);
+            vcd.finish().expect("room");
+            (begun.elapsed(), sum)
+        }
+        Waves::VcdBehind => {
+            let file = WriteBehind::new(file).expect("a thread");
+            let mut vcd = Vcd::new(file, circuit, clock, &options).expect("a good circuit");
+            let (begun, sum) = seen(circuit, stimulus, &mut vcd);
+            vcd.finish().and_then(WriteBehind::finish).expect("room");
+            (begun.elapsed(), sum)
+        }
+        Waves::Fst => {
+            let mut fst = Fst::new(file, circuit, clock, &options).expect("a good circuit");
+            let (begun, sum) = seen(circuit, stimulus, &mut fst);
+            fst.finish().expect("room");
+            (begun.elapsed(), sum)
+        }
+    }
+}
+
+/// A run with an observer: when it began, and the checksum over the outputs of every tick.
+#[inline(never)]
+fn seen<C: Outputs>(
+    circuit: &C,
+    stimulus: &Stimulus,
+    observer: impl Observer<C>,
+) -> (Instant, u64) {
+    let mut replay = Replay::<C>::new(stimulus);
+    let mut sum = Checksum::<1>(0);
+    let observers = (observer, &mut sum);
+    let simulator = Simulator::new(circuit);
+    let begun = Instant::now();
+    let run = simulator.run(stimulus.ticks, |tick, _| replay.tick(tick), observers);
+    drop(run.expect("room"));
+    (begun, sum.0)
+}
