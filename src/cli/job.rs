@@ -144,6 +144,7 @@ impl Job {
             scenario::Scenario::LeadAngle(_) => Err("lead-angle compensator"),
             scenario::Scenario::ArcGenerator(_) => Err("arc generator"),
             scenario::Scenario::TrajectoryController(_) => Err("trajectory controller"),
+            scenario::Scenario::Machine(_) => Err("machine"),
         };
         let scenario = scenario.map_err(|circuit| {
             let problem = format!("the {circuit} has no table");
@@ -159,7 +160,7 @@ impl Job {
         let settings = settings(scenario, &drawing);
         let spinner = compiling();
         let (table, report) = compile(&drawing, &settings)
-            .map_err(|error| fault(&source.loaded, &drawing, &settings, error))?;
+            .map_err(|error| table_fault(&source.loaded, &drawing, &settings, error))?;
         drop(spinner);
         let Source { loaded, stem, .. } = source;
         Ok(Job {
@@ -246,7 +247,12 @@ fn settings(scenario: &Scenario, drawing: &Drawing) -> Settings {
 }
 
 /// What the compiler objects to, with the file and line it stands in.
-fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TableError) -> Fault {
+pub fn table_fault(
+    loaded: &Loaded,
+    drawing: &Drawing,
+    settings: &Settings,
+    error: TableError,
+) -> Fault {
     let in_drawing = |line, field: String, problem, allowed| {
         drawing_fault(drawing, line, &field, problem, allowed)
     };

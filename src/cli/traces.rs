@@ -37,6 +37,8 @@ pub struct Focus {
     pub before: u64,
     /// Ticks shown.
     pub shown: u64,
+    /// Signals that are shown on top.
+    pub overview: &'static [&'static str],
 }
 
 impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
@@ -89,7 +91,9 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
                 false => start,
             };
             let window = first..(first + focus.shown).min(ticks.max(first + 1));
-            let save = gtkw::save_file(circuit, self.clock, self.options, self.stem, window);
+            let (stem, options) = (self.stem, self.options);
+            let save =
+                gtkw::save_file_with(circuit, self.clock, options, stem, window, focus.overview);
             self.files.push(vcd.finish()?);
             self.files.write("gtkw", &save.map_err(io::Error::from)?)?;
         }

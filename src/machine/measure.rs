@@ -222,12 +222,13 @@ impl Measured {
                     nearest: path.nearest(step.piece, actual),
                 }
             }));
-            pieces[step.piece].servos = servo
-                .farthest(&path, step.piece, frames)
-                .map(|servos| Servos {
-                    ticks: timed.begun..=timed.ended,
-                    ..servos
-                });
+            pieces[step.piece].servos =
+                servo
+                    .farthest(&path, step.piece, frames)
+                    .map(|servos| Servos {
+                        ticks: timed.begun..=timed.ended,
+                        ..servos
+                    });
         }
         let steppers = units.iter().map(|unit| Beside {
             tick: unit.tick,
@@ -334,8 +335,12 @@ fn units(
         let [x, y] = from_fn(|axis| steps[axis] / settings.steps_per_mm[axis]);
         [x, y, height]
     };
-    let begin = played.step_ticks.first().map_or(0, |tick| tick.saturating_sub(unit_ticks));
-    let seen = std::iter::once((&[0; 2], &begin)).chain(played.steps.iter().zip(&played.step_ticks));
+    let begin = played
+        .step_ticks
+        .first()
+        .map_or(0, |tick| tick.saturating_sub(unit_ticks));
+    let seen =
+        std::iter::once((&[0; 2], &begin)).chain(played.steps.iter().zip(&played.step_ticks));
     let units = seen.enumerate().map(|(number, (steps, tick))| {
         let sample = sampler.at(number as f64 * unit_s);
         let [x, y, _] = sample.position;
@@ -485,7 +490,10 @@ impl Servo {
 }
 
 fn ends(drawing: &Drawing, program: &Program, settings: &Settings, played: &Played) -> Ends {
-    let end = program.pieces.last().map_or(drawing.start, |piece| piece.to);
+    let end = program
+        .pieces
+        .last()
+        .map_or(drawing.start, |piece| piece.to);
     let axes = [0, 1];
     let steps = |mm: f64, axis: usize| (mm * settings.steps_per_mm[axis]).round() as i64;
     let counts = |mm: f64| (mm * settings.counts_per_mm).round() as i64;
