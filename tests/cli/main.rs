@@ -9,6 +9,7 @@ mod drawings;
 mod files;
 mod lead_angle;
 mod linear;
+mod machine;
 mod refusals;
 mod runs;
 mod scenarios;

@@ -7,6 +7,9 @@ use motion_rtl::machine::measure::{Ends, Farthest, Measured, PieceMeasured};
 use serde::Serialize;
 use std::ops::RangeInclusive;
 
+/// A point as near is on the path: floating point puts it there.
+const ON_PATH_MM: f64 = 1e-9;
+
 /// A piece of the path by both machines.
 #[derive(Debug, Serialize)]
 pub struct PieceRow {
@@ -41,8 +44,8 @@ pub struct FarthestRow {
     pub um: f64,
     /// The tick.
     pub tick: u64,
-    /// What most of it comes from.
-    pub reason: &'static str,
+    /// What most of it comes from; nothing where it is on the path.
+    pub reason: Option<&'static str>,
     /// How much of it.
     pub share_um: f64,
 }
@@ -52,7 +55,7 @@ impl From<Farthest> for FarthestRow {
         FarthestRow {
             um: farthest.mm * 1e3,
             tick: farthest.tick,
-            reason: farthest.reason.name(),
+            reason: (farthest.mm > ON_PATH_MM).then(|| farthest.reason.name()),
             share_um: farthest.share_mm * 1e3,
         }
     }

@@ -64,7 +64,7 @@ impl Report for Summary {
 fn um(farthest: Option<&FarthestRow>) -> [String; 3] {
     [
         or_dash(farthest.map(|row| fixed(row.um, 1))),
-        or_dash(farthest.map(|row| row.reason)),
+        or_dash(farthest.and_then(|row| row.reason)),
         or_dash(farthest.map(|row| fixed(row.share_um, 1))),
     ]
 }
