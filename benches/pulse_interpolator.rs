@@ -1,9 +1,14 @@
 //! Ticks a second of the pulse interpolator, for groups of 1, 2, 3 and 8 axes that play a pattern
 //! of their own: untraced, with every output read at each tick, and with a dump of every signal.
+//! And for the job that ships with the crate, with drivers that count the pulses: every tick
+//! stepped, and over idle ticks in one.
 
 use divan::counter::ItemsCount;
+use motion_rtl::input::read_text;
+use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::kernel::{Observer, RunError, Sample, Simulator, zero};
-use motion_rtl::pulse_interpolator::{Group, Pattern, Variant};
+use motion_rtl::pulse_interpolator::job::{self, fast_forward, play};
+use motion_rtl::pulse_interpolator::{Group, Pattern, Table, Variant, compile};
 use motion_rtl::trace::{Clock, Options, Vcd};
 use std::io;
 use std::ops::ControlFlow;
@@ -80,6 +85,44 @@ fn dumped<const AXES: usize>(bencher: divan::Bencher<'_, '_>) {
             run(&group, TICKS_DUMPED, &mut vcd);
             vcd.finish().is_ok()
         });
+}
+
+/// The job that ships with the crate, at another clock: unit times last as long as they did.
+fn bracket(times: u32) -> Table {
+    let (scenario, drawing) = (
+        include_str!("../waves/bracket.toml"),
+        include_bytes!("../waves/bracket.ngc"),
+    );
+    let loaded = Loaded::parse("bracket.toml", scenario, &[]).expect("a scenario");
+    let Scenario::PulseInterpolator(mut scenario) = loaded.scenario else {
+        panic!("{:?}", loaded.scenario);
+    };
+    scenario.clock_hz *= u64::from(times);
+    scenario.line_unit_ticks *= times;
+    scenario.arc_unit_ticks = scenario.arc_unit_ticks.map(|ticks| ticks * times);
+    let drawing = read_text("bracket.ngc", drawing).expect("a program");
+    let (table, _) = compile(&drawing, &scenario.settings(&drawing)).expect("a table");
+    table
+}
+
+/// The clock, as a multiple of the 100 kHz of the scenario.
+#[divan::bench(args = [1, 10], sample_count = 10)]
+fn job_stepped(bencher: divan::Bencher<'_, '_>, times: u32) {
+    let table = bracket(times);
+    let group = job::group::<2>(&table, Variant::Safe);
+    bencher
+        .counter(ItemsCount::new(table.total_ticks()))
+        .bench_local(|| play(&group, &table, ()).expect("no observer objects"));
+}
+
+/// The same.
+#[divan::bench(args = [1, 10, 100])]
+fn job_fast_forward(bencher: divan::Bencher<'_, '_>, times: u32) {
+    let table = bracket(times);
+    let group = job::group::<2>(&table, Variant::Safe);
+    bencher
+        .counter(ItemsCount::new(table.total_ticks()))
+        .bench_local(|| fast_forward(&group, &table, ()).expect("no observer objects"));
 }
 
 fn main() {

@@ -1,5 +1,5 @@
 //! What a dump costs a tick: fifty signals of which none or half change, and eight memories of
-//! 4,096 words.
+//! 4,096 words; formatted alone, and into a file as VCD, as VCD with a thread that writes, as FST.
 
 #[path = "../tests/waves/zoo.rs"]
 #[expect(dead_code, reason = "only its part is measured here")]
@@ -9,11 +9,14 @@ use divan::counter::ItemsCount;
 use motion_rtl::kernel::{Circuit, Instance, Observer, Simulator};
 use motion_rtl::logic::{Logic, Ram, Sim, Unsigned};
 use motion_rtl::signals;
-use motion_rtl::trace::{Clock, Options, Vcd};
+use motion_rtl::trace::{Clock, Fst, Options, Vcd, WriteBehind};
+use std::fs::File;
 use std::io;
 use zoo::{Part, PartIn, PartReg};
 
+/// Ticks of a run whose bytes go nowhere, and of one into a file.
 const TICKS: u64 = 20_000;
+const LONG: u64 = 400_000;
 
 signals! { struct BankReg<L> { part: [PartReg<L>; 8] } }
 signals! { struct BankNet<L> { part: [Instance<Part, L>; 8] } }
@@ -72,8 +75,13 @@ impl Circuit for Store {
     }
 }
 
-fn run<C: Circuit>(circuit: &C, i: impl Fn(u64) -> C::In<Sim>, observer: impl Observer<C>) {
-    let run = Simulator::new(circuit).run(TICKS, |tick, _| i(tick), observer);
+fn run<C: Circuit>(
+    circuit: &C,
+    ticks: u64,
+    i: impl Fn(u64) -> C::In<Sim>,
+    observer: impl Observer<C>,
+) {
+    let run = Simulator::new(circuit).run(ticks, |tick, _| i(tick), observer);
     divan::black_box(run.is_ok());
 }
 
@@ -91,9 +99,20 @@ fn store_in(write: bool) -> impl Fn(u64) -> StoreIn<Sim> {
     }
 }
 
+fn clock() -> Clock {
+    Clock::from_hz(50_000_000).expect("a good rate")
+}
+
 fn vcd<C: Circuit, W: io::Write>(circuit: &C, out: W) -> Vcd<C, W> {
-    let clock = Clock::from_hz(50_000_000).expect("a good rate");
-    Vcd::new(out, circuit, clock, &Options::default()).expect("a good circuit")
+    Vcd::new(out, circuit, clock(), &Options::default()).expect("a good circuit")
+}
+
+fn fst<C: Circuit>(circuit: &C, out: File) -> Fst<C, File> {
+    Fst::new(out, circuit, clock(), &Options::default()).expect("a good circuit and a good file")
+}
+
+fn file() -> File {
+    tempfile::tempfile().expect("a file")
 }
 
 fn measure<C: Circuit + Sync>(
@@ -105,7 +124,7 @@ fn measure<C: Circuit + Sync>(
         .counter(ItemsCount::new(TICKS))
         .with_inputs(|| vcd(circuit, io::sink()))
         .bench_local_values(|mut vcd| {
-            run(circuit, &i, &mut vcd);
+            run(circuit, TICKS, &i, &mut vcd);
             vcd.finish().is_ok()
         });
 }
@@ -123,16 +142,54 @@ fn eight_memories(bencher: divan::Bencher<'_, '_>, write: bool) {
     measure(bencher, &Store, store_in(write));
 }
 
-fn bytes_a_tick<C: Circuit>(what: &str, circuit: &C, i: impl Fn(u64) -> C::In<Sim>) {
-    let mut vcd = vcd(circuit, Vec::new());
-    run(circuit, i, &mut vcd);
-    let bytes = vcd.finish().map_or(0, |bytes| bytes.len());
-    println!("{what}: {:.1} bytes a tick", bytes as f64 / TICKS as f64);
+#[divan::bench(args = [0, 1], sample_count = 20, sample_size = 1)]
+fn file_vcd(bencher: divan::Bencher<'_, '_>, step: u64) {
+    bencher
+        .counter(ItemsCount::new(LONG))
+        .with_inputs(|| vcd(&Bank, file()))
+        .bench_local_values(|mut vcd| {
+            run(&Bank, LONG, part_in(step), &mut vcd);
+            vcd.finish().is_ok()
+        });
+}
+
+#[divan::bench(args = [0, 1], sample_count = 20, sample_size = 1)]
+fn file_vcd_thread(bencher: divan::Bencher<'_, '_>, step: u64) {
+    bencher
+        .counter(ItemsCount::new(LONG))
+        .with_inputs(|| vcd(&Bank, WriteBehind::new(file()).expect("a thread")))
+        .bench_local_values(|mut vcd| {
+            run(&Bank, LONG, part_in(step), &mut vcd);
+            vcd.finish().and_then(WriteBehind::finish).is_ok()
+        });
+}
+
+#[divan::bench(args = [0, 1], sample_count = 20, sample_size = 1)]
+fn file_fst(bencher: divan::Bencher<'_, '_>, step: u64) {
+    bencher
+        .counter(ItemsCount::new(LONG))
+        .with_inputs(|| fst(&Bank, file()))
+        .bench_local_values(|mut fst| {
+            run(&Bank, LONG, part_in(step), &mut fst);
+            fst.finish().is_ok()
+        });
+}
+
+fn bytes_a_tick(what: &str, step: u64) {
+    let (mut vcd, mut fst) = (vcd(&Bank, file()), fst(&Bank, file()));
+    run(&Bank, LONG, part_in(step), (&mut vcd, &mut fst));
+    let length = |file: File| file.metadata().map_or(0, |file| file.len());
+    for (format, file) in [("VCD", vcd.finish()), ("FST", fst.finish())] {
+        let bytes = file.map_or(0, length);
+        println!(
+            "{what}: {:.2} bytes a tick of {format}",
+            bytes as f64 / LONG as f64
+        );
+    }
 }
 
 fn main() {
-    bytes_a_tick("fifty signals, step 0", &Bank, part_in(0));
-    bytes_a_tick("fifty signals, step 1", &Bank, part_in(1));
-    bytes_a_tick("eight memories, written", &Store, store_in(true));
+    bytes_a_tick("fifty signals, step 0", 0);
+    bytes_a_tick("fifty signals, step 1", 1);
     divan::main();
 }

@@ -1,8 +1,9 @@
 //! Drawings played on the group with the default word lengths, against the table they came from.
+//! Each is played tick by tick and over idle ticks in one.
 
 use motion_rtl::input::{Drawing, gcode};
 use motion_rtl::plan::MotionLimits;
-use motion_rtl::pulse_interpolator::job::{Played, group, play};
+use motion_rtl::pulse_interpolator::job::{Played, fast_forward, group, play};
 use motion_rtl::pulse_interpolator::{Report, Settings, StepTiming, Table, Variant, compile};
 
 /// Unit times of 40 ticks for lines and 25 for arcs, at 20 kHz.
@@ -29,8 +30,16 @@ fn read(program: &str) -> Drawing {
 
 fn run<const AXES: usize>(program: &str, variant: Variant) -> (Table, Report, Played) {
     let (table, report) = compile(&read(program), &settings(AXES)).expect("it compiles");
-    let played = play(&group::<AXES>(&table, variant), &table, ()).expect("no observer objects");
+    let played = play_twice::<AXES>(&table, variant);
     (table, report, played)
+}
+
+fn play_twice<const AXES: usize>(table: &Table, variant: Variant) -> Played {
+    let group = group::<AXES>(table, variant);
+    let played = play(&group, table, ()).expect("no observer objects");
+    let jumped = fast_forward(&group, table, ()).expect("no observer objects");
+    assert!(played == jumped, "another run without the idle ticks");
+    played
 }
 
 /// Positions at the end of each unit time, by toggling a line tick by tick.
@@ -113,8 +122,7 @@ fn a_pattern_that_comes_too_late_costs_time_and_no_pulse() {
     settings.clock_hz = 100;
     let program = format!("F1200\n{}", "G1 X0.1\nG3 X0 I-0.05\n".repeat(20));
     let (table, report) = compile(&read(&program), &settings).expect("it compiles");
-    let group = group::<2>(&table, Variant::Safe);
-    let played = play(&group, &table, ()).expect("no observer objects");
+    let played = play_twice::<2>(&table, Variant::Safe);
     assert_eq!(played.positions, expected(&table));
     assert!(
         played.idle_units > 0,

@@ -51,17 +51,17 @@ impl Program {
         }
     }
 
-    fn is_last_tick(&self) -> bool {
-        self.elapsed + 1 >= self.period
+    fn is_last_tick(&self, i: &Port) -> bool {
+        i.unit_end.get() || self.elapsed + 1 >= self.period
     }
 
     /// Step, direction; then unit_rst, ready, busy.
-    fn outputs(&self) -> ([(bool, bool); 2], [bool; 3]) {
+    fn outputs(&self, i: &Port) -> ([(bool, bool); 2], [bool; 3]) {
         let lines = self
             .words
             .map(|(n, dir)| (n > 0 && self.elapsed / n % 2 == 1, dir));
         let flags = [
-            self.is_last_tick(),
+            self.is_last_tick(i),
             self.waiting.is_none(),
             self.playing.is_some(),
         ];
@@ -102,7 +102,7 @@ impl Program {
 
     fn tick(&mut self, i: &Port) {
         let was_waiting = self.waiting.is_some();
-        if self.is_last_tick() {
+        if self.is_last_tick(i) {
             self.begin_unit();
         } else {
             self.elapsed += 1;
@@ -143,6 +143,7 @@ fn port() -> impl Strategy<Value = Port> {
             now: now.into(),
             period: period.into(),
             write_period: (act == 1 && set).into(),
+            unit_end: (act == 2 && set && dir).into(),
             write: (act >= 5).into(),
             write_axis: axis.into(),
             write_address: address.into(),
@@ -164,7 +165,7 @@ proptest! {
         let mut program = Program::new(period);
         let mut expected = Vec::new();
         for port in &ports {
-            expected.push(program.outputs());
+            expected.push(program.outputs(port));
             program.tick(port);
         }
         let mut seen = Vec::new();

@@ -134,6 +134,14 @@ fn every_circuit_is_made_at_its_widths_and_no_other() {
 const FAR: &[(&str, u32)] = &[
     ("enable_counter.count", 11),
     ("enable_counter.next", 11),
+    ("enables.unit_counter.count", 11),
+    ("enables.unit_counter.next", 11),
+    ("enables.scan_counter.count", 11),
+    ("enables.scan_counter.next", 11),
+    ("enables.ck_counter.count", 11),
+    ("enables.ck_counter.next", 11),
+    ("enables.sample_counter.count", 11),
+    ("enables.sample_counter.next", 11),
     ("unit_time_counter.count", 11),
     ("unit_time_counter.next", 11),
     ("pulse_generator.count", 9),
@@ -357,6 +365,7 @@ const JOBS: &[&str] = &[
     "servo",
     "controlled_axis",
     "trajectory_controller",
+    "machine",
 ];
 
 #[test]

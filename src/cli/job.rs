@@ -5,13 +5,11 @@ use super::shipped::{self, SHIPPED, Shipped};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
-use motion_rtl::input::scenario::pulse_interpolator::{Scenario, VariantName};
+use motion_rtl::input::scenario::pulse_interpolator::VariantName;
 use motion_rtl::input::scenario::{self, BARE, BARE_LOG, Loaded};
 use motion_rtl::input::{Drawing, Fault, read_path};
-use motion_rtl::plan::{FEED_RANGE, MotionLimits, PlanError};
-use motion_rtl::pulse_interpolator::{
-    Report, Settings, StepTiming, Table, TableError, Variant, compile,
-};
+use motion_rtl::plan::{FEED_RANGE, PlanError};
+use motion_rtl::pulse_interpolator::{Report, Settings, Table, TableError, Variant, compile};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -157,7 +155,7 @@ impl Job {
             VariantName::Literal => Variant::Literal,
         };
         let vcd_ticks = scenario.vcd_ticks;
-        let settings = settings(scenario, &drawing);
+        let settings = scenario.settings(&drawing);
         let spinner = compiling();
         let (table, report) = compile(&drawing, &settings)
             .map_err(|error| table_fault(&source.loaded, &drawing, &settings, error))?;
@@ -216,34 +214,6 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
         return Err(loaded.fault("vcd_ticks", "is 0".to_owned(), allowed));
     }
     Ok((loaded, origin, path.to_owned()))
-}
-
-fn settings(scenario: &Scenario, drawing: &Drawing) -> Settings {
-    let moves_in_z = drawing
-        .moves
-        .iter()
-        .any(|step| step.to[2] != drawing.start[2]);
-    let axes = if moves_in_z { 3 } else { 2 };
-    let steps_per_mm = scenario.steps_per_mm.clone();
-    Settings {
-        clock_hz: scenario.clock_hz,
-        steps_per_mm: steps_per_mm.unwrap_or_else(|| vec![80.0; axes]),
-        motion: MotionLimits {
-            feed_mm_per_min: scenario.feed_mm_per_min,
-            rapid_mm_per_min: scenario.rapid_mm_per_min,
-            corner_mm_per_min: scenario.corner_mm_per_min,
-            acceleration_mm_per_s2: scenario.acceleration_mm_per_s2,
-        },
-        line_unit_ticks: scenario.line_unit_ticks,
-        arc_unit_ticks: scenario.arc_unit_ticks.unwrap_or(scenario.line_unit_ticks),
-        timing: StepTiming {
-            min_high: scenario.step_high_ticks,
-            min_low: scenario.step_low_ticks,
-            dir_setup: scenario.dir_setup_ticks,
-            dir_hold: scenario.dir_hold_ticks,
-        },
-        ..Settings::default()
-    }
 }
 
 /// What the compiler objects to, with the file and line it stands in.

@@ -2,7 +2,7 @@
 
 use super::job::Job;
 use motion_rtl::input::{Course, Move, Point};
-use motion_rtl::picture::{Curve, Panel, Picture};
+use motion_rtl::picture::{Curve, Panel, Picture, Points};
 use motion_rtl::plan::{Plan, PlanError};
 use motion_rtl::pulse_interpolator::job::Played;
 use motion_rtl::pulse_interpolator::{AXIS_NAMES, FollowingError};
@@ -16,7 +16,7 @@ pub struct Following {
     /// The largest of each axis, X first.
     pub largest: Vec<FollowingError>,
     /// Time in seconds and error in steps, for each axis.
-    curves: Vec<Vec<(f64, f64)>>,
+    curves: Vec<Points>,
     /// Of every unit time, whether a rapid move was under way at its end.
     rapid: Vec<bool>,
 }
@@ -31,7 +31,7 @@ impl Following {
         let mut sampler = plan.sampler();
         let axes = job.report.axes.len();
         let mut largest = vec![FollowingError::default(); axes];
-        let mut curves = vec![Vec::with_capacity(job.table.units()); axes];
+        let mut curves = vec![Points::expecting(job.table.units()); axes];
         let mut rapid = Vec::with_capacity(job.table.units());
         let mut ticks = 0;
         let units = job.table.iter().zip(played.positions.chunks_exact(axes));
@@ -71,36 +71,42 @@ pub fn draw(job: &Job, played: &Played, following: &Following) -> String {
     let path = Panel::new("path", "x in mm", "y in mm")
         .equal_scales()
         .curve(
-            Curve::new("as commanded", drawn)
+            Curve::thinned("as commanded", drawn)
                 .colour("#f0c9a0")
                 .width(5.0),
         )
         .curve(
-            Curve::new("rapid, as commanded", rapid)
+            Curve::thinned("rapid, as commanded", rapid)
                 .colour("#e8e8e8")
                 .width(3.0),
         )
         .curve(
-            Curve::new("rapid, as pulsed", pulsed_rapid)
+            Curve::thinned("rapid, as pulsed", pulsed_rapid)
                 .colour("#9a9a9a")
                 .width(0.7)
                 .dashed(),
         )
-        .curve(Curve::new("as pulsed", pulsed).colour("#0072b2"));
+        .curve(Curve::thinned("as pulsed", pulsed).colour("#0072b2"));
     let picture = Picture::new(format!("{}: pulse interpolator", job.stem)).panel(path);
     let curves = following.curves.iter().zip(AXIS_NAMES);
     curves
         .fold(picture, |picture, (curve, name)| {
             let title = format!("following error of {name} at the end of each unit time");
             let panel = Panel::new(title, "time in s", "error in steps");
-            picture.panel(panel.curve(Curve::new(name, curve.clone()).colour("#0072b2").width(0.6)))
+            picture.panel(
+                panel.curve(
+                    Curve::thinned(name, curve.clone())
+                        .colour("#0072b2")
+                        .width(0.6),
+                ),
+            )
         })
         .render()
 }
 
 /// Where the pulses took the axes at the end of each unit time, in millimetres: on moves that
 /// draw, and on rapid ones.
-fn pulsed(job: &Job, played: &Played, rapid: &[bool]) -> (Strokes, Strokes) {
+fn pulsed(job: &Job, played: &Played, rapid: &[bool]) -> (Points, Points) {
     let axes = job.report.axes.len();
     let coordinate = |axis: usize, position: i32| {
         let steps = f64::from(job.report.axes[axis].start_position) + f64::from(position);
@@ -110,47 +116,74 @@ fn pulsed(job: &Job, played: &Played, rapid: &[bool]) -> (Strokes, Strokes) {
         let y = unit.get(1).map_or(0.0, |y| coordinate(1, *y));
         (coordinate(0, unit[0]), y)
     };
-    let mut strokes = Pair::default();
+    let mut strokes = Pair::expecting(rapid.len());
     let mut at = point(&vec![0; axes]);
     for (unit, rapid) in played.positions.chunks_exact(axes).zip(rapid) {
         let to = point(unit);
         strokes.of(*rapid, at).push(to);
         at = to;
     }
-    (strokes.drawn, strokes.rapid)
+    (strokes.drawn.points, strokes.rapid.points)
 }
 
 /// A curve with gaps.
-type Strokes = Vec<(f64, f64)>;
+#[derive(Debug)]
+struct Strokes {
+    points: Points,
+    /// Interrupted, or not begun.
+    up: bool,
+}
+
+impl Strokes {
+    fn push(&mut self, point: (f64, f64)) {
+        self.points.push(point);
+        self.up = false;
+    }
+}
 
 /// Strokes that draw and strokes that do not, one going on where the other stops.
-#[derive(Default)]
 struct Pair {
     drawn: Strokes,
     rapid: Strokes,
 }
 
 impl Pair {
+    /// None yet; there will be about so many points.
+    fn expecting(count: usize) -> Self {
+        let strokes = || Strokes {
+            points: Points::expecting(count),
+            up: true,
+        };
+        Pair {
+            drawn: strokes(),
+            rapid: strokes(),
+        }
+    }
+
     /// The strokes of one kind, which go on at `at`; the other kind is interrupted.
     fn of(&mut self, rapid: bool, at: (f64, f64)) -> &mut Strokes {
         let (to, other) = match rapid {
             true => (&mut self.rapid, &mut self.drawn),
             false => (&mut self.drawn, &mut self.rapid),
         };
-        let gap = (f64::NAN, f64::NAN);
-        if to.last().is_none_or(|point| point.0.is_nan()) {
+        if to.up {
             to.push(at);
         }
-        if other.last().is_some_and(|point| !point.0.is_nan()) {
-            other.push(gap);
+        if !other.up {
+            other.push((f64::NAN, f64::NAN));
+            other.up = true;
         }
         to
     }
 }
 
 /// The moves that draw and those that do not.
-fn commanded(job: &Job) -> (Strokes, Strokes) {
-    let mut strokes = Pair::default();
+fn commanded(job: &Job) -> (Points, Points) {
+    let points = job.drawing.moves.iter().map(|step| match step.course {
+        Course::Line => 1,
+        Course::Arc { .. } => CHORDS as usize,
+    });
+    let mut strokes = Pair::expecting(points.sum());
     let mut at = job.drawing.start;
     for step in &job.drawing.moves {
         let to = strokes.of(step.rapid, (at[0], at[1]));
@@ -160,7 +193,7 @@ fn commanded(job: &Job) -> (Strokes, Strokes) {
         }
         at = step.to;
     }
-    (strokes.drawn, strokes.rapid)
+    (strokes.drawn.points, strokes.rapid.points)
 }
 
 fn chords(to: &mut Strokes, from: Point, step: &Move, centre: [f64; 2], clockwise: bool) {

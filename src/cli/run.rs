@@ -4,13 +4,13 @@ use super::files::Files;
 use super::job::{Input, Job, Source};
 use super::picture::{Following, draw};
 use super::summary::Summary;
-use super::traces::{Focus, Traces, conclude, no_such_tick};
+use super::traces::{Focus, Format, Traces, conclude, no_such_tick};
 use super::{Failure, arc, lead_angle, linear, machine, trajectory};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
-use motion_rtl::pulse_interpolator::job::{Played, group, play};
+use motion_rtl::pulse_interpolator::job::{Played, fast_forward, group, play};
 use motion_rtl::trace::{Clock, Options};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -28,16 +28,19 @@ pub struct Arguments {
     /// Where the files go.
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
-    /// Writes no VCD and no save file.
-    #[arg(long, conflicts_with_all = ["from", "to", "only"])]
+    /// The format of the waves.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
+    pub(super) format: Format,
+    /// Writes no waves and no save file.
+    #[arg(long, conflicts_with_all = ["format", "from", "to", "only"])]
     pub(super) no_vcd: bool,
-    /// First tick in the VCD.
+    /// First tick in the waves.
     #[arg(long, value_name = "TICK")]
     pub(super) from: Option<u64>,
-    /// First tick that is no more in the VCD.
+    /// First tick that is no more in the waves.
     #[arg(long, value_name = "TICK")]
     pub(super) to: Option<u64>,
-    /// A scope or signal in the VCD, as `pulse_interpolator.x`; repeated for more. Without it all.
+    /// A scope or signal in the waves, as `pulse_interpolator.x`; repeated for more. Without it all.
     #[arg(long, value_name = "SCOPE")]
     pub(super) only: Vec<String>,
     /// Writes the circuit as Verilog too, with a testbench and the run's inputs as its stimulus.
@@ -137,10 +140,10 @@ fn simulate<const AXES: usize>(
     // Two calls, so that a run without waves is compiled without a trace of them.
     let played = match traces.is_empty() {
         false => {
-            let files = (traces.vcd.as_mut(), traces.stimulus.as_mut());
+            let files = (traces.waves.as_mut(), traces.stimulus.as_mut());
             play(&group, &job.table, (files, &mut progress))
         }
-        true => play(&group, &job.table, &mut progress),
+        true => fast_forward(&group, &job.table, &mut progress),
     }?;
     drop(progress);
     let unit = u64::from(job.table.patterns().first().map_or(1, |first| first.period));
@@ -181,6 +184,8 @@ pub(super) fn clock(
 /// A bar on standard error, where that is a terminal.
 pub(super) struct Progress {
     bar: ProgressBar,
+    /// The tick at which it is looked at again.
+    due: u64,
 }
 
 impl Progress {
@@ -191,15 +196,16 @@ impl Progress {
         if let Ok(style) = style {
             bar.set_style(style);
         }
-        Progress { bar }
+        Progress { bar, due: 0 }
     }
 }
 
 impl<C: Circuit> Observer<C> for Progress {
     #[inline]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if now.tick.is_multiple_of(PROGRESS) {
+        if now.tick >= self.due {
             self.bar.set_position(now.tick);
+            self.due = now.tick + PROGRESS;
         }
         Ok(ControlFlow::Continue(()))
     }

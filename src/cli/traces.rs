@@ -4,29 +4,97 @@
 use super::files::Files;
 use super::run::{Arguments, clock};
 use super::{Failure, print, print_json};
+use clap::ValueEnum;
 use motion_rtl::input::scenario::Loaded;
-use motion_rtl::kernel::Circuit;
+use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
 use motion_rtl::trace::atomic::AtomicFile;
-use motion_rtl::trace::{Clock, LayoutError, Options, StimulusFile, Vcd, gtkw};
+use motion_rtl::trace::{Clock, Fst, LayoutError, Options, StimulusFile, Vcd, WriteBehind, gtkw};
 use motion_rtl::verilog::Verilog;
 use serde::Serialize;
 use std::fmt;
 use std::io::{self, Write as _};
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::path::Path;
 
 /// The files of a run of `C`, whose Verilog is that of `V`: the same, or what stands in it without
 /// its plant.
 pub struct Traces<'a, C: Circuit, V: Circuit> {
     stem: &'a str,
+    format: Format,
     options: &'a Options,
     clock: Clock,
     /// Every signal at every tick.
-    pub vcd: Option<Vcd<C, AtomicFile>>,
+    pub waves: Option<Waves<C>>,
     /// The inputs.
     pub stimulus: Option<StimulusFile<V, AtomicFile>>,
     // Last, as their directory can go only when the files above are gone.
     files: Files,
+}
+
+/// A format of waves.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Text that every waveform viewer reads.
+    #[default]
+    Vcd,
+    /// GTKWave's own, some thirty times smaller.
+    Fst,
+}
+
+impl Format {
+    fn extension(self) -> &'static str {
+        match self {
+            Format::Vcd => "vcd",
+            Format::Fst => "fst",
+        }
+    }
+}
+
+/// The waves under way, in either format; a thread writes the file.
+pub enum Waves<C> {
+    Vcd(Vcd<C, WriteBehind<AtomicFile>>),
+    Fst(Fst<C, AtomicFile>),
+}
+
+impl<C: Circuit> Waves<C> {
+    fn begin(
+        file: AtomicFile,
+        format: Format,
+        circuit: &C,
+        clock: Clock,
+        options: &Options,
+    ) -> Result<Self, Failure> {
+        let refuse = |error: io::Error| match error.downcast::<LayoutError>() {
+            Ok(error) => not_selected(&error),
+            Err(error) => error.into(),
+        };
+        let waves = match format {
+            Format::Vcd => {
+                let file = WriteBehind::new(file)?;
+                let vcd = Vcd::new(file, circuit, clock, options).map_err(io::Error::from);
+                vcd.map(Waves::Vcd)
+            }
+            Format::Fst => Fst::new(file, circuit, clock, options).map(Waves::Fst),
+        };
+        waves.map_err(refuse)
+    }
+
+    fn finish(self) -> io::Result<AtomicFile> {
+        match self {
+            Waves::Vcd(vcd) => vcd.finish()?.finish(),
+            Waves::Fst(fst) => fst.finish(),
+        }
+    }
+}
+
+impl<C: Circuit> Observer<C> for Waves<C> {
+    #[inline]
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        match self {
+            Waves::Vcd(vcd) => vcd.sample(now),
+            Waves::Fst(fst) => fst.sample(now),
+        }
+    }
 }
 
 /// What the save file's window shows.
@@ -53,11 +121,12 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
         let clock = clock(arguments, loaded, ticks, options)?;
         let directory = arguments.out.as_deref().unwrap_or(Path::new("waves"));
         let mut files = Files::begin(directory, stem)?;
-        let vcd = match arguments.no_vcd {
+        let format = arguments.format;
+        let waves = match arguments.no_vcd {
             true => None,
             false => {
-                let dump = Vcd::new(files.create("vcd")?, circuit, clock, options);
-                Some(dump.map_err(|error| not_selected(&error))?)
+                let file = files.create(format.extension())?;
+                Some(Waves::begin(file, format, circuit, clock, options)?)
             }
         };
         let stimulus = match arguments.verilog {
@@ -66,17 +135,18 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
         };
         Ok(Traces {
             stem,
+            format,
             options,
             clock,
             files,
-            vcd,
+            waves,
             stimulus,
         })
     }
 
     /// Whether nothing of the run is written: it is compiled without a trace of the files then.
     pub fn is_empty(&self) -> bool {
-        self.vcd.is_none() && self.stimulus.is_none()
+        self.waves.is_none() && self.stimulus.is_none()
     }
 
     /// Closes them after so many ticks, and writes the save file.
@@ -84,17 +154,18 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
         if let Some(stimulus) = self.stimulus {
             self.files.push(stimulus.finish()?);
         }
-        if let Some(vcd) = self.vcd {
+        if let Some(waves) = self.waves {
             let Range { start, end } = self.options.ticks;
             let first = match focus.action < end {
                 true => focus.action.saturating_sub(focus.before).max(start),
                 false => start,
             };
             let window = first..(first + focus.shown).min(ticks.max(first + 1));
-            let (stem, options) = (self.stem, self.options);
+            let dump = format!("{}.{}", self.stem, self.format.extension());
+            let options = self.options;
             let save =
-                gtkw::save_file_with(circuit, self.clock, options, stem, window, focus.overview);
-            self.files.push(vcd.finish()?);
+                gtkw::save_file_with(circuit, self.clock, options, &dump, window, focus.overview);
+            self.files.push(waves.finish().map_err(RunError::Waves)?);
             self.files.write("gtkw", &save.map_err(io::Error::from)?)?;
         }
         Ok(self.files)

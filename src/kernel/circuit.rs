@@ -68,6 +68,24 @@ pub(super) fn settled<C: Circuit>(circuit: &C, q: &C::Reg<Sim>, i: &C::In<Sim>) 
     circuit.comb(q, i)
 }
 
+/// The most circuits of one array.
+const MOST: usize = 8;
+
+/// Does something for each index of an array. Written out and not as a closure, which the compiler
+/// would call and hand the registers to through memory.
+macro_rules! each {
+    ($k:ident below $len:ident $do:block) => {
+        const { assert!($len <= MOST, "an array has at most 8 circuits") };
+        each!(@ $k $len $do: 0 1 2 3 4 5 6 7)
+    };
+    (@ $k:ident $len:ident $do:block: $($index:literal)*) => {
+        $(if const { $index < $len } {
+            let $k = $index;
+            $do
+        })*
+    };
+}
+
 /// One circuit inside another: what goes into it and its nets, in one scope.
 pub struct Instance<C: Circuit, L: Logic> {
     /// What the surrounding circuit applies to its ports in.
@@ -88,6 +106,42 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
     #[inline(always)]
     pub fn next(&self, circuit: &C, q: C::Reg<L>) -> C::Reg<L> {
         L::clock(circuit, q, &self.w, &self.i)
+    }
+
+    /// The same for an array of circuits: applies `inputs` and settles the nets.
+    #[inline(always)]
+    pub fn settle_each<const K: usize>(
+        circuits: &[C; K],
+        q: &[C::Reg<L>; K],
+        inputs: [C::In<L>; K],
+    ) -> [Self; K] {
+        let mut made = [const { None }; K];
+        each!(k below K {
+            made[k] = Some(Self::settle(&circuits[k], &q[k], inputs[k].clone()));
+        });
+        made.map(|made| match made {
+            Some(instance) => instance,
+            None => unreachable!("an array has at most {MOST} circuits"),
+        })
+    }
+
+    /// The registers of the next tick of an array of circuits.
+    #[inline(always)]
+    pub fn next_each<const K: usize>(
+        each: &[Self; K],
+        circuits: &[C; K],
+        q: [C::Reg<L>; K],
+    ) -> [C::Reg<L>; K] {
+        let mut registers = q.map(Some);
+        each!(k below K {
+            if let Some(q) = registers[k].take() {
+                registers[k] = Some(each[k].next(&circuits[k], q));
+            }
+        });
+        registers.map(|registers| match registers {
+            Some(q) => q,
+            None => unreachable!("an array has at most {MOST} circuits"),
+        })
     }
 }
 

@@ -2,6 +2,7 @@ use super::Circuit;
 use super::probe::{Probe, Words};
 use super::running::{Machine, Running};
 use super::signals::{Field, Kind, Role, Shape};
+use std::sync::Arc;
 
 /// Where a walk is: the scopes around the next leaf and the part of the circuit it belongs to.
 ///
@@ -66,8 +67,8 @@ impl Path {
 /// One leaf of a walk, without its value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Declaration {
-    /// The scopes around it, outermost first.
-    pub scopes: Vec<String>,
+    /// The scopes around it, outermost first; words of a memory share them.
+    pub scopes: Arc<[String]>,
     /// Its name in the innermost scope.
     pub name: String,
     /// Port in, register or net.
@@ -152,7 +153,7 @@ impl Declarations {
             (memory.first..memory.first + memory.words).contains(&index)
         };
         let of_a_block = |other: &Declaration| {
-            other.role != Role::Register && other.scopes.starts_with(&leaf.scopes)
+            other.role != Role::Register && other.scopes.starts_with(&leaf.scopes[..])
         };
         leaf.role == Role::Register
             && !self.memories.iter().any(is_word)
@@ -172,8 +173,12 @@ impl Probe for Declarations {
     }
     fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64) {
         let name = self.path.name(field);
+        let scopes = match self.leaves.last() {
+            Some(last) if *last.scopes == *self.path.scopes() => last.scopes.clone(),
+            _ => self.path.scopes().into(),
+        };
         self.leaves.push(Declaration {
-            scopes: self.path.scopes().to_vec(),
+            scopes,
             name,
             role: self.path.role(),
             shape,

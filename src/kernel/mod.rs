@@ -4,6 +4,7 @@
 mod beside;
 mod circuit;
 mod declare;
+mod fast_forward;
 mod macros;
 mod observe;
 mod pack;
@@ -19,6 +20,7 @@ mod tests;
 pub use beside::{Beside, With, WithIn, Without};
 pub use circuit::{Circuit, Instance};
 pub use declare::{Declaration, Declarations, MemoryDeclaration, Path};
+pub use fast_forward::FastForward;
 pub use observe::{Observer, RunError, Sample, StopWhen};
 pub use pack::{Bits, pack, unpack, width, zero};
 pub use probe::{Changed, Probe, Source, Words};

@@ -1,4 +1,4 @@
-use super::probe::{Probe, Source, supply};
+use super::probe::{Probe, Source, part, supply};
 use super::signals::{Field, Role, Shape, Signals};
 use crate::logic::Sim;
 use bitvec::prelude::*;
@@ -47,9 +47,10 @@ pub fn width<S: Signals<Sim>>() -> usize {
     counter.0
 }
 
-/// A bundle with every bit low.
+/// A bundle with every bit low. It is what a control computer mostly gives, so it is made in place.
+#[inline]
 pub fn zero<S: Signals<Sim>>() -> S {
-    supply(Role::Input, &mut Zero)
+    S::make(part(Role::Input), &mut Zero)
 }
 
 struct Zero;

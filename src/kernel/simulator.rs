@@ -1,5 +1,5 @@
 use super::reset::reset;
-use super::{Circuit, Observer, RunError, Sample};
+use super::{Circuit, FastForward, Observer, RunError, Sample};
 use crate::logic::Sim;
 use std::ops::ControlFlow;
 
@@ -67,6 +67,54 @@ impl<'c, C: Circuit> Simulator<'c, C> {
             q = circuit.next(q, &w, &i);
             tick += 1;
             if let ControlFlow::Break(()) = flow {
+                break;
+            }
+        }
+        Ok(Simulator { circuit, q, tick })
+    }
+
+    /// Runs like [`run`](Simulator::run), but goes over idle ticks in one.
+    ///
+    /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it would
+    /// give the same if they were idle. `observer` sees every tick that is not idle and the one
+    /// after it, so every change of a port out in its tick. It does not see every value of a
+    /// counter.
+    ///
+    /// # Errors
+    /// The first error of an observer; the run is over then.
+    pub fn fast_forward(
+        self,
+        ticks: u64,
+        mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> (C::In<Sim>, u64),
+        mut observer: impl Observer<C>,
+    ) -> Result<Self, RunError>
+    where
+        C: FastForward,
+    {
+        let Simulator {
+            circuit,
+            mut q,
+            mut tick,
+        } = self;
+        let end = tick.saturating_add(ticks);
+        while tick < end {
+            let (i, held) = stimulus(tick, &q);
+            let w = circuit.comb(&q, &i);
+            let flow = observer.sample(&Sample {
+                tick,
+                i: &i,
+                q: &q,
+                w: &w,
+            })?;
+            let idle = circuit.idle(&q, &i).min(held).min(end - tick);
+            if idle == 0 || flow.is_break() {
+                q = circuit.next(q, &w, &i);
+                tick += 1;
+            } else {
+                circuit.forward(&mut q, idle);
+                tick += idle;
+            }
+            if flow.is_break() {
                 break;
             }
         }

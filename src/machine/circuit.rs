@@ -15,12 +15,15 @@ use crate::kernel::{Circuit, Instance};
 use crate::lead_angle::job::RamLead;
 use crate::lead_angle::{Compensator, compensator};
 use crate::linear_interpolator::{LinearInterpolator, interpolator};
-use crate::logic::{Logic, Sim};
+use crate::logic::{Logic, Signed, Sim};
 use crate::pulse_interpolator::group;
 use crate::pulse_interpolator::job::JobGroup;
 use crate::signals;
 use crate::trajectory_controller::controller;
 use crate::trajectory_controller::job::Controller;
+
+/// Bits behind the count in the trajectory controller.
+const GUARD: usize = 16;
 
 /// Pulse interpolator of the steppers.
 pub type Pulse = JobGroup<2>;
@@ -29,7 +32,7 @@ pub type Trajectory = Controller<2, 8, 12>;
 /// Lead-angle compensator of the pen lift.
 pub type Lift = Compensator<RamLead>;
 /// Lines and arcs as one command.
-pub type Join = CommandJoin<32, 24, 47, 16>;
+pub type Join = CommandJoin<32, 24>;
 
 signals! {
     /// Ports in: the control computer, the encoders.
@@ -260,7 +263,8 @@ impl Circuit for Machine {
                 inertia: of.inertia,
                 limit: of.limit,
                 given: true.into(),
-                given_command: [q.command_join.x, q.command_join.y],
+                given_command: [q.command_join.x, q.command_join.y]
+                    .map(|counts| counts.resize().shift_left(GUARD)),
                 a: of.a,
                 b: of.b,
             },
@@ -294,9 +298,9 @@ impl Circuit for Machine {
         );
         let [torque_x, torque_y] = trajectory.w.torque;
         let [position_x, position_y] = trajectory.w.position;
-        let [axis_x, axis_y] = &trajectory.w.axes;
+        let [lost_x, lost_y] = trajectory.w.lost;
         let late = lines.w.late | arcs.w.late | trajectory.w.late | trajectory.w.profile_late;
-        let lost = axis_x.w.lost | axis_y.w.lost | lift.w.lost;
+        let lost = lost_x | lost_y | lift.w.lost;
         Net {
             step_x: pulse.w.step[0],
             step_y: pulse.w.step[1],

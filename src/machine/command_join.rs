@@ -35,41 +35,38 @@ signals! {
 
 signals! {
     /// Flip-flops.
-    pub struct Reg<L, const P: usize> {
-        /// Position command of X in 2^-`G` counts.
-        pub x: L::I<P> as Analog = 0,
+    pub struct Reg<L, const W: usize> {
+        /// Position command of X in counts.
+        pub x: L::I<W> as Analog = 0,
         /// Position command of Y.
-        pub y: L::I<P> as Analog = 0,
+        pub y: L::I<W> as Analog = 0,
     }
 }
 
 signals! {
     /// Nets.
     pub struct Net<L, const W: usize> {
-        /// Position command of X in counts.
+        /// Both ways together, X, as they stand.
         pub counts_x: L::I<W> as Analog,
-        /// Position command of Y.
+        /// Y.
         pub counts_y: L::I<W> as Analog,
     }
 }
 
-/// Join of ways of `W` and `V` bits to commands of `P` bits, `G` of them behind the count. A
-/// command shows one tick after `take`.
+/// Join of ways of `W` and `V` bits to commands of `W` bits. A command shows one tick after `take`.
 #[derive(Debug, Clone, Default)]
-pub struct CommandJoin<const W: usize, const V: usize, const P: usize, const G: usize>;
+pub struct CommandJoin<const W: usize, const V: usize>;
 
-impl<const W: usize, const V: usize, const P: usize, const G: usize> Circuit
-    for CommandJoin<W, V, P, G>
-{
+impl<const W: usize, const V: usize> Circuit for CommandJoin<W, V> {
     const NAME: &'static str = "command_join";
     const ABOUT: &'static str = "one position command from that of the lines and that of the arcs";
     type In<L: Logic> = In<L, W, V>;
-    type Reg<L: Logic> = Reg<L, P>;
+    type Reg<L: Logic> = Reg<L, W>;
     type Net<L: Logic> = Net<L, W>;
 
     #[inline(always)]
-    fn comb<L: Logic>(&self, _: &Reg<L, P>, i: &In<L, W, V>) -> Net<L, W> {
-        const { assert!(W >= V && P > G, "the sum is as wide as the lines' way") };
+    fn comb<L: Logic>(&self, _: &Reg<L, W>, i: &In<L, W, V>) -> Net<L, W> {
+        const { assert!(W >= V, "the sum is as wide as the lines' way") };
         Net {
             counts_x: i.line_x + i.arc_x.resize(),
             counts_y: i.line_y + i.arc_y.resize(),
@@ -77,27 +74,21 @@ impl<const W: usize, const V: usize, const P: usize, const G: usize> Circuit
     }
 
     #[inline(always)]
-    fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L, W>, i: &In<L, W, V>) -> Reg<L, P> {
+    fn next<L: Logic>(&self, q: Reg<L, W>, w: &Net<L, W>, i: &In<L, W, V>) -> Reg<L, W> {
         Reg {
-            x: i.take.mux(w.counts_x.resize().shift_left(G), q.x),
-            y: i.take.mux(w.counts_y.resize().shift_left(G), q.y),
+            x: i.take.mux(w.counts_x, q.x),
+            y: i.take.mux(w.counts_y, q.y),
         }
     }
 }
 
-impl<const W: usize, const V: usize, const P: usize, const G: usize> Specified
-    for CommandJoin<W, V, P, G>
-{
+impl<const W: usize, const V: usize> Specified for CommandJoin<W, V> {
     fn invariants(&self) -> Invariants<'_, Self> {
-        let wrap = |value: i64| value << (64 - P) >> (64 - P);
         Invariants::<Self>::new().step(
-            "a command is the sum of both ways in fractions of a count, and stays until the next",
+            "a command is the sum of both ways, and stays until the next",
             move |now, next| {
                 let i = now.i;
-                let sum = |line: i64, arc: i64| {
-                    let counts = (line + arc) << (64 - W) >> (64 - W);
-                    wrap(counts * (1 << G))
-                };
+                let sum = |line: i64, arc: i64| (line + arc) << (64 - W) >> (64 - W);
                 let due = match i.take.get() {
                     true => [
                         sum(i.line_x.get(), i.arc_x.get()),

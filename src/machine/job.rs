@@ -12,7 +12,6 @@ use crate::logic::{Image, Sim};
 use crate::plant::{BrakedBody, ParameterError, TwoMassAxis};
 use crate::pulse_interpolator::step_dir::Driver;
 use crate::pulse_interpolator::{self as pulse, StepTiming};
-use crate::trajectory_controller::Widths;
 use crate::trajectory_controller::job::patience;
 use std::array::from_fn;
 
@@ -235,12 +234,11 @@ impl Bench {
         }
         let axes = &q.trajectory_controller.axes;
         if w.trajectory_controller.w.axes[0].w.driven.get() {
-            let units = |join: i64| join >> Widths::FULL.guard();
             played.frames.push(Frame {
                 tick: now.tick,
                 index: host.index,
                 moving: matches!(host.stage, Stage::Move(_)),
-                command: [q.command_join.x.get(), q.command_join.y.get()].map(units),
+                command: [q.command_join.x.get(), q.command_join.y.get()],
                 corrected: from_fn(|k| axes[k].corrector.corrected.get()),
                 model: from_fn(|k| axes[k].servo.model.integrators.position.get()),
                 motor: [w.position_x.get(), w.position_y.get()],

@@ -30,7 +30,7 @@ pub enum Reason {
     WholeCounts,
     /// Blends cut the ends of an arc.
     Blend,
-    /// The servos' models lag, less what the correction makes up for.
+    /// The servos' models: they lag, less what the correction makes up for, and run on past an end.
     Lag,
     /// Motors follow their models.
     Motor,

@@ -235,6 +235,7 @@ impl Settings {
             clock_hz: self.clock_hz,
             ck_ticks: self.ck_ticks,
             steps: vec![step(self.pen_down_counts), step(0)],
+            seed_ms: self.lift_lead_ms,
             body: self.lift,
             ..lift::Settings::default()
         }

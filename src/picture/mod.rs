@@ -12,9 +12,11 @@
 //! ```
 
 mod panel;
+mod points;
 mod scale;
 
 pub use panel::{Curve, Panel};
+pub use points::Points;
 
 use svg::Document;
 use svg::node::element::{Rectangle, Text};

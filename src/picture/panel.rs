@@ -1,3 +1,4 @@
+use super::points::Points;
 use super::scale::{Scale, label, range};
 use svg::node::element::path::Data;
 use svg::node::element::{Circle, Group, Line, Path, Rectangle, Text};
@@ -12,8 +13,6 @@ const MARGIN: (f64, f64, f64, f64) = (80.0, 20.0, 34.0, 52.0);
 const FREE_HEIGHT: f64 = 150.0;
 /// The frame of a panel with equal scales is not higher than this.
 const EQUAL_HEIGHT: f64 = 760.0;
-/// A curve with more points is thinned to the extremes of as many intervals.
-const POINTS_MAX: usize = 40_000;
 
 /// A curve of a panel.
 #[derive(Debug, Clone)]
@@ -28,9 +27,14 @@ pub struct Curve {
 impl Curve {
     /// A curve through the given points; a point that is not finite interrupts it.
     pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Curve::thinned(name, points.into())
+    }
+
+    /// A curve through points that were thinned while they came.
+    pub fn thinned(name: impl Into<String>, points: Points) -> Self {
         Curve {
             name: name.into(),
-            points,
+            points: points.kept(),
             colour: None,
             width: 1.2,
             dashes: None,
@@ -61,7 +65,7 @@ impl Curve {
     fn data(&self, x: Scale, y: Scale) -> Data {
         let mut data = Data::new();
         let mut pen_down = false;
-        for (px, py) in thin(&self.points) {
+        for &(px, py) in &self.points {
             if !(px.is_finite() && py.is_finite()) {
                 pen_down = false;
                 continue;
@@ -88,26 +92,6 @@ fn text(words: &str, x: f64, y: f64) -> Text {
 
 fn hundredths(pixel: f64) -> f32 {
     ((pixel * 100.0).round() / 100.0) as f32
-}
-
-/// At most about [`POINTS_MAX`] points that look the same: of each interval its first, lowest,
-/// highest and last point and its interruptions.
-fn thin(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    if points.len() <= POINTS_MAX {
-        return points.to_vec();
-    }
-    let interval = (4 * points.len()).div_ceil(POINTS_MAX);
-    let mut thinned = Vec::with_capacity(POINTS_MAX);
-    for chunk in points.chunks(interval) {
-        let mut keep = vec![0, chunk.len() - 1];
-        keep.extend((0..chunk.len()).filter(|k| !chunk[*k].1.is_finite()));
-        keep.extend((0..chunk.len()).min_by(|a, b| chunk[*a].1.total_cmp(&chunk[*b].1)));
-        keep.extend((0..chunk.len()).max_by(|a, b| chunk[*a].1.total_cmp(&chunk[*b].1)));
-        keep.sort_unstable();
-        keep.dedup();
-        thinned.extend(keep.into_iter().map(|k| chunk[k]));
-    }
-    thinned
 }
 
 /// A frame with axes, grid, legend and curves.
@@ -292,24 +276,5 @@ impl Panel {
             at += 44.0 + 6.8 * curve.name.chars().count() as f64;
         }
         group
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{POINTS_MAX, thin};
-
-    #[test]
-    fn thinning_keeps_ends_peaks_and_gaps() {
-        let mut points: Vec<_> = (0..400_000).map(|k| (f64::from(k), 0.0)).collect();
-        points[123_456].1 = 9.0;
-        points[200_001].1 = -9.0;
-        points[300_007].1 = f64::NAN;
-        let thinned = thin(&points);
-        assert!(thinned.len() <= POINTS_MAX + 1);
-        for kept in [0, 123_456, 200_001, 399_999] {
-            assert!(thinned.contains(&points[kept]), "point {kept} is lost");
-        }
-        assert_eq!(thinned.iter().filter(|point| point.1.is_nan()).count(), 1);
     }
 }

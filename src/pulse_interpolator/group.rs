@@ -207,23 +207,21 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
                 take_period: q.port.pending_period,
             },
         );
-        let axes: [Instance<Axis<N, A>, L>; AXES] = from_fn(|axis| {
-            Instance::settle(
-                &self.axes[axis],
-                &q.axes[axis],
-                axis::In {
-                    unit_rst,
-                    read: sequencer.w.read,
-                    blank: sequencer.w.blank,
-                    address: sequencer.w.next_address,
-                    write: i.write,
-                    write_axis: i.write_axis,
-                    write_address: i.write_address,
-                    write_half_period: i.write_half_period,
-                    write_direction: i.write_direction,
-                },
-            )
-        });
+        let axes = Instance::settle_each(
+            &self.axes,
+            &q.axes,
+            from_fn(|_| axis::In {
+                unit_rst,
+                read: sequencer.w.read,
+                blank: sequencer.w.blank,
+                address: sequencer.w.next_address,
+                write: i.write,
+                write_axis: i.write_axis,
+                write_address: i.write_address,
+                write_half_period: i.write_half_period,
+                write_direction: i.write_direction,
+            }),
+        );
         Net {
             step: from_fn(|axis| axes[axis].w.step),
             dir: from_fn(|axis| axes[axis].w.dir),
@@ -245,16 +243,12 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
         w: &Net<L, AXES, N, T, A>,
         _: &In<L, N, T, A>,
     ) -> Reg<L, AXES, N, T, A> {
-        let mut axis = 0..AXES;
         Reg {
             unit_time: w.unit_time.next(&self.unit_time, q.unit_time),
             counter: w.counter.next(&self.counter, q.counter),
             port: w.port.next(&self.port, q.port),
             sequencer: w.sequencer.next(&self.sequencer, q.sequencer),
-            axes: q.axes.map(|registers| {
-                let axis = axis.next().unwrap_or(0);
-                w.axes[axis].next(&self.axes[axis], registers)
-            }),
+            axes: Instance::next_each(&w.axes, &self.axes, q.axes),
         }
     }
 

@@ -109,6 +109,38 @@ pub fn play<const AXES: usize>(
     table: &Table,
     observer: impl Observer<JobGroup<AXES>>,
 ) -> Result<Played, RunError> {
+    played(table, |computer, bench| {
+        let simulator = Simulator::new(group);
+        simulator.run(u64::MAX, |_, q| computer.drive(q), (bench, observer))
+    })
+}
+
+/// Does what [`play`] does, but goes over idle ticks in one: for an `observer` that need not see
+/// them.
+///
+/// # Errors
+/// What `observer` objects to.
+pub fn fast_forward<const AXES: usize>(
+    group: &JobGroup<AXES>,
+    table: &Table,
+    observer: impl Observer<JobGroup<AXES>>,
+) -> Result<Played, RunError> {
+    played(table, |computer, bench| {
+        // All that the computer looks at is whether a command waits: no counter.
+        let drive = |_, q: &_| (computer.drive(q), u64::MAX);
+        Simulator::new(group).fast_forward(u64::MAX, drive, (bench, observer))
+    })
+}
+
+/// What the drivers see of a group that is run to the end of `table`.
+#[inline]
+fn played<'g, const AXES: usize>(
+    table: &Table,
+    run: impl FnOnce(
+        &mut ControlComputer<'_, A>,
+        &mut Bench<AXES>,
+    ) -> Result<Simulator<'g, JobGroup<AXES>>, RunError>,
+) -> Result<Played, RunError> {
     let mut computer = ControlComputer::<A>::new(table);
     let mut bench = Bench {
         drivers: std::array::from_fn(|_| Driver::new(StepTiming::default())),
@@ -119,8 +151,7 @@ pub fn play<const AXES: usize>(
         idle_units: 0,
         last_tick: 0,
     };
-    let simulator =
-        Simulator::new(group).run(u64::MAX, |_, q| computer.drive(q), (&mut bench, observer))?;
+    let simulator = run(&mut computer, &mut bench)?;
     let axes = bench.drivers.iter().map(|driver| {
         let (pulses, position) = (driver.pulses() as i64, driver.position());
         PlayedAxis {

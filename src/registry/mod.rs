@@ -3,12 +3,19 @@
 mod circuits;
 mod entry;
 mod model;
+mod sweep;
 
 pub use circuits::CATALOGUE;
 pub use entry::{Entry, MODEL_WIDTHS, WIDTHS};
 pub use model::{AnyCircuit, AnyModel, Verdict};
+pub use sweep::{AnySweep, SWEEPS, SweepEntry};
 
 /// The entry of that name.
 pub fn find(name: &str) -> Option<&'static Entry> {
     CATALOGUE.iter().find(|entry| entry.name == name)
+}
+
+/// The laws of the circuit of that name.
+pub fn sweeps(circuit: &str) -> impl Iterator<Item = &'static SweepEntry> {
+    SWEEPS.iter().filter(move |entry| entry.circuit == circuit)
 }

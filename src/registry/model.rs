@@ -95,11 +95,11 @@ pub trait AnyCircuit: AnyModel {
     ) -> Result<Verdict, TooWide>;
 }
 
-/// How a proof ended.
+/// How a proof or a sweep ended.
 #[derive(Debug)]
-pub enum Verdict {
+pub enum Verdict<P = Proof> {
     /// Every invariant holds.
-    Proved(Proof),
+    Proved(P),
     /// One does not.
     Broken {
         /// Tick, invariant, signals, and a table of the last ticks.

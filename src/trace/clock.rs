@@ -99,6 +99,11 @@ impl Clock {
         self.rise(tick)?.checked_add(self.half)
     }
 
+    /// The unit of time as a power of ten of a second.
+    pub(super) fn exponent(self) -> i8 {
+        self.unit.ilog10() as i8 - 15
+    }
+
     /// The unit of time as a VCD names it: a factor of 1, 10 or 100 and what it multiplies.
     pub fn timescale(self) -> (u32, TimescaleUnit) {
         let units = [

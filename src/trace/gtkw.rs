@@ -38,7 +38,8 @@ const COLUMN: (usize, usize) = (180, 520);
 /// Pixels that GTKWave calls a frame; its zoom is the power of two of the time in one.
 const FRAME: f64 = 200.0;
 
-/// The save file `<stem>.gtkw` of the dump `<stem>.vcd` of a circuit.
+/// The save file of a circuit's dump, whose name is `dump`: `<stem>.gtkw` beside `<stem>.vcd` or
+/// `<stem>.fst`.
 ///
 /// `clk` comes first, then the ports in and out, then a group for everything else in the circuit
 /// and one for every scope in it; large groups and those below the first level are closed.
@@ -51,10 +52,10 @@ pub fn save_file<C: Circuit>(
     circuit: &C,
     clock: Clock,
     options: &Options,
-    stem: &str,
+    dump: &str,
     focus: Range<u64>,
 ) -> Result<String, LayoutError> {
-    save_file_with(circuit, clock, options, stem, focus, &[])
+    save_file_with(circuit, clock, options, dump, focus, &[])
 }
 
 /// The same with some signals once more behind `clk`, by their paths from the circuit's name on:
@@ -66,19 +67,19 @@ pub fn save_file_with<C: Circuit>(
     circuit: &C,
     clock: Clock,
     options: &Options,
-    stem: &str,
+    dump: &str,
     focus: Range<u64>,
     overview: &[&str],
 ) -> Result<String, LayoutError> {
     let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
-    Ok(save(&layout, clock, stem, focus, overview))
+    Ok(save(&layout, clock, dump, focus, overview))
 }
 
 /// The save file of what is laid out.
 pub(super) fn save(
     layout: &Layout,
     clock: Clock,
-    stem: &str,
+    dump: &str,
     focus: Range<u64>,
     overview: &[&str],
 ) -> String {
@@ -87,7 +88,7 @@ pub(super) fn save(
         layout,
         flags: None,
     };
-    save.window(clock, stem, focus);
+    save.window(clock, dump, focus);
     save.top(overview);
     save.text
 }
@@ -105,7 +106,7 @@ impl Save<'_> {
         let _ = writeln!(self.text, "{line}");
     }
 
-    fn window(&mut self, clock: Clock, stem: &str, focus: Range<u64>) {
+    fn window(&mut self, clock: Clock, dump: &str, focus: Range<u64>) {
         // GTKWave counts time in whole s, ms, ... fs: a unit of 10 ns is ten to it.
         let scale = u64::from(clock.timescale().0);
         let from = clock.rise(focus.start).and_then(|t| t.checked_mul(scale));
@@ -118,7 +119,8 @@ impl Save<'_> {
         let zoom = -(shown * FRAME / pane).max(1.0).log2();
         self.line(format_args!("[*] {}", self.layout.top.name));
         // GTKWave looks for the dump beside the save file if both are named without a directory.
-        self.line(format_args!("[dumpfile] \"{stem}.vcd\""));
+        self.line(format_args!("[dumpfile] \"{dump}\""));
+        let stem = dump.rsplit_once('.').map_or(dump, |(stem, _)| stem);
         self.line(format_args!("[savefile] \"{stem}.gtkw\""));
         self.line(format_args!("[timestart] {from}"));
         self.line(format_args!("[size] {} {}", WINDOW.0, WINDOW.1));

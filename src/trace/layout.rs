@@ -1,4 +1,5 @@
 use crate::kernel::{Declaration, Declarations, Format, Running, STAGE, WORD};
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::io;
 use std::ops::Range;
@@ -90,16 +91,11 @@ impl Layout {
     pub fn of(circuit: &dyn Running, only: Option<&[String]>) -> Result<Self, LayoutError> {
         let leaves = Declarations::walked(circuit).leaves;
         check(circuit.name(), &leaves)?;
+        let mut top = Scope::tree(circuit.name(), &leaves, |_| true);
+        top.check(&leaves, Some(CLK))?;
         let selected = select(&leaves, only)?;
-        let mut top = Scope {
-            name: circuit.name().to_owned(),
-            ..Scope::default()
-        };
-        for (index, leaf) in leaves.iter().enumerate() {
-            if selected[index] {
-                // The first scope is the circuit's own.
-                top.descend(&leaf.scopes[1..]).leaves.push(index);
-            }
+        if only.is_some() {
+            top = Scope::tree(circuit.name(), &leaves, |index| selected[index]);
         }
         Ok(Layout {
             leaves,
@@ -110,6 +106,42 @@ impl Layout {
 }
 
 impl Scope {
+    /// The circuit's scope with those leaves in it that are wanted.
+    fn tree(name: &str, leaves: &[Declaration], wanted: impl Fn(usize) -> bool) -> Self {
+        let mut top = Scope {
+            name: name.to_owned(),
+            ..Scope::default()
+        };
+        for (index, leaf) in leaves
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| wanted(*index))
+        {
+            // The first scope is the circuit's own.
+            top.descend(&leaf.scopes[1..]).leaves.push(index);
+        }
+        top
+    }
+
+    /// Refuses names that are used twice.
+    fn check(&self, leaves: &[Declaration], clk: Option<&str>) -> Result<(), LayoutError> {
+        let scopes = self.scopes.iter().map(|scope| scope.name.as_str());
+        let mut taken: HashSet<Cow<'_, str>> = scopes.chain(clk).map(Cow::from).collect();
+        for leaf in self.leaves.iter().map(|&index| &leaves[index]) {
+            let names = [Some(Cow::from(&leaf.name)), companion(leaf).map(Cow::from)];
+            for name in names.into_iter().flatten() {
+                if taken.contains(&name) {
+                    let path = format!("{}.{name}", leaf.scopes.join("."));
+                    return Err(LayoutError::Duplicate(path));
+                }
+                taken.insert(name);
+            }
+        }
+        self.scopes
+            .iter()
+            .try_for_each(|scope| scope.check(leaves, None))
+    }
+
     fn descend(&mut self, path: &[String]) -> &mut Scope {
         let Some((name, rest)) = path.split_first() else {
             return self;
@@ -192,37 +224,27 @@ fn is_plain(name: &str) -> bool {
     !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
 }
 
-/// Refuses names that are used twice or cannot be written.
+/// Refuses names that cannot be written.
 fn check(top: &str, leaves: &[Declaration]) -> Result<(), LayoutError> {
-    let scopes: HashSet<String> = scopes(leaves).into_iter().collect();
-    let mut taken = HashSet::from([format!("{top}.{CLK}")]);
     if !is_plain(top) {
         return Err(LayoutError::Name(top.to_owned()));
     }
     for leaf in leaves {
-        let path = leaf.path();
         if !leaf
             .scopes
             .iter()
             .chain([&leaf.name])
             .all(|name| is_plain(name))
         {
-            return Err(LayoutError::Name(path));
+            return Err(LayoutError::Name(leaf.path()));
         }
         if let Format::States(states) = leaf.field.format {
             let visible =
                 |state: &&str| !state.is_empty() && state.bytes().all(|b| b.is_ascii_graphic());
             if let Some(state) = states.iter().find(|state| !visible(state)) {
-                let state = (*state).to_owned();
+                let (path, state) = (leaf.path(), (*state).to_owned());
                 return Err(LayoutError::State { path, state });
             }
-        }
-        let companion = companion(leaf).map(|name| format!("{}.{name}", leaf.scopes.join(".")));
-        for path in [Some(path), companion].into_iter().flatten() {
-            if scopes.contains(&path) || taken.contains(&path) {
-                return Err(LayoutError::Duplicate(path));
-            }
-            taken.insert(path);
         }
     }
     Ok(())

@@ -1,12 +1,14 @@
-//! What a run looks like: value change dumps and their GTKWave save files, recordings, text
+//! What a run looks like: dumps as VCD and FST and their GTKWave save files, recordings, text
 //! waves, timing charts that are executed, and the stimulus as a file.
 //!
 //! At tick n everything is sampled at time n·P with `clk` high, `clk` falls half a period later,
 //! and the registers of tick n + 1 show from (n + 1)·P on.
 
 pub mod atomic;
+mod behind;
 pub mod chart;
 mod clock;
+mod fst;
 pub mod gtkw;
 mod layout;
 mod record;
@@ -14,8 +16,11 @@ mod stimulus_file;
 pub mod text;
 pub(crate) mod value;
 mod vcd;
+mod walk;
 
+pub use behind::WriteBehind;
 pub use clock::{Clock, ClockError};
+pub use fst::Fst;
 pub(crate) use layout::Layout;
 pub use layout::{LayoutError, Options};
 pub use record::{RecordError, Recorder};
@@ -60,7 +65,8 @@ fn replay_values(
     dir: &Path,
     stem: &str,
 ) -> Result<Vec<PathBuf>, RunError> {
-    let mut dump = AtomicFile::create(dir.join(format!("{stem}.vcd")))?;
+    let name = format!("{stem}.vcd");
+    let mut dump = AtomicFile::create(dir.join(&name))?;
     let layout = Layout::of(running, None).map_err(io::Error::from)?;
     let mut waves = Waves::new(&layout, clock);
     let mut ticks = 0;
@@ -72,7 +78,7 @@ fn replay_values(
     }
     waves.finish(&mut dump)?;
 
-    let save = gtkw::save(&layout, clock, stem, 0..ticks.min(FOCUS), &[]);
+    let save = gtkw::save(&layout, clock, &name, 0..ticks.min(FOCUS), &[]);
     let mut save_file = AtomicFile::create(dir.join(format!("{stem}.gtkw")))?;
     save_file.write_all(save.as_bytes())?;
     let dump = dump.commit()?;

@@ -1,5 +1,5 @@
-mod dump;
 mod header;
+mod text;
 mod waves;
 
 use super::layout::Layout;
@@ -8,6 +8,7 @@ use crate::kernel::{Circuit, Machine, Observer, RunError, Sample};
 use std::io::{self, Write};
 use std::marker::PhantomData;
 use std::ops::{ControlFlow, Range};
+pub(super) use text::eight_digits;
 pub(crate) use waves::Waves;
 
 /// Writes every signal of a run, and `clk`, as a value change dump (IEEE 1364).
@@ -53,18 +54,13 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
         self.waves.finish(&mut self.out)?;
         Ok(self.out)
     }
-
-    fn tick(&mut self, now: &Sample<'_, C>) -> io::Result<()> {
-        now.visit(self.waves.begin(now.tick)?);
-        self.waves.end(now.tick, &mut self.out)
-    }
 }
 
 impl<C: Circuit, W: Write> Observer<C> for Vcd<C, W> {
     #[inline]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         if self.ticks.contains(&now.tick) {
-            self.tick(now)?;
+            self.waves.sample(now, &mut self.out)?;
         }
         Ok(ControlFlow::Continue(()))
     }

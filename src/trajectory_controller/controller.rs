@@ -28,6 +28,7 @@ const RECORDS: usize = 4;
 const ADDRESS: usize = RECORDS + 5;
 const TORQUE: &[&str] = &["torque_x", "torque_y", "torque_z"];
 const POSITION: &[&str] = &["position_x", "position_y", "position_z"];
+const LOST: &[&str] = &["lost_x", "lost_y", "lost_z"];
 const A_NAMES: &[&str] = &["a_x", "a_y", "a_z"];
 const B_NAMES: &[&str] = &["b_x", "b_y", "b_z"];
 const POSITION_GAIN: &[&str] = &["position_gain_x", "position_gain_y", "position_gain_z"];
@@ -208,6 +209,8 @@ signals! {
         pub torque: [L::I<T>; AXES] as Elements(TORQUE),
         /// Positions of the motors in counts.
         pub position: [L::I<W>; AXES] as Elements(POSITION),
+        /// Encoders that were too fast.
+        pub lost: [L::Bit; AXES] as Elements(LOST),
         /// There is a free profile record.
         pub ready: L::Bit,
         /// A movement is under way.
@@ -462,30 +465,28 @@ impl<
             }
         };
         let reference_point = Instance::settle(&self.reference_point, &q.reference_point, answer);
-        let axes: [Instance<ControlledAxis<W, P, K, M, G, Q, T>, L>; AXES] = from_fn(|axis| {
-            Instance::settle(
-                &self.axes[axis],
-                &q.axes[axis],
-                controlled_axis::In {
-                    step: q.gather.step,
-                    preset: q.gather.preset,
-                    command: i
-                        .given
-                        .mux(i.given_command[axis], distribution.w.points[axis]),
-                    correct: q.gather.correct,
-                    target: reference_point.w.points[axis],
-                    a: i.a[axis],
-                    b: i.b[axis],
-                    gain_1: i.gain_1,
-                    gain_2: i.gain_2,
-                    position_gain: i.position_gain[axis],
-                    speed_gain: i.speed_gain[axis],
-                    integral_gain: i.integral_gain[axis],
-                    inertia: i.inertia[axis],
-                    limit: i.limit[axis],
-                },
-            )
-        });
+        let axes = Instance::settle_each(
+            &self.axes,
+            &q.axes,
+            from_fn(|axis| controlled_axis::In {
+                step: q.gather.step,
+                preset: q.gather.preset,
+                command: i
+                    .given
+                    .mux(i.given_command[axis], distribution.w.points[axis]),
+                correct: q.gather.correct,
+                target: reference_point.w.points[axis],
+                a: i.a[axis],
+                b: i.b[axis],
+                gain_1: i.gain_1,
+                gain_2: i.gain_2,
+                position_gain: i.position_gain[axis],
+                speed_gain: i.speed_gain[axis],
+                integral_gain: i.integral_gain[axis],
+                inertia: i.inertia[axis],
+                limit: i.limit[axis],
+            }),
+        );
         let gather = Instance::settle(
             &self.gather,
             &q.gather,
@@ -502,6 +503,7 @@ impl<
         Net {
             torque: from_fn(|axis| axes[axis].w.torque),
             position: from_fn(|axis| axes[axis].w.position),
+            lost: from_fn(|axis| axes[axis].w.lost),
             ready: memory.w.ready,
             busy: sequencer.w.busy,
             sampled: q.sequencer.sampled,
@@ -526,7 +528,6 @@ impl<
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
-        let mut axis = 0..AXES;
         Reg {
             period_counter: w
                 .period_counter
@@ -541,10 +542,7 @@ impl<
                 .reference_point
                 .next(&self.reference_point, q.reference_point),
             gather: w.gather.next(&self.gather, q.gather),
-            axes: q.axes.map(|registers| {
-                let axis = axis.next().unwrap_or(0);
-                w.axes[axis].next(&self.axes[axis], registers)
-            }),
+            axes: Instance::next_each(&w.axes, &self.axes, q.axes),
         }
     }
 }

@@ -311,23 +311,21 @@ impl<
                 arc_across: cordic.w.across,
             },
         );
-        let axes: [Instance<AxisRow<P, R, C, S, D>, L>; AXES] = from_fn(|axis| {
-            Instance::settle(
-                &self.axes[axis],
-                &q.axes[axis],
-                axis_row::In {
-                    load,
-                    word,
-                    data,
-                    copy: control.w.copy,
-                    fraction: control.w.fraction,
-                    top: control.w.top,
-                    commit: control.w.commit,
-                    along: sequencer.w.along,
-                    across: sequencer.w.across,
-                },
-            )
-        });
+        let axes = Instance::settle_each(
+            &self.axes,
+            &q.axes,
+            from_fn(|_| axis_row::In {
+                load,
+                word,
+                data,
+                copy: control.w.copy,
+                fraction: control.w.fraction,
+                top: control.w.top,
+                commit: control.w.commit,
+                along: sequencer.w.along,
+                across: sequencer.w.across,
+            }),
+        );
         Net {
             points: from_fn(|axis| q.axes[axis].point),
             segment: q.search.segment,
@@ -345,7 +343,6 @@ impl<
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
-        let mut axis = 0;
         Reg {
             search: w.search.next(&self.search, q.search),
             store: w.store.next(&self.store, q.store),
@@ -353,11 +350,7 @@ impl<
             measure: w.measure.next(&self.measure, q.measure),
             cordic: w.cordic.next(&self.cordic, q.cordic),
             control: w.control.next(&self.control, q.control),
-            axes: q.axes.map(|registers| {
-                let next = w.axes[axis].next(&self.axes[axis], registers);
-                axis += 1;
-                next
-            }),
+            axes: Instance::next_each(&w.axes, &self.axes, q.axes),
         }
     }
 }

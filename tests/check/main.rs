@@ -7,3 +7,4 @@ mod monitor;
 mod reach;
 mod report;
 mod search;
+mod sweep;

@@ -4,8 +4,12 @@ use super::support::{Bench, keys, whole};
 use serde_json::{Value, json};
 
 /// 1 um a count, 1/40 mm a step; slow rates, for few ticks.
-const HEAD: &str = "circuit = \"machine\"\ninput = \"p.ngc\"\nclock_hz = 200_000\n\
-     unit_ticks = 1000\nscan_ticks = 100\nck_ticks = 20\nsample_ticks = 400\n";
+const HEAD: &str = "circuit = \"machine\"\ninput = \"p.ngc\"\nclock_hz = 160_000\n\
+     unit_ticks = 800\nscan_ticks = 200\nck_ticks = 32\nsample_ticks = 400\n";
+
+/// Servos that come to rest with that, and a short way of the pen.
+const GAINS: &str = "position_gain_per_s = 16\nspeed_hz = 10\nintegral_ms = 75\n\
+     pen_down_counts = 2000\n";
 
 /// The pen goes down, draws a line and an arc, and comes back up and home.
 const SHORT: &str = "G1 X1 F1500\nG3 X2 Y1 I0 J1\nG0 X0 Y0\n";
@@ -23,7 +27,7 @@ fn with(keys: &str, drawing: &str) -> Bench {
 
 #[test]
 fn both_machines_end_at_the_same_point() {
-    let bench = with("", SHORT);
+    let bench = with(GAINS, SHORT);
     let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
     assert_eq!(
         keys(&summary),
@@ -132,11 +136,11 @@ fn both_machines_end_at_the_same_point() {
 
 #[test]
 fn an_end_between_the_grids_is_the_nearest_of_both() {
-    let bench = with("", "G1 X1.0104 F1500\n");
+    let bench = with(GAINS, "G1 X1.0104 F1500\n");
     let text = bench.succeed(&["run", "s.toml", "--no-vcd"]);
     let start = "p.ngc on machine: ";
     assert!(text.starts_with(start), "{text}");
-    assert!(text.contains("s at 200000 Hz; unit time 1000, scan 100, CK 20, Ts 400 ticks\n"));
+    assert!(text.contains("s at 160000 Hz; unit time 800, scan 200, CK 32, Ts 400 ticks\n"));
     // 40.416 steps, 1010.4 counts.
     let end = "\
      end       x mm       y mm         x         y        
@@ -152,7 +156,7 @@ both machines end on the step and the count nearest to the job's end, 10.000 um 
 
 #[test]
 fn the_files_of_a_run() {
-    let bench = with("vcd_ticks = 20_000\n", "G1 X0.5 F1500\n");
+    let bench = with(&format!("{GAINS}vcd_ticks = 20_000\n"), "G1 X0.5 F1500\n");
     let run = ["run", "s.toml", "--out", "o", "--verilog"];
     let summary = bench.json(&run);
     assert_eq!(summary["vcd_window"], json!([0, 20_000]));
@@ -230,7 +234,7 @@ fn the_files_of_a_run() {
 fn motors_that_do_not_come_to_rest_are_complained_of() {
     // A speed control faster than the shaft.
     let bench = with(
-        "speed_hz = 120.0\nposition_gain_per_s = 200.0\n",
+        "speed_hz = 60.0\nposition_gain_per_s = 100.0\n",
         "G1 X1 F1500\n",
     );
     let done = bench.run(&["run", "s.toml", "--no-vcd", "--json"]);
@@ -315,8 +319,12 @@ fn bad_input_is_refused_with_its_line() {
             "p.ngc:2: Z: leaves the plane of x and y by 1 mm; allowed: ",
         ),
         ("", "G1 X1 F1500\nG2 X2 Y1 I1 Z1\n", "p.ngc:2: "),
-        ("", "G1 X1e5 F1500\nG2 X100002 I1\n", "p.ngc:"),
-        ("", "G1 X1 F1500\nG0 X1e6\n", "p.ngc:2: X: "),
+        ("", "G1 X1 F1500\nG2 X18001 I9000\n", "p.ngc:2: "),
+        (
+            "steps_per_mm = [1e9, 40]",
+            "G1 X3 F1500\n",
+            "p.ngc:1: X: is 3000000000 steps ",
+        ),
     ];
     for (keys, drawing, refusal) in cases {
         let bench = with(&format!("{keys}\n"), drawing);

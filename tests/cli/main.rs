@@ -7,9 +7,12 @@ mod compare_names;
 mod compare_refusals;
 mod drawings;
 mod files;
+mod fst;
 mod lead_angle;
 mod linear;
 mod machine;
+#[cfg(target_os = "linux")]
+mod memory;
 mod refusals;
 mod runs;
 mod scenarios;

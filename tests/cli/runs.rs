@@ -221,3 +221,16 @@ fn the_literal_variant_fails_and_says_where_it_first_miscounts() {
     assert!(complaints.contains(&ended.as_str()), "{complaints:?}");
     assert!(bench.names().contains(&"waves/line.vcd".to_owned()));
 }
+
+#[test]
+fn without_waves_everything_else_is_the_same() {
+    let run = ["run", "line.hpgl"];
+    let [with, without] = [&[][..], &["--no-vcd"]].map(|no_vcd| {
+        let bench = Bench::with("line.hpgl", LINE);
+        let mut summary = bench.json(&[&run, no_vcd, &SHORT[..]].concat());
+        summary["files"].take();
+        summary["vcd_window"].take();
+        (summary, bench.read("waves/line.svg"))
+    });
+    assert_eq!(with, without);
+}

@@ -66,6 +66,8 @@ macro_rules! bench {
                     integral_gain: [0.into(); $axes],
                     inertia: [0.into(); $axes],
                     limit: [0.into(); $axes],
+                    given: false.into(),
+                    given_command: [0.into(); $axes],
                     a: [false.into(); $axes],
                     b: [false.into(); $axes],
                 }

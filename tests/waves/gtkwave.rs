@@ -1,7 +1,8 @@
 //! GTKWave itself reads what is written for it.
 
 use crate::zoo::{Zoo, inputs};
-use crate::{SEED, clock, run_zoo};
+use crate::{SEED, clock, fst, reader, run_zoo};
+use motion_rtl::compare::{Settings, compare};
 use motion_rtl::kernel::{Declaration, Format, Kind};
 use motion_rtl::trace::{Options, Recorder, replay};
 use std::fs;
@@ -129,4 +130,36 @@ fn expected(recorder: &Recorder<Zoo>, tick: u64, path: &str) -> String {
             .map_or(bits.to_string(), |&name| name.to_owned()),
         _ => shown(leaf, bits),
     }
+}
+
+/// GTKWave's own library reads the FST and writes it as a VCD.
+#[test]
+fn fst2vcd_makes_the_vcd_of_the_fst() {
+    let directory = tempfile::tempdir().unwrap();
+    let [ours, file, theirs] =
+        ["ours.vcd", "zoo.fst", "theirs.vcd"].map(|name| directory.path().join(name));
+    let [vcd, fst] = fst::both(fst::TICKS, clock(), &Options::default());
+    fs::write(&ours, &vcd).unwrap();
+    fs::write(&file, fst).unwrap();
+    let output = Command::new("fst2vcd")
+        .arg(&file)
+        .output()
+        .expect("GTKWave is installed");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    fs::write(&theirs, &output.stdout).unwrap();
+    let report = compare(&ours, &theirs, &Settings::default()).unwrap();
+    assert!(report.is_equal(), "{report}");
+    assert_eq!(report.ticks, fst::TICKS, "{report}");
+    assert_eq!(report.without_partner, Vec::<String>::new(), "{report}");
+    // Names of states, which are not compared there.
+    let [ours, theirs] = [&vcd, &output.stdout].map(|bytes| reader::read(bytes).variables);
+    let names = ours.keys().filter(|path| path.ends_with("_name"));
+    for path in names.clone() {
+        assert!(ours[path].changes == theirs[path].changes, "{path}");
+    }
+    assert_eq!(names.count(), 2);
 }

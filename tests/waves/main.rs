@@ -1,7 +1,9 @@
 //! Waves: every signal is in the dump, at the right time, in every reader.
 
+mod behind;
 mod chart;
 mod dump;
+mod fst;
 #[cfg(feature = "cosim")]
 mod gtkwave;
 mod names;

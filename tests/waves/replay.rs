@@ -22,7 +22,7 @@ fn a_replay_writes_the_dump_and_its_save_file() {
     );
     let (bytes, _) = run_zoo(50, &Options::default());
     assert!(fs::read(&paths[0]).unwrap() == bytes);
-    let save = gtkw::save_file(&Zoo, clock(), &Options::default(), "zoo", 0..40).unwrap();
+    let save = gtkw::save_file(&Zoo, clock(), &Options::default(), "zoo.vcd", 0..40).unwrap();
     assert_eq!(fs::read_to_string(&paths[1]).unwrap(), save);
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 2);
 }
@@ -37,7 +37,7 @@ fn listed(save: &str) -> Vec<&str> {
 fn a_save_file_names_only_signals_of_its_dump() {
     let (bytes, _) = run_zoo(1, &Options::default());
     let dump = reader::read(&bytes);
-    let save = gtkw::save_file(&Zoo, clock(), &Options::default(), "zoo", 0..50).unwrap();
+    let save = gtkw::save_file(&Zoo, clock(), &Options::default(), "zoo.vcd", 0..50).unwrap();
     let listed = listed(&save);
     assert_eq!(listed[0], "zoo.clk");
     for name in &listed {
@@ -59,7 +59,8 @@ fn a_save_file_names_only_signals_of_its_dump() {
 /// A unit of 10 ns, a period of two units: GTKWave counts 20 a tick.
 #[test]
 fn the_window_starts_where_it_is_told() {
-    let save = |focus| gtkw::save_file(&Zoo, clock(), &Options::default(), "zoo", focus).unwrap();
+    let save =
+        |focus| gtkw::save_file(&Zoo, clock(), &Options::default(), "zoo.vcd", focus).unwrap();
     assert!(save(10..20).contains("\n[timestart] 200\n"));
     let zoom = |save: String| -> f64 {
         let line = save
@@ -74,7 +75,7 @@ fn the_window_starts_where_it_is_told() {
 
 #[test]
 fn groups_are_closed_in_the_order_in_which_they_were_opened() {
-    let save = gtkw::save_file(&Zoo, clock(), &Options::default(), "zoo", 0..50).unwrap();
+    let save = gtkw::save_file(&Zoo, clock(), &Options::default(), "zoo.vcd", 0..50).unwrap();
     let (mut open, mut flags) = (Vec::new(), 0);
     for line in save.lines() {
         if let Some(hex) = line.strip_prefix('@') {

@@ -1,7 +1,8 @@
 //! The words and memories of simulation against oracles that know nothing of them: `i128`
-//! arithmetic for words, vectors for memories.
+//! arithmetic for words, vectors for memories. Lanes of them against one.
 
 mod edges;
+mod lanes;
 mod memories;
 mod signed;
 mod unsigned;

@@ -85,7 +85,7 @@ fn simulate<P: JobLead>(
     let played = match traces.is_empty() {
         false => {
             let stimulus = traces.stimulus.as_mut().map(Without);
-            let files = (traces.vcd.as_mut(), stimulus);
+            let files = (traces.waves.as_mut(), stimulus);
             play(&circuit, settings, (files, &mut progress))
         }
         true => play(&circuit, settings, &mut progress),

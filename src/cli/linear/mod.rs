@@ -77,7 +77,7 @@ fn simulate(
     let played = match traces.is_empty() {
         false => {
             let stimulus = traces.stimulus.as_mut().map(Without);
-            let files = (traces.vcd.as_mut(), stimulus);
+            let files = (traces.waves.as_mut(), stimulus);
             play(&circuit, targets, settings, (files, &mut progress))
         }
         true => play(&circuit, targets, settings, &mut progress),

@@ -5,16 +5,13 @@ use super::{Job, Runs};
 use crate::cli::magnification::magnification;
 use motion_rtl::linear_interpolator::measure::{Cycle, Played, ScanRecord};
 use motion_rtl::linear_interpolator::settings::Settings;
-use motion_rtl::picture::{Curve, Panel, Picture};
+use motion_rtl::picture::{Curve, Panel, Picture, Points};
 
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
 const IDEAL: &str = "#d8d8d8";
 const COMMANDED: &str = "#0072b2";
 const MOTORS: &str = "#d55e00";
-
-/// A curve with gaps.
-type Points = Vec<(f64, f64)>;
 
 /// The picture as SVG.
 pub fn draw(job: &Job, runs: &Runs) -> String {
@@ -33,9 +30,9 @@ pub fn draw(job: &Job, runs: &Runs) -> String {
     let mut speed = Panel::new("path speed", "time in s", "speed in mm/s");
     // The interpolator's curves lie on top.
     for ((name, played), colour) in systems.into_iter().zip([COMMANDED, MOTORS]).rev() {
-        let curve = Curve::new(name, errors(played, settings));
+        let curve = Curve::thinned(name, errors(played, settings));
         error = error.curve(curve.colour(colour).width(0.8));
-        let curve = Curve::new(name, speeds(played, settings));
+        let curve = Curve::thinned(name, speeds(played, settings));
         speed = speed.curve(curve.colour(colour).width(0.8));
     }
     picture.panel(error).panel(speed).render()
@@ -74,9 +71,11 @@ fn largest_error(job: &Job, played: &Played) -> f64 {
 
 fn path(job: &Job, name: &str, played: &Played, factor: f64) -> Panel {
     let scale = job.settings.counts_per_mm;
-    let mut ideal = [const { Points::new() }; 2];
-    let mut commanded = Points::new();
-    let mut motors = [const { Points::new() }; 2];
+    let cycles = played.cycles.len();
+    let scans = || Points::expecting(played.records.len() + 2 * cycles);
+    let mut ideal = [0, 1].map(|_| Points::expecting(3 * cycles));
+    let mut commanded = scans();
+    let mut motors = [scans(), scans()];
     let cycles = played.cycles.iter().zip(&job.compiled.targets).enumerate();
     for (number, (cycle, target)) in cycles {
         let ends = [cycle.from, cycle.to].map(|end| end.map(|counts| counts as f64));
@@ -104,16 +103,21 @@ fn path(job: &Job, name: &str, played: &Played, factor: f64) -> Panel {
     let [motors, motors_rapid] = motors;
     Panel::new(title, "x in mm", "y in mm")
         .equal_scales()
-        .curve(Curve::new("ideal", drawn).colour(IDEAL).width(5.0))
-        .curve(Curve::new("rapid", rapid).colour(IDEAL).width(0.8).dashed())
+        .curve(Curve::thinned("ideal", drawn).colour(IDEAL).width(5.0))
         .curve(
-            Curve::new("rapid, motors", motors_rapid)
+            Curve::thinned("rapid", rapid)
+                .colour(IDEAL)
+                .width(0.8)
+                .dashed(),
+        )
+        .curve(
+            Curve::thinned("rapid, motors", motors_rapid)
                 .colour("#bdbdbd")
                 .width(0.6),
         )
-        .curve(Curve::new("motors", motors).colour(MOTORS).width(1.0))
+        .curve(Curve::thinned("motors", motors).colour(MOTORS).width(1.0))
         .curve(
-            Curve::new("commanded", commanded)
+            Curve::thinned("commanded", commanded)
                 .colour(COMMANDED)
                 .width(0.8),
         )
@@ -135,28 +139,25 @@ fn time(record: &ScanRecord, settings: &Settings) -> f64 {
 
 /// The contour error over time, in micrometres.
 fn errors(played: &Played, settings: &Settings) -> Points {
-    let cycles = played.cycles.iter().enumerate();
-    cycles
-        .flat_map(|(number, cycle)| {
-            played.records_of(number).iter().map(|record| {
-                let error = cycle.contour_error(record.motor, settings.counts_per_mm);
-                (time(record, settings), error * 1e3)
-            })
-        })
-        .collect()
+    let mut points = Points::expecting(played.records.len());
+    for (number, cycle) in played.cycles.iter().enumerate() {
+        points.extend(played.records_of(number).iter().map(|record| {
+            let error = cycle.contour_error(record.motor, settings.counts_per_mm);
+            (time(record, settings), error * 1e3)
+        }));
+    }
+    points
 }
 
 /// The speed of the motors along their path over time, in mm/s.
 fn speeds(played: &Played, settings: &Settings) -> Points {
-    let pairs = played.records.windows(2);
-    pairs
-        .map(|pair| {
-            let [x, y] = [0, 1].map(|axis| {
-                (pair[1].motor[axis] - pair[0].motor[axis]) / settings.counts_per_mm[axis]
-            });
-            (time(&pair[1], settings), x.hypot(y) / settings.scan_s())
-        })
-        .collect()
+    let mut points = Points::expecting(played.records.len());
+    points.extend(played.records.windows(2).map(|pair| {
+        let [x, y] = [0, 1]
+            .map(|axis| (pair[1].motor[axis] - pair[0].motor[axis]) / settings.counts_per_mm[axis]);
+        (time(&pair[1], settings), x.hypot(y) / settings.scan_s())
+    }));
+    points
 }
 
 #[cfg(test)]

@@ -82,7 +82,7 @@ fn simulate(
     let mut progress = Progress::new(ticks);
     let played = {
         let stimulus = traces.stimulus.as_mut().map(Without);
-        let mut observer = (traces.vcd.as_mut(), stimulus, &mut progress);
+        let mut observer = (traces.waves.as_mut(), stimulus, &mut progress);
         play(&circuit, program, settings, &mut observer).map_err(|error| refuse(job, error))?
     };
     drop(progress);

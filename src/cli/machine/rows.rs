@@ -52,11 +52,12 @@ pub struct FarthestRow {
 
 impl From<Farthest> for FarthestRow {
     fn from(farthest: Farthest) -> Self {
+        let off = farthest.mm > ON_PATH_MM;
         FarthestRow {
             um: farthest.mm * 1e3,
             tick: farthest.tick,
-            reason: (farthest.mm > ON_PATH_MM).then(|| farthest.reason.name()),
-            share_um: farthest.share_mm * 1e3,
+            reason: off.then(|| farthest.reason.name()),
+            share_um: if off { farthest.share_mm * 1e3 } else { 0.0 },
         }
     }
 }

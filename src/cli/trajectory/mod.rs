@@ -117,7 +117,7 @@ fn simulate<const AXES: usize>(
     // Two calls, so that a run without waves is compiled without a trace of them.
     let played: Result<_, RunError> = match traces.is_empty() {
         false => {
-            let files = (traces.vcd.as_mut(), traces.stimulus.as_mut());
+            let files = (traces.waves.as_mut(), traces.stimulus.as_mut());
             play(&circuit, &job.program, plants, (files, &mut progress))
         }
         true => play(&circuit, &job.program, plants, &mut progress),

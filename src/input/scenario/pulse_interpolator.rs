@@ -1,6 +1,9 @@
 //! The keys of the pulse interpolator.
 
 use super::Runnable;
+use crate::input::Drawing;
+use crate::plan::MotionLimits;
+use crate::pulse_interpolator::{Settings, StepTiming};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -53,6 +56,37 @@ pub struct Scenario {
     /// The most ticks that go into the VCD unless a window is asked for.
     #[serde(default = "default::vcd_ticks")]
     pub vcd_ticks: u64,
+}
+
+impl Scenario {
+    /// The settings of the table compiler for this drawing.
+    pub fn settings(&self, drawing: &Drawing) -> Settings {
+        let moves_in_z = drawing
+            .moves
+            .iter()
+            .any(|step| step.to[2] != drawing.start[2]);
+        let axes = if moves_in_z { 3 } else { 2 };
+        let steps_per_mm = self.steps_per_mm.clone();
+        Settings {
+            clock_hz: self.clock_hz,
+            steps_per_mm: steps_per_mm.unwrap_or_else(|| vec![80.0; axes]),
+            motion: MotionLimits {
+                feed_mm_per_min: self.feed_mm_per_min,
+                rapid_mm_per_min: self.rapid_mm_per_min,
+                corner_mm_per_min: self.corner_mm_per_min,
+                acceleration_mm_per_s2: self.acceleration_mm_per_s2,
+            },
+            line_unit_ticks: self.line_unit_ticks,
+            arc_unit_ticks: self.arc_unit_ticks.unwrap_or(self.line_unit_ticks),
+            timing: StepTiming {
+                min_high: self.step_high_ticks,
+                min_low: self.step_low_ticks,
+                dir_setup: self.dir_setup_ticks,
+                dir_hold: self.dir_hold_ticks,
+            },
+            ..Settings::default()
+        }
+    }
 }
 
 /// The variant by its name.

@@ -69,17 +69,16 @@ impl Servo {
         let worst = frames
             .iter()
             .max_by(|a, b| mm(self.load(a)).total_cmp(&mm(self.load(b))))?;
-        // The command to which the models owe it to be here is that of the same place, not time.
-        let model = self.model(worst);
-        let from = |frame: &&Frame| distance(self.command(frame), model);
-        let command = frames.iter().min_by(|a, b| from(a).total_cmp(&from(b)))?;
-        let [command, model, motor, load] = [
-            self.command(command),
-            model,
-            self.motor(worst),
-            self.load(worst),
-        ]
-        .map(off);
+        // What a motor owes its place to are model and command of the same place, not time.
+        let near = |place: Point, of: fn(&Self, &Frame) -> Point| {
+            let from = |frame: &Frame| distance(of(self, frame), place);
+            let nearest = frames.iter().min_by(|a, b| from(a).total_cmp(&from(b)));
+            nearest.map(|frame| of(self, frame))
+        };
+        let motor = self.motor(worst);
+        let model = near(motor, Self::model)?;
+        let command = near(model, Self::command)?;
+        let [command, model, motor, load] = [command, model, motor, self.load(worst)].map(off);
         let is_arc = matches!(path.pieces[piece].course, Course::Arc(_));
         let rounding = distance(command, [0.0; 3]) <= ROUNDING_COUNTS / self.per_mm;
         let commanded = match is_arc && !rounding {

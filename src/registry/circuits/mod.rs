@@ -4,19 +4,21 @@ mod arc_generator;
 mod blocks;
 mod lead_angle;
 mod linear_interpolator;
+mod machine;
 mod make;
 mod pulse_interpolator;
 mod trajectory_controller;
 
 use super::Entry;
 
-const PARTS: [&[Entry]; 6] = [
+const PARTS: [&[Entry]; 7] = [
     pulse_interpolator::CIRCUITS,
     blocks::CIRCUITS,
     linear_interpolator::CIRCUITS,
     lead_angle::CIRCUITS,
     arc_generator::CIRCUITS,
     trajectory_controller::CIRCUITS,
+    machine::CIRCUITS,
 ];
 
 const COUNT: usize = {

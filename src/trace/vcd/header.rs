@@ -1,6 +1,6 @@
 //! The declarations at the head of a dump.
 
-use super::dump::{Id, Signal};
+use super::text::{Id, Signal};
 use crate::kernel::Role;
 use crate::trace::Clock;
 use crate::trace::layout::{CLK, Layout, Scope, companion};

@@ -1,19 +1,22 @@
-use super::dump::{Dump, Id, Signal};
 use super::header::header;
-use crate::kernel::Running;
+use super::text::{Id, Signal, Text};
+use crate::kernel::{Circuit, Running, Sample};
 use crate::trace::Clock;
 use crate::trace::layout::Layout;
+use crate::trace::walk::Walk;
 use std::io::{self, Write};
 
 /// Bytes that are gathered before they are written.
-const BUFFER: usize = 256 * 1024;
+const GATHERED: usize = 256 * 1024;
 
 /// A dump of a circuit whose type is forgotten: all of [`Vcd`](super::Vcd) but the walk.
 #[derive(Debug)]
 pub(crate) struct Waves {
-    clock: Clock,
-    last: Option<u64>,
-    dump: Dump,
+    walk: Walk,
+    signals: Vec<Signal>,
+    clk: Id,
+    text: Text,
+    begun: bool,
 }
 
 impl Waves {
@@ -25,61 +28,26 @@ impl Waves {
         for (leaf, &selected) in layout.leaves.iter().zip(&layout.selected) {
             signals.push(Signal::new(leaf, selected, &mut next));
         }
-        let mut buffer = Vec::with_capacity(BUFFER + BUFFER / 8);
+        let mut head = Vec::new();
         // Writing to memory does not fail.
-        let _ = header(&mut buffer, layout, &signals, clock, clk);
+        let _ = header(&mut head, layout, &signals, clock, clk);
         Waves {
-            clock,
-            last: None,
-            dump: Dump {
-                previous: vec![0; signals.len()],
-                signals,
-                clk,
-                cursor: 0,
-                first: true,
-                every_word: true,
-                buffer,
-            },
+            walk: Walk::new(layout, clock),
+            signals,
+            clk,
+            text: Text::new(head),
+            begun: false,
         }
     }
 
-    /// Begins a tick; the probe is to see all of its signals.
-    pub(super) fn begin(&mut self, tick: u64) -> io::Result<&mut Dump> {
-        let dump = &mut self.dump;
-        if self.last.is_some_and(|last| last >= tick) {
-            return Err(io::Error::new(
-                io::ErrorKind::InvalidInput,
-                format!("tick {tick} comes twice"),
-            ));
-        }
-        // What a memory says it changed is what its last edge changed; after a gap all is looked at.
-        dump.first = self.last.is_none();
-        dump.every_word = self.last.is_none_or(|last| last + 1 != tick);
-        self.last = Some(tick);
-
-        dump.time(self.clock.rise(tick).ok_or_else(too_late)?);
-        if dump.first {
-            dump.buffer.extend_from_slice(b"$dumpvars\n");
-        }
-        dump.scalar(b'1', dump.clk);
-        dump.cursor = 0;
-        Ok(dump)
-    }
-
-    /// Ends the tick.
-    pub(super) fn end(&mut self, tick: u64, out: &mut dyn Write) -> io::Result<()> {
-        let dump = &mut self.dump;
-        if dump.first {
-            dump.buffer.extend_from_slice(b"$end\n");
-        }
-        dump.time(self.clock.fall(tick).ok_or_else(too_late)?);
-        dump.scalar(b'0', dump.clk);
-
-        if dump.buffer.len() >= BUFFER {
-            out.write_all(&dump.buffer)?;
-            dump.buffer.clear();
-        }
-        Ok(())
+    /// Writes a tick.
+    pub(super) fn sample<C: Circuit>(
+        &mut self,
+        now: &Sample<'_, C>,
+        out: &mut dyn Write,
+    ) -> io::Result<()> {
+        let times = self.walk.sample(now)?;
+        self.lines(times, out)
     }
 
     /// Writes a tick.
@@ -89,24 +57,40 @@ impl Waves {
         running: &dyn Running,
         out: &mut dyn Write,
     ) -> io::Result<()> {
-        running.show(self.begin(tick)?);
-        self.end(tick, out)
+        let times = self.walk.tick(tick, running)?;
+        self.lines(times, out)
+    }
+
+    fn lines(&mut self, (rise, fall): (u64, u64), out: &mut dyn Write) -> io::Result<()> {
+        let Waves { text, signals, .. } = self;
+        text.time(rise);
+        if !self.begun {
+            text.raw(b"$dumpvars\n");
+        }
+        text.scalar(1, &self.clk);
+        for change in self.walk.changes().drain(..) {
+            text.change(&signals[change.leaf as usize], change.bits);
+        }
+        if !self.begun {
+            text.raw(b"$end\n");
+            self.begun = true;
+        }
+        text.time(fall);
+        text.scalar(0, &self.clk);
+
+        if text.bytes().len() >= GATHERED {
+            out.write_all(text.bytes())?;
+            text.clear();
+        }
+        Ok(())
     }
 
     /// Gives the last tick its full length and hands everything to the writer.
     pub(crate) fn finish(mut self, out: &mut dyn Write) -> io::Result<()> {
-        if let Some(last) = self.last {
-            let end = self.clock.rise(last + 1).ok_or_else(too_late)?;
-            self.dump.time(end);
+        if let Some(end) = self.walk.end()? {
+            self.text.time(end);
         }
-        out.write_all(&self.dump.buffer)?;
+        out.write_all(self.text.bytes())?;
         out.flush()
     }
-}
-
-fn too_late() -> io::Error {
-    io::Error::new(
-        io::ErrorKind::InvalidInput,
-        "the time of this tick does not fit into 64 bits",
-    )
 }

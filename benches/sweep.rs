@@ -1,0 +1,57 @@
+//! Cases a second of exhaustive checks: the integrator of the linear interpolator at 8 bits, case by
+//! case and in lanes, on one thread and on all.
+
+use divan::counter::ItemsCount;
+use motion_rtl::check::{Swept, sweep};
+use motion_rtl::linear_interpolator::{Integrator, LineSweep, Rule};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::ops::Range;
+
+type Law = LineSweep<8, 16>;
+
+/// A part of the 2^32 cases, two scans each.
+const FIRST: u64 = 0x1234_0000;
+const SCANS_A_CASE: u64 = 2;
+
+fn law() -> Law {
+    LineSweep::new(Integrator::new(Rule::Floor))
+}
+
+fn threads(count: usize) -> ThreadPool {
+    let pool = ThreadPoolBuilder::new().num_threads(count).build();
+    pool.expect("threads")
+}
+
+/// Measures in scans a second; none may fail.
+fn measure(
+    bencher: divan::Bencher<'_, '_>,
+    count: usize,
+    cases: u64,
+    run: impl Fn(&Law, Range<u64>) -> Swept<Integrator<8, 16>> + Sync,
+) {
+    let (law, pool) = (law(), threads(count));
+    bencher
+        .counter(ItemsCount::new(cases * SCANS_A_CASE))
+        .bench_local(|| {
+            let swept = pool.install(|| run(&law, FIRST..FIRST + cases));
+            assert!(swept.held().is_some(), "{swept:?}");
+        });
+}
+
+#[divan::bench(args = [1, 2], sample_count = 10)]
+fn simulated(bencher: divan::Bencher<'_, '_>, threads: usize) {
+    measure(bencher, threads, 1 << 17, |law, cases| {
+        sweep(law).range(cases).run_simulated().expect("narrow")
+    });
+}
+
+#[divan::bench(args = [1, 2], consts = [8, 16, 32, 48, 64, 96], sample_count = 10)]
+fn lanes<const K: usize>(bencher: divan::Bencher<'_, '_>, threads: usize) {
+    measure(bencher, threads, 1 << 19, |law, cases| {
+        sweep(law).range(cases).run::<K, u16>().expect("narrow")
+    });
+}
+
+fn main() {
+    divan::main();
+}

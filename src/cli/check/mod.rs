@@ -1,0 +1,87 @@
+//! `check`: proofs and sweeps, in one table.
+
+mod parts;
+mod report;
+mod tasks;
+mod work;
+
+use super::{Failure, print, print_json};
+use clap::Args;
+use motion_rtl::registry::{CATALOGUE, Entry, find};
+use parts::Shard;
+use report::{Asked, Report};
+use std::path::PathBuf;
+
+/// What to prove.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// A circuit; without it all.
+    circuit: Option<String>,
+    /// Width of the words, in bits.
+    #[arg(long, value_name = "BITS")]
+    width: Option<u64>,
+    /// What else the circuit is made with, as `list` tells: `--with 1` is the literal variant of
+    /// unit_law, pulse_generator and axis.
+    #[arg(
+        long,
+        value_name = "NUMBERS",
+        value_delimiter = ',',
+        requires = "circuit"
+    )]
+    with: Vec<u64>,
+    /// States after which a proof is given up.
+    #[arg(long, value_name = "STATES", default_value_t = 1 << 26)]
+    limit: u32,
+    /// Where the waves of a counterexample go.
+    #[arg(long, value_name = "DIR", default_value = "waves")]
+    out: PathBuf,
+    /// Does part I of N of the work.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Puts the parts of a work, as `--shard --json` printed them, together in one table.
+    #[arg(
+        long,
+        value_name = "FILES",
+        num_args = 1..,
+        conflicts_with_all = ["circuit", "width", "with", "limit", "out", "shard"]
+    )]
+    merge: Vec<PathBuf>,
+    /// Prints the table as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The circuit of that name.
+pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
+    find(name).ok_or_else(|| {
+        let names: Vec<&str> = CATALOGUE.iter().map(|entry| entry.name).collect();
+        Failure::Argument {
+            field: "CIRCUIT",
+            problem: format!("there is no {name}"),
+            allowed: names.join(", "),
+        }
+    })
+}
+
+/// Proves and sweeps, or puts together what was proved and swept elsewhere.
+pub fn check(arguments: &Arguments) -> Result<(), Failure> {
+    let report = if arguments.merge.is_empty() {
+        let asked = Asked {
+            circuit: arguments.circuit.clone(),
+            width: arguments.width,
+            with: arguments.with.clone(),
+            limit: arguments.limit,
+        };
+        let (tasks, others) = tasks::of(&asked)?;
+        let shard = arguments.shard.unwrap_or_default();
+        let rows = work::run(&tasks, shard, arguments.limit, &arguments.out)?;
+        Report::new(asked, shard, rows, others)
+    } else {
+        parts::merge(&arguments.merge)?
+    };
+    match arguments.json {
+        true => print_json(&report)?,
+        false => print(&report.table())?,
+    }
+    report.faults()
+}

@@ -1,0 +1,237 @@
+//! Parts of a work that is done in several places, and how they come together.
+
+use super::report::{Asked, Ended, Kind, Report, Row};
+use super::tasks::{self, Task};
+use crate::cli::Failure;
+use motion_rtl::input::Fault;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// A part of the work; part 1 of 1 is all of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Shard {
+    /// Which, from 1.
+    pub part: u32,
+    /// Of how many.
+    pub of: u32,
+}
+
+impl Default for Shard {
+    fn default() -> Self {
+        Shard { part: 1, of: 1 }
+    }
+}
+
+impl FromStr for Shard {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers = text
+            .split_once('/')
+            .and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
+        match numbers {
+            Some((part, of)) if (1..=of).contains(&part) => Ok(Shard { part, of }),
+            _ => Err("allowed: a part and how many there are, 1/4 to 4/4 for instance"),
+        }
+    }
+}
+
+impl Shard {
+    /// Its tasks: of the proofs every `of`-th, every sweep.
+    pub fn of(self, tasks: &[Task]) -> Vec<&Task> {
+        let mut proofs = 0;
+        let mine = tasks.iter().filter(|task| {
+            let turn = proofs % self.of + 1;
+            match task.kind() {
+                Kind::Sweep => true,
+                Kind::Proof => {
+                    proofs += 1;
+                    turn == self.part
+                }
+            }
+        });
+        mine.collect()
+    }
+
+    /// Its cases of a sweep.
+    pub fn range(self, cases: u64) -> Range<u64> {
+        let at = |part: u32| {
+            let at = u128::from(cases) * u128::from(part) / u128::from(self.of);
+            at as u64
+        };
+        at(self.part - 1)..at(self.part)
+    }
+}
+
+fn fault(file: &Path, line: usize, field: &str, problem: String, allowed: String) -> Failure {
+    Failure::Input(Fault {
+        file: file.display().to_string(),
+        line,
+        field: field.to_owned(),
+        problem,
+        allowed,
+    })
+}
+
+/// Reads a part, and holds it against the tasks that its own arguments ask for.
+fn read(path: &Path) -> Result<(Report, Vec<Task>), Failure> {
+    let text = fs::read_to_string(path).map_err(|error| {
+        let allowed = "what `check --shard --json` printed".to_owned();
+        fault(path, 0, "file", error.to_string(), allowed)
+    })?;
+    let mut json = serde_json::Deserializer::from_str(&text);
+    let report: Result<Report, _> = serde_path_to_error::deserialize(&mut json);
+    let report = report.map_err(|error| {
+        let (field, error) = (error.path().to_string(), error.into_inner());
+        let allowed = "what `check --shard --json` printed".to_owned();
+        fault(path, error.line(), &field, error.to_string(), allowed)
+    })?;
+    let version = env!("CARGO_PKG_VERSION");
+    if report.version != version {
+        let problem = format!("is {}", report.version);
+        return Err(fault(path, 0, "version", problem, version.to_owned()));
+    }
+    let Shard { part, of } = report.shard;
+    if !(1..=of).contains(&part) {
+        let problem = format!("is {part} of {of}");
+        return Err(fault(path, 0, "shard", problem, format!("1 to {of}")));
+    }
+    let (tasks, _) = tasks::of(&report.asked)?;
+    let mine = report.shard.of(&tasks);
+    let of_task = |task: &Task| (task.circuit(), task.kind());
+    let of_row = |row: &Row| (row.circuit.clone(), row.kind);
+    for (index, row) in report.rows.iter().enumerate() {
+        let right = mine.get(index).is_some_and(|task| {
+            let (circuit, kind) = of_task(task);
+            of_row(row) == (circuit.to_owned(), kind)
+        });
+        if !right {
+            let field = format!("rows[{index}].circuit");
+            let allowed = mine
+                .get(index)
+                .map_or("no more rows", |task| task.circuit());
+            let problem = format!("is {}", row.circuit);
+            return Err(fault(path, 0, &field, problem, allowed.to_owned()));
+        }
+    }
+    if let Some(task) = mine.get(report.rows.len()) {
+        let problem = format!("without {}", task.circuit());
+        let allowed = format!("{} rows", mine.len());
+        return Err(fault(path, 0, "rows", problem, allowed));
+    }
+    Ok((report, tasks))
+}
+
+/// Puts the parts together.
+pub fn merge(paths: &[PathBuf]) -> Result<Report, Failure> {
+    let mut parts: Vec<(Report, &PathBuf)> = Vec::new();
+    let mut all = Vec::new();
+    for path in paths {
+        let (report, tasks) = read(path)?;
+        if let Some((first, other)) = parts.first() {
+            let other = other.display();
+            let differs = |field, problem: String, allowed: String| {
+                let problem = format!("{problem}, that of {other} {allowed}");
+                Err(fault(path, 0, field, problem, "parts of one work".into()))
+            };
+            if report.asked != first.asked {
+                return differs("asked", told(&report.asked), told(&first.asked));
+            }
+            if report.shard.of != first.shard.of {
+                let (this, that) = (report.shard.of, first.shard.of);
+                return differs("shard.of", this.to_string(), that.to_string());
+            }
+        }
+        let same = parts.iter().find(|(other, _)| other.shard == report.shard);
+        if let Some((_, other)) = same {
+            let problem = format!("is {}, as that of {}", report.shard.part, other.display());
+            let allowed = "each part once".to_owned();
+            return Err(fault(path, 0, "shard.part", problem, allowed));
+        }
+        all = tasks;
+        parts.push((report, path));
+    }
+    parts.sort_by_key(|(report, _)| report.shard.part);
+    let of = parts.first().map_or(1, |(first, _)| first.shard.of);
+    let there = |part: &u32| parts.iter().any(|(report, _)| report.shard.part == *part);
+    let missing: Vec<_> = (1..=of).filter(|part| !there(part)).collect();
+    if !missing.is_empty() {
+        let missing: Vec<_> = missing.iter().map(|part| format!("{part}/{of}")).collect();
+        return Err(Failure::Argument {
+            field: "--merge",
+            problem: format!("without part {}", missing.join(", ")),
+            allowed: format!("all {of} parts"),
+        });
+    }
+    let mut rows: Vec<_> = parts
+        .iter()
+        .map(|(report, _)| report.rows.clone().into_iter().peekable())
+        .collect();
+    let merged = all.iter().filter_map(|task| {
+        let mut whole: Option<Row> = None;
+        for rows in &mut rows {
+            let belongs = |row: &Row| row.circuit == task.circuit() && row.kind == task.kind();
+            if let Some(row) = rows.next_if(belongs) {
+                whole = Some(match whole {
+                    None => row,
+                    Some(before) => joined(before, row),
+                });
+            }
+        }
+        whole
+    });
+    let merged = merged.collect();
+    let mut parts = parts.into_iter();
+    let Some((first, _)) = parts.next() else {
+        return Err(unread());
+    };
+    Ok(Report {
+        shard: Shard::default(),
+        rows: merged,
+        ..first
+    })
+}
+
+/// There is at least one file, or the command line is refused.
+fn unread() -> Failure {
+    Failure::Argument {
+        field: "--merge",
+        problem: "names no file".into(),
+        allowed: "the files of all parts".into(),
+    }
+}
+
+/// What was asked for, as on the command line.
+fn told(asked: &Asked) -> String {
+    let mut text = "check".to_owned();
+    let mut add = |option: &str, value: Option<String>| {
+        if let Some(value) = value {
+            text = format!("{text} {option}{value}");
+        }
+    };
+    let numbers: Vec<_> = asked.with.iter().map(u64::to_string).collect();
+    add("", asked.circuit.clone());
+    add("--width ", asked.width.map(|width| width.to_string()));
+    add("--with ", (!numbers.is_empty()).then(|| numbers.join(",")));
+    add("--limit ", Some(asked.limit.to_string()));
+    text
+}
+
+/// The parts of a sweep, that of the lower cases first.
+fn joined(before: Row, row: Row) -> Row {
+    let seconds = before.seconds + row.seconds;
+    let whole = match (before.ended, row.ended) {
+        (Ended::Holds, Ended::Holds) => Row {
+            states: Some(before.states.unwrap_or(0) + row.states.unwrap_or(0)),
+            ..before
+        },
+        // What is wrong in the lowest case is what counts.
+        (Ended::Holds, _) => row,
+        _ => before,
+    };
+    Row { seconds, ..whole }
+}

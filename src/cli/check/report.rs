@@ -1,0 +1,139 @@
+//! What came of it: the table, and the same as JSON.
+
+use super::parts::Shard;
+use crate::cli::Failure;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
+
+/// What was asked for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Asked {
+    pub circuit: Option<String>,
+    pub width: Option<u64>,
+    pub with: Vec<u64>,
+    pub limit: u32,
+}
+
+/// Whether a row is a proof by all states or a sweep over all cases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    Proof,
+    Sweep,
+}
+
+/// How it ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ended {
+    /// Everything holds.
+    Holds,
+    /// Something does not.
+    Broken,
+    /// More states than the limit.
+    NotDecided,
+    /// More bits than can be enumerated.
+    TooWide,
+}
+
+/// A proof or a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Row {
+    pub circuit: String,
+    pub kind: Kind,
+    pub width: u64,
+    /// What holds.
+    pub invariants: Vec<String>,
+    pub ended: Ended,
+    /// The states of a proof, the cases of a sweep.
+    pub states: Option<u64>,
+    pub transitions: Option<u64>,
+    pub depth: Option<u64>,
+    pub seconds: f64,
+    /// Why it does not hold.
+    pub fault: Option<String>,
+}
+
+/// All rows of a work, or of a part of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Report {
+    pub version: String,
+    pub asked: Asked,
+    pub shard: Shard,
+    pub rows: Vec<Row>,
+    /// The circuits that are neither proved nor swept.
+    pub too_wide: Vec<String>,
+}
+
+impl Report {
+    pub fn new(asked: Asked, shard: Shard, rows: Vec<Row>, too_wide: Vec<String>) -> Self {
+        Report {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            asked,
+            shard,
+            rows,
+            too_wide,
+        }
+    }
+
+    /// As text.
+    pub fn table(&self) -> String {
+        let mut table = String::new();
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            table,
+            "{:<22} {:>5} {:>10} {:>12} {:>5} {:>9}",
+            "circuit", "width", "states", "transitions", "depth", "time"
+        );
+        for row in &self.rows {
+            let number = |number: Option<u64>| number.map_or(String::new(), |n| n.to_string());
+            let ended = match (row.ended, row.kind) {
+                (Ended::Holds, Kind::Proof) => "proved",
+                (Ended::Holds, Kind::Sweep) => "every case",
+                (Ended::Broken, _) => "BROKEN",
+                (Ended::NotDecided, _) => "not decided",
+                (Ended::TooWide, _) => "too wide",
+            };
+            let _ = writeln!(
+                table,
+                "{:<22} {:>5} {:>10} {:>12} {:>5} {:>7.2} s  {ended}",
+                row.circuit,
+                row.width,
+                number(row.states),
+                number(row.transitions),
+                number(row.depth),
+                row.seconds
+            );
+            for invariant in &row.invariants {
+                let _ = writeln!(table, "  {invariant}");
+            }
+        }
+        if !self.too_wide.is_empty() {
+            let _ = writeln!(
+                table,
+                "too wide for exhaustion: {}",
+                self.too_wide.join(", ")
+            );
+        }
+        if self.shard.of > 1 {
+            let _ = writeln!(table, "part {} of {}", self.shard.part, self.shard.of);
+        }
+        table
+    }
+
+    /// A failure where something does not hold.
+    pub fn faults(&self) -> Result<(), Failure> {
+        let faults: Vec<_> = self
+            .rows
+            .iter()
+            .filter_map(|row| row.fault.clone())
+            .collect();
+        match faults.is_empty() {
+            true => Ok(()),
+            false => Err(Failure::Check(faults.join("\n"))),
+        }
+    }
+}

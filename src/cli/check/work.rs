@@ -1,0 +1,196 @@
+//! Does it, on all cores, and shows how far it is.
+
+use super::parts::Shard;
+use super::report::{Ended, Kind, Row};
+use super::tasks::Task;
+use crate::cli::Failure;
+use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
+use motion_rtl::check::Proof;
+use motion_rtl::kernel::RunError;
+use motion_rtl::registry::{AnyCircuit, AnySweep, Verdict};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// A bar over all tasks, and a line for each that is under way.
+struct Bars {
+    lines: MultiProgress,
+    all: ProgressBar,
+}
+
+impl Bars {
+    fn new(tasks: usize) -> Self {
+        let lines = MultiProgress::new();
+        let all = lines.add(ProgressBar::new(tasks as u64));
+        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len}") {
+            all.set_style(style);
+        }
+        Bars { lines, all }
+    }
+
+    fn line(&self, task: &Task) -> ProgressBar {
+        let line = self.lines.add(ProgressBar::new_spinner());
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg}") {
+            line.set_style(style);
+        }
+        line.set_prefix(task.circuit());
+        line
+    }
+}
+
+/// The rows of a part of the tasks, in their order: every so-manieth proof, and so much of every
+/// sweep.
+pub fn run(tasks: &[Task], shard: Shard, limit: u32, out: &Path) -> Result<Vec<Row>, Failure> {
+    let mine = shard.of(tasks);
+    let bars = Bars::new(mine.len());
+    let rows: Vec<Result<Row, Failure>> = mine
+        .into_par_iter()
+        .map(|task| {
+            let line = bars.line(task);
+            let row = row(task, shard, limit, out, &line);
+            line.finish_and_clear();
+            bars.all.inc(1);
+            row
+        })
+        .collect();
+    bars.all.finish_and_clear();
+    rows.into_iter().collect()
+}
+
+fn row(
+    task: &Task,
+    shard: Shard,
+    limit: u32,
+    out: &Path,
+    line: &ProgressBar,
+) -> Result<Row, Failure> {
+    let begun = Instant::now();
+    let mut row = match task {
+        Task::Proof(entry, given) => match (entry.make)(given) {
+            Some(circuit) => prove(entry.name, given[0], &*circuit, limit, out, line)?,
+            None => return Err(unmade(task)),
+        },
+        Task::Sweep(entry, given) => match (entry.make)(given) {
+            Some(law) => sweep(entry.circuit, given[0], &*law, shard, out, line)?,
+            None => return Err(unmade(task)),
+        },
+    };
+    row.seconds = begun.elapsed().as_secs_f64();
+    Ok(row)
+}
+
+/// What was made once before can be made again.
+fn unmade(task: &Task) -> Failure {
+    Failure::Check(format!("{}: cannot be made", task.circuit()))
+}
+
+/// A row of which nothing is known yet.
+fn begun(circuit: &str, kind: Kind, width: u64, invariants: Vec<String>) -> Row {
+    Row {
+        circuit: circuit.to_owned(),
+        kind,
+        width,
+        invariants,
+        ended: Ended::Holds,
+        states: None,
+        transitions: None,
+        depth: None,
+        seconds: 0.0,
+        fault: None,
+    }
+}
+
+fn prove(
+    name: &str,
+    width: u64,
+    circuit: &dyn AnyCircuit,
+    limit: u32,
+    out: &Path,
+    line: &ProgressBar,
+) -> Result<Row, Failure> {
+    let row = begun(name, Kind::Proof, width, circuit.invariants());
+    let verdict = circuit.prove(limit, Some(out), &mut |progress| {
+        let (states, frontier) = (HumanCount(progress.states), HumanCount(progress.frontier));
+        line.set_message(format!("{states} states, {frontier} to go"));
+        line.tick();
+    });
+    Ok(match verdict {
+        Err(error) => Row {
+            ended: Ended::TooWide,
+            fault: Some(format!(
+                "{name} at width {width}: {error}; allowed: a smaller --width"
+            )),
+            ..row
+        },
+        Ok(Verdict::Proved(Proof {
+            states,
+            transitions,
+            depth,
+            ..
+        })) => Row {
+            states: Some(states),
+            transitions: Some(transitions),
+            depth: Some(depth),
+            ..row
+        },
+        Ok(Verdict::Undecided(progress)) => Row {
+            ended: Ended::NotDecided,
+            states: Some(progress.states),
+            transitions: Some(progress.transitions),
+            depth: Some(progress.depth),
+            fault: Some(format!(
+                "{name}: not decided within {} states; allowed: a larger --limit",
+                progress.states
+            )),
+            ..row
+        },
+        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves)?,
+    })
+}
+
+fn sweep(
+    name: &str,
+    width: u64,
+    law: &dyn AnySweep,
+    shard: Shard,
+    out: &Path,
+    line: &ProgressBar,
+) -> Result<Row, Failure> {
+    let row = begun(name, Kind::Sweep, width, vec![law.law().to_owned()]);
+    let swept = law.cases().and_then(|cases| {
+        let range = shard.range(cases);
+        line.set_length(range.end - range.start);
+        law.sweep(range, Some(out), &|cases| {
+            line.inc(cases);
+            let (done, all) = (HumanCount(line.position()), line.length().unwrap_or(0));
+            line.set_message(format!("{done} of {} cases", HumanCount(all)));
+        })
+    });
+    Ok(match swept {
+        Ok(Verdict::Proved(cases)) => Row {
+            states: Some(cases),
+            ..row
+        },
+        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves)?,
+        // A sweep has no limit.
+        Ok(Verdict::Undecided(_)) => row,
+        Err(error) => Row {
+            ended: Ended::TooWide,
+            fault: Some(format!("{name} at width {width}: {error}")),
+            ..row
+        },
+    })
+}
+
+fn broken(row: Row, report: &str, waves: Result<Vec<PathBuf>, RunError>) -> Result<Row, Failure> {
+    let waves: Vec<_> = waves?
+        .iter()
+        .map(|path| path.display().to_string())
+        .collect();
+    let fault = format!("{}: {report}\nwaves: {}", row.circuit, waves.join(", "));
+    Ok(Row {
+        ended: Ended::Broken,
+        fault: Some(fault),
+        ..row
+    })
+}

@@ -1,0 +1,40 @@
+//! The machine of all circuits, and what it has besides them.
+
+use crate::machine::{CommandJoin, Enables, Machine, Settings, job};
+use crate::registry::Entry;
+use crate::registry::entry::{Made, at_width, entry, proved_at};
+
+/// They.
+pub const CIRCUITS: &[Entry] = &[
+    entry!(
+        Enables,
+        Enables::default(),
+        Some(2),
+        "system, rates",
+        ["W" = 24],
+        "width of the counters",
+        proved_at!(2; [2 4 8], |given, W| Enables::<W>::default())
+    ),
+    entry!(
+        CommandJoin<32, 24>,
+        CommandJoin,
+        Some(3),
+        "system, commands",
+        ["W" = 32, "V" = 24],
+        "width of the lines' way; that of the arcs is a bit less",
+        proved_at!(3; [3 4 8], |given, W| CommandJoin::<W, { W - 1 }>)
+    ),
+    entry!(
+        Machine,
+        job::machine(&Settings::default()).circuit,
+        None,
+        "system",
+        [],
+        "",
+        Made {
+            make: |_given| None,
+            model: |_given| Some(Box::new(job::machine(&Settings::default()).circuit)),
+            offered: &[],
+        }
+    ),
+];

@@ -1,0 +1,113 @@
+//! Laws that are swept, their types forgotten.
+
+use super::Verdict;
+use crate::check::{Law, Swept, TooWide, cases, sweep};
+use crate::linear_interpolator::{Integrator, LineSweep, Rule};
+use crate::logic::lanes::Element;
+use crate::trace::Clock;
+use std::ops::Range;
+use std::path::Path;
+
+/// A law of a circuit of the catalogue.
+#[derive(Debug, Clone, Copy)]
+pub struct SweepEntry {
+    /// The circuit's name.
+    pub circuit: &'static str,
+    /// Makes it from the numbers that the circuit's [`Entry`](super::Entry) takes; `None` where
+    /// there is none with them.
+    pub make: fn(&[u64]) -> Option<Box<dyn AnySweep>>,
+    /// The widths it takes.
+    pub widths: &'static [u64],
+    /// The width it is swept at unless another is asked for.
+    pub width: u64,
+}
+
+/// Every law.
+pub const SWEEPS: &[SweepEntry] = &[SweepEntry {
+    circuit: "integrator",
+    make: |given| {
+        let rule = match given.get(1) {
+            None | Some(0) => Rule::Floor,
+            Some(1) => Rule::Truncating,
+            Some(_) => Rule::Centred,
+        };
+        Some(match given.first()? {
+            2 => line::<2, 4>(rule),
+            3 => line::<3, 6>(rule),
+            4 => line::<4, 8>(rule),
+            6 => line::<6, 12>(rule),
+            8 => line::<8, 16>(rule),
+            _ => return None,
+        })
+    },
+    widths: &[2, 3, 4, 6, 8],
+    width: 6,
+}];
+
+fn line<const P: usize, const R: usize>(rule: Rule) -> Box<dyn AnySweep> {
+    in_lanes::<_, 64, u16>(LineSweep::<P, R>::new(Integrator::new(rule)))
+}
+
+/// A law with the lanes that it is swept in.
+fn in_lanes<W: Law + 'static, const K: usize, E: Element>(law: W) -> Box<dyn AnySweep> {
+    Box::new(InLanes::<W, K, E> {
+        law,
+        element: std::marker::PhantomData,
+    })
+}
+
+/// A law with its circuit, its type forgotten.
+pub trait AnySweep: Sync {
+    /// What holds.
+    fn law(&self) -> &str;
+    /// The number of cases.
+    ///
+    /// # Errors
+    /// They are too wide to be counted.
+    fn cases(&self) -> Result<u64, TooWide>;
+    /// Checks the cases with these indices; `waves` is where the first that is wrong is written as
+    /// VCD and save file.
+    ///
+    /// # Errors
+    /// They are too wide to be counted.
+    fn sweep(
+        &self,
+        range: Range<u64>,
+        waves: Option<&Path>,
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> Result<Verdict<u64>, TooWide>;
+}
+
+struct InLanes<W, const K: usize, E> {
+    law: W,
+    element: std::marker::PhantomData<E>,
+}
+
+impl<W: Law, const K: usize, E: Element> AnySweep for InLanes<W, K, E> {
+    fn law(&self) -> &str {
+        self.law.name()
+    }
+
+    fn cases(&self) -> Result<u64, TooWide> {
+        cases::<W>()
+    }
+
+    fn sweep(
+        &self,
+        range: Range<u64>,
+        waves: Option<&Path>,
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> Result<Verdict<u64>, TooWide> {
+        let swept = sweep(&self.law).range(range).progress(progress);
+        Ok(match swept.run::<K, E>()? {
+            Swept::Held(cases) => Verdict::Proved(cases),
+            Swept::Counterexample(found) => Verdict::Broken {
+                report: found.to_string(),
+                waves: waves.map_or(Ok(Vec::new()), |directory| {
+                    std::fs::create_dir_all(directory)?;
+                    found.save(self.law.circuit(), Clock::default(), directory)
+                }),
+            },
+        })
+    }
+}

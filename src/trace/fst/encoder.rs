@@ -1,0 +1,273 @@
+use super::header::{Counts, Variable, declarations, header};
+use super::section::{Section, Sorted, Value};
+use super::varint::{signed, unsigned};
+use crate::trace::Clock;
+use crate::trace::layout::Layout;
+use crate::trace::vcd::eight_digits;
+use lz4_flex::block::{CompressTable, compress_into_with_table, get_maximum_output_size};
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use std::io::{self, Seek, SeekFrom, Write};
+
+/// The kind of block that holds values.
+const VALUES: u8 = 8;
+/// Chains of values are packed by LZ4.
+const LZ4: u8 = b'4';
+/// Bytes below which packing gains nothing.
+const WORTH_PACKING: usize = 32;
+/// The level of zlib for frames and times, which are full of repetitions.
+const ZLIB: u8 = 1;
+
+/// Writes sections.
+pub struct Encoder<W> {
+    out: W,
+    clock: Clock,
+    counts: Counts,
+    variables: Vec<Variable>,
+    /// The values at the end of the section before, by leaf.
+    values: Vec<u64>,
+    sorted: Sorted,
+    chain: Vec<u8>,
+    bytes: Vec<u8>,
+    table: CompressTable,
+}
+
+impl<W> std::fmt::Debug for Encoder<W> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Encoder").finish_non_exhaustive()
+    }
+}
+
+impl<W: Write + Seek> Encoder<W> {
+    /// Writes the head of the file.
+    pub fn new(mut out: W, layout: &Layout, clock: Clock) -> io::Result<Self> {
+        let mut bytes = header(clock, Counts::default());
+        let (variables, scopes) = declarations(&mut bytes, layout);
+        out.write_all(&bytes)?;
+        Ok(Encoder {
+            out,
+            clock,
+            counts: Counts {
+                scopes,
+                variables: variables.len() as u64,
+                ..Counts::default()
+            },
+            variables,
+            values: vec![0; layout.leaves.len()],
+            sorted: Sorted::default(),
+            chain: Vec::new(),
+            bytes,
+            table: CompressTable::large(),
+        })
+    }
+
+    /// Writes a section and empties it.
+    pub fn write(&mut self, section: &mut Section) -> io::Result<()> {
+        let last_tick = section.ticks.last().map(|tick| tick.fall);
+        let Some(end) = section.end.or(last_tick) else {
+            // No tick at all.
+            return Ok(());
+        };
+        if self.counts.sections == 0 {
+            let first = section.ticks.first().map_or(end, |first| first.rise);
+            (self.counts.start, self.counts.end) = (first, first);
+        }
+        let start = self.counts.end;
+        self.sorted.sort(section, self.values.len());
+
+        self.bytes.clear();
+        self.bytes.push(VALUES);
+        let length = self.place();
+        self.bytes.extend(start.to_be_bytes());
+        self.bytes.extend(end.to_be_bytes());
+        let unpacked = self.place();
+        self.frame();
+        let chains = self.chains(section.ticks.len());
+        self.times(section);
+        self.fill(length, (self.bytes.len() - length) as u64);
+        self.fill(unpacked, chains);
+        self.out.write_all(&self.bytes)?;
+
+        for (leaf, value) in self.values.iter_mut().enumerate() {
+            if let Some(last) = self.sorted.run(leaf).last() {
+                *value = last.bits;
+            }
+        }
+        self.counts.end = end;
+        self.counts.sections += 1;
+        section.ticks.clear();
+        section.changes.clear();
+        Ok(())
+    }
+
+    /// Completes the header.
+    pub fn finish(mut self) -> io::Result<W> {
+        self.out.seek(SeekFrom::Start(0))?;
+        self.out.write_all(&header(self.clock, self.counts))?;
+        self.out.flush()?;
+        Ok(self.out)
+    }
+
+    /// Leaves room for a number that is known later.
+    fn place(&mut self) -> usize {
+        self.bytes.extend([0; 8]);
+        self.bytes.len() - 8
+    }
+
+    fn fill(&mut self, place: usize, number: u64) {
+        self.bytes[place..place + 8].copy_from_slice(&number.to_be_bytes());
+    }
+
+    /// The values with which the section begins: those of the section before, in the first one
+    /// those of its first tick.
+    fn frame(&mut self) {
+        let first = self.counts.sections == 0;
+        let frame = &mut self.chain;
+        frame.clear();
+        for variable in &self.variables {
+            match *variable {
+                Variable::Clk => frame.push(if first { b'1' } else { b'0' }),
+                Variable::Names { .. } => {}
+                Variable::Bits { leaf, width } => {
+                    let run = if first { self.sorted.run(leaf) } else { &[] };
+                    let bits = run.first().map_or(self.values[leaf], |value| value.bits);
+                    let digits = left(bits, width).to_be_bytes().map(eight_digits);
+                    frame.extend_from_slice(&digits.as_flattened()[..width]);
+                }
+            }
+        }
+        unsigned(&mut self.bytes, frame.len() as u64);
+        let packed = pack(frame);
+        unsigned(&mut self.bytes, packed.len() as u64);
+        unsigned(&mut self.bytes, self.variables.len() as u64);
+        self.bytes.extend_from_slice(&packed);
+    }
+
+    /// The values of each variable in turn, and where they begin. Returns their bytes unpacked.
+    fn chains(&mut self, ticks: usize) -> u64 {
+        unsigned(&mut self.bytes, self.variables.len() as u64);
+        let mut last = self.bytes.len();
+        self.bytes.push(LZ4);
+        let (mut places, mut without, mut unpacked) = (Vec::new(), 0, 0);
+        for variable in &self.variables {
+            self.chain.clear();
+            match *variable {
+                Variable::Clk => clk(&mut self.chain, ticks),
+                Variable::Bits { leaf, width } => {
+                    bits(&mut self.chain, self.sorted.run(leaf), width);
+                }
+                Variable::Names { leaf, names } => {
+                    strings(&mut self.chain, self.sorted.run(leaf), names);
+                }
+            }
+            if self.chain.is_empty() {
+                without += 1;
+                continue;
+            }
+            if without > 0 {
+                unsigned(&mut places, without << 1);
+                without = 0;
+            }
+            let start = self.bytes.len();
+            signed(&mut places, ((start - last) as i64) << 1 | 1);
+            last = start;
+            unpacked += self.chain.len() as u64;
+            put(&mut self.bytes, &self.chain, &mut self.table);
+        }
+        if without > 0 {
+            unsigned(&mut places, without << 1);
+        }
+        self.bytes.extend_from_slice(&places);
+        self.bytes.extend((places.len() as u64).to_be_bytes());
+        unpacked
+    }
+
+    /// The table of times, each as what lies between it and the one before.
+    fn times(&mut self, section: &Section) {
+        let edges = section.ticks.iter().flat_map(|tick| [tick.rise, tick.fall]);
+        let (mut count, mut before) = (0, 0);
+        self.chain.clear();
+        for time in edges.chain(section.end) {
+            unsigned(&mut self.chain, time - before);
+            before = time;
+            count += 1;
+        }
+        let packed = pack(&self.chain);
+        self.bytes.extend_from_slice(&packed);
+        for number in [self.chain.len() as u64, packed.len() as u64, count] {
+            self.bytes.extend(number.to_be_bytes());
+        }
+    }
+}
+
+/// By zlib, where that makes it shorter: readers tell by the length.
+fn pack(bytes: &[u8]) -> Vec<u8> {
+    let packed = compress_to_vec_zlib(bytes, ZLIB);
+    match packed.len() < bytes.len() {
+        true => packed,
+        false => bytes.to_vec(),
+    }
+}
+
+/// A chain with its length, which is 0 where it is not packed.
+fn put(out: &mut Vec<u8>, chain: &[u8], table: &mut CompressTable) {
+    let start = out.len();
+    if chain.len() >= WORTH_PACKING {
+        unsigned(out, chain.len() as u64);
+        let begin = out.len();
+        out.resize(begin + get_maximum_output_size(chain.len()), 0);
+        let packed = compress_into_with_table(chain, &mut out[begin..], table);
+        if let Ok(packed) = packed
+            && packed < chain.len()
+        {
+            out.truncate(begin + packed);
+            return;
+        }
+        out.truncate(start);
+    }
+    out.push(0);
+    out.extend_from_slice(chain);
+}
+
+/// The bits of a word moved up to the highest one.
+fn left(bits: u64, width: usize) -> u64 {
+    bits << (64 - width.clamp(1, 64))
+}
+
+/// High at the first of the two times of each tick, low at the second.
+fn clk(chain: &mut Vec<u8>, ticks: usize) {
+    let high = 1 << 2 | 1 << 1;
+    let low = 1 << 2;
+    chain.extend([high, low].repeat(ticks));
+    if let Some(first) = chain.first_mut() {
+        // It is at the first time, not one after it.
+        *first = 1 << 1;
+    }
+}
+
+fn bits(chain: &mut Vec<u8>, run: &[Value], width: usize) {
+    let mut last = 0;
+    for &Value { place, bits } in run {
+        let later = u64::from(place - last);
+        last = place;
+        if width == 1 {
+            unsigned(chain, later << 2 | bits << 1);
+        } else {
+            unsigned(chain, later << 1);
+            let bytes = left(bits, width).to_be_bytes();
+            chain.extend_from_slice(&bytes[..width.div_ceil(8)]);
+        }
+    }
+}
+
+fn strings(chain: &mut Vec<u8>, run: &[Value], names: &[&str]) {
+    let mut last = 0;
+    for &Value { place, bits } in run {
+        unsigned(chain, u64::from(place - last) << 1);
+        last = place;
+        let name = usize::try_from(bits).ok().and_then(|bits| names.get(bits));
+        let number = bits.to_string();
+        let text = name.map_or(&*number, |name| name);
+        unsigned(chain, text.len() as u64);
+        chain.extend_from_slice(text.as_bytes());
+    }
+}

@@ -1,0 +1,172 @@
+//! What stands at the head of the file: its header, the scopes and names, the widths.
+
+use super::varint::unsigned;
+use crate::kernel::{Format, Role};
+use crate::trace::Clock;
+use crate::trace::layout::{CLK, Layout, Scope, companion};
+
+/// Kinds of block.
+const HEADER: u8 = 0;
+const GEOMETRY: u8 = 3;
+const HIERARCHY_LZ4: u8 = 6;
+
+/// Kinds of entry in the hierarchy.
+const SCOPE: u8 = 254;
+const UP: u8 = 255;
+const MODULE: u8 = 0;
+const REG: u8 = 5;
+const WIRE: u8 = 16;
+const STRING: u8 = 21;
+
+/// The width of strings in the geometry, whose values bring their length.
+const VARIABLE: u64 = u32::MAX as u64;
+
+/// A variable, in the order in which they are declared.
+#[derive(Debug, Clone, Copy)]
+pub enum Variable {
+    /// The clock, which no walk shows.
+    Clk,
+    /// A leaf.
+    Bits { leaf: usize, width: usize },
+    /// The states of a leaf by name.
+    Names {
+        leaf: usize,
+        names: &'static [&'static str],
+    },
+}
+
+/// What becomes known while the file is written.
+#[derive(Debug, Default, Clone, Copy)]
+pub struct Counts {
+    pub start: u64,
+    pub end: u64,
+    pub scopes: u64,
+    pub variables: u64,
+    pub sections: u64,
+}
+
+/// The header.
+pub fn header(clock: Clock, counts: Counts) -> Vec<u8> {
+    let Counts {
+        start,
+        end,
+        scopes,
+        variables,
+        sections,
+    } = counts;
+    let mut out = vec![HEADER];
+    for number in [329, start, end] {
+        out.extend(number.to_be_bytes());
+    }
+    // By this number readers tell the order of the bytes in real numbers.
+    out.extend(std::f64::consts::E.to_le_bytes());
+    let memory = 0;
+    for number in [memory, scopes, variables, variables, sections] {
+        out.extend(number.to_be_bytes());
+    }
+    out.push(clock.exponent() as u8);
+    let version = concat!("motion-rtl ", env!("CARGO_PKG_VERSION"));
+    let date = "";
+    for (text, length) in [(version, 128), (date, 119)] {
+        out.extend(text.bytes().chain(std::iter::repeat(0)).take(length));
+    }
+    let verilog = 0;
+    out.push(verilog);
+    let time_of_zero: u64 = 0;
+    out.extend(time_of_zero.to_be_bytes());
+    out
+}
+
+/// Scopes, names and widths; returns the variables and the number of scopes.
+pub fn declarations(out: &mut Vec<u8>, layout: &Layout) -> (Vec<Variable>, u64) {
+    let mut hierarchy = Hierarchy::default();
+    hierarchy.scope(&layout.top, layout, true);
+    let Hierarchy {
+        text,
+        widths,
+        variables,
+        scopes,
+    } = hierarchy;
+
+    let packed = lz4_flex::block::compress(&text);
+    block(out, HIERARCHY_LZ4, text.len(), &[], &packed);
+    let count = (variables.len() as u64).to_be_bytes();
+    block(out, GEOMETRY, widths.len(), &count, &widths);
+    (variables, scopes)
+}
+
+/// A block: its length after its kind, the length of its contents unpacked, its contents.
+fn block(out: &mut Vec<u8>, kind: u8, unpacked: usize, count: &[u8], contents: &[u8]) {
+    let length = 16 + count.len() + contents.len();
+    out.push(kind);
+    out.extend((length as u64).to_be_bytes());
+    out.extend((unpacked as u64).to_be_bytes());
+    out.extend(count);
+    out.extend(contents);
+}
+
+#[derive(Default)]
+struct Hierarchy {
+    text: Vec<u8>,
+    widths: Vec<u8>,
+    variables: Vec<Variable>,
+    scopes: u64,
+}
+
+impl Hierarchy {
+    fn scope(&mut self, scope: &Scope, layout: &Layout, outermost: bool) {
+        self.scopes += 1;
+        self.text.extend([SCOPE, MODULE]);
+        self.text.extend(scope.name.bytes());
+        // The end of the name, and no name of a component.
+        self.text.extend([0, 0]);
+        if outermost {
+            self.variable(WIRE, CLK, Variable::Clk);
+        }
+        for &index in &scope.leaves {
+            let leaf = &layout.leaves[index];
+            let kind = match leaf.role {
+                Role::Register => REG,
+                Role::Input | Role::Net => WIRE,
+            };
+            let width = leaf.shape.width;
+            let bits = Variable::Bits { leaf: index, width };
+            match width {
+                1 => self.variable(kind, &leaf.name, bits),
+                _ => self.variable(kind, &format!("{} [{}:0]", leaf.name, width - 1), bits),
+            }
+            if let (Format::States(names), Some(name)) = (leaf.field.format, companion(leaf)) {
+                self.variable(STRING, &name, Variable::Names { leaf: index, names });
+            }
+        }
+        for inner in &scope.scopes {
+            self.scope(inner, layout, false);
+        }
+        self.text.push(UP);
+    }
+
+    fn variable(&mut self, kind: u8, name: &str, variable: Variable) {
+        let no_direction = 0;
+        self.text.extend([kind, no_direction]);
+        self.text.extend(name.bytes());
+        self.text.push(0);
+        let width = variable.width();
+        unsigned(&mut self.text, width as u64);
+        let no_alias = 0;
+        unsigned(&mut self.text, no_alias);
+        let geometry = if width == 0 { VARIABLE } else { width as u64 };
+        unsigned(&mut self.widths, geometry);
+        self.variables.push(variable);
+    }
+}
+
+impl Variable {
+    /// Its characters in a frame.
+    fn width(self) -> usize {
+        match self {
+            Variable::Clk => 1,
+            Variable::Bits { width, .. } => width,
+            Variable::Names { .. } => 0,
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Values as lines of text.
+
+use crate::kernel::{Declaration, Format};
+use vcd::IdCode;
+
+/// The longest line of a number: `b`, 64 digits, the end of the line with its padding.
+const LINE: usize = 1 + 64 + 8;
+/// The room in the buffer at first, doubled where a tick needs more.
+const ROOM: usize = 16 * 1024;
+
+/// The code of a variable, spelt out as it stands behind every value: up to five characters hold
+/// any 32-bit index.
+#[derive(Debug, Clone, Copy)]
+pub struct Id {
+    index: u32,
+    /// A space, the code, the end of the line; zeros behind it.
+    end: [u8; 8],
+    /// How much of that there is.
+    len: u8,
+}
+
+impl Id {
+    pub fn new(index: u32) -> Self {
+        let code = IdCode::from(index).to_string();
+        let mut end = [0; 8];
+        let text = " ".bytes().chain(code.bytes()).chain("\n".bytes());
+        for (place, byte) in end.iter_mut().zip(text) {
+            *place = byte;
+        }
+        Id {
+            index,
+            end,
+            len: code.len() as u8 + 2,
+        }
+    }
+
+    pub fn code(self) -> IdCode {
+        IdCode::from(self.index)
+    }
+}
+
+/// How a leaf is written.
+#[derive(Debug, Clone, Copy)]
+pub struct Signal {
+    pub id: Id,
+    scalar: bool,
+    pub states: Option<(Id, &'static [&'static str])>,
+}
+
+impl Signal {
+    pub fn new(leaf: &Declaration, selected: bool, next: &mut u32) -> Self {
+        let mut id = || {
+            let id = Id::new(*next);
+            *next += u32::from(selected);
+            id
+        };
+        Signal {
+            id: id(),
+            scalar: leaf.shape.width == 1,
+            states: match leaf.field.format {
+                Format::States(names) => Some((id(), names)),
+                _ => None,
+            },
+        }
+    }
+}
+
+/// The lines that are not written yet.
+#[derive(Debug)]
+pub struct Text {
+    /// More than there are, so that a line can be put in its place at its full length.
+    buffer: Vec<u8>,
+    len: usize,
+}
+
+impl Text {
+    pub fn new(head: Vec<u8>) -> Self {
+        let len = head.len();
+        let mut buffer = head;
+        buffer.resize(len + ROOM, 0);
+        Text { buffer, len }
+    }
+
+    pub fn bytes(&self) -> &[u8] {
+        &self.buffer[..self.len]
+    }
+
+    pub fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    /// Room for a line.
+    #[inline]
+    fn line(&mut self) -> &mut [u8] {
+        if self.buffer.len() < self.len + LINE {
+            self.buffer.resize(2 * self.buffer.len() + LINE, 0);
+        }
+        &mut self.buffer[self.len..self.len + LINE]
+    }
+
+    pub fn raw(&mut self, bytes: &[u8]) {
+        for part in bytes.chunks(LINE) {
+            self.line()[..part.len()].copy_from_slice(part);
+            self.len += part.len();
+        }
+    }
+
+    #[inline]
+    pub fn change(&mut self, signal: &Signal, bits: u64) {
+        match signal.scalar {
+            true => self.scalar(bits, &signal.id),
+            false => self.vector(bits, &signal.id),
+        }
+        if let Some((id, names)) = &signal.states {
+            self.state(bits, names, id);
+        }
+    }
+
+    #[inline]
+    pub fn scalar(&mut self, bit: u64, id: &Id) {
+        let line = self.line();
+        line[..8].copy_from_slice(&id.end);
+        // In place of the space.
+        line[0] = b'0' + (bit & 1) as u8;
+        self.len += usize::from(id.len);
+    }
+
+    /// Leading zeros are left out: a reader extends a value that begins with 1 by zeros.
+    #[inline]
+    fn vector(&mut self, bits: u64, id: &Id) {
+        let digits = 64 - (bits | 1).leading_zeros() as usize;
+        let mut rest = bits << (64 - digits);
+        let line = self.line();
+        line[0] = b'b';
+        for eight in line[1..65].chunks_exact_mut(8).take(digits.div_ceil(8)) {
+            eight.copy_from_slice(&eight_digits((rest >> 56) as u8));
+            rest <<= 8;
+        }
+        line[1 + digits..][..8].copy_from_slice(&id.end);
+        self.len += 1 + digits + usize::from(id.len);
+    }
+
+    fn state(&mut self, bits: u64, names: &[&str], id: &Id) {
+        let name = usize::try_from(bits).ok().and_then(|bits| names.get(bits));
+        self.raw(b"s");
+        match name {
+            Some(name) => self.raw(name.as_bytes()),
+            None => self.raw(bits.to_string().as_bytes()),
+        }
+        self.raw(&id.end[..usize::from(id.len)]);
+    }
+
+    pub fn time(&mut self, time: u64) {
+        // At most 20 digits and a `#` before the 24th place, where the line ends; behind it room
+        // for what is copied too much.
+        let mut line = [b'\n'; 48];
+        let mut start = 24;
+        let mut rest = time;
+        loop {
+            let pair = (rest % 100) as u8;
+            rest /= 100;
+            start -= 2;
+            line[start] = b'0' + pair / 10;
+            line[start + 1] = b'0' + pair % 10;
+            if rest == 0 {
+                break;
+            }
+        }
+        if line[start] == b'0' {
+            start += 1;
+        }
+        start -= 1;
+        line[start] = b'#';
+        self.line()[..24].copy_from_slice(&line[start..start + 24]);
+        self.len += 25 - start;
+    }
+}
+
+/// The bits of a byte as text, the highest first: each to a byte of its own, moved to its lowest
+/// bit by the carry, and a `0` added.
+pub fn eight_digits(byte: u8) -> [u8; 8] {
+    let apart = u64::from(byte) * 0x0101_0101_0101_0101 & 0x0102_0408_1020_4080;
+    let ones = (apart + 0x7f7f_7f7f_7f7f_7f7f) >> 7 & 0x0101_0101_0101_0101;
+    (ones | 0x3030_3030_3030_3030).to_le_bytes()
+}
