@@ -181,12 +181,19 @@ impl Circle {
     /// Distance of a point from the arc.
     #[must_use]
     pub fn distance(&self, point: Point) -> f64 {
-        let to_ends = distance(point, self.start).min(distance(point, self.end()));
-        if self.angle_of(point) > self.angle {
-            return to_ends;
+        distance(point, self.nearest(point))
+    }
+
+    /// The point of the arc that is nearest to a point; the start for one on its axis.
+    #[must_use]
+    pub fn nearest(&self, point: Point) -> Point {
+        let angle = self.angle_of(point);
+        if angle <= self.angle {
+            return self.point(angle);
         }
-        let [outside, height] = self.off(point);
-        outside.hypot(height).min(to_ends)
+        let ends = [self.start, self.end()];
+        let [to_start, to_end] = ends.map(|end| distance(point, end));
+        ends[usize::from(to_end < to_start)]
     }
 
     /// How far a point is outside the circle, and above its plane.

@@ -3,7 +3,7 @@
 use super::circle::{Circle, CircleError};
 use super::error::{PathError, Reason};
 use super::settings::Settings;
-use super::vector::{distance, sub, unit};
+use super::vector::{add, distance, dot, scale, sub, unit};
 use crate::input::{self, Drawing, Move, Point};
 
 /// How far an arc may be off the path's points, as a part of its length and 1 mm.
@@ -25,6 +25,23 @@ impl Course {
         match self {
             Course::Line => distance(from, to),
             Course::Arc(circle) => circle.length(),
+        }
+    }
+
+    /// The point of it that is nearest to a point.
+    #[must_use]
+    pub fn nearest(&self, from: Point, to: Point, point: Point) -> Point {
+        match self {
+            Course::Arc(circle) => circle.nearest(point),
+            Course::Line => {
+                let way = sub(to, from);
+                let square = dot(way, way);
+                let along = match square > 0.0 {
+                    true => dot(sub(point, from), way) / square,
+                    false => 0.0,
+                };
+                add(from, scale(way, along.clamp(0.0, 1.0)))
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 use super::circle::Circle;
 use super::path::Course;
 use super::prepare::Timing;
-use super::vector::{add, distance, norm, scale, sub};
+use super::vector::{distance, norm, sub};
 use crate::input::Point;
 
 /// What a path became.
@@ -233,15 +233,7 @@ impl PieceReport {
     /// Distance of a point from the piece.
     #[must_use]
     pub fn distance(&self, point: Point) -> f64 {
-        match &self.course {
-            Course::Arc(circle) => circle.distance(point),
-            Course::Line => {
-                let way = sub(self.to, self.from);
-                let along =
-                    super::vector::dot(sub(point, self.from), way) / (self.length * self.length);
-                distance(point, add(self.from, scale(way, along.clamp(0.0, 1.0))))
-            }
-        }
+        distance(point, self.course.nearest(self.from, self.to, point))
     }
 }
 

@@ -142,6 +142,7 @@ impl Job {
             scenario::Scenario::LeadAngle(_) => Err("lead-angle compensator"),
             scenario::Scenario::ArcGenerator(_) => Err("arc generator"),
             scenario::Scenario::TrajectoryController(_) => Err("trajectory controller"),
+            scenario::Scenario::Machine(_) => Err("machine"),
         };
         let scenario = scenario.map_err(|circuit| {
             let problem = format!("the {circuit} has no table");
@@ -157,7 +158,7 @@ impl Job {
         let settings = scenario.settings(&drawing);
         let spinner = compiling();
         let (table, report) = compile(&drawing, &settings)
-            .map_err(|error| fault(&source.loaded, &drawing, &settings, error))?;
+            .map_err(|error| table_fault(&source.loaded, &drawing, &settings, error))?;
         drop(spinner);
         let Source { loaded, stem, .. } = source;
         Ok(Job {
@@ -216,7 +217,12 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
 }
 
 /// What the compiler objects to, with the file and line it stands in.
-fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TableError) -> Fault {
+pub fn table_fault(
+    loaded: &Loaded,
+    drawing: &Drawing,
+    settings: &Settings,
+    error: TableError,
+) -> Fault {
     let in_drawing = |line, field: String, problem, allowed| {
         drawing_fault(drawing, line, &field, problem, allowed)
     };

@@ -8,6 +8,7 @@ mod job;
 mod lead_angle;
 mod linear;
 pub mod list;
+mod machine;
 mod magnification;
 mod picture;
 mod pieces;

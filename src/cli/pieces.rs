@@ -10,13 +10,15 @@ use motion_rtl::input::{Drawing, Fault, Point};
 /// Where the path begins if nothing says so.
 const ORIGIN: Point = [0.0; 3];
 
-/// A scenario's speeds, and the key of that of the pieces that have none of their own.
+/// A scenario's speeds, and the keys: of that of the pieces that have none of their own.
 #[derive(Debug, Clone, Copy)]
 pub struct SpeedKeys {
     /// The speeds.
     pub speeds: Speeds,
     /// The key.
     pub key: &'static str,
+    /// That of rapid moves.
+    pub rapid: &'static str,
 }
 
 /// Where a path begins, its pieces, and the drawing they are from; none where the scenario has them.
@@ -82,7 +84,7 @@ pub fn fault(
     let told = keys.speeds.wanted.is_some();
     // A speed may come from the scenario: its key is at fault then, on account of this line.
     let field = match (reason.word(), step) {
-        ("F", Some(step)) if step.rapid => "rapid_mm_per_s",
+        ("F", Some(step)) if step.rapid => keys.rapid,
         ("F", Some(step)) if step.feed_mm_per_min.is_none() && told => keys.key,
         (word, _) => word,
     };

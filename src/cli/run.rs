@@ -5,7 +5,7 @@ use super::job::{Input, Job, Source};
 use super::picture::{Following, draw};
 use super::summary::Summary;
 use super::traces::{Focus, Format, Traces, conclude, no_such_tick};
-use super::{Failure, arc, lead_angle, linear, trajectory};
+use super::{Failure, arc, lead_angle, linear, machine, trajectory};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use motion_rtl::input::scenario::{Loaded, Scenario};
@@ -79,6 +79,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             let scenario = scenario.clone();
             trajectory::run(arguments, &trajectory::Job::prepare(source, &scenario)?)
         }
+        Scenario::Machine(scenario) => {
+            let settings = scenario.settings();
+            machine::run(arguments, &machine::Job::prepare(source, settings)?)
+        }
     }
 }
 
@@ -147,6 +151,7 @@ fn simulate<const AXES: usize>(
         action: played.first_step.unwrap_or(played.begun),
         before: unit,
         shown: UNITS_SHOWN * unit,
+        overview: &[],
     };
     let files = traces.finish(&group, &focus, played.ticks)?;
     Ok((played, files))

@@ -47,10 +47,15 @@ macro_rules! input {
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 11] = [
+pub const SHIPPED: [Shipped; 12] = [
+    shipped!(
+        "waves/machine.toml",
+        "a bracket in G-code on steppers, servos and a pen lift, by all five circuits; runs by default",
+        input: "waves/bracket.ngc"
+    ),
     shipped!(
         "waves/bracket.toml",
-        "a bracket in G-code: lines at T2, arcs at T1; runs by default",
+        "the bracket on the pulse interpolator: lines at T2, arcs at T1",
         input: "waves/bracket.ngc"
     ),
     shipped!(

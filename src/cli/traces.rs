@@ -105,6 +105,8 @@ pub struct Focus {
     pub before: u64,
     /// Ticks shown.
     pub shown: u64,
+    /// Signals that are shown on top.
+    pub overview: &'static [&'static str],
 }
 
 impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
@@ -163,7 +165,9 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
             let file = waves.finish().map_err(RunError::Waves)?;
             self.files.push(file);
             let dump = format!("{}.{}", self.stem, self.format.extension());
-            let save = gtkw::save_file(circuit, self.clock, self.options, &dump, window);
+            let options = self.options;
+            let save =
+                gtkw::save_file_with(circuit, self.clock, options, &dump, window, focus.overview);
             self.files.write("gtkw", &save.map_err(io::Error::from)?)?;
         }
         Ok(self.files)

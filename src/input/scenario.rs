@@ -9,6 +9,7 @@ mod exactly;
 pub mod lead_angle;
 pub mod linear_interpolator;
 mod loaded;
+pub mod machine;
 pub mod pulse_interpolator;
 pub mod trajectory_controller;
 
@@ -41,6 +42,8 @@ pub enum Scenario {
     ArcGenerator(arc_generator::Scenario),
     /// CN104204977.
     TrajectoryController(Box<trajectory_controller::Scenario>),
+    /// All of them as one motion controller.
+    Machine(Box<machine::Scenario>),
 }
 
 impl Scenario {
@@ -52,6 +55,7 @@ impl Scenario {
             Scenario::LeadAngle(scenario) => scenario.input.as_ref(),
             Scenario::ArcGenerator(scenario) => scenario.input.as_ref(),
             Scenario::TrajectoryController(scenario) => scenario.input.as_ref(),
+            Scenario::Machine(scenario) => scenario.input.as_ref(),
         }
     }
 
@@ -63,6 +67,7 @@ impl Scenario {
             Scenario::LeadAngle(scenario) => scenario.input.as_mut(),
             Scenario::ArcGenerator(scenario) => scenario.input.as_mut(),
             Scenario::TrajectoryController(scenario) => scenario.input.as_mut(),
+            Scenario::Machine(scenario) => scenario.input.as_mut(),
         }
     }
 
@@ -74,6 +79,7 @@ impl Scenario {
             Scenario::LeadAngle(scenario) => scenario.clock_hz,
             Scenario::ArcGenerator(scenario) => scenario.clock_hz,
             Scenario::TrajectoryController(scenario) => scenario.clock_hz,
+            Scenario::Machine(scenario) => scenario.clock_hz,
         }
     }
 
@@ -85,6 +91,7 @@ impl Scenario {
             Scenario::LeadAngle(scenario) => scenario.vcd_ticks,
             Scenario::ArcGenerator(scenario) => scenario.vcd_ticks,
             Scenario::TrajectoryController(scenario) => scenario.vcd_ticks,
+            Scenario::Machine(scenario) => scenario.vcd_ticks,
         }
     }
 }
@@ -103,4 +110,6 @@ pub enum Runnable {
     ArcGenerator,
     /// CN104204977.
     TrajectoryController,
+    /// All of them as one motion controller.
+    Machine,
 }

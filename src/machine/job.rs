@@ -59,6 +59,8 @@ pub struct Frame {
     pub motor: [i64; 2],
     /// Of the loads, in counts.
     pub load: [f64; 2],
+    /// Of the pen lift, in counts.
+    pub lift: i64,
 }
 
 /// A step of the pen lift.
@@ -241,6 +243,7 @@ impl Bench {
                 model: from_fn(|k| axes[k].servo.model.integrators.position.get()),
                 motor: [w.position_x.get(), w.position_y.get()],
                 load: from_fn(|k| around.servos[k].load_position_counts()),
+                lift: lift.position.get(),
             });
             self.waiting = match host.stage {
                 Stage::Settle => self.waiting + 1,

@@ -21,6 +21,7 @@ pub mod command_join;
 pub mod enables;
 mod host;
 pub mod job;
+pub mod measure;
 pub mod ports;
 pub mod program;
 pub mod settings;

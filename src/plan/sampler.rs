@@ -19,6 +19,8 @@ pub struct Sample {
     pub rapid: bool,
     /// Line of the input that move stands in; 0 where the path has no length.
     pub line: usize,
+    /// Which of the drawing's moves it is.
+    pub index: usize,
 }
 
 /// Gives the position of a [`Plan`] in time.
@@ -60,6 +62,7 @@ impl<'p, 'd> Sampler<'p, 'd> {
                 arc: false,
                 rapid: false,
                 line: 0,
+                index: 0,
             };
         };
         let segments = self.plan.segments();
@@ -106,6 +109,7 @@ impl Current {
             arc: self.curve.is_arc(),
             rapid: self.rapid,
             line: self.line,
+            index: self.segment.index,
         }
     }
 

@@ -55,19 +55,41 @@ pub fn save_file<C: Circuit>(
     dump: &str,
     focus: Range<u64>,
 ) -> Result<String, LayoutError> {
+    save_file_with(circuit, clock, options, dump, focus, &[])
+}
+
+/// The same with some signals once more behind `clk`, by their paths from the circuit's name on:
+/// those that say most of what the circuit does.
+///
+/// # Errors
+/// What [`Vcd::new`](super::Vcd::new) refuses.
+pub fn save_file_with<C: Circuit>(
+    circuit: &C,
+    clock: Clock,
+    options: &Options,
+    dump: &str,
+    focus: Range<u64>,
+    overview: &[&str],
+) -> Result<String, LayoutError> {
     let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
-    Ok(save(&layout, clock, dump, focus))
+    Ok(save(&layout, clock, dump, focus, overview))
 }
 
 /// The save file of what is laid out.
-pub(super) fn save(layout: &Layout, clock: Clock, dump: &str, focus: Range<u64>) -> String {
+pub(super) fn save(
+    layout: &Layout,
+    clock: Clock,
+    dump: &str,
+    focus: Range<u64>,
+    overview: &[&str],
+) -> String {
     let mut save = Save {
         text: String::new(),
         layout,
         flags: None,
     };
     save.window(clock, dump, focus);
-    save.top();
+    save.top(overview);
     save.text
 }
 
@@ -129,10 +151,20 @@ impl Save<'_> {
         (characters * CHARACTER).clamp(COLUMN.0, COLUMN.1)
     }
 
-    fn top(&mut self) {
+    fn top(&mut self, overview: &[&str]) {
         let layout = self.layout;
         let top = &layout.top;
         self.trace(BINARY | RIGHT, format_args!("{}.{CLK}", top.name));
+        let shown = |path: &&str| {
+            let mut leaves = layout.leaves.iter().zip(&layout.selected);
+            leaves.position(|(leaf, selected)| *selected && leaf.path() == **path)
+        };
+        let overview: Vec<usize> = overview.iter().filter_map(shown).collect();
+        if !overview.is_empty() {
+            self.comment("");
+            self.comment("overview");
+            self.leaves(&overview);
+        }
         let leaves = |wanted: fn(&Declaration) -> bool| -> Vec<usize> {
             let own = top.leaves.iter().copied();
             own.filter(|&index| wanted(&layout.leaves[index])).collect()

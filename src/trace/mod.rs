@@ -78,7 +78,7 @@ fn replay_values(
     }
     waves.finish(&mut dump)?;
 
-    let save = gtkw::save(&layout, clock, &name, 0..ticks.min(FOCUS));
+    let save = gtkw::save(&layout, clock, &name, 0..ticks.min(FOCUS), &[]);
     let mut save_file = AtomicFile::create(dir.join(format!("{stem}.gtkw")))?;
     save_file.write_all(save.as_bytes())?;
     let dump = dump.commit()?;

@@ -11,6 +11,7 @@ mod files;
 mod fst;
 mod lead_angle;
 mod linear;
+mod machine;
 #[cfg(target_os = "linux")]
 mod memory;
 mod refusals;

@@ -45,6 +45,7 @@ impl Job {
         let keys = SpeedKeys {
             speeds: Speeds::from(&settings),
             key: "speed_mm_per_s",
+            rapid: "rapid_mm_per_s",
         };
         let (drawing, start, pieces) = pieces(&source, scenario.start_mm, &taught, keys)?;
         let refuse = |error: PathError| fault(loaded, drawing.as_ref(), keys, &error);

@@ -74,6 +74,7 @@ fn simulate(
             .map_or(0, |command| command.tick),
         before: shown / 2,
         shown,
+        overview: &[],
     };
     let files = traces.finish(&circuit, &focus, played.ticks)?;
     Ok((played, files))

@@ -105,5 +105,6 @@ fn focus(settings: &Settings, action: u64) -> Focus {
         action,
         before: shown / 2,
         shown,
+        overview: &[],
     }
 }

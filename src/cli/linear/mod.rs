@@ -90,6 +90,7 @@ fn simulate(
         action: played.records.get(first).map_or(0, |record| record.tick),
         before: 2 * scan,
         shown: SCANS_SHOWN * scan,
+        overview: &[],
     };
     let files = traces.finish(&circuit, &focus, played.ticks)?;
     Ok((played, files))

@@ -14,7 +14,7 @@ use motion_rtl::trajectory_controller::settings::{SettingError, Settings};
 use motion_rtl::trajectory_controller::widths::Widths;
 
 /// Keys of a machine: theirs are the faults that are not the scenario's own.
-const MACHINE: [&str; 14] = [
+pub const MACHINE: [&str; 14] = [
     "max_torque_nm",
     "motor_inertia_kg_m2",
     "load_inertia_kg_m2",
@@ -59,6 +59,7 @@ impl Job {
         let keys = SpeedKeys {
             speeds: Speeds::from(&settings),
             key: "feed_mm_per_s",
+            rapid: "rapid_mm_per_s",
         };
         let (drawing, start, pieces) = pieces(&source, scenario.start_mm, &taught, keys)?;
         let refuse_path = |error: PathError| fault(loaded, drawing.as_ref(), keys, &error);

@@ -8,7 +8,7 @@ mod summary;
 mod text;
 mod verdict;
 
-pub use job::Job;
+pub use job::{Job, MACHINE};
 
 use super::Failure;
 use super::files::Files;
@@ -132,6 +132,7 @@ fn simulate<const AXES: usize>(
             .map_or(played.start, |period| period.tick),
         before: shown / PERIODS_SHOWN,
         shown,
+        overview: &[],
     };
     let files = traces.finish(&circuit, &focus, played.ticks)?;
     Ok((played, files))

@@ -170,6 +170,7 @@ where
         Runnable::TrajectoryController => {
             Scenario::TrajectoryController(Deserialize::deserialize(keys()?)?)
         }
+        Runnable::Machine => Scenario::Machine(Deserialize::deserialize(keys()?)?),
     })
 }
 

@@ -1,0 +1,138 @@
+//! What a run of the machine begins with: a job for all circuits, prepared.
+
+use crate::cli::Failure;
+use crate::cli::job::{Source, compiling, table_fault};
+use crate::cli::pieces::{SpeedKeys, fault};
+use crate::cli::trajectory::MACHINE;
+use motion_rtl::arc_generator::path::Speeds;
+use motion_rtl::input::scenario::Loaded;
+use motion_rtl::input::{Drawing, Fault};
+use motion_rtl::lead_angle::settings::SettingError as LiftError;
+use motion_rtl::machine::program::ProgramError;
+use motion_rtl::machine::settings::SettingError;
+use motion_rtl::machine::{Program, Settings};
+use motion_rtl::pulse_interpolator::TableError;
+use motion_rtl::trajectory_controller::program::ProgramError as TrajectoryError;
+
+/// Keys of the lift's table.
+const LIFT: [&str; 7] = [
+    "counts_per_rev",
+    "acceleration_counts_per_s2",
+    "inertia_kg_m2",
+    "friction_nm",
+    "brake_dead_time_s",
+    "brake_torque_nm",
+    "brake_fade",
+];
+
+/// An input ready to be run.
+#[derive(Debug)]
+pub struct Job {
+    /// What its files are called.
+    pub stem: String,
+    /// The input.
+    pub drawing: Drawing,
+    /// Its settings.
+    pub settings: Settings,
+    /// What every circuit is given.
+    pub program: Program,
+    /// The scenario it came from.
+    pub loaded: Loaded,
+}
+
+impl Job {
+    /// Prepares an input for all circuits.
+    pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
+        let drawing = source.drawing()?;
+        let spinner = compiling();
+        let program = Program::of(&drawing, &settings)
+            .map_err(|error| refuse(&source.loaded, &drawing, &settings, error))?;
+        drop(spinner);
+        let Source { stem, loaded, .. } = source;
+        Ok(Job {
+            stem,
+            drawing,
+            settings,
+            program,
+            loaded,
+        })
+    }
+
+    /// Ticks that the steppers take, for the progress bar; the servos take more.
+    pub fn ticks_at_least(&self) -> u64 {
+        self.program.table.total_ticks()
+    }
+}
+
+/// What cannot be run, with the file and line it stands in.
+fn refuse(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: ProgramError) -> Fault {
+    let motion = &settings.motion;
+    let keys = SpeedKeys {
+        speeds: Speeds {
+            wanted: Some(motion.feed_mm_per_min / 60.0),
+            rapid: motion.rapid_mm_per_min / 60.0,
+        },
+        key: "feed_mm_per_min",
+        rapid: "rapid_mm_per_min",
+    };
+    let setting = |error: SettingError| {
+        let SettingError {
+            field,
+            problem,
+            allowed,
+        } = error;
+        match MACHINE.contains(&field) {
+            true => loaded.part_fault("machine", field, problem, allowed),
+            false => loaded.fault(key(field), problem, allowed),
+        }
+    };
+    match error {
+        ProgramError::Setting(error)
+        | ProgramError::Trajectory(TrajectoryError::Setting { error, .. }) => setting(error),
+        ProgramError::Path(error) | ProgramError::Trajectory(TrajectoryError::Path(error)) => {
+            fault(loaded, Some(drawing), keys, &error)
+        }
+        ProgramError::Lift(error) => lift_fault(loaded, error),
+        ProgramError::Table(TableError::Setting {
+            field,
+            value,
+            allowed,
+        }) => loaded.fault(key(field), format!("is {value}"), allowed),
+        ProgramError::Table(error) => table_fault(loaded, drawing, &settings.pulse(), error),
+    }
+}
+
+/// The machine's key for a field of one of its circuits.
+fn key(field: &'static str) -> &'static str {
+    match field {
+        "line_unit_ticks" | "arc_unit_ticks" => "unit_ticks",
+        "sample_period_ms" | "period_ms" => "sample_ticks",
+        "speed_mm_per_s" | "feed_mm_per_s" => "feed_mm_per_min",
+        "rapid_mm_per_s" => "rapid_mm_per_min",
+        "normal_acceleration_mm_per_s2" => "acceleration_mm_per_s2",
+        field => field,
+    }
+}
+
+fn lift_fault(loaded: &Loaded, error: LiftError) -> Fault {
+    let LiftError {
+        field,
+        value,
+        allowed,
+        ..
+    } = error;
+    let problem = format!("is {value}");
+    match field {
+        "target" => loaded.fault("pen_down_counts", problem, allowed),
+        "speed_counts_per_s" => loaded.fault("lift_counts_per_s", problem, allowed),
+        "lead_ms" => loaded.fault("lift_lead_ms", problem, allowed),
+        "clock_hz" | "ck_ticks" => loaded.fault(field, problem, allowed),
+        field if LIFT.contains(&field) => loaded.part_fault("lift", field, problem, allowed),
+        // Times that the machine has no keys for, in CKs that do not fit them.
+        field => {
+            let problem = format!("{field} of the lift would be {value} ms");
+            let allowed = format!("CKs by which it can be: {allowed}");
+            loaded.fault("ck_ticks", problem, allowed)
+        }
+    }
+}

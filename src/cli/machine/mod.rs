@@ -1,0 +1,113 @@
+//! `run` of the machine: one job on all circuits, with waves, summary and picture.
+
+mod job;
+mod picture;
+mod rows;
+mod summary;
+mod text;
+mod verdict;
+
+pub use job::Job;
+
+use super::Failure;
+use super::files::Files;
+use super::run::{Arguments, Progress, options};
+use super::traces::{Focus, Traces, conclude, no_such_tick};
+use motion_rtl::kernel::Without;
+use motion_rtl::machine::job::{JobError, Played, machine, play};
+use motion_rtl::machine::measure::Measured;
+use motion_rtl::trace::Options;
+use summary::Summary;
+
+/// Sampling times that the save file's window shows, and those of them before the first signal
+/// that stops the pen lift.
+const SAMPLES_SHOWN: u64 = 300;
+const SAMPLES_BEFORE: u64 = 20;
+
+/// What the save file shows on top.
+const OVERVIEW: [&str; 28] = [
+    "machine.enables.unit",
+    "machine.enables.scan",
+    "machine.enables.ck",
+    "machine.enables.sample",
+    "machine.step_x",
+    "machine.dir_x",
+    "machine.step_y",
+    "machine.dir_y",
+    "machine.lines_busy",
+    "machine.arcs_busy",
+    "machine.counts_x",
+    "machine.counts_y",
+    "machine.torque_x",
+    "machine.torque_y",
+    "machine.position_x",
+    "machine.position_y",
+    "machine.drive",
+    "machine.lead_angle.predicted",
+    "machine.lead_angle.target",
+    "machine.lead_angle.fire",
+    "machine.brake",
+    "machine.lift_busy",
+    "machine.fault",
+    "machine.plant.stepper_x",
+    "machine.plant.stepper_y",
+    "machine.plant.servo_x.load_position",
+    "machine.plant.servo_y.load_position",
+    "machine.plant.lift.position",
+];
+
+/// Runs a job.
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
+    let (played, mut files) = simulate(arguments, job, &options)?;
+    no_such_tick(&options, played.ticks)?;
+    let measured = Measured::of(&job.drawing, &job.program, &job.settings, &played)
+        .map_err(|error| Failure::Check(error.to_string()))?;
+    files.write("svg", &picture::draw(job, &played, &measured))?;
+    let summary = Summary::new(job, &played, &measured);
+    conclude(arguments, &options, played.ticks, files, summary)
+}
+
+/// Plays the job with its waves.
+fn simulate(
+    arguments: &Arguments,
+    job: &Job,
+    options: &Options,
+) -> Result<(Played, Files), Failure> {
+    let (program, settings) = (&job.program, &job.settings);
+    let circuit = machine(settings);
+    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
+    let printed = &circuit.circuit;
+    let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
+    let mut progress = Progress::new(ticks);
+    let played = {
+        let stimulus = traces.stimulus.as_mut().map(Without);
+        let mut observer = (traces.waves.as_mut(), stimulus, &mut progress);
+        play(&circuit, program, settings, &mut observer).map_err(|error| refuse(job, error))?
+    };
+    drop(progress);
+    let sample = u64::from(settings.sample_ticks);
+    let fired = played.liftings.first().map(|lifting| lifting.fired);
+    let begun = played.moves.first().map_or(0, |timed| timed.begun);
+    let focus = Focus {
+        action: fired.unwrap_or(begun),
+        before: SAMPLES_BEFORE * sample,
+        shown: SAMPLES_SHOWN * sample,
+        overview: &OVERVIEW,
+    };
+    let files = traces.finish(&circuit, &focus, played.ticks)?;
+    Ok((played, files))
+}
+
+fn refuse(job: &Job, error: JobError) -> Failure {
+    match error {
+        JobError::Run(error) => Failure::Run(error),
+        // What the settings let through, a plant takes but for the length of a tick.
+        JobError::Parameter(error) => {
+            let allowed = format!("a faster clock: a tick of at most {:e} s", error.most);
+            let hz = job.settings.clock_hz;
+            let problem = format!("is {hz}: a tick of {:e} s", error.value);
+            job.loaded.fault("clock_hz", problem, allowed).into()
+        }
+    }
+}

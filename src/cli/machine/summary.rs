@@ -1,0 +1,124 @@
+//! What the run came to.
+
+use super::Job;
+use super::rows::{self, EndRow, LiftRow, PieceRow};
+use super::verdict::complaints;
+use motion_rtl::machine::job::Played;
+use motion_rtl::machine::measure::Measured;
+use serde::Serialize;
+
+/// The summary of a run.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    /// The circuit that ran.
+    pub circuit: &'static str,
+    /// The input file.
+    pub input: String,
+    /// Reference clock in Hz.
+    pub clock_hz: u64,
+    /// T in ticks.
+    pub unit_ticks: u32,
+    /// A scan in ticks.
+    pub scan_ticks: u32,
+    /// CK in ticks.
+    pub ck_ticks: u32,
+    /// Ts in ticks.
+    pub sample_ticks: u32,
+    /// Steps of a millimetre.
+    pub steps_per_mm: [f64; 2],
+    /// Counts of a millimetre.
+    pub counts_per_mm: f64,
+    /// Ticks of the run.
+    pub ticks: u64,
+    /// The same in seconds.
+    pub seconds: f64,
+    /// Whether both machines came to rest at the job's end, on the nearest step and count.
+    pub exact: bool,
+    /// What is wrong where they did not.
+    pub complaints: Vec<String>,
+    /// Pulses of the steppers, either way.
+    pub pulses: [u64; 2],
+    /// Unit times whose steps no half-period gives.
+    pub unattainable_units: usize,
+    /// Where the time went.
+    pub times: TimesRow,
+    /// The job's end.
+    pub end_mm: [f64; 2],
+    /// Where everything ended.
+    pub ends: [EndRow; 3],
+    /// Distance of steppers and commands at the end.
+    pub apart_um: f64,
+    /// Every piece of the path.
+    pub pieces: Vec<PieceRow>,
+    /// Every step of the pen lift.
+    pub lifts: Vec<LiftRow>,
+    /// Ticks that went into the VCD, half-open; `null` without one.
+    pub vcd_window: Option<[u64; 2]>,
+    /// What was skipped or assumed.
+    pub warnings: Vec<String>,
+    /// The files written.
+    pub files: Vec<String>,
+}
+
+/// Where the time went, in seconds.
+#[derive(Debug, Serialize)]
+pub struct TimesRow {
+    /// The steppers, which run through.
+    pub steppers_s: f64,
+    /// The servos, which stop at the end of each piece.
+    pub servos_s: f64,
+    /// Of these on the way.
+    pub moving_s: f64,
+    /// Coming to rest in position.
+    pub settling_s: f64,
+    /// Waiting for the pen and for records.
+    pub waiting_s: f64,
+}
+
+impl Summary {
+    /// The summary of a job that was played.
+    pub fn new(job: &Job, played: &Played, measured: &Measured) -> Self {
+        let settings = &job.settings;
+        let seconds = |ticks: u64| ticks as f64 / settings.clock_hz as f64;
+        let (times, ends) = (&measured.times, &measured.ends);
+        let complaints = complaints(job, played, ends);
+        let [x, y] = [0, 1].map(|axis| ends.stepper_mm[axis] - ends.command_mm[axis]);
+        Summary {
+            circuit: "machine",
+            input: job.drawing.file.clone(),
+            clock_hz: settings.clock_hz,
+            unit_ticks: settings.unit_ticks,
+            scan_ticks: settings.scan_ticks,
+            ck_ticks: settings.ck_ticks,
+            sample_ticks: settings.sample_ticks,
+            steps_per_mm: settings.steps_per_mm,
+            counts_per_mm: settings.counts_per_mm,
+            ticks: played.ticks,
+            seconds: seconds(played.ticks),
+            exact: complaints.is_empty(),
+            complaints,
+            pulses: played.pulses,
+            unattainable_units: job.program.report.unattainable_units,
+            times: TimesRow {
+                steppers_s: seconds(times.steppers),
+                servos_s: seconds(times.servos),
+                moving_s: seconds(times.moving),
+                settling_s: seconds(times.settling),
+                waiting_s: seconds(times.servos.saturating_sub(times.moving + times.settling)),
+            },
+            end_mm: ends.wanted_mm,
+            ends: rows::ends(ends),
+            apart_um: x.hypot(y) * 1e3,
+            pieces: rows::pieces(job, measured),
+            lifts: rows::lifts(job, played),
+            vcd_window: None,
+            warnings: job
+                .drawing
+                .warnings
+                .iter()
+                .map(ToString::to_string)
+                .collect(),
+            files: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,361 @@
+//! `run` of the machine: figures of a short drawing, files, what is complained of, refusals.
+
+use super::support::{Bench, keys, whole};
+use serde_json::{Value, json};
+
+/// 1 um a count, 1/40 mm a step; slow rates, for few ticks.
+const HEAD: &str = "circuit = \"machine\"\ninput = \"p.ngc\"\nclock_hz = 160_000\n\
+     unit_ticks = 800\nscan_ticks = 200\nck_ticks = 32\nsample_ticks = 400\n";
+
+/// Servos that come to rest with that, and a short way of the pen.
+const GAINS: &str = "position_gain_per_s = 16\nspeed_hz = 10\nintegral_ms = 75\n\
+     pen_down_counts = 2000\n";
+
+/// The pen goes down, draws a line and an arc, and comes back up and home.
+const SHORT: &str = "G1 X1 F1500\nG3 X2 Y1 I0 J1\nG0 X0 Y0\n";
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    let found = value.pointer(pointer).and_then(Value::as_f64);
+    found.unwrap_or_else(|| panic!("no number at {pointer}: {value}"))
+}
+
+fn with(keys: &str, drawing: &str) -> Bench {
+    let bench = Bench::with("s.toml", format!("{HEAD}{keys}"));
+    bench.write("p.ngc", drawing);
+    bench
+}
+
+#[test]
+fn both_machines_end_at_the_same_point() {
+    let bench = with(GAINS, SHORT);
+    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    assert_eq!(
+        keys(&summary),
+        [
+            "apart_um",
+            "circuit",
+            "ck_ticks",
+            "clock_hz",
+            "complaints",
+            "counts_per_mm",
+            "end_mm",
+            "ends",
+            "exact",
+            "files",
+            "input",
+            "lifts",
+            "pieces",
+            "pulses",
+            "sample_ticks",
+            "scan_ticks",
+            "seconds",
+            "steps_per_mm",
+            "ticks",
+            "times",
+            "unattainable_units",
+            "unit_ticks",
+            "vcd_window",
+            "warnings"
+        ]
+    );
+    assert_eq!(summary["circuit"], "machine");
+    assert_eq!(summary["input"], "p.ngc");
+    assert_eq!(
+        (&summary["exact"], &summary["complaints"]),
+        (&json!(true), &json!([]))
+    );
+    assert_eq!(summary["vcd_window"], Value::Null);
+    assert_eq!(summary["files"], json!(["waves/s.svg"]));
+    // To and fro: 2 mm of 40 steps in x, 1 mm in y.
+    assert_eq!(summary["pulses"], json!([160, 80]));
+    let ends = json!([
+        {"what": "steppers", "mm": [0.0, 0.0], "position": [0, 0], "wanted": [0, 0], "unit": "steps"},
+        {"what": "commands", "mm": [0.0, 0.0], "position": [0, 0], "wanted": [0, 0], "unit": "counts"},
+        {"what": "encoders", "mm": [0.0, 0.0], "position": [0, 0], "wanted": [0, 0], "unit": "counts"},
+    ]);
+    assert_eq!(summary["ends"], ends);
+    assert_eq!(number(&summary, "/apart_um"), 0.0);
+
+    let pieces = summary["pieces"].as_array().unwrap();
+    let kinds: Vec<_> = pieces
+        .iter()
+        .map(|row| (row["kind"].as_str(), whole(row, "/line")))
+        .collect();
+    assert_eq!(
+        kinds,
+        [(Some("line"), 1), (Some("arc"), 2), (Some("rapid"), 3)]
+    );
+    let lengths = [1.0, std::f64::consts::FRAC_PI_2, 5f64.sqrt()];
+    for (row, length) in pieces.iter().zip(lengths) {
+        assert!((number(row, "/length_mm") - length).abs() < 1e-6, "{row}");
+        // Half a step of both axes, and what one unit time's table is off.
+        assert!(number(row, "/steppers/um") < 40.0, "{row}");
+        assert!(
+            number(row, "/command_um") < 60.0 && number(row, "/load/um") < 60.0,
+            "{row}"
+        );
+        assert!(
+            number(row, "/steppers_s") < number(row, "/servos_s"),
+            "{row}"
+        );
+        for machine in ["steppers", "load"] {
+            let share = number(row, &format!("/{machine}/share_um"));
+            let most = number(row, &format!("/{machine}/um"));
+            assert!(share >= 0.0 && (most == 0.0 || share > most / 4.0), "{row}");
+        }
+    }
+    // Along x everything is on the line but for the noise of the other motor: none.
+    assert_eq!(number(&pieces[0], "/steppers/um"), 0.0);
+    assert_eq!(pieces[0]["steppers"]["reason"], Value::Null);
+    // (v ta)^2/8R with blends of 40 ms at 25 mm/s would be 31 um; the arc is too short for that.
+    assert_eq!(pieces[1]["load"]["reason"], "blend");
+
+    let times = &summary["times"];
+    let parts: f64 = ["moving_s", "settling_s", "waiting_s"]
+        .iter()
+        .map(|part| number(times, &format!("/{part}")))
+        .sum();
+    assert!((parts - number(times, "/servos_s")).abs() < 1e-9);
+    assert!(number(times, "/servos_s") > number(times, "/steppers_s"));
+
+    let lifts = summary["lifts"].as_array().unwrap();
+    let steps: Vec<_> = lifts
+        .iter()
+        .map(|row| (row["pen"].as_str(), whole(row, "/line")))
+        .collect();
+    assert_eq!(steps, [(Some("down"), 1), (Some("up"), 3)]);
+    for lift in lifts {
+        assert!(
+            whole(lift, "/completed_tick") > whole(lift, "/fired_tick"),
+            "{lift}"
+        );
+        assert_eq!(number(lift, "/lead_ms"), 25.0);
+        assert!(number(lift, "/learned_ms") > 25.0, "{lift}");
+    }
+}
+
+#[test]
+fn an_end_between_the_grids_is_the_nearest_of_both() {
+    let bench = with(GAINS, "G1 X1.0104 F1500\n");
+    let text = bench.succeed(&["run", "s.toml", "--no-vcd"]);
+    let start = "p.ngc on machine: ";
+    assert!(text.starts_with(start), "{text}");
+    assert!(text.contains("s at 160000 Hz; unit time 800, scan 200, CK 32, Ts 400 ticks\n"));
+    // 40.416 steps, 1010.4 counts.
+    let end = "\
+     end       x mm       y mm         x         y        
+     job     1.0104     0.0000
+steppers     1.0000     0.0000        40         0   steps
+commands     1.0100     0.0000      1010         0  counts
+encoders     1.0100     0.0000      1010         0  counts
+both machines end on the step and the count nearest to the job's end, 10.000 um apart
+";
+    let end = end.replace("y        \n", "y\n");
+    assert!(text.contains(&end), "{text}");
+}
+
+#[test]
+fn the_files_of_a_run() {
+    let bench = with(&format!("{GAINS}vcd_ticks = 20_000\n"), "G1 X0.5 F1500\n");
+    let run = ["run", "s.toml", "--out", "o", "--verilog"];
+    let summary = bench.json(&run);
+    assert_eq!(summary["vcd_window"], json!([0, 20_000]));
+    let names = bench.names();
+    for name in [
+        "o/s.vcd",
+        "o/s.gtkw",
+        "o/s.svg",
+        "o/machine.v",
+        "o/machine_tb.v",
+        "o/machine.stimulus",
+    ] {
+        assert!(
+            names.iter().any(|other| other == name),
+            "no {name}: {names:?}"
+        );
+    }
+    let svg = bench.read("o/s.svg");
+    for words in [
+        "s: machine",
+        "steppers",
+        "loads of the servos",
+        "pen lift",
+        "fire",
+        "complete",
+    ] {
+        assert!(svg.contains(&format!("\n{words}\n")), "{words}");
+    }
+    let save = bench.read("o/s.gtkw");
+    let overview = save
+        .split("-overview\n")
+        .nth(1)
+        .unwrap()
+        .split("-ports in\n")
+        .next()
+        .unwrap();
+    for signal in [
+        "machine.enables.sample\n",
+        "machine.step_x\n",
+        "machine.brake\n",
+        "machine.plant.lift.position[47:0]\n",
+    ] {
+        assert!(overview.contains(signal), "{signal}: {overview}");
+    }
+    assert_eq!(overview.matches("\nmachine.").count(), 28, "{overview}");
+    for group in [
+        "enables",
+        "pulse_interpolator",
+        "linear_interpolator",
+        "arc_generator",
+        "command_join",
+        "trajectory_controller",
+        "lead_angle",
+        "plant",
+    ] {
+        assert!(save.contains(&format!("\n-{group}\n")), "{group}");
+    }
+    let dump = bench.read("o/s.vcd");
+    let scopes = [
+        "machine",
+        "pulse_interpolator",
+        "trajectory_controller",
+        "lead_angle",
+        "plant",
+    ];
+    for scope in scopes {
+        assert!(
+            dump.contains(&format!("$scope module {scope} $end")),
+            "{scope}"
+        );
+    }
+}
+
+#[test]
+fn motors_that_do_not_come_to_rest_are_complained_of() {
+    // A speed control faster than the shaft.
+    let bench = with(
+        "speed_hz = 60.0\nposition_gain_per_s = 100.0\n",
+        "G1 X1 F1500\n",
+    );
+    let done = bench.run(&["run", "s.toml", "--no-vcd", "--json"]);
+    assert_eq!(done.code, 1, "{}", done.stdout);
+    let summary: Value = serde_json::from_str(&done.stdout).unwrap();
+    assert_eq!(summary["exact"], false);
+    let complaints = summary["complaints"].as_array().unwrap();
+    assert_eq!(
+        complaints[0],
+        "the servos did not come to rest: 1 of 1 moves"
+    );
+    assert!(
+        done.stderr
+            .starts_with("error: the servos did not come to rest")
+    );
+}
+
+#[test]
+fn bad_input_is_refused_with_its_line() {
+    // The head has seven lines.
+    let cases = [
+        (
+            "feed = 1",
+            SHORT,
+            "s.toml:8: feed: unknown field `feed`; allowed: one of `circuit`, `input`, `clock_hz`, ",
+        ),
+        (
+            "[lift]\nmass = 1",
+            SHORT,
+            "s.toml:9: mass: unknown field `mass`; allowed: one of `counts_per_rev`, ",
+        ),
+        (
+            "[lift]\nfriction_nm = 1",
+            SHORT,
+            "s.toml:8: counts_per_rev: missing; allowed: a value for it: it has no default",
+        ),
+        (
+            "steps_per_mm = [1]",
+            SHORT,
+            "s.toml:8: steps_per_mm: invalid length 1; allowed: ",
+        ),
+        (
+            "acceleration_ms = 1",
+            SHORT,
+            "s.toml:8: acceleration_ms: is 1; allowed: 4 to ",
+        ),
+        (
+            "pen_down_counts = 0",
+            SHORT,
+            "s.toml:8: pen_down_counts: is 0; allowed: a position other than 0, where the pen is up",
+        ),
+        (
+            "lift_lead_ms = 25.01",
+            SHORT,
+            "s.toml:8: lift_lead_ms: is 25.01; allowed: 25 or 25.2",
+        ),
+        (
+            "lift_counts_per_s = 15",
+            SHORT,
+            "s.toml:8: lift_counts_per_s: is 15; allowed: 10 to ",
+        ),
+        ("k1_per_s = 0", SHORT, "s.toml:8: k1_per_s: is 0: "),
+        ("speed_hz = 1e6", SHORT, "s.toml:8: speed_hz: is 1000000: "),
+        (
+            "feed_mm_per_min = nan",
+            SHORT,
+            "s.toml:8: feed_mm_per_min: is NaN; allowed: 0.001 to 10000000",
+        ),
+        (
+            "in_position_counts = 0",
+            SHORT,
+            "s.toml:8: in_position_counts: is 0; allowed: 1 to 1048576",
+        ),
+        (
+            "counts_per_mm = 500",
+            SHORT,
+            "s.toml: machine.mm_per_rev: is 10: 1000 counts a millimetre; allowed: 20: 500, as counts_per_mm",
+        ),
+        (
+            "",
+            "G1 X1 F1500\nG1 Z1\n",
+            "p.ngc:2: Z: leaves the plane of x and y by 1 mm; allowed: ",
+        ),
+        ("", "G1 X1 F1500\nG2 X2 Y1 I1 Z1\n", "p.ngc:2: "),
+        ("", "G1 X1 F1500\nG2 X18001 I9000\n", "p.ngc:2: "),
+        (
+            "steps_per_mm = [1e9, 40]",
+            "G1 X3 F1500\n",
+            "p.ngc:1: X: is 3000000000 steps ",
+        ),
+    ];
+    for (keys, drawing, refusal) in cases {
+        let bench = with(&format!("{keys}\n"), drawing);
+        let before = bench.names();
+        let done = bench.run(&["run", "s.toml", "--no-vcd"]);
+        let start = format!("error: {refusal}");
+        assert!(
+            done.stderr.starts_with(&start),
+            "{keys}{drawing}: {}",
+            done.stderr
+        );
+        assert_eq!((done.code, done.stdout.as_str()), (2, ""), "{keys}");
+        assert_eq!(bench.names(), before, "{keys}");
+    }
+    let bench = with("", SHORT);
+    let least = "allowed: 357 to 16777215";
+    for (set, refusal) in [
+        ("sample_ticks=100", format!("sample_ticks: is 100; {least}")),
+        ("unit_ticks=0", "unit_ticks: is 0; allowed: 1 to 16777215".to_owned()),
+        ("unit_ticks=1", "unit_ticks: is 1; allowed: 2 to 196605".to_owned()),
+        ("ck_ticks=3", "ck_ticks: is 3; allowed: 4 to 16777215".to_owned()),
+        ("ck_ticks=33", "ck_ticks: seed_ms of the lift would be 20 ms; allowed: CKs by which it can be: 19.965 or 20.13".to_owned()),
+    ] {
+        bench.refuse(&["run", "s.toml", "--set", set], &format!("--set: {refusal}"));
+    }
+    bench.refuse(
+        &["run", "s.toml", "--segments", "--from", "9", "--to", "9"],
+        "--from, --to: no tick from 9 to 9; allowed: --from below --to",
+    );
+    bench.refuse(
+        &["table", "s.toml"],
+        "s.toml:1: circuit: the machine has no table; allowed: pulse_interpolator, or the command run",
+    );
+}
