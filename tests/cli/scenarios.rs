@@ -248,7 +248,7 @@ fn bad_scenarios_are_refused_with_their_line() {
     bench.write("s.toml", "circuit = \"cam\"\n");
     bench.refuse(
         &["run", "s.toml"],
-        "s.toml:1: circuit: unknown variant `cam`; allowed: one of `pulse_interpolator`, `linear_interpolator`, `lead_angle`, `arc_generator`, `trajectory_controller`",
+        "s.toml:1: circuit: unknown variant `cam`; allowed: one of `pulse_interpolator`, `linear_interpolator`, `lead_angle`, `arc_generator`, `trajectory_controller`, `machine`",
     );
     bench.write("s.toml", b"# fine\n\n\xff\n");
     let not_text = "s.toml:3: file: not UTF-8; allowed: a scenario in TOML";
