@@ -81,7 +81,7 @@ fn bad_overrides_are_refused() {
         ("line_unit_ticks=4294967296", format!("line_unit_ticks: invalid value: integer `4294967296`; {WHOLE} to 4294967295")),
         ("steps_per_mm=80", "steps_per_mm: invalid type: integer `80`; allowed: a list of numbers, one for each axis".into()),
         ("variant=wild", "variant: unknown variant `wild`; allowed: `safe` or `literal`".into()),
-        ("circuit=cam", "circuit: unknown variant `cam`; allowed: one of `pulse_interpolator`, `linear_interpolator`, `lead_angle`, `arc_generator`, `trajectory_controller`".into()),
+        ("circuit=cam", "circuit: unknown variant `cam`; allowed: one of `pulse_interpolator`, `linear_interpolator`, `lead_angle`, `arc_generator`, `trajectory_controller`, `machine`".into()),
         ("input=other.ngc", "input: line.hpgl is the input; allowed: input with a scenario only".into()),
         ("clock_hz=0", format!("clock_hz: {}; allowed: 1 to 10000000000", range("0"))),
         ("clock_hz=10000000001", format!("clock_hz: {}; allowed: 1 to 10000000000", range("10000000001"))),
