@@ -2,9 +2,8 @@ use super::probe::{Source, supply};
 use super::property::{Moment, Property};
 use super::signals::{Field, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Logic, Sim};
-use std::array::from_fn;
+use std::any::Any;
 use std::fmt;
-use std::mem::ManuallyDrop;
 use std::process::abort;
 
 /// A clocked circuit as two pure functions.
@@ -16,7 +15,7 @@ use std::process::abort;
 ///
 /// A circuit made of circuits keeps an [`Instance`] of each in its `Net` and the `Reg` of each in
 /// its `Reg`, and only wires them.
-pub trait Circuit {
+pub trait Circuit: 'static {
     /// The circuit's name: the outermost scope of its waves, the module of its HDL.
     const NAME: &'static str;
     /// What it does, in one line.
@@ -71,33 +70,39 @@ pub(super) fn settled<C: Circuit>(circuit: &C, q: &C::Reg<Sim>, i: &C::In<Sim>) 
     circuit.comb(q, i)
 }
 
-/// The most circuits of one array.
-const MOST: usize = 8;
-
-/// Does something for each index of an array. Written out and not as a closure, which the compiler
-/// would call and hand the registers to through memory.
-macro_rules! each {
-    ($k:ident below $len:ident $do:block) => {
-        const { assert!($len <= MOST, "an array has at most 8 circuits") };
-        each!(@ $k $len $do: 0 1 2 3 4 5 6 7)
-    };
-    (@ $k:ident $len:ident $do:block: $($index:literal)*) => {
-        $(if const { $index < $len } {
-            let $k = $index;
-            $do
-        })*
-    };
+/// A value as what it is, where a constant condition says so and the compiler does not see it.
+#[inline(always)]
+fn same<A: 'static, B: 'static>(value: A) -> B {
+    let mut value = Some(value);
+    let it: &mut dyn Any = &mut value;
+    match it.downcast_mut::<Option<B>>().and_then(Option::take) {
+        Some(value) => value,
+        // A panic would have to drop the registers, and for that they would stand in memory.
+        None => abort(),
+    }
 }
 
-/// What was made, in an array; all of it was.
-#[inline(always)]
-fn all<T, const K: usize>(made: [Option<T>; K]) -> [T; K] {
-    let mut made = ManuallyDrop::new(made);
-    from_fn(|k| match made[k].take() {
-        Some(one) => one,
-        // A panic would have to drop the others, and for that they would stand in memory.
-        None => abort(),
-    })
+/// Does something for arrays of each length. Written out: a loop or a closure would be handed the
+/// registers through memory.
+macro_rules! each {
+    ($len:ident, $do:ident, $of:ty) => {{
+        const { assert!($len <= 8, "an array has at most 8 circuits") };
+        each!(@ $len, $do, $of, 0);
+        each!(@ $len, $do, $of, 1 a 0);
+        each!(@ $len, $do, $of, 2 a 0 b 1);
+        each!(@ $len, $do, $of, 3 a 0 b 1 c 2);
+        each!(@ $len, $do, $of, 4 a 0 b 1 c 2 d 3);
+        each!(@ $len, $do, $of, 5 a 0 b 1 c 2 d 3 e 4);
+        each!(@ $len, $do, $of, 6 a 0 b 1 c 2 d 3 e 4 f 5);
+        each!(@ $len, $do, $of, 7 a 0 b 1 c 2 d 3 e 4 f 5 g 6);
+        each!(@ $len, $do, $of, 8 a 0 b 1 c 2 d 3 e 4 f 5 g 6 h 7);
+        abort()
+    }};
+    (@ $len:ident, $do:ident, $of:ty, $count:literal $($name:ident $index:literal)*) => {
+        if const { $len == $count } {
+            return same::<[$of; $count], [$of; $len]>($do!($count $($name $index)*));
+        }
+    };
 }
 
 /// One circuit inside another: what goes into it and its nets, in one scope.
@@ -129,11 +134,12 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
         q: &[C::Reg<L>; K],
         inputs: [C::In<L>; K],
     ) -> [Self; K] {
-        let mut made = [const { None }; K];
-        each!(k below K {
-            made[k] = Some(Self::settle(&circuits[k], &q[k], inputs[k].clone()));
-        });
-        all(made)
+        macro_rules! settle {
+            ($count:literal $($name:ident $index:literal)*) => {
+                [$(Self::settle(&circuits[$index], &q[$index], inputs[$index].clone())),*]
+            };
+        }
+        each!(K, settle, Self)
     }
 
     /// The registers of the next tick of an array of circuits.
@@ -143,15 +149,13 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
         circuits: &[C; K],
         q: [C::Reg<L>; K],
     ) -> [C::Reg<L>; K] {
-        // All are taken out of it, so there is nothing to drop.
-        let mut registers = ManuallyDrop::new(q.into_iter());
-        let mut made = [const { None }; K];
-        each!(k below K {
-            if let Some(q) = registers.next() {
-                made[k] = Some(each[k].next(&circuits[k], q));
-            }
-        });
-        all(made)
+        macro_rules! clock {
+            ($count:literal $($name:ident $index:literal)*) => {{
+                let [$($name),*] = same::<[C::Reg<L>; K], [C::Reg<L>; $count]>(q);
+                [$(each[$index].next(&circuits[$index], $name)),*]
+            }};
+        }
+        each!(K, clock, C::Reg<L>)
     }
 }
 

@@ -81,7 +81,7 @@ impl Field {
 ///
 /// A walk goes through the leaves in the order of declaration and never branches on a value, so
 /// the place of a leaf in the walk is its identity.
-pub trait Signals<L: Logic>: Sized + Clone + Debug {
+pub trait Signals<L: Logic>: Sized + Clone + Debug + 'static {
     /// Shows each leaf to `visitor`.
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V);
     /// Makes a bundle with each leaf given by `maker`.
