@@ -152,7 +152,8 @@ fn every_command_exists() {
             // Makes a drawing.
             ["awk", .., ">", "spiral.hpgl"] => {}
             ["cargo", "test"] | ["cargo", "test", "--features", "cosim"] => {}
-            ["cargo", "bench", "--bench", name] => {
+            ["cargo", "bench", "--bench", name]
+            | ["cargo", "bench", "--features", "cosim", "--bench", name] => {
                 let named = |bench: &toml::Value| bench["name"].as_str() == Some(name);
                 assert!(benches.iter().any(named), "{line}: no such bench");
             }

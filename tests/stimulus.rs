@@ -156,10 +156,10 @@ const FAR: &[(&str, u32)] = &[
     ("unit_law.counted", 13),
     ("pulse_interpolator.counter.count", 10),
     ("pulse_interpolator.counter.next", 10),
-    ("pulse_interpolator.x.generator.count", 13),
-    ("pulse_interpolator.x.generator.next", 13),
-    ("pulse_interpolator.y.generator.count", 11),
-    ("pulse_interpolator.y.generator.next", 11),
+    ("pulse_interpolator.x.generator.count", 9),
+    ("pulse_interpolator.x.generator.next", 10),
+    ("pulse_interpolator.y.generator.count", 10),
+    ("pulse_interpolator.y.generator.next", 10),
     // Never: the floor rule has no use for them, and the divider is twice as wide as a position.
     ("accumulator.lent", 0),
     ("accumulator.multiplicand", 32),
@@ -257,6 +257,11 @@ const FAR: &[(&str, u32)] = &[
 /// At 8 bits: the pulses of a unit time of up to 255 ticks are at most 127, and a word of 8 bits
 /// is divided in 8 ticks.
 const NEVER: &[(&str, u32)] = &[
+    // `unit_end` comes in every other tick.
+    ("pulse_interpolator.x.generator.count", 6),
+    ("pulse_interpolator.x.generator.next", 7),
+    ("pulse_interpolator.y.generator.count", 7),
+    ("pulse_interpolator.y.generator.next", 7),
     ("unit_law.pulses", 7),
     ("unit_law.counted", 7),
     ("mul_div.count", 3),

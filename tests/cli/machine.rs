@@ -346,7 +346,7 @@ fn bad_input_is_refused_with_its_line() {
         assert_eq!(bench.names(), before, "{keys}");
     }
     let bench = with("", SHORT);
-    let least = "allowed: 357 to 16777215";
+    let least = "allowed: 400 to 16777215";
     for (set, refusal) in [
         ("sample_ticks=100", format!("sample_ticks: is 100; {least}")),
         ("unit_ticks=0", "unit_ticks: is 0; allowed: 1 to 16777215".to_owned()),
