@@ -352,10 +352,14 @@ fn bad_input_is_refused_with_its_line() {
         ("unit_ticks=0", "unit_ticks: is 0; allowed: 1 to 16777215".to_owned()),
         ("unit_ticks=1", "unit_ticks: is 1; allowed: 2 to 196605".to_owned()),
         ("ck_ticks=3", "ck_ticks: is 3; allowed: 4 to 16777215".to_owned()),
-        ("ck_ticks=33", "ck_ticks: seed_ms of the lift would be 20 ms; allowed: CKs by which it can be: 19.965 or 20.13".to_owned()),
     ] {
         bench.refuse(&["run", "s.toml", "--set", set], &format!("--set: {refusal}"));
     }
+    // A lead is a whole number of CKs, and a code.
+    bench.refuse(
+        &["run", "s.toml", "--set", "ck_ticks=33"],
+        "s.toml: lift_lead_ms: is 25; allowed: 24.95625 or 25.1625",
+    );
     bench.refuse(
         &["run", "s.toml", "--segments", "--from", "9", "--to", "9"],
         "--from, --to: no tick from 9 to 9; allowed: --from below --to",
