@@ -86,7 +86,7 @@
 //!         require(!now.i.alive.get() || !next.bark.get(), ["bark"], String::new)
 //!     });
 //! let proof = reach(&Watchdog::<4>, &law).run()?.proof().expect("it holds");
-//! assert_eq!(proof.states, 31);
+//! assert_eq!(proof.states, 30);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
