@@ -349,11 +349,23 @@ fn bad_input_is_refused_with_its_line() {
     let least = "allowed: 400 to 16777215";
     for (set, refusal) in [
         ("sample_ticks=100", format!("sample_ticks: is 100; {least}")),
-        ("unit_ticks=0", "unit_ticks: is 0; allowed: 1 to 16777215".to_owned()),
-        ("unit_ticks=1", "unit_ticks: is 1; allowed: 2 to 196605".to_owned()),
-        ("ck_ticks=3", "ck_ticks: is 3; allowed: 4 to 16777215".to_owned()),
+        (
+            "unit_ticks=0",
+            "unit_ticks: is 0; allowed: 1 to 16777215".to_owned(),
+        ),
+        (
+            "unit_ticks=1",
+            "unit_ticks: is 1; allowed: 2 to 196605".to_owned(),
+        ),
+        (
+            "ck_ticks=3",
+            "ck_ticks: is 3; allowed: 4 to 16777215".to_owned(),
+        ),
     ] {
-        bench.refuse(&["run", "s.toml", "--set", set], &format!("--set: {refusal}"));
+        bench.refuse(
+            &["run", "s.toml", "--set", set],
+            &format!("--set: {refusal}"),
+        );
     }
     // A lead is a whole number of CKs, and a code.
     bench.refuse(
