@@ -17,6 +17,7 @@ use motion_rtl::linear_interpolator::job::plotter;
 use motion_rtl::linear_interpolator::targets;
 use motion_rtl::linear_interpolator::{self, Controller, LinearInterpolator};
 use motion_rtl::logic::Sim;
+use motion_rtl::machine::{self, Machine};
 use motion_rtl::plan::MotionLimits;
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::pulse_interpolator::{self, Group, Settings, Variant, compile};
@@ -176,7 +177,7 @@ pub fn weld(ticks: u64) -> Job<ArcGenerator> {
 }
 
 outputs!([const AXES: usize] trajectory::Controller<AXES>:
-    torque position ready busy sampled fresh late profile_late starved);
+    torque position lost ready busy sampled fresh late profile_late starved);
 
 /// The pocket on three axes.
 pub fn pocket(ticks: u64) -> Job<trajectory::Controller<3>> {
@@ -202,4 +203,27 @@ pub fn pocket(ticks: u64) -> Job<trajectory::Controller<3>> {
         .expect("nobody objects");
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
+}
+
+outputs!([] Machine:
+    step_x step_y dir_x dir_y pulse_ready pulse_busy counts_x counts_y lines_ready lines_busy
+    arcs_ready arcs_busy profile_ready profile_busy torque_x torque_y position_x position_y drive
+    reverse speed brake lift_busy fault);
+
+/// The bracket on all five circuits.
+pub fn machine(ticks: u64) -> Job<Machine> {
+    let whole = scenario("machine");
+    let Scenario::Machine(scenario) = &whole else {
+        unreachable!("the machine's")
+    };
+    let settings = scenario.settings();
+    let program = machine::Program::of(&drawing(&whole), &settings).expect("it fits");
+    let circuit = machine::job::machine(&settings);
+    let mut recorder = Recorder::new(ticks);
+    let mut observer = Without(&mut recorder);
+    machine::job::play(&circuit, &program, &settings, &mut observer).expect("nobody objects");
+    Job {
+        circuit: circuit.circuit,
+        stimulus: recorder.finish(),
+    }
 }

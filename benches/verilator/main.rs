@@ -141,4 +141,5 @@ fn main() {
     circuit(asked, "lead-angle compensator", jobs::turntable);
     circuit(asked, "arc generator", jobs::weld);
     circuit(asked, "trajectory controller", jobs::pocket);
+    circuit(asked, "machine of all five", jobs::machine);
 }
