@@ -1,11 +1,15 @@
 use super::Sim;
 use crate::kernel::{Field, Make, Signals, Visit};
 use crate::logic::{Bit, Select, Signed, Unsigned};
+use std::fmt;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 
 /// One wire: low or high.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-pub struct Wire(bool);
+///
+/// Kept as a word, 0 or 1: where registers stand in memory they are moved in words, and a word of
+/// which a byte was just written has to wait for it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Wire(u64);
 
 /// An unsigned word of `N` bits, kept masked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -19,7 +23,13 @@ impl Wire {
     /// The value.
     #[inline(always)]
     pub fn get(self) -> bool {
-        self.0
+        self.0 != 0
+    }
+}
+
+impl fmt::Debug for Wire {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Wire").field(&self.get()).finish()
     }
 }
 
@@ -53,7 +63,7 @@ impl<const N: usize> Int<N> {
 impl From<bool> for Wire {
     #[inline(always)]
     fn from(value: bool) -> Self {
-        Wire(value)
+        Wire(value.into())
     }
 }
 
@@ -124,7 +134,7 @@ impl Not for Wire {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        Wire(!self.0)
+        Wire(self.0 ^ 1)
     }
 }
 
@@ -157,7 +167,7 @@ macro_rules! select {
         impl$(<const $n: usize>)? Select<Sim> for $word {
             #[inline(always)]
             fn select(choose: Wire, then: Self, other: Self) -> Self {
-                if choose.0 { then } else { other }
+                if choose.get() { then } else { other }
             }
         }
     };
@@ -207,22 +217,22 @@ impl Bit<Sim> for Wire {
     }
     #[inline(always)]
     fn word(self) -> UInt<1> {
-        UInt(self.0.into())
+        UInt(self.0)
     }
 }
 
 impl<const N: usize> Unsigned<Sim, N> for UInt<N> {
     #[inline(always)]
     fn equals(self, other: Self) -> Wire {
-        Wire(self.0 == other.0)
+        (self.0 == other.0).into()
     }
     #[inline(always)]
     fn below(self, other: Self) -> Wire {
-        Wire(self.0 < other.0)
+        (self.0 < other.0).into()
     }
     #[inline(always)]
     fn bit(self, index: usize) -> Wire {
-        Wire(index < N && self.0 >> index & 1 == 1)
+        (index < N && self.0 >> index & 1 == 1).into()
     }
     #[inline(always)]
     fn resize<const M: usize>(self) -> UInt<M> {
@@ -262,15 +272,15 @@ impl<const N: usize> Unsigned<Sim, N> for UInt<N> {
 impl<const N: usize> Signed<Sim, N> for Int<N> {
     #[inline(always)]
     fn equals(self, other: Self) -> Wire {
-        Wire(self.0 == other.0)
+        (self.0 == other.0).into()
     }
     #[inline(always)]
     fn below(self, other: Self) -> Wire {
-        Wire(self.0 < other.0)
+        (self.0 < other.0).into()
     }
     #[inline(always)]
     fn is_negative(self) -> Wire {
-        Wire(self.0 < 0)
+        (self.0 < 0).into()
     }
     #[inline(always)]
     fn resize<const M: usize>(self) -> Int<M> {
