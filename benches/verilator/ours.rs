@@ -4,7 +4,7 @@ use super::stimulus::{Replay, Stimulus};
 use super::theirs::ROTATION;
 use motion_rtl::kernel::{Circuit, Observer, RunError, Sample, Simulator};
 use motion_rtl::logic::sim::{Int, UInt, Wire};
-use motion_rtl::logic::{Signed, Sim};
+use motion_rtl::logic::{Bit, Signed, Sim};
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, WriteBehind};
 use std::fs::File;
 use std::ops::ControlFlow;
@@ -47,7 +47,7 @@ pub trait Port {
 impl Port for Wire {
     #[inline(always)]
     fn mix(&self, mix: Mix) -> Mix {
-        mix.word(self.get().into())
+        mix.word(Bit::<Sim>::word(*self).get())
     }
 }
 

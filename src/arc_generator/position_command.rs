@@ -100,6 +100,11 @@ impl<const W: usize, const P: usize, const D: usize> Circuit for PositionCommand
             command: i.present.mux(w.nearest, q.command),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, W, P>, i: &In<L, P, D>) -> L::Bit {
+        !(i.load | i.present)
+    }
 }
 
 impl<const W: usize, const P: usize, const D: usize> Specified for PositionCommand<W, P, D> {

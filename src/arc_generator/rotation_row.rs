@@ -173,4 +173,10 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
             half: i.fraction.mux(w.total.unsigned().bit(0), q.half),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P, C, S>, i: &In<L, P, D>) -> L::Bit {
+        let bits = q.bits_x | q.bits_y | q.bits_z;
+        !(i.load | i.copy | i.fraction | i.commit) & bits.is_zero()
+    }
 }

@@ -98,6 +98,11 @@ impl<const C: usize> Circuit for CoefficientControl<C> {
             done: w.commit,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> L::Bit {
+        !(i.step | q.busy | q.done) & q.bit_index.is_zero()
+    }
 }
 
 impl<const C: usize> Specified for CoefficientControl<C> {

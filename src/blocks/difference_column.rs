@@ -120,6 +120,11 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceColum
             ),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, P, F>, i: &In<L, P, F, D>) -> L::Bit {
+        !(i.load | i.step)
+    }
 }
 
 impl<const P: usize, const F: usize, const D: usize> Specified for DifferenceColumn<P, F, D> {

@@ -167,4 +167,9 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceEngin
             d4: w.d4.next(&self.d4, q.d4),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, P, F>, i: &In<L, F, D>) -> L::Bit {
+        !(i.load | i.step)
+    }
 }

@@ -154,6 +154,11 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
             done: w.complete,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, M, Q>, i: &In<L, M, Q>) -> L::Bit {
+        !(i.start | q.done) & q.state.is_zero() & q.count.is_zero()
+    }
 }
 
 impl<const M: usize, const Q: usize> Specified for MulDiv<M, Q> {

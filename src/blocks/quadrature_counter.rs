@@ -115,6 +115,13 @@ impl<const W: usize> Circuit for QuadratureCounter<W> {
             lost: (q.lost | w.illegal) & !i.clear,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, W>, i: &In<L>) -> L::Bit {
+        let a = (i.a ^ q.meta_a) | (q.meta_a ^ q.present_a) | (q.present_a ^ q.previous_a);
+        let b = (i.b ^ q.meta_b) | (q.meta_b ^ q.present_b) | (q.present_b ^ q.previous_b);
+        !(i.clear | a | b) & q.samples.equals(FILLED.into())
+    }
 }
 
 /// The quarter of the encoder's period, 0 to 3 in the direction up.

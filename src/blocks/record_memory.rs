@@ -163,4 +163,10 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for RecordMemory<A,
             loaded: q.load & q.word.equals((RECORD as u64 - 1).into()) & !i.flush,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, A, K, D>, i: &In<L, D>) -> L::Bit {
+        let strobes = i.write | i.push | i.take | i.flush;
+        !(strobes | q.reading | q.load | q.loaded) & q.read_word.is_zero()
+    }
 }

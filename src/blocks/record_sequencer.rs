@@ -179,6 +179,12 @@ impl<const F: usize, const N: usize, const D: usize> Circuit for RecordSequencer
             starved: (q.starved & !w.begins) | (w.over & !q.rests & !i.available),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, F, N>, i: &In<L, D>) -> L::Bit {
+        let strobes = i.start | i.halt | i.sample | i.load | i.loaded | i.rotated;
+        !(strobes | q.take | q.rotate | q.sampled) & !q.state.equals(STEP.into())
+    }
 }
 
 /// What the control does next, in the words of its description: `None` where it stays as it is.

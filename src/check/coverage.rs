@@ -13,7 +13,6 @@ use std::ops::ControlFlow;
 pub struct Coverage {
     signals: Vec<Signal>,
     walk: Walk,
-    last: Option<u64>,
 }
 
 /// Bits of a signal that a run has seen at one level only.
@@ -48,23 +47,21 @@ impl Coverage {
     pub(super) fn of(running: &dyn Running) -> Self {
         let mut names = Names::default();
         running.show(&mut names);
-        let seen = vec![Seen::default(); names.signals.len()];
+        let signals = names.signals.len();
         Coverage {
             signals: names.signals,
             walk: Walk {
-                seen,
+                seen: vec![Seen::default(); signals],
+                marks: vec![0; signals],
                 cursor: 0,
-                every_word: true,
+                first: true,
             },
-            last: None,
         }
     }
 
     /// Begins a tick; the probe is to see all of its signals.
-    pub(super) fn tick(&mut self, tick: u64) -> &mut dyn Probe {
-        // What a memory says it changed is what its last edge changed.
-        self.walk.every_word = self.last.is_none_or(|last| last + 1 != tick);
-        self.last = Some(tick);
+    pub(super) fn tick(&mut self) -> &mut dyn Probe {
+        self.walk.first = self.walk.first && self.walk.cursor == 0;
         self.walk.cursor = 0;
         &mut self.walk
     }
@@ -93,7 +90,7 @@ impl Coverage {
 
 impl<C: Circuit> Observer<C> for Coverage {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        now.show(self.tick(now.tick));
+        now.show(self.tick());
         Ok(ControlFlow::Continue(()))
     }
 }
@@ -160,8 +157,10 @@ impl Seen {
 #[derive(Debug)]
 struct Walk {
     seen: Vec<Seen>,
+    /// Where a memory stood in the tick before.
+    marks: Vec<u64>,
     cursor: usize,
-    every_word: bool,
+    first: bool,
 }
 
 impl Walk {
@@ -179,12 +178,14 @@ impl Probe for Walk {
     }
 
     fn memory(&mut self, _: &'static Field, words: &dyn Words) {
-        let changed = match self.every_word {
-            true => Changed::All,
-            false => words.changed(),
+        let first = self.first;
+        let Some(mark) = self.marks.get_mut(self.cursor) else {
+            return;
         };
+        let changed = words.changed(mark);
         let Some(seen) = self.next() else { return };
         match changed {
+            _ if first => (0..words.len()).for_each(|index| seen.see(words.word(index))),
             Changed::None => {}
             Changed::One(index) => seen.see(words.word(index)),
             Changed::All => (0..words.len()).for_each(|index| seen.see(words.word(index))),

@@ -1,5 +1,5 @@
 use super::{Coverage, Stimulus};
-use crate::kernel::{Circuit, Machine, RunError, Running};
+use crate::kernel::{Circuit, Machine, RunError, Running, Standing};
 use crate::trace::{Clock, Layout, Lines, Waves};
 use std::io::{self, Write};
 
@@ -31,7 +31,7 @@ pub struct Driven {
 /// against this one, tick by tick. The same [`Drive`] gives the same bytes.
 ///
 /// # Errors
-/// A writer failed; a name that is used twice in a scope or that waves cannot carry.
+/// A writer failed; a register changed where the [clock is gated](Circuit::gated); a name that is used twice in a scope or that waves cannot carry.
 pub fn drive<C: Circuit>(
     circuit: &C,
     drive: &Drive,
@@ -61,8 +61,16 @@ impl Drive {
             running.settle(&mut random.ports());
             lines.tick(running, rst, stimulus)?;
             dump.tick(tick, running, waves)?;
-            running.show(coverage.tick(tick));
+            running.show(coverage.tick());
+            let standing = running.gated().then(|| Standing::of(running));
             running.clock(rst);
+            if !rst && standing.is_some_and(|before| before != Standing::of(running)) {
+                return Err(RunError::Violation {
+                    tick,
+                    signals: vec![running.name().to_owned()],
+                    message: "a register changes where the clock is gated".into(),
+                });
+            }
         }
         dump.finish(waves)?;
         lines.finish(stimulus)?;

@@ -206,7 +206,17 @@ impl<'a, C: Circuit> Reach<'a, C> {
                     let way = way.into_iter().map(|index| inputs[index].clone());
                     return Ok(self.violated(name, fault, way.collect()));
                 }
-                if !search.found(to_word(&next), index) {
+                let next = to_word(&next);
+                if next != state && self.circuit.gated(&q, i).get() {
+                    let fault = Fault {
+                        signals: vec![C::NAME.to_owned()],
+                        message: "a register changes where the clock is gated".into(),
+                    };
+                    let way = search.way(index);
+                    let way = way.into_iter().map(|index| inputs[index].clone());
+                    return Ok(self.violated("the clock gate", fault, way.collect()));
+                }
+                if !search.found(next, index) {
                     return Ok(Outcome::Limit(search.progress()));
                 }
             }

@@ -4,6 +4,7 @@ use super::signals::{Field, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Logic, Sim};
 use std::any::Any;
 use std::fmt;
+use std::mem::ManuallyDrop;
 use std::process::abort;
 
 /// A clocked circuit as two pure functions.
@@ -32,6 +33,18 @@ pub trait Circuit: 'static {
 
     /// The registers of the next tick.
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, i: &Self::In<L>) -> Self::Reg<L>;
+
+    /// High where the clock may be gated: the edge would leave every register as it is, in every
+    /// state that the circuit can reach. Inside another circuit it is not clocked then, in the
+    /// meaning [`Sim`]; the HDL has no gate.
+    ///
+    /// Only speed depends on it, so a condition may leave ticks out, but none in which a register
+    /// changes: [`reach`](crate::check::reach) and [`drive`](crate::check::drive()) find it.
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> L::Bit {
+        let _ = (q, i);
+        false.into()
+    }
 
     /// Invariants in words, for proofs by other tools beside `check`; see
     /// [`Invariants::of`](crate::check::Invariants::of). What looks at the registers after the
@@ -73,8 +86,9 @@ pub(super) fn settled<C: Circuit>(circuit: &C, q: &C::Reg<Sim>, i: &C::In<Sim>) 
 /// A value as what it is, where a constant condition says so and the compiler does not see it.
 #[inline(always)]
 fn same<A: 'static, B: 'static>(value: A) -> B {
-    let mut value = Some(value);
-    let it: &mut dyn Any = &mut value;
+    // What is left is nothing: without a look whether it has to be dropped.
+    let mut value = ManuallyDrop::new(Some(value));
+    let it: &mut dyn Any = &mut *value;
     match it.downcast_mut::<Option<B>>().and_then(Option::take) {
         Some(value) => value,
         // A panic would have to drop the registers, and for that they would stand in memory.
@@ -125,6 +139,12 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
     #[inline(always)]
     pub fn next(&self, circuit: &C, q: C::Reg<L>) -> C::Reg<L> {
         L::clock(circuit, q, &self.w, &self.i)
+    }
+
+    /// High where its clock may be gated; see [`Circuit::gated`].
+    #[inline(always)]
+    pub fn gated(&self, circuit: &C, q: &C::Reg<L>) -> L::Bit {
+        circuit.gated(q, &self.i)
     }
 
     /// The same for an array of circuits: applies `inputs` and settles the nets.

@@ -26,6 +26,6 @@ pub use pack::{Bits, pack, unpack, width, zero};
 pub use probe::{Changed, Probe, Source, Words};
 pub(crate) use probe::{STAGE, WORD, part};
 pub use property::{Moment, Property};
-pub(crate) use running::{Machine, Running, Values, show_power_on};
+pub(crate) use running::{Machine, Running, Standing, Values, show_power_on};
 pub use signals::{Field, Format, Kind, Make, Nothing, Role, Shape, Signals, Visit};
 pub use simulator::Simulator;

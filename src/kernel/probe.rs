@@ -2,7 +2,7 @@ use super::signals::{Field, Kind, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Image, Signed, Sim, sim::*};
 use std::any::Any;
 
-/// What the last edge changed in a memory.
+/// What has changed in a memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Changed {
     /// Nothing.
@@ -25,11 +25,11 @@ pub trait Words {
     }
     /// The word at `index`.
     fn word(&self, index: usize) -> u64;
-    /// What the last edge changed.
-    fn changed(&self) -> Changed;
+    /// What has changed since `mark`, which is 0 at power-on; it is now in `mark` for the next time.
+    fn changed(&self, mark: &mut u64) -> Changed;
     /// What a word is called.
     fn label(&self) -> &'static Field;
-    /// A copy of the memory, with what it says it changed.
+    /// A copy of the memory.
     fn whole(&self) -> Box<dyn Any>;
 }
 

@@ -1,7 +1,7 @@
 use super::Circuit;
 use super::circuit::settled;
 use super::pack::zero;
-use super::probe::{Probe, Source, show, supply};
+use super::probe::{Probe, Source, Words, show, supply};
 use super::reset::reset;
 use super::signals::{Field, Role, Shape, Signals};
 use crate::logic::Sim;
@@ -17,6 +17,8 @@ pub(crate) trait Running {
     fn settle(&mut self, inputs: &mut dyn Source);
     /// Shows the ports in, the registers or the nets.
     fn part(&self, role: Role, probe: &mut dyn Probe);
+    /// Whether the clock may be gated in this tick.
+    fn gated(&self) -> bool;
     /// The edge that ends the tick; with `rst` high that of a synchronous reset.
     fn clock(&mut self, rst: bool);
 }
@@ -81,6 +83,11 @@ impl<C: Circuit> Running for Machine<'_, C> {
         }
     }
 
+    fn gated(&self) -> bool {
+        let gated = |q| self.circuit.gated(q, &self.i).get();
+        self.q.as_ref().is_some_and(gated)
+    }
+
     fn clock(&mut self, rst: bool) {
         if let Some(q) = self.q.take() {
             let q = self.circuit.next(q, &self.w, &self.i);
@@ -118,6 +125,29 @@ impl Values {
 impl Probe for Values {
     fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
         self.0.push(bits);
+    }
+}
+
+/// The flip-flops of a circuit, and for each memory how often it was written.
+#[derive(PartialEq, Eq)]
+pub(crate) struct Standing(Vec<u64>);
+
+impl Standing {
+    pub(crate) fn of(running: &dyn Running) -> Self {
+        let mut standing = Standing(Vec::new());
+        running.part(Role::Register, &mut standing);
+        standing
+    }
+}
+
+impl Probe for Standing {
+    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
+        self.0.push(bits);
+    }
+    fn memory(&mut self, _: &'static Field, words: &dyn Words) {
+        let mut mark = 0;
+        words.changed(&mut mark);
+        self.0.push(mark);
     }
 }
 

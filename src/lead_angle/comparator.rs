@@ -148,6 +148,11 @@ impl<const W: usize> Circuit for Comparator<W> {
             upward: w.fire.mux(w.upwards, q.upward),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L>, i: &In<L, W>) -> L::Bit {
+        !(i.evaluate | i.arm | i.halt)
+    }
 }
 
 impl<const W: usize> Specified for Comparator<W> {

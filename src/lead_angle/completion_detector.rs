@@ -115,6 +115,12 @@ impl<const W: usize, const N: usize> Circuit for CompletionDetector<W, N> {
             timed_out: w.over.mux(!w.stands, q.timed_out),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> L::Bit {
+        let counts = i.active | (q.still.is_zero() & q.elapsed.is_zero());
+        !(i.evaluate | q.complete) & counts
+    }
 }
 
 impl<const W: usize, const N: usize> Specified for CompletionDetector<W, N> {

@@ -156,6 +156,11 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
             corrected: w.divided | (i.complete & !w.divide),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, C>, i: &In<L, C, W, R>) -> L::Bit {
+        !(i.complete | i.done | q.learned | q.corrected)
+    }
 }
 
 impl<const K: usize, const C: usize, const W: usize, const R: usize> Specified

@@ -142,6 +142,11 @@ impl<const K: usize, const T: usize, const W: usize> Circuit for PositionHistory
             stages: q.stages.shift(i.ck, i.position.unsigned()),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, K, T, W>, i: &In<L, T, W>) -> L::Bit {
+        !(i.ck | i.restart | q.pair.fresh)
+    }
 }
 
 impl<const K: usize, const T: usize, const W: usize> Specified for PositionHistory<K, T, W> {

@@ -57,6 +57,11 @@ impl<const K: usize, const T: usize, const W: usize> Circuit for RamHistory<K, T
             samples: q.samples.write(i.ck, q.address, i.position.unsigned()),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, T, W>, i: &In<L, T, W>) -> L::Bit {
+        !(i.ck | i.restart | q.pair.fresh)
+    }
 }
 
 impl<const K: usize, const T: usize, const W: usize> Specified for RamHistory<K, T, W> {

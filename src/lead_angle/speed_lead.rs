@@ -115,6 +115,11 @@ impl<const W: usize, const N: usize> Circuit for SpeedLead<W, N> {
             speed: w.over.mux(w.way, q.speed),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> L::Bit {
+        !(i.ck | i.restart | q.fresh)
+    }
 }
 
 impl<const W: usize, const N: usize> Specified for SpeedLead<W, N> {

@@ -91,6 +91,11 @@ impl<const W: usize> Circuit for StopError<W> {
             trigger_position: i.fire.mux(i.position, q.trigger_position),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, W>, i: &In<L, W>) -> L::Bit {
+        !i.fire
+    }
 }
 
 impl<const W: usize> Specified for StopError<W> {

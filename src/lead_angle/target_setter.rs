@@ -81,6 +81,11 @@ impl<const A: usize, const W: usize, const D: usize> Circuit for TargetSetter<A,
             speeds: q.speeds.write(i.write, i.write_step, i.write_speed),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, A, W, D>, i: &In<L, A, W, D>) -> L::Bit {
+        !(i.load | i.write)
+    }
 }
 
 impl<const A: usize, const W: usize, const D: usize> Specified for TargetSetter<A, W, D> {

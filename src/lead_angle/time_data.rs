@@ -120,6 +120,11 @@ impl<const A: usize, const C: usize> Circuit for TimeData<A, C> {
         }
     }
 
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, A, C>, i: &In<L, A, C>) -> L::Bit {
+        !(i.load | i.learned | i.write | i.clear)
+    }
+
     fn power_on(&self) -> Reg<Sim, A, C> {
         Reg {
             lead_time: 0.into(),

@@ -194,4 +194,9 @@ impl<const P: usize, const R: usize> Circuit for Accumulator<P, R> {
             valid: w.taken & !i.clear,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P, R>) -> L::Bit {
+        !(i.clear | i.start | i.done | q.valid)
+    }
 }

@@ -83,6 +83,11 @@ impl<const P: usize> Circuit for AxisSwitch<P> {
             y: to(i.swapped, q.y),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, P>, i: &In<L, P>) -> L::Bit {
+        !(i.load | i.clear)
+    }
 }
 
 impl<const P: usize> Specified for AxisSwitch<P> {

@@ -71,6 +71,11 @@ impl<const P: usize> Circuit for Differentiator<P> {
             lagged: i.load.mux(i.from, i.valid.mux(i.position, q.lagged)),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, P>, i: &In<L, P>) -> L::Bit {
+        !(i.load | i.valid)
+    }
 }
 
 impl<const P: usize> Specified for Differentiator<P> {

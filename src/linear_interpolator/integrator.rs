@@ -138,4 +138,11 @@ impl<const P: usize, const R: usize> Circuit for Integrator<P, R> {
             mul_div: w.mul_div.next(&self.mul_div, q.mul_div),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P, R>, i: &In<L, P>) -> L::Bit {
+        let w = self.comb(q, i);
+        w.accumulator.gated(&self.accumulator, &q.accumulator)
+            & w.mul_div.gated(&self.mul_div, &q.mul_div)
+    }
 }

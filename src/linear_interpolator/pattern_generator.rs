@@ -158,4 +158,11 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
             mul_div: w.mul_div.next(&self.mul_div, q.mul_div),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P, T, M, Q>, i: &In<L, P, T>) -> L::Bit {
+        let w = self.comb(q, i);
+        w.trapezoid.gated(&self.trapezoid, &q.trapezoid)
+            & w.mul_div.gated(&self.mul_div, &q.mul_div)
+    }
 }

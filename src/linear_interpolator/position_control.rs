@@ -139,6 +139,11 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
             saturated: i.scan.mux(w.limited, q.saturated),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, D>, i: &In<L, P, G>) -> L::Bit {
+        !i.scan
+    }
 }
 
 impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: usize> Specified

@@ -143,6 +143,12 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
             control: w.control.next(&self.control, q.control),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P, D>, i: &In<L, P, G>) -> L::Bit {
+        let w = self.comb(q, i);
+        w.counter.gated(&self.counter, &q.counter) & w.control.gated(&self.control, &q.control)
+    }
 }
 
 impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: usize> Specified

@@ -138,6 +138,11 @@ impl<const A: usize, const P: usize, const T: usize> Circuit for TargetData<A, P
             decelerations: q.decelerations.write(w.take, to, i.deceleration_time),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, A, P, T>, i: &In<L, A, P, T>) -> L::Bit {
+        !(i.push | i.pop | i.flush)
+    }
 }
 
 /// The fields of a target as numbers, X first.

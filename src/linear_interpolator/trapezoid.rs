@@ -294,4 +294,9 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
             active: !w.next_state.is_zero(),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P, T, M, Q>, i: &In<L, P, T, Q>) -> L::Bit {
+        !(i.start | i.advance | i.halt | i.done | q.request | q.valid)
+    }
 }

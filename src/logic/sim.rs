@@ -7,6 +7,7 @@ pub use memory::{SimRam, SimShiftRegister};
 pub use words::{Int, UInt, Wire};
 
 use super::{Image, Logic};
+use crate::kernel::Circuit;
 
 /// Words are numbers, memories hold bits: the meaning that runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,5 +22,21 @@ impl Logic for Sim {
 
     fn rom<const A: usize, const D: usize>(image: &Image<A, D>, address: UInt<A>) -> UInt<D> {
         image.get(address.get() as usize).into()
+    }
+
+    #[inline(always)]
+    fn clock<C: Circuit>(
+        circuit: &C,
+        q: C::Reg<Self>,
+        _: &C::Net<Self>,
+        i: &C::In<Self>,
+    ) -> C::Reg<Self> {
+        if circuit.gated(&q, i).get() {
+            q
+        } else {
+            // The nets once more: those that are read here only are computed here only.
+            let w = circuit.comb(&q, i);
+            circuit.next(q, &w, i)
+        }
     }
 }

@@ -80,6 +80,11 @@ impl<const W: usize, const V: usize> Circuit for CommandJoin<W, V> {
             y: i.take.mux(w.counts_y, q.y),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, W>, i: &In<L, W, V>) -> L::Bit {
+        !i.take
+    }
 }
 
 impl<const W: usize, const V: usize> Specified for CommandJoin<W, V> {

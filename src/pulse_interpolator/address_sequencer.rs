@@ -133,6 +133,11 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
             cyclic: start.mux(i.pending_cyclic, q.cyclic),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, A>, i: &In<L, A>) -> L::Bit {
+        !i.unit_rst
+    }
 }
 
 impl<const A: usize> Specified for AddressSequencer<A> {

@@ -122,6 +122,11 @@ impl<const N: usize, const A: usize> Circuit for PatternMemory<N, A> {
         }
     }
 
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, N, A>, i: &In<L, N, A>) -> L::Bit {
+        !(i.read | i.blank | i.write)
+    }
+
     fn power_on(&self) -> Reg<Sim, N, A> {
         Reg {
             half_periods: self.half_periods.clone().into(),

@@ -82,6 +82,11 @@ impl<const T: usize> Circuit for UnitTimeRegister<T> {
         }
     }
 
+    #[inline(always)]
+    fn gated<L: Logic>(&self, _: &Reg<L, T>, i: &In<L, T>) -> L::Bit {
+        !(i.write | i.unit_rst | i.take)
+    }
+
     fn power_on(&self) -> Reg<Sim, T> {
         Reg {
             shadow: self.period.into(),

@@ -20,12 +20,12 @@ pub(super) struct Walk {
     clock: Clock,
     /// The values of the tick before, in the order of the walk.
     previous: Vec<u64>,
+    /// Where every memory stood in the tick before.
+    marks: Vec<u64>,
     last: Option<u64>,
     notes: Notes,
     /// At the first tick everything is noted, changed or not.
     first: bool,
-    /// Look at all words of memories, whatever they say they changed.
-    every_word: bool,
 }
 
 #[derive(Debug)]
@@ -39,13 +39,13 @@ impl Walk {
         Walk {
             clock,
             previous: vec![0; layout.leaves.len()],
+            marks: Vec::new(),
             last: None,
             notes: Notes {
                 selected: layout.selected.clone(),
                 changes: Vec::new(),
             },
             first: true,
-            every_word: true,
         }
     }
 
@@ -70,9 +70,7 @@ impl Walk {
                 format!("tick {tick} comes twice"),
             ));
         }
-        // What a memory says it changed is what its last edge changed; after a gap all is looked at.
         self.first = self.last.is_none();
-        self.every_word = self.last.is_none_or(|last| last + 1 != tick);
         self.last = Some(tick);
         let times = (self.clock.rise(tick), self.clock.fall(tick));
         times.0.zip(times.1).ok_or_else(too_late)
@@ -82,8 +80,9 @@ impl Walk {
         Look {
             previous: &mut self.previous,
             cursor: 0,
+            marks: &mut self.marks,
+            memory: 0,
             first: self.first,
-            every_word: self.every_word,
             notes: &mut self.notes,
         }
     }
@@ -111,8 +110,10 @@ struct Look<'a> {
     previous: &'a mut [u64],
     /// The leaf that comes next.
     cursor: usize,
+    marks: &'a mut Vec<u64>,
+    /// The memory that comes next.
+    memory: usize,
     first: bool,
-    every_word: bool,
     notes: &'a mut Notes,
 }
 
@@ -122,6 +123,12 @@ impl Look<'_> {
         if self.previous[leaf] != bits || self.first {
             self.previous[leaf] = bits;
             self.notes.note(leaf, bits);
+        }
+    }
+
+    fn look_at_all(&mut self, start: usize, words: &dyn Words) {
+        for index in 0..words.len() {
+            self.look(start + index, words.word(index));
         }
     }
 }
@@ -147,19 +154,16 @@ impl Probe for Look<'_> {
     fn memory(&mut self, _: &'static Field, words: &dyn Words) {
         let start = self.cursor;
         self.cursor += words.len();
-        let changed = if self.every_word {
-            Changed::All
-        } else {
-            words.changed()
-        };
+        if self.first {
+            self.marks.push(0);
+        }
+        let changed = words.changed(&mut self.marks[self.memory]);
+        self.memory += 1;
         match changed {
+            _ if self.first => self.look_at_all(start, words),
             Changed::None => {}
             Changed::One(index) => self.look(start + index, words.word(index)),
-            Changed::All => {
-                for index in 0..words.len() {
-                    self.look(start + index, words.word(index));
-                }
-            }
+            Changed::All => self.look_at_all(start, words),
         }
     }
 }

@@ -147,4 +147,9 @@ impl<const P: usize, const M: usize, const H: usize, const X: usize> Circuit
             done: w.complete,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P, M, H, X>, i: &In<L, P, M>) -> L::Bit {
+        !(i.start | q.done) & q.state.is_zero() & q.bits.is_zero()
+    }
 }

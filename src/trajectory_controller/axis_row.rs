@@ -142,4 +142,9 @@ impl<const P: usize, const R: usize, const C: usize, const S: usize, const D: us
             point: i.commit.mux(q.base + w.nearest, q.point),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P, C, S>, i: &In<L, R, D>) -> L::Bit {
+        !(i.load | i.copy | i.fraction | i.commit) & (q.bits_along | q.bits_across).is_zero()
+    }
 }

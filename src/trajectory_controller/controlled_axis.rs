@@ -228,4 +228,12 @@ impl<
             servo: w.servo.next(&self.servo, q.servo),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> L::Bit {
+        let w = self.comb(q, i);
+        w.response.gated(&self.response, &q.response)
+            & w.corrector.gated(&self.corrector, &q.corrector)
+            & w.servo.gated(&self.servo, &q.servo)
+    }
 }

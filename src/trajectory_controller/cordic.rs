@@ -112,4 +112,10 @@ impl<const R: usize, const H: usize> Circuit for Cordic<R, H> {
             turning: w.turning.next(&self.turning, q.turning),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> L::Bit {
+        let w = self.comb(q, i);
+        w.turning.gated(&self.turning, &q.turning)
+    }
 }

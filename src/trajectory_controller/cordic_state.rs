@@ -152,4 +152,9 @@ impl<const R: usize, const H: usize> Circuit for CordicState<R, H> {
             done: q.busy & w.last,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> L::Bit {
+        !(i.start | q.busy | q.done) & q.iteration.is_zero()
+    }
 }

@@ -182,4 +182,9 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ModelState<P, K
             fresh: w.complete | i.preset,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P, K, Q>) -> L::Bit {
+        !(i.step | i.preset | i.done | q.fresh)
+    }
 }

@@ -89,6 +89,12 @@ impl<const P: usize> Circuit for PathLength<P> {
             held: q.begun & w.none,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> L::Bit {
+        let pulses = q.begun | q.preset | q.fresh | q.held;
+        !(i.sample | i.present | i.restart | pulses)
+    }
 }
 
 impl<const P: usize> Specified for PathLength<P> {

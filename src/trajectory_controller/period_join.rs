@@ -124,6 +124,13 @@ impl Circuit for PeriodJoin {
             late: (q.late & !i.clear) | (w.period & q.busy),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> L::Bit {
+        let waits = i.referred | i.answered | i.driven | q.pending;
+        let strobes = i.begins | i.held | i.placed | i.clear | q.preset | q.step | q.correct;
+        !(waits | strobes) & q.count.equals(self.wait.into())
+    }
 }
 
 impl Specified for PeriodJoin {

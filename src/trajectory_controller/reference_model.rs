@@ -139,4 +139,11 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ReferenceModel<
             scaler: w.scaler.next(&self.scaler, q.scaler),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P, K, Q>, i: &In<L, P, K>) -> L::Bit {
+        let w = self.comb(q, i);
+        w.integrators.gated(&self.integrators, &q.integrators)
+            & w.scaler.gated(&self.scaler, &q.scaler)
+    }
 }

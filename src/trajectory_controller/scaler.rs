@@ -108,6 +108,11 @@ impl<const K: usize, const Q: usize> Circuit for Scaler<K, Q> {
             done: q.busy & w.last & !i.clear,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, K, Q>, i: &In<L, K, Q>) -> L::Bit {
+        !(i.start | q.busy | q.done) & q.bits.is_zero() & q.bit_index.is_zero()
+    }
 }
 
 impl<const K: usize, const Q: usize> Specified for Scaler<K, Q> {

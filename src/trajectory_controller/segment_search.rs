@@ -134,4 +134,9 @@ impl<const A: usize, const Q: usize> Circuit for SegmentSearch<A, Q> {
             done: w.over,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, A, Q>, i: &In<L, A, Q>) -> L::Bit {
+        !(i.start | i.write | q.done) & q.state.is_zero()
+    }
 }

@@ -103,4 +103,9 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for SegmentStore<A,
             loaded: q.load & q.word.equals((WORDS as u64 - 1).into()),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, K, D>, i: &In<L, A, K, D>) -> L::Bit {
+        !(i.write | i.fetch | q.reading | q.load | q.loaded) & q.read_word.is_zero()
+    }
 }

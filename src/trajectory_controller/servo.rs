@@ -238,4 +238,13 @@ impl<
             scaler: w.scaler.next(&self.scaler, q.scaler),
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> L::Bit {
+        let w = self.comb(q, i);
+        w.model.gated(&self.model, &q.model)
+            & w.detector.gated(&self.detector, &q.detector)
+            & w.arithmetic.gated(&self.arithmetic, &q.arithmetic)
+            & w.scaler.gated(&self.scaler, &q.scaler)
+    }
 }

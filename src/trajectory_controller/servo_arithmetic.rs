@@ -306,4 +306,9 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
             fresh: w.ends,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, W, Q, T>, i: &In<L, W, P, G, Q, T>) -> L::Bit {
+        !(i.step | i.clear | i.done | q.fresh) & !q.state.equals(LIMIT.into())
+    }
 }

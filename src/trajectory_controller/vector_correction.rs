@@ -109,6 +109,11 @@ impl<const P: usize> Circuit for VectorCorrection<P> {
             fresh: i.correct,
         }
     }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> L::Bit {
+        !(i.correct | q.fresh)
+    }
 }
 
 impl<const P: usize> Specified for VectorCorrection<P> {

@@ -7,7 +7,10 @@ use std::any::Any;
 #[derive(Debug, Clone)]
 pub struct SimRam<const A: usize, const D: usize> {
     image: Image<A, D>,
-    changed: Changed,
+    /// Words written since power-on.
+    writes: u64,
+    /// Where the last one was.
+    written: usize,
 }
 
 /// A shift register as a ring: the head moves, the words stay; its stages are presented in order.
@@ -15,14 +18,16 @@ pub struct SimRam<const A: usize, const D: usize> {
 pub struct SimShiftRegister<const K: usize, const D: usize> {
     ring: Box<[UInt<D>]>,
     head: usize,
-    changed: Changed,
+    /// Shifts since power-on.
+    shifts: u64,
 }
 
 impl<const A: usize, const D: usize> From<Image<A, D>> for SimRam<A, D> {
     fn from(image: Image<A, D>) -> Self {
         SimRam {
             image,
-            changed: Changed::None,
+            writes: 0,
+            written: 0,
         }
     }
 }
@@ -44,11 +49,10 @@ impl<const A: usize, const D: usize> Ram<Sim, A, D> for SimRam<A, D> {
 
     #[inline(always)]
     fn write(mut self, enable: Wire, address: UInt<A>, data: UInt<D>) -> Self {
-        self.changed = Changed::None;
         if enable.get() {
-            let address = address.get() as usize;
-            self.image.set(address, data.get());
-            self.changed = Changed::One(address);
+            self.written = address.get() as usize;
+            self.writes = self.writes.wrapping_add(1);
+            self.image.set(self.written, data.get());
         }
         self
     }
@@ -64,9 +68,16 @@ impl<const A: usize, const D: usize> Words for SimRam<A, D> {
     fn word(&self, index: usize) -> u64 {
         self.image.get(index)
     }
-    #[inline(always)]
-    fn changed(&self) -> Changed {
-        self.changed
+    #[inline]
+    fn changed(&self, mark: &mut u64) -> Changed {
+        let writes = self
+            .writes
+            .wrapping_sub(std::mem::replace(mark, self.writes));
+        match writes {
+            0 => Changed::None,
+            1 => Changed::One(self.written),
+            _ => Changed::All,
+        }
     }
     fn label(&self) -> &'static Field {
         &WORD
@@ -96,7 +107,7 @@ impl<const K: usize, const D: usize> SimShiftRegister<K, D> {
         SimShiftRegister {
             ring,
             head: 0,
-            changed: Changed::None,
+            shifts: 0,
         }
     }
 }
@@ -120,13 +131,12 @@ impl<const K: usize, const D: usize> ShiftRegister<Sim, K, D> for SimShiftRegist
 
     #[inline(always)]
     fn shift(mut self, enable: Wire, input: UInt<D>) -> Self {
-        self.changed = Changed::None;
         if enable.get() && K > 0 {
             self.head = if self.head == 0 { K - 1 } else { self.head - 1 };
             if let Some(stage) = self.ring.get_mut(self.head) {
                 *stage = input;
             }
-            self.changed = Changed::All;
+            self.shifts = self.shifts.wrapping_add(1);
         }
         self
     }
@@ -142,9 +152,12 @@ impl<const K: usize, const D: usize> Words for SimShiftRegister<K, D> {
     fn word(&self, index: usize) -> u64 {
         self.stage(index).get()
     }
-    #[inline(always)]
-    fn changed(&self) -> Changed {
-        self.changed
+    #[inline]
+    fn changed(&self, mark: &mut u64) -> Changed {
+        match std::mem::replace(mark, self.shifts) == self.shifts {
+            true => Changed::None,
+            false => Changed::All,
+        }
     }
     fn label(&self) -> &'static Field {
         &STAGE
