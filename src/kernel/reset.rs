@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 /// The registers after an edge with reset: flip-flops as at power-on, memories as the edge made
 /// them.
 ///
-/// Memories are taken whole, with what they say they changed: waves look at nothing else.
+/// Memories are taken whole, with the count of their changes: waves look at nothing else.
 pub(super) fn reset<C: Circuit>(circuit: &C, edge: &C::Reg<Sim>) -> C::Reg<Sim> {
     let mut flip_flops = FlipFlops::default();
     show(&circuit.power_on(), Role::Register, &mut flip_flops);
