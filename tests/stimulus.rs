@@ -7,6 +7,7 @@ use motion_rtl::logic::Sim;
 use motion_rtl::pulse_interpolator::{Axis, Group, UnitLaw, Variant};
 use motion_rtl::registry::{AnyModel, CATALOGUE};
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
+use rayon::prelude::*;
 use std::collections::HashSet;
 use std::io;
 
@@ -375,8 +376,8 @@ const JOBS: &[&str] = &[
 
 #[test]
 fn every_bit_that_can_move_moves() {
-    let mut left = Vec::new();
-    for entry in CATALOGUE {
+    let left = CATALOGUE.par_iter().map(|entry| {
+        let mut left = Vec::new();
         let full = ("full", (entry.full)(), FAR);
         // One without a width is the same at all.
         let narrow = entry.offered.contains(&8).then(|| (entry.model)(&[8]));
@@ -397,6 +398,8 @@ fn every_bit_that_can_move_moves() {
                 }
             }
         }
-    }
+        left
+    });
+    let left: Vec<_> = left.flatten().collect();
     assert!(left.is_empty(), "\n{}\n", left.join("\n"));
 }

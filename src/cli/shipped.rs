@@ -125,3 +125,19 @@ impl Shipped {
         Some(read_text(input.file, input.text.as_bytes()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_has_the_input_that_its_scenario_names() {
+        for shipped in SHIPPED {
+            let loaded = shipped.load(&[]).expect(shipped.file);
+            let input = shipped.input.as_ref();
+            let input = input.map(|input| Path::new(input.file).file_name().expect("a name"));
+            let named = loaded.scenario.input().map(|path| path.as_os_str());
+            assert_eq!(named, input, "{}", shipped.file);
+        }
+    }
+}

@@ -64,25 +64,27 @@ fn regenerate(text: &str) -> Result<String, String> {
 #[test]
 fn generated_parts_are_those_of_the_code() {
     let update = std::env::var_os("UPDATE_NOTES").is_some_and(|value| value == "1");
-    let mut wrong = Vec::new();
-    for note in notes() {
-        match regenerate(&note.text) {
-            Err(error) => wrong.push(format!("{}:{error}", note.name)),
-            Ok(fresh) if fresh == note.text => {}
-            Ok(fresh) if update => fs::write(&note.path, fresh).expect("a note can be written"),
+    let wrong = notes()
+        .into_par_iter()
+        .filter_map(|note| match regenerate(&note.text) {
+            Err(error) => Some(format!("{}:{error}", note.name)),
+            Ok(fresh) if fresh == note.text => None,
+            Ok(fresh) if update => {
+                fs::write(&note.path, fresh).expect("a note can be written");
+                None
+            }
             Ok(fresh) => {
                 let mut lines = fresh.lines().zip(note.text.lines()).zip(1..);
                 let other = lines.find(|((fresh, old), _)| fresh != old);
                 let (expected, line) = other.map_or(("", 0), |((fresh, _), line)| (fresh, line));
-                wrong.push(format!(
+                Some(format!(
                     "{}:{line}: not what the code says:\n  {expected}\n  \
                      UPDATE_NOTES=1 cargo test --test notes writes it anew",
                     note.name
-                ));
+                ))
             }
-        }
-    }
-    expect_none(&wrong);
+        });
+    expect_none(&wrong.collect::<Vec<_>>());
 }
 
 /// The circuits of a patent.
