@@ -83,6 +83,13 @@ pub(super) fn settled<C: Circuit>(circuit: &C, q: &C::Reg<Sim>, i: &C::In<Sim>) 
     circuit.comb(q, i)
 }
 
+/// What cannot be. A panic would have to drop the registers, and for that they would stand in memory
+/// all the time; of a function for C the compiler knows that it does not unwind.
+#[cold]
+extern "C" fn never() -> ! {
+    abort()
+}
+
 /// A value as what it is, where a constant condition says so and the compiler does not see it.
 #[inline(always)]
 fn same<A: 'static, B: 'static>(value: A) -> B {
@@ -91,8 +98,7 @@ fn same<A: 'static, B: 'static>(value: A) -> B {
     let it: &mut dyn Any = &mut *value;
     match it.downcast_mut::<Option<B>>().and_then(Option::take) {
         Some(value) => value,
-        // A panic would have to drop the registers, and for that they would stand in memory.
-        None => abort(),
+        None => never(),
     }
 }
 
@@ -110,7 +116,7 @@ macro_rules! each {
         each!(@ $len, $do, $of, 6 a 0 b 1 c 2 d 3 e 4 f 5);
         each!(@ $len, $do, $of, 7 a 0 b 1 c 2 d 3 e 4 f 5 g 6);
         each!(@ $len, $do, $of, 8 a 0 b 1 c 2 d 3 e 4 f 5 g 6 h 7);
-        abort()
+        never()
     }};
     (@ $len:ident, $do:ident, $of:ty, $count:literal $($name:ident $index:literal)*) => {
         if const { $len == $count } {

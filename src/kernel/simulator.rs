@@ -46,15 +46,29 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     pub fn run(
         self,
         ticks: u64,
+        stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
+        observer: impl Observer<C>,
+    ) -> Result<Self, RunError> {
+        match self.run_on(ticks, stimulus, observer) {
+            (simulator, None) => Ok(simulator),
+            (_, Some(error)) => Err(error),
+        }
+    }
+
+    /// A function of its own: where registers are dropped they stand in memory all the time.
+    #[inline(never)]
+    fn run_on(
+        self,
+        ticks: u64,
         mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
         mut observer: impl Observer<C>,
-    ) -> Result<Self, RunError> {
+    ) -> (Self, Option<RunError>) {
         let Simulator {
             circuit,
             q,
             tick: start,
         } = self;
-        // What an unwinding panic had to drop would stand in memory all the time.
+        // So they are where a panic unwinds.
         let mut q = ManuallyDrop::new(q);
         let mut tick = start;
         let end = start.saturating_add(ticks);
@@ -82,11 +96,7 @@ impl<'c, C: Circuit> Simulator<'c, C> {
             }
         }
         let q = ManuallyDrop::into_inner(q);
-        let simulator = Simulator { circuit, q, tick };
-        match failed {
-            None => Ok(simulator),
-            Some(error) => Err(error),
-        }
+        (Simulator { circuit, q, tick }, failed)
     }
 
     /// Runs like [`run`](Simulator::run), but goes over idle ticks in one.

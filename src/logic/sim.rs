@@ -34,6 +34,7 @@ impl Logic for Sim {
         if circuit.gated(&q, i).get() {
             q
         } else {
+            std::hint::cold_path();
             // The nets once more: those that are read here only are computed here only.
             let w = circuit.comb(&q, i);
             circuit.next(q, &w, i)
