@@ -1,8 +1,10 @@
 //! Every circuit of the catalogue driven with random inputs: the run can be repeated from its
 //! stimulus file, and it moves every bit that can move.
 
+use motion_rtl::arc_generator::ArcGenerator;
 use motion_rtl::check::{Drive, Driven, drive};
 use motion_rtl::kernel::{Bits, Circuit, Observer, Simulator, unpack, width};
+use motion_rtl::linear_interpolator::LinearInterpolator;
 use motion_rtl::logic::Sim;
 use motion_rtl::pulse_interpolator::{Axis, Group, UnitLaw, Variant};
 use motion_rtl::registry::{AnyModel, CATALOGUE};
@@ -41,6 +43,7 @@ fn parse<C: Circuit>(line: &str) -> (C::In<Sim>, bool) {
     (unpack(&bits[..ports]), bits[ports])
 }
 
+/// One of the two looks at everything in every tick, the other passes over what rests.
 fn repeats<C: Circuit>(circuit: &C) {
     let (waves, stimulus, driven) = files(circuit, &run(7, 5_000, true));
     let mut vcd =
@@ -65,6 +68,8 @@ fn the_stimulus_file_repeats_the_run() {
     repeats(&UnitLaw::<5>::default());
     repeats(&Axis::<16, 12>::new(0, Variant::Safe));
     repeats(&Group::<3, 8, 9, 4>::new(Variant::Safe, 10));
+    repeats::<LinearInterpolator>(&LinearInterpolator::default());
+    repeats::<ArcGenerator>(&ArcGenerator::default());
 }
 
 #[test]

@@ -1,6 +1,6 @@
 use super::{Coverage, Stimulus};
 use crate::kernel::{Circuit, Machine, RunError, Running, Standing};
-use crate::trace::{Clock, Layout, Lines, Waves};
+use crate::trace::{Clock, Dump, Layout, Lines, Options, VcdFile};
 use std::io::{self, Write};
 
 /// How long a circuit is driven, and by what.
@@ -50,7 +50,8 @@ impl Drive {
         stimulus: &mut dyn Write,
     ) -> Result<Driven, RunError> {
         let layout = Layout::of(running, None).map_err(io::Error::from)?;
-        let mut dump = Waves::new(&layout, self.clock);
+        let file = VcdFile::new(waves, &layout, self.clock);
+        let mut dump = Dump::new(&layout, self.clock, &Options::default(), file);
         let mut lines = Lines::of(running);
         let mut coverage = Coverage::of(running);
         let mut random = Stimulus::new(self.seed);
@@ -60,7 +61,7 @@ impl Drive {
             resets += u64::from(rst);
             running.settle(&mut random.ports());
             lines.tick(running, rst, stimulus)?;
-            dump.tick(tick, running, waves)?;
+            dump.tick(tick, running)?;
             running.show(coverage.tick());
             let standing = running.gated().then(|| Standing::of(running));
             running.clock(rst);
@@ -72,7 +73,7 @@ impl Drive {
                 });
             }
         }
-        dump.finish(waves)?;
+        dump.finish()?;
         lines.finish(stimulus)?;
         Ok(Driven { resets, coverage })
     }

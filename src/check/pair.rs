@@ -1,4 +1,4 @@
-use crate::kernel::{Circuit, Field, Make, Signals, Visit};
+use crate::kernel::{Circuit, Extent, Field, Make, Signals, Visit};
 use crate::logic::{Logic, Sim};
 use std::any::Any;
 use std::fmt;
@@ -90,7 +90,9 @@ where
     T: Signals<L>,
     U: Signals<L>,
 {
-    #[inline]
+    const EXTENT: Extent = T::EXTENT.and(U::EXTENT);
+
+    #[inline(always)]
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.enter(field);
         self.left

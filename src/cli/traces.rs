@@ -6,14 +6,14 @@ use super::run::{Arguments, clock};
 use super::{Failure, print, print_json};
 use clap::ValueEnum;
 use motion_rtl::input::scenario::Loaded;
-use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
+use motion_rtl::kernel::{Circuit, RunError};
 use motion_rtl::trace::atomic::AtomicFile;
-use motion_rtl::trace::{Clock, Fst, LayoutError, Options, StimulusFile, Vcd, WriteBehind, gtkw};
+use motion_rtl::trace::{Clock, LayoutError, Options, StimulusFile, WaveFile, WaveFormat, gtkw};
 use motion_rtl::verilog::Verilog;
 use serde::Serialize;
 use std::fmt;
 use std::io::{self, Write as _};
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 use std::path::Path;
 
 /// The files of a run of `C`, whose Verilog is that of `V`: the same, or what stands in it without
@@ -24,7 +24,7 @@ pub struct Traces<'a, C: Circuit, V: Circuit> {
     options: &'a Options,
     clock: Clock,
     /// Every signal at every tick.
-    pub waves: Option<Waves<C>>,
+    pub waves: Option<WaveFile<C>>,
     /// The inputs.
     pub stimulus: Option<StimulusFile<V, AtomicFile>>,
     // Last, as their directory can go only when the files above are gone.
@@ -41,58 +41,20 @@ pub enum Format {
     Fst,
 }
 
+impl From<Format> for WaveFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Vcd => WaveFormat::Vcd,
+            Format::Fst => WaveFormat::Fst,
+        }
+    }
+}
+
 impl Format {
     fn extension(self) -> &'static str {
         match self {
             Format::Vcd => "vcd",
             Format::Fst => "fst",
-        }
-    }
-}
-
-/// The waves under way, in either format; a thread writes the file.
-pub enum Waves<C> {
-    Vcd(Vcd<C, WriteBehind<AtomicFile>>),
-    Fst(Fst<C, AtomicFile>),
-}
-
-impl<C: Circuit> Waves<C> {
-    fn begin(
-        file: AtomicFile,
-        format: Format,
-        circuit: &C,
-        clock: Clock,
-        options: &Options,
-    ) -> Result<Self, Failure> {
-        let refuse = |error: io::Error| match error.downcast::<LayoutError>() {
-            Ok(error) => not_selected(&error),
-            Err(error) => error.into(),
-        };
-        let waves = match format {
-            Format::Vcd => {
-                let file = WriteBehind::new(file)?;
-                let vcd = Vcd::new(file, circuit, clock, options).map_err(io::Error::from);
-                vcd.map(Waves::Vcd)
-            }
-            Format::Fst => Fst::new(file, circuit, clock, options).map(Waves::Fst),
-        };
-        waves.map_err(refuse)
-    }
-
-    fn finish(self) -> io::Result<AtomicFile> {
-        match self {
-            Waves::Vcd(vcd) => vcd.finish()?.finish(),
-            Waves::Fst(fst) => fst.finish(),
-        }
-    }
-}
-
-impl<C: Circuit> Observer<C> for Waves<C> {
-    #[inline]
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        match self {
-            Waves::Vcd(vcd) => vcd.sample(now),
-            Waves::Fst(fst) => fst.sample(now),
         }
     }
 }
@@ -126,7 +88,8 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
             true => None,
             false => {
                 let file = files.create(format.extension())?;
-                Some(Waves::begin(file, format, circuit, clock, options)?)
+                let waves = WaveFile::new(file, format.into(), circuit, clock, options);
+                Some(waves.map_err(refused)?)
             }
         };
         let stimulus = match arguments.verilog {
@@ -188,6 +151,13 @@ fn verilog<C: Circuit>(
     }
     let stimulus = files.create_as(&format!("{}.stimulus", C::NAME))?;
     Ok(StimulusFile::new(stimulus))
+}
+
+fn refused(error: io::Error) -> Failure {
+    match error.downcast::<LayoutError>() {
+        Ok(error) => not_selected(&error),
+        Err(error) => error.into(),
+    }
 }
 
 fn not_selected(error: &LayoutError) -> Failure {

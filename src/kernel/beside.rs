@@ -1,4 +1,4 @@
-use super::{Circuit, Field, Make, Observer, Role, RunError, Sample, Signals, Visit};
+use super::{Circuit, Extent, Field, Make, Observer, Role, RunError, Sample, Signals, Visit};
 use crate::logic::{Logic, Sim};
 use std::fmt;
 use std::marker::PhantomData;
@@ -67,6 +67,9 @@ const fn scope<B: Beside>() -> Field {
 }
 
 impl<L: Logic, C: Circuit, B: Beside> Signals<L> for WithIn<L, C, B> {
+    const EXTENT: Extent = C::In::<L>::EXTENT.and(B::Signals::<L>::EXTENT);
+
+    #[inline(always)]
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
         self.i.visit(field, visitor);
         self.beside.visit(const { &scope::<B>() }, visitor);

@@ -1,6 +1,6 @@
 use super::probe::{Source, supply};
 use super::property::{Moment, Property};
-use super::signals::{Field, Make, Role, Shape, Signals, Visit};
+use super::signals::{Extent, Field, Inside, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Logic, Sim};
 use std::any::Any;
 use std::fmt;
@@ -206,11 +206,27 @@ impl<C: Circuit, L: Logic> fmt::Debug for Instance<C, L> {
 }
 
 impl<C: Circuit, L: Logic> Signals<L> for Instance<C, L> {
+    const EXTENT: Extent = Extent {
+        leaves: 0,
+        instances: 1,
+    }
+    .and(C::In::<L>::EXTENT)
+    .and(C::Net::<L>::EXTENT);
+
     #[inline(always)]
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.enter(field);
         self.i.visit(const { &Field::part(Role::Input) }, visitor);
-        self.w.visit(const { &Field::part(Role::Net) }, visitor);
+        let inside = const {
+            Inside {
+                ports: C::In::<L>::EXTENT,
+                registers: C::Reg::<L>::EXTENT,
+                nets: C::Net::<L>::EXTENT,
+            }
+        };
+        if !visitor.rests(inside) {
+            self.w.visit(const { &Field::part(Role::Net) }, visitor);
+        }
         visitor.leave();
     }
 

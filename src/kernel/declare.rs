@@ -1,7 +1,7 @@
 use super::Circuit;
 use super::probe::{Probe, Words};
 use super::running::{Machine, Running};
-use super::signals::{Field, Kind, Role, Shape};
+use super::signals::{Field, Inside, Kind, Role, Shape};
 use std::sync::Arc;
 
 /// Where a walk is: the scopes around the next leaf and the part of the circuit it belongs to.
@@ -109,6 +109,15 @@ pub struct MemoryDeclaration {
     pub field: &'static Field,
 }
 
+/// A circuit within a circuit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InstanceDeclaration {
+    /// The scopes around its signals, outermost first; the last one is its own.
+    pub scopes: Vec<String>,
+    /// The number of leaves that are registers of it or of circuits within it.
+    pub registers: usize,
+}
+
 /// Every leaf of a walk, in its order.
 #[derive(Debug, Clone, Default)]
 pub struct Declarations {
@@ -116,6 +125,8 @@ pub struct Declarations {
     pub leaves: Vec<Declaration>,
     /// The memories, in the order of their first words.
     pub memories: Vec<MemoryDeclaration>,
+    /// The circuits within, each before those within it.
+    pub instances: Vec<InstanceDeclaration>,
     path: Path,
 }
 
@@ -185,6 +196,13 @@ impl Probe for Declarations {
             power_on: bits,
             field,
         });
+    }
+    fn rests(&mut self, inside: Inside) -> bool {
+        self.instances.push(InstanceDeclaration {
+            scopes: self.path.scopes().to_vec(),
+            registers: inside.registers.leaves,
+        });
+        false
     }
     fn memory(&mut self, field: &'static Field, words: &dyn Words) {
         let scopes = self.path.scopes().to_vec();

@@ -41,7 +41,10 @@ macro_rules! signals {
         impl<L: $crate::logic::Logic $(, $part: $bound + Clone + ::std::fmt::Debug)* $(, const $width: usize)*> $crate::kernel::Signals<L>
             for $name<L $(, $part)* $(, $width)*>
         {
-            #[inline]
+            const EXTENT: $crate::kernel::Extent = $crate::kernel::Extent::NONE
+                $(.and(<$type as $crate::kernel::Signals<L>>::EXTENT))*;
+
+            #[inline(always)]
             fn visit<Visitor: $crate::kernel::Visit<L>>(
                 &self,
                 field: &'static $crate::kernel::Field,

@@ -19,7 +19,7 @@ mod tests;
 
 pub use beside::{Beside, With, WithIn, Without};
 pub use circuit::{Circuit, Instance};
-pub use declare::{Declaration, Declarations, MemoryDeclaration, Path};
+pub use declare::{Declaration, Declarations, InstanceDeclaration, MemoryDeclaration, Path};
 pub use fast_forward::FastForward;
 pub use observe::{Observer, RunError, Sample, StopWhen};
 pub use pack::{Bits, pack, unpack, width, zero};
@@ -27,5 +27,7 @@ pub use probe::{Changed, Probe, Source, Words};
 pub(crate) use probe::{STAGE, WORD, part};
 pub use property::{Moment, Property};
 pub(crate) use running::{Machine, Running, Standing, Values, show_power_on};
-pub use signals::{Field, Format, Kind, Make, Nothing, Role, Shape, Signals, Visit};
+pub use signals::{
+    Extent, Field, Format, Inside, Kind, Make, Nothing, Role, Shape, Signals, Visit,
+};
 pub use simulator::Simulator;

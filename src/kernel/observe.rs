@@ -21,7 +21,7 @@ pub struct Sample<'a, C: Circuit> {
 
 impl<C: Circuit> Sample<'_, C> {
     /// Walks all signals: a scope with the circuit's name, in it ports in, registers and nets.
-    #[inline]
+    #[inline(always)]
     pub fn visit<V: Visit<Sim>>(&self, visitor: &mut V) {
         visitor.enter(const { &Field::named(C::NAME) });
         self.i.visit(const { &Field::part(Role::Input) }, visitor);
@@ -81,21 +81,21 @@ pub trait Observer<C: Circuit> {
 }
 
 impl<C: Circuit> Observer<C> for () {
-    #[inline]
+    #[inline(always)]
     fn sample(&mut self, _: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         Ok(ControlFlow::Continue(()))
     }
 }
 
 impl<C: Circuit, O: Observer<C>> Observer<C> for &mut O {
-    #[inline]
+    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         (**self).sample(now)
     }
 }
 
 impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
-    #[inline]
+    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         match self {
             Some(observer) => observer.sample(now),
@@ -107,7 +107,7 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
 macro_rules! together {
     ($($part:ident $place:tt),+) => {
         impl<C: Circuit, $($part: Observer<C>),+> Observer<C> for ($($part,)+) {
-            #[inline]
+            #[inline(always)]
             fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
                 let mut stop = false;
                 $( stop |= self.$place.sample(now)?.is_break(); )+
@@ -126,7 +126,7 @@ together!(A 0, B 1, D 2, E 3);
 pub struct StopWhen<F>(pub F);
 
 impl<C: Circuit, F: FnMut(&Sample<'_, C>) -> bool> Observer<C> for StopWhen<F> {
-    #[inline]
+    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         Ok(if (self.0)(now) {
             ControlFlow::Break(())

@@ -1,5 +1,5 @@
-use super::signals::{Field, Kind, Make, Role, Shape, Signals, Visit};
-use crate::logic::{Image, Signed, Sim, sim::*};
+use super::signals::{Field, Inside, Kind, Make, Role, Shape, Signals, Visit};
+use crate::logic::{Bit, Image, Signed, Sim, sim::*};
 use std::any::Any;
 
 /// What has changed in a memory.
@@ -48,6 +48,11 @@ pub trait Probe {
     fn element(&mut self, _index: usize) {}
     /// A leaf; `bits` holds its value in the low `shape.width` bits, zeros above.
     fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64);
+    /// See [`Visit::rests`].
+    #[inline(always)]
+    fn rests(&mut self, _inside: Inside) -> bool {
+        false
+    }
     /// A memory: unless overridden, a scope with a leaf for every word.
     fn memory(&mut self, field: &'static Field, words: &dyn Words) {
         self.enter(field);
@@ -64,44 +69,48 @@ pub trait Probe {
 }
 
 impl<P: Probe> Visit<Sim> for P {
-    #[inline]
+    #[inline(always)]
     fn enter(&mut self, field: &'static Field) {
         Probe::enter(self, field);
     }
-    #[inline]
+    #[inline(always)]
     fn leave(&mut self) {
         Probe::leave(self);
     }
-    #[inline]
+    #[inline(always)]
     fn element(&mut self, index: usize) {
         Probe::element(self, index);
     }
-    #[inline]
+    #[inline(always)]
     fn bit(&mut self, field: &'static Field, value: Wire) {
         let kind = Kind::Bit;
-        self.leaf(field, Shape { kind, width: 1 }, value.get().into());
+        self.leaf(field, Shape { kind, width: 1 }, value.word().get());
     }
-    #[inline]
+    #[inline(always)]
     fn unsigned<const N: usize>(&mut self, field: &'static Field, value: UInt<N>) {
         let kind = Kind::Unsigned;
         self.leaf(field, Shape { kind, width: N }, value.get());
     }
-    #[inline]
+    #[inline(always)]
     fn signed<const N: usize>(&mut self, field: &'static Field, value: Int<N>) {
         let kind = Kind::Signed;
         self.leaf(field, Shape { kind, width: N }, value.unsigned().get());
     }
-    #[inline]
+    #[inline(always)]
     fn ram<const A: usize, const D: usize>(&mut self, field: &'static Field, ram: &SimRam<A, D>) {
-        self.memory(field, ram);
+        self.memory(field, &ram.words());
     }
-    #[inline]
+    #[inline(always)]
     fn shift_register<const K: usize, const D: usize>(
         &mut self,
         field: &'static Field,
         register: &SimShiftRegister<K, D>,
     ) {
-        self.memory(field, register);
+        self.memory(field, &register.words());
+    }
+    #[inline(always)]
+    fn rests(&mut self, inside: Inside) -> bool {
+        Probe::rests(self, inside)
     }
 }
 
@@ -144,6 +153,9 @@ impl Probe for Shown<'_> {
     }
     fn memory(&mut self, field: &'static Field, words: &dyn Words) {
         self.0.memory(field, words);
+    }
+    fn rests(&mut self, inside: Inside) -> bool {
+        self.0.rests(inside)
     }
 }
 

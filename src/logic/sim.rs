@@ -3,7 +3,7 @@
 mod memory;
 mod words;
 
-pub use memory::{SimRam, SimShiftRegister};
+pub use memory::{RamWords, SimRam, SimShiftRegister, Stages};
 pub use words::{Int, UInt, Wire};
 
 use super::{Image, Logic};

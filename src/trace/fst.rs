@@ -8,15 +8,16 @@ mod section;
 mod varint;
 
 use super::behind::Behind;
+use super::dump::{Dump, Format};
 use super::layout::Layout;
-use super::walk::Walk;
+use super::walk::Change;
 use super::{Clock, Options};
 use crate::kernel::{Circuit, Machine, Observer, RunError, Sample};
 use encoder::Encoder;
 use section::{Section, Tick};
 use std::io::{self, Seek, Write};
 use std::marker::PhantomData;
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 
 /// Changes and ticks from which on a section is full.
 const CHANGES: usize = 128 * 1024;
@@ -31,10 +32,7 @@ const TICKS: usize = 32 * 1024;
 #[derive(Debug)]
 #[must_use]
 pub struct Fst<C, W> {
-    ticks: Range<u64>,
-    walk: Walk,
-    section: Section,
-    encoder: Behind<Section, Encoder<W>>,
+    dump: Dump<FstFile<W>>,
     circuit: PhantomData<fn(&C)>,
 }
 
@@ -46,12 +44,9 @@ impl<C: Circuit, W: Write + Seek + Send + 'static> Fst<C, W> {
     /// exist, as a [`LayoutError`](super::LayoutError) within; the writer failed.
     pub fn new(out: W, circuit: &C, clock: Clock, options: &Options) -> io::Result<Self> {
         let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
-        let encoder = Encoder::new(out, &layout, clock)?;
+        let file = FstFile::new(out, &layout, clock)?;
         Ok(Fst {
-            ticks: options.ticks.clone(),
-            walk: Walk::new(&layout, clock),
-            section: Section::default(),
-            encoder: Behind::new(encoder, Encoder::write)?,
+            dump: Dump::new(&layout, clock, options, file),
             circuit: PhantomData,
         })
     }
@@ -61,40 +56,61 @@ impl<C: Circuit, W: Write + Seek + Send + 'static> Fst<C, W> {
     ///
     /// # Errors
     /// The writer failed.
-    pub fn finish(mut self) -> io::Result<W> {
-        self.section.end = self.walk.end()?;
-        self.hand_over()?;
-        self.encoder.finish()?.finish()
-    }
-
-    fn tick(&mut self, now: &Sample<'_, C>) -> io::Result<()> {
-        if self.walk.changes().len() >= CHANGES || self.section.ticks.len() >= TICKS {
-            self.hand_over()?;
-        }
-        let (rise, fall) = self.walk.sample(now)?;
-        let changes = self.walk.changes().len();
-        self.section.ticks.push(Tick {
-            rise,
-            fall,
-            changes,
-        });
-        Ok(())
-    }
-
-    fn hand_over(&mut self) -> io::Result<()> {
-        std::mem::swap(self.walk.changes(), &mut self.section.changes);
-        self.encoder.hand_over(&mut self.section)?;
-        std::mem::swap(self.walk.changes(), &mut self.section.changes);
-        Ok(())
+    pub fn finish(self) -> io::Result<W> {
+        self.dump.finish()
     }
 }
 
 impl<C: Circuit, W: Write + Seek + Send + 'static> Observer<C> for Fst<C, W> {
-    #[inline]
+    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if self.ticks.contains(&now.tick) {
-            self.tick(now)?;
+        self.dump.sample(now)
+    }
+}
+
+/// A file in the format FST as it is written.
+#[derive(Debug)]
+pub(super) struct FstFile<W> {
+    section: Section,
+    encoder: Behind<Section, Encoder<W>>,
+}
+
+impl<W: Write + Seek + Send + 'static> FstFile<W> {
+    pub fn new(out: W, layout: &Layout, clock: Clock) -> io::Result<Self> {
+        let encoder = Encoder::new(out, layout, clock)?;
+        Ok(FstFile {
+            section: Section::default(),
+            encoder: Behind::new(encoder, Encoder::write)?,
+        })
+    }
+
+    fn hand_over(&mut self, changes: &mut Vec<Change>) -> io::Result<()> {
+        std::mem::swap(changes, &mut self.section.changes);
+        self.encoder.hand_over(&mut self.section)?;
+        std::mem::swap(changes, &mut self.section.changes);
+        Ok(())
+    }
+}
+
+impl<W: Write + Seek + Send + 'static> Format for FstFile<W> {
+    type Out = W;
+
+    #[inline(never)]
+    fn tick(&mut self, rise: u64, fall: u64, changes: &mut Vec<Change>) -> io::Result<()> {
+        self.section.ticks.push(Tick {
+            rise,
+            fall,
+            changes: changes.len(),
+        });
+        if changes.len() >= CHANGES || self.section.ticks.len() >= TICKS {
+            self.hand_over(changes)?;
         }
-        Ok(ControlFlow::Continue(()))
+        Ok(())
+    }
+
+    fn finish(mut self, end: Option<u64>, changes: &mut Vec<Change>) -> io::Result<W> {
+        self.section.end = end;
+        self.hand_over(changes)?;
+        self.encoder.finish()?.finish()
     }
 }

@@ -1,4 +1,4 @@
-use crate::kernel::{Declaration, Declarations, Format, Running, STAGE, WORD};
+use crate::kernel::{Declaration, Declarations, Format, InstanceDeclaration, Running, STAGE, WORD};
 use std::borrow::Cow;
 use std::collections::HashSet;
 use std::io;
@@ -67,6 +67,8 @@ pub(super) const CLK: &str = "clk";
 pub(crate) struct Layout {
     /// Every leaf of the walk, in its order.
     pub leaves: Vec<Declaration>,
+    /// The circuits within, in its order.
+    pub instances: Vec<InstanceDeclaration>,
     /// For every leaf, whether it is selected.
     pub selected: Vec<bool>,
     /// The circuit's scope with the selected leaves in it.
@@ -89,7 +91,9 @@ impl Layout {
     }
 
     pub fn of(circuit: &dyn Running, only: Option<&[String]>) -> Result<Self, LayoutError> {
-        let leaves = Declarations::walked(circuit).leaves;
+        let Declarations {
+            leaves, instances, ..
+        } = Declarations::walked(circuit);
         check(circuit.name(), &leaves)?;
         let mut top = Scope::tree(circuit.name(), &leaves, |_| true);
         top.check(&leaves, Some(CLK))?;
@@ -99,6 +103,7 @@ impl Layout {
         }
         Ok(Layout {
             leaves,
+            instances,
             selected,
             top,
         })

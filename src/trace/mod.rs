@@ -8,18 +8,22 @@ pub mod atomic;
 mod behind;
 pub mod chart;
 mod clock;
+mod dump;
 mod fst;
 pub mod gtkw;
 mod layout;
 mod record;
+mod rest;
 mod stimulus_file;
 pub mod text;
 pub(crate) mod value;
 mod vcd;
 mod walk;
+mod wave_file;
 
 pub use behind::WriteBehind;
 pub use clock::{Clock, ClockError};
+pub(crate) use dump::Dump;
 pub use fst::Fst;
 pub(crate) use layout::Layout;
 pub use layout::{LayoutError, Options};
@@ -27,7 +31,8 @@ pub use record::{RecordError, Recorder};
 pub(crate) use stimulus_file::Lines;
 pub use stimulus_file::StimulusFile;
 pub use vcd::Vcd;
-pub(crate) use vcd::Waves;
+pub(crate) use vcd::VcdFile;
+pub use wave_file::{WaveFile, WaveFormat};
 
 use crate::kernel::{Circuit, Machine, RunError, Running, Values};
 use crate::logic::Sim;
@@ -68,15 +73,16 @@ fn replay_values(
     let name = format!("{stem}.vcd");
     let mut dump = AtomicFile::create(dir.join(&name))?;
     let layout = Layout::of(running, None).map_err(io::Error::from)?;
-    let mut waves = Waves::new(&layout, clock);
+    let file = VcdFile::new(&mut dump, &layout, clock);
+    let mut waves = Dump::new(&layout, clock, &Options::default(), file);
     let mut ticks = 0;
     for i in inputs {
         running.settle(&mut i.source());
-        waves.tick(ticks, running, &mut dump)?;
+        waves.tick(ticks, running)?;
         running.clock(false);
         ticks += 1;
     }
-    waves.finish(&mut dump)?;
+    waves.finish()?;
 
     let save = gtkw::save(&layout, clock, &name, 0..ticks.min(FOCUS), &[]);
     let mut save_file = AtomicFile::create(dir.join(format!("{stem}.gtkw")))?;

@@ -1,15 +1,17 @@
+mod file;
 mod header;
 mod text;
-mod waves;
 
+use super::dump::Dump;
 use super::layout::Layout;
 use super::{Clock, LayoutError, Options};
 use crate::kernel::{Circuit, Machine, Observer, RunError, Sample};
 use std::io::{self, Write};
 use std::marker::PhantomData;
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
+
+pub(crate) use file::VcdFile;
 pub(super) use text::eight_digits;
-pub(crate) use waves::Waves;
 
 /// Writes every signal of a run, and `clk`, as a value change dump (IEEE 1364).
 ///
@@ -24,9 +26,7 @@ pub(crate) use waves::Waves;
 #[derive(Debug)]
 #[must_use]
 pub struct Vcd<C, W> {
-    out: W,
-    ticks: Range<u64>,
-    waves: Waves,
+    dump: Dump<VcdFile<W>>,
     circuit: PhantomData<fn(&C)>,
 }
 
@@ -38,10 +38,9 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
     /// exist. Nothing is written to `out` before the run.
     pub fn new(out: W, circuit: &C, clock: Clock, options: &Options) -> Result<Self, LayoutError> {
         let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
+        let file = VcdFile::new(out, &layout, clock);
         Ok(Vcd {
-            out,
-            ticks: options.ticks.clone(),
-            waves: Waves::new(&layout, clock),
+            dump: Dump::new(&layout, clock, options, file),
             circuit: PhantomData,
         })
     }
@@ -50,18 +49,14 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
     ///
     /// # Errors
     /// The writer failed.
-    pub fn finish(mut self) -> io::Result<W> {
-        self.waves.finish(&mut self.out)?;
-        Ok(self.out)
+    pub fn finish(self) -> io::Result<W> {
+        self.dump.finish()
     }
 }
 
 impl<C: Circuit, W: Write> Observer<C> for Vcd<C, W> {
-    #[inline]
+    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if self.ticks.contains(&now.tick) {
-            self.waves.sample(now, &mut self.out)?;
-        }
-        Ok(ControlFlow::Continue(()))
+        self.dump.sample(now)
     }
 }

@@ -2,12 +2,18 @@
 
 use super::Clock;
 use super::layout::Layout;
-use crate::kernel::{Changed, Circuit, Field, Probe, Running, Sample, Shape, Words};
+use super::rest::Rest;
+use crate::kernel::{
+    Changed, Circuit, Field, Inside, Probe, Role, Running, Sample, Shape, Signals, Words,
+};
+use crate::logic::Sim;
 use std::io;
+use std::mem;
+use std::ops::Range;
 
 /// A new value.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Change {
+pub(crate) struct Change {
     /// The leaf, by its place in the walk.
     pub leaf: u32,
     /// Its bits from now on.
@@ -15,51 +21,80 @@ pub(super) struct Change {
 }
 
 /// Finds out which of the selected signals are not as in the tick before.
+///
+/// A circuit within whose ports in and registers are as in the tick before rests: its nets are
+/// not looked at, and where the walk is compiled with the circuit they are not even computed.
 #[derive(Debug)]
 pub(super) struct Walk {
     clock: Clock,
-    /// The values of the tick before, in the order of the walk.
-    previous: Vec<u64>,
+    last: Option<u64>,
+    /// The values of this tick, as far as they were looked at, in the order of the walk.
+    now: Vec<u64>,
+    /// Those of the tick before.
+    before: Vec<u64>,
+    /// Which circuits within have registers that have changed.
+    awake: Vec<bool>,
     /// Where every memory stood in the tick before.
     marks: Vec<u64>,
-    last: Option<u64>,
     notes: Notes,
-    /// At the first tick everything is noted, changed or not.
-    first: bool,
 }
 
 #[derive(Debug)]
 struct Notes {
+    rest: Rest,
     selected: Vec<bool>,
     changes: Vec<Change>,
+    /// At the first tick everything is noted, changed or not.
+    first: bool,
 }
 
 impl Walk {
     pub fn new(layout: &Layout, clock: Clock) -> Self {
+        let leaves = layout.leaves.len();
         Walk {
             clock,
-            previous: vec![0; layout.leaves.len()],
-            marks: Vec::new(),
             last: None,
+            now: vec![0; leaves],
+            before: vec![0; leaves],
+            awake: vec![true; layout.instances.len()],
+            marks: Vec::new(),
             notes: Notes {
+                rest: Rest::new(&layout.leaves, &layout.instances),
                 selected: layout.selected.clone(),
                 changes: Vec::new(),
+                first: true,
             },
-            first: true,
         }
     }
 
     /// Looks at a tick. Returns when `clk` rises and when it falls.
+    #[inline(always)]
     pub fn sample<C: Circuit>(&mut self, now: &Sample<'_, C>) -> io::Result<(u64, u64)> {
         let times = self.begin(now.tick)?;
-        look(now, self.probe());
+        let extent = const {
+            C::In::<Sim>::EXTENT
+                .and(C::Reg::<Sim>::EXTENT)
+                .and(C::Net::<Sim>::EXTENT)
+        };
+        let mut look = self.look(true);
+        // With this the compiler knows that every leaf has its place, which stands in the code as
+        // a constant.
+        if look.now.len() == extent.leaves
+            && look.before.len() == extent.leaves
+            && look.awake.len() == extent.instances
+        {
+            now.visit(&mut look);
+            look.note();
+        }
         Ok(times)
     }
 
-    /// The same of a circuit whose type is forgotten.
+    /// The same of a circuit whose type is forgotten; it looks at everything.
     pub fn tick(&mut self, tick: u64, running: &dyn Running) -> io::Result<(u64, u64)> {
         let times = self.begin(tick)?;
-        running.show(&mut self.probe());
+        let mut look = self.look(false);
+        running.show(&mut look);
+        look.note();
         Ok(times)
     }
 
@@ -70,20 +105,30 @@ impl Walk {
                 format!("tick {tick} comes twice"),
             ));
         }
-        self.first = self.last.is_none();
+        self.notes.first = self.last.is_none();
+        self.notes.rest.begin(&mut self.awake);
         self.last = Some(tick);
         let times = (self.clock.rise(tick), self.clock.fall(tick));
         times.0.zip(times.1).ok_or_else(too_late)
     }
 
-    fn probe(&mut self) -> Look<'_> {
+    #[inline(always)]
+    fn look(&mut self, passes_over: bool) -> Look<'_> {
+        let first = self.notes.first.into();
         Look {
-            previous: &mut self.previous,
-            cursor: 0,
+            now: &mut self.now,
+            before: &mut self.before,
+            awake: &mut self.awake,
             marks: &mut self.marks,
-            memory: 0,
-            first: self.first,
             notes: &mut self.notes,
+            passes_over,
+            cursor: 0,
+            from: 0,
+            instance: 0,
+            memory: 0,
+            ports: false,
+            first,
+            differ: first,
         }
     }
 
@@ -99,71 +144,146 @@ impl Walk {
     }
 }
 
-/// Compiled once for all formats.
-#[inline(never)]
-fn look<C: Circuit>(now: &Sample<'_, C>, mut probe: Look<'_>) {
-    now.visit(&mut probe);
-}
-
 /// A walk under way.
 struct Look<'a> {
-    previous: &'a mut [u64],
+    now: &'a mut [u64],
+    before: &'a mut [u64],
+    awake: &'a mut [bool],
+    marks: &'a mut Vec<u64>,
+    notes: &'a mut Notes,
+    /// Whether circuits within that rest are passed over.
+    passes_over: bool,
     /// The leaf that comes next.
     cursor: usize,
-    marks: &'a mut Vec<u64>,
+    /// The first leaf that nothing is noted of yet.
+    from: usize,
+    /// The circuit within that comes next.
+    instance: usize,
     /// The memory that comes next.
     memory: usize,
-    first: bool,
-    notes: &'a mut Notes,
+    /// Whether ports in are shown.
+    ports: bool,
+    /// What `differ` begins with: not 0 at the first tick.
+    first: u64,
+    /// Not 0 where one of the leaves that nothing is noted of yet has changed.
+    differ: u64,
 }
 
 impl Look<'_> {
-    #[inline]
-    fn look(&mut self, leaf: usize, bits: u64) {
-        if self.previous[leaf] != bits || self.first {
-            self.previous[leaf] = bits;
-            self.notes.note(leaf, bits);
+    /// Notes what has changed of what was shown.
+    #[inline(always)]
+    fn note(&mut self) {
+        if self.from < self.cursor && self.differ != 0 {
+            let leaves = self.from..self.cursor;
+            note(self.now, self.before, self.awake, self.notes, leaves);
+        }
+        self.go_on();
+    }
+
+    #[inline(always)]
+    fn go_on(&mut self) {
+        self.from = self.cursor;
+        self.differ = self.first;
+    }
+}
+
+impl Probe for Look<'_> {
+    #[inline(always)]
+    fn enter(&mut self, field: &'static Field) {
+        let within_ports = self.ports && field.role.is_none();
+        self.ports = within_ports || field.role == Some(Role::Input);
+        // Ports in are compared as a whole.
+        if !within_ports {
+            self.note();
         }
     }
 
-    fn look_at_all(&mut self, start: usize, words: &dyn Words) {
-        for index in 0..words.len() {
-            self.look(start + index, words.word(index));
+    #[inline(always)]
+    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
+        self.now[self.cursor] = bits;
+        self.differ |= bits ^ self.before[self.cursor];
+        self.cursor += 1;
+    }
+
+    #[inline(always)]
+    fn rests(&mut self, inside: Inside) -> bool {
+        let awake = mem::take(&mut self.awake[self.instance]);
+        self.instance += 1;
+        let rests = self.passes_over && !awake && self.differ == 0;
+        if rests {
+            self.cursor += inside.nets.leaves;
+            self.instance += inside.nets.instances;
+            self.go_on();
+        }
+        rests
+    }
+
+    #[inline(always)]
+    fn memory(&mut self, _: &'static Field, words: &dyn Words) {
+        self.note();
+        let start = self.cursor;
+        self.cursor += words.len();
+        self.go_on();
+        if self.notes.first {
+            self.marks.push(0);
+        }
+        let changed = words.changed(&mut self.marks[self.memory]);
+        self.memory += 1;
+        if changed != Changed::None || self.notes.first {
+            note_words(words, changed, self.before, self.awake, self.notes, start);
+        }
+    }
+}
+
+// Functions, not methods: a reference to the whole walk would keep it in memory.
+
+#[inline(never)]
+fn note(
+    now: &[u64],
+    before: &mut [u64],
+    awake: &mut [bool],
+    notes: &mut Notes,
+    leaves: Range<usize>,
+) {
+    let start = leaves.start;
+    let (now, before) = (&now[leaves.clone()], &mut before[leaves]);
+    for (place, (&bits, before)) in now.iter().zip(before).enumerate() {
+        if bits != *before || notes.first {
+            *before = bits;
+            notes.change(start + place, bits, awake);
+        }
+    }
+}
+
+#[inline(never)]
+fn note_words(
+    words: &dyn Words,
+    changed: Changed,
+    before: &mut [u64],
+    awake: &mut [bool],
+    notes: &mut Notes,
+    start: usize,
+) {
+    let indices = match changed {
+        Changed::One(index) if !notes.first => index..index + 1,
+        _ => 0..words.len(),
+    };
+    for index in indices {
+        let (leaf, bits) = (start + index, words.word(index));
+        if bits != before[leaf] || notes.first {
+            before[leaf] = bits;
+            notes.change(leaf, bits, awake);
         }
     }
 }
 
 impl Notes {
     #[inline(never)]
-    fn note(&mut self, leaf: usize, bits: u64) {
+    fn change(&mut self, leaf: usize, bits: u64, awake: &mut [bool]) {
+        self.rest.wake(leaf, awake);
         if self.selected[leaf] {
             let leaf = leaf as u32;
             self.changes.push(Change { leaf, bits });
-        }
-    }
-}
-
-impl Probe for Look<'_> {
-    #[inline]
-    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
-        let leaf = self.cursor;
-        self.cursor += 1;
-        self.look(leaf, bits);
-    }
-
-    fn memory(&mut self, _: &'static Field, words: &dyn Words) {
-        let start = self.cursor;
-        self.cursor += words.len();
-        if self.first {
-            self.marks.push(0);
-        }
-        let changed = words.changed(&mut self.marks[self.memory]);
-        self.memory += 1;
-        match changed {
-            _ if self.first => self.look_at_all(start, words),
-            Changed::None => {}
-            Changed::One(index) => self.look(start + index, words.word(index)),
-            Changed::All => self.look_at_all(start, words),
         }
     }
 }

@@ -10,6 +10,7 @@ mod names;
 mod reader;
 mod replay;
 mod reset;
+mod rest;
 mod text;
 mod zoo;
 

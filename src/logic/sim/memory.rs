@@ -1,5 +1,5 @@
 use super::{Sim, UInt, Wire};
-use crate::kernel::{Changed, Field, Make, STAGE, Signals, Visit, WORD, Words};
+use crate::kernel::{Changed, Extent, Field, Make, STAGE, Signals, Visit, WORD, Words};
 use crate::logic::{Image, Ram, ShiftRegister};
 use std::any::Any;
 
@@ -58,7 +58,28 @@ impl<const A: usize, const D: usize> Ram<Sim, A, D> for SimRam<A, D> {
     }
 }
 
-impl<const A: usize, const D: usize> Words for SimRam<A, D> {
+impl<const A: usize, const D: usize> SimRam<A, D> {
+    /// Its words.
+    #[inline(always)]
+    pub fn words(&self) -> RamWords<'_, A, D> {
+        RamWords {
+            raw: self.image.raw(),
+            writes: self.writes,
+            written: self.written,
+        }
+    }
+}
+
+/// The words of a RAM, without a reference to what stands beside its storage: that is a register
+/// like others, and a walk must not take its address, or all registers would stand in memory.
+#[derive(Debug, Clone, Copy)]
+pub struct RamWords<'a, const A: usize, const D: usize> {
+    raw: &'a [u64],
+    writes: u64,
+    written: usize,
+}
+
+impl<const A: usize, const D: usize> Words for RamWords<'_, A, D> {
     fn width(&self) -> usize {
         D
     }
@@ -66,9 +87,9 @@ impl<const A: usize, const D: usize> Words for SimRam<A, D> {
         Image::<A, D>::WORDS
     }
     fn word(&self, index: usize) -> u64 {
-        self.image.get(index)
+        Image::<A, D>::word(self.raw, index)
     }
-    #[inline]
+    #[inline(always)]
     fn changed(&self, mark: &mut u64) -> Changed {
         let writes = self
             .writes
@@ -83,11 +104,17 @@ impl<const A: usize, const D: usize> Words for SimRam<A, D> {
         &WORD
     }
     fn whole(&self) -> Box<dyn Any> {
-        Box::new(self.clone())
+        Box::new(SimRam::<A, D> {
+            image: Image::of_raw(self.raw),
+            writes: self.writes,
+            written: self.written,
+        })
     }
 }
 
 impl<const A: usize, const D: usize> Signals<Sim> for SimRam<A, D> {
+    const EXTENT: Extent = Extent::words(Image::<A, D>::WORDS);
+
     #[inline(always)]
     fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.ram(field, self);
@@ -115,13 +142,7 @@ impl<const K: usize, const D: usize> SimShiftRegister<K, D> {
 impl<const K: usize, const D: usize> ShiftRegister<Sim, K, D> for SimShiftRegister<K, D> {
     #[inline(always)]
     fn stage(&self, index: usize) -> UInt<D> {
-        if index >= K {
-            return UInt::default();
-        }
-        let place = self.head + index;
-        let place = if place < K { place } else { place - K };
-        // Without a panic, as in `Image`.
-        self.ring.get(place).copied().unwrap_or_default()
+        stage(&self.ring, self.head, index)
     }
 
     #[inline(always)]
@@ -142,7 +163,27 @@ impl<const K: usize, const D: usize> ShiftRegister<Sim, K, D> for SimShiftRegist
     }
 }
 
-impl<const K: usize, const D: usize> Words for SimShiftRegister<K, D> {
+impl<const K: usize, const D: usize> SimShiftRegister<K, D> {
+    /// Its stages.
+    #[inline(always)]
+    pub fn words(&self) -> Stages<'_, K, D> {
+        Stages {
+            ring: &self.ring,
+            head: self.head,
+            shifts: self.shifts,
+        }
+    }
+}
+
+/// The stages of a shift register, as [`RamWords`].
+#[derive(Debug, Clone, Copy)]
+pub struct Stages<'a, const K: usize, const D: usize> {
+    ring: &'a [UInt<D>],
+    head: usize,
+    shifts: u64,
+}
+
+impl<const K: usize, const D: usize> Words for Stages<'_, K, D> {
     fn width(&self) -> usize {
         D
     }
@@ -150,9 +191,9 @@ impl<const K: usize, const D: usize> Words for SimShiftRegister<K, D> {
         K
     }
     fn word(&self, index: usize) -> u64 {
-        self.stage(index).get()
+        stage(self.ring, self.head, index).get()
     }
-    #[inline]
+    #[inline(always)]
     fn changed(&self, mark: &mut u64) -> Changed {
         match std::mem::replace(mark, self.shifts) == self.shifts {
             true => Changed::None,
@@ -163,11 +204,34 @@ impl<const K: usize, const D: usize> Words for SimShiftRegister<K, D> {
         &STAGE
     }
     fn whole(&self) -> Box<dyn Any> {
-        Box::new(self.clone())
+        Box::new(SimShiftRegister::<K, D> {
+            ring: self.ring.into(),
+            head: self.head,
+            shifts: self.shifts,
+        })
     }
 }
 
+/// Stage `index` of a ring.
+#[inline(always)]
+fn stage<const D: usize>(ring: &[UInt<D>], head: usize, index: usize) -> UInt<D> {
+    let stages = ring.len();
+    if index >= stages {
+        return UInt::default();
+    }
+    let place = head + index;
+    let place = if place < stages {
+        place
+    } else {
+        place - stages
+    };
+    // Without a panic, as in `Image`.
+    ring.get(place).copied().unwrap_or_default()
+}
+
 impl<const K: usize, const D: usize> Signals<Sim> for SimShiftRegister<K, D> {
+    const EXTENT: Extent = Extent::words(K);
+
     #[inline(always)]
     fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.shift_register(field, self);

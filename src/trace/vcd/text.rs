@@ -7,6 +7,8 @@ use vcd::IdCode;
 const LINE: usize = 1 + 64 + 8;
 /// The room in the buffer at first, doubled where a tick needs more.
 const ROOM: usize = 16 * 1024;
+/// Eight digits more.
+const EIGHT: u64 = 100_000_000;
 
 /// The code of a variable, spelt out as it stands behind every value: up to five characters hold
 /// any 32-bit index.
@@ -71,6 +73,11 @@ pub struct Text {
     /// More than there are, so that a line can be put in its place at its full length.
     buffer: Vec<u8>,
     len: usize,
+    /// The digits of the last time before its last eight, as a number.
+    high: u64,
+    /// How a line of such a time begins, and zeros behind it.
+    head: [u8; 16],
+    head_len: usize,
 }
 
 impl Text {
@@ -78,7 +85,15 @@ impl Text {
         let len = head.len();
         let mut buffer = head;
         buffer.resize(len + ROOM, 0);
-        Text { buffer, len }
+        let mut text = Text {
+            buffer,
+            len,
+            high: 0,
+            head: [0; 16],
+            head_len: 0,
+        };
+        text.begin_times(0);
+        text
     }
 
     pub fn bytes(&self) -> &[u8] {
@@ -151,29 +166,47 @@ impl Text {
     }
 
     pub fn time(&mut self, time: u64) {
-        // At most 20 digits and a `#` before the 24th place, where the line ends; behind it room
-        // for what is copied too much.
-        let mut line = [b'\n'; 48];
-        let mut start = 24;
-        let mut rest = time;
-        loop {
-            let pair = (rest % 100) as u8;
-            rest /= 100;
-            start -= 2;
-            line[start] = b'0' + pair / 10;
-            line[start + 1] = b'0' + pair % 10;
-            if rest == 0 {
-                break;
-            }
+        let (high, low) = (time / EIGHT, time % EIGHT);
+        if self.high != high {
+            self.begin_times(high);
         }
-        if line[start] == b'0' {
-            start += 1;
-        }
-        start -= 1;
-        line[start] = b'#';
-        self.line()[..24].copy_from_slice(&line[start..start + 24]);
-        self.len += 25 - start;
+        let digits = eight_decimals(low);
+        // The last digit stands even where all are zero.
+        let zeros = match high {
+            0 => (digits.trailing_zeros() as usize / 8).min(7),
+            _ => 0,
+        };
+        let digits = (digits | 0x3030_3030_3030_3030) >> (8 * zeros);
+        let (head, len) = (self.head, self.head_len);
+        let end = len + 8 - zeros;
+        let line = self.line();
+        line[..16].copy_from_slice(&head);
+        line[len..len + 8].copy_from_slice(&digits.to_le_bytes());
+        line[end] = b'\n';
+        self.len += end + 1;
     }
+
+    /// The times that come have these digits before their last eight, where it is not 0.
+    #[cold]
+    fn begin_times(&mut self, high: u64) {
+        let head = match high {
+            0 => "#".to_owned(),
+            _ => format!("#{high}"),
+        };
+        self.high = high;
+        self.head_len = head.len();
+        self.head[..head.len()].copy_from_slice(head.as_bytes());
+    }
+}
+
+/// The digits of a number below 10^8, the first in the lowest byte: four and four, then two and
+/// two, then one and one are taken apart at once.
+fn eight_decimals(number: u64) -> u64 {
+    let fours = (number / 10_000) | ((number % 10_000) << 32);
+    let hundreds = (fours * 10_486) >> 20 & 0x0000_007f_0000_007f;
+    let twos = hundreds | ((fours - hundreds * 100) << 16);
+    let tens = (twos * 103) >> 10 & 0x000f_000f_000f_000f;
+    tens | ((twos - tens * 10) << 8)
 }
 
 /// The bits of a byte as text, the highest first: each to a byte of its own, moved to its lowest
@@ -182,4 +215,31 @@ pub fn eight_digits(byte: u8) -> [u8; 8] {
     let apart = (u64::from(byte) * 0x0101_0101_0101_0101) & 0x0102_0408_1020_4080;
     let ones = (apart + 0x7f7f_7f7f_7f7f_7f7f) >> 7 & 0x0101_0101_0101_0101;
     (ones | 0x3030_3030_3030_3030).to_le_bytes()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(text: &mut Text, time: u64) -> String {
+        text.clear();
+        text.time(time);
+        String::from_utf8(text.bytes().to_vec()).unwrap()
+    }
+
+    #[test]
+    fn times_of_every_length_in_any_order() {
+        let mut text = Text::new(Vec::new());
+        let powers = (0..20).map(|power| 10u64.pow(power));
+        let around = powers.flat_map(|power| [power - 1, power, power + 1, power / 8 * 9]);
+        for time in around.chain([0, 9_999, 99_990_000, u64::MAX, 7]) {
+            assert_eq!(line(&mut text, time), format!("#{time}\n"));
+        }
+        for time in 0..200_000 {
+            assert_eq!(
+                line(&mut text, 99_900_000 + time),
+                format!("#{}\n", 99_900_000 + time)
+            );
+        }
+    }
 }

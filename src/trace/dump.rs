@@ -1,0 +1,59 @@
+//! Waves of a run, whatever their format.
+
+use super::layout::Layout;
+use super::walk::{Change, Walk};
+use super::{Clock, Options};
+use crate::kernel::{Circuit, RunError, Running, Sample};
+use std::io;
+use std::ops::{ControlFlow, Range};
+
+/// How changes are written.
+pub(crate) trait Format {
+    /// What is left of it when it has ended.
+    type Out;
+    /// Takes the changes of a tick, at which `clk` rises and falls; it may leave them where they
+    /// are for later.
+    fn tick(&mut self, rise: u64, fall: u64, changes: &mut Vec<Change>) -> io::Result<()>;
+    /// Writes what is left, up to the end of the last tick, if there was one.
+    fn finish(self, end: Option<u64>, changes: &mut Vec<Change>) -> io::Result<Self::Out>;
+}
+
+/// Waves under way.
+#[derive(Debug)]
+pub(crate) struct Dump<F> {
+    ticks: Range<u64>,
+    walk: Walk,
+    format: F,
+}
+
+impl<F: Format> Dump<F> {
+    pub fn new(layout: &Layout, clock: Clock, options: &Options, format: F) -> Self {
+        Dump {
+            ticks: options.ticks.clone(),
+            walk: Walk::new(layout, clock),
+            format,
+        }
+    }
+
+    /// Sees a tick, if it is one of those that are asked for.
+    #[inline(always)]
+    pub fn sample<C: Circuit>(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        if self.ticks.contains(&now.tick) {
+            let (rise, fall) = self.walk.sample(now)?;
+            self.format.tick(rise, fall, self.walk.changes())?;
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// The same of a circuit whose type is forgotten.
+    pub fn tick(&mut self, tick: u64, running: &dyn Running) -> io::Result<()> {
+        let (rise, fall) = self.walk.tick(tick, running)?;
+        self.format.tick(rise, fall, self.walk.changes())
+    }
+
+    /// Gives the last tick its full length.
+    pub fn finish(mut self) -> io::Result<F::Out> {
+        let end = self.walk.end()?;
+        self.format.finish(end, self.walk.changes())
+    }
+}

@@ -1,0 +1,98 @@
+use super::atomic::AtomicFile;
+use super::dump::{Dump, Format};
+use super::fst::FstFile;
+use super::layout::Layout;
+use super::vcd::VcdFile;
+use super::walk::Change;
+use super::{Clock, Options, WriteBehind};
+use crate::kernel::{Circuit, Machine, Observer, RunError, Sample};
+use std::io;
+use std::marker::PhantomData;
+use std::ops::ControlFlow;
+
+/// A format of waves.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum WaveFormat {
+    /// Text that every waveform viewer reads; see [`Vcd`](super::Vcd).
+    #[default]
+    Vcd,
+    /// GTKWave's own, some thirty times smaller; see [`Fst`](super::Fst).
+    Fst,
+}
+
+/// Waves of a run in a format that is chosen while the program runs; a thread writes the file.
+///
+/// Where the format is known beforehand, [`Vcd`](super::Vcd) and [`Fst`](super::Fst) do the same
+/// with any writer.
+#[derive(Debug)]
+#[must_use]
+pub struct WaveFile<C> {
+    dump: Dump<Either>,
+    circuit: PhantomData<fn(&C)>,
+}
+
+impl<C: Circuit> WaveFile<C> {
+    /// Begins a dump of `circuit` to `file`.
+    ///
+    /// # Errors
+    /// A name that is used twice in a scope or cannot be written or a selected path that does not
+    /// exist, as a [`LayoutError`](super::LayoutError) within; the file cannot be written.
+    pub fn new(
+        file: AtomicFile,
+        format: WaveFormat,
+        circuit: &C,
+        clock: Clock,
+        options: &Options,
+    ) -> io::Result<Self> {
+        let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
+        let file = match format {
+            WaveFormat::Vcd => Either::Vcd(VcdFile::new(WriteBehind::new(file)?, &layout, clock)),
+            WaveFormat::Fst => Either::Fst(FstFile::new(file, &layout, clock)?),
+        };
+        Ok(WaveFile {
+            dump: Dump::new(&layout, clock, options, file),
+            circuit: PhantomData,
+        })
+    }
+
+    /// Gives the last tick its full length, waits until everything is written and returns the
+    /// file, which is not yet committed.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn finish(self) -> io::Result<AtomicFile> {
+        self.dump.finish()
+    }
+}
+
+impl<C: Circuit> Observer<C> for WaveFile<C> {
+    #[inline(always)]
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        self.dump.sample(now)
+    }
+}
+
+/// One walk for both, or the circuit would be compiled with each of them.
+#[derive(Debug)]
+enum Either {
+    Vcd(VcdFile<WriteBehind<AtomicFile>>),
+    Fst(FstFile<AtomicFile>),
+}
+
+impl Format for Either {
+    type Out = AtomicFile;
+
+    fn tick(&mut self, rise: u64, fall: u64, changes: &mut Vec<Change>) -> io::Result<()> {
+        match self {
+            Either::Vcd(file) => file.tick(rise, fall, changes),
+            Either::Fst(file) => file.tick(rise, fall, changes),
+        }
+    }
+
+    fn finish(self, end: Option<u64>, changes: &mut Vec<Change>) -> io::Result<AtomicFile> {
+        match self {
+            Either::Vcd(file) => file.finish(end, changes)?.finish(),
+            Either::Fst(file) => file.finish(end, changes),
+        }
+    }
+}
