@@ -1,5 +1,6 @@
 //! What the README says of the crate: its dependencies, its commands, its files.
 
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
@@ -74,7 +75,7 @@ fn the_first_commands_are_those_that_are_promised() {
 fn what_commands_print_is_shown_as_it_is() {
     let readme = read("README.md");
     let mut lines = readme.lines();
-    let (mut command, mut shown) = (String::new(), 0);
+    let (mut command, mut shown) = (String::new(), Vec::new());
     while let Some(line) = lines.next() {
         let Some(language) = line.strip_prefix("```") else {
             continue;
@@ -86,24 +87,23 @@ fn what_commands_print_is_shown_as_it_is() {
             "text" => {
                 let arguments = command.strip_prefix("cargo run --release -- ");
                 let arguments = arguments.expect("a command before the text");
-                let directory = tempfile::tempdir().expect("a directory");
-                let output = Command::new(env!("CARGO_BIN_EXE_motion-rtl"))
-                    .args(arguments.split_whitespace())
-                    .arg("--no-vcd")
-                    .current_dir(&directory)
-                    .output()
-                    .expect("the program starts");
-                let text = String::from_utf8_lossy(&output.stdout);
-                assert!(
-                    text.contains(&block.join("\n")),
-                    "{command} prints:\n{text}"
-                );
-                shown += 1;
+                shown.push((arguments.to_owned(), block.join("\n")));
             }
             _ => {}
         }
     }
-    assert_eq!(shown, 3);
+    assert_eq!(shown.len(), 3);
+    shown.par_iter().for_each(|(arguments, block)| {
+        let directory = tempfile::tempdir().expect("a directory");
+        let output = Command::new(env!("CARGO_BIN_EXE_motion-rtl"))
+            .args(arguments.split_whitespace())
+            .arg("--no-vcd")
+            .current_dir(&directory)
+            .output()
+            .expect("the program starts");
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert!(text.contains(block), "{arguments} prints:\n{text}");
+    });
 }
 
 /// Lets the program read the arguments of a command without doing what they ask for.

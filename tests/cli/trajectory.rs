@@ -1,6 +1,6 @@
 //! `run` of the trajectory controller: figures against closed forms, files, windows, refusals.
 
-use super::scenarios::{POCKET, runs_exactly};
+use super::scenarios::{CIRCLE, POCKET, runs_exactly};
 use super::support::{Bench, keys, whole};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -66,8 +66,7 @@ fn closed_forms(radius_mm: f64, speed: f64, [k1, k2]: [f64; 2]) -> [f64; 2] {
 
 #[test]
 fn the_circle_is_what_closed_forms_say() {
-    let bench = Bench::new();
-    let summary = bench.json(&["run", "waves/circle.toml", "--no-vcd"]);
+    let (_, summary) = runs_exactly(CIRCLE);
     assert_eq!(
         keys(&summary),
         [
@@ -103,7 +102,8 @@ fn the_circle_is_what_closed_forms_say() {
     assert_eq!(summary["correction"], "vector");
     assert_eq!(summary["rounding"], "nearest");
     assert_eq!(summary["exact"], true);
-    assert_eq!(summary["files"], json!(["waves/circle.svg"]));
+    let files = ["vcd", "gtkw", "svg"].map(|kind| format!("waves/circle.{kind}"));
+    assert_eq!(summary["files"], json!(files));
     assert_eq!(whole(&summary, "/axes"), 2);
     assert_eq!(whole(&summary, "/period_ticks"), 400);
     assert!(whole(&summary, "/period_ticks_needed") <= 400);
