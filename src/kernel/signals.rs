@@ -82,7 +82,7 @@ impl Field {
 /// A walk goes through the leaves in the order of declaration and never branches on a value, so
 /// the place of a leaf in the walk is its identity.
 pub trait Signals<L: Logic>: Sized + Clone + Debug + 'static {
-    /// How much a walk shows.
+    /// How much a walk shows; waves refuse a circuit that shows more or less.
     const EXTENT: Extent;
     /// Shows each leaf to `visitor`.
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V);

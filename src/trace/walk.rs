@@ -77,15 +77,16 @@ impl Walk {
                 .and(C::Net::<Sim>::EXTENT)
         };
         let mut look = self.look(true);
-        // With this the compiler knows that every leaf has its place, which stands in the code as
+        // After this the compiler knows that every leaf has its place, which stands in the code as
         // a constant.
-        if look.now.len() == extent.leaves
-            && look.before.len() == extent.leaves
-            && look.awake.len() == extent.instances
+        if look.now.len() != extent.leaves
+            || look.before.len() != extent.leaves
+            || look.awake.len() != extent.instances
         {
-            now.visit(&mut look);
-            look.note();
+            return Err(wrong_extent(C::NAME));
         }
+        now.visit(&mut look);
+        look.note();
         Ok(times)
     }
 
@@ -286,6 +287,14 @@ impl Notes {
             self.changes.push(Change { leaf, bits });
         }
     }
+}
+
+#[cold]
+fn wrong_extent(circuit: &str) -> io::Error {
+    io::Error::new(
+        io::ErrorKind::InvalidInput,
+        format!("{circuit}: a walk shows more or less than the `EXTENT` of its signals says"),
+    )
 }
 
 fn too_late() -> io::Error {

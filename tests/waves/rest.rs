@@ -3,7 +3,9 @@
 use crate::zoo::{Part, PartIn, PartReg};
 use crate::{SEED, clock, reader};
 use motion_rtl::check::Random;
-use motion_rtl::kernel::{Circuit, Instance, Nothing, Simulator};
+use motion_rtl::kernel::{
+    Circuit, Extent, Field, Instance, Make, Nothing, Signals, Simulator, Visit,
+};
 use motion_rtl::logic::{Bit, Logic, Ram, Signed, Sim, Unsigned};
 use motion_rtl::signals;
 use motion_rtl::trace::{Options, Vcd, replay};
@@ -141,6 +143,52 @@ fn slow(seed: u64) -> impl Iterator<Item = TableIn<Sim>> {
             write: write.is_multiple_of(8).into(),
         })
     })
+}
+
+/// A signal that is shown and not counted.
+#[derive(Debug, Clone)]
+pub struct Uncounted<L: Logic>(L::U<4>);
+
+impl<L: Logic> Signals<L> for Uncounted<L> {
+    const EXTENT: Extent = Extent::NONE;
+    fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
+        visitor.unsigned(field, self.0);
+    }
+    fn make<M: Make<L>>(field: &'static Field, maker: &mut M) -> Self {
+        Uncounted(maker.unsigned(field))
+    }
+}
+
+signals! { pub struct Counted<L> { pub count: L::U<4>, pub hidden: Uncounted<L> } }
+
+#[derive(Debug, Clone)]
+pub struct Miscounted;
+
+impl Circuit for Miscounted {
+    const NAME: &'static str = "miscounted";
+    const ABOUT: &'static str = "has more signals than it says";
+    type In<L: Logic> = Nothing<L>;
+    type Reg<L: Logic> = Counted<L>;
+    type Net<L: Logic> = Nothing<L>;
+
+    fn comb<L: Logic>(&self, _: &Counted<L>, _: &Nothing<L>) -> Nothing<L> {
+        Nothing::new()
+    }
+
+    fn next<L: Logic>(&self, q: Counted<L>, _: &Nothing<L>, _: &Nothing<L>) -> Counted<L> {
+        q
+    }
+}
+
+#[test]
+fn signals_that_are_not_counted_are_an_error() {
+    let mut vcd = Vcd::new(Vec::new(), &Miscounted, clock(), &Options::default()).unwrap();
+    let run = Simulator::new(&Miscounted).run(1, |_, _| Nothing::new(), &mut vcd);
+    let error = run.unwrap_err().to_string();
+    assert!(
+        error.contains("miscounted: a walk shows more or less"),
+        "{error}"
+    );
 }
 
 #[test]
