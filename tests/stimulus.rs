@@ -381,7 +381,9 @@ const JOBS: &[&str] = &[
 
 #[test]
 fn every_bit_that_can_move_moves() {
-    let left = CATALOGUE.par_iter().map(|entry| {
+    // The large ones first, so that the last ones are short.
+    let entries = CATALOGUE.par_iter().rev().with_max_len(1);
+    let left = entries.map(|entry| {
         let mut left = Vec::new();
         let full = ("full", (entry.full)(), FAR);
         // One without a width is the same at all.

@@ -2,7 +2,8 @@
 //! with outputs that are compared.
 //!
 //! Both get the inputs of a job that ships with the crate, as they were recorded. They run in turn,
-//! and the medians are shown. Settings are inputs on both sides, so neither folds them. Waves are
+//! and the medians are shown: of both, and of the ratios of runs one after the other, since a shared
+//! machine is now fast and now slow. Settings are inputs on both sides, so neither folds them. Waves are
 //! those of every signal and of `clk`; words of memories with more than 256 are in ours only.
 //!
 //! `--quick` runs each once over few ticks; a word is looked for in the names of the circuits.
@@ -34,7 +35,7 @@ struct Asked {
 
 impl Asked {
     fn rounds(&self) -> usize {
-        if self.quick { 1 } else { 7 }
+        if self.quick { 1 } else { 11 }
     }
 
     fn ticks(&self, all: u64) -> u64 {
@@ -76,8 +77,9 @@ impl Times {
     }
 
     fn print(&self, circuit: &str, what: &str) {
-        let (theirs, ours) = (median(&self.theirs), median(&self.ours));
-        let ratio = theirs / ours;
+        let pairs = self.theirs.iter().zip(&self.ours);
+        let ratios: Vec<_> = pairs.map(|(theirs, ours)| theirs / ours).collect();
+        let (theirs, ours, ratio) = (median(&self.theirs), median(&self.ours), median(&ratios));
         println!("{circuit:<28} {what:<28} {theirs:>9.1} {ours:>9.1} {ratio:>6.1}");
     }
 }

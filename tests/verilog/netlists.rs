@@ -112,7 +112,9 @@ fn hold(circuit: &dyn AnyModel, seed: u64) -> u64 {
 
 #[test]
 fn every_netlist_runs_as_its_circuit() {
-    CATALOGUE.par_iter().enumerate().for_each(|(seed, entry)| {
+    // The large ones first, so that the last ones are short.
+    let entries = CATALOGUE.par_iter().enumerate().rev().with_max_len(1);
+    entries.for_each(|(seed, entry)| {
         for circuit in models(entry) {
             let ticks = hold(&*circuit, seed as u64);
             assert_eq!(ticks, TICKS, "{}", circuit.name());
