@@ -3,8 +3,9 @@
 //!
 //! Both get the inputs of a job that ships with the crate, as they were recorded. They run in turn,
 //! and the medians are shown: of both, and of the ratios of runs one after the other, since a shared
-//! machine is now fast and now slow. Settings are inputs on both sides, so neither folds them. Waves are
-//! those of every signal and of `clk`; words of memories with more than 256 are in ours only.
+//! machine is now fast and now slow. Settings are inputs on both sides, so neither folds them.
+//! Waves are those of every signal and of `clk`; words of memories with more than 256 are in ours
+//! only.
 //!
 //! `--quick` runs each once over few ticks; a word is looked for in the names of the circuits.
 
