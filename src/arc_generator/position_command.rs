@@ -102,8 +102,8 @@ impl<const W: usize, const P: usize, const D: usize> Circuit for PositionCommand
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, W, P>, i: &In<L, P, D>) -> L::Bit {
-        !(i.load | i.present)
+    fn gated<L: Logic>(&self, _: &Reg<L, W, P>, i: &In<L, P, D>) -> Option<L::Bit> {
+        Some(!(i.load | i.present))
     }
 }
 

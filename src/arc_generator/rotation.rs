@@ -162,11 +162,13 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, C, S>, i: &In<L, D>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, P, C, S>, i: &In<L, D>) -> Option<L::Bit> {
         let w = self.comb(q, i);
-        w.control.gated(&self.control, &q.control)
-            & w.row_x.gated(&self.row_x, &q.row_x)
-            & w.row_y.gated(&self.row_y, &q.row_y)
-            & w.row_z.gated(&self.row_z, &q.row_z)
+        Some(
+            w.control.gated(&self.control, &q.control)
+                & w.row_x.gated(&self.row_x, &q.row_x)
+                & w.row_y.gated(&self.row_y, &q.row_y)
+                & w.row_z.gated(&self.row_z, &q.row_z),
+        )
     }
 }

@@ -100,8 +100,8 @@ impl<const C: usize> Circuit for CoefficientControl<C> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> L::Bit {
-        !(i.step | q.busy | q.done) & q.bit_index.is_zero()
+    fn gated<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Option<L::Bit> {
+        Some(!(i.step | q.busy | q.done))
     }
 }
 

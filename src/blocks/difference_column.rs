@@ -122,8 +122,8 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceColum
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, P, F>, i: &In<L, P, F, D>) -> L::Bit {
-        !(i.load | i.step)
+    fn gated<L: Logic>(&self, _: &Reg<L, P, F>, i: &In<L, P, F, D>) -> Option<L::Bit> {
+        Some(!(i.load | i.step))
     }
 }
 

@@ -169,7 +169,7 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceEngin
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, P, F>, i: &In<L, F, D>) -> L::Bit {
-        !(i.load | i.step)
+    fn gated<L: Logic>(&self, _: &Reg<L, P, F>, i: &In<L, F, D>) -> Option<L::Bit> {
+        Some(!(i.load | i.step))
     }
 }

@@ -156,8 +156,8 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, M, Q>, i: &In<L, M, Q>) -> L::Bit {
-        !(i.start | q.done) & q.state.is_zero() & q.count.is_zero()
+    fn gated<L: Logic>(&self, q: &Reg<L, M, Q>, i: &In<L, M, Q>) -> Option<L::Bit> {
+        Some(!(i.start | q.done) & q.state.is_zero())
     }
 }
 

@@ -165,8 +165,8 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for RecordMemory<A,
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, A, K, D>, i: &In<L, D>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, A, K, D>, i: &In<L, D>) -> Option<L::Bit> {
         let strobes = i.write | i.push | i.take | i.flush;
-        !(strobes | q.reading | q.load | q.loaded) & q.read_word.is_zero()
+        Some(!(strobes | q.reading | q.load | q.loaded))
     }
 }

@@ -207,7 +207,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
                     return Ok(self.violated(name, fault, way.collect()));
                 }
                 let next = to_word(&next);
-                if next != state && self.circuit.gated(&q, i).get() {
+                if next != state && self.circuit.gated(&q, i).is_some_and(|gate| gate.get()) {
                     let fault = Fault {
                         signals: vec![C::NAME.to_owned()],
                         message: "a register changes where the clock is gated".into(),

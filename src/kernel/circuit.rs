@@ -34,16 +34,16 @@ pub trait Circuit: 'static {
     /// The registers of the next tick.
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, i: &Self::In<L>) -> Self::Reg<L>;
 
-    /// High where the clock may be gated: the edge would leave every register as it is, in every
-    /// state that the circuit can reach. Inside another circuit it is not clocked then, in the
-    /// meaning [`Sim`]; the HDL has no gate.
+    /// A clock gate, if it has one: high where the edge would leave every register as it is, in
+    /// every state that the circuit can reach. Inside another circuit it is not clocked then, in
+    /// the meaning [`Sim`]; the HDL has no gate.
     ///
     /// Only speed depends on it, so a condition may leave ticks out, but none in which a register
     /// changes: [`reach`](crate::check::reach) and [`drive`](crate::check::drive()) find it.
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Option<L::Bit> {
         let _ = (q, i);
-        false.into()
+        None
     }
 
     /// Invariants in words, for proofs by other tools beside `check`; see
@@ -147,10 +147,10 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
         L::clock(circuit, q, &self.w, &self.i)
     }
 
-    /// High where its clock may be gated; see [`Circuit::gated`].
+    /// High where its clock may be gated, low without a gate; see [`Circuit::gated`].
     #[inline(always)]
     pub fn gated(&self, circuit: &C, q: &C::Reg<L>) -> L::Bit {
-        circuit.gated(q, &self.i)
+        circuit.gated(q, &self.i).unwrap_or(false.into())
     }
 
     /// The same for an array of circuits: applies `inputs` and settles the nets.

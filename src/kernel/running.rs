@@ -84,8 +84,9 @@ impl<C: Circuit> Running for Machine<'_, C> {
     }
 
     fn gated(&self) -> bool {
-        let gated = |q| self.circuit.gated(q, &self.i).get();
-        self.q.as_ref().is_some_and(gated)
+        let q = self.q.as_ref();
+        let gate = q.and_then(|q| self.circuit.gated(q, &self.i));
+        gate.is_some_and(|gate| gate.get())
     }
 
     fn clock(&mut self, rst: bool) {

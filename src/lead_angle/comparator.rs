@@ -150,8 +150,8 @@ impl<const W: usize> Circuit for Comparator<W> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L>, i: &In<L, W>) -> L::Bit {
-        !(i.evaluate | i.arm | i.halt)
+    fn gated<L: Logic>(&self, _: &Reg<L>, i: &In<L, W>) -> Option<L::Bit> {
+        Some(!(i.evaluate | i.arm | i.halt))
     }
 }
 

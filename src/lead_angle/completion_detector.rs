@@ -117,9 +117,9 @@ impl<const W: usize, const N: usize> Circuit for CompletionDetector<W, N> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> Option<L::Bit> {
         let counts = i.active | (q.still.is_zero() & q.elapsed.is_zero());
-        !(i.evaluate | q.complete) & counts
+        Some(!(i.evaluate | q.complete) & counts)
     }
 }
 

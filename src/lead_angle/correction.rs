@@ -204,10 +204,12 @@ impl<const K: usize, const T: usize, const C: usize, const W: usize, const R: us
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, C, W, R>, i: &In<L, C, W>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, C, W, R>, i: &In<L, C, W>) -> Option<L::Bit> {
         let w = self.comb(q, i);
-        w.stop_error.gated(&self.stop_error, &q.stop_error)
-            & w.arithmetic.gated(&self.arithmetic, &q.arithmetic)
-            & w.mul_div.gated(&self.mul_div, &q.mul_div)
+        Some(
+            w.stop_error.gated(&self.stop_error, &q.stop_error)
+                & w.arithmetic.gated(&self.arithmetic, &q.arithmetic)
+                & w.mul_div.gated(&self.mul_div, &q.mul_div),
+        )
     }
 }

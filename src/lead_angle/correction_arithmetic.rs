@@ -158,8 +158,8 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, C>, i: &In<L, C, W, R>) -> L::Bit {
-        !(i.complete | i.done | q.learned | q.corrected)
+    fn gated<L: Logic>(&self, q: &Reg<L, C>, i: &In<L, C, W, R>) -> Option<L::Bit> {
+        Some(!(i.complete | i.done | q.learned | q.corrected))
     }
 }
 

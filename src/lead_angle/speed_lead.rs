@@ -117,8 +117,8 @@ impl<const W: usize, const N: usize> Circuit for SpeedLead<W, N> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> L::Bit {
-        !(i.ck | i.restart | q.fresh)
+    fn gated<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> Option<L::Bit> {
+        Some(!(i.ck | i.restart | q.fresh))
     }
 }
 

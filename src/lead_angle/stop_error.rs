@@ -93,8 +93,8 @@ impl<const W: usize> Circuit for StopError<W> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, W>, i: &In<L, W>) -> L::Bit {
-        !i.fire
+    fn gated<L: Logic>(&self, _: &Reg<L, W>, i: &In<L, W>) -> Option<L::Bit> {
+        Some(!i.fire)
     }
 }
 

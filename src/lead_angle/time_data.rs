@@ -121,8 +121,8 @@ impl<const A: usize, const C: usize> Circuit for TimeData<A, C> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, A, C>, i: &In<L, A, C>) -> L::Bit {
-        !(i.load | i.learned | i.write | i.clear)
+    fn gated<L: Logic>(&self, _: &Reg<L, A, C>, i: &In<L, A, C>) -> Option<L::Bit> {
+        Some(!(i.load | i.learned | i.write | i.clear))
     }
 
     fn power_on(&self) -> Reg<Sim, A, C> {

@@ -192,9 +192,9 @@ impl<H: History<T, W>, const K: usize, const T: usize, const C: usize, const W: 
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, H>, i: &In<L, C, W>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, H>, i: &In<L, C, W>) -> Option<L::Bit> {
         let w = self.comb(q, i);
-        w.history.gated(&self.history, &q.history)
+        Some(w.history.gated(&self.history, &q.history))
     }
 
     fn power_on(&self) -> Reg<Sim, H> {

@@ -196,7 +196,7 @@ impl<const P: usize, const R: usize> Circuit for Accumulator<P, R> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P, R>) -> L::Bit {
-        !(i.clear | i.start | i.done | q.valid)
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P, R>) -> Option<L::Bit> {
+        Some(!(i.clear | i.start | i.done | q.valid))
     }
 }

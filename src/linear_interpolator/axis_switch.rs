@@ -85,8 +85,8 @@ impl<const P: usize> Circuit for AxisSwitch<P> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, P>, i: &In<L, P>) -> L::Bit {
-        !(i.load | i.clear)
+    fn gated<L: Logic>(&self, _: &Reg<L, P>, i: &In<L, P>) -> Option<L::Bit> {
+        Some(!(i.load | i.clear))
     }
 }
 

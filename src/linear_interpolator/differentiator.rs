@@ -73,8 +73,8 @@ impl<const P: usize> Circuit for Differentiator<P> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, P>, i: &In<L, P>) -> L::Bit {
-        !(i.load | i.valid)
+    fn gated<L: Logic>(&self, _: &Reg<L, P>, i: &In<L, P>) -> Option<L::Bit> {
+        Some(!(i.load | i.valid))
     }
 }
 

@@ -140,9 +140,11 @@ impl<const P: usize, const R: usize> Circuit for Integrator<P, R> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, R>, i: &In<L, P>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, P, R>, i: &In<L, P>) -> Option<L::Bit> {
         let w = self.comb(q, i);
-        w.accumulator.gated(&self.accumulator, &q.accumulator)
-            & w.mul_div.gated(&self.mul_div, &q.mul_div)
+        Some(
+            w.accumulator.gated(&self.accumulator, &q.accumulator)
+                & w.mul_div.gated(&self.mul_div, &q.mul_div),
+        )
     }
 }

@@ -295,14 +295,16 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, A, P, T, M, Q, R>, i: &In<L, P, T>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, A, P, T, M, Q, R>, i: &In<L, P, T>) -> Option<L::Bit> {
         let w = self.comb(q, i);
-        w.targets.gated(&self.targets, &q.targets)
-            & w.sequencer.gated(&self.sequencer, &q.sequencer)
-            & w.pattern.gated(&self.pattern, &q.pattern)
-            & w.differentiator
-                .gated(&self.differentiator, &q.differentiator)
-            & w.integrator.gated(&self.integrator, &q.integrator)
-            & w.switch.gated(&self.switch, &q.switch)
+        Some(
+            w.targets.gated(&self.targets, &q.targets)
+                & w.sequencer.gated(&self.sequencer, &q.sequencer)
+                & w.pattern.gated(&self.pattern, &q.pattern)
+                & w.differentiator
+                    .gated(&self.differentiator, &q.differentiator)
+                & w.integrator.gated(&self.integrator, &q.integrator)
+                & w.switch.gated(&self.switch, &q.switch),
+        )
     }
 }

@@ -160,9 +160,11 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, T, M, Q>, i: &In<L, P, T>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, P, T, M, Q>, i: &In<L, P, T>) -> Option<L::Bit> {
         let w = self.comb(q, i);
-        w.trapezoid.gated(&self.trapezoid, &q.trapezoid)
-            & w.mul_div.gated(&self.mul_div, &q.mul_div)
+        Some(
+            w.trapezoid.gated(&self.trapezoid, &q.trapezoid)
+                & w.mul_div.gated(&self.mul_div, &q.mul_div),
+        )
     }
 }

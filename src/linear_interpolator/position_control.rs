@@ -141,8 +141,8 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, D>, i: &In<L, P, G>) -> L::Bit {
-        !i.scan
+    fn gated<L: Logic>(&self, _: &Reg<L, D>, i: &In<L, P, G>) -> Option<L::Bit> {
+        Some(!i.scan)
     }
 }
 

@@ -205,12 +205,12 @@ impl<const P: usize> Circuit for Sequencer<P> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Option<L::Bit> {
         let is = |state: u64| q.state.equals(state.into());
         let w = self.comb(q, i);
         let moves = w.takes | w.begins | w.over | w.early | w.home | (q.computing & w.quiet);
         let pulses = q.pop | q.start | q.advance;
-        (is(IDLE) | is(RUN)) & !(moves | pulses)
+        Some((is(IDLE) | is(RUN)) & !(moves | pulses))
     }
 }
 

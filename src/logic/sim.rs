@@ -8,6 +8,7 @@ pub use words::{Int, UInt, Wire};
 
 use super::{Image, Logic};
 use crate::kernel::Circuit;
+use std::hint::cold_path;
 
 /// Words are numbers, memories hold bits: the meaning that runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,16 +29,18 @@ impl Logic for Sim {
     fn clock<C: Circuit>(
         circuit: &C,
         q: C::Reg<Self>,
-        _: &C::Net<Self>,
+        w: &C::Net<Self>,
         i: &C::In<Self>,
     ) -> C::Reg<Self> {
-        if circuit.gated(&q, i).get() {
-            q
-        } else {
-            std::hint::cold_path();
-            // The nets once more: those that are read here only are computed here only.
-            let w = circuit.comb(&q, i);
-            circuit.next(q, &w, i)
+        match circuit.gated(&q, i) {
+            None => circuit.next(q, w, i),
+            Some(gate) if gate.get() => q,
+            Some(_) => {
+                cold_path();
+                // The nets once more: those that are read here only are computed here only.
+                let w = circuit.comb(&q, i);
+                circuit.next(q, &w, i)
+            }
         }
     }
 }

@@ -82,8 +82,8 @@ impl<const W: usize, const V: usize> Circuit for CommandJoin<W, V> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, W>, i: &In<L, W, V>) -> L::Bit {
-        !i.take
+    fn gated<L: Logic>(&self, _: &Reg<L, W>, i: &In<L, W, V>) -> Option<L::Bit> {
+        Some(!i.take)
     }
 }
 

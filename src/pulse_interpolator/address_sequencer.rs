@@ -135,8 +135,8 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, A>, i: &In<L, A>) -> L::Bit {
-        !i.unit_rst
+    fn gated<L: Logic>(&self, _: &Reg<L, A>, i: &In<L, A>) -> Option<L::Bit> {
+        Some(!i.unit_rst)
     }
 }
 

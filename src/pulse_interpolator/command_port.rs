@@ -111,8 +111,8 @@ impl<const A: usize, const T: usize> Circuit for CommandPort<A, T> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, A, T>, i: &In<L, A, T>) -> L::Bit {
-        !(i.valid | i.take)
+    fn gated<L: Logic>(&self, _: &Reg<L, A, T>, i: &In<L, A, T>) -> Option<L::Bit> {
+        Some(!(i.valid | i.take))
     }
 
     fn power_on(&self) -> Reg<Sim, A, T> {

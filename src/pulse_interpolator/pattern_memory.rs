@@ -123,8 +123,8 @@ impl<const N: usize, const A: usize> Circuit for PatternMemory<N, A> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, N, A>, i: &In<L, N, A>) -> L::Bit {
-        !(i.read | i.blank | i.write)
+    fn gated<L: Logic>(&self, _: &Reg<L, N, A>, i: &In<L, N, A>) -> Option<L::Bit> {
+        Some(!(i.read | i.blank | i.write))
     }
 
     fn power_on(&self) -> Reg<Sim, N, A> {

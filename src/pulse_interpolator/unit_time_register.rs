@@ -83,8 +83,8 @@ impl<const T: usize> Circuit for UnitTimeRegister<T> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, T>, i: &In<L, T>) -> L::Bit {
-        !(i.write | i.unit_rst | i.take)
+    fn gated<L: Logic>(&self, _: &Reg<L, T>, i: &In<L, T>) -> Option<L::Bit> {
+        Some(!(i.write | i.unit_rst | i.take))
     }
 
     fn power_on(&self) -> Reg<Sim, T> {

@@ -230,10 +230,12 @@ impl<
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Option<L::Bit> {
         let w = self.comb(q, i);
-        w.response.gated(&self.response, &q.response)
-            & w.corrector.gated(&self.corrector, &q.corrector)
-            & w.servo.gated(&self.servo, &q.servo)
+        Some(
+            w.response.gated(&self.response, &q.response)
+                & w.corrector.gated(&self.corrector, &q.corrector)
+                & w.servo.gated(&self.servo, &q.servo),
+        )
     }
 }

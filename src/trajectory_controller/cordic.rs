@@ -114,8 +114,8 @@ impl<const R: usize, const H: usize> Circuit for Cordic<R, H> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> Option<L::Bit> {
         let w = self.comb(q, i);
-        w.turning.gated(&self.turning, &q.turning)
+        Some(w.turning.gated(&self.turning, &q.turning))
     }
 }

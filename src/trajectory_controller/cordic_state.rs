@@ -154,7 +154,7 @@ impl<const R: usize, const H: usize> Circuit for CordicState<R, H> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> L::Bit {
-        !(i.start | q.busy | q.done) & q.iteration.is_zero()
+    fn gated<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> Option<L::Bit> {
+        Some(!(i.start | q.busy | q.done))
     }
 }

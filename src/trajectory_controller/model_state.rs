@@ -184,7 +184,7 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ModelState<P, K
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P, K, Q>) -> L::Bit {
-        !(i.step | i.preset | i.done | q.fresh)
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P, K, Q>) -> Option<L::Bit> {
+        Some(!(i.step | i.preset | i.done | q.fresh))
     }
 }

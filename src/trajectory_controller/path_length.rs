@@ -91,9 +91,9 @@ impl<const P: usize> Circuit for PathLength<P> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Option<L::Bit> {
         let pulses = q.begun | q.preset | q.fresh | q.held;
-        !(i.sample | i.present | i.restart | pulses)
+        Some(!(i.sample | i.present | i.restart | pulses))
     }
 }
 

@@ -355,17 +355,19 @@ impl<
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Option<L::Bit> {
         let w = self.comb(q, i);
         let axes = (0..AXES).fold(true.into(), |gated: L::Bit, axis| {
             gated & w.axes[axis].gated(&self.axes[axis], &q.axes[axis])
         });
-        w.search.gated(&self.search, &q.search)
-            & w.store.gated(&self.store, &q.store)
-            & w.sequencer.gated(&self.sequencer, &q.sequencer)
-            & w.measure.gated(&self.measure, &q.measure)
-            & w.cordic.gated(&self.cordic, &q.cordic)
-            & w.control.gated(&self.control, &q.control)
-            & axes
+        Some(
+            w.search.gated(&self.search, &q.search)
+                & w.store.gated(&self.store, &q.store)
+                & w.sequencer.gated(&self.sequencer, &q.sequencer)
+                & w.measure.gated(&self.measure, &q.measure)
+                & w.cordic.gated(&self.cordic, &q.cordic)
+                & w.control.gated(&self.control, &q.control)
+                & axes,
+        )
     }
 }

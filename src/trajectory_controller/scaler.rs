@@ -57,6 +57,8 @@ signals! {
         take: L::Bit,
         /// The bit is the last, the one before the point.
         last: L::Bit,
+        /// Another bit comes after it.
+        more: L::Bit,
         /// The product with what the bit adds.
         total: L::U<Q>,
     }
@@ -88,9 +90,11 @@ impl<const K: usize, const Q: usize> Circuit for Scaler<K, Q> {
                 "a gain has a bit before the point and one behind"
             )
         };
+        let last = q.bit_index.equals((K as u64 - 1).into());
         Net {
             take: i.start & !q.busy & !i.clear,
-            last: q.bit_index.equals((K as u64 - 1).into()),
+            last,
+            more: q.busy & !last & !i.clear,
             total: q.scaled + q.bits.bit(0).mux(q.factor, 0.into()),
         }
     }
@@ -100,18 +104,20 @@ impl<const K: usize, const Q: usize> Circuit for Scaler<K, Q> {
         // After a bit behind the point the product is halved.
         let product = w.last.mux(w.total, w.total.shift_right(1));
         Reg {
-            busy: w.take | (q.busy & !w.last & !i.clear),
-            bit_index: (q.busy & !w.last).mux(q.bit_index + 1, 0.into()),
+            busy: w.take | w.more,
+            bit_index: w.more.mux(q.bit_index + 1, 0.into()),
             factor: w.take.mux(i.value, q.factor),
-            bits: w.take.mux(i.gain, q.bits.shift_right(1)),
+            bits: w
+                .take
+                .mux(i.gain, w.more.mux(q.bits.shift_right(1), 0.into())),
             scaled: w.take.mux(0.into(), q.busy.mux(product, q.scaled)),
             done: q.busy & w.last & !i.clear,
         }
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, K, Q>, i: &In<L, K, Q>) -> L::Bit {
-        !(i.start | q.busy | q.done) & q.bits.is_zero() & q.bit_index.is_zero()
+    fn gated<L: Logic>(&self, q: &Reg<L, K, Q>, i: &In<L, K, Q>) -> Option<L::Bit> {
+        Some(!(i.start | q.busy | q.done))
     }
 }
 

@@ -105,7 +105,7 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for SegmentStore<A,
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, K, D>, i: &In<L, A, K, D>) -> L::Bit {
-        !(i.write | i.fetch | q.reading | q.load | q.loaded) & q.read_word.is_zero()
+    fn gated<L: Logic>(&self, q: &Reg<L, K, D>, i: &In<L, A, K, D>) -> Option<L::Bit> {
+        Some(!(i.write | i.fetch | q.reading | q.load | q.loaded))
     }
 }

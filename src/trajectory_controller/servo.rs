@@ -240,11 +240,13 @@ impl<
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> L::Bit {
+    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Option<L::Bit> {
         let w = self.comb(q, i);
-        w.model.gated(&self.model, &q.model)
-            & w.detector.gated(&self.detector, &q.detector)
-            & w.arithmetic.gated(&self.arithmetic, &q.arithmetic)
-            & w.scaler.gated(&self.scaler, &q.scaler)
+        Some(
+            w.model.gated(&self.model, &q.model)
+                & w.detector.gated(&self.detector, &q.detector)
+                & w.arithmetic.gated(&self.arithmetic, &q.arithmetic)
+                & w.scaler.gated(&self.scaler, &q.scaler),
+        )
     }
 }

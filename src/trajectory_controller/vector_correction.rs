@@ -111,8 +111,8 @@ impl<const P: usize> Circuit for VectorCorrection<P> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> L::Bit {
-        !(i.correct | q.fresh)
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Option<L::Bit> {
+        Some(!(i.correct | q.fresh))
     }
 }
 
