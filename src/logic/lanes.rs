@@ -11,6 +11,7 @@ pub use pack::{lane, pack, spread, unpack};
 pub use words::{LaneBit, LaneInt, LaneUInt};
 
 use super::{Image, Logic};
+use crate::kernel::Circuit;
 use std::marker::PhantomData;
 
 /// A word is `K` words side by side, each in an element `E`: the meaning for exhaustive
@@ -28,6 +29,20 @@ impl<const K: usize, E: Element> Logic for Lanes<K, E> {
     type I<const N: usize> = LaneInt<K, E, N>;
     type Ram<const A: usize, const D: usize> = LaneRam<K, E, A, D>;
     type ShiftRegister<const S: usize, const D: usize> = LaneShiftRegister<K, E, S, D>;
+
+    /// Where every lane rests, as in a sweep, whose lanes are in step.
+    #[inline(always)]
+    fn clock<C: Circuit>(
+        circuit: &C,
+        q: C::Reg<Self>,
+        w: &C::Net<Self>,
+        i: &C::In<Self>,
+    ) -> C::Reg<Self> {
+        match circuit.gated(&q, i) {
+            Some(gate) if gate.all() => q,
+            _ => circuit.next(q, w, i),
+        }
+    }
 
     #[inline]
     fn rom<const A: usize, const D: usize>(image: &Image<A, D>, address: Self::U<A>) -> Self::U<D> {
