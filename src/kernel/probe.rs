@@ -53,6 +53,12 @@ pub trait Probe {
     fn rests(&mut self, _inside: Inside) -> bool {
         false
     }
+    /// A memory comes next that has so many words and has been written or shifted `mark` times
+    /// since power-on: true leaves it out.
+    #[inline(always)]
+    fn memory_rests(&mut self, _words: usize, _mark: u64) -> bool {
+        false
+    }
     /// A memory: unless overridden, a scope with a leaf for every word.
     fn memory(&mut self, field: &'static Field, words: &dyn Words) {
         self.enter(field);
@@ -98,7 +104,10 @@ impl<P: Probe> Visit<Sim> for P {
     }
     #[inline(always)]
     fn ram<const A: usize, const D: usize>(&mut self, field: &'static Field, ram: &SimRam<A, D>) {
-        self.memory(field, &ram.words());
+        // Asked before there is anything to refer to, which would have to stand in memory.
+        if !self.memory_rests(Image::<A, D>::WORDS, ram.mark()) {
+            self.memory(field, &ram.words());
+        }
     }
     #[inline(always)]
     fn shift_register<const K: usize, const D: usize>(
@@ -106,7 +115,9 @@ impl<P: Probe> Visit<Sim> for P {
         field: &'static Field,
         register: &SimShiftRegister<K, D>,
     ) {
-        self.memory(field, &register.words());
+        if !self.memory_rests(K, register.mark()) {
+            self.memory(field, &register.words());
+        }
     }
     #[inline(always)]
     fn rests(&mut self, inside: Inside) -> bool {
@@ -153,6 +164,9 @@ impl Probe for Shown<'_> {
     }
     fn memory(&mut self, field: &'static Field, words: &dyn Words) {
         self.0.memory(field, words);
+    }
+    fn memory_rests(&mut self, words: usize, mark: u64) -> bool {
+        self.0.memory_rests(words, mark)
     }
     fn rests(&mut self, inside: Inside) -> bool {
         self.0.rests(inside)

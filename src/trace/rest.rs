@@ -70,16 +70,22 @@ impl Rest {
         }
     }
 
-    /// A leaf has changed.
+    /// The innermost circuit within that a leaf is a register of.
     #[inline]
-    pub fn wake(&self, leaf: usize, awake: &mut [bool]) {
-        let mut instance = self.of[leaf];
+    pub fn of(&self, leaf: usize) -> Option<usize> {
+        self.of[leaf].map(|instance| instance as usize)
+    }
+
+    /// A register of a circuit has changed.
+    #[inline(never)]
+    pub fn wake(&self, instance: usize, awake: &mut [bool]) {
+        let mut instance = Some(instance);
         while let Some(place) = instance {
-            if mem::replace(&mut awake[place as usize], true) {
+            if mem::replace(&mut awake[place], true) {
                 // And so are those around it.
                 break;
             }
-            instance = self.around[place as usize];
+            instance = self.around[place].map(|place| place as usize);
         }
     }
 }

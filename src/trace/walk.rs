@@ -7,9 +7,12 @@ use crate::kernel::{
     Changed, Circuit, Field, Inside, Probe, Role, Running, Sample, Shape, Signals, Words,
 };
 use crate::logic::Sim;
+use std::hint::cold_path;
 use std::io;
 use std::mem;
-use std::ops::Range;
+
+/// What stands for the tick before the first: all but words of 64 bits differ from it.
+const UNKNOWN: u64 = u64::MAX;
 
 /// A new value.
 #[derive(Debug, Clone, Copy)]
@@ -28,13 +31,13 @@ pub(crate) struct Change {
 pub(super) struct Walk {
     clock: Clock,
     last: Option<u64>,
-    /// The values of this tick, as far as they were looked at, in the order of the walk.
-    now: Vec<u64>,
-    /// Those of the tick before.
+    /// Whether this is the first tick, at which everything is noted.
+    first: bool,
+    /// The values of the tick before, in the order of the walk.
     before: Vec<u64>,
     /// Which circuits within have registers that have changed.
     awake: Vec<bool>,
-    /// Where every memory stood in the tick before.
+    /// How often every memory had changed in the tick before, at the place of its first word.
     marks: Vec<u64>,
     notes: Notes,
 }
@@ -44,8 +47,6 @@ struct Notes {
     rest: Rest,
     selected: Vec<bool>,
     changes: Vec<Change>,
-    /// At the first tick everything is noted, changed or not.
-    first: bool,
 }
 
 impl Walk {
@@ -54,15 +55,14 @@ impl Walk {
         Walk {
             clock,
             last: None,
-            now: vec![0; leaves],
-            before: vec![0; leaves],
+            first: true,
+            before: vec![UNKNOWN; leaves],
             awake: vec![true; layout.instances.len()],
-            marks: Vec::new(),
+            marks: vec![UNKNOWN; leaves],
             notes: Notes {
                 rest: Rest::new(&layout.leaves, &layout.instances),
                 selected: layout.selected.clone(),
                 changes: Vec::new(),
-                first: true,
             },
         }
     }
@@ -79,14 +79,14 @@ impl Walk {
         let mut look = self.look(true);
         // After this the compiler knows that every leaf has its place, which stands in the code as
         // a constant.
-        if look.now.len() != extent.leaves
-            || look.before.len() != extent.leaves
+        if look.before.len() != extent.leaves
+            || look.marks.len() != extent.leaves
             || look.awake.len() != extent.instances
         {
             return Err(wrong_extent(C::NAME));
         }
         now.visit(&mut look);
-        look.note();
+        self.end_first();
         Ok(times)
     }
 
@@ -95,7 +95,7 @@ impl Walk {
         let times = self.begin(tick)?;
         let mut look = self.look(false);
         running.show(&mut look);
-        look.note();
+        self.end_first();
         Ok(times)
     }
 
@@ -106,7 +106,7 @@ impl Walk {
                 format!("tick {tick} comes twice"),
             ));
         }
-        self.notes.first = self.last.is_none();
+        self.first = self.last.is_none();
         self.notes.rest.begin(&mut self.awake);
         self.last = Some(tick);
         let times = (self.clock.rise(tick), self.clock.fall(tick));
@@ -115,22 +115,37 @@ impl Walk {
 
     #[inline(always)]
     fn look(&mut self, passes_over: bool) -> Look<'_> {
-        let first = self.notes.first.into();
         Look {
-            now: &mut self.now,
             before: &mut self.before,
             awake: &mut self.awake,
             marks: &mut self.marks,
             notes: &mut self.notes,
             passes_over,
             cursor: 0,
-            from: 0,
             instance: 0,
-            memory: 0,
-            ports: false,
-            first,
-            differ: first,
+            differ: false,
         }
+    }
+
+    /// At the first tick the words that do not differ from [`UNKNOWN`] are new too.
+    #[inline(always)]
+    fn end_first(&mut self) {
+        if self.first {
+            self.note_unknown();
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn note_unknown(&mut self) {
+        for leaf in 0..self.before.len() {
+            if self.before[leaf] == UNKNOWN {
+                self.notes.change(leaf, UNKNOWN, &mut self.awake);
+            }
+        }
+        self.notes
+            .changes
+            .sort_unstable_by_key(|change| change.leaf);
     }
 
     /// What has changed since it was last taken away.
@@ -147,114 +162,75 @@ impl Walk {
 
 /// A walk under way.
 struct Look<'a> {
-    now: &'a mut [u64],
     before: &'a mut [u64],
     awake: &'a mut [bool],
-    marks: &'a mut Vec<u64>,
+    marks: &'a mut [u64],
     notes: &'a mut Notes,
     /// Whether circuits within that rest are passed over.
     passes_over: bool,
     /// The leaf that comes next.
     cursor: usize,
-    /// The first leaf that nothing is noted of yet.
-    from: usize,
     /// The circuit within that comes next.
     instance: usize,
-    /// The memory that comes next.
-    memory: usize,
-    /// Whether ports in are shown.
-    ports: bool,
-    /// What `differ` begins with: not 0 at the first tick.
-    first: u64,
-    /// Not 0 where one of the leaves that nothing is noted of yet has changed.
-    differ: u64,
-}
-
-impl Look<'_> {
-    /// Notes what has changed of what was shown.
-    #[inline(always)]
-    fn note(&mut self) {
-        if self.from < self.cursor && self.differ != 0 {
-            let leaves = self.from..self.cursor;
-            note(self.now, self.before, self.awake, self.notes, leaves);
-        }
-        self.go_on();
-    }
-
-    #[inline(always)]
-    fn go_on(&mut self) {
-        self.from = self.cursor;
-        self.differ = self.first;
-    }
+    /// Whether a leaf has changed since the ports in of a circuit within began.
+    differ: bool,
 }
 
 impl Probe for Look<'_> {
     #[inline(always)]
     fn enter(&mut self, field: &'static Field) {
-        let within_ports = self.ports && field.role.is_none();
-        self.ports = within_ports || field.role == Some(Role::Input);
-        // Ports in are compared as a whole.
-        if !within_ports {
-            self.note();
+        if field.role == Some(Role::Input) {
+            self.differ = false;
         }
     }
 
     #[inline(always)]
     fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
-        self.now[self.cursor] = bits;
-        self.differ |= bits ^ self.before[self.cursor];
+        let leaf = self.cursor;
         self.cursor += 1;
+        if bits != self.before[leaf] {
+            cold_path();
+            self.before[leaf] = bits;
+            self.differ = true;
+            self.notes.change(leaf, bits, self.awake);
+        }
     }
 
     #[inline(always)]
     fn rests(&mut self, inside: Inside) -> bool {
         let awake = mem::take(&mut self.awake[self.instance]);
         self.instance += 1;
-        let rests = self.passes_over && !awake && self.differ == 0;
+        let rests = self.passes_over && !awake && !self.differ;
         if rests {
             self.cursor += inside.nets.leaves;
             self.instance += inside.nets.instances;
-            self.go_on();
+        }
+        rests
+    }
+
+    #[inline(always)]
+    fn memory_rests(&mut self, words: usize, mark: u64) -> bool {
+        let rests = words == 0 || self.marks[self.cursor] == mark;
+        if rests {
+            self.cursor += words;
         }
         rests
     }
 
     #[inline(always)]
     fn memory(&mut self, _: &'static Field, words: &dyn Words) {
-        self.note();
         let start = self.cursor;
         self.cursor += words.len();
-        self.go_on();
-        if self.notes.first {
-            self.marks.push(0);
-        }
-        let changed = words.changed(&mut self.marks[self.memory]);
-        self.memory += 1;
-        if changed != Changed::None || self.notes.first {
+        if let Some(mark) = self.marks[start..self.cursor].first_mut() {
+            let first = *mark == UNKNOWN;
+            let changed = words.changed(mark);
+            let changed = if first { Changed::All } else { changed };
             note_words(words, changed, self.before, self.awake, self.notes, start);
         }
     }
 }
 
 // Functions, not methods: a reference to the whole walk would keep it in memory.
-
-#[inline(never)]
-fn note(
-    now: &[u64],
-    before: &mut [u64],
-    awake: &mut [bool],
-    notes: &mut Notes,
-    leaves: Range<usize>,
-) {
-    let start = leaves.start;
-    let (now, before) = (&now[leaves.clone()], &mut before[leaves]);
-    for (place, (&bits, before)) in now.iter().zip(before).enumerate() {
-        if bits != *before || notes.first {
-            *before = bits;
-            notes.change(start + place, bits, awake);
-        }
-    }
-}
 
 #[inline(never)]
 fn note_words(
@@ -266,12 +242,13 @@ fn note_words(
     start: usize,
 ) {
     let indices = match changed {
-        Changed::One(index) if !notes.first => index..index + 1,
-        _ => 0..words.len(),
+        Changed::None => 0..0,
+        Changed::One(index) => index..index + 1,
+        Changed::All => 0..words.len(),
     };
     for index in indices {
         let (leaf, bits) = (start + index, words.word(index));
-        if bits != before[leaf] || notes.first {
+        if bits != before[leaf] {
             before[leaf] = bits;
             notes.change(leaf, bits, awake);
         }
@@ -279,13 +256,28 @@ fn note_words(
 }
 
 impl Notes {
+    /// A leaf has changed. It calls others only where it ends, so it has no registers to save.
     #[inline(never)]
     fn change(&mut self, leaf: usize, bits: u64, awake: &mut [bool]) {
-        self.rest.wake(leaf, awake);
         if self.selected[leaf] {
+            if self.changes.len() == self.changes.capacity() {
+                return self.grow(leaf, bits, awake);
+            }
             let leaf = leaf as u32;
             self.changes.push(Change { leaf, bits });
         }
+        if let Some(instance) = self.rest.of(leaf)
+            && !awake[instance]
+        {
+            self.rest.wake(instance, awake);
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn grow(&mut self, leaf: usize, bits: u64, awake: &mut [bool]) {
+        self.changes.reserve(1);
+        self.change(leaf, bits, awake);
     }
 }
 

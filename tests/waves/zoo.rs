@@ -67,7 +67,8 @@ signals! {
     pub struct Reg<L> {
         pub count: L::U<10> as Analog = 1020,
         held: L::U<64> as Hex = 0xdead_beef,
-        total: L::I<64> = -3,
+        /// All ones at first: what a dump may take for nothing yet.
+        total: L::I<64> = -1,
         flags: [L::Bit; 3],
         pair: [L::U<5>; 2] as Elements(&["first", "second"]),
         single: L::U<1>,

@@ -59,6 +59,12 @@ impl<const A: usize, const D: usize> Ram<Sim, A, D> for SimRam<A, D> {
 }
 
 impl<const A: usize, const D: usize> SimRam<A, D> {
+    /// How often it has been written since power-on.
+    #[inline(always)]
+    pub fn mark(&self) -> u64 {
+        self.writes
+    }
+
     /// Its words.
     #[inline(always)]
     pub fn words(&self) -> RamWords<'_, A, D> {
@@ -125,6 +131,12 @@ impl<const A: usize, const D: usize> Signals<Sim> for SimRam<A, D> {
 }
 
 impl<const K: usize, const D: usize> SimShiftRegister<K, D> {
+    /// How often it has been shifted since power-on.
+    #[inline(always)]
+    pub fn mark(&self) -> u64 {
+        self.shifts
+    }
+
     /// A register that holds the given words, stage 0 first, zeros where they end.
     pub fn new(stages: impl IntoIterator<Item = u64>) -> Self {
         let mut ring = vec![UInt::default(); K].into_boxed_slice();

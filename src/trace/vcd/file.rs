@@ -52,9 +52,8 @@ impl<W: Write> Format for VcdFile<W> {
             text.raw(b"$dumpvars\n");
         }
         text.scalar(1, &self.clk);
-        for change in changes.drain(..) {
-            text.change(&signals[change.leaf as usize], change.bits);
-        }
+        text.changes(signals, changes);
+        changes.clear();
         if !self.begun {
             text.raw(b"$end\n");
             self.begun = true;

@@ -1,10 +1,13 @@
 //! Values as lines of text.
 
 use crate::kernel::{Declaration, Format};
+use crate::trace::walk::Change;
 use vcd::IdCode;
 
 /// The longest line of a number: `b`, 64 digits, the end of the line with its padding.
 const LINE: usize = 1 + 64 + 8;
+/// Changes for which there is room at once.
+const SOME: usize = 64;
 /// The room in the buffer at first, doubled where a tick needs more.
 const ROOM: usize = 16 * 1024;
 /// Eight digits more.
@@ -107,10 +110,21 @@ impl Text {
     /// Room for a line.
     #[inline]
     fn line(&mut self) -> &mut [u8] {
-        if self.buffer.len() < self.len + LINE {
-            self.buffer.resize(2 * self.buffer.len() + LINE, 0);
+        self.room(LINE);
+        &mut self.buffer[self.len..][..LINE]
+    }
+
+    #[inline]
+    fn room(&mut self, bytes: usize) {
+        if self.buffer.len() < self.len + bytes {
+            self.more(bytes);
         }
-        &mut self.buffer[self.len..self.len + LINE]
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn more(&mut self, bytes: usize) {
+        self.buffer.resize(2 * self.buffer.len() + bytes, 0);
     }
 
     pub fn raw(&mut self, bytes: &[u8]) {
@@ -120,39 +134,28 @@ impl Text {
         }
     }
 
-    #[inline]
-    pub fn change(&mut self, signal: &Signal, bits: u64) {
-        match signal.scalar {
-            true => self.scalar(bits, &signal.id),
-            false => self.vector(bits, &signal.id),
-        }
-        if let Some((id, names)) = &signal.states {
-            self.state(bits, names, id);
+    /// Lines of new values.
+    pub fn changes(&mut self, signals: &[Signal], changes: &[Change]) {
+        for some in changes.chunks(SOME) {
+            self.room(SOME * LINE);
+            for change in some {
+                let signal = &signals[change.leaf as usize];
+                let line = &mut self.buffer[self.len..][..LINE];
+                self.len += match signal.scalar {
+                    true => scalar(line, change.bits, &signal.id),
+                    false => vector(line, change.bits, &signal.id),
+                };
+                if let Some((id, names)) = &signal.states {
+                    // A name has any length.
+                    self.state(change.bits, names, id);
+                    self.room(SOME * LINE);
+                }
+            }
         }
     }
 
-    #[inline]
     pub fn scalar(&mut self, bit: u64, id: &Id) {
-        let line = self.line();
-        line[..8].copy_from_slice(&id.end);
-        // In place of the space.
-        line[0] = b'0' + (bit & 1) as u8;
-        self.len += usize::from(id.len);
-    }
-
-    /// Leading zeros are left out: a reader extends a value that begins with 1 by zeros.
-    #[inline]
-    fn vector(&mut self, bits: u64, id: &Id) {
-        let digits = 64 - (bits | 1).leading_zeros() as usize;
-        let mut rest = bits << (64 - digits);
-        let line = self.line();
-        line[0] = b'b';
-        for eight in line[1..65].chunks_exact_mut(8).take(digits.div_ceil(8)) {
-            eight.copy_from_slice(&eight_digits((rest >> 56) as u8));
-            rest <<= 8;
-        }
-        line[1 + digits..][..8].copy_from_slice(&id.end);
-        self.len += 1 + digits + usize::from(id.len);
+        self.len += scalar(self.line(), bit, id);
     }
 
     fn state(&mut self, bits: u64, names: &[&str], id: &Id) {
@@ -199,6 +202,30 @@ impl Text {
     }
 }
 
+/// Writes a line of one bit, and returns its length.
+#[inline(always)]
+fn scalar(line: &mut [u8], bit: u64, id: &Id) -> usize {
+    line[..8].copy_from_slice(&id.end);
+    // In place of the space.
+    line[0] = b'0' + (bit & 1) as u8;
+    usize::from(id.len)
+}
+
+/// The same of a word. Leading zeros are left out: a reader extends a value that begins with 1 by
+/// zeros.
+#[inline(always)]
+fn vector(line: &mut [u8], bits: u64, id: &Id) -> usize {
+    let digits = 64 - (bits | 1).leading_zeros() as usize;
+    let mut rest = bits << (64 - digits);
+    line[0] = b'b';
+    for eight in line[1..65].chunks_exact_mut(8).take(digits.div_ceil(8)) {
+        eight.copy_from_slice(&eight_digits((rest >> 56) as u8));
+        rest <<= 8;
+    }
+    line[1 + digits..][..8].copy_from_slice(&id.end);
+    1 + digits + usize::from(id.len)
+}
+
 /// The digits of a number below 10^8, the first in the lowest byte: four and four, then two and
 /// two, then one and one are taken apart at once.
 fn eight_decimals(number: u64) -> u64 {
@@ -209,11 +236,10 @@ fn eight_decimals(number: u64) -> u64 {
     tens | ((twos - tens * 10) << 8)
 }
 
-/// The bits of a byte as text, the highest first: each to a byte of its own, moved to its lowest
-/// bit by the carry, and a `0` added.
+/// The bits of a byte as text, the highest first: a copy for each, whose bit stands at the top of
+/// a byte of its own.
 pub fn eight_digits(byte: u8) -> [u8; 8] {
-    let apart = (u64::from(byte) * 0x0101_0101_0101_0101) & 0x0102_0408_1020_4080;
-    let ones = (apart + 0x7f7f_7f7f_7f7f_7f7f) >> 7 & 0x0101_0101_0101_0101;
+    let ones = u64::from(byte).wrapping_mul(0x8040_2010_0804_0201) >> 7 & 0x0101_0101_0101_0101;
     (ones | 0x3030_3030_3030_3030).to_le_bytes()
 }
 
