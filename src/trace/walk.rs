@@ -143,9 +143,6 @@ impl Walk {
                 self.notes.change(leaf, UNKNOWN, &mut self.awake);
             }
         }
-        self.notes
-            .changes
-            .sort_unstable_by_key(|change| change.leaf);
     }
 
     /// What has changed since it was last taken away.

@@ -10,6 +10,7 @@ use motion_rtl::logic::{Bit, Logic, Ram, Signed, Sim, Unsigned};
 use motion_rtl::signals;
 use motion_rtl::trace::{Options, Vcd, replay};
 use std::fs;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 signals! { pub struct Way<L> { pub step: L::U<3>, pub up: L::Bit } }
 signals! { pub struct TableIn<L> { pub address: L::U<3>, pub way: Way<L>, pub write: L::Bit } }
@@ -212,4 +213,84 @@ fn what_rests_is_passed_over_and_nothing_is_missing() {
             assert!((20..1_990).contains(&changes), "{path}: {changes}");
         }
     }
+}
+
+static LOOKS: AtomicU64 = AtomicU64::new(0);
+
+/// A signal that counts how often it is looked at.
+#[derive(Debug, Clone)]
+pub struct Watched<L: Logic>(L::U<4>);
+
+impl<L: Logic> Signals<L> for Watched<L> {
+    const EXTENT: Extent = Extent::LEAF;
+    fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
+        LOOKS.fetch_add(1, Ordering::Relaxed);
+        visitor.unsigned(field, self.0);
+    }
+    fn make<M: Make<L>>(field: &'static Field, maker: &mut M) -> Self {
+        Watched(maker.unsigned(field))
+    }
+}
+
+signals! { pub struct WatchedNet<L> { pub sum: Watched<L> } }
+
+/// As [`Sum`].
+#[derive(Debug, Clone)]
+pub struct WatchedSum;
+
+impl Circuit for WatchedSum {
+    const NAME: &'static str = "watched_sum";
+    const ABOUT: &'static str = "a sum that knows how often it is looked at";
+    type In<L: Logic> = SumIn<L>;
+    type Reg<L: Logic> = Nothing<L>;
+    type Net<L: Logic> = WatchedNet<L>;
+
+    fn comb<L: Logic>(&self, _: &Nothing<L>, i: &SumIn<L>) -> WatchedNet<L> {
+        let sum = Watched(i.a + i.b);
+        WatchedNet { sum }
+    }
+
+    fn next<L: Logic>(&self, q: Nothing<L>, _: &WatchedNet<L>, _: &SumIn<L>) -> Nothing<L> {
+        q
+    }
+}
+
+signals! { pub struct AroundReg<L> { pub inner: Nothing<L>, pub ticks: L::U<8> } }
+signals! { pub struct AroundNet<L> { pub inner: Instance<WatchedSum, L> } }
+
+/// A sum beside a register that changes in every tick.
+#[derive(Debug, Clone)]
+pub struct Around;
+
+impl Circuit for Around {
+    const NAME: &'static str = "around";
+    const ABOUT: &'static str = "a sum and a counter";
+    type In<L: Logic> = SumIn<L>;
+    type Reg<L: Logic> = AroundReg<L>;
+    type Net<L: Logic> = AroundNet<L>;
+
+    fn comb<L: Logic>(&self, q: &AroundReg<L>, i: &SumIn<L>) -> AroundNet<L> {
+        let inner = Instance::settle(&WatchedSum, &q.inner, i.clone());
+        AroundNet { inner }
+    }
+
+    fn next<L: Logic>(&self, q: AroundReg<L>, w: &AroundNet<L>, _: &SumIn<L>) -> AroundReg<L> {
+        AroundReg {
+            inner: w.inner.next(&WatchedSum, q.inner),
+            ticks: q.ticks + 1,
+        }
+    }
+}
+
+#[test]
+fn what_rests_is_not_even_looked_at() {
+    let mut vcd = Vcd::new(Vec::new(), &Around, clock(), &Options::default()).unwrap();
+    let begin = LOOKS.load(Ordering::Relaxed);
+    let ports = |tick: u64, _: &_| SumIn {
+        a: (tick / 40).into(),
+        b: (tick / 40).into(),
+    };
+    Simulator::new(&Around).run(100, ports, &mut vcd).unwrap();
+    // In ticks 0, 40 and 80.
+    assert_eq!(LOOKS.load(Ordering::Relaxed) - begin, 3);
 }

@@ -2,7 +2,8 @@
 
 use crate::small_widths;
 use motion_rtl::check::Random;
-use motion_rtl::kernel::{Bits, pack as pack_one, unpack as unpack_one};
+use motion_rtl::kernel::{Bits, Circuit, pack as pack_one, unpack as unpack_one};
+use motion_rtl::linear_interpolator::{Integrator, Rule};
 use motion_rtl::logic::lanes::{
     Element, LaneBit, LaneInt, LaneRam, LaneShiftRegister, LaneUInt, lane, pack, spread, unpack,
 };
@@ -327,4 +328,42 @@ fn a_bundle_is_packed_in_every_lane_as_it_is_alone() {
     }
     let wide: LaneUInt<K, u64, 64> = unpack([u64::MAX, 0, 1, 2, 1 << 63]);
     assert_eq!(pack(&wide), [u64::MAX, 0, 1, 2, 1 << 63]);
+}
+
+type Alone = <Integrator<4, 8> as Circuit>::Reg<Sim>;
+type Beside = <Integrator<4, 8> as Circuit>::Reg<Lanes<K, u8>>;
+
+/// What rests in one lane goes on in another.
+#[test]
+fn a_circuit_in_lanes_that_are_out_of_step_is_in_each_as_it_is_alone() {
+    const START: u64 = 1 << 9;
+    let circuit = Integrator::<4, 8>::new(Rule::Floor);
+    let mut random = Random::new(5);
+    let mut alone: [Alone; K] = std::array::from_fn(|_| circuit.power_on());
+    let mut beside: Beside = spread(&alone[0]);
+    let mut starts = [0; K];
+    for tick in 0..3_000 {
+        // Now and then a start, and a clear still more rarely.
+        let ports: [u64; K] = std::array::from_fn(|_| match random.word() % 64 {
+            0 => random.word() & 0x3fff,
+            1..8 => random.word() & 0x3ffe | START,
+            _ => random.word() & 0x3ffe & !START,
+        });
+        let i = unpack(ports);
+        let w = circuit.comb(&beside, &i);
+        beside = circuit.next(beside, &w, &i);
+        for (k, q) in alone.iter_mut().enumerate() {
+            let i = unpack_one(&Bits::from_element(ports[k]));
+            let w = circuit.comb(q, &i);
+            *q = circuit.next(q.clone(), &w, &i);
+            let expected: Beside = spread(q);
+            assert_eq!(
+                lane(&beside, k),
+                lane(&expected, k),
+                "lane {k}, tick {tick}"
+            );
+            starts[k] += u64::from(ports[k] & START != 0);
+        }
+    }
+    assert!(starts.iter().all(|&starts| starts > 200), "{starts:?}");
 }

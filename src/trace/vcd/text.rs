@@ -253,6 +253,54 @@ mod tests {
         String::from_utf8(text.bytes().to_vec()).unwrap()
     }
 
+    /// However the lines lie in the buffer when it grows, and however long a name is.
+    #[test]
+    fn there_is_room_for_every_line() {
+        let names: &[&str] = vec![&*"LONG_".repeat(50).leak()].leak();
+        let states = Signal {
+            id: Id::new(1),
+            scalar: false,
+            states: Some((Id::new(2), names)),
+        };
+        let word = Signal {
+            id: Id::new(3),
+            scalar: false,
+            states: None,
+        };
+        let signals = [states, word];
+        let changes: Vec<_> = (0..100)
+            .map(|index| match index % 5 {
+                0 => Change { leaf: 0, bits: 0 },
+                _ => Change {
+                    leaf: 1,
+                    bits: u64::MAX - index,
+                },
+            })
+            .collect();
+        let expected: String = (changes.iter())
+            .map(|change| match change.leaf {
+                0 => format!(
+                    "b0 {0}\ns{1} {2}\n",
+                    signals[0].id.code(),
+                    names[0],
+                    signals[0].states.unwrap().0.code()
+                ),
+                _ => format!("b{:b} {}\n", change.bits, signals[1].id.code()),
+            })
+            .collect();
+        for before in (0..8_000).step_by(7) {
+            let mut text = Text::new(Vec::new());
+            text.raw(&vec![b'x'; before]);
+            for _ in 0..3 {
+                text.changes(&signals, &changes);
+            }
+            assert!(
+                text.bytes()[before..] == *expected.repeat(3).as_bytes(),
+                "{before}"
+            );
+        }
+    }
+
     #[test]
     fn times_of_every_length_in_any_order() {
         let mut text = Text::new(Vec::new());
