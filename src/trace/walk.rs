@@ -31,8 +31,6 @@ pub(crate) struct Change {
 pub(super) struct Walk {
     clock: Clock,
     last: Option<u64>,
-    /// Whether this is the first tick, at which everything is noted.
-    first: bool,
     /// The values of the tick before, in the order of the walk.
     before: Vec<u64>,
     /// Which circuits within have registers that have changed.
@@ -55,7 +53,6 @@ impl Walk {
         Walk {
             clock,
             last: None,
-            first: true,
             before: vec![UNKNOWN; leaves],
             awake: vec![true; layout.instances.len()],
             marks: vec![UNKNOWN; leaves],
@@ -86,7 +83,7 @@ impl Walk {
             return Err(wrong_extent(C::NAME));
         }
         now.visit(&mut look);
-        self.end_first();
+        self.seen(now.tick);
         Ok(times)
     }
 
@@ -95,7 +92,7 @@ impl Walk {
         let times = self.begin(tick)?;
         let mut look = self.look(false);
         running.show(&mut look);
-        self.end_first();
+        self.seen(tick);
         Ok(times)
     }
 
@@ -106,9 +103,7 @@ impl Walk {
                 format!("tick {tick} comes twice"),
             ));
         }
-        self.first = self.last.is_none();
         self.notes.rest.begin(&mut self.awake);
-        self.last = Some(tick);
         let times = (self.clock.rise(tick), self.clock.fall(tick));
         times.0.zip(times.1).ok_or_else(too_late)
     }
@@ -127,10 +122,11 @@ impl Walk {
         }
     }
 
-    /// At the first tick the words that do not differ from [`UNKNOWN`] are new too.
+    /// A tick was looked at. At the first one the words that do not differ from [`UNKNOWN`] are new
+    /// too.
     #[inline(always)]
-    fn end_first(&mut self) {
-        if self.first {
+    fn seen(&mut self, tick: u64) {
+        if self.last.replace(tick).is_none() {
             self.note_unknown();
         }
     }
