@@ -1,7 +1,7 @@
 //! What goes into a circuit during a job, recorded once and applied to both models.
 
 use motion_rtl::kernel::{
-    Circuit, Field, Observer, Probe, RunError, Sample, Shape, Signals, Source,
+    Circuit, Field, Observer, Probe, RunError, Sample, Shape, Signals, Source, zero,
 };
 use motion_rtl::logic::Sim;
 use std::fs::File;
@@ -111,27 +111,28 @@ impl<C: Circuit> Observer<C> for Recorder {
     }
 }
 
+/// A power of two.
+const MOST_PORTS: usize = 128;
+
 /// The recorded inputs, tick after tick.
 pub struct Replay<'a, C: Circuit> {
     changes: &'a [Change],
-    words: Vec<u64>,
+    words: [u64; MOST_PORTS],
     i: C::In<Sim>,
     next: u64,
 }
 
 impl<'a, C: Circuit> Replay<'a, C> {
     pub fn new(stimulus: &'a Stimulus) -> Self {
-        let mut words = Words(Vec::new());
-        let i = motion_rtl::kernel::zero::<C::In<Sim>>();
-        i.visit(const { &Field::named("") }, &mut words);
+        const { assert!(C::In::<Sim>::EXTENT.leaves <= MOST_PORTS) };
         Replay {
             next: stimulus
                 .changes
                 .first()
                 .map_or(u64::MAX, |change| change.tick.into()),
             changes: &stimulus.changes,
-            words: words.0,
-            i,
+            words: [0; MOST_PORTS],
+            i: zero::<C::In<Sim>>(),
         }
     }
 
@@ -155,23 +156,18 @@ impl<'a, C: Circuit> Replay<'a, C> {
             .changes
             .first()
             .map_or(u64::MAX, |change| change.tick.into());
-        self.i = C::In::make(const { &Field::named("") }, &mut Given(self.words.iter()));
+        self.i = C::In::make(const { &Field::named("") }, &mut Given(&self.words, 0));
     }
 }
 
-struct Words(Vec<u64>);
-
-impl Probe for Words {
-    fn leaf(&mut self, _: &'static Field, _: Shape, value: u64) {
-        self.0.push(value);
-    }
-}
-
-struct Given<'a>(std::slice::Iter<'a, u64>);
+/// Words, and the place of the next one. Every port has a place that the compiler knows.
+struct Given<'a>(&'a [u64; MOST_PORTS], usize);
 
 impl Source for Given<'_> {
     #[inline(always)]
     fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
-        self.0.next().copied().unwrap_or(0)
+        let word = self.0[self.1 % MOST_PORTS];
+        self.1 += 1;
+        word
     }
 }
