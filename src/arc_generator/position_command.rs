@@ -102,7 +102,12 @@ impl<const W: usize, const P: usize, const D: usize> Circuit for PositionCommand
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, W, P>, i: &In<L, P, D>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        _: &Reg<L, W, P>,
+        _: &Self::Net<L>,
+        i: &In<L, P, D>,
+    ) -> Option<L::Bit> {
         Some(!(i.load | i.present))
     }
 }

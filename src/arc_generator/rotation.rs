@@ -162,8 +162,12 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, C, S>, i: &In<L, D>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, P, C, S>,
+        w: &Self::Net<L>,
+        _: &In<L, D>,
+    ) -> Option<L::Bit> {
         Some(
             w.control.gated(&self.control, &q.control)
                 & w.row_x.gated(&self.row_x, &q.row_x)

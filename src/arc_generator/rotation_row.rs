@@ -175,7 +175,12 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, C, S>, i: &In<L, P, D>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, P, C, S>,
+        _: &Self::Net<L>,
+        i: &In<L, P, D>,
+    ) -> Option<L::Bit> {
         let bits = q.bits_x | q.bits_y | q.bits_z;
         Some(!(i.load | i.copy | i.fraction | i.commit) & bits.is_zero())
     }

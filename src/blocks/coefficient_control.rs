@@ -100,7 +100,7 @@ impl<const C: usize> Circuit for CoefficientControl<C> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, q: &Reg<L>, _: &Self::Net<L>, i: &In<L>) -> Option<L::Bit> {
         Some(!(i.step | q.busy | q.done))
     }
 }

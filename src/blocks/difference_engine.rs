@@ -169,7 +169,12 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceEngin
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, P, F>, i: &In<L, F, D>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        _: &Reg<L, P, F>,
+        _: &Self::Net<L>,
+        i: &In<L, F, D>,
+    ) -> Option<L::Bit> {
         Some(!(i.load | i.step))
     }
 }

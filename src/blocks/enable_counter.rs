@@ -69,6 +69,16 @@ impl<const W: usize> Circuit for EnableCounter<W> {
         }
     }
 
+    #[inline(always)]
+    fn coasting<L: Logic>(&self, _: &Reg<L, W>, w: &Net<L, W>, _: &In<L, W>) -> Option<L::Bit> {
+        Some(!w.enable)
+    }
+
+    #[inline(always)]
+    fn coast<L: Logic>(&self, q: Reg<L, W>) -> Reg<L, W> {
+        Reg { count: q.count + 1 }
+    }
+
     fn properties<L: Logic>(
         &self,
         now: &Moment<'_, Self, L>,

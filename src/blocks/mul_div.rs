@@ -156,7 +156,12 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, M, Q>, i: &In<L, M, Q>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, M, Q>,
+        _: &Self::Net<L>,
+        i: &In<L, M, Q>,
+    ) -> Option<L::Bit> {
         Some(!(i.start | q.done) & q.state.is_zero())
     }
 }

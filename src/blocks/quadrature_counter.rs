@@ -117,7 +117,7 @@ impl<const W: usize> Circuit for QuadratureCounter<W> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, W>, i: &In<L>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, q: &Reg<L, W>, _: &Self::Net<L>, i: &In<L>) -> Option<L::Bit> {
         let a = (i.a ^ q.meta_a) | (q.meta_a ^ q.present_a) | (q.present_a ^ q.previous_a);
         let b = (i.b ^ q.meta_b) | (q.meta_b ^ q.present_b) | (q.present_b ^ q.previous_b);
         Some(!(i.clear | a | b) & q.samples.equals(FILLED.into()))

@@ -165,7 +165,12 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for RecordMemory<A,
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, A, K, D>, i: &In<L, D>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, A, K, D>,
+        _: &Self::Net<L>,
+        i: &In<L, D>,
+    ) -> Option<L::Bit> {
         let strobes = i.write | i.push | i.take | i.flush;
         Some(!(strobes | q.reading | q.load | q.loaded))
     }

@@ -181,7 +181,7 @@ impl<const F: usize, const N: usize, const D: usize> Circuit for RecordSequencer
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, F, N>, i: &In<L, D>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, q: &Reg<L, F, N>, _: &Self::Net<L>, i: &In<L, D>) -> Option<L::Bit> {
         let strobes = i.start | i.halt | i.sample | i.load | i.loaded | i.rotated;
         Some(!(strobes | q.take | q.rotate | q.sampled) & !q.state.equals(STEP.into()))
     }

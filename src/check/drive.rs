@@ -1,5 +1,5 @@
 use super::{Coverage, Stimulus};
-use crate::kernel::{Circuit, Machine, RunError, Running, Standing};
+use crate::kernel::{Circuit, Machine, RunError, Running};
 use crate::trace::{Clock, Dump, Layout, Lines, Options, VcdFile};
 use std::io::{self, Write};
 
@@ -31,7 +31,9 @@ pub struct Driven {
 /// against this one, tick by tick. The same [`Drive`] gives the same bytes.
 ///
 /// # Errors
-/// A writer failed; a register changed where the [clock is gated](Circuit::gated); a name that is used twice in a scope or that waves cannot carry.
+/// A writer failed; a register changed where the [clock is gated](Circuit::gated), or otherwise than
+/// by [coasting](Circuit::coast) where it coasts; a name that is used twice in a scope or that waves
+/// cannot carry.
 pub fn drive<C: Circuit>(
     circuit: &C,
     drive: &Drive,
@@ -63,13 +65,13 @@ impl Drive {
             lines.tick(running, rst, stimulus)?;
             dump.tick(tick, running)?;
             running.show(coverage.tick());
-            let standing = running.gated().then(|| Standing::of(running));
+            let at_rest = running.at_rest();
             running.clock(rst);
-            if !rst && standing.is_some_and(|before| before != Standing::of(running)) {
+            if let (false, Some(message)) = (rst, at_rest.fault(running)) {
                 return Err(RunError::Violation {
                     tick,
                     signals: vec![running.name().to_owned()],
-                    message: "a register changes where the clock is gated".into(),
+                    message: message.into(),
                 });
             }
         }

@@ -2,8 +2,9 @@ use super::enumerate::{all, from_word, to_word};
 use super::search::{Report, Search};
 use super::visited::Visited;
 use super::{Counterexample, Fault, Invariants, TooWide};
-use crate::kernel::{Circuit, Sample};
+use crate::kernel::{COASTING, Circuit, GATED, Sample};
 use crate::logic::Sim;
+use crate::logic::sim::Wire;
 use std::fmt;
 
 /// The widest inputs: all their values are tried in every state.
@@ -207,10 +208,10 @@ impl<'a, C: Circuit> Reach<'a, C> {
                     return Ok(self.violated(name, fault, way.collect()));
                 }
                 let next = to_word(&next);
-                if next != state && self.circuit.gated(&q, i).is_some_and(|gate| gate.get()) {
+                if let Some(message) = self.gates(&q, &w, i, next) {
                     let fault = Fault {
                         signals: vec![C::NAME.to_owned()],
-                        message: "a register changes where the clock is gated".into(),
+                        message: message.into(),
                     };
                     let way = search.way(index);
                     let way = way.into_iter().map(|index| inputs[index].clone());
@@ -223,6 +224,24 @@ impl<'a, C: Circuit> Reach<'a, C> {
             search.tried(before);
         }
         Ok(Outcome::Proof(search.proof()))
+    }
+
+    /// What is wrong with the gates of the clock, if the edge leads to `next`.
+    fn gates(
+        &self,
+        q: &C::Reg<Sim>,
+        w: &C::Net<Sim>,
+        i: &C::In<Sim>,
+        next: u64,
+    ) -> Option<&'static str> {
+        let high = |gate: Option<Wire>| gate.is_some_and(|gate| gate.get());
+        if high(self.circuit.gated(q, w, i)) && to_word(q) != next {
+            return Some(GATED);
+        }
+        if high(self.circuit.coasting(q, w, i)) && to_word(&self.circuit.coast(q.clone())) != next {
+            return Some(COASTING);
+        }
+        None
     }
 
     fn violated(&self, name: &str, fault: Fault, inputs: Vec<C::In<Sim>>) -> Outcome<C> {

@@ -35,15 +35,43 @@ pub trait Circuit: 'static {
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, i: &Self::In<L>) -> Self::Reg<L>;
 
     /// A clock gate, if it has one: high where the edge would leave every register as it is, in
-    /// every state that the circuit can reach. Inside another circuit it is not clocked then, in
-    /// the meaning [`Sim`]; the HDL has no gate.
+    /// every state that the circuit can reach. In the meaning [`Sim`] it is not clocked then; the
+    /// HDL has no gate.
     ///
     /// Only speed depends on it, so a condition may leave ticks out, but none in which a register
     /// changes: [`reach`](crate::check::reach) and [`drive`](crate::check::drive()) find it.
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Option<L::Bit> {
-        let _ = (q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Self::Reg<L>,
+        w: &Self::Net<L>,
+        i: &Self::In<L>,
+    ) -> Option<L::Bit> {
+        let _ = (q, w, i);
         None
+    }
+
+    /// A gate for all but free-running counters, if it has one: high where the edge would do what
+    /// [`coast`](Circuit::coast) does and no more, in every state that the circuit can reach. In the
+    /// meaning [`Sim`] it coasts then.
+    ///
+    /// It is there for speed only, as [`gated`](Circuit::gated) is, and checked in the same way.
+    #[inline(always)]
+    fn coasting<L: Logic>(
+        &self,
+        q: &Self::Reg<L>,
+        w: &Self::Net<L>,
+        i: &Self::In<L>,
+    ) -> Option<L::Bit> {
+        let _ = (q, w, i);
+        None
+    }
+
+    /// The registers after an edge in which the circuit is [`coasting`](Circuit::coasting): as they
+    /// were, but for its free-running counters.
+    #[inline(always)]
+    fn coast<L: Logic>(&self, q: Self::Reg<L>) -> Self::Reg<L> {
+        q
     }
 
     /// Invariants in words, for proofs by other tools beside `check`; see
@@ -150,7 +178,15 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
     /// High where its clock may be gated, low without a gate; see [`Circuit::gated`].
     #[inline(always)]
     pub fn gated(&self, circuit: &C, q: &C::Reg<L>) -> L::Bit {
-        circuit.gated(q, &self.i).unwrap_or(false.into())
+        circuit.gated(q, &self.w, &self.i).unwrap_or(false.into())
+    }
+
+    /// High where it coasts, low without such a gate; see [`Circuit::coasting`].
+    #[inline(always)]
+    pub fn coasting(&self, circuit: &C, q: &C::Reg<L>) -> L::Bit {
+        circuit
+            .coasting(q, &self.w, &self.i)
+            .unwrap_or(false.into())
     }
 
     /// The same for an array of circuits: applies `inputs` and settles the nets.

@@ -26,7 +26,7 @@ pub use pack::{Bits, pack, unpack, width, zero};
 pub use probe::{Changed, Probe, Source, Words};
 pub(crate) use probe::{STAGE, WORD, part};
 pub use property::{Moment, Property};
-pub(crate) use running::{Machine, Running, Standing, Values, show_power_on};
+pub(crate) use running::{COASTING, GATED, Machine, Running, Values, show_power_on};
 pub use signals::{
     Extent, Field, Format, Inside, Kind, Make, Nothing, Role, Shape, Signals, Visit,
 };

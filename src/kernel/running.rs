@@ -5,6 +5,7 @@ use super::probe::{Probe, Source, Words, show, supply};
 use super::reset::reset;
 use super::signals::{Field, Role, Shape, Signals};
 use crate::logic::Sim;
+use crate::logic::sim::Wire;
 
 /// A circuit that is run tick by tick, its type forgotten.
 ///
@@ -17,8 +18,9 @@ pub(crate) trait Running {
     fn settle(&mut self, inputs: &mut dyn Source);
     /// Shows the ports in, the registers or the nets.
     fn part(&self, role: Role, probe: &mut dyn Probe);
-    /// Whether the clock may be gated in this tick.
-    fn gated(&self) -> bool;
+    /// How the edge has to leave the registers: as they stand where the clock is
+    /// [gated](Circuit::gated), coasted where it [coasts](Circuit::coasting).
+    fn at_rest(&self) -> AtRest;
     /// The edge that ends the tick; with `rst` high that of a synchronous reset.
     fn clock(&mut self, rst: bool);
 }
@@ -83,10 +85,16 @@ impl<C: Circuit> Running for Machine<'_, C> {
         }
     }
 
-    fn gated(&self) -> bool {
-        let q = self.q.as_ref();
-        let gate = q.and_then(|q| self.circuit.gated(q, &self.i));
-        gate.is_some_and(|gate| gate.get())
+    fn at_rest(&self) -> AtRest {
+        let (circuit, w, i) = (self.circuit, &self.w, &self.i);
+        let q = || self.q.as_ref();
+        let high = |gate: &Wire| gate.get();
+        let gated = q().filter(|q| circuit.gated(q, w, i).as_ref().is_some_and(high));
+        let coasting = q().filter(|q| circuit.coasting(q, w, i).as_ref().is_some_and(high));
+        AtRest {
+            gated: gated.map(Standing::of),
+            coasting: coasting.map(|q| Standing::of(&circuit.coast(q.clone()))),
+        }
     }
 
     fn clock(&mut self, rst: bool) {
@@ -131,15 +139,49 @@ impl Probe for Values {
 
 /// The flip-flops of a circuit, and for each memory how often it was written.
 #[derive(PartialEq, Eq)]
-pub(crate) struct Standing(Vec<u64>);
+struct Standing(Vec<u64>);
 
 impl Standing {
-    pub(crate) fn of(running: &dyn Running) -> Self {
+    fn of<S: Signals<Sim>>(registers: &S) -> Self {
+        let mut standing = Standing(Vec::new());
+        show(registers, Role::Register, &mut standing);
+        standing
+    }
+
+    fn of_all(running: &dyn Running) -> Self {
         let mut standing = Standing(Vec::new());
         running.part(Role::Register, &mut standing);
         standing
     }
 }
+
+/// What the gates of a clock say of an edge.
+pub(crate) struct AtRest {
+    gated: Option<Standing>,
+    coasting: Option<Standing>,
+}
+
+impl AtRest {
+    /// What is wrong with them, after the edge.
+    pub(crate) fn fault(&self, running: &dyn Running) -> Option<&'static str> {
+        let wrong = |rest: &Option<Standing>| {
+            let rest = rest.as_ref();
+            rest.is_some_and(|rest| *rest != Standing::of_all(running))
+        };
+        if wrong(&self.gated) {
+            Some(GATED)
+        } else if wrong(&self.coasting) {
+            Some(COASTING)
+        } else {
+            None
+        }
+    }
+}
+
+/// A [gate](Circuit::gated) is wrong.
+pub(crate) const GATED: &str = "a register changes where the clock is gated";
+/// The [other gate](Circuit::coasting) is.
+pub(crate) const COASTING: &str = "the registers are not as `coast` makes them where it coasts";
 
 impl Probe for Standing {
     fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {

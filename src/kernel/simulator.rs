@@ -1,6 +1,6 @@
 use super::reset::reset;
 use super::{Circuit, FastForward, Observer, RunError, Sample};
-use crate::logic::Sim;
+use crate::logic::{Logic, Sim};
 use std::mem::ManuallyDrop;
 use std::ops::ControlFlow;
 
@@ -49,25 +49,24 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
         observer: impl Observer<C>,
     ) -> Result<Self, RunError> {
-        match self.run_on(ticks, stimulus, observer) {
+        match Self::run_on(self.circuit, self.q, self.tick, ticks, stimulus, observer) {
             (simulator, None) => Ok(simulator),
             (_, Some(error)) => Err(error),
         }
     }
 
-    /// A function of its own: where registers are dropped they stand in memory all the time.
+    /// A function of its own: where registers are dropped they stand in memory all the time. What is
+    /// behind a reference among its arguments nobody else writes, so what `circuit` holds is read
+    /// before the first tick.
     #[inline(never)]
     fn run_on(
-        self,
+        circuit: &'c C,
+        q: C::Reg<Sim>,
+        start: u64,
         ticks: u64,
         mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
         mut observer: impl Observer<C>,
     ) -> (Self, Option<RunError>) {
-        let Simulator {
-            circuit,
-            q,
-            tick: start,
-        } = self;
         // So they are where a panic unwinds.
         let mut q = ManuallyDrop::new(q);
         let mut tick = start;
@@ -89,7 +88,7 @@ impl<'c, C: Circuit> Simulator<'c, C> {
                     break;
                 }
             };
-            q = ManuallyDrop::new(circuit.next(ManuallyDrop::into_inner(q), &w, &i));
+            q = ManuallyDrop::new(Sim::clock(circuit, ManuallyDrop::into_inner(q), &w, &i));
             tick += 1;
             if let ControlFlow::Break(()) = flow {
                 break;

@@ -150,7 +150,7 @@ impl<const W: usize> Circuit for Comparator<W> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L>, i: &In<L, W>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, _: &Reg<L>, _: &Net<L, W>, i: &In<L, W>) -> Option<L::Bit> {
         Some(!(i.evaluate | i.arm | i.halt))
     }
 }

@@ -117,7 +117,12 @@ impl<const W: usize, const N: usize> Circuit for CompletionDetector<W, N> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, W, N>,
+        _: &Self::Net<L>,
+        i: &In<L, W, N>,
+    ) -> Option<L::Bit> {
         let counts = i.active | (q.still.is_zero() & q.elapsed.is_zero());
         Some(!(i.evaluate | q.complete) & counts)
     }

@@ -204,8 +204,12 @@ impl<const K: usize, const T: usize, const C: usize, const W: usize, const R: us
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, C, W, R>, i: &In<L, C, W>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, C, W, R>,
+        w: &Self::Net<L>,
+        _: &In<L, C, W>,
+    ) -> Option<L::Bit> {
         Some(
             w.stop_error.gated(&self.stop_error, &q.stop_error)
                 & w.arithmetic.gated(&self.arithmetic, &q.arithmetic)

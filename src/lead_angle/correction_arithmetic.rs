@@ -158,7 +158,12 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, C>, i: &In<L, C, W, R>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, C>,
+        _: &Self::Net<L>,
+        i: &In<L, C, W, R>,
+    ) -> Option<L::Bit> {
         Some(!(i.complete | i.done | q.learned | q.corrected))
     }
 }

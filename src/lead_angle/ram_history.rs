@@ -59,7 +59,12 @@ impl<const K: usize, const T: usize, const W: usize> Circuit for RamHistory<K, T
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, T, W>, i: &In<L, T, W>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, T, W>,
+        _: &Self::Net<L>,
+        i: &In<L, T, W>,
+    ) -> Option<L::Bit> {
         Some(!(i.ck | i.restart | q.pair.fresh))
     }
 }

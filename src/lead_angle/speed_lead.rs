@@ -117,7 +117,12 @@ impl<const W: usize, const N: usize> Circuit for SpeedLead<W, N> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, W, N>,
+        _: &Self::Net<L>,
+        i: &In<L, W, N>,
+    ) -> Option<L::Bit> {
         Some(!(i.ck | i.restart | q.fresh))
     }
 }

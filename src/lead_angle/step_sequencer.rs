@@ -167,9 +167,13 @@ impl<const A: usize, const W: usize, const N: usize> Circuit for StepSequencer<A
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, A, N>, i: &In<L, A, W, N>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, A, N>,
+        w: &Self::Net<L>,
+        i: &In<L, A, W, N>,
+    ) -> Option<L::Bit> {
         let is = |state: u64| q.state.equals(state.into());
-        let w = self.comb(q, i);
         let moves = w.goes_on | w.rested | w.halts | (is(IDLE) & i.run);
         let pulses = q.load | q.arm | q.halting;
         let counts = is(REST).mux(i.ck, !q.count.is_zero());

@@ -93,7 +93,7 @@ impl<const W: usize> Circuit for StopError<W> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, W>, i: &In<L, W>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, _: &Reg<L, W>, _: &Self::Net<L>, i: &In<L, W>) -> Option<L::Bit> {
         Some(!i.fire)
     }
 }

@@ -83,7 +83,12 @@ impl<const A: usize, const W: usize, const D: usize> Circuit for TargetSetter<A,
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, A, W, D>, i: &In<L, A, W, D>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        _: &Reg<L, A, W, D>,
+        _: &Self::Net<L>,
+        i: &In<L, A, W, D>,
+    ) -> Option<L::Bit> {
         Some(!(i.load | i.write))
     }
 }

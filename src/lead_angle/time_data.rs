@@ -121,7 +121,12 @@ impl<const A: usize, const C: usize> Circuit for TimeData<A, C> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, A, C>, i: &In<L, A, C>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        _: &Reg<L, A, C>,
+        _: &Self::Net<L>,
+        i: &In<L, A, C>,
+    ) -> Option<L::Bit> {
         Some(!(i.load | i.learned | i.write | i.clear))
     }
 

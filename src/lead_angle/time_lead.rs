@@ -192,8 +192,7 @@ impl<H: History<T, W>, const K: usize, const T: usize, const C: usize, const W: 
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, H>, i: &In<L, C, W>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(&self, q: &Reg<L, H>, w: &Self::Net<L>, _: &In<L, C, W>) -> Option<L::Bit> {
         Some(w.history.gated(&self.history, &q.history))
     }
 

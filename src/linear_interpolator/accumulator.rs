@@ -196,7 +196,7 @@ impl<const P: usize, const R: usize> Circuit for Accumulator<P, R> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P, R>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, _: &Self::Net<L>, i: &In<L, P, R>) -> Option<L::Bit> {
         Some(!(i.clear | i.start | i.done | q.valid))
     }
 }

@@ -73,7 +73,7 @@ impl<const P: usize> Circuit for Differentiator<P> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, P>, i: &In<L, P>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, _: &Reg<L, P>, _: &Self::Net<L>, i: &In<L, P>) -> Option<L::Bit> {
         Some(!(i.load | i.valid))
     }
 }

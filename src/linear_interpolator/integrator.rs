@@ -140,8 +140,7 @@ impl<const P: usize, const R: usize> Circuit for Integrator<P, R> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, R>, i: &In<L, P>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(&self, q: &Reg<L, P, R>, w: &Self::Net<L>, _: &In<L, P>) -> Option<L::Bit> {
         Some(
             w.accumulator.gated(&self.accumulator, &q.accumulator)
                 & w.mul_div.gated(&self.mul_div, &q.mul_div),

@@ -295,8 +295,12 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, A, P, T, M, Q, R>, i: &In<L, P, T>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, A, P, T, M, Q, R>,
+        w: &Self::Net<L>,
+        _: &In<L, P, T>,
+    ) -> Option<L::Bit> {
         Some(
             w.targets.gated(&self.targets, &q.targets)
                 & w.sequencer.gated(&self.sequencer, &q.sequencer)

@@ -160,8 +160,12 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, T, M, Q>, i: &In<L, P, T>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, P, T, M, Q>,
+        w: &Self::Net<L>,
+        _: &In<L, P, T>,
+    ) -> Option<L::Bit> {
         Some(
             w.trapezoid.gated(&self.trapezoid, &q.trapezoid)
                 & w.mul_div.gated(&self.mul_div, &q.mul_div),

@@ -141,7 +141,7 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, D>, i: &In<L, P, G>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, _: &Reg<L, D>, _: &Self::Net<L>, i: &In<L, P, G>) -> Option<L::Bit> {
         Some(!i.scan)
     }
 }

@@ -145,8 +145,12 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, D>, i: &In<L, P, G>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, P, D>,
+        w: &Self::Net<L>,
+        _: &In<L, P, G>,
+    ) -> Option<L::Bit> {
         Some(
             w.counter.gated(&self.counter, &q.counter) & w.control.gated(&self.control, &q.control),
         )

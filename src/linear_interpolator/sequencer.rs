@@ -205,9 +205,8 @@ impl<const P: usize> Circuit for Sequencer<P> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, w: &Self::Net<L>, _: &In<L, P>) -> Option<L::Bit> {
         let is = |state: u64| q.state.equals(state.into());
-        let w = self.comb(q, i);
         let moves = w.takes | w.begins | w.over | w.early | w.home | (q.computing & w.quiet);
         let pulses = q.pop | q.start | q.advance;
         Some((is(IDLE) | is(RUN)) & !(moves | pulses))

@@ -140,7 +140,12 @@ impl<const A: usize, const P: usize, const T: usize> Circuit for TargetData<A, P
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, A, P, T>, i: &In<L, A, P, T>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        _: &Reg<L, A, P, T>,
+        _: &Self::Net<L>,
+        i: &In<L, A, P, T>,
+    ) -> Option<L::Bit> {
         Some(!(i.push | i.pop | i.flush))
     }
 }

@@ -296,7 +296,12 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, T, M, Q>, i: &In<L, P, T, Q>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, P, T, M, Q>,
+        _: &Self::Net<L>,
+        i: &In<L, P, T, Q>,
+    ) -> Option<L::Bit> {
         Some(!(i.start | i.advance | i.halt | i.done | q.request | q.valid))
     }
 }

@@ -38,7 +38,7 @@ impl<const K: usize, E: Element> Logic for Lanes<K, E> {
         w: &C::Net<Self>,
         i: &C::In<Self>,
     ) -> C::Reg<Self> {
-        match circuit.gated(&q, i) {
+        match circuit.gated(&q, w, i) {
             Some(gate) if gate.all() => q,
             _ => circuit.next(q, w, i),
         }

@@ -32,10 +32,11 @@ impl Logic for Sim {
         w: &C::Net<Self>,
         i: &C::In<Self>,
     ) -> C::Reg<Self> {
-        match circuit.gated(&q, i) {
-            None => circuit.next(q, w, i),
-            Some(gate) if gate.get() => q,
-            Some(_) => {
+        match (circuit.coasting(&q, w, i), circuit.gated(&q, w, i)) {
+            (None, None) => circuit.next(q, w, i),
+            (Some(coasting), _) if coasting.get() => circuit.coast(q),
+            (_, Some(gate)) if gate.get() => q,
+            _ => {
                 cold_path();
                 // The nets once more: those that are read here only are computed here only.
                 let w = circuit.comb(&q, i);

@@ -82,7 +82,7 @@ impl<const W: usize, const V: usize> Circuit for CommandJoin<W, V> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, W>, i: &In<L, W, V>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, _: &Reg<L, W>, _: &Self::Net<L>, i: &In<L, W, V>) -> Option<L::Bit> {
         Some(!i.take)
     }
 }

@@ -135,7 +135,7 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, A>, i: &In<L, A>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, _: &Reg<L, A>, _: &Self::Net<L>, i: &In<L, A>) -> Option<L::Bit> {
         Some(!i.unit_rst)
     }
 }

@@ -13,7 +13,7 @@ use super::{PatternMemory, PulseGenerator, SyncStage, Variant};
 use super::{pattern_memory, pulse_generator, sync_stage};
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::{Circuit, Instance};
-use crate::logic::{Logic, Sim};
+use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 
 signals! {
@@ -87,6 +87,24 @@ impl<const N: usize, const A: usize> Axis<N, A> {
             generator: PulseGenerator { variant },
             sync: SyncStage,
         }
+    }
+}
+
+impl<const N: usize, const A: usize> Axis<N, A> {
+    /// High where, apart from the counter, nothing changes with an edge that is not that of RST. It
+    /// relies on that a half-period comes with RST only: one of 0 finds the counter cleared.
+    #[inline(always)]
+    pub(super) fn coasting<L: Logic>(&self, q: &Reg<L, N, A>) -> L::Bit {
+        let safe: L::Bit = (self.generator.variant == Variant::Safe).into();
+        // 0 - 1 is more than any count.
+        safe & q.generator.count.below(q.memory.half_period - 1)
+    }
+
+    /// The counter after that edge.
+    #[inline(always)]
+    pub(super) fn coast<L: Logic>(&self, q: &Reg<L, N, A>) -> L::U<N> {
+        let count = q.generator.count;
+        q.memory.half_period.is_zero().mux(count, count + 1)
     }
 }
 

@@ -111,7 +111,12 @@ impl<const A: usize, const T: usize> Circuit for CommandPort<A, T> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, A, T>, i: &In<L, A, T>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        _: &Reg<L, A, T>,
+        _: &Self::Net<L>,
+        i: &In<L, A, T>,
+    ) -> Option<L::Bit> {
         Some(!(i.valid | i.take))
     }
 

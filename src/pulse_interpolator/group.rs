@@ -252,6 +252,34 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
         }
     }
 
+    #[inline(always)]
+    fn coasting<L: Logic>(
+        &self,
+        q: &Reg<L, AXES, N, T, A>,
+        w: &Self::Net<L>,
+        i: &In<L, N, T, A>,
+    ) -> Option<L::Bit> {
+        let axes = self.axes.iter().zip(&q.axes);
+        let axes: L::Bit = axes.fold(true.into(), |all, (axis, q)| all & axis.coasting(q));
+        Some(
+            axes & !i.write
+                & w.counter.coasting(&self.counter, &q.counter)
+                & w.unit_time.gated(&self.unit_time, &q.unit_time)
+                & w.port.gated(&self.port, &q.port),
+        )
+    }
+
+    #[inline(always)]
+    fn coast<L: Logic>(&self, mut q: Reg<L, AXES, N, T, A>) -> Reg<L, AXES, N, T, A> {
+        for (axis, q) in self.axes.iter().zip(&mut q.axes) {
+            q.generator.count = axis.coast(q);
+        }
+        Reg {
+            counter: self.counter.coast(q.counter),
+            ..q
+        }
+    }
+
     fn power_on(&self) -> Reg<Sim, AXES, N, T, A> {
         Reg {
             unit_time: self.unit_time.power_on(),

@@ -123,7 +123,12 @@ impl<const N: usize, const A: usize> Circuit for PatternMemory<N, A> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, N, A>, i: &In<L, N, A>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        _: &Reg<L, N, A>,
+        _: &Self::Net<L>,
+        i: &In<L, N, A>,
+    ) -> Option<L::Bit> {
         Some(!(i.read | i.blank | i.write))
     }
 

@@ -71,23 +71,20 @@ impl<const N: usize> Circuit for PulseGenerator<N> {
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, N>, i: &In<L, N>) -> Net<L, N> {
         let next = q.count + 1;
-        match self.variant {
-            Variant::Safe => {
-                let equal = !next.below(i.half_period);
-                Net {
-                    next,
-                    equal,
-                    pulse: (q.toggle ^ equal) & !i.half_period.is_zero(),
-                }
-            }
-            Variant::Literal => {
-                let equal = next.equals(i.half_period);
-                Net {
-                    next,
-                    equal,
-                    pulse: q.toggle ^ equal,
-                }
-            }
+        let (over, exactly) = (!next.below(i.half_period), next.equals(i.half_period));
+        let equal = match self.variant {
+            Variant::Safe => over,
+            Variant::Literal => exactly,
+        };
+        let turned = q.toggle ^ equal;
+        let none = i.half_period.is_zero();
+        Net {
+            next,
+            equal,
+            pulse: match self.variant {
+                Variant::Safe => turned & !none,
+                Variant::Literal => turned,
+            },
         }
     }
 

@@ -68,6 +68,16 @@ impl<const T: usize> Circuit for UnitTimeCounter<T> {
         }
     }
 
+    #[inline(always)]
+    fn coasting<L: Logic>(&self, _: &Reg<L, T>, w: &Net<L, T>, _: &In<L, T>) -> Option<L::Bit> {
+        Some(!w.unit_rst)
+    }
+
+    #[inline(always)]
+    fn coast<L: Logic>(&self, q: Reg<L, T>) -> Reg<L, T> {
+        Reg { count: q.count + 1 }
+    }
+
     fn properties<L: Logic>(
         &self,
         now: &Moment<'_, Self, L>,

@@ -83,7 +83,7 @@ impl<const T: usize> Circuit for UnitTimeRegister<T> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, T>, i: &In<L, T>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, _: &Reg<L, T>, _: &Self::Net<L>, i: &In<L, T>) -> Option<L::Bit> {
         Some(!(i.write | i.unit_rst | i.take))
     }
 

@@ -149,7 +149,12 @@ impl<const P: usize, const M: usize, const H: usize, const X: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, M, H, X>, i: &In<L, P, M>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, P, M, H, X>,
+        _: &Self::Net<L>,
+        i: &In<L, P, M>,
+    ) -> Option<L::Bit> {
         Some(!(i.start | q.done) & q.state.is_zero())
     }
 }

@@ -144,7 +144,12 @@ impl<const P: usize, const R: usize, const C: usize, const S: usize, const D: us
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, C, S>, i: &In<L, R, D>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, P, C, S>,
+        _: &Self::Net<L>,
+        i: &In<L, R, D>,
+    ) -> Option<L::Bit> {
         Some(!(i.load | i.copy | i.fraction | i.commit) & (q.bits_along | q.bits_across).is_zero())
     }
 }

@@ -230,8 +230,12 @@ impl<
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Self::Reg<L>,
+        w: &Self::Net<L>,
+        _: &Self::In<L>,
+    ) -> Option<L::Bit> {
         Some(
             w.response.gated(&self.response, &q.response)
                 & w.corrector.gated(&self.corrector, &q.corrector)

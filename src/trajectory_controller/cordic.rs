@@ -114,8 +114,12 @@ impl<const R: usize, const H: usize> Circuit for Cordic<R, H> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, R, H>,
+        w: &Self::Net<L>,
+        _: &In<L, R, H>,
+    ) -> Option<L::Bit> {
         Some(w.turning.gated(&self.turning, &q.turning))
     }
 }

@@ -154,7 +154,12 @@ impl<const R: usize, const H: usize> Circuit for CordicState<R, H> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, R, H>,
+        _: &Self::Net<L>,
+        i: &In<L, R, H>,
+    ) -> Option<L::Bit> {
         Some(!(i.start | q.busy | q.done))
     }
 }

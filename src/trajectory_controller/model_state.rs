@@ -184,7 +184,12 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ModelState<P, K
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P, K, Q>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, P>,
+        _: &Self::Net<L>,
+        i: &In<L, P, K, Q>,
+    ) -> Option<L::Bit> {
         Some(!(i.step | i.preset | i.done | q.fresh))
     }
 }

@@ -91,7 +91,7 @@ impl<const P: usize> Circuit for PathLength<P> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, _: &Self::Net<L>, i: &In<L, P>) -> Option<L::Bit> {
         let pulses = q.begun | q.preset | q.fresh | q.held;
         Some(!(i.sample | i.present | i.restart | pulses))
     }

@@ -355,8 +355,12 @@ impl<
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Self::Reg<L>,
+        w: &Self::Net<L>,
+        _: &Self::In<L>,
+    ) -> Option<L::Bit> {
         let axes = (0..AXES).fold(true.into(), |gated: L::Bit, axis| {
             gated & w.axes[axis].gated(&self.axes[axis], &q.axes[axis])
         });

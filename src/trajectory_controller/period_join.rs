@@ -126,7 +126,7 @@ impl Circuit for PeriodJoin {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, q: &Reg<L>, _: &Self::Net<L>, i: &In<L>) -> Option<L::Bit> {
         let waits = i.referred | i.answered | i.driven | q.pending;
         let strobes = i.begins | i.held | i.placed | i.clear | q.preset | q.step | q.correct;
         Some(!(waits | strobes) & q.count.equals(self.wait.into()))

@@ -196,7 +196,12 @@ impl<const P: usize, const R: usize, const M: usize, const D: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, M, R>, i: &In<L, P, R, D>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, M, R>,
+        _: &Self::Net<L>,
+        i: &In<L, P, R, D>,
+    ) -> Option<L::Bit> {
         let pulses = q.search | q.fetch | q.measure | q.turn | q.project | q.done;
         Some(!(i.start | i.load | pulses) & q.state.is_zero())
     }

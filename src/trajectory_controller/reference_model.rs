@@ -141,8 +141,12 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ReferenceModel<
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, K, Q>, i: &In<L, P, K>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, P, K, Q>,
+        w: &Self::Net<L>,
+        _: &In<L, P, K>,
+    ) -> Option<L::Bit> {
         Some(
             w.integrators.gated(&self.integrators, &q.integrators)
                 & w.scaler.gated(&self.scaler, &q.scaler),

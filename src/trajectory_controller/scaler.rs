@@ -116,7 +116,12 @@ impl<const K: usize, const Q: usize> Circuit for Scaler<K, Q> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, K, Q>, i: &In<L, K, Q>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, K, Q>,
+        _: &Self::Net<L>,
+        i: &In<L, K, Q>,
+    ) -> Option<L::Bit> {
         Some(!(i.start | q.busy | q.done))
     }
 }

@@ -136,7 +136,12 @@ impl<const A: usize, const Q: usize> Circuit for SegmentSearch<A, Q> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, A, Q>, i: &In<L, A, Q>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, A, Q>,
+        _: &Self::Net<L>,
+        i: &In<L, A, Q>,
+    ) -> Option<L::Bit> {
         Some(!(i.start | i.write | q.done) & q.state.is_zero())
     }
 }

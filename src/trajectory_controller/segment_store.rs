@@ -105,7 +105,12 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for SegmentStore<A,
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, K, D>, i: &In<L, A, K, D>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, K, D>,
+        _: &Self::Net<L>,
+        i: &In<L, A, K, D>,
+    ) -> Option<L::Bit> {
         Some(!(i.write | i.fetch | q.reading | q.load | q.loaded))
     }
 }

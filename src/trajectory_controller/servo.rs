@@ -240,8 +240,12 @@ impl<
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Option<L::Bit> {
-        let w = self.comb(q, i);
+    fn gated<L: Logic>(
+        &self,
+        q: &Self::Reg<L>,
+        w: &Self::Net<L>,
+        _: &Self::In<L>,
+    ) -> Option<L::Bit> {
         Some(
             w.model.gated(&self.model, &q.model)
                 & w.detector.gated(&self.detector, &q.detector)

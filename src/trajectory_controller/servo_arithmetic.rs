@@ -308,7 +308,12 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, W, Q, T>, i: &In<L, W, P, G, Q, T>) -> Option<L::Bit> {
+    fn gated<L: Logic>(
+        &self,
+        q: &Reg<L, W, Q, T>,
+        _: &Self::Net<L>,
+        i: &In<L, W, P, G, Q, T>,
+    ) -> Option<L::Bit> {
         Some(!(i.step | i.clear | i.done | q.fresh) & !q.state.equals(LIMIT.into()))
     }
 }

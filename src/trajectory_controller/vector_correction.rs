@@ -111,7 +111,7 @@ impl<const P: usize> Circuit for VectorCorrection<P> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Option<L::Bit> {
+    fn gated<L: Logic>(&self, q: &Reg<L, P>, _: &Self::Net<L>, i: &In<L, P>) -> Option<L::Bit> {
         Some(!(i.correct | q.fresh))
     }
 }

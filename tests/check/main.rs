@@ -2,6 +2,7 @@
 
 mod circuits;
 mod composite;
+mod gates;
 mod lockstep;
 mod monitor;
 mod reach;
