@@ -354,20 +354,13 @@ impl<
         w: &Self::Net<L>,
         _: &Self::In<L>,
     ) -> Option<L::Bit> {
-        let [engine_x, engine_y, engine_z] = &self.engines;
-        let [command_x, command_y, command_z] = &self.commands;
+        // Engines and commands act with the memory or with the sequencer only.
         Some(
             w.sample_counter
                 .coasting(&self.sample_counter, &q.sample_counter)
                 & w.memory.gated(&self.memory, &q.memory)
                 & w.sequencer.gated(&self.sequencer, &q.sequencer)
-                & w.engine_x.gated(engine_x, &q.engine_x)
-                & w.engine_y.gated(engine_y, &q.engine_y)
-                & w.engine_z.gated(engine_z, &q.engine_z)
-                & w.rotation.gated(&self.rotation, &q.rotation)
-                & w.command_x.gated(command_x, &q.command_x)
-                & w.command_y.gated(command_y, &q.command_y)
-                & w.command_z.gated(command_z, &q.command_z),
+                & w.rotation.gated(&self.rotation, &q.rotation),
         )
     }
 
