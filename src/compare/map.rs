@@ -1,4 +1,4 @@
-use crate::input::Fault;
+use crate::input::{Fault, read_string};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -68,14 +68,10 @@ impl Map {
     /// Reads a map file.
     ///
     /// # Errors
-    /// The file cannot be read, and what [`parse`](Map::parse) objects to.
+    /// As [`read_string`], and what [`parse`](Map::parse) objects to.
     pub fn read(path: &Path) -> Result<Self, Fault> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            let problem = format!("cannot be read: {error}");
-            Fault::new(&name, 0, "file", problem, "a readable file in TOML")
-        })?;
-        Self::parse(&name, &text)
+        let text = read_string(path, "a map in TOML")?;
+        Self::parse(&path.display().to_string(), &text)
     }
 
     /// Reads a map from text that is called `file` in faults.

@@ -4,9 +4,8 @@ use super::scan;
 use super::sections;
 use super::times;
 use super::value::Value;
-use crate::input::Fault;
+use crate::input::{Fault, read_bytes};
 use std::collections::HashMap;
-use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 use wellen::simple::Waveform;
@@ -63,15 +62,8 @@ pub(super) struct Wave {
 
 impl Wave {
     pub fn read(path: &Path) -> Result<Self, Fault> {
-        let file = path.display().to_string();
-        let fault = |problem: String| Fault::new(&file, 0, "file", problem, "a readable file");
-        let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"));
-        // Asked before reading: opening a pipe would wait for its writer.
-        if !path.metadata().map_err(unreadable)?.is_file() {
-            return Err(fault("not a regular file".to_owned()));
-        }
-        let bytes = fs::read(path).map_err(unreadable)?;
-        Self::parse(&file, bytes)
+        // Waves may be as large as there is memory for.
+        Self::parse(&path.display().to_string(), read_bytes(path, u64::MAX)?)
     }
 
     pub fn parse(file: &str, bytes: Vec<u8>) -> Result<Self, Fault> {

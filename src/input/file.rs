@@ -1,4 +1,4 @@
-//! Reading a drawing from disk.
+//! Reading files: any, and drawings.
 
 use std::fs::File;
 use std::io::Read as _;
@@ -25,7 +25,7 @@ type Reader = fn(&str, &[u8]) -> Result<Drawing, Fault>;
 pub fn read_path(path: &Path) -> Result<Drawing, Fault> {
     let name = path.display().to_string();
     let read = reader(&name, path)?;
-    read(&name, &bytes(&name, path)?)
+    read(&name, &read_bytes(path, LARGEST_FILE)?)
 }
 
 /// Reads the contents of a file called `name`, as [`read_path`] does.
@@ -48,31 +48,53 @@ fn reader(name: &str, path: &Path) -> Result<Reader, Fault> {
     Err(Fault::new(name, 0, "file", problem, EXTENSIONS))
 }
 
-pub(super) fn bytes(name: &str, path: &Path) -> Result<Vec<u8>, Fault> {
-    let fault = |problem: String| Fault::new(name, 0, "file", problem, "a readable file");
+/// The bytes of a file.
+///
+/// # Errors
+///
+/// A path that is not a regular file, cannot be read or is larger than `most` bytes.
+pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
+    let name = path.display().to_string();
+    let fault = |problem: String| Fault::new(&name, 0, "file", problem, "a readable file");
+    let too_large = || {
+        let allowed = format!("at most {most} bytes");
+        Fault::new(&name, 0, "file", "too large", allowed)
+    };
     let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"));
     // Asked before opening: opening a pipe would wait for its writer.
     let metadata = path.metadata().map_err(unreadable)?;
     if !metadata.is_file() {
         return Err(fault("not a regular file".to_owned()));
     }
-    if metadata.len() > LARGEST_FILE {
-        return Err(too_large(name));
+    if metadata.len() > most {
+        return Err(too_large());
     }
-    let mut text = Vec::new();
+    let mut bytes = Vec::new();
+    let room = usize::try_from(metadata.len()).map_err(|_| too_large())?;
+    let reserved = bytes.try_reserve_exact(room);
+    reserved.map_err(|error| unreadable(error.into()))?;
     let file = File::open(path).map_err(unreadable)?;
     // The limit holds for a file that grows meanwhile, too.
-    let mut reader = file.take(LARGEST_FILE + 1);
-    let length = reader.read_to_end(&mut text).map_err(unreadable)?;
-    if length as u64 > LARGEST_FILE {
-        return Err(too_large(name));
+    let mut reader = file.take(most.saturating_add(1));
+    let length = reader.read_to_end(&mut bytes).map_err(unreadable)?;
+    if length as u64 > most {
+        return Err(too_large());
     }
-    Ok(text)
+    Ok(bytes)
 }
 
-fn too_large(name: &str) -> Fault {
-    let allowed = format!("at most {LARGEST_FILE} bytes");
-    Fault::new(name, 0, "file", "too large", allowed)
+/// The text of a file of at most [`LARGEST_FILE`]; `allowed` says what it is to be.
+///
+/// # Errors
+///
+/// As [`read_bytes`], and bytes that are not UTF-8, with their line.
+pub fn read_string(path: &Path, allowed: &str) -> Result<String, Fault> {
+    String::from_utf8(read_bytes(path, LARGEST_FILE)?).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();
+        let name = path.display().to_string();
+        Fault::new(&name, line, "file", "not UTF-8", allowed)
+    })
 }
 
 #[cfg(test)]
@@ -91,5 +113,28 @@ mod tests {
         let fault = read_path(&path).unwrap_err();
         assert_eq!(fault.problem, "too large");
         assert_eq!(fault.allowed, "at most 268435456 bytes");
+        assert_eq!(read_string(&path, "text").unwrap_err(), fault);
+        assert_eq!(read_bytes(&path, 9).unwrap_err().allowed, "at most 9 bytes");
+    }
+
+    #[test]
+    fn a_file_of_just_the_limit_is_read() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.txt");
+        std::fs::write(&path, "a\nb").unwrap();
+        assert_eq!(read_bytes(&path, 3).unwrap(), b"a\nb");
+        assert_eq!(read_bytes(&path, u64::MAX).unwrap(), b"a\nb");
+        assert_eq!(read_bytes(&path, 2).unwrap_err().problem, "too large");
+        assert_eq!(read_string(&path, "text").unwrap(), "a\nb");
+    }
+
+    #[test]
+    fn bytes_that_are_no_text_are_refused_with_their_line() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.txt");
+        std::fs::write(&path, b"a\nb\xff").unwrap();
+        let fault = read_string(&path, "a text").unwrap_err();
+        assert_eq!((fault.line, fault.problem.as_str()), (2, "not UTF-8"));
+        assert_eq!(fault.allowed, "a text");
     }
 }

@@ -11,7 +11,7 @@ pub mod position_log;
 pub mod scenario;
 mod track;
 
-pub use file::{LARGEST_FILE, read_path, read_text};
+pub use file::{LARGEST_FILE, read_bytes, read_path, read_string, read_text};
 
 use std::fmt;
 

@@ -8,7 +8,7 @@
 //!
 //! Fields stand between commas. Blank lines and lines that begin with `#` are skipped.
 
-use super::{Fault, file};
+use super::{Fault, LARGEST_FILE, read_bytes};
 use csv::{ByteRecord, ReaderBuilder, Trim};
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -106,10 +106,10 @@ impl PositionLog {
 /// # Errors
 ///
 /// A path that is not a regular file, cannot be read or is larger than
-/// [`LARGEST_FILE`](super::LARGEST_FILE); and whatever [`read`] objects to.
+/// [`LARGEST_FILE`]; and whatever [`read`] objects to.
 pub fn read_path(path: &Path, columns: &Columns) -> Result<PositionLog, Fault> {
     let name = path.display().to_string();
-    read(&name, &file::bytes(&name, path)?, columns)
+    read(&name, &read_bytes(path, LARGEST_FILE)?, columns)
 }
 
 /// Reads the contents of a log that is called `name` in faults.

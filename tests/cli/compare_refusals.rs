@@ -145,6 +145,15 @@ fn files_that_are_no_waves_are_refused() {
         ".: file: not a regular file; allowed: a readable file",
     );
     bench.refuse(
+        &["compare", "g.vcd", "g.vcd", "--map", "."],
+        ".: file: not a regular file; allowed: a readable file",
+    );
+    bench.write("m.toml", b"# a map\n\xff");
+    bench.refuse(
+        &["compare", "g.vcd", "g.vcd", "--map", "m.toml"],
+        "m.toml:2: file: not UTF-8; allowed: a map in TOML",
+    );
+    bench.refuse(
         &["compare", "g.vcd", "g.vcd", "--ticks", "0"],
         "--ticks: is 0; allowed: 1 or more",
     );

@@ -1,5 +1,5 @@
 use super::{Runnable, Scenario};
-use crate::input::{Fault, file};
+use crate::input::{Fault, read_string};
 use serde::Deserialize;
 use std::path::Path;
 use toml::{Table, Value};
@@ -30,12 +30,8 @@ impl Loaded {
     /// lacks a key; or an override is none of `key=value`.
     pub fn read(path: &Path, sets: &[String]) -> Result<Self, Fault> {
         let name = path.display().to_string();
-        let bytes = file::bytes(&name, path)?;
-        let text = str::from_utf8(&bytes).map_err(|error| {
-            let line = line_at(&bytes, error.valid_up_to());
-            Fault::new(&name, line, "file", "not UTF-8", "a scenario in TOML")
-        })?;
-        let mut loaded = Self::parse(&name, text, sets)?;
+        let text = read_string(path, "a scenario in TOML")?;
+        let mut loaded = Self::parse(&name, &text, sets)?;
         let given = loaded.overrides("input");
         if let (Some(input), Some(directory)) = (loaded.scenario.input_mut(), path.parent())
             && !given
