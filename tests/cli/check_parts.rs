@@ -124,6 +124,48 @@ fn what_is_broken_in_a_part_is_broken_in_the_whole() {
 }
 
 #[test]
+fn a_circuit_that_is_named_twice_is_checked_once() {
+    let bench = Bench::new();
+    let once = ["check", "sync_stage", "integrator", "--width", "3"];
+    let twice = [
+        "check",
+        "sync_stage",
+        "integrator",
+        "sync_stage",
+        "integrator",
+        "--width",
+        "3",
+    ];
+    let whole = timeless(&bench.succeed(&once));
+    assert_eq!(timeless(&bench.succeed(&twice)), whole);
+    let merged = merge(&bench, &parts(&bench, &twice, 2));
+    assert_eq!((merged.code, timeless(&merged.stdout)), (0, whole));
+}
+
+#[test]
+fn missing_parts_are_listed_as_far_as_one_reads() {
+    let bench = Bench::new();
+    let work = ["check", "sync_stage"];
+    part(&bench, &work, "2/4294967295", "a.json");
+    bench.refuse(
+        &["check", "--merge", "a.json"],
+        "--merge: without part 1/4294967295, 3/4294967295, 4/4294967295, 5/4294967295, \
+         6/4294967295, 7/4294967295, 8/4294967295, 9/4294967295, 10/4294967295, 11/4294967295 and \
+         4294967284 more; allowed: all 4294967295 parts",
+    );
+    part(&bench, &work, "12/12", "a.json");
+    part(&bench, &work, "1/12", "b.json");
+    let missing: Vec<_> = (2..12).map(|part| format!("{part}/12")).collect();
+    bench.refuse(
+        &["check", "--merge", "a.json", "b.json"],
+        &format!(
+            "--merge: without part {}; allowed: all 12 parts",
+            missing.join(", ")
+        ),
+    );
+}
+
+#[test]
 fn a_part_that_there_is_not_is_refused() {
     let bench = Bench::new();
     for text in ["0/4", "5/4", "1/0", "1", "a/b", "1/4/2", ""] {
@@ -173,8 +215,17 @@ fn parts_that_do_not_belong_together_are_refused() {
     );
     refuse(
         &["nowhere.json"],
-        "nowhere.json: file: No such file or directory (os error 2); allowed: what `check --shard \
-         --json` printed",
+        "nowhere.json: file: cannot be read: No such file or directory (os error 2); allowed: a \
+         readable file",
+    );
+    refuse(
+        &["."],
+        ".: file: not a regular file; allowed: a readable file",
+    );
+    bench.write("bytes.json", b"{\n\xff}");
+    refuse(
+        &["bytes.json"],
+        "bytes.json:2: file: not UTF-8; allowed: what `check --shard --json` printed",
     );
 
     let spoilt = |from: &str, to: &str, text: &str| {

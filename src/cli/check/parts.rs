@@ -3,12 +3,16 @@
 use super::report::{Asked, Ended, Kind, Report, Row};
 use super::tasks::{self, Task};
 use crate::cli::Failure;
-use motion_rtl::input::Fault;
+use motion_rtl::input::{Fault, read_string};
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+
+/// What a part's file has in it.
+const PRINTED: &str = "what `check --shard --json` printed";
+/// Missing parts that are listed.
+const LISTED: usize = 10;
 
 /// A part of the work; part 1 of 1 is all of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -79,16 +83,18 @@ fn fault(file: &Path, line: usize, field: &str, problem: String, allowed: String
 
 /// Reads a part, and holds it against the tasks that its own arguments ask for.
 fn read(path: &Path) -> Result<(Report, Vec<Task>), Failure> {
-    let text = fs::read_to_string(path).map_err(|error| {
-        let allowed = "what `check --shard --json` printed".to_owned();
-        fault(path, 0, "file", error.to_string(), allowed)
-    })?;
+    let text = read_string(path, PRINTED)?;
     let mut json = serde_json::Deserializer::from_str(&text);
     let report: Result<Report, _> = serde_path_to_error::deserialize(&mut json);
     let report = report.map_err(|error| {
         let (field, error) = (error.path().to_string(), error.into_inner());
-        let allowed = "what `check --shard --json` printed".to_owned();
-        fault(path, error.line(), &field, error.to_string(), allowed)
+        fault(
+            path,
+            error.line(),
+            &field,
+            error.to_string(),
+            PRINTED.into(),
+        )
     })?;
     let version = env!("CARGO_PKG_VERSION");
     if report.version != version {
@@ -158,12 +164,19 @@ pub fn merge(paths: &[PathBuf]) -> Result<Report, Failure> {
     parts.sort_by_key(|(report, _)| report.shard.part);
     let of = parts.first().map_or(1, |(first, _)| first.shard.of);
     let there = |part: &u32| parts.iter().any(|(report, _)| report.shard.part == *part);
-    let missing: Vec<_> = (1..=of).filter(|part| !there(part)).collect();
-    if !missing.is_empty() {
-        let missing: Vec<_> = missing.iter().map(|part| format!("{part}/{of}")).collect();
+    // Each is there once, and none above `of`.
+    let missing = of as usize - parts.len();
+    if missing > 0 {
+        // Not all of them: `of` is whatever a file says.
+        let listed = (1..=of).filter(|part| !there(part)).take(LISTED);
+        let listed: Vec<_> = listed.map(|part| format!("{part}/{of}")).collect();
+        let mut problem = format!("without part {}", listed.join(", "));
+        if missing > listed.len() {
+            problem.push_str(&format!(" and {} more", missing - listed.len()));
+        }
         return Err(Failure::Argument {
             field: "--merge",
-            problem: format!("without part {}", missing.join(", ")),
+            problem,
             allowed: format!("all {of} parts"),
         });
     }

@@ -31,8 +31,14 @@ impl Task {
 
 /// What was asked for, and the circuits of which nothing can be proved or swept.
 pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
-    let named = asked.circuits.iter().map(|name| entry(name));
-    let mut entries = named.collect::<Result<Vec<_>, _>>()?;
+    let mut entries: Vec<&Entry> = Vec::new();
+    for name in &asked.circuits {
+        let named = entry(name)?;
+        // Once is enough; and the rows of parts are told apart by their circuit.
+        if !entries.iter().any(|other| other.name == named.name) {
+            entries.push(named);
+        }
+    }
     if entries.is_empty() {
         entries.extend(CATALOGUE);
     }
