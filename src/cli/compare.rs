@@ -42,7 +42,7 @@ pub struct Arguments {
     /// How many ticks to show before the first mismatch.
     #[arg(long, value_name = "TICKS", default_value_t = 4)]
     around: u64,
-    /// A golden signal without partner is a difference.
+    /// A golden signal without partner, or with one and without a value to compare, is a difference.
     #[arg(long)]
     strict: bool,
     /// Cuts no list short, and lists the other file's signals without partner too.
@@ -88,12 +88,19 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
         true => print_json(&report)?,
         false => print(&report.text(arguments.all))?,
     }
-    let alone = report.without_partner.len();
-    match (report.is_equal(), arguments.strict && alone > 0) {
-        (false, _) => Err(Failure::Check("the files differ".into())),
-        (true, true) => Err(Failure::Check(format!(
-            "golden signals without partner: {alone}, and --strict is given"
-        ))),
-        (true, false) => Ok(()),
+    if !report.is_equal() {
+        return Err(Failure::Check("the files differ".into()));
     }
+    for (what, unheld) in [
+        ("golden signals without partner", &report.without_partner),
+        ("pairs without a value to compare", &report.without_values),
+    ] {
+        if arguments.strict && !unheld.is_empty() {
+            let count = unheld.len();
+            return Err(Failure::Check(format!(
+                "{what}: {count}, and --strict is given"
+            )));
+        }
+    }
+    Ok(())
 }

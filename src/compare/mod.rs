@@ -22,11 +22,14 @@
 //! stands for golden's outermost one. That is the scope with the most partners, unless
 //! [`Settings::scope`] names it. `mem.word5` and `mem.stage5` are the same as `mem[5]`; where the
 //! other file has a memory of single bits as a vector, they are its bits. A [`Map`] pairs what has
-//! other names; the end of a path will do for the other file's, where it is the only one. Clocks, and variables without bits, are not compared.
+//! other names; the end of a path will do for the other file's, where it is the only one. Clocks,
+//! and variables without bits, are not compared.
 //!
 //! **Values.** A known golden value equals the same bits and no x or z. A golden value with an x or
 //! z, or before the first value of a signal, is not compared. Signals of more than 64 bits are not
-//! compared. A partner of another width is a difference. What is not compared is counted.
+//! compared. A partner of another width is a difference. What is not compared is counted, and pairs
+//! of which no value was compared are named: that nothing of them differs says nothing. Where no
+//! value of any pair was compared, that is an error.
 //!
 //! **Ticks of both.** Tick n of the golden file is held against tick n + [`Settings::skip`] of the
 //! other. What only one of them has is counted.
@@ -188,11 +191,15 @@ fn compare_waves(mut golden: Wave, mut other: Wave, settings: &Settings) -> Resu
         let allowed = "--skip, --from and --ticks that leave a tick of both";
         return Err(Fault::new(&other.wave.file, 0, "ticks", problem, allowed));
     }
-    Runs {
+    let runs = Runs {
         golden,
         other,
         start,
         common,
+    };
+    let report = runs.report(pairing, settings)?;
+    match report.values == 0 && report.is_equal() {
+        false => Ok(report),
+        true => Err(runs.no_value(&report)),
     }
-    .report(pairing, settings)
 }

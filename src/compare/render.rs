@@ -116,6 +116,7 @@ impl Report {
             let title = "signals of the other file without partner";
             list(title, &self.other_without_partner)?;
         }
+        list("pairs without a value to compare", &self.without_values)?;
         list("ignored", &self.ignored)?;
         list("wider than 64 bits, not compared", &self.too_wide)?;
         let counts = [
@@ -127,6 +128,7 @@ impl Report {
                 self.other_without_partner.len() as u64,
                 "without partner in other",
             ),
+            (self.without_values.len() as u64, "without a value"),
             (self.ignored.len() as u64, "ignored"),
             (self.different_widths.len() as u64, "of different width"),
             (self.too_wide.len() as u64, "too wide"),

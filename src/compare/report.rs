@@ -16,7 +16,7 @@ pub struct Report {
     pub ticks: u64,
     /// Ticks left out at the beginning of the other file.
     pub skip: i64,
-    /// Signals compared.
+    /// Signals compared, in at least one tick.
     pub signals: usize,
     /// Values compared: ticks by signals, without those that are unknown in the golden file.
     pub values: u64,
@@ -28,6 +28,9 @@ pub struct Report {
     pub other_without_partner: Vec<String>,
     /// Golden signals that the map leaves out.
     pub ignored: Vec<String>,
+    /// Golden signals with a partner of which no value was compared: the golden values are unknown,
+    /// or the map's delay leaves no common tick.
+    pub without_values: Vec<String>,
     /// Signals of more than 64 bits. They are not compared.
     pub too_wide: Vec<String>,
     /// Signals whose partner has another width. They are not compared, and the files differ.
@@ -126,7 +129,8 @@ pub struct Cell {
 }
 
 impl Report {
-    /// Whether everything that was compared is equal, and no partner has another width.
+    /// Whether everything that was compared is equal, and no partner has another width. What was not
+    /// compared stands in the lists.
     pub fn is_equal(&self) -> bool {
         self.differences.is_empty() && self.different_widths.is_empty()
     }

@@ -89,9 +89,12 @@ impl Runs {
 
     pub fn report(&self, pairing: Pairing, settings: &Settings) -> Result<Report, Fault> {
         let (mut values, mut unknown) = (0, 0);
-        let mut differing = Vec::new();
+        let (mut differing, mut without_values) = (Vec::new(), Vec::new());
         for (place, pair) in pairing.pairs.iter().enumerate() {
             let tally = self.tally(pair)?;
+            if tally.compared == 0 {
+                without_values.push(pair.golden);
+            }
             values += tally.compared;
             unknown += tally.unknown;
             if let Some(first) = tally.first {
@@ -125,17 +128,40 @@ impl Runs {
             from_tick: number(self.common.start),
             ticks: number(self.common.end - self.common.start),
             skip: settings.skip,
-            signals: pairing.pairs.len(),
+            signals: pairing.pairs.len() - without_values.len(),
             values,
             unknown_values: unknown,
             without_partner: paths(&golden.wave, &pairing.without_partner),
             other_without_partner: paths(&other.wave, &free),
             ignored: paths(&golden.wave, &pairing.ignored),
+            without_values: paths(&golden.wave, &without_values),
             too_wide: paths(&golden.wave, &pairing.too_wide),
             differences: differences.collect(),
             first: self.first(&pairing.pairs, &differing, settings.around)?,
             scope: pairing.scope,
             different_widths: pairing.widths,
         })
+    }
+
+    /// That no value was compared, which is not the same as that the files are equal.
+    pub fn no_value(&self, report: &Report) -> Fault {
+        let ticks = span(self.common.clone());
+        let (file, problem, allowed) = match report.unknown_values {
+            0 => (
+                &report.other.file,
+                format!(
+                    "nothing to compare: by the map's delays {ticks} are behind the end of this file"
+                ),
+                "delays that leave a tick of both; --from and --ticks choose other ticks",
+            ),
+            unknown => (
+                &report.golden.file,
+                format!(
+                    "nothing to compare: in {ticks} all {unknown} values are x, z or not yet set"
+                ),
+                "a golden file with known values there; --from and --ticks choose other ticks",
+            ),
+        };
+        Fault::new(file, 0, "values", problem, allowed)
     }
 }

@@ -304,6 +304,99 @@ fn widths_unknowns_and_strings_are_counted() {
 }
 
 #[test]
+fn a_pair_without_a_value_to_compare_is_named() {
+    let bench = Bench::with(
+        "golden.vcd",
+        dump(
+            &["top"],
+            &["reg 1 a", "reg 1 b", "reg 1 c"],
+            &[&["x", "0", "1"], &["z", "1", "1"]],
+        ),
+    );
+    bench.write(
+        "other.vcd",
+        dump(
+            &["top"],
+            &["reg 1 a", "reg 1 b", "reg 1 c"],
+            &[&["1", "0", "1"], &["0", "1", "1"]],
+        ),
+    );
+    bench.write(
+        "map.toml",
+        "[signals]\n\"top.b\" = { name = \"top.b\", delay = 99 }\n",
+    );
+    let text = expect![[r#"
+        equal: 2 ticks (0 to 1), 1 signal, 2 values
+        golden golden.vcd: clock top.clk, 2 ticks
+        other  other.vcd: clock top.clk, scope top, 2 ticks
+
+        pairs without a value to compare: 2
+          top.a
+          top.b
+
+        signals not compared: 2 without a value
+        values not compared: 2 unknown in golden
+    "#]];
+    shows(&bench, &["--map", "map.toml"], 0, &text);
+    let text = expect![[r#"
+        equal: 2 ticks (0 to 1), 1 signal, 2 values
+        golden golden.vcd: clock top.clk, 2 ticks
+        other  other.vcd: clock top.clk, scope top, 2 ticks
+
+        pairs without a value to compare: 2
+          top.a
+          top.b
+
+        signals not compared: 2 without a value
+        values not compared: 2 unknown in golden
+        error: pairs without a value to compare: 2, and --strict is given
+    "#]];
+    shows(&bench, &["--map", "map.toml", "--strict"], 1, &text);
+    let report = bench.json(&["compare", "golden.vcd", "other.vcd", "--map", "map.toml"]);
+    assert_eq!(
+        report["without_values"],
+        serde_json::json!(["top.a", "top.b"])
+    );
+    assert_eq!(
+        (whole(&report, "/signals"), whole(&report, "/values")),
+        (1, 2)
+    );
+}
+
+#[test]
+fn nothing_to_compare_is_not_equal() {
+    let bench = bench(&golden());
+    let map = "[signals]\n\"counter.count\" = { name = \"counter.count\", delay = 99 }\n\"counter.last\" = { name = \"counter.last\", delay = 4 }\n";
+    bench.write("map.toml", map);
+    let text = expect![[r#"
+        error: other.vcd: values: nothing to compare: by the map's delays ticks 0 to 3 are behind the end of this file; allowed: delays that leave a tick of both; --from and --ticks choose other ticks
+    "#]];
+    shows(&bench, &["--map", "map.toml"], 2, &text);
+    bench.write("map.toml", map.replace("delay = 4", "delay = 3"));
+    let report = bench.json(&["compare", "golden.vcd", "other.vcd", "--map", "map.toml"]);
+    assert_eq!(whole(&report, "/values"), 1);
+
+    let unknown: [&[&str]; 2] = [&["x", "z"], &["0x0", "x"]];
+    bench.write("golden.vcd", dump(&["counter"], &VARIABLES, &unknown));
+    let text = expect![[r#"
+        error: golden.vcd: values: nothing to compare: in ticks 0 to 1 all 4 values are x, z or not yet set; allowed: a golden file with known values there; --from and --ticks choose other ticks
+    "#]];
+    shows(&bench, &[], 2, &text);
+    // A partner of another width is a difference all the same.
+    let other = dump(
+        &["counter"],
+        &["reg 4 count [3:0]", "wire 2 last [1:0]"],
+        &ROWS,
+    );
+    bench.write("other.vcd", other);
+    let done = bench.run(&["compare", "golden.vcd", "other.vcd"]);
+    assert_eq!(
+        (done.code, done.stderr.as_str()),
+        (1, "error: the files differ\n")
+    );
+}
+
+#[test]
 fn words_of_memories_are_elements() {
     let words = ["wire 4 word0 [3:0]", "wire 4 word1 [3:0]"];
     let rows: [&[&str]; 2] = [&["1", "10"], &["11", "10"]];
