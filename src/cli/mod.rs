@@ -49,6 +49,9 @@ pub enum Failure {
     /// A run that a monitor ended, or whose waves cannot be written: 2 for the latter, else 1.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// What its arguments leave undecided: 2.
+    #[error("{0}")]
+    Undecided(String),
     /// What should hold does not: 1.
     #[error("{0}")]
     Check(String),

@@ -143,6 +143,48 @@ fn a_circuit_that_is_named_twice_is_checked_once() {
 }
 
 #[test]
+fn what_is_not_decided_is_no_counterexample() {
+    let bench = Bench::new();
+    let work = ["check", "unit_law", "sync_stage", "--limit", "10"];
+    let files = ["a.json".to_owned(), "b.json".to_owned()];
+    for (part_of, file, code) in [("1/2", &files[0], 2), ("2/2", &files[1], 0)] {
+        assert_eq!(part(&bench, &work, part_of, file).code, code, "{part_of}");
+    }
+    let (whole, merged) = (bench.run(&work), merge(&bench, &files));
+    assert_eq!((whole.code, merged.code), (2, 2));
+    assert_eq!(merged.stderr, whole.stderr);
+
+    // A counterexample beside it is what counts, in whichever part.
+    let mut broken: Value = serde_json::from_str(&bench.read("b.json")).unwrap();
+    broken["rows"][0]["ended"] = json!("broken");
+    broken["rows"][0]["fault"] = json!("sync_stage: made up");
+    bench.write("b.json", broken.to_string());
+    let merged = merge(&bench, &files);
+    assert_eq!(merged.code, 1);
+    for text in ["not decided within 10 states", "sync_stage: made up"] {
+        assert!(merged.stderr.contains(text), "{}", merged.stderr);
+    }
+}
+
+#[test]
+fn a_counterexample_in_a_part_of_a_sweep_is_the_one_that_counts() {
+    let bench = Bench::new();
+    let work = ["check", "integrator", "--width", "3"];
+    let files = parts(&bench, &work, 2);
+    for (file, ended) in [(&files[0], "too_wide"), (&files[1], "broken")] {
+        let mut report: Value = serde_json::from_str(&bench.read(file)).unwrap();
+        report["rows"][0]["ended"] = json!(ended);
+        report["rows"][0]["fault"] = json!(ended);
+        bench.write(file, report.to_string());
+    }
+    let merged = merge(&bench, &files);
+    assert_eq!(
+        (merged.code, merged.stderr.as_str()),
+        (1, "error: broken\n")
+    );
+}
+
+#[test]
 fn missing_parts_are_listed_as_far_as_one_reads() {
     let bench = Bench::new();
     let work = ["check", "sync_stage"];

@@ -30,7 +30,7 @@ fn a_proof_that_is_given_up_fails() {
     Bench::new()
         .command(&["check", "unit_law", "--limit", "10"])
         .assert()
-        .code(1)
+        .code(2)
         .stdout(predicate::str::contains("not decided"))
         .stderr("error: unit_law: not decided within 10 states; allowed: a larger --limit\n");
 }
@@ -64,7 +64,7 @@ fn one_circuit_that_is_too_wide_does_not_hide_the_others() {
     Bench::new()
         .command(&["check", "pulse_interpolator", "--width", "4"])
         .assert()
-        .code(1)
+        .code(2)
         .stdout(predicate::str::contains("too wide"))
         .stderr(predicate::str::starts_with(text));
 }

@@ -240,11 +240,17 @@ fn joined(before: Row, row: Row) -> Row {
     let seconds = before.seconds + row.seconds;
     let whole = match (before.ended, row.ended) {
         (Ended::Holds, Ended::Holds) => Row {
-            states: Some(before.states.unwrap_or(0) + row.states.unwrap_or(0)),
+            states: Some(
+                before
+                    .states
+                    .unwrap_or(0)
+                    .saturating_add(row.states.unwrap_or(0)),
+            ),
             ..before
         },
-        // What is wrong in the lowest case is what counts.
-        (Ended::Holds, _) => row,
+        // What is wrong in the lowest case is what counts, and before all a counterexample.
+        (Ended::Broken, _) => before,
+        (Ended::Holds, _) | (_, Ended::Broken) => row,
         _ => before,
     };
     Row { seconds, ..whole }

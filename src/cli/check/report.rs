@@ -124,16 +124,19 @@ impl Report {
         table
     }
 
-    /// A failure where something does not hold.
+    /// A failure where something does not hold, and another where it is left undecided: that is a
+    /// matter of the arguments.
     pub fn faults(&self) -> Result<(), Failure> {
         let faults: Vec<_> = self
             .rows
             .iter()
             .filter_map(|row| row.fault.clone())
             .collect();
+        let any = |ended: Ended| self.rows.iter().any(|row| row.ended == ended);
         match faults.is_empty() {
             true => Ok(()),
-            false => Err(Failure::Check(faults.join("\n"))),
+            false if any(Ended::Broken) => Err(Failure::Check(faults.join("\n"))),
+            false => Err(Failure::Undecided(faults.join("\n"))),
         }
     }
 }

@@ -181,7 +181,9 @@ fn sweep(
         Ok(Verdict::Undecided(_)) => row,
         Err(error) => Row {
             ended: Ended::TooWide,
-            fault: Some(format!("{name} at width {width}: {error}")),
+            fault: Some(format!(
+                "{name} at width {width}: {error}; allowed: a smaller --width"
+            )),
             ..row
         },
     })
