@@ -68,8 +68,9 @@ impl Files {
                 Ok(path) => named.push(path),
                 Err(error) => {
                     for path in named {
-                        // The first error is the one to report.
-                        let _ = std::fs::remove_file(path);
+                        // A link stays, and what it leads to goes. The first error is the one to
+                        // report.
+                        let _ = path.canonicalize().and_then(std::fs::remove_file);
                     }
                     return Err(error);
                 }

@@ -8,26 +8,28 @@ use tempfile::NamedTempFile;
 /// A file that takes its name only when it is complete.
 ///
 /// What is written goes to a temporary file in the same directory; [`commit`](AtomicFile::commit)
-/// renames it, which replaces an older file in one step. Dropped before that, it leaves nothing.
-/// It does not buffer.
+/// renames it, which replaces an older file in one step. Where the name is a symbolic link, it is
+/// the file that it leads to which is replaced, and the temporary file stands beside that one.
+/// Dropped before it is committed, it leaves nothing. It does not buffer.
 #[derive(Debug)]
+#[must_use = "a file has its name only when it is committed"]
 pub struct AtomicFile {
     file: NamedTempFile,
     path: PathBuf,
+    /// Where the path leads.
+    target: PathBuf,
 }
 
 impl AtomicFile {
     /// Begins the file that will be called `path`.
     ///
     /// # Errors
-    /// The directory does not exist or cannot be written; the error names the path.
+    /// The directory does not exist or cannot be written; what has this name is a directory, a
+    /// pipe, a device, anything but a regular file. The error names the path.
     pub fn create(path: impl Into<PathBuf>) -> io::Result<Self> {
         let path = path.into();
-        if path.is_dir() {
-            let taken = io::Error::new(io::ErrorKind::IsADirectory, "is a directory");
-            return Err(named(&path, &taken));
-        }
-        let directory = match path.parent() {
+        let target = target(&path).map_err(|error| named(&path, &error))?;
+        let directory = match target.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
@@ -40,7 +42,7 @@ impl AtomicFile {
             .tempfile_in(directory)
             // The kind alone: the rest would name the temporary file.
             .map_err(|error| named(&path, &error.kind().into()))?;
-        Ok(AtomicFile { file, path })
+        Ok(AtomicFile { file, path, target })
     }
 
     /// Gives the file its name.
@@ -48,8 +50,8 @@ impl AtomicFile {
     /// # Errors
     /// The rename failed; nothing stays behind. The error names the path.
     pub fn commit(self) -> io::Result<PathBuf> {
-        let AtomicFile { file, path } = self;
-        match file.persist(&path) {
+        let AtomicFile { file, path, target } = self;
+        match file.persist(&target) {
             Ok(_) => Ok(path),
             Err(failed) => Err(named(&path, &failed.error)),
         }
@@ -120,6 +122,35 @@ pub fn write(path: impl Into<PathBuf>, contents: impl AsRef<[u8]>) -> io::Result
 }
 
 fn named(path: &Path, error: &io::Error) -> io::Error {
+/// The links that are followed from a name; as many as Linux follows.
+const LINKS: usize = 40;
+
+/// The regular file that a path leads to, which need not be there yet.
+fn target(path: &Path) -> io::Result<PathBuf> {
+    if let Ok(there) = path.metadata() {
+        if there.is_dir() {
+            return Err(io::Error::new(
+                io::ErrorKind::IsADirectory,
+                "is a directory",
+            ));
+        }
+        // The rename would put a file in the place of the pipe or the device.
+        if !there.is_file() {
+            let problem = "is not a regular file, and only such a file is replaced";
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+        }
+    }
+    let mut target = path.to_owned();
+    for _ in 0..LINKS {
+        match target.read_link() {
+            // A link is relative to where it stands.
+            Ok(link) => target = target.parent().unwrap_or(Path::new("")).join(link),
+            Err(_) => return Ok(target),
+        }
+    }
+    Err(io::Error::other("too many symbolic links"))
+}
+
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
@@ -200,6 +231,61 @@ mod tests {
     }
 
     #[cfg(unix)]
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_and_what_it_leads_to_is_written() {
+        use std::os::unix::fs::symlink;
+        let directory = tempfile::tempdir().unwrap();
+        let at = |name: &str| directory.path().join(name);
+        fs::create_dir(at("far")).unwrap();
+        fs::write(at("far/old"), "old").unwrap();
+        symlink("far/old", at("there")).unwrap();
+        symlink(at("there"), at("by_two")).unwrap();
+        symlink("far/new", at("not_yet")).unwrap();
+        for (link, target) in [
+            ("there", "far/old"),
+            ("by_two", "far/old"),
+            ("not_yet", "far/new"),
+        ] {
+            assert_eq!(write(at(link), link).unwrap(), at(link));
+            assert!(at(link).is_symlink(), "{link}");
+            assert!(!at(target).is_symlink(), "{link}");
+            assert_eq!(fs::read_to_string(at(target)).unwrap(), link);
+        }
+        // The temporary file stands where the rename is one step.
+        let file = AtomicFile::create(at("there")).unwrap();
+        assert_eq!(names(&at("far")).len(), 3);
+        drop(file);
+        symlink("circle", at("circle")).unwrap();
+        let error = write(at("circle"), "").unwrap_err().to_string();
+        assert!(
+            error.ends_with("circle: too many symbolic links"),
+            "{error}"
+        );
+        let left = ["by_two", "circle", "far", "not_yet", "there"];
+        assert_eq!(names(directory.path()), left);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_regular_file_stays() {
+        use std::os::unix::fs::{FileTypeExt, symlink};
+        let directory = tempfile::tempdir().unwrap();
+        let socket = directory.path().join("socket");
+        let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        let link = directory.path().join("link");
+        symlink("socket", &link).unwrap();
+        for path in [&socket, &link] {
+            let error = write(path, "text").unwrap_err();
+            let text = "is not a regular file, and only such a file is replaced";
+            assert_eq!(error.to_string(), format!("{}: {text}", path.display()));
+        }
+        let kind = socket.symlink_metadata().unwrap().file_type();
+        assert!(kind.is_socket());
+        assert!(link.is_symlink());
+        assert_eq!(names(directory.path()), ["link", "socket"]);
+    }
+
     #[test]
     fn a_file_is_as_readable_as_any_other() {
         use std::os::unix::fs::PermissionsExt;

@@ -93,6 +93,34 @@ fn a_disk_that_is_full_leaves_neither_files_nor_directories() {
     assert_eq!(bench.names(), ["l.hpgl"]);
 }
 
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_not_replaced() {
+    let problem = "is not a regular file, and only such a file is replaced";
+    let bench = Bench::with("l.hpgl", LINE);
+    bench.refuse(
+        &["table", "l.hpgl", "--out", "/dev/null"],
+        &format!("--out: /dev/null: {problem}; allowed: a file that can be written"),
+    );
+    bench.write("o/left", "");
+    std::os::unix::fs::symlink("/dev/null", bench.path("o/l.vcd")).unwrap();
+    let text = format!("--out: o/l.vcd: {problem}; {WRITABLE}");
+    bench.refuse(&run(&["--out", "o"]), &text);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_is_followed() {
+    let bench = Bench::with("l.hpgl", LINE);
+    bench.write("far/left", "");
+    bench.write("o/left", "");
+    std::os::unix::fs::symlink("../far/l.vcd", bench.path("o/l.vcd")).unwrap();
+    let said = bench.succeed(&run(&["--out", "o"]));
+    assert!(said.contains("wrote o/l.vcd\n"), "{said}");
+    assert!(bench.path("o/l.vcd").is_symlink());
+    assert!(bench.read("far/l.vcd").starts_with("$"), "no waves");
+}
+
 #[test]
 fn a_table_cannot_replace_a_directory() {
     let bench = Bench::with("l.hpgl", LINE);
