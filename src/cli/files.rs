@@ -54,7 +54,17 @@ impl Files {
 
     /// Writes a whole one.
     pub fn write(&mut self, extension: &str, text: &str) -> Result<(), Failure> {
-        let mut file = self.create(extension)?;
+        let file = self.create(extension)?;
+        self.fill(file, text)
+    }
+
+    /// Writes a whole one with a name of its own.
+    pub fn write_as(&mut self, name: &str, text: &str) -> Result<(), Failure> {
+        let file = self.create_as(name)?;
+        self.fill(file, text)
+    }
+
+    fn fill(&mut self, mut file: AtomicFile, text: &str) -> Result<(), Failure> {
         io::Write::write_all(&mut file, text.as_bytes())?;
         self.push(file);
         Ok(())
@@ -80,5 +90,24 @@ impl Files {
             .iter()
             .map(|path| path.display().to_string())
             .collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_one_cannot_be_named_none_is_there() {
+        let directory = tempfile::tempdir().unwrap();
+        let mut files = Files::begin(directory.path(), "a").unwrap();
+        files.write("one", "1").unwrap();
+        files.write_as("two", "2").unwrap();
+        // In the way only after the file was begun.
+        std::fs::create_dir_all(directory.path().join("two/inside")).unwrap();
+        files.commit().unwrap_err();
+        let left = std::fs::read_dir(directory.path()).unwrap();
+        let left: Vec<_> = left.map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(left, ["two"]);
     }
 }

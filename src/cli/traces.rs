@@ -12,7 +12,7 @@ use motion_rtl::trace::{Clock, LayoutError, Options, StimulusFile, WaveFile, Wav
 use motion_rtl::verilog::Verilog;
 use serde::Serialize;
 use std::fmt;
-use std::io::{self, Write as _};
+use std::io;
 use std::ops::Range;
 use std::path::Path;
 
@@ -145,9 +145,7 @@ fn verilog<C: Circuit>(
     // Every circuit of the crate is printed by a test, so only a new one can fail here.
     let verilog = Verilog::of(circuit).map_err(|error| Failure::Check(error.to_string()))?;
     for source in verilog.sources().iter().chain(&verilog.testbench()) {
-        let mut file = files.create_as(&source.name)?;
-        file.write_all(source.text.as_bytes())?;
-        files.push(file);
+        files.write_as(&source.name, &source.text)?;
     }
     let stimulus = files.create_as(&format!("{}.stimulus", C::NAME))?;
     Ok(StimulusFile::new(stimulus))

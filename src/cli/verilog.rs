@@ -1,15 +1,13 @@
 //! `verilog`: a circuit as Verilog, with a testbench if one is asked for.
 
+use super::files::Files;
 use super::{Failure, check::entry, print};
 use clap::Args;
 use motion_rtl::check::Drive;
-use motion_rtl::kernel::{Role, RunError};
+use motion_rtl::kernel::Role;
 use motion_rtl::registry::AnyModel;
 use motion_rtl::trace::Clock;
-use motion_rtl::trace::atomic::{AtomicFile, Directory};
-use motion_rtl::verilog::SourceFile;
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 /// What to print.
@@ -55,43 +53,26 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
         problem: error.to_string(),
         allowed: "circuits that can be printed".into(),
     })?;
-    let refuse = |error: std::io::Error| Failure::Argument {
-        field: "--out",
-        problem: error.to_string(),
-        allowed: "a directory that can be written".into(),
-    };
-    let directory = Directory::create(&arguments.out).map_err(refuse)?;
-    let create = |name: &str| AtomicFile::create(arguments.out.join(name)).map_err(refuse);
-    let mut complete = Vec::new();
-    let mut write = |source: SourceFile| -> Result<(), Failure> {
-        let mut file = create(&source.name)?;
-        file.write_all(source.text.as_bytes())?;
-        complete.push(file);
-        Ok(())
-    };
-    let name = circuit.name();
+    let mut files = Files::begin(&arguments.out, circuit.name())?;
     let mut text = String::new();
     for source in verilog.sources() {
-        write(source)?;
+        files.write_as(&source.name, &source.text)?;
     }
     if let Some(ticks) = arguments.testbench {
-        verilog.testbench().map_or(Ok(()), &mut write)?;
+        if let Some(source) = verilog.testbench() {
+            files.write_as(&source.name, &source.text)?;
+        }
         let drive = Drive {
             seed: arguments.seed,
             ticks,
             resets: true,
             clock: clock(arguments)?,
         };
-        let mut waves = create(&format!("{name}.vcd"))?;
-        let mut stimulus = create(&format!("{name}.stimulus"))?;
-        let driven =
-            circuit
-                .drive(&drive, &mut waves, &mut stimulus)
-                .map_err(|error| match error {
-                    RunError::Waves(error) => refuse(error),
-                    other => Failure::Run(other),
-                })?;
-        complete.extend([waves, stimulus]);
+        let mut waves = files.create("vcd")?;
+        let mut stimulus = files.create("stimulus")?;
+        let driven = circuit.drive(&drive, &mut waves, &mut stimulus)?;
+        files.push(waves);
+        files.push(stimulus);
         let (seen, bits) = driven.coverage.bits();
         // Writing to a string does not fail.
         let _ = writeln!(
@@ -105,11 +86,9 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
             word(&*circuit)
         );
     }
-    for file in complete {
-        let path = file.commit().map_err(refuse)?;
-        let _ = writeln!(text, "{}", path.display());
+    for path in files.commit()? {
+        let _ = writeln!(text, "{path}");
     }
-    drop(directory);
     print(&text)
 }
 
