@@ -4,7 +4,7 @@ use super::files::Files;
 use super::job::{Input, Job, Source};
 use super::picture::{Following, draw};
 use super::summary::Summary;
-use super::traces::{Focus, Format, Traces, conclude, no_such_tick};
+use super::traces::{Focus, Format, Traces, conclude};
 use super::{Failure, arc, lead_angle, linear, machine, trajectory};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
@@ -101,7 +101,6 @@ fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
         2 => simulate::<2>(arguments, &job, &options),
         _ => simulate::<3>(arguments, &job, &options),
     }?;
-    no_such_tick(&options, played.ticks)?;
     let following =
         Following::new(&job, &played).map_err(|error| Failure::Check(error.to_string()))?;
     let summary = Summary::new(&job, &played, &following.largest);

@@ -112,8 +112,10 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
         self.waves.is_none() && self.stimulus.is_none()
     }
 
-    /// Closes them after so many ticks, and writes the save file.
+    /// Closes them after so many ticks, and writes the save file; refuses a window of which the run
+    /// has no tick.
     pub fn finish(mut self, circuit: &C, focus: &Focus, ticks: u64) -> Result<Files, Failure> {
+        no_such_tick(self.options, ticks)?;
         if let Some(stimulus) = self.stimulus {
             self.files.push(stimulus.finish()?);
         }
@@ -123,7 +125,8 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
                 true => focus.action.saturating_sub(focus.before).max(start),
                 false => start,
             };
-            let window = first..(first + focus.shown).min(ticks.max(first + 1));
+            let end = first.saturating_add(focus.shown);
+            let window = first..end.min(ticks.max(first.saturating_add(1)));
             // First, as both take memory for every word of the circuit's memories.
             let file = waves.finish().map_err(RunError::Waves)?;
             self.files.push(file);

@@ -103,6 +103,11 @@ fn windows_and_scopes_that_are_none_are_refused() {
     let end = "18446744073709551615";
     let text = format!("--from, --to: no tick from {end} to {end}; allowed: --from below --to");
     refuse(&["--from", end], &text);
+    let last = "18446744073709551614";
+    let done = bench.run(&[&["run", "p.hpgl", "--from", last], &SHORT[..]].concat());
+    let text = format!("error: --from: is {last}; allowed: 0 to ");
+    assert!(done.stderr.starts_with(&text), "{}", done.stderr);
+    assert_eq!((done.code, bench.names()), (2, vec!["p.hpgl".to_owned()]));
     for scope in ["nope", "", "pulse_interpolator.z", "pulse_interpolator.x."] {
         let text = format!("--only: there is no {scope}; allowed: a signal, or a scope: {SCOPES}");
         refuse(&["--only", scope], &text);

@@ -15,7 +15,7 @@ pub use job::Job;
 use super::Failure;
 use super::files::Files;
 use super::run::{Arguments, Progress, options};
-use super::traces::{Focus, Traces, conclude, no_such_tick};
+use super::traces::{Focus, Traces, conclude};
 use figures::Figures;
 use motion_rtl::arc_generator::job::{Played, arc_generator, play};
 use motion_rtl::trace::Options;
@@ -29,7 +29,6 @@ const SAMPLES_SHOWN: u64 = 12;
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (played, mut files) = simulate(arguments, job, &options)?;
-    no_such_tick(&options, played.ticks)?;
     let figures = Figures::of(job, &played);
     files.write("svg", &draw(job, &figures))?;
     let summary = Summary::new(job, &played, &figures);

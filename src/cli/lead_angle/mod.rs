@@ -13,7 +13,7 @@ pub use job::Job;
 use super::Failure;
 use super::files::Files;
 use super::run::{Arguments, Progress, options};
-use super::traces::{Focus, Traces, conclude, no_such_tick};
+use super::traces::{Focus, Traces, conclude};
 use motion_rtl::kernel::Without;
 use motion_rtl::lead_angle::job::{
     Conventional, JobError, JobLead, Played, RamLead, ShiftLead, play, positioner,
@@ -36,7 +36,6 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         History::ShiftRegister => simulate::<ShiftLead>(arguments, job, &options),
         History::Ram => simulate::<RamLead>(arguments, job, &options),
     }?;
-    no_such_tick(&options, own.ticks)?;
     let played = systems(&job.settings).into_iter().map(|system| {
         let played = match system.own {
             true => own.clone(),

@@ -12,7 +12,7 @@ pub use job::Job;
 use super::Failure;
 use super::files::Files;
 use super::run::{Arguments, Progress, options};
-use super::traces::{Focus, Traces, conclude, no_such_tick};
+use super::traces::{Focus, Traces, conclude};
 use motion_rtl::kernel::Without;
 use motion_rtl::linear_interpolator::job::{JobError, conventional, play, plotter};
 use motion_rtl::linear_interpolator::measure::Played;
@@ -36,7 +36,6 @@ pub struct Runs {
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (interpolator, mut files) = simulate(arguments, job, &options)?;
-    no_such_tick(&options, interpolator.ticks)?;
     let progress = Progress::new(interpolator.ticks);
     let conventional = play(
         &conventional(),

@@ -12,7 +12,7 @@ pub use job::Job;
 use super::Failure;
 use super::files::Files;
 use super::run::{Arguments, Progress, options};
-use super::traces::{Focus, Traces, conclude, no_such_tick};
+use super::traces::{Focus, Traces, conclude};
 use motion_rtl::kernel::Without;
 use motion_rtl::machine::job::{JobError, Played, machine, play};
 use motion_rtl::machine::measure::Measured;
@@ -60,7 +60,6 @@ const OVERVIEW: [&str; 28] = [
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (played, mut files) = simulate(arguments, job, &options)?;
-    no_such_tick(&options, played.ticks)?;
     let measured = Measured::of(&job.drawing, &job.program, &job.settings, &played)
         .map_err(|error| Failure::Check(error.to_string()))?;
     files.write("svg", &picture::draw(job, &played, &measured))?;

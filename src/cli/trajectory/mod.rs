@@ -13,7 +13,7 @@ pub use job::{Job, MACHINE};
 use super::Failure;
 use super::files::Files;
 use super::run::{Arguments, Progress, options};
-use super::traces::{Focus, Traces, conclude, no_such_tick};
+use super::traces::{Focus, Traces, conclude};
 use motion_rtl::kernel::RunError;
 use motion_rtl::plant::{ParameterError, TwoMassAxis};
 use motion_rtl::trace::Options;
@@ -38,7 +38,6 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         2 => all::<2>(arguments, job, &options),
         _ => all::<3>(arguments, job, &options),
     }?;
-    no_such_tick(&options, runs.traced().ticks)?;
     files.write("svg", &draw(job, &runs))?;
     let summary = Summary::new(job, &runs);
     conclude(arguments, &options, runs.traced().ticks, files, summary)
