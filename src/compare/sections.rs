@@ -4,7 +4,9 @@
 use crate::input::Fault;
 
 /// The most that deflate can make of a byte.
-const EXPANSION: u64 = 1032;
+const DEFLATE: u64 = 1032;
+/// The most that LZ4 can make of a byte.
+const LZ4: u64 = 255;
 
 const HEADER: u8 = 0;
 const GEOMETRY: u8 = 3;
@@ -69,7 +71,7 @@ fn sections(mut rest: &[u8]) -> Option<Vec<Section<'_>>> {
 /// Nothing where the section claims too much.
 fn fits(section: &Section<'_>, handles: u64) -> Option<()> {
     let bytes = section.bytes;
-    let room = (bytes.len() as u64).checked_mul(EXPANSION)?;
+    let room = (bytes.len() as u64).checked_mul(DEFLATE)?;
     let within = |value: u64, most: u64| (value <= most).then_some(());
     match section.kind {
         HEADER => within(320, bytes.len() as u64),
@@ -94,8 +96,48 @@ fn fits(section: &Section<'_>, handles: u64) -> Option<()> {
             within(uncompressed, room)?;
             within(number(bytes, 8)?, uncompressed)
         }
-        // The hierarchy, however it is compressed.
-        4 | 6 | 7 => within(number(bytes, 0)?, room.saturating_mul(EXPANSION)),
+        // The hierarchy: by deflate, by LZ4, by LZ4 twice with the length in between.
+        4 => within(number(bytes, 0)?, room),
+        6 => within(number(bytes, 0)?, (bytes.len() as u64).checked_mul(LZ4)?),
+        7 => {
+            let (once, rest) = varint(bytes.get(8..)?)?;
+            within(once, (rest.len() as u64).checked_mul(LZ4)?)?;
+            within(number(bytes, 0)?, once.checked_mul(LZ4)?)
+        }
         _ => Some(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a hierarchy of this kind holds what it claims, if `rest` is behind the claim.
+    fn holds(kind: u8, claim: u64, rest: &[u8]) -> bool {
+        let bytes = [&claim.to_be_bytes(), rest].concat();
+        let section = Section {
+            kind,
+            bytes: &bytes,
+        };
+        fits(&section, 0).is_some()
+    }
+
+    #[test]
+    fn a_hierarchy_holds_what_its_compression_can_make_of_it() {
+        let rest = [0; 92];
+        for (kind, most) in [(4, 100 * 1032), (6, 100 * 255)] {
+            assert!(holds(kind, most, &rest), "{kind}");
+            assert!(!holds(kind, most + 1, &rest), "{kind}");
+        }
+        // 300 bytes after the first step, of which there are two here.
+        let twice = [0xac, 0x02, 0, 0];
+        assert!(holds(7, 300 * 255, &twice));
+        assert!(!holds(7, 300 * 255 + 1, &twice));
+        // More after the first step than two bytes can be.
+        let [low, high] = [0xff, 0x03];
+        assert!(!holds(7, 1, &[low, high, 0, 0]));
+        for kind in [4, 6, 7] {
+            assert!(!holds(kind, u64::MAX, &rest), "{kind}");
+        }
     }
 }
