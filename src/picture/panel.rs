@@ -1,5 +1,5 @@
 use super::points::Points;
-use super::scale::{Scale, label, range};
+use super::scale::{Scale, range};
 use svg::node::element::path::Data;
 use svg::node::element::{Circle, Group, Line, Path, Rectangle, Text};
 
@@ -226,14 +226,14 @@ impl Panel {
             true => Vec::new(),
             false => scale.ticks(count.max(2.0)),
         };
-        for tick in ticks(x, across / 90.0) {
+        for (tick, label) in ticks(x, across / 90.0) {
             let at = x.pixel(tick);
-            let words = text(&label(tick), at, frame + down + 16.0).set("text-anchor", "middle");
+            let words = text(&label, at, frame + down + 16.0).set("text-anchor", "middle");
             group = group.add(line(at, frame, at, frame + down)).add(words);
         }
-        for tick in ticks(y, down / if self.equal { 45.0 } else { 30.0 }) {
+        for (tick, label) in ticks(y, down / if self.equal { 45.0 } else { 30.0 }) {
             let at = y.pixel(tick);
-            let words = text(&label(tick), left - 6.0, at + 4.0).set("text-anchor", "end");
+            let words = text(&label, left - 6.0, at + 4.0).set("text-anchor", "end");
             group = group.add(line(left, at, left + across, at)).add(words);
         }
         let border = Rectangle::new()
