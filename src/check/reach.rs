@@ -40,6 +40,7 @@ pub struct Progress {
 }
 
 /// How a search ended.
+#[must_use = "a counterexample is seen by looking at it"]
 pub enum Outcome<C: Circuit> {
     /// The invariants hold.
     Proof(Proof),
@@ -101,6 +102,7 @@ type Only<'a, C> = dyn Fn(&<C as Circuit>::In<Sim>) -> bool + 'a;
 type Assume<'a, C> = dyn Fn(&<C as Circuit>::Reg<Sim>, &<C as Circuit>::In<Sim>) -> bool + 'a;
 
 /// A search to be run; see [`reach`].
+#[must_use = "nothing is searched before it runs"]
 pub struct Reach<'a, C: Circuit> {
     circuit: &'a C,
     invariants: &'a Invariants<'a, C>,
@@ -116,6 +118,7 @@ pub struct Reach<'a, C: Circuit> {
 /// counterexample.
 ///
 /// The same circuit gives the same outcome on every run.
+#[must_use = "nothing is searched before it runs"]
 pub fn reach<'a, C: Circuit>(circuit: &'a C, invariants: &'a Invariants<'a, C>) -> Reach<'a, C> {
     Reach {
         circuit,
@@ -131,7 +134,6 @@ pub fn reach<'a, C: Circuit>(circuit: &'a C, invariants: &'a Invariants<'a, C>) 
 impl<'a, C: Circuit> Reach<'a, C> {
     /// Leaves out the inputs that are never applied, whatever the state: sorted out once, they cost
     /// nothing in each state, as those that an assumption excludes do.
-    #[must_use]
     pub fn inputs(mut self, possible: impl Fn(&C::In<Sim>) -> bool + 'a) -> Self {
         self.only = Some(Box::new(possible));
         self
@@ -139,7 +141,6 @@ impl<'a, C: Circuit> Reach<'a, C> {
 
     /// Leaves out the inputs that the surroundings never apply in a state; of several assumptions
     /// all hold.
-    #[must_use]
     pub fn assume(mut self, possible: impl Fn(&C::Reg<Sim>, &C::In<Sim>) -> bool + 'a) -> Self {
         self.assume.push(Box::new(possible));
         self
@@ -147,7 +148,6 @@ impl<'a, C: Circuit> Reach<'a, C> {
 
     /// Ends the search undecided where there are more states than this; unless set, 2^26. A state
     /// takes 16 bytes, and as many more where the visited set is no bitmap.
-    #[must_use]
     pub fn limit(mut self, states: u32) -> Self {
         self.limit = states;
         self
@@ -156,14 +156,12 @@ impl<'a, C: Circuit> Reach<'a, C> {
     /// Keeps the visited set as a bitmap where the registers have at most `bits` bits, unless set
     /// 32 (512 MiB, of which only the pages in use become resident), at most 36; above, as a hash
     /// set.
-    #[must_use]
     pub fn bitmap_bits(mut self, bits: usize) -> Self {
         self.bitmap_bits = bits;
         self
     }
 
     /// Calls `report` now and then.
-    #[must_use]
     pub fn progress(mut self, report: impl FnMut(&Progress) + 'a) -> Self {
         self.progress = Some(Box::new(report));
         self

@@ -47,6 +47,7 @@ pub trait Law: Sync {
 }
 
 /// How a sweep ended.
+#[must_use = "a counterexample is seen by looking at it"]
 pub enum Swept<C: Circuit> {
     /// Every case is as expected: how many there are, without those that are not meant.
     Held(u64),
@@ -82,6 +83,7 @@ impl<C: Circuit> fmt::Debug for Swept<C> {
 }
 
 /// A sweep to be run; see [`sweep()`].
+#[must_use = "nothing is checked before it runs"]
 pub struct Sweep<'a, W: Law> {
     law: &'a W,
     range: Option<Range<u64>>,
@@ -90,6 +92,7 @@ pub struct Sweep<'a, W: Law> {
 
 /// Checks a law on every case: [`Lanes`] of them at a time, on as many threads as rayon has. The
 /// counterexample is the case with the lowest index, however many threads and lanes there are.
+#[must_use = "nothing is checked before it runs"]
 pub fn sweep<W: Law>(law: &W) -> Sweep<'_, W> {
     Sweep {
         law,
@@ -109,24 +112,24 @@ pub fn cases<W: Law>() -> Result<u64, TooWide> {
 
 impl<'a, W: Law> Sweep<'a, W> {
     /// Checks only the cases with these indices, as far as there are such.
-    #[must_use]
     pub fn range(mut self, range: Range<u64>) -> Self {
         self.range = Some(range);
         self
     }
 
     /// Calls `report` now and then with the number of cases that were looked at since.
-    #[must_use]
     pub fn progress(mut self, report: &'a (dyn Fn(u64) + Sync)) -> Self {
         self.progress = Some(report);
         self
     }
 
     /// Runs it with `K` lanes of elements `E`, in which every word of the circuit has to fit.
+    /// Without lanes it is not compiled.
     ///
     /// # Errors
     /// A case has more than 63 bits, or what is seen more than 64.
     pub fn run<const K: usize, E: Element>(self) -> Result<Swept<W::Circuit>, TooWide> {
+        const { assert!(K > 0, "a sweep needs a lane") };
         let law = self.law;
         let held = AtomicU64::new(0);
         let first = self.first(|chunk| {

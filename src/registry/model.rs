@@ -97,6 +97,7 @@ pub trait AnyCircuit: AnyModel {
 
 /// How a proof or a sweep ended.
 #[derive(Debug)]
+#[must_use = "that something is broken is seen by looking at it"]
 pub enum Verdict<P = Proof> {
     /// Every invariant holds.
     Proved(P),

@@ -77,6 +77,7 @@ impl Seek for AtomicFile {
 
 /// A directory that is there from now on; dropped while it is still empty, it goes again.
 #[derive(Debug)]
+#[must_use = "dropped, an empty directory goes again"]
 pub struct Directory {
     /// What was not there before, innermost first.
     made: Vec<PathBuf>,
@@ -121,7 +122,6 @@ pub fn write(path: impl Into<PathBuf>, contents: impl AsRef<[u8]>) -> io::Result
     file.commit()
 }
 
-fn named(path: &Path, error: &io::Error) -> io::Error {
 /// The links that are followed from a name; as many as Linux follows.
 const LINKS: usize = 40;
 
@@ -151,6 +151,7 @@ fn target(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many symbolic links"))
 }
 
+fn named(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
@@ -231,7 +232,6 @@ mod tests {
     }
 
     #[cfg(unix)]
-    #[cfg(unix)]
     #[test]
     fn a_link_stays_and_what_it_leads_to_is_written() {
         use std::os::unix::fs::symlink;
@@ -286,6 +286,7 @@ mod tests {
         assert_eq!(names(directory.path()), ["link", "socket"]);
     }
 
+    #[cfg(unix)]
     #[test]
     fn a_file_is_as_readable_as_any_other() {
         use std::os::unix::fs::PermissionsExt;

@@ -94,7 +94,8 @@ fn progress_is_reported_at_every_depth() {
     let none = Invariants::new();
     let mut reports = Vec::new();
     let report = |progress: &Progress| reports.push(*progress);
-    reach(&circuit, &none).progress(report).run().unwrap();
+    let outcome = reach(&circuit, &none).progress(report).run().unwrap();
+    assert!(outcome.proof().is_some(), "{outcome}");
     let expected: Vec<_> = (0..5)
         .map(|depth| Progress {
             states: depth + 1,
