@@ -3,6 +3,7 @@
 use super::Job;
 use super::figures::Figures;
 use super::rows::{ArcRow, bound};
+use crate::cli::verdict::first;
 use motion_rtl::arc_generator::job::Played;
 use motion_rtl::arc_generator::vector::distance;
 use motion_rtl::arc_generator::widths::Widths;
@@ -52,7 +53,7 @@ fn end(job: &Job, played: &Played) -> Option<String> {
 fn astray(job: &Job, figures: &Figures) -> Option<String> {
     let bounds = bounds(job, figures);
     let samples = (0..).zip(&figures.points);
-    let mut astray = samples.filter_map(|(sample, point)| {
+    let astray = samples.filter_map(|(sample, point)| {
         let off = distance(job.prepared.point(sample)?, *point);
         let most = bounds.get(job.prepared.place(sample)?.segment)?;
         // Written so that NaN fails.
@@ -62,11 +63,7 @@ fn astray(job: &Job, figures: &Figures) -> Option<String> {
             format!("sample {sample} is {off:.3} um off its exact point, its bound is {most:.3} um")
         })
     });
-    let text = astray.next()?;
-    Some(match astray.count() {
-        0 => text,
-        more => format!("{text} (and {more} more like it)"),
-    })
+    first(astray)
 }
 
 /// How far the samples of each segment may be off, in mm.

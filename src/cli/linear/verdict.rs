@@ -1,6 +1,7 @@
 //! Whether a run did what its targets say.
 
 use super::{Job, Runs};
+use crate::cli::verdict::first;
 use motion_rtl::linear_interpolator::measure::{Played, Segment};
 use motion_rtl::linear_interpolator::settings::{AXIS_NAMES, Rule};
 use motion_rtl::linear_interpolator::targets::Target;
@@ -71,15 +72,6 @@ fn of_system(
         complaints.push(format!("{} targets were too far away", played.refused));
     }
     complaints
-}
-
-/// The first of some complaints of a kind, and how many more there are.
-fn first(mut all: impl Iterator<Item = String>) -> Option<String> {
-    let text = all.next()?;
-    Some(match all.count() {
-        0 => text,
-        more => format!("{text} (and {more} more like it)"),
-    })
 }
 
 #[cfg(test)]
@@ -168,14 +160,5 @@ mod tests {
         let segments = off.segments([1.0; 2]);
         let free = of_system(&off, &segments, &[target(4, 2)], None);
         assert_eq!(free, [""; 0]);
-    }
-
-    #[test]
-    fn the_first_of_many_stands_for_all() {
-        let all = |count: usize| first((0..count).map(|k| format!("{k} ends")));
-        assert_eq!(all(0), None);
-        assert_eq!(all(1).unwrap(), "0 ends");
-        assert_eq!(all(2).unwrap(), "0 ends (and 1 more like it)");
-        assert_eq!(all(4).unwrap(), "0 ends (and 3 more like it)");
     }
 }
