@@ -26,9 +26,8 @@ pub struct Driven {
 }
 
 /// Drives a circuit from power-on with random inputs, and writes all of its signals as waves and
-/// what went into it as a
-/// [`StimulusFile`](crate::trace::StimulusFile): with both, another form of the circuit can be held
-/// against this one, tick by tick. The same [`Drive`] gives the same bytes.
+/// what went into it as a [`StimulusFile`](crate::trace::StimulusFile): with both, another form of
+/// the circuit can be held against this one, tick by tick. The same [`Drive`] gives the same bytes.
 ///
 /// # Errors
 /// A writer failed; a register changed where the [clock is gated](Circuit::gated), or otherwise than

@@ -3,11 +3,11 @@
 //! [`reach`] visits every state a circuit can reach from power-on under every input, and checks
 //! [`Invariants`] on every transition. At the small widths at which that ends, it is a proof over
 //! all input sequences of any length. [`sweep()`] checks a [`Law`] on every case of a finite space,
-//! many side by side, where words are too wide for that. [`Monitor`] checks the same invariants along a simulated
-//! run, at any width. [`Pair`] and [`Lockstep`] turn "these two circuits do the same" into such an
-//! invariant. [`drive()`] runs a circuit on a random [`Stimulus`] and writes waves and stimulus, for
-//! a comparison with another form of the circuit, its HDL say; [`Coverage`] tells which bits that
-//! run has moved.
+//! many side by side, where words are too wide for that. [`Monitor`] checks the same invariants
+//! along a simulated run, at any width. [`Pair`] and [`Lockstep`] turn "these two circuits do the
+//! same" into such an invariant. [`drive()`] runs a circuit on a random [`Stimulus`] and writes
+//! waves and stimulus, for a comparison with another form of the circuit, its HDL say; [`Coverage`]
+//! tells which bits that run has moved.
 //!
 //! # What is not in the state
 //!

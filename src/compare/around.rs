@@ -54,8 +54,8 @@ impl Runs {
         }))
     }
 
-    /// The signals that differ in this tick, then others of the scope of the first: registers,
-    /// then the rest. Then registers and inputs of the scopes around it, from the inside out; at the end
+    /// The signals that differ in this tick, then others of the scope of the first: registers, then
+    /// the rest. Then registers and inputs of the scopes around it, from the inside out; at the end
     /// what else there is between it and the outermost scope.
     fn shown(&self, pairs: &[Pair], differing: &[(u64, usize, u64)], tick: u64) -> Vec<usize> {
         let variable = |place: usize| &self.golden.wave.variables[pairs[place].golden];

@@ -105,8 +105,8 @@ signals! {
     }
 }
 
-/// Servo control with counts of `W` bits, points of `P`, gains of the model of `K` and of the loops of `G`, torques
-/// of `T`; `M` = P + K + 1 and `Q` = P + 11 are the words of its products.
+/// Servo control with counts of `W` bits, points of `P`, gains of the model of `K` and of the loops
+/// of `G`, torques of `T`; `M` = P + K + 1 and `Q` = P + 11 are the words of its products.
 #[derive(Debug, Clone, Default)]
 pub struct Servo<
     const W: usize,
