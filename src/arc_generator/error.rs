@@ -1,6 +1,7 @@
 //! Why a path cannot be generated.
 
 use super::circle::CircleError;
+use crate::plan::digits::{round_down, round_up};
 use std::fmt;
 
 /// A piece that cannot be generated.
@@ -49,6 +50,14 @@ pub enum Reason {
         /// In mm.
         value: f64,
     },
+    /// A coordinate of the point via is not a number.
+    #[error("{axis} is {value}")]
+    Via {
+        /// "x", "y" or "z".
+        axis: &'static str,
+        /// In mm.
+        value: f64,
+    },
     /// The points make no line or arc.
     #[error(transparent)]
     Circle(#[from] CircleError),
@@ -79,6 +88,14 @@ pub enum Reason {
         length: f64,
         /// The largest speed that fits.
         most: f64,
+    },
+    /// The linear interpolator would go less than a count per scan.
+    #[error("at {speed} mm/s the axis with the longer way goes less than a count per scan")]
+    Slow {
+        /// The wanted speed.
+        speed: f64,
+        /// The smallest speed that it can go in this direction.
+        least: f64,
     },
     /// More samples than a record can hold.
     #[error("takes {samples} samples at {speed} mm/s")]
@@ -132,8 +149,10 @@ impl Reason {
             | Reason::Speed { .. }
             | Reason::Tight { .. }
             | Reason::Overlap { .. }
+            | Reason::Slow { .. }
             | Reason::Samples { .. } => "speed_mm_per_s",
-            Reason::Circle(CircleError::Collinear { .. })
+            Reason::Via { .. }
+            | Reason::Circle(CircleError::Collinear { .. })
             | Reason::Circle(CircleError::Coincident {
                 points: ["start", "via"] | ["via", "end"],
             }) => "via_mm",
@@ -154,11 +173,12 @@ impl Reason {
             | Reason::Speed { .. }
             | Reason::Tight { .. }
             | Reason::Overlap { .. }
+            | Reason::Slow { .. }
             | Reason::Samples { .. } => "F",
             Reason::Circle(CircleError::Helix { .. }) | Reason::Plane { .. } => "Z",
             Reason::Circle(_) | Reason::Gap { .. } => "arc",
             Reason::Reach { what, .. } => what,
-            Reason::Coordinate { axis, .. } => axis,
+            Reason::Coordinate { axis, .. } | Reason::Via { axis, .. } => axis,
         }
     }
 
@@ -173,7 +193,7 @@ impl Reason {
             Reason::Empty => "one piece or more".into(),
             Reason::NoSpeed => "a speed of the piece, or one for all".into(),
             Reason::Speed { .. } => "a speed above 0".into(),
-            Reason::Coordinate { .. } => "a number".into(),
+            Reason::Coordinate { .. } | Reason::Via { .. } => "a number".into(),
             Reason::Circle(CircleError::Coincident { .. }) => "points apart".into(),
             Reason::Circle(CircleError::Collinear { .. }) => {
                 "a point off the line, or a line: no point via".into()
@@ -190,6 +210,11 @@ impl Reason {
                 )
             }
             Reason::Overlap { most, .. } => format!("{}, or shorter blends", at_most(most)),
+            Reason::Slow { least, .. } => {
+                let least = round_up(*least);
+                let feed = round_up(60.0 * least);
+                format!("at least {least} mm/s (F{feed}) in this direction, or a longer scan")
+            }
             Reason::Samples { most, .. } => {
                 format!("at most {most} samples: faster, shorter, or sampled less often")
             }
@@ -200,15 +225,4 @@ impl Reason {
             }
         }
     }
-}
-
-/// Six digits, rounded down: what is said to be allowed must be.
-fn round_down(value: f64) -> f64 {
-    if value <= 0.0 || !value.is_finite() {
-        return value;
-    }
-    let unit = 10f64.powi(value.log10().floor() as i32 - 5);
-    let down = (value / unit).floor() * unit;
-    // The nearest short decimal of that.
-    format!("{down:.12e}").parse().unwrap_or(down)
 }

@@ -75,10 +75,8 @@ impl Piece {
     /// The first that does not hold.
     pub(crate) fn check(&self, from: Point) -> Result<(), Reason> {
         for point in [from, self.to] {
-            for (axis, value) in ["x", "y", "z"].into_iter().zip(point) {
-                if !value.is_finite() {
-                    return Err(Reason::Coordinate { axis, value });
-                }
+            if let Some((axis, value)) = no_number(point) {
+                return Err(Reason::Coordinate { axis, value });
             }
         }
         if !(self.speed.is_finite() && self.speed > 0.0) {
@@ -93,6 +91,12 @@ impl Piece {
         }
         Ok(())
     }
+}
+
+/// The first coordinate that is not a number, if one is not.
+fn no_number(point: Point) -> Option<(&'static str, f64)> {
+    let mut named = ["x", "y", "z"].into_iter().zip(point);
+    named.find(|(_, value)| !value.is_finite())
 }
 
 /// The speeds of the pieces that have none of their own.
@@ -127,7 +131,7 @@ pub struct Taught {
 /// The pieces of taught points.
 ///
 /// # Errors
-/// Three points that make no arc; a piece without a speed where there is none for all either.
+/// Three points that make no arc, or one that is not made of numbers; a piece without a speed where there is none for all either.
 pub fn from_points(
     start: Point,
     taught: &[Taught],
@@ -142,6 +146,9 @@ pub fn from_points(
             line: None,
             reason,
         };
+        if let Some((axis, value)) = taught.via.and_then(no_number) {
+            return Err(refuse(Reason::Via { axis, value }));
+        }
         let course = match taught.via {
             None => Ok(Course::Line),
             Some(via) => Circle::through(begin, via, taught.to).map(Course::Arc),

@@ -132,7 +132,7 @@ impl Prepared {
     /// Number of samples, the start with them.
     #[must_use]
     pub fn samples(&self) -> u64 {
-        self.segments.last().map_or(1, Segment::end) + 1
+        self.segments.last().map_or(0, Segment::end) + 1
     }
 
     /// Where a sample is; `None` behind the last.

@@ -1,14 +1,15 @@
 //! The picture of a run: the path as commanded and as pulsed, and the following error over time.
 
 use super::job::Job;
-use motion_rtl::input::{Course, Move, Point};
+use motion_rtl::input::Course;
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
+use motion_rtl::plan::outline;
 use motion_rtl::plan::{Plan, PlanError};
 use motion_rtl::pulse_interpolator::job::Played;
 use motion_rtl::pulse_interpolator::{AXIS_NAMES, FollowingError};
 
 /// Chords of a full circle.
-const CHORDS: f64 = 180.0;
+const CHORDS: u32 = 180;
 
 /// Following errors at the end of every unit time, as the drivers saw them.
 #[derive(Debug)]
@@ -185,36 +186,12 @@ fn commanded(job: &Job) -> (Points, Points) {
     });
     let mut strokes = Pair::expecting(points.sum());
     let mut at = job.drawing.start;
-    for step in &job.drawing.moves {
+    for (index, step) in job.drawing.moves.iter().enumerate() {
         let to = strokes.of(step.rapid, (at[0], at[1]));
-        match step.course {
-            Course::Line => to.push((step.to[0], step.to[1])),
-            Course::Arc { centre, clockwise } => chords(to, at, step, centre, clockwise),
+        for point in outline(&job.drawing, index, CHORDS) {
+            to.push((point[0], point[1]));
         }
         at = step.to;
     }
     (strokes.drawn.points, strokes.rapid.points)
-}
-
-fn chords(to: &mut Strokes, from: Point, step: &Move, centre: [f64; 2], clockwise: bool) {
-    let polar = |point: Point| {
-        let (x, y) = (point[0] - centre[0], point[1] - centre[1]);
-        (x.hypot(y), y.atan2(x))
-    };
-    let ((r0, a0), (r1, a1)) = (polar(from), polar(step.to));
-    let turn = std::f64::consts::TAU;
-    let full = from[..2] == step.to[..2];
-    let sweep = match (full, clockwise) {
-        (true, false) => turn,
-        (true, true) => -turn,
-        (false, false) => (a1 - a0).rem_euclid(turn),
-        (false, true) => -(a0 - a1).rem_euclid(turn),
-    };
-    let count = (sweep.abs() / turn * CHORDS).ceil().max(1.0) as u32;
-    for k in 1..count {
-        let part = f64::from(k) / f64::from(count);
-        let (r, a) = (r0 + (r1 - r0) * part, a0 + sweep * part);
-        to.push((centre[0] + r * a.cos(), centre[1] + r * a.sin()));
-    }
-    to.push((step.to[0], step.to[1]));
 }

@@ -3,7 +3,7 @@
 
 use super::measure::{Cycle, Played, ScanRecord};
 use super::settings::{AxisSettings, Settings};
-use super::targets::Target;
+use super::targets::{TIME_BITS, Target};
 use super::{CommandSource, Controller, Conventional, LinearInterpolator, Rule, controller};
 use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
 use crate::logic::Sim;
@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 /// Position width of the controller that plays a job.
 const P: usize = 32;
 /// Width of its times.
-const T: usize = 12;
+const T: usize = TIME_BITS;
 /// Full scale of its D/A converters of 16 bits.
 const FULL_SCALE: i64 = (1 << 15) - 1;
 /// Scans without a new command after which an axis that is not in position is given up.

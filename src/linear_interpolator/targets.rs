@@ -6,13 +6,17 @@
 use super::LinearInterpolator;
 use super::settings::{AXIS_NAMES, Settings, ShortMoves};
 use crate::input::{Drawing, Point};
+use crate::plan::digits::round_up;
 use crate::plan::{PlanError, check, chords};
 
 /// Ticks that the dividers need within a scan.
 pub const LATENCY_TICKS: u32 = LinearInterpolator::<6>::LATENCY as u32;
 
 /// Longest time of acceleration and of deceleration, in scans.
-pub const LONGEST_RAMP: u64 = 4095;
+pub const LONGEST_RAMP: u64 = (1 << TIME_BITS) - 1;
+
+/// Width of these times.
+pub(super) const TIME_BITS: usize = 12;
 
 /// Farthest position, in counts on either side of zero.
 pub const REACH_COUNTS: i64 = 1 << 30;
@@ -80,6 +84,16 @@ pub enum TargetError {
         /// The fastest that can be counted.
         most: f64,
     },
+    /// A feed at which the axis with the longer way goes less than a count per scan.
+    #[error("line {line}: feed {value} mm/min: allowed are {least} and more in this direction")]
+    Slow {
+        /// Line of the input; 0 for the way to a start that is not the origin.
+        line: usize,
+        /// The feed in mm/min.
+        value: f64,
+        /// The slowest in this direction, rounded up to six digits.
+        least: f64,
+    },
     /// A position is out of reach.
     #[error("line {line}: {axis} = {counts} counts: allowed are -{REACH_COUNTS} to {REACH_COUNTS}")]
     Position {
@@ -117,8 +131,8 @@ impl TargetError {
 /// # Errors
 ///
 /// A setting outside its range; a drawing with a coordinate, a feed or a radius that cannot be
-/// computed with; a feed that an encoder cannot be counted at; a position out of reach; more than
-/// [`MOST_TARGETS`] cycles.
+/// computed with; a feed that an encoder cannot be counted at, or of less than a count per scan; a
+/// position out of reach; more than [`MOST_TARGETS`] cycles.
 pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<Targets, TargetError> {
     settings.validate()?;
     check(drawing)?;
@@ -190,8 +204,12 @@ impl Compiler<'_> {
         let [x_mm, y_mm] = [0, 1].map(|axis| way[axis] as f64 / settings.counts_per_mm[axis]);
         let longer = way[0].unsigned_abs().max(way[1].unsigned_abs());
         let scans = x_mm.hypot(y_mm) / (feed / 60.0) / settings.scan_s();
-        let speed = longer as f64 / scans;
-        let speed = (speed * (1.0 + ROUNDING)).floor().max(1.0) as u64;
+        let exact = longer as f64 / scans;
+        let Some(speed) = whole_speed(exact) else {
+            let least = round_up(feed / exact);
+            let value = feed;
+            return Err(TargetError::Slow { line, value, least });
+        };
         let speed = speed.min(u64::from(settings.scan_ticks));
         let [acceleration_scans, deceleration_scans] = ramps(settings, longer, speed);
         self.made.targets.push(Target {
@@ -206,6 +224,12 @@ impl Compiler<'_> {
         self.at = to;
         Ok(())
     }
+}
+
+/// A speed in whole counts per scan, never above the one given; none where that is below 1.
+pub(crate) fn whole_speed(exact: f64) -> Option<u64> {
+    let whole = (exact * (1.0 + ROUNDING)).floor() as u64;
+    (whole > 0).then_some(whole)
 }
 
 /// Times of acceleration and deceleration over `distance` counts at `speed`.

@@ -3,7 +3,7 @@
 
 use super::settings::{SettingError, Settings};
 use crate::arc_generator::circle::Circle;
-use crate::arc_generator::error::PathError;
+use crate::arc_generator::error::{PathError, Reason};
 use crate::arc_generator::path::{Course, Piece, Speeds, from_drawing};
 use crate::arc_generator::prepare::prepare;
 use crate::arc_generator::record::{Record, records as arc_records};
@@ -11,6 +11,7 @@ use crate::arc_generator::vector::{add, sub};
 use crate::arc_generator::widths::Widths as ArcWidths;
 use crate::input::{Drawing, Point};
 use crate::lead_angle::settings as lift;
+use crate::linear_interpolator::targets::whole_speed;
 use crate::pulse_interpolator::{Report, Table, TableError, compile};
 use crate::trajectory_controller::Widths;
 use crate::trajectory_controller::planner::plan;
@@ -177,9 +178,31 @@ impl Program {
                     let ramp_s = self.ramp_scans as f64 * settings.scan_s();
                     let length = way[0].hypot(way[1]);
                     let master = way[0].abs().max(way[1].abs());
-                    let scan = speed * settings.counts_per_mm * settings.scan_s();
-                    let speed_word = (scan * master / length.max(1.0)).round().max(1.0) as u64;
-                    (Way::Line { speed: speed_word }, speed, ramp_s)
+                    // Counts a scan of the master axis, at a millimetre a second.
+                    let scale =
+                        settings.counts_per_mm * settings.scan_s() * master / length.max(1.0);
+                    let word = match whole_speed(speed * scale) {
+                        Some(word) => word,
+                        // Shorter than a count: it is not pushed.
+                        None if way == [0.0; 2] => 1,
+                        None => {
+                            let least = 1.0 / scale;
+                            let reason = Reason::Slow { speed, least };
+                            let line = Some(step.line);
+                            return Err(PathError {
+                                piece: index,
+                                line,
+                                reason,
+                            }
+                            .into());
+                        }
+                    };
+                    // The profile goes as fast as the interpolator, which knows whole counts.
+                    let speed = match way == [0.0; 2] {
+                        true => speed,
+                        false => word as f64 / scale,
+                    };
+                    (Way::Line { speed: word }, speed, ramp_s)
                 }
                 Course::Arc(circle) => {
                     let refuse = |error: PathError| PathError {

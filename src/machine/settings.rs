@@ -3,6 +3,7 @@
 use crate::arc_generator::settings::{self as arcs, ShortPieces, refusal, within};
 use crate::lead_angle::settings as lift;
 use crate::linear_interpolator::LinearInterpolator;
+use crate::linear_interpolator::targets::LONGEST_RAMP;
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
 use crate::pulse_interpolator::{self as pulse, StepTiming};
@@ -19,8 +20,6 @@ pub const LEAST_SAMPLE_TICKS: u64 = {
     let (arcs, trajectory) = (arcs::LEAST_SAMPLE_TICKS, trajectory::LEAST_PERIOD_TICKS);
     if arcs > trajectory { arcs } else { trajectory }
 };
-/// Longest acceleration time of the linear interpolator, in scans.
-const MOST_RAMP_SCANS: f64 = 4095.0;
 
 /// Settings of the machine.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,7 +147,16 @@ impl Settings {
             &(1..=1 << 20),
         )?;
         let blend = 2.0 * self.sample_s();
-        let longest = (MOST_RAMP_SCANS * self.scan_s()).max(blend);
+        let longest = LONGEST_RAMP as f64 * self.scan_s();
+        if blend > longest {
+            let problem = format!("is {}", self.sample_ticks);
+            let allowed = format!(
+                "up to {} at scan_ticks = {}: an arc's two sampling times within {LONGEST_RAMP} scans",
+                LONGEST_RAMP * u64::from(self.scan_ticks) / 2,
+                self.scan_ticks
+            );
+            return Err(refusal("sample_ticks", problem, allowed));
+        }
         let range = 1e3 * blend.max(self.scan_s())..=1e3 * longest;
         within("acceleration_ms", self.acceleration_ms, &range)?;
         if self.pen_down_counts == 0 {

@@ -12,7 +12,20 @@ pub(crate) fn ends(
     tolerance_mm: f64,
 ) -> impl Iterator<Item = Point> + use<> {
     let curve = Curve::of_move(drawing, index);
-    let count = curve.chords(tolerance_mm);
+    pieces(curve, curve.chords(tolerance_mm))
+}
+
+/// The same for a picture: of an arc `per_turn` pieces for a turn.
+pub fn outline(
+    drawing: &Drawing,
+    index: usize,
+    per_turn: u32,
+) -> impl Iterator<Item = Point> + use<> {
+    let curve = Curve::of_move(drawing, index);
+    pieces(curve, curve.pieces(per_turn))
+}
+
+fn pieces(curve: Curve, count: u64) -> impl Iterator<Item = Point> {
     (1..=count).map(move |k| match k == count {
         true => curve.at(curve.length),
         false => curve.at(curve.length * (k as f64 / count as f64)),

@@ -130,6 +130,13 @@ impl Curve {
         })
     }
 
+    /// Equal pieces, so many for a turn; one of a line.
+    pub(super) fn pieces(&self, per_turn: u32) -> u64 {
+        self.arc.as_ref().map_or(1, |arc| {
+            ((arc.sweep.abs() / TAU * f64::from(per_turn)).ceil() as u64).max(1)
+        })
+    }
+
     pub(super) fn is_arc(&self) -> bool {
         self.arc.is_some()
     }

@@ -9,12 +9,14 @@
 //! arc taken at its limit while braking may reach √2 times the setting.
 
 pub(crate) mod chords;
+pub(crate) mod digits;
 mod geometry;
 mod profile;
 mod sampler;
 #[cfg(test)]
 mod tests;
 
+pub use chords::outline;
 pub(crate) use geometry::{check, norm};
 pub(crate) use profile::junction;
 pub use profile::{Plan, Segment};

@@ -496,6 +496,12 @@ fn drawings_that_cannot_be_played_are_refused() {
             "p.ngc:2: F: is 300001 mm/min; allowed: up to 300000 mm/min: one count per tick",
         ),
         (
+            "G1 X1 F1000\nG1 X2 F299\n",
+            &[][..],
+            "p.ngc:2: F: at 299 mm/min the axis with the longer way goes less than a count per \
+             scan; allowed: at least 300 mm/min in this direction, or a longer scan (scan_ticks)",
+        ),
+        (
             "G1 X1 F1000\nG1 Y-1000000\n",
             &["--set", "counts_per_mm=[100, 2000]"],
             "p.ngc:2: y: is -2000000000 counts at [100.0, 2000.0] counts/mm; allowed: \

@@ -72,6 +72,21 @@ fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TargetE
             let allowed = format!("up to {most} mm/min: one count per tick");
             drawing_fault(drawing, line, "F", problem, allowed)
         }
+        TargetError::Slow { line, value, least } => {
+            // A speed may come from the scenario: its key is at fault then, on account of this line.
+            let step = drawing.moves.iter().find(|step| step.line == line);
+            let field = match step {
+                Some(step) if !step.rapid && step.feed_mm_per_min.is_some() => "F",
+                Some(step) if !step.rapid => "feed_mm_per_min",
+                _ => "rapid_mm_per_min",
+            };
+            let problem = format!(
+                "at {value} mm/min the axis with the longer way goes less than a count per scan"
+            );
+            let allowed =
+                format!("at least {least} mm/min in this direction, or a longer scan (scan_ticks)");
+            drawing_fault(drawing, line, field, problem, allowed)
+        }
         TargetError::Position { line, axis, counts } => {
             let per_mm = settings.counts_per_mm;
             let problem = format!("is {counts} counts at {per_mm:?} counts/mm");
