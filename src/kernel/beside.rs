@@ -1,4 +1,7 @@
-use super::{Circuit, Extent, Field, Make, Observer, Role, RunError, Sample, Signals, Visit};
+use super::{
+    Circuit, Extent, Field, Make, Moment, Observer, Property, Role, RunError, Sample, Signals,
+    Visit,
+};
 use crate::logic::{Logic, Sim};
 use std::fmt;
 use std::marker::PhantomData;
@@ -28,6 +31,21 @@ impl<C, B> With<C, B> {
             circuit,
             beside: PhantomData,
         }
+    }
+}
+
+// Written out because a derive would ask the bundle itself to be `Clone` and `Debug`.
+impl<C: Clone, B> Clone for With<C, B> {
+    fn clone(&self) -> Self {
+        With::new(self.circuit.clone())
+    }
+}
+
+impl<C: fmt::Debug, B> fmt::Debug for With<C, B> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("With")
+            .field("circuit", &self.circuit)
+            .finish_non_exhaustive()
     }
 }
 
@@ -97,6 +115,35 @@ impl<C: Circuit, B: Beside> Circuit for With<C, B> {
     #[inline(always)]
     fn next<L: Logic>(&self, q: C::Reg<L>, w: &C::Net<L>, i: &WithIn<L, C, B>) -> C::Reg<L> {
         self.circuit.next(q, w, &i.i)
+    }
+
+    #[inline(always)]
+    fn gated<L: Logic>(&self, q: &C::Reg<L>, w: &C::Net<L>, i: &WithIn<L, C, B>) -> Option<L::Bit> {
+        self.circuit.gated(q, w, &i.i)
+    }
+
+    #[inline(always)]
+    fn coasting<L: Logic>(
+        &self,
+        q: &C::Reg<L>,
+        w: &C::Net<L>,
+        i: &WithIn<L, C, B>,
+    ) -> Option<L::Bit> {
+        self.circuit.coasting(q, w, &i.i)
+    }
+
+    #[inline(always)]
+    fn coast<L: Logic>(&self, q: C::Reg<L>) -> C::Reg<L> {
+        self.circuit.coast(q)
+    }
+
+    fn properties<L: Logic>(
+        &self,
+        now: &Moment<'_, Self, L>,
+        next: &C::Reg<L>,
+    ) -> Vec<Property<L>> {
+        let Moment { i, q, w } = *now;
+        self.circuit.properties(&Moment { i: &i.i, q, w }, next)
     }
 
     fn power_on(&self) -> C::Reg<Sim> {

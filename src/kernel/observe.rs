@@ -76,7 +76,7 @@ pub trait Observer<C: Circuit> {
     /// Sees one tick; `Break` ends the run after this tick's edge.
     ///
     /// # Errors
-    /// Ends the run with that error; the registers stay those of this tick.
+    /// Ends the run with that error.
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError>;
 }
 
