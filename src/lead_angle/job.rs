@@ -1,7 +1,7 @@
 //! Positionings one after the other: a compensator, a body, and its brake.
 
 use super::compensator;
-use super::settings::{SPEED_UNIT_COUNTS_PER_S, Settings};
+use super::settings::{SPEED_UNIT_COUNTS_PER_S, SettingError, Settings};
 use super::{Compensator, LeadSource, PositionHistory, RamHistory, SpeedLead, TimeLead, Variant};
 use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
 use crate::logic::{Image, Sim};
@@ -61,6 +61,9 @@ pub fn positioner<P: JobLead>(settings: &Settings) -> Positioner<P> {
 /// Why a job cannot be played.
 #[derive(Debug, thiserror::Error)]
 pub enum JobError {
+    /// A setting is outside its range.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
     /// A body cannot be what the settings say.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
@@ -90,7 +93,7 @@ impl<'a> ControlComputer<'a> {
             halt: false.into(),
             learn: settings.learn.into(),
             common: settings.common_time.into(),
-            last_step: (settings.steps.len() as u64 - 1).into(),
+            last_step: (settings.steps.len().saturating_sub(1) as u64).into(),
             ck_period: u64::from(settings.ck_ticks).into(),
             standstill: cks(settings.standstill_ms).into(),
             time_out: cks(settings.time_out_ms).into(),
@@ -299,12 +302,13 @@ impl Bench<'_> {
 /// too.
 ///
 /// # Errors
-/// A parameter of the body is out of range, or what `observer` objects to.
+/// A setting or a parameter of the body is out of range, or what `observer` objects to.
 pub fn play<P: JobLead>(
     circuit: &Positioner<P>,
     settings: &Settings,
     mut observer: impl Observer<Positioner<P>>,
 ) -> Result<Played, JobError> {
+    settings.validate()?;
     let clock = settings.clock_hz as f64;
     let mut body = BrakedBody::new(&settings.body, 1.0 / clock)?;
     let mut bench = Bench {

@@ -1,7 +1,7 @@
 //! A position log on a compensator: where it would have given its signals, and how good its
 //! predictions were.
 
-use super::job::{ControlComputer, JobLead, Ports, Positioner};
+use super::job::{ControlComputer, JobError, JobLead, Ports, Positioner};
 use super::settings::Settings;
 use crate::input::position_log::PositionLog;
 use crate::kernel::{Observer, RunError, Sample, Simulator, WithIn};
@@ -159,7 +159,8 @@ pub fn replay<P: JobLead>(
     settings: &Settings,
     log: &PositionLog,
     mut observer: impl Observer<Positioner<P>>,
-) -> Result<Replayed, RunError> {
+) -> Result<Replayed, JobError> {
+    settings.validate()?;
     let origin = origin(log);
     let tick_s = 1.0 / settings.clock_hz as f64;
     let ck_s = f64::from(settings.ck_ticks) * tick_s;

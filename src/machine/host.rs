@@ -11,7 +11,7 @@ use super::settings::Settings;
 use super::{enables, ports};
 use crate::arc_generator::record_writer::RecordWriter;
 use crate::kernel::zero;
-use crate::lead_angle::settings::SPEED_UNIT_COUNTS_PER_S;
+use crate::lead_angle::settings::{self as lead_angle, SPEED_UNIT_COUNTS_PER_S};
 use crate::logic::Sim;
 use crate::pulse_interpolator::ControlComputer;
 use crate::trajectory_controller::path_writer::PathWriter;
@@ -54,6 +54,9 @@ pub(super) struct Host<'a> {
     path: PathWriter<'a>,
     arcs: RecordWriter<'a>,
     profile: RecordWriter<'a>,
+    lift_steps: Vec<lead_angle::Step>,
+    /// What the lift is given in every tick.
+    lift: ports::Lift<Sim>,
     /// Lift steps that are written.
     lift_words: usize,
     pub(super) stage: Stage,
@@ -66,8 +69,23 @@ pub(super) struct Host<'a> {
     calm: u32,
 }
 
+/// What the lift is given in every tick, while no step is written.
+fn standing(lift: &lead_angle::Settings) -> ports::Lift<Sim> {
+    let cks = |ms: f64| u64::from(lift.cks(ms)).into();
+    ports::Lift {
+        learn: true.into(),
+        last_step: (lift.steps.len().saturating_sub(1) as u64).into(),
+        standstill: cks(lift.standstill_ms),
+        time_out: cks(lift.time_out_ms),
+        rest: cks(lift.rest_ms),
+        seed: lift.code(lift.seed_ms).unwrap_or(0).into(),
+        ..zero()
+    }
+}
+
 impl<'a> Host<'a> {
     pub(super) fn new(program: &'a Program, settings: &'a Settings) -> Self {
+        let lift = settings.lift();
         Host {
             program,
             settings,
@@ -75,6 +93,8 @@ impl<'a> Host<'a> {
             path: PathWriter::new(&program.path),
             arcs: RecordWriter::new(&program.arcs),
             profile: RecordWriter::new(&program.profile),
+            lift: standing(&lift),
+            lift_steps: lift.steps,
             lift_words: 0,
             stage: Stage::Write,
             index: 0,
@@ -204,7 +224,7 @@ impl<'a> Host<'a> {
             write_path: path.write.into(),
             path_address: (path.segment << 4 | path.word).into(),
             path_data: path.data.into(),
-            last: (program.path.stretches.len() as u64 - 1).into(),
+            last: (program.path.stretches.len().saturating_sub(1) as u64).into(),
             path_end: (program.path.length as i64).into(),
             gain_1: program.gains.k1.into(),
             gain_2: program.gains.k2.into(),
@@ -219,20 +239,10 @@ impl<'a> Host<'a> {
     }
 
     fn lift(&mut self) -> ports::Lift<Sim> {
-        let lift = self.settings.lift();
-        let cks = |ms: f64| u64::from(lift.cks(ms));
-        let (place, step) = (self.lift_words, lift.steps.get(self.lift_words));
-        self.lift_words = (place + 1).min(lift.steps.len() + 1);
+        let steps = &self.lift_steps;
+        let (place, step) = (self.lift_words, steps.get(self.lift_words));
+        self.lift_words = (place + 1).min(steps.len() + 1);
         ports::Lift {
-            a: false.into(),
-            b: false.into(),
-            run: false.into(),
-            learn: true.into(),
-            last_step: (lift.steps.len() as u64 - 1).into(),
-            standstill: cks(lift.standstill_ms).into(),
-            time_out: cks(lift.time_out_ms).into(),
-            rest: cks(lift.rest_ms).into(),
-            seed: lift.code(lift.seed_ms).unwrap_or(0).into(),
             write_target: step.is_some().into(),
             write_step: (place as u64).into(),
             step_target: step.map_or(0, |step| step.target).into(),
@@ -241,6 +251,7 @@ impl<'a> Host<'a> {
                     u64::from(step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S)
                 })
                 .into(),
+            ..self.lift.clone()
         }
     }
 

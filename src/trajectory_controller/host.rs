@@ -53,7 +53,7 @@ impl<'a> Host<'a> {
             write_path: path.write.into(),
             path_address: (path.segment << 4 | path.word).into(),
             path_data: path.data.into(),
-            last: (program.path.stretches.len() as u64 - 1).into(),
+            last: (program.path.stretches.len().saturating_sub(1) as u64).into(),
             path_end: (program.path.length as i64).into(),
             period: u64::from(program.period_ticks).into(),
             gain_1: program.gains.k1.into(),

@@ -49,11 +49,13 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     conclude(arguments, &options, summary.ticks, files, summary)
 }
 
-fn refuse(error: JobError) -> Failure {
+pub(super) fn refuse(error: JobError) -> Failure {
     match error {
         JobError::Run(error) => Failure::Run(error),
         // What the settings let through, a body takes.
-        JobError::Parameter(error) => Failure::Check(error.to_string()),
+        error @ (JobError::Setting(_) | JobError::Parameter(_)) => {
+            Failure::Check(error.to_string())
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 mod picture;
 mod text;
 
-use super::{Job, focus};
+use super::{Job, focus, refuse};
 use crate::cli::Failure;
 use crate::cli::files::Files;
 use crate::cli::run::{Arguments, Progress};
@@ -96,7 +96,7 @@ fn simulate<P: JobLead>(
         }
         true => replay(&circuit, settings, log, &mut progress),
     };
-    let replayed = replayed.map_err(Failure::Run)?;
+    let replayed = replayed.map_err(refuse)?;
     drop(progress);
     let action = replayed.signals.first().map_or(0, |signal| signal.tick);
     let files = traces.finish(&circuit, &focus(settings, action), replayed.ticks)?;
