@@ -222,12 +222,12 @@ impl Settings {
         if 4.0 * self.k1_per_s <= self.k2_per_s {
             k1 = k1.min((k2 / 4.0).floor());
         }
-        let refuse = |field, value: f64, word: f64, allowed: [u64; 2]| {
+        let refuse = |field, value: f64, word: f64, allowed: [u64; 2], why: &str| {
             let part = |word: f64| word / one as f64;
             let [least, most] = allowed.map(|word| part(word as f64));
             let problem = format!("is {value}: {} a period", part(word));
             let [first, last] = [least, most].map(|part| part / period);
-            let allowed = format!("{first} to {last}: {least} to {most} a period");
+            let allowed = format!("{first} to {last}: {least} to {most} a period; {why}");
             refusal(field, problem, allowed)
         };
         // What k1·k2 must be, as a product of words.
@@ -245,12 +245,18 @@ impl Settings {
         let allowed = [exact.div_ceil(most_k2), most_k1];
         // Written so that NaN fails.
         if !(k1 >= allowed[0] as f64 && k1 <= allowed[1] as f64) {
-            return Err(refuse("k1_per_s", self.k1_per_s, k1, allowed));
+            let why = "there is a k2_per_s for it";
+            return Err(refuse("k1_per_s", self.k1_per_s, k1, allowed, why));
         }
         let first = k1 as u64;
         let allowed = [(damping * first).max(exact.div_ceil(first)), most_k2];
         if !(k2 >= allowed[0] as f64 && k2 <= allowed[1] as f64) {
-            return Err(refuse("k2_per_s", self.k2_per_s, k2, allowed));
+            let why = match (damping * first >= exact.div_ceil(first), damping) {
+                (true, 4) => "4 times k1_per_s or more, or 2 times with allow_overshoot",
+                (true, _) => "2 times k1_per_s or more",
+                (false, _) => "with less it would not come to its target",
+            };
+            return Err(refuse("k2_per_s", self.k2_per_s, k2, allowed, why));
         }
         Ok(Gains {
             k1: first,

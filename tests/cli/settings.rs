@@ -72,7 +72,7 @@ fn bad_overrides_are_refused() {
         ("", format!(": no '='; {KEY_VALUE}")),
         ("=3", format!(": unknown field ``; {KEYS}")),
         ("clock_mhz=1", format!("clock_mhz: unknown field `clock_mhz`; {KEYS}")),
-        ("a.b=1", format!("a.b: unknown field `a.b`; {KEYS}")),
+        ("a.b=1", "a.b: the scenario has no table [a]; allowed: a table that it has, or all of it: a={key=value,…}".into()),
         ("clock_hz=", format!("clock_hz: invalid type: string \"\"; {WHOLE}")),
         ("clock_hz=true", format!("clock_hz: invalid type: boolean `true`; {WHOLE}")),
         ("clock_hz=1e6", format!("clock_hz: invalid type: floating point `1000000.0`; {WHOLE}")),

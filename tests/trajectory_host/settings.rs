@@ -54,12 +54,14 @@ fn what_is_not_allowed_is_refused_with_what_is() {
     assert_eq!(
         refused(|s| s.k2_per_s = 100.0),
         "k2_per_s: is 100: 0.100006103515625 a period; \
-         allowed: 199.951171875 to 1999.969482421875: 0.199951171875 to 1.999969482421875 a period"
+         allowed: 199.951171875 to 1999.969482421875: 0.199951171875 to 1.999969482421875 a \
+         period; 4 times k1_per_s or more, or 2 times with allow_overshoot"
     );
     assert_eq!(
         refused(|s| s.k1_per_s = 600.0),
         "k1_per_s: is 600: 0.600006103515625 a period; \
-         allowed: 0.030517578125 to 499.969482421875: 0.000030517578125 to 0.499969482421875 a period"
+         allowed: 0.030517578125 to 499.969482421875: 0.000030517578125 to 0.499969482421875 a \
+         period; there is a k2_per_s for it"
     );
     // Beyond the monotone region, on demand.
     let beyond = Settings {

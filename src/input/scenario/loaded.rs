@@ -1,6 +1,7 @@
 use super::{Runnable, Scenario};
 use crate::input::{Fault, read_string};
 use serde::Deserialize;
+use serde_path_to_error::{Segment, Track};
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -48,7 +49,8 @@ impl Loaded {
     pub fn parse(file: &str, text: &str, sets: &[String]) -> Result<Self, Fault> {
         let refuse = |error| fault(file, text, &error);
         let mut loaded = Loaded {
-            scenario: scenario(|| toml::Deserializer::parse(text)).map_err(refuse)?,
+            scenario: scenario(|| toml::Deserializer::parse(text))
+                .map_err(|error| refuse(error.into_inner()))?,
             file: file.to_owned(),
             text: text.to_owned(),
             overridden: Vec::new(),
@@ -61,11 +63,9 @@ impl Loaded {
         // The circuit decides which other keys there are.
         pairs.sort_by_key(|(key, _)| *key != CIRCUIT);
         for (key, value) in pairs {
-            insert(&mut table, key, value);
-            loaded.scenario = scenario(|| Ok(table.clone())).map_err(|error| {
-                let (problem, allowed) = split(error.message());
-                Fault::new(SET, 0, key, problem, allowed)
-            })?;
+            insert(&mut table, key, value)?;
+            loaded.scenario =
+                scenario(|| Ok(table.clone())).map_err(|error| set_fault(key, &error))?;
             loaded.overridden.push(key.to_owned());
         }
         Ok(loaded)
@@ -140,45 +140,99 @@ impl Loaded {
     }
 }
 
+/// What is allowed where a key is missing.
+const NO_DEFAULT: &str = "a value for it: it has no default";
+
 /// Of a scenario what decides how the rest is read.
 #[derive(Deserialize)]
 struct Head {
     circuit: Runnable,
 }
 
+/// What is wrong, and where in the scenario.
+type Located = serde_path_to_error::Error<toml::de::Error>;
+
 /// A scenario with the keys of its circuit.
-fn scenario<'de, D>(
-    keys: impl Fn() -> Result<D, toml::de::Error>,
-) -> Result<Scenario, toml::de::Error>
+fn scenario<'de, D>(keys: impl Fn() -> Result<D, toml::de::Error>) -> Result<Scenario, Located>
 where
     D: serde::Deserializer<'de, Error = toml::de::Error>,
 {
-    let Head { circuit } = Head::deserialize(keys()?)?;
+    fn read<'de, D, T>(keys: Result<D, toml::de::Error>) -> Result<T, Located>
+    where
+        D: serde::Deserializer<'de, Error = toml::de::Error>,
+        T: Deserialize<'de>,
+    {
+        let keys = keys.map_err(|error| Located::new(Track::new().path(), error))?;
+        serde_path_to_error::deserialize(keys)
+    }
+    let Head { circuit } = read(keys())?;
     Ok(match circuit {
-        Runnable::PulseInterpolator => {
-            Scenario::PulseInterpolator(Deserialize::deserialize(keys()?)?)
-        }
-        Runnable::LinearInterpolator => {
-            Scenario::LinearInterpolator(Deserialize::deserialize(keys()?)?)
-        }
-        Runnable::LeadAngle => Scenario::LeadAngle(Deserialize::deserialize(keys()?)?),
-        Runnable::ArcGenerator => Scenario::ArcGenerator(Deserialize::deserialize(keys()?)?),
-        Runnable::TrajectoryController => {
-            Scenario::TrajectoryController(Deserialize::deserialize(keys()?)?)
-        }
-        Runnable::Machine => Scenario::Machine(Deserialize::deserialize(keys()?)?),
+        Runnable::PulseInterpolator => Scenario::PulseInterpolator(read(keys())?),
+        Runnable::LinearInterpolator => Scenario::LinearInterpolator(read(keys())?),
+        Runnable::LeadAngle => Scenario::LeadAngle(read(keys())?),
+        Runnable::ArcGenerator => Scenario::ArcGenerator(read(keys())?),
+        Runnable::TrajectoryController => Scenario::TrajectoryController(read(keys())?),
+        Runnable::Machine => Scenario::Machine(read(keys())?),
     })
 }
 
-/// Gives a key a value; `name.key` is one of the table `[name]` where there is that.
-fn insert(table: &mut Table, key: &str, value: Value) {
-    if let Some((name, inner)) = key.split_once('.')
-        && let Some(Value::Table(table)) = table.get_mut(name)
-    {
-        table.insert(inner.to_owned(), value);
-    } else {
-        table.insert(key.to_owned(), value);
+/// Gives a key a value; `name.key` is one of the table `[name]`.
+fn insert(table: &mut Table, key: &str, value: Value) -> Result<(), Fault> {
+    let (table, key) = match key.split_once('.') {
+        None => (table, key),
+        Some((name, inner)) => match table.get_mut(name) {
+            Some(Value::Table(table)) => (table, inner),
+            _ => {
+                let problem = format!("the scenario has no table [{name}]");
+                let allowed = format!("a table that it has, or all of it: {name}={{key=value,…}}");
+                return Err(Fault::new(SET, 0, key, problem, allowed));
+            }
+        },
+    };
+    table.insert(key.to_owned(), value);
+    Ok(())
+}
+
+/// What an override makes wrong: of the key, or of one within its value.
+fn set_fault(key: &str, error: &Located) -> Fault {
+    let mut field = String::new();
+    let mut inner = false;
+    for segment in error.path() {
+        match segment {
+            Segment::Seq { index } => field += &format!(" {index}:"),
+            Segment::Map { key } => {
+                inner = !field.is_empty();
+                field += if field.ends_with(':') {
+                    " "
+                } else if inner {
+                    "."
+                } else {
+                    ""
+                };
+                field += key;
+            }
+            Segment::Enum { .. } | Segment::Unknown => {}
+        }
     }
+    let message = error.inner().message();
+    if let Some(missing) = message.strip_prefix("missing field `") {
+        let missing = missing.trim_end_matches('`');
+        let field = match field.as_str() {
+            "" => missing.to_owned(),
+            within => format!("{within} {missing}"),
+        };
+        return Fault::new(SET, 0, field, "missing", NO_DEFAULT);
+    }
+    let field = if inner { &field } else { key };
+    let (problem, allowed) = of_tables(field, message).unwrap_or_else(|| split(message));
+    Fault::new(SET, 0, field, problem, allowed)
+}
+
+/// The same of a key whose value is a list of tables.
+fn of_tables(key: &str, message: &str) -> Option<(String, String)> {
+    let (problem, _) = message.split_once(", expected a sequence")?;
+    let tables = ["step", "piece", "axis"].contains(&key);
+    tables.then(|| (problem.to_owned(), format!("tables [[{key}]]")))
 }
 
 fn key_value(set: &str) -> Result<(&str, Value), Fault> {
@@ -225,6 +279,7 @@ fn split(message: &str) -> (String, String) {
         "an array of length 3" => "a list of three numbers, of X, Y and Z",
         "a sequence" => "a list of numbers, one for each axis",
         "path string" => "a path",
+        record if record.starts_with("struct ") => "a table of keys and values",
         other => other,
     };
     (problem.replace(" as i128", ""), allowed.to_owned())
@@ -234,14 +289,13 @@ fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
     let message = error.message();
     if let Some(key) = message.strip_prefix("missing field `") {
         let key = key.trim_end_matches('`');
-        let allowed = "a value for it: it has no default";
         // What lacks in a table lacks where the table begins, else in the file as a whole.
         let place = error.span().map_or(0, |span| span.start);
         let line = match place {
             0 => 0,
             place => line_at(text.as_bytes(), place),
         };
-        return Fault::new(file, line, key, "missing", allowed);
+        return Fault::new(file, line, key, "missing", NO_DEFAULT);
     }
     let line = line_at(text.as_bytes(), error.span().map_or(0, |span| span.start));
     let mut upwards = text
@@ -260,12 +314,7 @@ fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
         "" => "file",
         key => key,
     };
-    let (problem, allowed) = match message.split_once(", expected a sequence") {
-        Some((problem, _)) if ["step", "piece"].contains(&field) => {
-            (problem.to_owned(), format!("tables [[{field}]]"))
-        }
-        _ => split(message),
-    };
+    let (problem, allowed) = of_tables(field, message).unwrap_or_else(|| split(message));
     Fault::new(file, line, field, problem, allowed)
 }
 
@@ -408,6 +457,37 @@ mod tests {
         assert_eq!(
             with("sign = \"both\"\n[[step]]\n"),
             "s.toml:2: sign: unknown variant `both`; allowed: `converging` or `literal`"
+        );
+    }
+
+    #[test]
+    fn a_fault_within_the_value_of_an_override_names_its_place() {
+        let speed = "speed_counts_per_s=4";
+        assert_eq!(
+            refusal(STEPS, &["step=[{target=1}]"]),
+            "--set: step 0: speed_counts_per_s: missing; allowed: a value for it: it has no default"
+        );
+        assert_eq!(
+            refusal(
+                STEPS,
+                &[&format!(
+                    "step=[{{target=1,{speed}}},{{target=1.5,{speed}}}]"
+                )]
+            ),
+            "--set: step 1: target: invalid type: floating point `1.5`; allowed: a whole number"
+        );
+        assert_eq!(
+            refusal(STEPS, &["step=5"]),
+            "--set: step: invalid type: integer `5`; allowed: tables [[step]]"
+        );
+        assert_eq!(
+            refusal("circuit = \"machine\"\n", &["machine=5"]),
+            "--set: machine: invalid type: integer `5`; allowed: a table of keys and values"
+        );
+        assert_eq!(
+            refusal("circuit = \"machine\"\n", &["machine.mass=5"]),
+            "--set: machine.mass: the scenario has no table [machine]; allowed: a table that it \
+             has, or all of it: machine={key=value,…}"
         );
     }
 
