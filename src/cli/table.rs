@@ -8,7 +8,7 @@ use motion_rtl::pulse_interpolator::{AXIS_NAMES, Ratio, Report, Scaled, Table};
 use motion_rtl::trace::atomic;
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What to compile.
 #[derive(Debug, Args)]
@@ -49,6 +49,9 @@ struct Scaling {
 /// Compiles.
 pub fn table(arguments: &Arguments) -> Result<(), Failure> {
     let job = Job::prepare(Source::read(&arguments.input)?)?;
+    if let Some(path) = &arguments.out {
+        spare_inputs(path, arguments, &job)?;
+    }
     let scaled = match &arguments.scale {
         Some(text) => Some(scale(&job.table, text)?),
         None => None,
@@ -83,6 +86,27 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
     match arguments.json {
         true => print_json(&output),
         false => print(&text(&job, &output)),
+    }
+}
+
+/// Refuses to write over what the table is made from.
+fn spare_inputs(out: &Path, arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let Ok(out) = out.canonicalize() else {
+        // It is not there yet.
+        return Ok(());
+    };
+    let scenario = arguments.input.input.as_deref();
+    let inputs = scenario.into_iter().chain([Path::new(&job.drawing.file)]);
+    match inputs
+        .flat_map(Path::canonicalize)
+        .any(|input| input == out)
+    {
+        true => Err(Failure::Argument {
+            field: "--out",
+            problem: format!("{} is the input", out.display()),
+            allowed: "another file".into(),
+        }),
+        false => Ok(()),
     }
 }
 

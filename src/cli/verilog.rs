@@ -7,6 +7,7 @@ use motion_rtl::check::Drive;
 use motion_rtl::kernel::Role;
 use motion_rtl::registry::AnyModel;
 use motion_rtl::trace::Clock;
+use motion_rtl::verilog::Verilog;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -30,7 +31,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Beside the circuit a testbench, a stimulus of so many ticks, and the golden waves of it.
-    #[arg(long, value_name = "TICKS", value_parser = clap::value_parser!(u64).range(2..))]
+    #[arg(long, value_name = "TICKS", value_parser = clap::value_parser!(u64).range(2..=100_000_000))]
     testbench: Option<u64>,
     /// Clock of the golden waves.
     #[arg(long, value_name = "HZ", requires = "testbench")]
@@ -83,7 +84,7 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
         let _ = writeln!(
             text,
             "a word of the stimulus, from bit 0: {}",
-            word(&*circuit)
+            word(&verilog)
         );
     }
     for path in files.commit()? {
@@ -103,19 +104,20 @@ fn clock(arguments: &Arguments) -> Result<Clock, Failure> {
     })
 }
 
-/// What stands in a word of the stimulus: the inputs and their bits, the lowest first.
-fn word(circuit: &dyn AnyModel) -> String {
+/// What stands in a word of the stimulus: the ports in of the module and their bits, the lowest
+/// first.
+fn word(verilog: &Verilog) -> String {
+    let ports = verilog.design().modules.last().map(|top| &top.signals[..]);
+    let inputs = ports.unwrap_or_default().iter();
     let mut low = 0;
     let mut parts = Vec::new();
-    for input in circuit.declarations().leaves {
-        if input.role == Role::Input && input.scopes.len() == 1 {
-            let width = input.shape.width;
-            parts.push(match width {
-                1 => format!("{} [{low}]", input.name),
-                _ => format!("{} [{}:{low}]", input.name, low + width - 1),
-            });
-            low += width;
-        }
+    for input in inputs.filter(|signal| signal.role == Role::Input) {
+        let width = input.shape.width;
+        parts.push(match width {
+            1 => format!("{} [{low}]", input.name),
+            _ => format!("{} [{}:{low}]", input.name, low + width - 1),
+        });
+        low += width;
     }
     parts.push(format!("rst [{low}]"));
     parts.join(", ")
@@ -127,6 +129,13 @@ fn model(arguments: &Arguments) -> Result<Box<dyn AnyModel>, Failure> {
     let Some(width) = arguments.width else {
         return Ok((entry.full)());
     };
+    if entry.offered.is_empty() {
+        return Err(Failure::Argument {
+            field: "--width",
+            problem: format!("{} has no widths to choose", entry.name),
+            allowed: "none".into(),
+        });
+    }
     let mut given = vec![width];
     given.extend(&arguments.with);
     (entry.model)(&given).ok_or_else(|| {

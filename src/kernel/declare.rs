@@ -156,17 +156,17 @@ impl Declarations {
         self.leaves.iter().enumerate().filter_map(name).collect()
     }
 
-    /// Whether a register stands in a struct that is neither a memory nor the registers of a block,
-    /// whose ports in would stand beside it.
+    /// Whether a register or a port in stands in a struct that is neither a memory nor a block, whose
+    /// other signals would stand beside it.
     fn is_bundled(&self, index: usize) -> bool {
         let leaf = &self.leaves[index];
         let is_word = |memory: &MemoryDeclaration| {
             (memory.first..memory.first + memory.words).contains(&index)
         };
         let of_a_block = |other: &Declaration| {
-            other.role != Role::Register && other.scopes.starts_with(&leaf.scopes[..])
+            other.role != leaf.role && other.scopes.starts_with(&leaf.scopes[..])
         };
-        leaf.role == Role::Register
+        leaf.role != Role::Net
             && !self.memories.iter().any(is_word)
             && !self.leaves.iter().any(of_a_block)
     }

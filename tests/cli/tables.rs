@@ -48,6 +48,30 @@ fn count(rows: &[Row], axis: usize) -> (i64, i64) {
 }
 
 #[test]
+fn a_table_does_not_overwrite_what_it_is_made_from() {
+    let bench = Bench::with("p.ngc", L);
+    bench.write(
+        "s.toml",
+        "circuit = \"pulse_interpolator\"\ninput = \"p.ngc\"\n",
+    );
+    for (input, out) in [
+        ("p.ngc", "p.ngc"),
+        ("s.toml", "s.toml"),
+        ("s.toml", "./p.ngc"),
+    ] {
+        let done = bench.run(&["table", input, "--out", out]);
+        assert_eq!(done.code, 2, "{}", done.stdout);
+        assert!(done.stderr.starts_with("error: --out: "), "{}", done.stderr);
+        assert!(
+            done.stderr
+                .ends_with(" is the input; allowed: another file\n")
+        );
+    }
+    assert_eq!(bench.read("p.ngc"), L);
+    assert!(bench.read("s.toml").starts_with("circuit"));
+}
+
+#[test]
 fn the_csv_counts_what_the_report_says() {
     let bench = Bench::with("l.ngc", L);
     let set = ["--set", "arc_unit_ticks=700"];

@@ -37,6 +37,36 @@ fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
     assert_eq!(bench.names().len(), 5);
 }
 
+/// Ports that stand in bundles too.
+#[test]
+fn the_word_of_the_stimulus_is_that_of_the_testbench() {
+    let bench = Bench::new();
+    let said = bench.succeed(&verilog("machine", &["--testbench", "2", "--out", "v"]));
+    let line = said
+        .lines()
+        .find(|line| line.starts_with("a word of the stimulus"));
+    let (_, word) = line.unwrap().split_once(": ").unwrap();
+    let testbench = bench.read("v/machine_tb.v");
+    let ports: Vec<_> = word.split(", ").collect();
+    assert!(ports.len() > 60, "{word}");
+    for port in ports {
+        let (name, bits) = port.split_once(' ').unwrap();
+        let connected = format!(".{name} (stimulus{bits})");
+        assert!(testbench.contains(&connected), "{connected}");
+    }
+}
+
+#[test]
+fn a_width_is_refused_where_there_is_none_to_choose() {
+    let bench = Bench::new();
+    for circuit in ["machine", "sync_stage"] {
+        bench.refuse(
+            &verilog(circuit, &["--width", "5", "--out", "v"]),
+            &format!("--width: {circuit} has no widths to choose; allowed: none"),
+        );
+    }
+}
+
 #[test]
 fn the_golden_waves_have_the_clock_that_is_asked_for() {
     let bench = Bench::new();

@@ -30,7 +30,7 @@ pub const CIRCUITS: &[Entry] = &[
         None,
         "system",
         [],
-        "",
+        "nothing",
         Made {
             make: |_given| None,
             model: |_given| Some(Box::new(job::machine(&Settings::default()).circuit)),
