@@ -16,7 +16,7 @@ pub enum WaveFormat {
     /// Text that every waveform viewer reads; see [`Vcd`](super::Vcd).
     #[default]
     Vcd,
-    /// GTKWave's own, some thirty times smaller; see [`Fst`](super::Fst).
+    /// GTKWave's own, a fifth to a hundredth of the bytes; see [`Fst`](super::Fst).
     Fst,
 }
 

@@ -3,6 +3,7 @@
 mod catalogue;
 mod charts;
 mod generated;
+mod keys;
 mod miscounts;
 mod rotations;
 
