@@ -1,7 +1,7 @@
 //! What a run or a compilation came to, for people and for machines.
 
 use super::job::Job;
-use super::traces::Report;
+use super::traces::{Report, Tail};
 use super::verdict::complaints;
 use motion_rtl::pulse_interpolator::job::Played;
 use motion_rtl::pulse_interpolator::step_dir::TimingMinima;
@@ -215,6 +215,15 @@ impl Report for Summary {
         &self.complaints
     }
 
+    fn tail(&self) -> Tail<'_> {
+        Tail {
+            warnings: &self.warnings,
+            window: self.vcd_window,
+            ticks: self.ticks,
+            files: &self.files,
+        }
+    }
+
     fn write(&self, text: &mut String, _: bool) -> std::fmt::Result {
         let Summary {
             input,
@@ -268,20 +277,6 @@ impl Report for Summary {
                 text,
                 "{idle} unit times without pulses between two patterns"
             )?;
-        }
-        for warning in &self.warnings {
-            writeln!(text, "warning: {warning}")?;
-        }
-        if let Some([from, to]) = self.vcd_window
-            && (from > 0 || to < *ticks)
-        {
-            writeln!(
-                text,
-                "the VCD shows ticks {from} to {to} of {ticks}: --from and --to choose others"
-            )?;
-        }
-        for file in &self.files {
-            writeln!(text, "wrote {file}")?;
         }
         Ok(())
     }

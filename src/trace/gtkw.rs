@@ -17,7 +17,6 @@ const ASCII: u32 = 1 << 11;
 const COLLAPSED: u32 = 1 << 12;
 const ANALOG_STEP: u32 = 1 << 15;
 const ANALOG_ROW: u32 = 1 << 17;
-const FULL_SCALE: u32 = 1 << 19;
 const CLOSED: u32 = 1 << 22;
 const GROUP_BEGIN: u32 = 1 << 23;
 const GROUP_END: u32 = 1 << 24;
@@ -42,7 +41,8 @@ const FRAME: f64 = 200.0;
 /// `<stem>.fst`.
 ///
 /// `clk` comes first, then the ports in and out, then a group for everything else in the circuit
-/// and one for every scope in it; large groups and those below the first level are closed.
+/// and one for every scope in it; large groups and those below the first level are closed. Curves
+/// have the scale of what the window shows.
 /// Memories of more than 64 words are not listed, nor are shift registers of more than 256 stages.
 /// The window shows the ticks of `focus`. The two files may be moved together.
 ///
@@ -173,8 +173,13 @@ impl Save<'_> {
         let ports_out = leaves(|leaf| leaf.role != Role::Input && leaf.field.public);
         let inside = leaves(|leaf| leaf.role != Role::Input && !leaf.field.public);
         for (title, leaves) in [("ports in", ports_in), ("ports out", ports_out)] {
-            if !leaves.is_empty() {
-                self.comment("");
+            if leaves.is_empty() {
+                continue;
+            }
+            self.comment("");
+            if leaves.len() > OPEN {
+                self.group(title, true, |save| save.leaves(&leaves));
+            } else {
                 self.comment(title);
                 self.leaves(&leaves);
             }
@@ -277,7 +282,7 @@ fn flags(leaf: &Declaration) -> u32 {
     };
     match leaf.field.format {
         Format::Hex => HEX | RIGHT,
-        Format::Analog => number | ANALOG_STEP | FULL_SCALE,
+        Format::Analog => number | ANALOG_STEP,
         Format::Decimal | Format::States(_) | Format::Elements(_) => number,
     }
 }

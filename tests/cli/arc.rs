@@ -451,7 +451,7 @@ fn files_windows_and_scopes() {
     let text = bench.succeed(&window);
     let ticks = whole(&summary, "/ticks");
     let shown =
-        format!("the VCD shows ticks 2000 to 2600 of {ticks}: --from and --to choose others\n");
+        format!("the waves show ticks 2000 to 2600 of {ticks}: --from and --to choose others\n");
     assert!(text.contains(&shown), "{text}");
 
     let beyond = ticks.to_string();

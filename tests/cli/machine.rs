@@ -258,6 +258,39 @@ fn motors_that_do_not_come_to_rest_are_complained_of() {
     );
 }
 
+/// What the end of the run leaves undone is no fault of the steppers.
+#[test]
+fn steppers_that_are_cut_off_are_not_complained_of() {
+    let bench = with(
+        "speed_hz = 60.0\nposition_gain_per_s = 100.0\n",
+        "G1 X1 F1500\nG1 X40 F150\n",
+    );
+    let done = bench.run(&["run", "s.toml", "--no-vcd", "--json"]);
+    assert_eq!(done.code, 1, "{}", done.stdout);
+    let summary: Value = serde_json::from_str(&done.stdout).unwrap();
+    assert_eq!(summary["times"]["steppers_cut_off"], true);
+    assert!(!done.stderr.contains("steppers"), "{}", done.stderr);
+    let done = bench.run(&["run", "s.toml", "--no-vcd"]);
+    let said = "steppers cut off by the end of the run; servos stop";
+    assert!(done.stdout.contains(said), "{}", done.stdout);
+}
+
+#[test]
+fn what_the_circuits_cannot_agree_on_is_refused() {
+    let bench = with("", "G1 X1 F1500\nG1 X2 Y1 F30\n");
+    // 1000 counts/mm, scans of 1.25 ms, 45 degrees.
+    bench.refuse(
+        &["run", "s.toml"],
+        "p.ngc:2: F: at 0.5 mm/s the axis with the longer way goes less than a count per scan; \
+         allowed: at least 1.13138 mm/s (F67.8828) in this direction, or a longer scan",
+    );
+    bench.refuse(
+        &["run", "s.toml", "--set", "sample_ticks=409501"],
+        "--set: sample_ticks: is 409501; allowed: up to 409500 at scan_ticks = 200: an arc's two \
+         sampling times within 4095 scans",
+    );
+}
+
 #[test]
 fn bad_input_is_refused_with_its_line() {
     // The head has seven lines.

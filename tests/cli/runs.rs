@@ -170,7 +170,7 @@ fn the_summary_for_people_says_what_the_one_for_machines_does() {
     let x = text.lines().find(|line| line.starts_with("x ")).unwrap();
     let columns: Vec<_> = x.split_whitespace().take(6).collect();
     assert_eq!(columns, ["x", "800", "800", "800", "0", "800"]);
-    let window = format!("the VCD shows ticks 0 to 100 of {ticks}: --from and --to");
+    let window = format!("the waves show ticks 0 to 100 of {ticks}: --from and --to");
     assert!(text.contains(&window), "{text}");
     assert!(text.ends_with("wrote waves/line.svg\n"), "{text}");
 }

@@ -11,7 +11,6 @@ use motion_rtl::trajectory_controller::settings::Settings;
 use motion_rtl::trajectory_controller::speed_limits::{self, Span};
 use motion_rtl::trajectory_controller::widths::Widths;
 use proptest::prelude::*;
-use std::time::{Duration, Instant};
 
 fn joints(spans: &[Span]) -> Vec<f64> {
     let mut at = 0;
@@ -306,7 +305,7 @@ fn a_slower_curve_is_slowed_down_for_no_more_than_it_needs() {
 }
 
 #[test]
-fn a_hundred_thousand_segments_take_seconds() {
+fn a_hundred_thousand_segments_keep_their_limits() {
     let mut seed = 1u64;
     let mut random = || {
         seed = seed
@@ -335,15 +334,8 @@ fn a_hundred_thousand_segments_take_seconds() {
                 acceleration: 6e10,
                 jerk_time,
             };
-            let begin = Instant::now();
             let profile = plan(&spans, slope);
-            let took = begin.elapsed();
-            println!(
-                "{name} {jerk_time}: {took:?}, {} pieces, {} s",
-                profile.pieces.len(),
-                profile.duration
-            );
-            assert!(took < Duration::from_secs(20), "{took:?}");
+            check(&profile, &spans, slope).unwrap_or_else(|error| panic!("{name}: {error}"));
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::rows::{ArcRow, BlendRow, LineRow};
 use super::summary::Summary;
 use crate::cli::rows::{fixed, more, or_dash, table, worst};
-use crate::cli::traces::Report;
+use crate::cli::traces::{Report, Tail};
 use motion_rtl::input::Point;
 use std::fmt::{self, Write};
 
@@ -14,6 +14,15 @@ impl Report for Summary {
 
     fn complaints(&self) -> &[String] {
         &self.complaints
+    }
+
+    fn tail(&self) -> Tail<'_> {
+        Tail {
+            warnings: &self.warnings,
+            window: self.vcd_window,
+            ticks: self.ticks,
+            files: &self.files,
+        }
     }
 
     fn write(&self, text: &mut String, all: bool) -> fmt::Result {
@@ -53,21 +62,6 @@ impl Report for Summary {
         self.lines(text, all)?;
         self.blends(text, all)?;
         self.operations(text)?;
-        for warning in &self.warnings {
-            writeln!(text, "warning: {warning}")?;
-        }
-        if let Some([from, to]) = self.vcd_window
-            && (from > 0 || to < self.ticks)
-        {
-            writeln!(
-                text,
-                "the VCD shows ticks {from} to {to} of {}: --from and --to choose others",
-                self.ticks
-            )?;
-        }
-        for file in &self.files {
-            writeln!(text, "wrote {file}")?;
-        }
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! The summary for people.
 
 use super::summary::{Phase, Summary, SystemSummary};
-use crate::cli::traces::Report;
+use crate::cli::traces::{Report, Tail};
 use std::fmt::Write;
 
 /// Characters of a column of stop errors at least.
@@ -20,6 +20,15 @@ impl Report for Summary {
 
     fn complaints(&self) -> &[String] {
         &self.complaints
+    }
+
+    fn tail(&self) -> Tail<'_> {
+        Tail {
+            warnings: &self.warnings,
+            window: self.vcd_window,
+            ticks: self.ticks,
+            files: &self.files,
+        }
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
@@ -63,12 +72,6 @@ impl Report for Summary {
         }
         if all {
             self.every_positioning(text)?;
-        }
-        for warning in &self.warnings {
-            writeln!(text, "warning: {warning}")?;
-        }
-        for file in &self.files {
-            writeln!(text, "wrote {file}")?;
         }
         Ok(())
     }

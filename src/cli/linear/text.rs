@@ -2,7 +2,7 @@
 
 use super::rows::{Figures, Row};
 use super::summary::{Summary, SystemSummary};
-use crate::cli::traces::Report;
+use crate::cli::traces::{Report, Tail};
 use std::fmt::Write;
 
 /// Cycles in the table, unless all are asked for.
@@ -15,6 +15,15 @@ impl Report for Summary {
 
     fn complaints(&self) -> &[String] {
         &self.complaints
+    }
+
+    fn tail(&self) -> Tail<'_> {
+        Tail {
+            warnings: &self.warnings,
+            window: self.vcd_window,
+            ticks: self.ticks,
+            files: &self.files,
+        }
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
@@ -43,12 +52,6 @@ impl Report for Summary {
         text.push('\n');
         if !self.segments.is_empty() {
             self.table(text, all)?;
-        }
-        for warning in &self.warnings {
-            writeln!(text, "warning: {warning}")?;
-        }
-        for file in &self.files {
-            writeln!(text, "wrote {file}")?;
         }
         Ok(())
     }

@@ -7,6 +7,9 @@ use motion_rtl::machine::measure::{Ends, Farthest, Measured, PieceMeasured};
 use serde::Serialize;
 use std::ops::RangeInclusive;
 
+/// What the ends call the first machine.
+pub const STEPPERS: &str = "steppers";
+
 /// A point as near is on the path: floating point puts it there.
 const ON_PATH_MM: f64 = 1e-9;
 
@@ -127,7 +130,7 @@ pub fn ends(ends: &Ends) -> [EndRow; 3] {
         unit,
     };
     [
-        row("steppers", ends.stepper_mm, stepper, wanted_steps, "steps"),
+        row(STEPPERS, ends.stepper_mm, stepper, wanted_steps, "steps"),
         row(
             "commands",
             ends.command_mm,

@@ -2,7 +2,7 @@
 
 use super::Job;
 use super::rows::{self, EndRow, LiftRow, PieceRow};
-use super::verdict::complaints;
+use super::verdict::{complaints, steppers_cut_off};
 use motion_rtl::machine::job::Played;
 use motion_rtl::machine::measure::Measured;
 use serde::Serialize;
@@ -65,6 +65,8 @@ pub struct Summary {
 pub struct TimesRow {
     /// The steppers, which run through.
     pub steppers_s: f64,
+    /// The run ended, by the servos' fault, before the steppers could.
+    pub steppers_cut_off: bool,
     /// The servos, which stop at the end of each piece.
     pub servos_s: f64,
     /// Of these on the way.
@@ -101,6 +103,7 @@ impl Summary {
             unattainable_units: job.program.report.unattainable_units,
             times: TimesRow {
                 steppers_s: seconds(times.steppers),
+                steppers_cut_off: steppers_cut_off(job, played),
                 servos_s: seconds(times.servos),
                 moving_s: seconds(times.moving),
                 settling_s: seconds(times.settling),

@@ -3,7 +3,7 @@
 use super::rows::{FarthestRow, LiftRow, PieceRow};
 use super::summary::Summary;
 use crate::cli::rows::{fixed, more, or_dash, table, worst};
-use crate::cli::traces::Report;
+use crate::cli::traces::{Report, Tail};
 use std::fmt::{self, Write};
 
 /// Below this two places are the same.
@@ -16,6 +16,15 @@ impl Report for Summary {
 
     fn complaints(&self) -> &[String] {
         &self.complaints
+    }
+
+    fn tail(&self) -> Tail<'_> {
+        Tail {
+            warnings: &self.warnings,
+            window: self.vcd_window,
+            ticks: self.ticks,
+            files: &self.files,
+        }
     }
 
     fn write(&self, text: &mut String, all: bool) -> fmt::Result {
@@ -33,30 +42,19 @@ impl Report for Summary {
             self.sample_ticks
         )?;
         let times = &self.times;
+        match times.steppers_cut_off {
+            false => write!(text, "steppers run through in {:.3} s", times.steppers_s)?,
+            true => write!(text, "steppers cut off by the end of the run")?,
+        }
         writeln!(
             text,
-            "steppers run through in {:.3} s; servos stop after each piece: {:.3} s, of which on \
-             the way {:.3}, coming to rest {:.3}, waiting for pen and records {:.3}\n",
-            times.steppers_s, times.servos_s, times.moving_s, times.settling_s, times.waiting_s
+            "; servos stop after each piece: {:.3} s, of which on the way {:.3}, coming to rest \
+             {:.3}, waiting for pen and records {:.3}\n",
+            times.servos_s, times.moving_s, times.settling_s, times.waiting_s
         )?;
         self.ends(text)?;
         self.pieces(text, all)?;
         self.lifts(text, all)?;
-        for warning in &self.warnings {
-            writeln!(text, "warning: {warning}")?;
-        }
-        if let Some([from, to]) = self.vcd_window
-            && (from > 0 || to < self.ticks)
-        {
-            writeln!(
-                text,
-                "the VCD shows ticks {from} to {to} of {}: --from and --to choose others",
-                self.ticks
-            )?;
-        }
-        for file in &self.files {
-            writeln!(text, "wrote {file}")?;
-        }
         Ok(())
     }
 }
@@ -131,14 +129,14 @@ impl Summary {
             ("steppers", 0),
             ("reason", 11),
             ("share", 0),
-            ("time s", 0),
+            ("takes s", 0),
             ("command", 0),
             ("model", 6),
             ("motor", 6),
             ("load", 6),
             ("reason", 12),
             ("share", 0),
-            ("time s", 0),
+            ("takes s", 0),
         ];
         let cells = rows.into_iter().map(|row| {
             let [steppers, steppers_reason, steppers_share] = um(row.steppers.as_ref());

@@ -28,6 +28,26 @@ use summary::Summary;
 const PERIODS_SHOWN: u64 = 4;
 const IN_MOTION: usize = 200;
 
+/// What the save file begins with: from the length along the path to the torques.
+const OVERVIEW: [&str; 16] = [
+    "trajectory_controller.sampled",
+    "trajectory_controller.fresh",
+    "trajectory_controller.progress.length",
+    "trajectory_controller.tangential.integrators.position",
+    "trajectory_controller.x.command",
+    "trajectory_controller.x.corrector.correction",
+    "trajectory_controller.x.servo.model.integrators.position",
+    "trajectory_controller.x.servo.arithmetic.state",
+    "trajectory_controller.torque_x",
+    "trajectory_controller.position_x",
+    "trajectory_controller.y.command",
+    "trajectory_controller.y.corrector.correction",
+    "trajectory_controller.y.servo.model.integrators.position",
+    "trajectory_controller.y.servo.arithmetic.state",
+    "trajectory_controller.torque_y",
+    "trajectory_controller.position_y",
+];
+
 /// In the order in which they are shown.
 const CORRECTIONS: [Correction; 3] = [Correction::None, Correction::Steady, Correction::Vector];
 
@@ -131,7 +151,7 @@ fn simulate<const AXES: usize>(
             .map_or(played.start, |period| period.tick),
         before: shown / PERIODS_SHOWN,
         shown,
-        overview: &[],
+        overview: &OVERVIEW,
     };
     let files = traces.finish(&circuit, &focus, played.ticks)?;
     Ok((played, files))

@@ -3,7 +3,7 @@
 use super::rows::{AxisRow, CorrectionRow, SegmentRow};
 use super::summary::Summary;
 use crate::cli::rows::{fixed, more, or_dash, table, worst};
-use crate::cli::traces::Report;
+use crate::cli::traces::{Report, Tail};
 use std::fmt::{self, Write};
 
 /// Width of the column that says what a row is of.
@@ -16,6 +16,15 @@ impl Report for Summary {
 
     fn complaints(&self) -> &[String] {
         &self.complaints
+    }
+
+    fn tail(&self) -> Tail<'_> {
+        Tail {
+            warnings: &self.warnings,
+            window: self.vcd_window,
+            ticks: self.ticks,
+            files: &self.files,
+        }
     }
 
     fn write(&self, text: &mut String, all: bool) -> fmt::Result {
@@ -47,21 +56,6 @@ impl Report for Summary {
         self.errors(text)?;
         self.circle(text)?;
         self.segments(text, all)?;
-        for warning in &self.warnings {
-            writeln!(text, "warning: {warning}")?;
-        }
-        if let Some([from, to]) = self.vcd_window
-            && (from > 0 || to < self.ticks)
-        {
-            writeln!(
-                text,
-                "the VCD shows ticks {from} to {to} of {}: --from and --to choose others",
-                self.ticks
-            )?;
-        }
-        for file in &self.files {
-            writeln!(text, "wrote {file}")?;
-        }
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! The summary of a log for people.
 
 use super::Summary;
-use crate::cli::traces::Report;
+use crate::cli::traces::{Report, Tail};
 use std::fmt::Write;
 
 /// Signals that are shown, unless all are asked for.
@@ -14,6 +14,15 @@ impl Report for Summary {
 
     fn complaints(&self) -> &[String] {
         &self.complaints
+    }
+
+    fn tail(&self) -> Tail<'_> {
+        Tail {
+            warnings: &[],
+            window: self.vcd_window,
+            ticks: self.ticks,
+            files: &self.files,
+        }
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
@@ -30,9 +39,6 @@ impl Report for Summary {
         )?;
         self.predictions(text)?;
         self.signals(text, all)?;
-        for file in &self.files {
-            writeln!(text, "wrote {file}")?;
-        }
         Ok(())
     }
 }
