@@ -1,20 +1,27 @@
 use super::header::header;
-use super::text::{Id, Signal, Text};
+use super::text::{Signals, Text};
+use crate::kernel::Format as Shown;
 use crate::trace::Clock;
 use crate::trace::dump::Format;
 use crate::trace::layout::Layout;
 use crate::trace::walk::Change;
 use std::io::{self, Write};
+use vcd::IdCode;
 
 /// Bytes that are gathered before they are written.
 const GATHERED: usize = 256 * 1024;
+
+/// The code of `clk`: variable 0.
+pub const CLK_CODE: IdCode = IdCode::FIRST;
+/// Its lines.
+const CLK_HIGH: &[u8] = b"1!\n";
+const CLK_LOW: &[u8] = b"0!\n";
 
 /// A value change dump as it is written.
 #[derive(Debug)]
 pub(crate) struct VcdFile<W> {
     out: W,
-    signals: Vec<Signal>,
-    clk: Id,
+    signals: Signals,
     text: Text,
     begun: bool,
 }
@@ -22,44 +29,45 @@ pub(crate) struct VcdFile<W> {
 impl<W: Write> VcdFile<W> {
     /// Prepares a dump; nothing is written before the run.
     pub fn new(out: W, layout: &Layout, clock: Clock) -> Self {
-        let clk = Id::new(0);
-        let mut signals = Vec::with_capacity(layout.leaves.len());
+        let mut signals = Signals::new();
+        let mut variables = Vec::with_capacity(layout.leaves.len());
         let mut next = 1;
         for (leaf, &selected) in layout.leaves.iter().zip(&layout.selected) {
-            signals.push(Signal::new(leaf, selected, &mut next));
+            let names = match leaf.field.format {
+                Shown::States(names) => Some(names),
+                _ => None,
+            };
+            signals.push(next, leaf.shape.width, names);
+            variables.push(next);
+            if selected {
+                next += 1 + u32::from(names.is_some());
+            }
         }
         let mut head = Vec::new();
         // Writing to memory does not fail.
-        let _ = header(&mut head, layout, &signals, clock, clk);
+        let _ = header(&mut head, layout, &variables, clock);
         VcdFile {
             out,
             signals,
-            clk,
             text: Text::new(head),
             begun: false,
         }
     }
-}
 
-impl<W: Write> Format for VcdFile<W> {
-    type Out = W;
-
-    #[inline(never)]
-    fn tick(&mut self, rise: u64, fall: u64, changes: &mut Vec<Change>) -> io::Result<()> {
+    fn lines(&mut self, rise: u64, fall: u64, changes: &[Change]) -> io::Result<()> {
         let VcdFile { text, signals, .. } = self;
         text.time(rise);
         if !self.begun {
             text.raw(b"$dumpvars\n");
         }
-        text.scalar(1, &self.clk);
+        text.raw(CLK_HIGH);
         text.changes(signals, changes);
-        changes.clear();
         if !self.begun {
             text.raw(b"$end\n");
             self.begun = true;
         }
         text.time(fall);
-        text.scalar(0, &self.clk);
+        text.raw(CLK_LOW);
 
         if text.bytes().len() >= GATHERED {
             self.out.write_all(text.bytes())?;
@@ -68,12 +76,27 @@ impl<W: Write> Format for VcdFile<W> {
         Ok(())
     }
 
+    fn close(mut self) -> io::Result<W> {
+        self.out.write_all(self.text.bytes())?;
+        self.out.flush()?;
+        Ok(self.out)
+    }
+}
+
+impl<W: Write> Format for VcdFile<W> {
+    type Out = W;
+
+    #[inline(never)]
+    fn tick(&mut self, rise: u64, fall: u64, changes: &mut Vec<Change>) -> io::Result<()> {
+        self.lines(rise, fall, changes)?;
+        changes.clear();
+        Ok(())
+    }
+
     fn finish(mut self, end: Option<u64>, _: &mut Vec<Change>) -> io::Result<W> {
         if let Some(end) = end {
             self.text.time(end);
         }
-        self.out.write_all(self.text.bytes())?;
-        self.out.flush()?;
-        Ok(self.out)
+        self.close()
     }
 }

@@ -1,18 +1,19 @@
 //! The declarations at the head of a dump.
 
-use super::text::{Id, Signal};
+use super::file::CLK_CODE;
 use crate::kernel::Role;
 use crate::trace::Clock;
 use crate::trace::layout::{CLK, Layout, Scope, companion};
 use std::io;
-use vcd::{ReferenceIndex, VarType};
+use vcd::{IdCode, ReferenceIndex, VarType};
 
+/// Writes them; `variables` says for every leaf which variable it is. The names of its states are the
+/// one after it.
 pub fn header(
     out: &mut Vec<u8>,
     layout: &Layout,
-    signals: &[Signal],
+    variables: &[u32],
     clock: Clock,
-    clk: Id,
 ) -> io::Result<()> {
     let mut out = vcd::Writer::new(out);
     out.version(concat!("motion-rtl ", env!("CARGO_PKG_VERSION")))?;
@@ -20,34 +21,40 @@ pub fn header(
     let (factor, unit) = clock.timescale();
     out.timescale(factor, unit)?;
     out.add_module(&layout.top.name)?;
-    out.var_def(VarType::Wire, 1, clk.code(), CLK, None)?;
-    variables(&mut out, &layout.top, layout, signals)?;
+    out.var_def(VarType::Wire, 1, CLK_CODE, CLK, None)?;
+    scope(&mut out, &layout.top, layout, variables)?;
     out.upscope()?;
     out.enddefinitions()
 }
 
-fn variables(
+fn scope(
     out: &mut vcd::Writer<&mut Vec<u8>>,
-    scope: &Scope,
+    this: &Scope,
     layout: &Layout,
-    signals: &[Signal],
+    variables: &[u32],
 ) -> io::Result<()> {
-    for &index in &scope.leaves {
-        let (leaf, signal) = (&layout.leaves[index], &signals[index]);
+    for &index in &this.leaves {
+        let (leaf, variable) = (&layout.leaves[index], variables[index]);
         let kind = match leaf.role {
             Role::Register => VarType::Reg,
             Role::Input | Role::Net => VarType::Wire,
         };
         let width = leaf.shape.width;
         let range = (width > 1).then(|| ReferenceIndex::Range(width as i32 - 1, 0));
-        out.var_def(kind, width as u32, signal.id.code(), &leaf.name, range)?;
-        if let (Some((id, _)), Some(name)) = (signal.states, companion(leaf)) {
-            out.var_def(VarType::String, 1, id.code(), &name, None)?;
+        out.var_def(
+            kind,
+            width as u32,
+            IdCode::from(variable),
+            &leaf.name,
+            range,
+        )?;
+        if let Some(name) = companion(leaf) {
+            out.var_def(VarType::String, 1, IdCode::from(variable + 1), &name, None)?;
         }
     }
-    for inner in &scope.scopes {
+    for inner in &this.scopes {
         out.add_module(&inner.name)?;
-        variables(out, inner, layout, signals)?;
+        scope(out, inner, layout, variables)?;
         out.upscope()?;
     }
     Ok(())

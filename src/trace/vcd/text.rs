@@ -1,11 +1,13 @@
 //! Values as lines of text.
 
-use crate::kernel::{Declaration, Format};
 use crate::trace::walk::Change;
+use std::num::NonZeroU32;
 use vcd::IdCode;
 
 /// The longest line of a number: `b`, 64 digits, the end of the line with its padding.
-const LINE: usize = 1 + 64 + 8;
+const LINE: usize = 1 + 64 + END;
+/// Room for the end of a line.
+const END: usize = 8;
 /// Changes for which there is room at once.
 const SOME: usize = 64;
 /// The room in the buffer at first, doubled where a tick needs more.
@@ -13,60 +15,135 @@ const ROOM: usize = 16 * 1024;
 /// Eight digits more.
 const EIGHT: u64 = 100_000_000;
 
-/// The code of a variable, spelt out as it stands behind every value: up to five characters hold
-/// any 32-bit index.
+/// How a leaf is written. There is one for every leaf and every change looks at one: it is kept
+/// small.
 #[derive(Debug, Clone, Copy)]
-pub struct Id {
-    index: u32,
-    /// A space, the code, the end of the line; zeros behind it.
-    end: [u8; 8],
+struct Signal {
+    end: End,
+    /// Where its states stand, from 1 on, if it has some.
+    states: Option<NonZeroU32>,
+}
+
+/// What stands behind a value on its line.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    /// For a word a space, the code, the end of the line; for a scalar the same without the space.
+    /// Zeros behind it: up to five characters hold any 32-bit index.
+    text: [u8; END],
     /// How much of that there is.
     len: u8,
+    /// It is a word, with a `b` before its digits.
+    word: bool,
 }
 
-impl Id {
-    pub fn new(index: u32) -> Self {
-        let code = IdCode::from(index).to_string();
-        let mut end = [0; 8];
-        let text = " ".bytes().chain(code.bytes()).chain("\n".bytes());
-        for (place, byte) in end.iter_mut().zip(text) {
-            *place = byte;
-        }
-        Id {
-            index,
-            end,
-            len: code.len() as u8 + 2,
-        }
-    }
-
-    pub fn code(self) -> IdCode {
-        IdCode::from(self.index)
-    }
-}
-
-/// How a leaf is written.
+/// The names of values.
 #[derive(Debug, Clone, Copy)]
-pub struct Signal {
-    pub id: Id,
-    scalar: bool,
-    pub states: Option<(Id, &'static [&'static str])>,
+struct States {
+    names: &'static [&'static str],
+    end: End,
 }
 
-impl Signal {
-    pub fn new(leaf: &Declaration, selected: bool, next: &mut u32) -> Self {
-        let mut id = || {
-            let id = Id::new(*next);
-            *next += u32::from(selected);
-            id
-        };
-        Signal {
-            id: id(),
-            scalar: leaf.shape.width == 1,
-            states: match leaf.field.format {
-                Format::States(names) => Some((id(), names)),
-                _ => None,
-            },
+/// How every leaf is written.
+#[derive(Debug)]
+pub struct Signals {
+    signals: Vec<Signal>,
+    states: Vec<States>,
+    /// The most that the lines of a change take, with padding.
+    room: usize,
+}
+
+impl Signals {
+    pub fn new() -> Self {
+        Signals {
+            signals: Vec::new(),
+            states: Vec::new(),
+            room: LINE,
         }
+    }
+
+    /// The next leaf. The names of its states are the variable after its own.
+    pub fn push(&mut self, variable: u32, width: usize, names: Option<&'static [&'static str]>) {
+        let states = names.and_then(|names| {
+            self.states.push(States {
+                names,
+                end: End::new(variable + 1, true),
+            });
+            // A number has twenty digits at most.
+            let longest = names.iter().fold(20, |most, name| most.max(name.len()));
+            self.room = self.room.max(LINE + 1 + longest + END);
+            NonZeroU32::new(self.states.len() as u32)
+        });
+        self.signals.push(Signal {
+            end: End::new(variable, width != 1),
+            states,
+        });
+    }
+}
+
+impl End {
+    fn new(variable: u32, word: bool) -> Self {
+        let code = IdCode::from(variable).to_string();
+        let space = if word { " " } else { "" };
+        let all = [space, &code, "\n"].concat();
+        let mut text = [0; END];
+        text[..all.len()].copy_from_slice(all.as_bytes());
+        End {
+            text,
+            len: all.len() as u8,
+            word,
+        }
+    }
+
+    /// Puts it at a place in a line; returns where the line ends.
+    #[inline(always)]
+    fn put(&self, line: &mut [u8], at: usize) -> usize {
+        line[at..][..END].copy_from_slice(&self.text);
+        at + usize::from(self.len)
+    }
+
+    /// Writes the line of a value and returns its length. Leading zeros are left out: a reader
+    /// extends a value that begins with 1 by zeros.
+    ///
+    /// Which signals change, and how long they are, no processor foresees: more digits than there
+    /// are cost less than a branch.
+    #[inline(always)]
+    fn line(&self, line: &mut [u8], bits: u64) -> usize {
+        let lead = usize::from(self.word);
+        // All bits of a word, the lowest of a scalar.
+        let bits = bits & (1 | u64::from(self.word).wrapping_neg());
+        let digits = 64 - (bits | 1).leading_zeros() as usize;
+        let rest = (bits << (64 - digits)).to_be_bytes();
+        line[0] = b'b';
+        let all = &mut line[lead..][..64];
+        put_digits(&mut all[..16], &rest[..2]);
+        if digits > 16 {
+            put_digits(&mut all[16..32], &rest[2..4]);
+        }
+        if digits > 32 {
+            put_digits(&mut all[32..], &rest[4..]);
+        }
+        self.put(line, lead + digits)
+    }
+}
+
+impl States {
+    /// Writes the line of a name, or of the number of a state without one, and returns its length.
+    fn line(&self, line: &mut [u8], bits: u64) -> usize {
+        let name = usize::try_from(bits)
+            .ok()
+            .and_then(|bits| self.names.get(bits));
+        let number;
+        let name = match name {
+            Some(name) => name,
+            None => {
+                number = bits.to_string();
+                &*number
+            }
+        };
+        let at = 1 + name.len();
+        line[0] = b's';
+        line[1..at].copy_from_slice(name.as_bytes());
+        self.end.put(line, at)
     }
 }
 
@@ -127,6 +204,7 @@ impl Text {
         self.buffer.resize(2 * self.buffer.len() + bytes, 0);
     }
 
+    #[inline]
     pub fn raw(&mut self, bytes: &[u8]) {
         for part in bytes.chunks(LINE) {
             self.line()[..part.len()].copy_from_slice(part);
@@ -135,37 +213,20 @@ impl Text {
     }
 
     /// Lines of new values.
-    pub fn changes(&mut self, signals: &[Signal], changes: &[Change]) {
+    pub fn changes(&mut self, signals: &Signals, changes: &[Change]) {
         for some in changes.chunks(SOME) {
-            self.room(SOME * LINE);
-            for change in some {
-                let signal = &signals[change.leaf as usize];
-                let line = &mut self.buffer[self.len..][..LINE];
-                self.len += match signal.scalar {
-                    true => scalar(line, change.bits, &signal.id),
-                    false => vector(line, change.bits, &signal.id),
-                };
-                if let Some((id, names)) = &signal.states {
-                    // A name has any length.
-                    self.state(change.bits, names, id);
-                    self.room(SOME * LINE);
+            self.room(SOME * signals.room);
+            let (buffer, mut len) = (&mut self.buffer[..], self.len);
+            for &Change { leaf, bits } in some {
+                let signal = &signals.signals[leaf as usize];
+                len += signal.end.line(&mut buffer[len..][..LINE], bits);
+                if let Some(place) = signal.states {
+                    let states = &signals.states[place.get() as usize - 1];
+                    len += states.line(&mut buffer[len..], bits);
                 }
             }
+            self.len = len;
         }
-    }
-
-    pub fn scalar(&mut self, bit: u64, id: &Id) {
-        self.len += scalar(self.line(), bit, id);
-    }
-
-    fn state(&mut self, bits: u64, names: &[&str], id: &Id) {
-        let name = usize::try_from(bits).ok().and_then(|bits| names.get(bits));
-        self.raw(b"s");
-        match name {
-            Some(name) => self.raw(name.as_bytes()),
-            None => self.raw(bits.to_string().as_bytes()),
-        }
-        self.raw(&id.end[..usize::from(id.len)]);
     }
 
     pub fn time(&mut self, time: u64) {
@@ -202,28 +263,12 @@ impl Text {
     }
 }
 
-/// Writes a line of one bit, and returns its length.
+/// Writes the bits of bytes, eight digits each.
 #[inline(always)]
-fn scalar(line: &mut [u8], bit: u64, id: &Id) -> usize {
-    line[..8].copy_from_slice(&id.end);
-    // In place of the space.
-    line[0] = b'0' + (bit & 1) as u8;
-    usize::from(id.len)
-}
-
-/// The same of a word. Leading zeros are left out: a reader extends a value that begins with 1 by
-/// zeros.
-#[inline(always)]
-fn vector(line: &mut [u8], bits: u64, id: &Id) -> usize {
-    let digits = 64 - (bits | 1).leading_zeros() as usize;
-    let mut rest = bits << (64 - digits);
-    line[0] = b'b';
-    for eight in line[1..65].chunks_exact_mut(8).take(digits.div_ceil(8)) {
-        eight.copy_from_slice(&eight_digits((rest >> 56) as u8));
-        rest <<= 8;
+fn put_digits(digits: &mut [u8], bytes: &[u8]) {
+    for (eight, &byte) in digits.chunks_exact_mut(8).zip(bytes) {
+        eight.copy_from_slice(&eight_digits(byte));
     }
-    line[1 + digits..][..8].copy_from_slice(&id.end);
-    1 + digits + usize::from(id.len)
 }
 
 /// The digits of a number below 10^8, the first in the lowest byte: four and four, then two and
@@ -257,17 +302,9 @@ mod tests {
     #[test]
     fn there_is_room_for_every_line() {
         let names: &[&str] = vec![&*"LONG_".repeat(50).leak()].leak();
-        let states = Signal {
-            id: Id::new(1),
-            scalar: false,
-            states: Some((Id::new(2), names)),
-        };
-        let word = Signal {
-            id: Id::new(3),
-            scalar: false,
-            states: None,
-        };
-        let signals = [states, word];
+        let mut signals = Signals::new();
+        signals.push(1, 64, Some(names));
+        signals.push(3, 64, None);
         let changes: Vec<_> = (0..100)
             .map(|index| match index % 5 {
                 0 => Change { leaf: 0, bits: 0 },
@@ -280,12 +317,12 @@ mod tests {
         let expected: String = (changes.iter())
             .map(|change| match change.leaf {
                 0 => format!(
-                    "b0 {0}\ns{1} {2}\n",
-                    signals[0].id.code(),
+                    "b0 {}\ns{} {}\n",
+                    IdCode::from(1u32),
                     names[0],
-                    signals[0].states.unwrap().0.code()
+                    IdCode::from(2u32)
                 ),
-                _ => format!("b{:b} {}\n", change.bits, signals[1].id.code()),
+                _ => format!("b{:b} {}\n", change.bits, IdCode::from(3u32)),
             })
             .collect();
         for before in (0..8_000).step_by(7) {
@@ -298,6 +335,48 @@ mod tests {
                 text.bytes()[before..] == *expected.repeat(3).as_bytes(),
                 "{before}"
             );
+        }
+    }
+
+    /// Of every length, over what is left of longer lines, with codes of every length.
+    #[test]
+    fn values_of_every_length() {
+        let variables = [1, 93, 94, 100_000, 10_000_000, u32::MAX];
+        for variable in variables {
+            let mut signals = Signals::new();
+            signals.push(variable, 64, None);
+            signals.push(variable, 1, None);
+            let code = IdCode::from(variable);
+            let mut text = Text::new(Vec::new());
+            for bits in (0..64).flat_map(|place| [1 << place, u64::MAX >> place, 0x5a5a << place]) {
+                text.clear();
+                text.raw(&[b'x'; 3 * LINE]);
+                text.clear();
+                text.changes(&signals, &[0, 1].map(|leaf| Change { leaf, bits }));
+                let wanted = format!("b{bits:b} {code}\n{}{code}\n", bits & 1);
+                assert_eq!(str::from_utf8(text.bytes()).unwrap(), wanted);
+            }
+        }
+    }
+
+    /// However they lie in the buffer when it grows.
+    #[test]
+    fn states_without_a_name_are_numbers() {
+        let mut signals = Signals::new();
+        signals.push(1, 64, Some(&["IDLE"]));
+        let changes = [0, 1].map(|bits| Change { leaf: 0, bits });
+        let long = [Change {
+            bits: u64::MAX,
+            ..changes[0]
+        }; 500];
+        let wanted = "b0 \"\nsIDLE #\nb1 \"\ns1 #\n".to_owned();
+        let wanted = wanted + &format!("b{0:b} \"\ns{0} #\n", u64::MAX).repeat(500);
+        for before in (0..8_000).step_by(70) {
+            let mut text = Text::new(Vec::new());
+            text.raw(&vec![b'x'; before]);
+            text.changes(&signals, &changes);
+            text.changes(&signals, &long);
+            assert!(text.bytes()[before..] == *wanted.as_bytes(), "{before}");
         }
     }
 
