@@ -109,7 +109,7 @@ fn circuit<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
     let mut theirs = build(Build::Vcd, begin, "vcd");
     for (waves, what) in [
         (Waves::Vcd, "VCD, one thread"),
-        (Waves::VcdBehind, "VCD, writer thread"),
+        (Waves::VcdBehind, "VCD, two threads"),
     ] {
         let run = || ours::dump(circuit, begin, waves, a);
         let dump = || theirs.dump(b);

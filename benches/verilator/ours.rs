@@ -5,7 +5,7 @@ use super::theirs::ROTATION;
 use motion_rtl::kernel::{Circuit, Observer, RunError, Sample, Simulator};
 use motion_rtl::logic::sim::{Int, UInt, Wire};
 use motion_rtl::logic::{Bit, Signed, Sim};
-use motion_rtl::trace::{Clock, Fst, Options, Vcd, WriteBehind};
+use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
 use std::fs::File;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -103,7 +103,7 @@ pub fn run<C: Outputs, const EVERY: u64>(circuit: &C, stimulus: &Stimulus) -> (D
 pub enum Waves {
     /// VCD, written by the run itself.
     Vcd,
-    /// VCD, written by a thread behind the run.
+    /// VCD, formatted and written by a thread behind the run.
     VcdBehind,
     /// FST, which has a thread of its own.
     Fst,
@@ -127,10 +127,9 @@ pub fn dump<C: Outputs>(
             (begun.elapsed(), sum)
         }
         Waves::VcdBehind => {
-            let file = WriteBehind::new(file).expect("a thread");
-            let mut vcd = Vcd::new(file, circuit, clock, &options).expect("a good circuit");
+            let mut vcd = VcdBehind::new(file, circuit, clock, &options).expect("a good circuit");
             let (begun, sum) = seen(circuit, stimulus, &mut vcd);
-            vcd.finish().and_then(WriteBehind::finish).expect("room");
+            vcd.finish().expect("room");
             (begun.elapsed(), sum)
         }
         Waves::Fst => {

@@ -14,6 +14,7 @@ pub mod gtkw;
 mod layout;
 mod record;
 mod rest;
+mod section;
 mod stimulus_file;
 pub mod text;
 pub(crate) mod value;
@@ -21,7 +22,6 @@ mod vcd;
 mod walk;
 mod wave_file;
 
-pub use behind::WriteBehind;
 pub use clock::{Clock, ClockError};
 pub(crate) use dump::Dump;
 pub use fst::Fst;
@@ -30,8 +30,8 @@ pub use layout::{LayoutError, Options};
 pub use record::{RecordError, Recorder};
 pub(crate) use stimulus_file::Lines;
 pub use stimulus_file::StimulusFile;
-pub use vcd::Vcd;
 pub(crate) use vcd::VcdFile;
+pub use vcd::{Vcd, VcdBehind};
 pub use wave_file::{WaveFile, WaveFormat};
 
 use crate::kernel::{Circuit, Machine, RunError, Running, Values};

@@ -1,10 +1,11 @@
 use super::atomic::AtomicFile;
+use super::behind::Behind;
 use super::dump::{Dump, Format};
-use super::fst::FstFile;
+use super::fst::Encoder;
 use super::layout::Layout;
 use super::vcd::VcdFile;
 use super::walk::Change;
-use super::{Clock, Options, WriteBehind};
+use super::{Clock, Options};
 use crate::kernel::{Circuit, Machine, Observer, RunError, Sample};
 use std::io;
 use std::marker::PhantomData;
@@ -20,10 +21,11 @@ pub enum WaveFormat {
     Fst,
 }
 
-/// Waves of a run in a format that is chosen while the program runs; a thread writes the file.
+/// Waves of a run in a format that is chosen while the program runs; a thread formats them and
+/// writes the file.
 ///
-/// Where the format is known beforehand, [`Vcd`](super::Vcd) and [`Fst`](super::Fst) do the same
-/// with any writer.
+/// Where the format is known beforehand, [`VcdBehind`](super::VcdBehind) and [`Fst`](super::Fst)
+/// do the same with any writer.
 #[derive(Debug)]
 #[must_use]
 pub struct WaveFile<C> {
@@ -46,8 +48,8 @@ impl<C: Circuit> WaveFile<C> {
     ) -> io::Result<Self> {
         let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
         let file = match format {
-            WaveFormat::Vcd => Either::Vcd(VcdFile::new(WriteBehind::new(file)?, &layout, clock)),
-            WaveFormat::Fst => Either::Fst(FstFile::new(file, &layout, clock)?),
+            WaveFormat::Vcd => Either::Vcd(Behind::new(VcdFile::new(file, &layout, clock))?),
+            WaveFormat::Fst => Either::Fst(Behind::new(Encoder::new(file, &layout, clock)?)?),
         };
         Ok(WaveFile {
             dump: Dump::new(&layout, clock, options, file),
@@ -75,8 +77,8 @@ impl<C: Circuit> Observer<C> for WaveFile<C> {
 /// One walk for both, or the circuit would be compiled with each of them.
 #[derive(Debug)]
 enum Either {
-    Vcd(VcdFile<WriteBehind<AtomicFile>>),
-    Fst(FstFile<AtomicFile>),
+    Vcd(Behind<VcdFile<AtomicFile>>),
+    Fst(Behind<Encoder<AtomicFile>>),
 }
 
 impl Format for Either {
@@ -91,7 +93,7 @@ impl Format for Either {
 
     fn finish(self, end: Option<u64>, changes: &mut Vec<Change>) -> io::Result<AtomicFile> {
         match self {
-            Either::Vcd(file) => file.finish(end, changes)?.finish(),
+            Either::Vcd(file) => file.finish(end, changes),
             Either::Fst(file) => file.finish(end, changes),
         }
     }

@@ -1,68 +1,85 @@
-//! Writing on a thread of its own.
+//! A dump that a thread of its own formats and writes.
 
 use crate::zoo::{Zoo, inputs};
-use crate::{SEED, clock, run_zoo};
-use motion_rtl::kernel::{RunError, Simulator};
-use motion_rtl::trace::{Options, Vcd, WriteBehind, atomic::AtomicFile};
+use crate::{SEED, clock, dump, run_zoo};
+use motion_rtl::kernel::{Circuit, RunError, Simulator};
+use motion_rtl::logic::{Logic, Ram, Sim};
+use motion_rtl::signals;
+use motion_rtl::trace::{Options, VcdBehind, atomic::AtomicFile};
 use std::fs;
 use std::io::{self, Write};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex};
 
-const TICKS: u64 = 5_000;
+/// Ticks of several sections of the zoo.
+const TICKS: u64 = 20_000;
+
+fn behind<W: Write + Send + 'static>(out: W) -> VcdBehind<Zoo, W> {
+    VcdBehind::new(out, &Zoo, clock(), &Options::default()).unwrap()
+}
+
+fn run<W: Write + Send + 'static>(ticks: u64, vcd: &mut VcdBehind<Zoo, W>) -> Result<(), RunError> {
+    let mut inputs = inputs(SEED);
+    let run = Simulator::new(&Zoo).run(ticks, |_, _| inputs.next().unwrap(), vcd);
+    run.map(drop)
+}
 
 #[test]
 fn a_thread_writes_the_same_bytes() {
-    let (wanted, _) = run_zoo(TICKS, &Options::default());
-    assert!(wanted.len() > 1 << 20, "several buffers");
-    let out = WriteBehind::new(Vec::new()).unwrap();
-    let mut vcd = Vcd::new(out, &Zoo, clock(), &Options::default()).unwrap();
-    let mut inputs = inputs(SEED);
-    Simulator::new(&Zoo)
-        .run(TICKS, |_, _| inputs.next().unwrap(), &mut vcd)
-        .unwrap();
-    assert!(vcd.finish().unwrap().finish().unwrap() == wanted);
-}
-
-#[test]
-fn pieces_of_any_length_come_through_in_their_order() {
-    let mut out = WriteBehind::new(Vec::new()).unwrap();
-    let mut wanted = Vec::new();
-    for length in [1, 0, 300_000, 7, 1 << 20, 3] {
-        let piece: Vec<u8> = (0..length).map(|k| (k % 251) as u8).collect();
-        out.write_all(&piece).unwrap();
-        wanted.extend(piece);
+    for ticks in [0, 1, 100, TICKS] {
+        let (wanted, _) = run_zoo(ticks, &Options::default());
+        let mut vcd = behind(Vec::new());
+        run(ticks, &mut vcd).unwrap();
+        assert!(vcd.finish().unwrap() == wanted, "{ticks} ticks");
     }
-    assert!(out.finish().unwrap() == wanted);
 }
 
-/// A disk that is full from the start.
-#[cfg(target_os = "linux")]
-#[test]
-fn a_full_disk_is_an_error_at_the_latest_at_the_end() {
-    let full = || fs::File::options().write(true).open("/dev/full").unwrap();
-    let mut short = WriteBehind::new(full()).unwrap();
-    short.write_all(b"a").unwrap();
-    assert_eq!(
-        short.finish().unwrap_err().kind(),
-        io::ErrorKind::StorageFull
-    );
+signals! { struct WideIn<L> { address: L::U<15>, word: L::U<8> } }
+signals! { struct WideReg<L> { first: L::Ram<15, 8>, second: L::Ram<15, 8> } }
+signals! { struct WideNet<L> { read: L::U<8> } }
 
-    let out = WriteBehind::new(full()).unwrap();
-    let mut vcd = Vcd::new(out, &Zoo, clock(), &Options::default()).unwrap();
-    let mut inputs = inputs(SEED);
-    let run = Simulator::new(&Zoo).run(1_000_000, |_, _| inputs.next().unwrap(), &mut vcd);
-    assert!(
-        matches!(run, Err(RunError::Waves(error)) if error.kind() == io::ErrorKind::StorageFull)
-    );
-    assert!(vcd.finish().is_err());
+/// Two memories, whose words are more than the changes of a section.
+struct Wide;
+
+impl Circuit for Wide {
+    const NAME: &'static str = "wide";
+    const ABOUT: &'static str = "has many words";
+    type In<L: Logic> = WideIn<L>;
+    type Reg<L: Logic> = WideReg<L>;
+    type Net<L: Logic> = WideNet<L>;
+
+    fn comb<L: Logic>(&self, q: &WideReg<L>, i: &WideIn<L>) -> WideNet<L> {
+        WideNet {
+            read: q.first.read(i.address),
+        }
+    }
+
+    fn next<L: Logic>(&self, q: WideReg<L>, w: &WideNet<L>, i: &WideIn<L>) -> WideReg<L> {
+        WideReg {
+            first: q.first.write(true.into(), i.address, i.word),
+            second: q.second.write(true.into(), i.address, w.read),
+        }
+    }
+}
+
+#[test]
+fn a_tick_with_more_changes_than_a_section() {
+    let i = || WideIn::<Sim> {
+        address: 5.into(),
+        word: 7.into(),
+    };
+    let wanted = dump(&Wide, 3, clock(), i()).unwrap();
+    let mut vcd = VcdBehind::new(Vec::new(), &Wide, clock(), &Options::default()).unwrap();
+    Simulator::new(&Wide).run(3, |_, _| i(), &mut vcd).unwrap();
+    assert!(vcd.finish().unwrap() == wanted);
 }
 
 /// A file on a disk that becomes full.
 #[derive(Debug)]
-struct Full(usize, AtomicFile);
+struct Full<W>(usize, W);
 
-impl Write for Full {
+impl<W: Write> Write for Full<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.0 = self
             .0
@@ -75,15 +92,38 @@ impl Write for Full {
     }
 }
 
+fn assert_full(run: Result<(), RunError>) {
+    assert!(
+        matches!(run, Err(RunError::Waves(error)) if error.kind() == io::ErrorKind::StorageFull)
+    );
+}
+
+#[test]
+fn a_full_disk_is_an_error_at_the_latest_at_the_end() {
+    let mut short = behind(Full(0, io::sink()));
+    run(1, &mut short).unwrap();
+    assert_eq!(
+        short.finish().map(drop).unwrap_err().kind(),
+        io::ErrorKind::StorageFull
+    );
+
+    let mut long = behind(Full(0, io::sink()));
+    assert_full(run(1_000_000, &mut long));
+    assert!(long.finish().is_err());
+}
+
+fn files(directory: &Path) -> usize {
+    fs::read_dir(directory).unwrap().count()
+}
+
 #[test]
 fn a_disk_that_becomes_full_leaves_no_file() {
     let directory = tempfile::tempdir().unwrap();
     let file = AtomicFile::create(directory.path().join("a.vcd")).unwrap();
-    let mut out = WriteBehind::new(Full(1_000_000, file)).unwrap();
-    let error = (0..100).find_map(|_| out.write_all(&[b'a'; 100_000]).err());
-    assert_eq!(error.unwrap().kind(), io::ErrorKind::StorageFull);
-    out.finish().unwrap_err();
-    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
+    let mut vcd = behind(Full(1_000_000, file));
+    assert_full(run(1_000_000, &mut vcd));
+    vcd.finish().unwrap_err();
+    assert_eq!(files(directory.path()), 0);
 }
 
 /// Counts what it is given, and waits to be told before it takes the first of it.
@@ -109,43 +149,50 @@ impl Write for Slow {
 
 /// A file that is slower than the run holds the run up: memory is bounded.
 #[test]
-fn who_writes_waits_for_a_slow_file() {
+fn the_run_waits_for_a_slow_file() {
+    const LONG: u64 = 100_000;
     let slow = Slow {
         open: Arc::default(),
         taken: Arc::default(),
     };
     let (gate, taken) = (slow.open.clone(), slow.taken.clone());
-    let given = Arc::new(AtomicUsize::new(0));
-    let mut out = WriteBehind::new(slow).unwrap();
-    let writer = std::thread::spawn({
-        let given = given.clone();
+    let ticks = Arc::new(AtomicU64::new(0));
+    let mut vcd = behind(slow);
+    let runs = std::thread::spawn({
+        let ticks = ticks.clone();
         move || {
-            for _ in 0..100 {
-                out.write_all(&[0; 64 * 1024]).unwrap();
-                given.fetch_add(64 * 1024, Ordering::SeqCst);
-            }
-            out.finish().map(drop)
+            let mut inputs = inputs(SEED);
+            let i = |tick, _: &_| {
+                ticks.store(tick, Ordering::SeqCst);
+                inputs.next().unwrap()
+            };
+            Simulator::new(&Zoo).run(LONG, i, &mut vcd).unwrap();
+            vcd.finish().map(drop)
         }
     });
-    // It gets as far as the buffers reach, and no further.
-    while given.load(Ordering::SeqCst) < 512 * 1024 {
+    // It gets as far as the sections reach, and no further.
+    let bytes = |ticks: u64| run_zoo(ticks, &Options::default()).0.len();
+    while ticks.load(Ordering::SeqCst) < 1_000 {
         std::thread::yield_now();
     }
-    std::thread::sleep(std::time::Duration::from_millis(50));
+    std::thread::sleep(std::time::Duration::from_millis(200));
     assert_eq!(taken.load(Ordering::SeqCst), 0);
-    assert!(given.load(Ordering::SeqCst) <= 768 * 1024);
+    let reached = ticks.load(Ordering::SeqCst);
+    assert!(bytes(reached) <= 2 << 20, "{reached} ticks");
     *gate.0.lock().unwrap() = true;
     gate.1.notify_all();
-    writer.join().unwrap().unwrap();
-    assert_eq!(taken.load(Ordering::SeqCst), 100 * 64 * 1024);
+    runs.join().unwrap().unwrap();
+    assert_eq!(taken.load(Ordering::SeqCst), bytes(LONG));
 }
 
 #[test]
 fn dropped_it_leaves_nothing() {
-    let directory = tempfile::tempdir().unwrap();
-    let file = AtomicFile::create(directory.path().join("a.vcd")).unwrap();
-    let mut out = WriteBehind::new(file).unwrap();
-    out.write_all(&[b'a'; 1_000_000]).unwrap();
-    drop(out);
-    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
+    for ticks in [0, 10, TICKS] {
+        let directory = tempfile::tempdir().unwrap();
+        let file = AtomicFile::create(directory.path().join("a.vcd")).unwrap();
+        let mut vcd = behind(file);
+        run(ticks, &mut vcd).unwrap();
+        drop(vcd);
+        assert_eq!(files(directory.path()), 0);
+    }
 }

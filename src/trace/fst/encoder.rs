@@ -1,8 +1,10 @@
 use super::header::{Counts, Variable, declarations, header};
-use super::section::{Section, Sorted, Value};
+use super::sorted::{Sorted, Value};
 use super::varint::{signed, unsigned};
 use crate::trace::Clock;
+use crate::trace::behind::Sink;
 use crate::trace::layout::Layout;
+use crate::trace::section::Section;
 use crate::trace::vcd::eight_digits;
 use lz4_flex::block::{CompressTable, compress_into_with_table, get_maximum_output_size};
 use miniz_oxide::deflate::compress_to_vec_zlib;
@@ -18,7 +20,7 @@ const WORTH_PACKING: usize = 32;
 const ZLIB: u8 = 1;
 
 /// Writes sections.
-pub struct Encoder<W> {
+pub(crate) struct Encoder<W> {
     out: W,
     clock: Clock,
     counts: Counts,
@@ -58,53 +60,6 @@ impl<W: Write + Seek> Encoder<W> {
             bytes,
             table: CompressTable::large(),
         })
-    }
-
-    /// Writes a section and empties it.
-    pub fn write(&mut self, section: &mut Section) -> io::Result<()> {
-        let last_tick = section.ticks.last().map(|tick| tick.fall);
-        let Some(end) = section.end.or(last_tick) else {
-            // No tick at all.
-            return Ok(());
-        };
-        if self.counts.sections == 0 {
-            let first = section.ticks.first().map_or(end, |first| first.rise);
-            (self.counts.start, self.counts.end) = (first, first);
-        }
-        let start = self.counts.end;
-        self.sorted.sort(section, self.values.len());
-
-        self.bytes.clear();
-        self.bytes.push(VALUES);
-        let length = self.place();
-        self.bytes.extend(start.to_be_bytes());
-        self.bytes.extend(end.to_be_bytes());
-        let unpacked = self.place();
-        self.frame();
-        let chains = self.chains(section.ticks.len());
-        self.times(section);
-        self.fill(length, (self.bytes.len() - length) as u64);
-        self.fill(unpacked, chains);
-        self.out.write_all(&self.bytes)?;
-
-        for (leaf, value) in self.values.iter_mut().enumerate() {
-            if let Some(last) = self.sorted.run(leaf).last() {
-                *value = last.bits;
-            }
-        }
-        self.counts.end = end;
-        self.counts.sections += 1;
-        section.ticks.clear();
-        section.changes.clear();
-        Ok(())
-    }
-
-    /// Completes the header.
-    pub fn finish(mut self) -> io::Result<W> {
-        self.out.seek(SeekFrom::Start(0))?;
-        self.out.write_all(&header(self.clock, self.counts))?;
-        self.out.flush()?;
-        Ok(self.out)
     }
 
     /// Leaves room for a number that is known later.
@@ -196,6 +151,57 @@ impl<W: Write + Seek> Encoder<W> {
         for number in [self.chain.len() as u64, packed.len() as u64, count] {
             self.bytes.extend(number.to_be_bytes());
         }
+    }
+}
+
+impl<W: Write + Seek + Send + 'static> Sink for Encoder<W> {
+    // What is packed together decides how small the file is.
+    const CHANGES: usize = 128 * 1024;
+    const TICKS: usize = 32 * 1024;
+    type Out = W;
+
+    fn write(&mut self, section: &Section) -> io::Result<()> {
+        let last_tick = section.ticks.last().map(|tick| tick.fall);
+        let Some(end) = section.end.or(last_tick) else {
+            // No tick at all.
+            return Ok(());
+        };
+        if self.counts.sections == 0 {
+            let first = section.ticks.first().map_or(end, |first| first.rise);
+            (self.counts.start, self.counts.end) = (first, first);
+        }
+        let start = self.counts.end;
+        self.sorted.sort(section, self.values.len());
+
+        self.bytes.clear();
+        self.bytes.push(VALUES);
+        let length = self.place();
+        self.bytes.extend(start.to_be_bytes());
+        self.bytes.extend(end.to_be_bytes());
+        let unpacked = self.place();
+        self.frame();
+        let chains = self.chains(section.ticks.len());
+        self.times(section);
+        self.fill(length, (self.bytes.len() - length) as u64);
+        self.fill(unpacked, chains);
+        self.out.write_all(&self.bytes)?;
+
+        for (leaf, value) in self.values.iter_mut().enumerate() {
+            if let Some(last) = self.sorted.run(leaf).last() {
+                *value = last.bits;
+            }
+        }
+        self.counts.end = end;
+        self.counts.sections += 1;
+        Ok(())
+    }
+
+    /// Completes the header.
+    fn finish(mut self) -> io::Result<W> {
+        self.out.seek(SeekFrom::Start(0))?;
+        self.out.write_all(&header(self.clock, self.counts))?;
+        self.out.flush()?;
+        Ok(self.out)
     }
 }
 

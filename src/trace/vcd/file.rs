@@ -2,8 +2,10 @@ use super::header::header;
 use super::text::{Signals, Text};
 use crate::kernel::Format as Shown;
 use crate::trace::Clock;
+use crate::trace::behind::Sink;
 use crate::trace::dump::Format;
 use crate::trace::layout::Layout;
+use crate::trace::section::Section;
 use crate::trace::walk::Change;
 use std::io::{self, Write};
 use vcd::IdCode;
@@ -83,6 +85,7 @@ impl<W: Write> VcdFile<W> {
     }
 }
 
+/// Tick by tick.
 impl<W: Write> Format for VcdFile<W> {
     type Out = W;
 
@@ -97,6 +100,28 @@ impl<W: Write> Format for VcdFile<W> {
         if let Some(end) = end {
             self.text.time(end);
         }
+        self.close()
+    }
+}
+
+/// On a thread of its own.
+impl<W: Write + Send + 'static> Sink for VcdFile<W> {
+    // Few enough to stay in the caches from one thread to the other.
+    const CHANGES: usize = 16 * 1024;
+    const TICKS: usize = 8 * 1024;
+    type Out = W;
+
+    fn write(&mut self, section: &Section) -> io::Result<()> {
+        for (tick, changes) in section.ticks() {
+            self.lines(tick.rise, tick.fall, changes)?;
+        }
+        if let Some(end) = section.end {
+            self.text.time(end);
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> io::Result<W> {
         self.close()
     }
 }

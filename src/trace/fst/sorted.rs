@@ -1,24 +1,5 @@
+use crate::trace::section::Section;
 use crate::trace::walk::Change;
-
-/// A piece of a run.
-#[derive(Debug, Default)]
-pub struct Section {
-    pub ticks: Vec<Tick>,
-    pub changes: Vec<Change>,
-    /// When the run is over, in the last one.
-    pub end: Option<u64>,
-}
-
-/// A tick in it.
-#[derive(Debug, Clone, Copy)]
-pub struct Tick {
-    /// When `clk` rises and everything changes.
-    pub rise: u64,
-    /// When `clk` falls.
-    pub fall: u64,
-    /// How many changes there have been after it.
-    pub changes: usize,
-}
 
 /// The changes of a section by leaf; those of a leaf stay in their order.
 #[derive(Debug, Default)]
@@ -50,14 +31,12 @@ impl Sorted {
             start += std::mem::replace(end, start);
         }
         runs.resize(section.changes.len(), Value::default());
-        let mut from = 0;
-        for (tick, place) in section.ticks.iter().zip((0..).step_by(2)) {
-            for &Change { leaf, bits } in &section.changes[from..tick.changes] {
+        for ((_, changes), place) in section.ticks().zip((0..).step_by(2)) {
+            for &Change { leaf, bits } in changes {
                 let next = &mut ends[leaf as usize];
                 runs[*next as usize] = Value { place, bits };
                 *next += 1;
             }
-            from = tick.changes;
         }
     }
 
