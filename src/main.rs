@@ -5,6 +5,7 @@
 mod cli;
 
 use clap::{Parser, Subcommand};
+use motion_rtl::trace::atomic::abandon;
 use std::io::Write as _;
 use std::process::ExitCode;
 
@@ -32,7 +33,15 @@ enum Command {
     List(cli::list::Arguments),
 }
 
+/// What a shell says of a program that Ctrl-C has ended.
+const INTERRUPTED: i32 = 130;
+
 fn main() -> ExitCode {
+    // Where there can be no handler, what is half written stays behind a signal.
+    let _ = ctrlc::set_handler(|| {
+        abandon();
+        std::process::exit(INTERRUPTED);
+    });
     let done = match Arguments::parse().command {
         None => cli::run::run(&cli::run::Arguments::default()),
         Some(Command::Run(arguments)) => cli::run::run(&arguments),

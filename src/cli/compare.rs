@@ -29,18 +29,29 @@ pub struct Arguments {
     #[arg(
         long,
         value_name = "TICKS",
+        allow_negative_numbers = true,
         default_value_t = 0,
         allow_negative_numbers = true
     )]
     skip: i64,
     /// First tick to compare, in golden's count.
-    #[arg(long, value_name = "TICK", default_value_t = 0)]
+    #[arg(
+        long,
+        value_name = "TICK",
+        allow_negative_numbers = true,
+        default_value_t = 0
+    )]
     from: u64,
     /// How many ticks to compare; without it all.
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", allow_negative_numbers = true)]
     ticks: Option<u64>,
     /// How many ticks to show before the first mismatch.
-    #[arg(long, value_name = "TICKS", default_value_t = 4)]
+    #[arg(
+        long,
+        value_name = "TICKS",
+        allow_negative_numbers = true,
+        default_value_t = 4
+    )]
     around: u64,
     /// A golden signal without partner, or with one and without a value to compare, is a difference.
     #[arg(long)]

@@ -35,10 +35,10 @@ pub struct Arguments {
     #[arg(long, conflicts_with_all = ["format", "from", "to", "only"])]
     pub(super) no_vcd: bool,
     /// First tick in the waves.
-    #[arg(long, value_name = "TICK")]
+    #[arg(long, value_name = "TICK", allow_negative_numbers = true)]
     pub(super) from: Option<u64>,
     /// First tick that is no more in the waves.
-    #[arg(long, value_name = "TICK")]
+    #[arg(long, value_name = "TICK", allow_negative_numbers = true)]
     pub(super) to: Option<u64>,
     /// A scope or signal in the waves, as `pulse_interpolator.x`; repeated for more. Without it all.
     #[arg(long, value_name = "SCOPE")]

@@ -19,7 +19,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Multiplies the half-periods by a ratio, as 3/2: the drawing becomes smaller by it.
-    #[arg(long, value_name = "NUM/DEN")]
+    #[arg(long, value_name = "NUM/DEN", allow_hyphen_values = true)]
     scale: Option<String>,
     /// Prints the report as JSON.
     #[arg(long)]

@@ -16,6 +16,9 @@ use std::io;
 use std::ops::Range;
 use std::path::Path;
 
+/// Scopes that a refusal lists.
+const MOST_SCOPES: usize = 40;
+
 /// The files of a run of `C`, whose Verilog is that of `V`: the same, or what stands in it without
 /// its plant.
 pub struct Traces<'a, C: Circuit, V: Circuit> {
@@ -165,7 +168,7 @@ fn not_selected(error: &LayoutError) -> Failure {
     let (problem, allowed) = match error {
         LayoutError::Unknown { wanted, scopes } => (
             format!("there is no {wanted}"),
-            format!("a signal, or a scope: {}", scopes.join(", ")),
+            format!("a signal, or a scope: {}", outermost(scopes)),
         ),
         other => (other.to_string(), "other signals".into()),
     };
@@ -174,6 +177,17 @@ fn not_selected(error: &LayoutError) -> Failure {
         problem,
         allowed,
     }
+}
+
+/// All scopes, or of a large circuit those of its blocks.
+fn outermost(scopes: &[String]) -> String {
+    if scopes.len() <= MOST_SCOPES {
+        return scopes.join(", ");
+    }
+    let outer = |scope: &&String| scope.matches('.').count() <= 1;
+    let shown: Vec<_> = scopes.iter().filter(outer).map(String::as_str).collect();
+    let within = scopes.len() - shown.len();
+    format!("{}, and {within} within these", shown.join(", "))
 }
 
 /// The run is over before the window begins.

@@ -17,12 +17,13 @@ pub struct Arguments {
     /// The circuit.
     circuit: String,
     /// Width of the words, in bits; without it the circuit's own widths, as `list` shows them.
-    #[arg(long, value_name = "BITS")]
+    #[arg(long, value_name = "BITS", allow_negative_numbers = true)]
     width: Option<u64>,
     /// What else the circuit is made with, as `list` tells.
     #[arg(
         long,
         value_name = "NUMBERS",
+        allow_negative_numbers = true,
         value_delimiter = ',',
         requires = "width"
     )]
@@ -31,15 +32,21 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Beside the circuit a testbench, a stimulus of so many ticks, and the golden waves of it.
-    #[arg(long, value_name = "TICKS", value_parser = clap::value_parser!(u64).range(2..=100_000_000))]
+    #[arg(long, value_name = "TICKS", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(2..=100_000_000))]
     testbench: Option<u64>,
     /// Clock of the golden waves.
-    #[arg(long, value_name = "HZ", requires = "testbench")]
+    #[arg(
+        long,
+        value_name = "HZ",
+        allow_negative_numbers = true,
+        requires = "testbench"
+    )]
     clock_hz: Option<u64>,
     /// What the stimulus is drawn from.
     #[arg(
         long,
         value_name = "NUMBER",
+        allow_negative_numbers = true,
         default_value_t = 1,
         requires = "testbench"
     )]
@@ -99,7 +106,7 @@ fn clock(arguments: &Arguments) -> Result<Clock, Failure> {
     };
     Clock::from_hz(hz).map_err(|error| Failure::Argument {
         field: "--clock-hz",
-        problem: error.to_string(),
+        problem: format!("is {}", error.hz),
         allowed: format!("1 to {} Hz", Clock::MAX_HZ),
     })
 }

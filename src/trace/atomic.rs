@@ -2,7 +2,9 @@
 
 use std::fs;
 use std::io::{self, Seek, SeekFrom, Write};
+use std::mem;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
 
 /// A file that takes its name only when it is complete.
@@ -15,6 +17,7 @@ use tempfile::NamedTempFile;
 #[must_use = "a file has its name only when it is committed"]
 pub struct AtomicFile {
     file: NamedTempFile,
+    _unfinished: Unfinished,
     path: PathBuf,
     /// Where the path leads.
     target: PathBuf,
@@ -42,7 +45,12 @@ impl AtomicFile {
             .tempfile_in(directory)
             // The kind alone: the rest would name the temporary file.
             .map_err(|error| named(&path, &error.kind().into()))?;
-        Ok(AtomicFile { file, path, target })
+        Ok(AtomicFile {
+            _unfinished: Unfinished::new(file.path()),
+            file,
+            path,
+            target,
+        })
     }
 
     /// Gives the file its name.
@@ -50,7 +58,9 @@ impl AtomicFile {
     /// # Errors
     /// The rename failed; nothing stays behind. The error names the path.
     pub fn commit(self) -> io::Result<PathBuf> {
-        let AtomicFile { file, path, target } = self;
+        let AtomicFile {
+            file, path, target, ..
+        } = self;
         match file.persist(&target) {
             Ok(_) => Ok(path),
             Err(failed) => Err(named(&path, &failed.error)),
@@ -72,6 +82,38 @@ impl Seek for AtomicFile {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         let sought = self.file.as_file_mut().seek(to);
         sought.map_err(|error| named(&self.path, &error))
+    }
+}
+
+/// The temporary files there are.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// An entry in that list.
+#[derive(Debug)]
+struct Unfinished(PathBuf);
+
+impl Unfinished {
+    fn new(path: &Path) -> Self {
+        unfinished(|all| all.push(path.to_owned()));
+        Unfinished(path.to_owned())
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        unfinished(|all| all.retain(|path| *path != self.0));
+    }
+}
+
+fn unfinished<T>(work: impl FnOnce(&mut Vec<PathBuf>) -> T) -> T {
+    work(&mut UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// Removes every temporary file: for a program that is about to end by a signal, which drops
+/// nothing. The files are still open, and commits fail from then on.
+pub fn abandon() {
+    for path in unfinished(mem::take) {
+        let _ = fs::remove_file(path);
     }
 }
 

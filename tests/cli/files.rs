@@ -1,6 +1,6 @@
 //! Directories and files that cannot be written.
 
-use super::support::{Bench, LINE, SHORT};
+use super::support::{Bench, LINE, PROGRAM, SHORT};
 
 const WRITABLE: &str = "allowed: a directory that can be written";
 
@@ -134,4 +134,32 @@ fn a_table_cannot_replace_a_directory() {
         &["table", "l.hpgl", "--out", "l.hpgl/t.csv"],
         &format!("--out: l.hpgl: File exists (os error 17); {allowed}"),
     );
+}
+
+/// Ctrl-C, and what asks a program to end.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_nothing() {
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+    for signal in ["-INT", "-TERM"] {
+        let bench = Bench::new();
+        let mut run = Command::new(PROGRAM)
+            .args(["run", "waves/turntable.toml", "--out", "."])
+            .current_dir(bench.path(""))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        // It has begun to write.
+        while bench.names().is_empty() {
+            assert_eq!(run.try_wait().unwrap(), None, "it is over");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let pid = run.id().to_string();
+        let sent = Command::new("kill").args([signal, &pid]).status().unwrap();
+        assert!(sent.success());
+        assert_eq!(run.wait().unwrap().code(), Some(130), "{signal}");
+        assert!(bench.names().is_empty(), "{signal}: {:?}", bench.names());
+    }
 }

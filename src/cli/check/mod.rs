@@ -19,19 +19,20 @@ pub struct Arguments {
     #[arg(value_name = "CIRCUIT")]
     circuits: Vec<String>,
     /// Width of the words, in bits.
-    #[arg(long, value_name = "BITS")]
+    #[arg(long, value_name = "BITS", allow_negative_numbers = true)]
     width: Option<u64>,
     /// What else the circuit is made with, as `list` tells: `--with 1` is the literal variant of
     /// unit_law, pulse_generator and axis.
     #[arg(
         long,
         value_name = "NUMBERS",
+        allow_negative_numbers = true,
         value_delimiter = ',',
         requires = "circuits"
     )]
     with: Vec<u64>,
     /// States after which a proof is given up.
-    #[arg(long, value_name = "STATES", default_value_t = 1 << 26)]
+    #[arg(long, value_name = "STATES", allow_negative_numbers = true, default_value_t = 1 << 26)]
     limit: u32,
     /// Where the waves of a counterexample go.
     #[arg(long, value_name = "DIR", default_value = "waves")]
