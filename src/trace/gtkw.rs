@@ -58,8 +58,8 @@ pub fn save_file<C: Circuit>(
     save_file_with(circuit, clock, options, dump, focus, &[])
 }
 
-/// The same with some signals once more behind `clk`, by their paths from the circuit's name on:
-/// those that say most of what the circuit does.
+/// The same with some signals once more behind `clk`, by their paths from the circuit's name on and
+/// shown by these: those that say most of what the circuit does.
 ///
 /// # Errors
 /// What [`Vcd::new`](super::Vcd::new) refuses.
@@ -163,7 +163,9 @@ impl Save<'_> {
         if !overview.is_empty() {
             self.comment("");
             self.comment("overview");
-            self.leaves(&overview);
+            for index in overview {
+                self.leaf(&layout.leaves[index], true);
+            }
         }
         let leaves = |wanted: fn(&Declaration) -> bool| -> Vec<usize> {
             let own = top.leaves.iter().copied();
@@ -238,26 +240,32 @@ impl Save<'_> {
     fn leaves(&mut self, leaves: &[usize]) {
         let layout = self.layout;
         for &index in leaves {
-            self.leaf(&layout.leaves[index]);
+            self.leaf(&layout.leaves[index], false);
         }
     }
 
-    fn leaf(&mut self, leaf: &Declaration) {
+    /// A signal, `whole` by its path within the circuit instead of its name alone.
+    fn leaf(&mut self, leaf: &Declaration, whole: bool) {
         let flags = flags(leaf);
-        let width = leaf.shape.width;
-        if width == 1 {
-            self.trace(flags, format_args!("{}", leaf.path()));
-        } else {
-            self.trace(flags, format_args!("{}[{}:0]", leaf.path(), width - 1));
-        }
+        let range = match leaf.shape.width {
+            1 => String::new(),
+            width => format!("[{}:0]", width - 1),
+        };
+        // GTKWave shows the last part of a path, or else an alias before it.
+        let alias = |name: &str| match whole && leaf.scopes.len() > 1 {
+            true => format!("+{{{}.{name}}} ", leaf.scopes[1..].join(".")),
+            false => String::new(),
+        };
+        let shown = alias(&format!("{}{range}", leaf.name));
+        self.trace(flags, format_args!("{shown}{}{range}", leaf.path()));
         if flags & ANALOG_STEP != 0 {
             for _ in 0..ANALOG_ROWS {
                 self.trace(ANALOG_ROW, format_args!("-"));
             }
         }
         if let Some(name) = companion(leaf) {
-            let scope = leaf.scopes.join(".");
-            self.trace(ASCII | RIGHT, format_args!("{scope}.{name}"));
+            let (shown, scope) = (alias(&name), leaf.scopes.join("."));
+            self.trace(ASCII | RIGHT, format_args!("{shown}{scope}.{name}"));
         }
     }
 

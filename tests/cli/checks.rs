@@ -59,6 +59,22 @@ fn the_literal_variant_breaks_and_shows_how() {
 }
 
 #[test]
+fn a_counterexample_is_told_where_its_waves_cannot_be_written() {
+    Bench::with("taken", "")
+        .command(&["check", "unit_law", "--with", "1", "--out", "taken"])
+        .assert()
+        .code(1)
+        .stdout(predicate::str::contains("BROKEN"))
+        .stderr(predicate::str::starts_with("error: unit_law: tick 1: "))
+        .stderr(predicate::str::contains(
+            "\nwaves: none: the waves could not be written: taken",
+        ))
+        .stderr(predicate::str::ends_with(
+            "; allowed: another --out, a directory\n",
+        ));
+}
+
+#[test]
 fn one_circuit_that_is_too_wide_does_not_hide_the_others() {
     let text = "error: pulse_interpolator at width 4: ";
     Bench::new()

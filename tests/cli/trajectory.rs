@@ -685,3 +685,18 @@ fn a_torque_that_is_not_enough_is_said() {
         "{line}"
     );
 }
+
+/// What the save file begins with is all there: a path that is none would be left out. That the file
+/// is what the run writes, `the_circle_is_what_closed_forms_say` sees.
+#[test]
+fn the_overview_is_whole() {
+    let save = concat!(env!("CARGO_MANIFEST_DIR"), "/waves/circle.gtkw");
+    let save = std::fs::read_to_string(save).unwrap();
+    let (_, rest) = save.split_once("\n-overview\n").unwrap();
+    let (overview, _) = rest.split_once("\n-ports in\n").unwrap();
+    let rows = overview
+        .lines()
+        .filter(|line| line.contains("trajectory_controller."));
+    // Sixteen, and two states by name.
+    assert_eq!(rows.count(), 18, "{overview}");
+}

@@ -149,7 +149,7 @@ fn prove(
             )),
             ..row
         },
-        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves)?,
+        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves),
     })
 }
 
@@ -176,7 +176,7 @@ fn sweep(
             states: Some(cases),
             ..row
         },
-        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves)?,
+        Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves),
         // A sweep has no limit.
         Ok(Verdict::Undecided(_)) => row,
         Err(error) => Row {
@@ -189,15 +189,18 @@ fn sweep(
     })
 }
 
-fn broken(row: Row, report: &str, waves: Result<Vec<PathBuf>, RunError>) -> Result<Row, Failure> {
-    let waves: Vec<_> = waves?
-        .iter()
-        .map(|path| path.display().to_string())
-        .collect();
-    let fault = format!("{}: {report}\nwaves: {}", row.circuit, waves.join(", "));
-    Ok(Row {
+/// The counterexample is what is asked for: it is told, too, where its waves cannot be written.
+fn broken(row: Row, report: &str, waves: Result<Vec<PathBuf>, RunError>) -> Row {
+    let waves = match waves {
+        Ok(paths) => {
+            let paths = paths.iter().map(|path| path.display().to_string());
+            paths.collect::<Vec<_>>().join(", ")
+        }
+        Err(error) => format!("none: {error}; allowed: another --out, a directory"),
+    };
+    Row {
         ended: Ended::Broken,
-        fault: Some(fault),
+        fault: Some(format!("{}: {report}\nwaves: {waves}", row.circuit)),
         ..row
-    })
+    }
 }
