@@ -176,32 +176,12 @@ impl Program {
             let (made, speed, ramp_s) = match &piece.course {
                 Course::Line => {
                     let ramp_s = self.ramp_scans as f64 * settings.scan_s();
-                    let length = way[0].hypot(way[1]);
-                    let master = way[0].abs().max(way[1].abs());
-                    // Counts a scan of the master axis, at a millimetre a second.
-                    let scale =
-                        settings.counts_per_mm * settings.scan_s() * master / length.max(1.0);
-                    let word = match whole_speed(speed * scale) {
-                        Some(word) => word,
-                        // Shorter than a count: it is not pushed.
-                        None if way == [0.0; 2] => 1,
-                        None => {
-                            let least = 1.0 / scale;
-                            let reason = Reason::Slow { speed, least };
-                            let line = Some(step.line);
-                            return Err(PathError {
-                                piece: index,
-                                line,
-                                reason,
-                            }
-                            .into());
-                        }
+                    let fault = |reason| PathError {
+                        piece: index,
+                        line: Some(step.line),
+                        reason,
                     };
-                    // The profile goes as fast as the interpolator, which knows whole counts.
-                    let speed = match way == [0.0; 2] {
-                        true => speed,
-                        false => word as f64 / scale,
-                    };
+                    let (word, speed) = line_speed(way, speed, settings).map_err(fault)?;
                     (Way::Line { speed: word }, speed, ramp_s)
                 }
                 Course::Arc(circle) => {
@@ -247,6 +227,21 @@ impl Program {
         }
         Ok(())
     }
+}
+
+/// The word for a speed in mm/s over a line's way in counts, and the speed that it is: the
+/// interpolator knows whole counts a scan of the master axis, and the profile is to go as fast.
+fn line_speed(way: [f64; 2], speed: f64, settings: &Settings) -> Result<(u64, f64), Reason> {
+    let (length, master) = (way[0].hypot(way[1]), way[0].abs().max(way[1].abs()));
+    if master == 0.0 {
+        // Shorter than a count: only the profile moves.
+        return Ok((1, speed));
+    }
+    // Counts a scan, at a millimetre a second.
+    let scale = settings.counts_per_mm * settings.scan_s() * master / length;
+    let least = 1.0 / scale;
+    let word = whole_speed(speed * scale).ok_or(Reason::Slow { speed, least })?;
+    Ok((word, word as f64 / scale))
 }
 
 /// An arc's piece, begun elsewhere.
