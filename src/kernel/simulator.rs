@@ -15,6 +15,18 @@ pub struct Simulator<'c, C: Circuit> {
     tick: u64,
 }
 
+/// Two runs that go on from the same tick, each with inputs of its own.
+// Written out because a derive would ask the circuit itself to be `Clone`.
+impl<C: Circuit> Clone for Simulator<'_, C> {
+    fn clone(&self) -> Self {
+        Simulator {
+            circuit: self.circuit,
+            q: self.q.clone(),
+            tick: self.tick,
+        }
+    }
+}
+
 impl<'c, C: Circuit> Simulator<'c, C> {
     /// The circuit at power-on, before tick 0.
     pub fn new(circuit: &'c C) -> Self {

@@ -310,6 +310,52 @@ fn a_scan_that_is_a_tick_too_short_is_late_and_the_line_still_holds() {
     }
 }
 
+/// With a target waiting: from the last load of a cycle on.
+#[test]
+fn the_next_cycle_takes_a_scan_after_the_turnaround_and_not_before() {
+    let circuit = Small::new(Rule::Floor);
+    let inputs = |scan: bool, x: Option<i64>| In {
+        scan: scan.into(),
+        hold: false.into(),
+        push: x.is_some().into(),
+        target_x: x.unwrap_or(0).into(),
+        target_y: 2.into(),
+        speed: 3.into(),
+        acceleration_time: 1.into(),
+        deceleration_time: 1.into(),
+        halt: false.into(),
+        clear: false.into(),
+    };
+    let mut simulator = Simulator::new(&circuit);
+    for x in [9, -5] {
+        simulator = simulator.step(inputs(false, Some(x)), |_| ()).0;
+    }
+    // The run after the last load before the second cycle begins.
+    let (mut loaded, mut starts) = (simulator.clone(), 0);
+    while starts < 2 {
+        let scan = simulator.tick() % SCAN == 0;
+        let (next, (load, start)) = simulator.step(inputs(scan, None), |now| {
+            (now.w.load.get(), now.w.start.get())
+        });
+        simulator = next;
+        starts += u32::from(start);
+        if load {
+            loaded = simulator.clone();
+        }
+    }
+    assert_eq!(loaded.registers().switch.x.get(), 9);
+    let is_taken = |ticks: u64| {
+        let mut run = loaded.clone();
+        for tick in 1..=ticks {
+            run = run.step(inputs(tick == ticks, None), |_| ()).0;
+        }
+        run.registers().sequencer.advance.get()
+    };
+    let first = (1..1_000).find(|ticks| is_taken(*ticks));
+    assert_eq!(first, Some(Small::TURNAROUND));
+    assert!(is_taken(Small::TURNAROUND + 7));
+}
+
 #[test]
 fn a_target_out_of_reach_is_refused_and_the_next_one_taken() {
     let circuit = Small::new(Rule::Floor);
