@@ -2,6 +2,7 @@
 
 use crate::check::{Drive, Driven, Outcome, Progress, Proof, Specified, TooWide, drive, reach};
 use crate::kernel::{Circuit, Declarations, Machine, RunError};
+use crate::trace::atomic::Directory;
 use crate::trace::chart::{Chart, ChartFailure};
 use crate::trace::{Clock, Layout, LayoutError};
 use crate::verilog::{Verilog, VerilogError};
@@ -137,7 +138,7 @@ impl<C: Specified> AnyCircuit for C {
             Outcome::Counterexample(found) => Verdict::Broken {
                 report: found.to_string(),
                 waves: waves.map_or(Ok(Vec::new()), |directory| {
-                    std::fs::create_dir_all(directory)?;
+                    let _directory = Directory::create(directory)?;
                     found.save(self, Clock::default(), directory)
                 }),
             },

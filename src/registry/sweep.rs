@@ -5,6 +5,7 @@ use crate::check::{Law, Swept, TooWide, cases, sweep};
 use crate::linear_interpolator::{Integrator, LineSweep, Rule};
 use crate::logic::lanes::Element;
 use crate::trace::Clock;
+use crate::trace::atomic::Directory;
 use std::ops::Range;
 use std::path::Path;
 
@@ -104,7 +105,7 @@ impl<W: Law, const K: usize, E: Element> AnySweep for InLanes<W, K, E> {
             Swept::Counterexample(found) => Verdict::Broken {
                 report: found.to_string(),
                 waves: waves.map_or(Ok(Vec::new()), |directory| {
-                    std::fs::create_dir_all(directory)?;
+                    let _directory = Directory::create(directory)?;
                     found.save(self.law.circuit(), Clock::default(), directory)
                 }),
             },
