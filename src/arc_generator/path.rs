@@ -131,7 +131,8 @@ pub struct Taught {
 /// The pieces of taught points.
 ///
 /// # Errors
-/// Three points that make no arc, or one that is not made of numbers; a piece without a speed where there is none for all either.
+/// Three points that make no arc, or one via that is not made of numbers; a piece without a speed
+/// where there is none for all either.
 pub fn from_points(
     start: Point,
     taught: &[Taught],

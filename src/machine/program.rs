@@ -279,3 +279,31 @@ fn length_in_time(begin: u64, length: u64, speed: f64, ramp_s: f64) -> Profile {
     profile.length += begin as f64;
     profile
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The speed that the profile is given is that of the interpolator's word, on any slope.
+    #[test]
+    fn a_line_goes_in_whole_counts_a_scan() {
+        // A thousand counts a millimetre, a scan of a millisecond: a count is a millimetre a second.
+        let settings = Settings::default();
+        let speed = |way, speed| line_speed(way, speed, &settings);
+        let (word, exact) = speed([4000.0, 0.0], 25.9).unwrap();
+        assert_eq!(word, 25);
+        assert!((exact - 25.0).abs() < 1e-9, "{exact}");
+        // Three, four, five: the master axis has four parts of five.
+        let (word, exact) = speed([-3000.0, 4000.0], 25.0).unwrap();
+        assert_eq!(word, 20);
+        assert!((exact - 25.0).abs() < 1e-9, "{exact}");
+        let (word, exact) = speed([3000.0, 4000.0], 26.0).unwrap();
+        assert_eq!(word, 20);
+        assert!((exact - 25.0).abs() < 1e-9, "{exact}");
+        assert_eq!(speed([0.0, 0.0], 0.3).unwrap(), (1, 0.3));
+        assert!(matches!(
+            speed([3000.0, 4000.0], 1.2),
+            Err(Reason::Slow { least, .. }) if (least - 1.25).abs() < 1e-9
+        ));
+    }
+}

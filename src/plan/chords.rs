@@ -15,14 +15,16 @@ pub(crate) fn ends(
     pieces(curve, curve.chords(tolerance_mm))
 }
 
-/// The same for a picture: of an arc `per_turn` pieces for a turn.
+/// The ends of the straight pieces that stand for `drawing.moves[index]` in a picture, in mm, its
+/// own end last: of an arc `per_turn` pieces for a turn. None where there is no such move.
 pub fn outline(
     drawing: &Drawing,
     index: usize,
     per_turn: u32,
 ) -> impl Iterator<Item = Point> + use<> {
-    let curve = Curve::of_move(drawing, index);
-    pieces(curve, curve.pieces(per_turn))
+    let curve = (index < drawing.moves.len()).then(|| Curve::of_move(drawing, index));
+    let pieces = move |curve: Curve| pieces(curve, curve.pieces(per_turn));
+    curve.into_iter().flat_map(pieces)
 }
 
 fn pieces(curve: Curve, count: u64) -> impl Iterator<Item = Point> {

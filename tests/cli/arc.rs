@@ -625,6 +625,10 @@ fn bad_pieces_are_refused_with_their_line() {
             "[[piece]]\nto_mm = [nan, 0, 0]\n".into(),
             "s.toml:8: piece 0: to_mm: x is NaN; allowed: a number",
         ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\nvia_mm = [5, inf, 0]\n".into(),
+            "s.toml:9: piece 0: via_mm: y is inf; allowed: a number",
+        ),
     ];
     for (text, refusal) in cases {
         let bench = with(&text);
