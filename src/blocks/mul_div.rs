@@ -108,7 +108,7 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
     fn comb<L: Logic>(&self, q: &Reg<L, M, Q>, i: &In<L, M, Q>) -> Net<L, Q> {
         let (multiplies, divides) = (q.state.bit(0), q.state.bit(1));
         let busy = multiplies | divides;
-        let partial = q.remainder.shift_left(1) | q.quotient.bit(Q - 1).word().resize();
+        let partial = partial(q);
         let last = q
             .count
             .equals(divides.mux((Q as u64 - 1).into(), (M as u64 - 1).into()));
@@ -124,33 +124,19 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
 
     #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, M, Q>, w: &Net<L, Q>, i: &In<L, M, Q>) -> Reg<L, M, Q> {
-        let (multiplies, divides) = (q.state.bit(0), q.state.bit(1));
-        let sum = q.quotient + q.factor.bit(0).mux(q.shifted, 0.into());
-        let shifted_quotient = q.quotient.shift_left(1) | w.fits.word().resize();
-        let after = (multiplies & !q.undivided).mux(DIVIDE.into(), IDLE.into());
+        let (multiplies, undivided) = (q.state.bit(0), q.undivided);
+        let after = (multiplies & !undivided).mux(DIVIDE.into(), IDLE.into());
+        let state = (w.busy & w.last).mux(after, q.state);
+        let stepped = step(q, w.partial, w.fits);
         Reg {
-            state: w
-                .take
-                .mux(MULTIPLY.into(), (w.busy & w.last).mux(after, q.state)),
-            count: (w.take | w.last).mux(0.into(), w.busy.mux(q.count + 1, q.count)),
-            undivided: w.take.mux(i.product_only, q.undivided),
-            shifted: w.take.mux(
-                i.multiplicand,
-                multiplies.mux(q.shifted.shift_left(1), q.shifted),
-            ),
-            factor: w.take.mux(
-                i.multiplier,
-                multiplies.mux(q.factor.shift_right(1), q.factor),
-            ),
-            by: w.take.mux(i.divisor, q.by),
-            quotient: w.take.mux(
-                i.addend,
-                divides.mux(shifted_quotient, multiplies.mux(sum, q.quotient)),
-            ),
-            remainder: w.take.mux(
-                0.into(),
-                divides.mux(w.fits.mux(w.partial - q.by, w.partial), q.remainder),
-            ),
+            state: w.take.mux(MULTIPLY.into(), state),
+            count: (w.take | w.last).mux(0.into(), stepped.count),
+            undivided: w.take.mux(i.product_only, undivided),
+            shifted: w.take.mux(i.multiplicand, stepped.shifted),
+            factor: w.take.mux(i.multiplier, stepped.factor),
+            by: w.take.mux(i.divisor, stepped.by),
+            quotient: w.take.mux(i.addend, stepped.quotient),
+            remainder: w.take.mux(0.into(), stepped.remainder),
             done: w.complete,
         }
     }
@@ -163,6 +149,50 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
         i: &In<L, M, Q>,
     ) -> Option<L::Bit> {
         Some(!(i.start | q.done) & q.state.is_zero())
+    }
+
+    /// A bit of the product or of the quotient, but not the last one; or nothing, where it is idle.
+    #[inline(always)]
+    fn coasting<L: Logic>(
+        &self,
+        q: &Reg<L, M, Q>,
+        w: &Self::Net<L>,
+        i: &In<L, M, Q>,
+    ) -> Option<L::Bit> {
+        Some(!(i.start | q.done | w.last))
+    }
+
+    #[inline(always)]
+    fn coast<L: Logic>(&self, q: Reg<L, M, Q>) -> Reg<L, M, Q> {
+        let partial = partial(&q);
+        let fits = !partial.below(q.by);
+        step(q, partial, fits)
+    }
+}
+
+/// The remainder with the next bit of the dividend.
+#[inline(always)]
+fn partial<L: Logic, const M: usize, const Q: usize>(q: &Reg<L, M, Q>) -> L::U<Q> {
+    q.remainder.shift_left(1) | q.quotient.bit(Q - 1).word().resize()
+}
+
+/// The registers with one bit more of the product or of the quotient.
+#[inline(always)]
+fn step<L: Logic, const M: usize, const Q: usize>(
+    q: Reg<L, M, Q>,
+    partial: L::U<Q>,
+    fits: L::Bit,
+) -> Reg<L, M, Q> {
+    let (multiplies, divides) = (q.state.bit(0), q.state.bit(1));
+    let sum = q.quotient + q.factor.bit(0).mux(q.shifted, 0.into());
+    let shifted_quotient = q.quotient.shift_left(1) | fits.word().resize();
+    Reg {
+        count: q.count + (multiplies | divides).word().resize(),
+        shifted: multiplies.mux(q.shifted.shift_left(1), q.shifted),
+        factor: multiplies.mux(q.factor.shift_right(1), q.factor),
+        quotient: divides.mux(shifted_quotient, multiplies.mux(sum, q.quotient)),
+        remainder: divides.mux(fits.mux(partial - q.by, partial), q.remainder),
+        ..q
     }
 }
 

@@ -51,7 +51,7 @@ pub trait Circuit: 'static {
         None
     }
 
-    /// A gate for all but free-running counters, if it has one: high where the edge would do what
+    /// A gate for all but what goes on by itself, if it has one: high where the edge would do what
     /// [`coast`](Circuit::coast) does and no more, in every state that the circuit can reach. In the
     /// meaning [`Sim`] it coasts then.
     ///
@@ -68,7 +68,7 @@ pub trait Circuit: 'static {
     }
 
     /// The registers after an edge in which the circuit is [`coasting`](Circuit::coasting): as they
-    /// were, but for its free-running counters.
+    /// were, but for free-running counters and for serial units between two bits.
     #[inline(always)]
     fn coast<L: Logic>(&self, q: Self::Reg<L>) -> Self::Reg<L> {
         q

@@ -140,10 +140,23 @@ impl<const P: usize, const R: usize> Circuit for Integrator<P, R> {
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P, R>, w: &Self::Net<L>, _: &In<L, P>) -> Option<L::Bit> {
+    fn coasting<L: Logic>(
+        &self,
+        q: &Reg<L, P, R>,
+        w: &Self::Net<L>,
+        _: &In<L, P>,
+    ) -> Option<L::Bit> {
         Some(
             w.accumulator.gated(&self.accumulator, &q.accumulator)
-                & w.mul_div.gated(&self.mul_div, &q.mul_div),
+                & w.mul_div.coasting(&self.mul_div, &q.mul_div),
         )
+    }
+
+    #[inline(always)]
+    fn coast<L: Logic>(&self, q: Reg<L, P, R>) -> Reg<L, P, R> {
+        Reg {
+            mul_div: self.mul_div.coast(q.mul_div),
+            ..q
+        }
     }
 }

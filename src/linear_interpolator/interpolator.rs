@@ -295,7 +295,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(
+    fn coasting<L: Logic>(
         &self,
         q: &Reg<L, A, P, T, M, Q, R>,
         w: &Self::Net<L>,
@@ -304,11 +304,20 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
         Some(
             w.targets.gated(&self.targets, &q.targets)
                 & w.sequencer.gated(&self.sequencer, &q.sequencer)
-                & w.pattern.gated(&self.pattern, &q.pattern)
+                & w.pattern.coasting(&self.pattern, &q.pattern)
                 & w.differentiator
                     .gated(&self.differentiator, &q.differentiator)
-                & w.integrator.gated(&self.integrator, &q.integrator)
+                & w.integrator.coasting(&self.integrator, &q.integrator)
                 & w.switch.gated(&self.switch, &q.switch),
         )
+    }
+
+    #[inline(always)]
+    fn coast<L: Logic>(&self, q: Reg<L, A, P, T, M, Q, R>) -> Reg<L, A, P, T, M, Q, R> {
+        Reg {
+            pattern: self.pattern.coast(q.pattern),
+            integrator: self.integrator.coast(q.integrator),
+            ..q
+        }
     }
 }

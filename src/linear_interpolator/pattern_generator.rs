@@ -160,7 +160,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
     }
 
     #[inline(always)]
-    fn gated<L: Logic>(
+    fn coasting<L: Logic>(
         &self,
         q: &Reg<L, P, T, M, Q>,
         w: &Self::Net<L>,
@@ -168,7 +168,15 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
     ) -> Option<L::Bit> {
         Some(
             w.trapezoid.gated(&self.trapezoid, &q.trapezoid)
-                & w.mul_div.gated(&self.mul_div, &q.mul_div),
+                & w.mul_div.coasting(&self.mul_div, &q.mul_div),
         )
+    }
+
+    #[inline(always)]
+    fn coast<L: Logic>(&self, q: Reg<L, P, T, M, Q>) -> Reg<L, P, T, M, Q> {
+        Reg {
+            mul_div: self.mul_div.coast(q.mul_div),
+            ..q
+        }
     }
 }

@@ -359,19 +359,10 @@ impl<
         &self,
         q: &Self::Reg<L>,
         w: &Self::Net<L>,
-        _: &Self::In<L>,
+        i: &Self::In<L>,
     ) -> Option<L::Bit> {
-        let axes = (0..AXES).fold(true.into(), |gated: L::Bit, axis| {
-            gated & w.axes[axis].gated(&self.axes[axis], &q.axes[axis])
-        });
-        Some(
-            w.search.gated(&self.search, &q.search)
-                & w.store.gated(&self.store, &q.store)
-                & w.sequencer.gated(&self.sequencer, &q.sequencer)
-                & w.measure.gated(&self.measure, &q.measure)
-                & w.cordic.gated(&self.cordic, &q.cordic)
-                & w.control.gated(&self.control, &q.control)
-                & axes,
-        )
+        // From `start` to its `done` the sequencer is under way, and nothing computes without it.
+        let writes = i.write | i.write_begin;
+        Some(w.sequencer.gated(&self.sequencer, &q.sequencer) & !writes)
     }
 }

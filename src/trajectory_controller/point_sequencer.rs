@@ -202,7 +202,6 @@ impl<const P: usize, const R: usize, const M: usize, const D: usize> Circuit
         _: &Self::Net<L>,
         i: &In<L, P, R, D>,
     ) -> Option<L::Bit> {
-        let pulses = q.search | q.fetch | q.measure | q.turn | q.project | q.done;
-        Some(!(i.start | i.load | pulses) & q.state.is_zero())
+        Some(!(i.start | i.load | q.done) & q.state.is_zero())
     }
 }

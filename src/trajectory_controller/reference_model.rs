@@ -145,11 +145,9 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ReferenceModel<
         &self,
         q: &Reg<L, P, K, Q>,
         w: &Self::Net<L>,
-        _: &In<L, P, K>,
+        i: &In<L, P, K>,
     ) -> Option<L::Bit> {
-        Some(
-            w.integrators.gated(&self.integrators, &q.integrators)
-                & w.scaler.gated(&self.scaler, &q.scaler),
-        )
+        // The scaler works for the integrators, while they are under way.
+        Some(!(w.busy | i.step | i.preset | q.integrators.fresh))
     }
 }

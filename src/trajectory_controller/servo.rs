@@ -246,11 +246,11 @@ impl<
         w: &Self::Net<L>,
         _: &Self::In<L>,
     ) -> Option<L::Bit> {
+        // The arithmetic begins with the model's step, and the scaler works for it.
         Some(
             w.model.gated(&self.model, &q.model)
                 & w.detector.gated(&self.detector, &q.detector)
-                & w.arithmetic.gated(&self.arithmetic, &q.arithmetic)
-                & w.scaler.gated(&self.scaler, &q.scaler),
+                & !(w.arithmetic.w.busy | q.arithmetic.fresh),
         )
     }
 }
