@@ -213,6 +213,7 @@ pub mod plan;
 pub mod plant;
 pub mod pulse_interpolator;
 pub mod registry;
+pub mod settings;
 pub mod trace;
 pub mod trajectory_controller;
 pub mod verilog;

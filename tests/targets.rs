@@ -474,103 +474,103 @@ fn every_setting_is_refused_by_name_value_and_range() {
     let cases: [(Change, &str); 25] = [
         (
             &|s| s.clock_hz = 0,
-            "clock_hz = 0: allowed is 1 to 10000000000",
+            "clock_hz: is 0; allowed: 1 to 10000000000",
         ),
         (
             &|s| s.scan_ticks = 185,
-            "scan_ticks = 185: allowed is 186 to 16777215",
+            "scan_ticks: is 185; allowed: 186 to 16777215",
         ),
         (
             &|s| s.scan_ticks = 1 << 24,
-            "scan_ticks = 16777216: allowed is 186 to 16777215",
+            "scan_ticks: is 16777216; allowed: 186 to 16777215",
         ),
         (
             &|s| s.counts_per_mm[1] = 0.0,
-            "counts_per_mm = 0 for y: allowed is 0.000001 to 1000000000",
+            "counts_per_mm: is 0 for y; allowed: 0.000001 to 1000000000",
         ),
         (
             &|s| s.counts_per_mm[0] = -80.0,
-            "counts_per_mm = -80 for x: ",
+            "counts_per_mm: is -80 for x; ",
         ),
         (
             &|s| s.counts_per_mm[0] = f64::NAN,
-            "counts_per_mm = NaN for x: ",
+            "counts_per_mm: is NaN for x; ",
         ),
         (
             &|s| s.feed_mm_per_min = 0.0,
-            "feed_mm_per_min = 0: allowed is 0.001 to 300000",
+            "feed_mm_per_min: is 0; allowed: 0.001 to 300000",
         ),
         (
             &|s| s.feed_mm_per_min = 300_001.0,
-            "feed_mm_per_min = 300001: allowed is 0.001 to 300000",
+            "feed_mm_per_min: is 300001; allowed: 0.001 to 300000",
         ),
         (
             &|s| s.rapid_mm_per_min = f64::INFINITY,
-            "rapid_mm_per_min = inf: allowed is 0.001 to 300000",
+            "rapid_mm_per_min: is inf; allowed: 0.001 to 300000",
         ),
         (
             &|s| s.counts_per_mm[1] = 4e3,
-            "rapid_mm_per_min = 18000: allowed is 0.001 to 15000",
+            "rapid_mm_per_min: is 18000; allowed: 0.001 to 15000",
         ),
         (
             &|s| s.acceleration_ms = -1.0,
-            "acceleration_ms = -1: allowed is 0 to 4095",
+            "acceleration_ms: is -1; allowed: 0 to 4095",
         ),
         (
             &|s| s.acceleration_ms = 4095.1,
-            "acceleration_ms = 4095.1: allowed is 0 to 4095",
+            "acceleration_ms: is 4095.1; allowed: 0 to 4095",
         ),
         (
             &|s| s.deceleration_ms = f64::NAN,
-            "deceleration_ms = NaN: allowed is 0 to 4095",
+            "deceleration_ms: is NaN; allowed: 0 to 4095",
         ),
         (
             &|s| s.chord_tolerance_mm = 0.0,
-            "chord_tolerance_mm = 0: allowed is 0.000001 to 1000",
+            "chord_tolerance_mm: is 0; allowed: 0.000001 to 1000",
         ),
         (
             &|s| s.in_position_counts = 0,
-            "in_position_counts = 0: allowed is 1 to 1000000",
+            "in_position_counts: is 0; allowed: 1 to 1000000",
         ),
         (
             &|s| s.axes[0].position_gain_per_s = 1001.0,
-            "position_gain_per_s = 1001 for x: allowed is 0.001 to 1000",
+            "position_gain_per_s: is 1001 for x; allowed: 0.001 to 1000",
         ),
         (
             &|s| s.axes[1].position_gain_per_s = 0.0,
-            "position_gain_per_s = 0 for y: ",
+            "position_gain_per_s: is 0 for y; ",
         ),
         (
             &|s| s.axes[0].counts_per_rev = 3,
-            "counts_per_rev = 3 for x: allowed is 4 to 100000000",
+            "counts_per_rev: is 3 for x; allowed: 4 to 100000000",
         ),
         (
             &|s| s.axes[1].rated_speed_rev_per_min = 15_001.0,
-            "rated_speed_rev_per_min = 15001 for y: allowed is 0.001 to 15000",
+            "rated_speed_rev_per_min: is 15001 for y; allowed: 0.001 to 15000",
         ),
         (
             &|s| s.axes[1].rated_speed_rev_per_min = 0.0,
-            "rated_speed_rev_per_min = 0 for y: ",
+            "rated_speed_rev_per_min: is 0 for y; ",
         ),
         (
             &|s| s.axes[0].velocity_loop_ms = 0.0,
-            "velocity_loop_ms = 0 for x: allowed is 0.001 to 10000",
+            "velocity_loop_ms: is 0 for x; allowed: 0.001 to 10000",
         ),
         (
             &|s| s.axes[0].inertia_kg_m2 = 0.0,
-            "inertia_kg_m2 = 0 for x: allowed is 0.000000001 to 1000",
+            "inertia_kg_m2: is 0 for x; allowed: 0.000000001 to 1000",
         ),
         (
             &|s| s.axes[1].max_torque_nm = -1.0,
-            "max_torque_nm = -1 for y: allowed is 0.000001 to 1000000",
+            "max_torque_nm: is -1 for y; allowed: 0.000001 to 1000000",
         ),
         (
             &|s| s.axes[1].friction_nm = 0.9,
-            "friction_nm = 0.9 for y: allowed is 0 to below max_torque_nm, 0.9",
+            "friction_nm: is 0.9 for y; allowed: 0 to below max_torque_nm, 0.9",
         ),
         (
             &|s| s.axes[0].friction_nm = -0.1,
-            "friction_nm = -0.1 for x: ",
+            "friction_nm: is -0.1 for x; ",
         ),
     ];
     for (change, expected) in cases {

@@ -3,25 +3,17 @@
 use super::prepare::Timing;
 use super::widths::Widths;
 use super::{ArcGenerator, Rounding};
+use crate::settings::{
+    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, whole, whole_ticks, within,
+};
 use serde::Deserialize;
-use std::fmt::Display;
 use std::ops::RangeInclusive;
-
-/// Clocks that are accepted, in Hz.
-pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
 
 /// Shortest sampling period in ticks: a record is fetched and a rotation done within it.
 pub const LEAST_SAMPLE_TICKS: u64 = <ArcGenerator>::LEAST_PERIOD;
 
-/// Counts per millimetre that are accepted.
-pub const COUNTS_PER_MM_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
-
 /// Speeds that are accepted, in mm/s.
 pub const SPEED_RANGE_MM_PER_S: RangeInclusive<f64> = 1e-6..=1e9;
-
-/// Times are taken for whole numbers of ticks or samples within this part: decimal fractions are
-/// not exact in binary.
-const WHOLE: f64 = 1e-9;
 
 impl Rounding {
     /// The name it has in scenarios.
@@ -85,18 +77,6 @@ impl Default for Settings {
     }
 }
 
-/// A setting outside what is allowed.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{field}: {problem}; allowed: {allowed}")]
-pub struct SettingError {
-    /// Name of the setting.
-    pub field: &'static str,
-    /// What is wrong with it.
-    pub problem: String,
-    /// What would be right.
-    pub allowed: String,
-}
-
 impl Settings {
     /// Checks every field.
     ///
@@ -154,7 +134,7 @@ impl Settings {
         if !(halves >= 0.5 && halves <= most as f64 / 2.0 + 0.5) {
             let (first, last) = (2.0 * period, most as f64 * period);
             let allowed = format!("{first} to {last} ms: 2 to {most} samples");
-            return Err(refusal(field, format!("is {ms}"), allowed));
+            return Err(SettingError::new(field, format!("is {ms}"), allowed));
         }
         let half = whole(halves).ok_or_else(|| {
             let times = [halves.floor(), halves.ceil()];
@@ -163,63 +143,8 @@ impl Settings {
                 true => format!("an even number of samples: {} or {}", times[0], times[1]),
                 false => format!("an even number of samples: {}", times[0]),
             };
-            refusal(field, format!("is {ms}: {} samples", 2.0 * halves), allowed)
+            SettingError::new(field, format!("is {ms}: {} samples", 2.0 * halves), allowed)
         })?;
         Ok(2 * half)
-    }
-}
-
-/// A time as ticks of the clock, which must be whole and within what is allowed.
-pub(crate) fn whole_ticks(
-    field: &'static str,
-    time_ms: f64,
-    clock_hz: u64,
-    allowed: &RangeInclusive<u64>,
-) -> Result<u32, SettingError> {
-    let ms = |ticks: f64| ticks * 1e3 / clock_hz as f64;
-    let (least, most) = (*allowed.start(), *allowed.end());
-    let ticks = time_ms * clock_hz as f64 / 1e3;
-    // Written so that NaN fails.
-    if !(ticks >= least as f64 - 0.5 && ticks <= most as f64 + 0.5) {
-        let allowed = format!(
-            "{} to {} ms: {least} to {most} ticks",
-            ms(least as f64),
-            ms(most as f64)
-        );
-        return Err(refusal(field, format!("is {time_ms}"), allowed));
-    }
-    let whole = whole(ticks).ok_or_else(|| {
-        let [below, above] = [ticks.floor(), ticks.ceil()].map(ms);
-        // Without the rounding of the division.
-        let ticks = (ticks * 1e6).round() / 1e6;
-        let problem = format!("is {time_ms}: {ticks} ticks");
-        refusal(field, problem, format!("whole ticks: {below} or {above}"))
-    })?;
-    Ok(whole as u32)
-}
-
-/// A whole number within the rounding of decimal fractions.
-fn whole(value: f64) -> Option<u64> {
-    let nearest = value.round();
-    ((value - nearest).abs() <= WHOLE * nearest).then_some(nearest as u64)
-}
-
-pub(crate) fn within<T: PartialOrd + Display>(
-    field: &'static str,
-    value: T,
-    allowed: &RangeInclusive<T>,
-) -> Result<(), SettingError> {
-    if allowed.contains(&value) {
-        return Ok(());
-    }
-    let range = format!("{} to {}", allowed.start(), allowed.end());
-    Err(refusal(field, format!("is {value}"), range))
-}
-
-pub(crate) fn refusal(field: &'static str, problem: String, allowed: String) -> SettingError {
-    SettingError {
-        field,
-        problem,
-        allowed,
     }
 }

@@ -227,17 +227,7 @@ pub fn table_fault(
         drawing_fault(drawing, line, &field, problem, allowed)
     };
     match error {
-        TableError::Setting {
-            field,
-            value,
-            allowed,
-        } => loaded.fault(field, format!("is {value}"), allowed),
-        TableError::Plan(PlanError::Limit {
-            field,
-            value,
-            least,
-            most,
-        }) => loaded.fault(field, format!("is {value}"), format!("{least} to {most}")),
+        TableError::Setting(error) => loaded.refuse(error),
         TableError::Position { line, axis, steps } => {
             let per_mm = &settings.steps_per_mm;
             let problem = format!("is {steps} steps at {per_mm:?} steps/mm");
@@ -249,10 +239,7 @@ pub fn table_fault(
             let allowed = format!("{most}: fewer moves, a higher feed or longer unit times");
             in_drawing(0, "path".into(), problem, allowed)
         }
-        TableError::Plan(error) => {
-            let (line, field, problem, allowed) = plan_fault(&error);
-            in_drawing(line, field, problem, allowed)
-        }
+        TableError::Plan(error) => plan_fault(loaded, drawing, error),
         error @ TableError::ScaledHalfPeriod { .. } => {
             let allowed = "a smaller ratio".to_owned();
             in_drawing(0, "--scale".into(), error.to_string(), allowed)
@@ -260,22 +247,14 @@ pub fn table_fault(
     }
 }
 
-/// What the planner objects to: line, field, problem and what is allowed.
-pub fn plan_fault(error: &PlanError) -> (usize, String, String, String) {
+/// What the planner objects to, with the file and line it stands in.
+pub fn plan_fault(loaded: &Loaded, drawing: &Drawing, error: PlanError) -> Fault {
     match error {
-        PlanError::Limit {
-            field,
-            value,
-            least,
-            most,
-        } => {
-            let allowed = format!("{least} to {most}");
-            (0, (*field).to_owned(), format!("is {value}"), allowed)
-        }
+        PlanError::Setting(error) => loaded.refuse(error),
         PlanError::Feed { line, value } => {
             let (least, most) = (FEED_RANGE.start(), FEED_RANGE.end());
             let allowed = format!("{least} to {most} mm/min");
-            (*line, "F".to_owned(), format!("is {value} mm/min"), allowed)
+            drawing_fault(drawing, line, "F", format!("is {value} mm/min"), allowed)
         }
         PlanError::Coordinate {
             line,
@@ -283,22 +262,12 @@ pub fn plan_fault(error: &PlanError) -> (usize, String, String, String) {
             value,
             reach,
         } => {
-            let allowed = format!("-{reach} to {reach} mm");
-            (
-                *line,
-                (*coordinate).to_owned(),
-                format!("is {value} mm"),
-                allowed,
-            )
+            let (problem, allowed) = (format!("is {value} mm"), format!("-{reach} to {reach} mm"));
+            drawing_fault(drawing, line, coordinate, problem, allowed)
         }
         PlanError::Radius { line, radius_mm } => {
-            let allowed = "a radius above 0".to_owned();
-            (
-                *line,
-                "arc".to_owned(),
-                format!("has a radius of {radius_mm} mm"),
-                allowed,
-            )
+            let problem = format!("has a radius of {radius_mm} mm");
+            drawing_fault(drawing, line, "arc", problem, "a radius above 0".to_owned())
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Positionings one after the other: a compensator, a body, and its brake.
 
 use super::compensator;
-use super::settings::{SPEED_UNIT_COUNTS_PER_S, SettingError, Settings};
+use super::settings::{SPEED_UNIT_COUNTS_PER_S, Settings};
 use super::{Compensator, LeadSource, PositionHistory, RamHistory, SpeedLead, TimeLead, Variant};
 use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
 use crate::logic::{Image, Sim};
-use crate::plant::{BrakedBody, ParameterError, waves};
+use crate::plant::{BrakedBody, waves};
+use crate::settings::SettingError;
 use std::ops::ControlFlow;
 
 /// Width of a lead time.
@@ -13,13 +14,13 @@ pub(super) const C: usize = 11;
 /// Width of a position.
 pub(super) const W: usize = 24;
 /// Width of a step number.
-const A: usize = 4;
+pub(super) const A: usize = 4;
 /// Width of a speed.
-const D: usize = 16;
+pub(super) const D: usize = 16;
 /// Width of a time in CKs.
 pub(super) const N: usize = 16;
 /// Width of the CK period.
-const S: usize = 24;
+pub(super) const S: usize = 24;
 
 /// How far past its target a body is stopped by hand, in seconds of its way.
 const MISSED_S: f64 = 0.1;
@@ -64,9 +65,6 @@ pub enum JobError {
     /// A setting is outside its range.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// A body cannot be what the settings say.
-    #[error(transparent)]
-    Parameter(#[from] ParameterError),
     /// What an observer objects to.
     #[error(transparent)]
     Run(#[from] RunError),

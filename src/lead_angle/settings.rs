@@ -1,32 +1,26 @@
 //! What the lead-angle compensator is run with: clock and CK, steps, learning, body and load.
 
 use super::codes::{LARGEST, STAGES, code, neighbours};
+use super::job::{A, D, N, S, W};
 pub use super::{Comparing, Placement, Sign};
-use crate::plant::{BodyParameters, Load, ParameterError};
+use crate::plant::{BodyParameters, Load};
+use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
 use serde::{Deserialize, Serialize};
-use std::fmt::Display;
 use std::ops::RangeInclusive;
 
-/// Width of positions, in bits: they wrap.
-pub const POSITION_BITS: usize = 24;
-/// Width of the speed word, in bits.
-pub const SPEED_BITS: usize = 16;
 /// Counts a second in a unit of the speed word.
 pub const SPEED_UNIT_COUNTS_PER_S: u32 = 10;
 
-/// Clocks that are accepted, in Hz.
-pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
 /// Ticks of a CK that are accepted.
-pub const CK_RANGE_TICKS: RangeInclusive<u32> = 4..=(1 << 24) - 1;
+pub const CK_RANGE_TICKS: RangeInclusive<u32> = 4..=(1 << S) - 1;
 /// Targets that are accepted, in counts: no way between two of them is half of what wraps.
-pub const TARGET_RANGE_COUNTS: RangeInclusive<i64> =
-    -(1 << (POSITION_BITS - 3))..=1 << (POSITION_BITS - 3);
+pub const TARGET_RANGE_COUNTS: RangeInclusive<i64> = -(1 << (W - 3))..=1 << (W - 3);
 /// How many steps there may be. With one there would be no way to go from the second cycle on.
-pub const STEPS_RANGE: RangeInclusive<usize> = 2..=16;
+pub const STEPS_RANGE: RangeInclusive<usize> = 2..=1 << A;
 /// How many positionings a run may have.
 pub const POSITIONINGS_RANGE: RangeInclusive<u32> = 1..=10_000;
 /// Times other than lead times that are accepted, in CKs.
-pub const TIME_RANGE_CKS: RangeInclusive<u16> = 1..=u16::MAX;
+pub const TIME_RANGE_CKS: RangeInclusive<u16> = 1..=((1u32 << N) - 1) as u16;
 
 /// What keeps the positions of the past (11).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -125,45 +119,6 @@ impl Default for Settings {
     }
 }
 
-/// A setting that is outside what is allowed.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{}{field} = {value}: allowed is {allowed}", .step.map_or(String::new(), |step| format!("step {step}: ")))]
-pub struct SettingError {
-    /// Name of the setting.
-    pub field: &'static str,
-    /// The step that it is of, from 0; none where it is of the whole.
-    pub step: Option<usize>,
-    /// Its value.
-    pub value: String,
-    /// What would be right.
-    pub allowed: String,
-}
-
-impl From<ParameterError> for SettingError {
-    fn from(error: ParameterError) -> Self {
-        let allowed = format!("{} to {}", error.least, error.most);
-        SettingError::new(error.field, error.value, allowed)
-    }
-}
-
-impl SettingError {
-    fn new(field: &'static str, value: impl ToString, allowed: impl ToString) -> Self {
-        SettingError {
-            field,
-            step: None,
-            value: value.to_string(),
-            allowed: allowed.to_string(),
-        }
-    }
-
-    fn of_step(self, step: usize) -> Self {
-        SettingError {
-            step: Some(step),
-            ..self
-        }
-    }
-}
-
 impl Settings {
     /// Duration of a CK.
     #[must_use]
@@ -190,7 +145,7 @@ impl Settings {
     /// The fastest speed of a step in counts a second: an encoder is counted at one count per tick.
     #[must_use]
     pub fn fastest_counts_per_s(&self) -> u32 {
-        let word = ((1 << SPEED_BITS) - 1) * SPEED_UNIT_COUNTS_PER_S;
+        let word = ((1 << D) - 1) * SPEED_UNIT_COUNTS_PER_S;
         u64::from(word).min(self.clock_hz) as u32
     }
 
@@ -198,19 +153,22 @@ impl Settings {
     ///
     /// # Errors
     ///
-    /// [`SettingError`] names the first field at fault, its value and what is allowed.
+    /// Names the first field at fault, its value and what is allowed.
     pub fn validate(&self) -> Result<(), SettingError> {
-        check("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
-        check("ck_ticks", self.ck_ticks, &CK_RANGE_TICKS)?;
+        within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
+        within("ck_ticks", self.ck_ticks, &CK_RANGE_TICKS)?;
         let count = self.steps.len();
         if !STEPS_RANGE.contains(&count) {
-            let (least, most) = (STEPS_RANGE.start(), STEPS_RANGE.end());
-            let allowed = format!("{least} to {most} steps");
-            return Err(SettingError::new("step", format!("{count} steps"), allowed));
+            let (least, most) = STEPS_RANGE.into_inner();
+            let (problem, allowed) = (
+                format!("is {count} steps"),
+                format!("{least} to {most} steps"),
+            );
+            return Err(SettingError::new("step", problem, allowed));
         }
         for index in 0..count {
             self.validate_step(index)
-                .map_err(|error| error.of_step(index))?;
+                .map_err(|error| error.at(Place::Row("step", index)))?;
         }
         self.check_lead("seed_ms", self.seed_ms)?;
         let times = [
@@ -223,16 +181,16 @@ impl Settings {
         let (least, most) = (*TIME_RANGE_CKS.start(), *TIME_RANGE_CKS.end());
         let allowed = f64::from(least) * ck..=f64::from(most) * ck;
         for (field, ms) in times {
-            check(field, ms, &allowed)?;
+            within(field, ms, &allowed)?;
         }
         let longest = LARGEST as f64 * ck;
-        check("speed_lead_ms", self.speed_lead_ms, &(0.0..=longest))?;
-        check("positionings", self.positionings, &POSITIONINGS_RANGE)?;
+        within("speed_lead_ms", self.speed_lead_ms, &(0.0..=longest))?;
+        within("positionings", self.positionings, &POSITIONINGS_RANGE)?;
         if let Some(after) = self.load_change_after {
-            check("load_change_after", after, &(1..=self.positionings))?;
+            within("load_change_after", after, &(1..=self.positionings))?;
         }
         self.load.validate()?;
-        Ok(self.body.validate()?)
+        self.body.validate()
     }
 
     fn validate_step(&self, index: usize) -> Result<(), SettingError> {
@@ -241,7 +199,7 @@ impl Settings {
             speed_counts_per_s: speed,
             lead_ms,
         } = self.steps[index];
-        check("target", target, &TARGET_RANGE_COUNTS)?;
+        within("target", target, &TARGET_RANGE_COUNTS)?;
         let before = (index + self.steps.len() - 1) % self.steps.len();
         let start = index == 0 && target == 0;
         if start || target == self.steps[before].target {
@@ -250,17 +208,25 @@ impl Settings {
                 false => format!("step {before}"),
             };
             let allowed = format!("another target than that of {place}");
-            return Err(SettingError::new("target", target, allowed));
+            return Err(SettingError::new("target", format!("is {target}"), allowed));
         }
         let unit = SPEED_UNIT_COUNTS_PER_S;
         let fastest = self.fastest_counts_per_s();
         if !(unit..=fastest).contains(&speed) || !speed.is_multiple_of(unit) {
             let allowed = format!("{unit} to {fastest}, a multiple of {unit}");
-            return Err(SettingError::new("speed_counts_per_s", speed, allowed));
+            return Err(SettingError::new(
+                "speed_counts_per_s",
+                format!("is {speed}"),
+                allowed,
+            ));
         }
         if self.common_time && index > 0 && lead_ms != 0.0 {
             let allowed = "0: with common_time all steps take that of step 0";
-            return Err(SettingError::new("lead_ms", lead_ms, allowed));
+            return Err(SettingError::new(
+                "lead_ms",
+                format!("is {lead_ms}"),
+                allowed,
+            ));
         }
         self.check_lead("lead_ms", lead_ms)
     }
@@ -278,20 +244,8 @@ impl Settings {
             (below, None) if ms > 0.0 => format!("at most {}", shown(below)),
             _ => format!("0 for none, {} to {}", shown(1), shown(LARGEST)),
         };
-        Err(SettingError::new(field, ms, allowed))
+        Err(SettingError::new(field, format!("is {ms}"), allowed))
     }
-}
-
-fn check<T: PartialOrd + Display>(
-    field: &'static str,
-    value: T,
-    allowed: &RangeInclusive<T>,
-) -> Result<(), SettingError> {
-    if allowed.contains(&value) {
-        return Ok(());
-    }
-    let range = format!("{} to {}", allowed.start(), allowed.end());
-    Err(SettingError::new(field, value, range))
 }
 
 #[cfg(test)]

@@ -7,7 +7,8 @@ use super::targets::{TIME_BITS, Target};
 use super::{CommandSource, Controller, Conventional, LinearInterpolator, Rule, controller};
 use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
 use crate::logic::Sim;
-use crate::plant::{ParameterError, ServoAxis, ServoParameters, waves};
+use crate::plant::{ServoAxis, ServoParameters, waves};
+use crate::settings::SettingError;
 use fixed::types::U8F8;
 use std::ops::ControlFlow;
 
@@ -38,7 +39,7 @@ pub fn conventional() -> Plotter<Conventional> {
 pub enum JobError {
     /// A motor cannot be what the settings say.
     #[error(transparent)]
-    Parameter(#[from] ParameterError),
+    Setting(#[from] SettingError),
     /// What an observer objects to.
     #[error(transparent)]
     Run(#[from] RunError),

@@ -1,19 +1,13 @@
 //! What the linear interpolator is run with: clock and scan, machine, motion, axes.
 
-use super::targets::{LATENCY_TICKS, LONGEST_RAMP, TargetError};
+use super::targets::{LATENCY_TICKS, LONGEST_RAMP};
 use crate::plan::FEED_RANGE;
+use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, Place, SettingError, within};
 use serde::Deserialize;
-use std::fmt::Display;
 use std::ops::RangeInclusive;
-
-/// Clocks that are accepted, in Hz.
-pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
 
 /// Scans that are accepted, in ticks: the dividers must be done before the scan is over.
 pub const SCAN_RANGE_TICKS: RangeInclusive<u32> = LATENCY_TICKS..=16_777_215;
-
-/// Encoder counts per millimetre that are accepted.
-pub const COUNTS_PER_MM_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
 
 /// Names of the axes.
 pub const AXIS_NAMES: [&str; 2] = ["x", "y"];
@@ -165,27 +159,32 @@ impl Settings {
     ///
     /// # Errors
     ///
-    /// [`TargetError::Setting`] names the first field at fault, its value and what is allowed.
-    pub fn validate(&self) -> Result<(), TargetError> {
-        check("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
-        check("scan_ticks", self.scan_ticks, &SCAN_RANGE_TICKS)?;
-        for (axis, value) in self.counts_per_mm.into_iter().enumerate() {
-            check_axis("counts_per_mm", axis, value, &COUNTS_PER_MM_RANGE)?;
+    /// Names the first field at fault, its value and what is allowed.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
+        within("scan_ticks", self.scan_ticks, &SCAN_RANGE_TICKS)?;
+        for (value, name) in self.counts_per_mm.into_iter().zip(AXIS_NAMES) {
+            within("counts_per_mm", value, &COUNTS_PER_MM_RANGE)
+                .map_err(|error| error.at(Place::Element(name)))?;
         }
         let feeds = *FEED_RANGE.start()..=self.fastest_mm_per_min();
-        check("feed_mm_per_min", self.feed_mm_per_min, &feeds)?;
-        check("rapid_mm_per_min", self.rapid_mm_per_min, &feeds)?;
+        within("feed_mm_per_min", self.feed_mm_per_min, &feeds)?;
+        within("rapid_mm_per_min", self.rapid_mm_per_min, &feeds)?;
         let times = 0.0..=LONGEST_RAMP as f64 * 1e3 * self.scan_s();
-        check("acceleration_ms", self.acceleration_ms, &times)?;
-        check("deceleration_ms", self.deceleration_ms, &times)?;
+        within("acceleration_ms", self.acceleration_ms, &times)?;
+        within("deceleration_ms", self.deceleration_ms, &times)?;
         let tolerance = self.chord_tolerance_mm;
-        check("chord_tolerance_mm", tolerance, &(1e-6..=1e3))?;
+        within("chord_tolerance_mm", tolerance, &(1e-6..=1e3))?;
         let counts = self.in_position_counts;
-        check("in_position_counts", counts, &(1..=1_000_000))?;
-        (0..2).try_for_each(|axis| self.validate_axis(axis))
+        within("in_position_counts", counts, &(1..=1_000_000))?;
+        for (axis, name) in self.axes.iter().zip(AXIS_NAMES) {
+            self.validate_axis(axis)
+                .map_err(|error| error.at(Place::Element(name)))?;
+        }
+        Ok(())
     }
 
-    fn validate_axis(&self, axis: usize) -> Result<(), TargetError> {
+    fn validate_axis(&self, axis: &AxisSettings) -> Result<(), SettingError> {
         let AxisSettings {
             position_gain_per_s: gain,
             rated_speed_rev_per_min: speed,
@@ -194,48 +193,22 @@ impl Settings {
             inertia_kg_m2: inertia,
             max_torque_nm: torque,
             friction_nm: friction,
-        } = self.axes[axis];
+        } = *axis;
         // More than the whole error in one scan, and the loop overshoots.
         let gains = 1e-3..=1.0 / self.scan_s();
-        check_axis("position_gain_per_s", axis, gain, &gains)?;
-        check_axis("counts_per_rev", axis, counts, &(4..=100_000_000))?;
+        within("position_gain_per_s", gain, &gains)?;
+        within("counts_per_rev", counts, &(4..=100_000_000))?;
         let fastest = 60.0 * self.clock_hz as f64 / f64::from(counts);
         let speeds = 1e-3..=fastest.min(1e6);
-        check_axis("rated_speed_rev_per_min", axis, speed, &speeds)?;
-        check_axis("velocity_loop_ms", axis, velocity_loop_ms, &(1e-3..=1e4))?;
-        check_axis("inertia_kg_m2", axis, inertia, &(1e-9..=1e3))?;
-        check_axis("max_torque_nm", axis, torque, &(1e-6..=1e6))?;
+        within("rated_speed_rev_per_min", speed, &speeds)?;
+        within("velocity_loop_ms", velocity_loop_ms, &(1e-3..=1e4))?;
+        within("inertia_kg_m2", inertia, &(1e-9..=1e3))?;
+        within("max_torque_nm", torque, &(1e-6..=1e6))?;
         if !(0.0..torque).contains(&friction) {
-            let value = format!("{friction} for {}", AXIS_NAMES[axis]);
+            let problem = format!("is {friction}");
             let allowed = format!("0 to below max_torque_nm, {torque}");
-            return Err(TargetError::setting("friction_nm", value, allowed));
+            return Err(SettingError::new("friction_nm", problem, allowed));
         }
         Ok(())
     }
-}
-
-fn check<T: PartialOrd + Display>(
-    field: &'static str,
-    value: T,
-    allowed: &RangeInclusive<T>,
-) -> Result<(), TargetError> {
-    if allowed.contains(&value) {
-        return Ok(());
-    }
-    let range = format!("{} to {}", allowed.start(), allowed.end());
-    Err(TargetError::setting(field, value, range))
-}
-
-fn check_axis<T: PartialOrd + Display>(
-    field: &'static str,
-    axis: usize,
-    value: T,
-    allowed: &RangeInclusive<T>,
-) -> Result<(), TargetError> {
-    if allowed.contains(&value) {
-        return Ok(());
-    }
-    let range = format!("{} to {}", allowed.start(), allowed.end());
-    let value = format!("{value} for {}", AXIS_NAMES[axis]);
-    Err(TargetError::setting(field, value, range))
 }

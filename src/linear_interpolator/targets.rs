@@ -8,6 +8,7 @@ use super::settings::{AXIS_NAMES, Settings, ShortMoves};
 use crate::input::{Drawing, Point};
 use crate::plan::digits::round_up;
 use crate::plan::{PlanError, check, chords};
+use crate::settings::SettingError;
 
 /// Ticks that the dividers need within a scan.
 pub const LATENCY_TICKS: u32 = LinearInterpolator::<6>::LATENCY as u32;
@@ -62,15 +63,8 @@ pub struct Targets {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TargetError {
     /// A setting is outside what is allowed.
-    #[error("{field} = {value}: allowed is {allowed}")]
-    Setting {
-        /// Name of the setting.
-        field: &'static str,
-        /// Its value.
-        value: String,
-        /// What would be right.
-        allowed: String,
-    },
+    #[error(transparent)]
+    Setting(#[from] SettingError),
     /// The drawing has a value that cannot be computed with.
     #[error(transparent)]
     Drawing(#[from] PlanError),
@@ -110,20 +104,6 @@ pub enum TargetError {
         /// Line of the input.
         line: usize,
     },
-}
-
-impl TargetError {
-    pub(super) fn setting(
-        field: &'static str,
-        value: impl ToString,
-        allowed: impl ToString,
-    ) -> Self {
-        Self::Setting {
-            field,
-            value: value.to_string(),
-            allowed: allowed.to_string(),
-        }
-    }
 }
 
 /// Makes the cycles of a drawing.

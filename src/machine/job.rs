@@ -9,9 +9,10 @@ use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
 use crate::lead_angle::settings::SPEED_UNIT_COUNTS_PER_S;
 use crate::lead_angle::{Compensator, Variant};
 use crate::logic::{Image, Sim};
-use crate::plant::{BrakedBody, ParameterError, TwoMassAxis};
+use crate::plant::{BrakedBody, TwoMassAxis};
 use crate::pulse_interpolator::step_dir::Driver;
 use crate::pulse_interpolator::{self as pulse, StepTiming};
+use crate::settings::SettingError;
 use crate::trajectory_controller::job::patience;
 use std::array::from_fn;
 
@@ -125,7 +126,7 @@ pub struct Played {
 pub enum JobError {
     /// A plant cannot be what the settings say.
     #[error(transparent)]
-    Parameter(#[from] ParameterError),
+    Setting(#[from] SettingError),
     /// What an observer objects to.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -139,7 +140,7 @@ struct Surroundings {
 }
 
 impl Surroundings {
-    fn new(settings: &Settings) -> Result<Self, ParameterError> {
+    fn new(settings: &Settings) -> Result<Self, SettingError> {
         let tick_s = 1.0 / settings.clock_hz as f64;
         Ok(Surroundings {
             servos: [

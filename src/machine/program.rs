@@ -1,7 +1,7 @@
 //! A job as all circuits are given it: a table for the steppers; moves for the servos, each from
 //! rest to rest, with the words of its line or arc and of its length in time.
 
-use super::settings::{SettingError, Settings};
+use super::settings::Settings;
 use crate::arc_generator::circle::Circle;
 use crate::arc_generator::error::{PathError, Reason};
 use crate::arc_generator::path::{Course, Piece, Speeds, from_drawing};
@@ -10,9 +10,9 @@ use crate::arc_generator::record::{Record, records as arc_records};
 use crate::arc_generator::vector::{add, sub};
 use crate::arc_generator::widths::Widths as ArcWidths;
 use crate::input::{Drawing, Point};
-use crate::lead_angle::settings as lift;
 use crate::linear_interpolator::targets::whole_speed;
 use crate::pulse_interpolator::{Report, Table, TableError, compile};
+use crate::settings::SettingError;
 use crate::trajectory_controller::Widths;
 use crate::trajectory_controller::planner::plan;
 use crate::trajectory_controller::profile::Profile;
@@ -93,9 +93,9 @@ pub enum ProgramError {
     /// A setting.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// A setting of the pen lift.
+    /// A setting of the pen lift's compensator.
     #[error(transparent)]
-    Lift(#[from] lift::SettingError),
+    Lift(SettingError),
     /// A piece of the path.
     #[error(transparent)]
     Path(#[from] PathError),
@@ -115,7 +115,7 @@ impl Program {
     /// more segments than the trajectory controller holds.
     pub fn of(drawing: &Drawing, settings: &Settings) -> Result<Self, ProgramError> {
         settings.check()?;
-        settings.lift().validate()?;
+        settings.lift().validate().map_err(ProgramError::Lift)?;
         let speeds = Speeds {
             wanted: Some(settings.motion.feed_mm_per_min / 60.0),
             rapid: settings.motion.rapid_mm_per_min / 60.0,

@@ -1,14 +1,15 @@
 //! What the machine is run with: clock and rates, steppers, servos, pen lift.
 
-use crate::arc_generator::settings::{self as arcs, ShortPieces, refusal, within};
+use crate::arc_generator::settings::{self as arcs, ShortPieces};
 use crate::lead_angle::settings as lift;
 use crate::linear_interpolator::LinearInterpolator;
 use crate::linear_interpolator::targets::LONGEST_RAMP;
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
 use crate::pulse_interpolator::{self as pulse, StepTiming};
+use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
 use crate::trajectory_controller::settings as trajectory;
-pub use crate::trajectory_controller::settings::{Correction, SettingError};
+pub use crate::trajectory_controller::settings::Correction;
 use std::ops::RangeInclusive;
 
 /// Ticks of a period that the counters hold.
@@ -127,7 +128,7 @@ impl Settings {
     /// # Errors
     /// Names the first field at fault, its value and what is allowed.
     pub fn check(&self) -> Result<(), SettingError> {
-        within("clock_hz", self.clock_hz, &arcs::CLOCK_RANGE_HZ)?;
+        within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         let least = [
             ("unit_ticks", self.unit_ticks, 1),
             ("scan_ticks", self.scan_ticks, LEAST_SCAN_TICKS),
@@ -155,15 +156,17 @@ impl Settings {
                 LONGEST_RAMP * u64::from(self.scan_ticks) / 2,
                 self.scan_ticks
             );
-            return Err(refusal("sample_ticks", problem, allowed));
+            return Err(SettingError::new("sample_ticks", problem, allowed));
         }
         let range = 1e3 * blend.max(self.scan_s())..=1e3 * longest;
         within("acceleration_ms", self.acceleration_ms, &range)?;
         if self.pen_down_counts == 0 {
-            let allowed = "a position other than 0, where the pen is up".to_owned();
-            return Err(refusal("pen_down_counts", "is 0".to_owned(), allowed));
+            let allowed = "a position other than 0, where the pen is up";
+            return Err(SettingError::new("pen_down_counts", "is 0", allowed));
         }
-        Ok(())
+        let in_table = |name| move |error: SettingError| error.at(Place::Table(name));
+        self.axis.validate().map_err(in_table("machine"))?;
+        self.lift.validate().map_err(in_table("lift"))
     }
 
     /// Ts in seconds.

@@ -23,6 +23,7 @@ pub use profile::{Plan, Segment};
 pub use sampler::{Sample, Sampler};
 
 use crate::input::REACH_MM;
+use crate::settings::{SettingError, within};
 
 /// Slowest and fastest feed that is accepted, in mm/min.
 pub const FEED_RANGE: std::ops::RangeInclusive<f64> = 1e-3..=1e7;
@@ -63,8 +64,8 @@ impl MotionLimits {
     ///
     /// # Errors
     ///
-    /// [`PlanError::Limit`] names the first that is outside its range or not a number.
-    pub fn validate(&self) -> Result<(), PlanError> {
+    /// Names the first that is outside its range or not a number.
+    pub fn validate(&self) -> Result<(), SettingError> {
         let corners = 0.0..=*FEED_RANGE.end();
         let limits = [
             ("feed_mm_per_min", self.feed_mm_per_min, FEED_RANGE),
@@ -76,35 +77,18 @@ impl MotionLimits {
                 ACCELERATION_RANGE,
             ),
         ];
-        for (field, value, allowed) in limits {
-            if !allowed.contains(&value) {
-                return Err(PlanError::Limit {
-                    field,
-                    value,
-                    least: *allowed.start(),
-                    most: *allowed.end(),
-                });
-            }
-        }
-        Ok(())
+        limits
+            .into_iter()
+            .try_for_each(|(field, value, allowed)| within(field, value, &allowed))
     }
 }
 
 /// A path that cannot be planned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
-    /// A setting is outside its range.
-    #[error("{field} = {value}: allowed are {least} to {most}")]
-    Limit {
-        /// Name of the setting.
-        field: &'static str,
-        /// Its value.
-        value: f64,
-        /// Smallest value allowed.
-        least: f64,
-        /// Largest value allowed.
-        most: f64,
-    },
+    /// A limit is outside its range.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
     /// A move's own feed is outside its range.
     #[error(
         "line {line}: feed {value} mm/min: allowed are {} to {}",

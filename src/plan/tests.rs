@@ -286,7 +286,7 @@ fn refuses_what_it_cannot_plan_with() {
             set(&mut limits, bad);
             let message = limits.validate().unwrap_err().to_string();
             assert!(
-                message.starts_with(&format!("{field} = {bad}: allowed")),
+                message.starts_with(&format!("{field}: is {bad}; allowed")),
                 "{message}"
             );
         }

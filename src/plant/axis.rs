@@ -1,7 +1,8 @@
 //! Driver, motor and encoder of one axis together.
 
 use super::parameters::check_tick;
-use super::{Encoder, Motor, ParameterError, ServoDriver, ServoParameters};
+use super::{Encoder, Motor, ServoDriver, ServoParameters};
+use crate::settings::SettingError;
 
 /// Servo driver 2, motor 3 and pulse generator 4 of one axis, stepped once per reference tick.
 #[derive(Debug, Clone)]
@@ -19,8 +20,8 @@ impl ServoAxis {
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] names the parameter, or `tick_s`, that is out of range.
-    pub fn new(parameters: &ServoParameters, tick_s: f64) -> Result<Self, ParameterError> {
+    /// [`SettingError`] names the parameter, or `tick_s`, that is out of range.
+    pub fn new(parameters: &ServoParameters, tick_s: f64) -> Result<Self, SettingError> {
         parameters.validate()?;
         check_tick(tick_s)?;
         Ok(ServoAxis {

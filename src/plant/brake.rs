@@ -10,8 +10,9 @@ mod tests;
 
 pub use parameters::{BodyParameters, Load};
 
+use super::Encoder;
 use super::parameters::check_tick;
-use super::{Encoder, ParameterError};
+use crate::settings::SettingError;
 
 /// Motor drive, body, brake and encoder together, stepped once per reference tick.
 #[derive(Debug, Clone)]
@@ -35,8 +36,8 @@ impl BrakedBody {
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] names the parameter, or `tick_s`, that is out of range.
-    pub fn new(parameters: &BodyParameters, tick_s: f64) -> Result<Self, ParameterError> {
+    /// [`SettingError`] names the parameter, or `tick_s`, that is out of range.
+    pub fn new(parameters: &BodyParameters, tick_s: f64) -> Result<Self, SettingError> {
         parameters.validate()?;
         check_tick(tick_s)?;
         Ok(BrakedBody {
@@ -57,8 +58,8 @@ impl BrakedBody {
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] names the factor that is out of range.
-    pub fn set_load(&mut self, load: Load) -> Result<(), ParameterError> {
+    /// [`SettingError`] names the factor that is out of range.
+    pub fn set_load(&mut self, load: Load) -> Result<(), SettingError> {
         load.validate()?;
         self.load = load;
         Ok(())

@@ -41,7 +41,7 @@ pub mod waves;
 pub use axis::ServoAxis;
 pub use brake::{BodyParameters, BrakedBody, Load};
 pub use encoder::Encoder;
-pub use parameters::{ParameterError, ServoParameters};
+pub use parameters::ServoParameters;
 pub use servo::{Motor, ServoDriver};
 pub use two_mass::{TwoMassAxis, TwoMassParameters};
 

@@ -1,5 +1,6 @@
 //! The numbers of an axis, and what is allowed of them.
 
+use crate::settings::{CLOCK_RANGE_HZ, SettingError, within};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -43,8 +44,8 @@ impl ServoParameters {
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] names the first that is outside its range or not a number.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    /// [`SettingError`] names the first that is outside its range or not a number.
+    pub fn validate(&self) -> Result<(), SettingError> {
         let friction = 0.0..=*POSITIVE.end();
         let fields = [
             ("velocity_loop_s", self.velocity_loop_s, &POSITIVE),
@@ -74,38 +75,8 @@ impl ServoParameters {
     }
 }
 
-/// Refuses what is out of range.
-pub(super) fn within(
-    field: &'static str,
-    value: f64,
-    allowed: &RangeInclusive<f64>,
-) -> Result<(), ParameterError> {
-    match allowed.contains(&value) {
-        true => Ok(()),
-        false => Err(ParameterError {
-            field,
-            value,
-            least: *allowed.start(),
-            most: *allowed.end(),
-        }),
-    }
-}
-
-/// Checks the length of a reference tick.
-pub(super) fn check_tick(tick_s: f64) -> Result<(), ParameterError> {
-    within("tick_s", tick_s, &POSITIVE)
-}
-
-/// A parameter that is out of range or not a number.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("{field} = {value}: allowed are {least} to {most}")]
-pub struct ParameterError {
-    /// Name of the field.
-    pub field: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// Smallest value allowed.
-    pub least: f64,
-    /// Largest value allowed.
-    pub most: f64,
+/// Checks the length of a reference tick: that of any clock that is accepted will do.
+pub(super) fn check_tick(tick_s: f64) -> Result<(), SettingError> {
+    let least = 1.0 / *CLOCK_RANGE_HZ.end() as f64;
+    within("tick_s", tick_s, &(least..=*POSITIVE.end()))
 }

@@ -144,7 +144,7 @@ fn what_is_out_of_range_is_named() {
     let error = ServoAxis::new(&good, 0.0).expect_err("no tick");
     assert_eq!(
         error.to_string(),
-        "tick_s = 0: allowed are 0.000000001 to 1000000000"
+        "tick_s: is 0; allowed: 0.0000000001 to 1000000000"
     );
 }
 

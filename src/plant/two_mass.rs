@@ -22,13 +22,11 @@ mod tests;
 
 pub use parameters::TwoMassParameters;
 
-use super::parameters::{POSITIVE, check_tick, within};
-use super::{Encoder, ParameterError};
+use super::Encoder;
+use super::parameters::check_tick;
+use crate::settings::{SettingError, within};
 use events::{Flank, Grip};
 use motion::{Equations, REACH, Regime, State, Step};
-
-/// Most that the plant's fastest rate times a tick may be: a piece of the motion takes half of 1.
-const LONGEST: f64 = 1e4;
 
 /// Amplifier, motor 32, shaft, load 33 and encoder of one axis, stepped once per reference tick.
 #[derive(Debug, Clone)]
@@ -58,13 +56,13 @@ impl TwoMassAxis {
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] names the parameter, or `tick_s`, that is out of range. A tick is also
-    /// too long where it is more than 10,000 / [`TwoMassParameters::fastest_per_s`].
-    pub fn new(parameters: &TwoMassParameters, tick_s: f64) -> Result<Self, ParameterError> {
+    /// [`SettingError`] names the parameter, or `tick_s`, that is out of range. A tick is also
+    /// too long where it is more than [`TwoMassParameters::longest_tick_s`].
+    pub fn new(parameters: &TwoMassParameters, tick_s: f64) -> Result<Self, SettingError> {
         parameters.validate()?;
         check_tick(tick_s)?;
         let fastest = parameters.fastest_per_s();
-        within("tick_s", tick_s, &(*POSITIVE.start()..=LONGEST / fastest))?;
+        within("tick_s", tick_s, &(0.0..=parameters.longest_tick_s()))?;
         let count = (tick_s * fastest / REACH).ceil().max(1.0);
         let doublings = count.log2().ceil();
         let equations = Equations::new(parameters);

@@ -5,15 +5,15 @@ use super::profile::Profile;
 use super::profile_record::records;
 use super::segments::Path;
 use super::servo_gains::ServoGains;
-use super::settings::{Gains, Motion, SettingError, Settings};
+use super::settings::{Gains, Motion, Settings};
 use super::speed_limits::spans;
 use super::widths::Widths;
 use crate::arc_generator::error::{PathError, Reason};
 use crate::arc_generator::path::{Course, Piece};
 use crate::arc_generator::record::Record;
-use crate::arc_generator::settings::refusal;
 use crate::input::{COORDINATES, Point, ZERO_MM};
 use crate::plant::TwoMassParameters;
+use crate::settings::{Place, SettingError};
 
 /// How far the counts of a millimetre on the path and at the encoder may be apart, as a part.
 const SAME: f64 = 1e-9;
@@ -45,20 +45,9 @@ pub enum ProgramError {
     /// A piece of the path is at fault.
     #[error(transparent)]
     Path(#[from] PathError),
-    /// A setting, or a parameter of axis `axis`.
-    #[error("{error}")]
-    Setting {
-        /// The axis, from 0, where it is one of an axis.
-        axis: Option<usize>,
-        /// What is wrong.
-        error: SettingError,
-    },
-}
-
-impl From<SettingError> for ProgramError {
-    fn from(error: SettingError) -> Self {
-        ProgramError::Setting { axis: None, error }
-    }
+    /// A setting, or a parameter of an axis.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
 }
 
 impl Program {
@@ -78,15 +67,12 @@ impl Program {
         let gains = settings.gains(widths)?;
         if !(2..=COORDINATES).contains(&machine.len()) {
             let problem = format!("is {}", machine.len());
-            return Err(refusal("axes", problem, "2 or 3".into()).into());
+            return Err(SettingError::new("axes", problem, "2 or 3").into());
         }
         let mut servo = [ServoGains::default(); COORDINATES];
         for (axis, parameters) in machine.iter().enumerate() {
-            let of_axis = |error| ProgramError::Setting {
-                axis: Some(axis),
-                error,
-            };
-            servo[axis] = ServoGains::of(settings, parameters, widths).map_err(of_axis)?;
+            let place = Place::Row("axis", axis);
+            servo[axis] = ServoGains::of(settings, parameters, place, widths)?;
             let (own, path) = (parameters.counts_per_mm(), settings.counts_per_mm);
             if (own / path - 1.0).abs() > SAME {
                 let problem = format!("is {}: {own} counts a millimetre", parameters.mm_per_rev);
@@ -94,7 +80,8 @@ impl Program {
                     "{}: {path}, as counts_per_mm",
                     parameters.counts_per_rev / path
                 );
-                return Err(of_axis(refusal("mm_per_rev", problem, allowed)));
+                let error = SettingError::new("mm_per_rev", problem, allowed);
+                return Err(error.at(place).into());
             }
         }
         if machine.len() < COORDINATES {

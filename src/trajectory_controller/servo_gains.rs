@@ -1,9 +1,9 @@
 //! The gains of a servo control as words, from what its axis is made of.
 
-use super::settings::{SettingError, Settings};
+use super::settings::Settings;
 use super::widths::Widths;
-use crate::arc_generator::settings::{refusal, within};
 use crate::plant::{TwoMassAxis, TwoMassParameters};
+use crate::settings::{Place, SettingError, within};
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
@@ -29,23 +29,30 @@ pub struct ServoGains {
 }
 
 impl ServoGains {
-    /// The gains for an axis.
+    /// The gains for an axis, whose own faults are those of `place`.
     ///
     /// With J = J_motor + J_load the speed control has Kp = J·2πf and an integral of Kp/Ti, and the
     /// feed-forward has J.
     ///
     /// # Errors
-    /// A setting or a parameter of the axis that is out of range, or makes a gain that is no word.
+    /// A setting or a parameter of the axis that is out of range, or makes a gain that is no word;
+    /// an axis that is too fast for the clock.
     pub fn of(
         settings: &Settings,
         axis: &TwoMassParameters,
+        place: Place,
         widths: &Widths,
     ) -> Result<Self, SettingError> {
         let period = settings.period_s(widths)?;
-        axis.validate().map_err(|error| {
-            let range = format!("{} to {}", error.least, error.most);
-            refusal(error.field, format!("is {}", error.value), range)
-        })?;
+        let of_axis = |error: SettingError| error.at(place);
+        axis.validate().map_err(of_axis)?;
+        let (hz, longest_s) = (settings.clock_hz, axis.longest_tick_s());
+        let tick_s = 1.0 / hz as f64;
+        if tick_s > longest_s {
+            let problem = format!("is {hz}: a tick of {tick_s:e} s");
+            let allowed = format!("a faster clock: a tick of at most {longest_s:e} s");
+            return Err(SettingError::new("clock_hz", problem, allowed));
+        }
         let (rate, hz) = (settings.position_gain_per_s, settings.speed_hz);
         within("position_gain_per_s", rate, &RATE_RANGE)?;
         within("speed_hz", hz, &RATE_RANGE)?;
@@ -77,7 +84,7 @@ impl ServoGains {
                 "is {value}: its gain is {}, of {most} at most",
                 short(exact)
             );
-            Err(refusal(field, problem, allowed))
+            Err(SettingError::new(field, problem, allowed))
         };
         let one = f64::from(widths.servo_gain - 1).exp2();
         let (torque_nm, inertia) = (axis.max_torque_nm, inertia * torque / (period * period));
@@ -88,7 +95,7 @@ impl ServoGains {
                 true => word("integral_ms", settings.integral_ms, integral, false)?,
                 false => 0,
             },
-            inertia: word("max_torque_nm", torque_nm, inertia * fine, false)?,
+            inertia: word("max_torque_nm", torque_nm, inertia * fine, false).map_err(of_axis)?,
             limit: full_scale as u64,
         })
     }

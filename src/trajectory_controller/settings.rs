@@ -6,12 +6,10 @@ use super::ramp::Slope;
 pub use super::vector_correction::Correction;
 use super::widths::Widths;
 use crate::arc_generator::path::Speeds;
-pub use crate::arc_generator::settings::SettingError;
-use crate::arc_generator::settings::{
-    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SPEED_RANGE_MM_PER_S, refusal, whole_ticks, within,
-};
+use crate::arc_generator::settings::SPEED_RANGE_MM_PER_S;
 use crate::input::COORDINATES;
 use crate::plan::ACCELERATION_RANGE;
+use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, whole_ticks, within};
 use std::ops::RangeInclusive;
 
 /// Shortest interpolation period in ticks: two points on the path, three model steps and a servo
@@ -228,7 +226,7 @@ impl Settings {
             let problem = format!("is {value}: {} a period", part(word));
             let [first, last] = [least, most].map(|part| part / period);
             let allowed = format!("{first} to {last}: {least} to {most} a period; {why}");
-            refusal(field, problem, allowed)
+            SettingError::new(field, problem, allowed)
         };
         // What k1·k2 must be, as a product of words.
         let exact = match self.rounding {

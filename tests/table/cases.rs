@@ -264,10 +264,7 @@ fn faults_of_settings_and_input_are_errors() {
     };
     assert!(matches!(
         compile(&path, &bad),
-        Err(TableError::Setting {
-            field: "clock_hz",
-            ..
-        })
+        Err(TableError::Setting(error)) if error.field == "clock_hz"
     ));
     let bad = Settings {
         steps_per_mm: vec![1e9, 1.0],

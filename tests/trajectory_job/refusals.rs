@@ -1,6 +1,7 @@
 //! What is refused, and why.
 
 use super::*;
+use motion_rtl::settings::Place;
 use motion_rtl::trajectory_controller::job::ProgramError;
 
 fn program(
@@ -41,11 +42,12 @@ fn an_axis_that_does_not_fit_is_named() {
         let (mut settings, mut bad) = (settings(), TwoMassParameters::default());
         change(&mut settings, &mut bad);
         let error = program(&pieces, &settings, &[TwoMassParameters::default(), bad]).unwrap_err();
-        let ProgramError::Setting { error, axis } = error else {
+        let ProgramError::Setting(error) = error else {
             panic!("{error}")
         };
         assert_eq!(error.field, field, "{index}");
-        assert!(axis.is_some_and(|axis| axis < 2));
+        let of_axis = ["max_torque_nm", "mm_per_rev", "stiffness_nm_per_rad"].contains(&field);
+        assert_eq!(error.place, of_axis.then_some(Place::Row("axis", 1)));
         assert!(!error.to_string().contains("NaN to"), "{error}");
     }
     let weak = TwoMassParameters {
@@ -57,7 +59,7 @@ fn an_axis_that_does_not_fit_is_named() {
         .to_string();
     assert_eq!(
         text,
-        "max_torque_nm: is 0.1: its gain is 19760000, of 16777215 at most; allowed: 0.1179 to 1974000"
+        "axis 0: max_torque_nm: is 0.1: its gain is 19760000, of 16777215 at most; allowed: 0.1179 to 1974000"
     );
     // What is said to be allowed is.
     for max_torque_nm in [0.1179, 3000.0] {

@@ -8,7 +8,7 @@ use motion_rtl::arc_generator::path::Speeds;
 use motion_rtl::arc_generator::prepare::prepare;
 use motion_rtl::arc_generator::prepared::Prepared;
 use motion_rtl::arc_generator::record::{Record, records};
-use motion_rtl::arc_generator::settings::{SettingError, Settings};
+use motion_rtl::arc_generator::settings::Settings;
 use motion_rtl::arc_generator::widths::Widths;
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::scenario::arc_generator::Scenario;
@@ -37,7 +37,7 @@ impl Job {
     /// Makes the records of a path.
     pub fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
         let (settings, loaded) = (scenario.settings(), &source.loaded);
-        let refuse = |error: SettingError| loaded.fault(error.field, error.problem, error.allowed);
+        let refuse = |error| loaded.refuse(error);
         let widths = Widths::FULL;
         let timing = settings.timing(&widths).map_err(refuse)?;
         let sample_ticks = settings.sample_ticks(&widths).map_err(refuse)?;

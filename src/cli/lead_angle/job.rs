@@ -6,13 +6,15 @@ use motion_rtl::input::Fault;
 use motion_rtl::input::position_log::{Columns, PositionLog, Sample};
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::lead_angle::replay::settings_for;
-use motion_rtl::lead_angle::settings::{POSITION_BITS, SettingError, Settings};
+use motion_rtl::lead_angle::settings::{Settings, TARGET_RANGE_COUNTS};
+use motion_rtl::settings::within;
+use std::ops::RangeInclusive;
 
-/// Units of time that a log may have, in seconds.
-const TIME_UNITS_S: std::ops::RangeInclusive<f64> = 1e-12..=1e4;
+/// Units of time that a log may have, in ms.
+const TIME_UNITS_MS: RangeInclusive<f64> = 1e-9..=1e7;
 
 /// How far a log may go from its first count: no way to a target is half of what wraps.
-const FARTHEST_COUNTS: u64 = 1 << (POSITION_BITS - 3);
+const FARTHEST_COUNTS: u64 = TARGET_RANGE_COUNTS.end().unsigned_abs();
 
 /// A scenario ready to be run.
 #[derive(Debug)]
@@ -31,15 +33,15 @@ impl Job {
     /// Checks the settings and reads the log.
     pub fn prepare(source: Source, settings: Settings, columns: &Columns) -> Result<Self, Failure> {
         let loaded = &source.loaded;
-        check_time_unit(loaded, columns)?;
+        let refuse = |error| loaded.refuse(error);
+        let time_unit_ms = columns.time_unit_s * 1e3;
+        within("log_time_unit_ms", time_unit_ms, &TIME_UNITS_MS).map_err(refuse)?;
         let log = source.log(columns)?;
         if let Some(log) = &log {
             check_log(loaded, log, &settings)?;
         } else {
             refuse_columns(loaded, columns)?;
-            settings
-                .validate()
-                .map_err(|error| setting_fault(loaded, error))?;
+            settings.validate().map_err(refuse)?;
         }
         let Source { stem, loaded, .. } = source;
         Ok(Job {
@@ -68,29 +70,6 @@ impl Job {
     }
 }
 
-fn setting_fault(loaded: &Loaded, error: SettingError) -> Fault {
-    let SettingError {
-        field,
-        step,
-        value,
-        allowed,
-    } = error;
-    let problem = format!("is {value}");
-    match step {
-        Some(step) => loaded.table_fault(("step", step), field, problem, allowed),
-        None => loaded.fault(field, problem, allowed),
-    }
-}
-
-fn check_time_unit(loaded: &Loaded, columns: &Columns) -> Result<(), Fault> {
-    if TIME_UNITS_S.contains(&columns.time_unit_s) {
-        return Ok(());
-    }
-    let (least, most) = (TIME_UNITS_S.start() * 1e3, TIME_UNITS_S.end() * 1e3);
-    let problem = format!("is {}", columns.time_unit_s * 1e3);
-    Err(loaded.fault("log_time_unit_ms", problem, format!("{least} to {most}")))
-}
-
 /// Without a log there are no columns.
 fn refuse_columns(loaded: &Loaded, columns: &Columns) -> Result<(), Fault> {
     let names = [
@@ -113,9 +92,9 @@ fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<
         .validate()
         .map_err(|mut error| {
             if error.field == "target" {
-                error.value += &format!(" from the log's first count, {first}");
+                error.problem += &format!(" from the log's first count, {first}");
             }
-            setting_fault(loaded, error)
+            loaded.refuse(error)
         })?;
     let fault = |line, problem: String, allowed: String| Fault {
         file: log.file.clone(),

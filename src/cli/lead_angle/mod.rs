@@ -53,9 +53,7 @@ pub(super) fn refuse(error: JobError) -> Failure {
     match error {
         JobError::Run(error) => Failure::Run(error),
         // What the settings let through, a body takes.
-        error @ (JobError::Setting(_) | JobError::Parameter(_)) => {
-            Failure::Check(error.to_string())
-        }
+        JobError::Setting(error) => Failure::Check(error.to_string()),
     }
 }
 

@@ -58,15 +58,8 @@ impl Job {
 /// What the compiler objects to, with the file and line it stands in.
 fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TargetError) -> Fault {
     match error {
-        TargetError::Setting {
-            field,
-            value,
-            allowed,
-        } => loaded.fault(field, format!("is {value}"), allowed),
-        TargetError::Drawing(error) => {
-            let (line, field, problem, allowed) = plan_fault(&error);
-            drawing_fault(drawing, line, &field, problem, allowed)
-        }
+        TargetError::Setting(error) => loaded.refuse(error),
+        TargetError::Drawing(error) => plan_fault(loaded, drawing, error),
         TargetError::Feed { line, value, most } => {
             let problem = format!("is {value} mm/min");
             let allowed = format!("up to {most} mm/min: one count per tick");

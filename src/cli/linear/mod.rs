@@ -56,7 +56,7 @@ fn refuse(error: JobError) -> Failure {
     match error {
         JobError::Run(error) => Failure::Run(error),
         // What the settings let through, a motor takes; this is for what they may yet let through.
-        JobError::Parameter(error) => Failure::Check(error.to_string()),
+        JobError::Setting(error) => Failure::Check(error.to_string()),
     }
 }
 

@@ -3,27 +3,14 @@
 use crate::cli::Failure;
 use crate::cli::job::{Source, compiling, table_fault};
 use crate::cli::pieces::{SpeedKeys, fault};
-use crate::cli::trajectory::MACHINE;
 use motion_rtl::arc_generator::path::Speeds;
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault};
-use motion_rtl::lead_angle::settings::SettingError as LiftError;
 use motion_rtl::machine::program::ProgramError;
-use motion_rtl::machine::settings::SettingError;
 use motion_rtl::machine::{Program, Settings};
 use motion_rtl::pulse_interpolator::TableError;
+use motion_rtl::settings::{Place, SettingError};
 use motion_rtl::trajectory_controller::program::ProgramError as TrajectoryError;
-
-/// Keys of the lift's table.
-const LIFT: [&str; 7] = [
-    "counts_per_rev",
-    "acceleration_counts_per_s2",
-    "inertia_kg_m2",
-    "friction_nm",
-    "brake_dead_time_s",
-    "brake_torque_nm",
-    "brake_fade",
-];
 
 /// An input ready to be run.
 #[derive(Debug)]
@@ -75,31 +62,28 @@ fn refuse(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: Progra
         key: "feed_mm_per_min",
         rapid: "rapid_mm_per_min",
     };
-    let setting = |error: SettingError| {
-        let SettingError {
-            field,
-            problem,
-            allowed,
-        } = error;
-        match MACHINE.contains(&field) {
-            true => loaded.part_fault("machine", field, problem, allowed),
-            false => loaded.fault(key(field), problem, allowed),
-        }
-    };
     match error {
         ProgramError::Setting(error)
-        | ProgramError::Trajectory(TrajectoryError::Setting { error, .. }) => setting(error),
+        | ProgramError::Table(TableError::Setting(error))
+        | ProgramError::Trajectory(TrajectoryError::Setting(error)) => setting_fault(loaded, error),
         ProgramError::Path(error) | ProgramError::Trajectory(TrajectoryError::Path(error)) => {
             fault(loaded, Some(drawing), keys, &error)
         }
         ProgramError::Lift(error) => lift_fault(loaded, error),
-        ProgramError::Table(TableError::Setting {
-            field,
-            value,
-            allowed,
-        }) => loaded.fault(key(field), format!("is {value}"), allowed),
         ProgramError::Table(error) => table_fault(loaded, drawing, &settings.pulse(), error),
     }
+}
+
+/// A setting of the machine, or of one of its circuits, as the machine has it.
+fn setting_fault(loaded: &Loaded, error: SettingError) -> Fault {
+    loaded.refuse(match error.place {
+        // Both axes are as the one table.
+        Some(Place::Row(..)) => error.at(Place::Table("machine")),
+        _ => SettingError {
+            field: key(error.field),
+            ..error
+        },
+    })
 }
 
 /// The machine's key for a field of one of its circuits.
@@ -114,25 +98,24 @@ fn key(field: &'static str) -> &'static str {
     }
 }
 
-fn lift_fault(loaded: &Loaded, error: LiftError) -> Fault {
-    let LiftError {
+/// A setting of the lift's compensator.
+fn lift_fault(loaded: &Loaded, error: SettingError) -> Fault {
+    let SettingError {
         field,
-        value,
+        problem,
         allowed,
         ..
     } = error;
-    let problem = format!("is {value}");
-    match field {
-        "target" => loaded.fault("pen_down_counts", problem, allowed),
-        "speed_counts_per_s" => loaded.fault("lift_counts_per_s", problem, allowed),
-        "lead_ms" => loaded.fault("lift_lead_ms", problem, allowed),
-        "clock_hz" | "ck_ticks" => loaded.fault(field, problem, allowed),
-        field if LIFT.contains(&field) => loaded.part_fault("lift", field, problem, allowed),
+    let key = match field {
+        "target" => "pen_down_counts",
+        "speed_counts_per_s" => "lift_counts_per_s",
+        "lead_ms" => "lift_lead_ms",
         // Times that the machine has no keys for, in CKs that do not fit them.
         field => {
-            let problem = format!("{field} of the lift would be {value} ms");
+            let problem = format!("{field} of the lift {problem} ms");
             let allowed = format!("CKs by which it can be: {allowed}");
-            loaded.fault("ck_ticks", problem, allowed)
+            return loaded.fault("ck_ticks", problem, allowed);
         }
-    }
+    };
+    loaded.fault(key, problem, allowed)
 }

@@ -82,7 +82,7 @@ fn simulate(
     let played = {
         let stimulus = traces.stimulus.as_mut().map(Without);
         let mut observer = (traces.waves.as_mut(), stimulus, &mut progress);
-        play(&circuit, program, settings, &mut observer).map_err(|error| refuse(job, error))?
+        play(&circuit, program, settings, &mut observer).map_err(refuse)?
     };
     drop(progress);
     let sample = u64::from(settings.sample_ticks);
@@ -98,15 +98,10 @@ fn simulate(
     Ok((played, files))
 }
 
-fn refuse(job: &Job, error: JobError) -> Failure {
+fn refuse(error: JobError) -> Failure {
     match error {
         JobError::Run(error) => Failure::Run(error),
-        // What the settings let through, a plant takes but for the length of a tick.
-        JobError::Parameter(error) => {
-            let allowed = format!("a faster clock: a tick of at most {:e} s", error.most);
-            let hz = job.settings.clock_hz;
-            let problem = format!("is {hz}: a tick of {:e} s", error.value);
-            job.loaded.fault("clock_hz", problem, allowed).into()
-        }
+        // What the settings let through, a plant takes.
+        JobError::Setting(error) => Failure::Check(error.to_string()),
     }
 }

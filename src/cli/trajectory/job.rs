@@ -5,31 +5,14 @@ use crate::cli::job::Source;
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use motion_rtl::arc_generator::error::PathError;
 use motion_rtl::arc_generator::path::Speeds;
+use motion_rtl::input::Drawing;
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::scenario::trajectory_controller::Scenario;
-use motion_rtl::input::{Drawing, Fault};
 use motion_rtl::plant::TwoMassParameters;
+use motion_rtl::settings::{Place, SettingError};
 use motion_rtl::trajectory_controller::program::{Program, ProgramError};
-use motion_rtl::trajectory_controller::settings::{SettingError, Settings};
+use motion_rtl::trajectory_controller::settings::Settings;
 use motion_rtl::trajectory_controller::widths::Widths;
-
-/// Keys of a machine: theirs are the faults that are not the scenario's own.
-pub const MACHINE: [&str; 14] = [
-    "max_torque_nm",
-    "motor_inertia_kg_m2",
-    "load_inertia_kg_m2",
-    "stiffness_nm_per_rad",
-    "counts_per_rev",
-    "mm_per_rev",
-    "damping_nm_s_per_rad",
-    "backlash_rad",
-    "motor_viscous_nm_s_per_rad",
-    "load_viscous_nm_s_per_rad",
-    "motor_friction_nm",
-    "load_friction_nm",
-    "motor_stiction_nm",
-    "load_stiction_nm",
-];
 
 /// A path ready to be run.
 #[derive(Debug)]
@@ -54,7 +37,13 @@ impl Job {
     /// Plans a path.
     pub fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
         let (settings, loaded) = (scenario.settings(), &source.loaded);
-        let refuse = |error: SettingError| loaded.fault(error.field, error.problem, error.allowed);
+        let refuse = |error: SettingError| match error.place {
+            // All axes are as the one table.
+            Some(Place::Row("axis", _)) if scenario.axis.is_empty() => {
+                loaded.refuse(error.at(Place::Table("machine")))
+            }
+            _ => loaded.refuse(error),
+        };
         let taught = scenario.taught().map_err(refuse)?;
         let keys = SpeedKeys {
             speeds: Speeds::from(&settings),
@@ -69,7 +58,7 @@ impl Job {
         let program = Program::of(start, &pieces, &settings, &machines, &Widths::FULL);
         let program = program.map_err(|error| match error {
             ProgramError::Path(error) => refuse_path(error),
-            ProgramError::Setting { axis, error } => machine_fault(loaded, scenario, axis, error),
+            ProgramError::Setting(error) => refuse(error),
         })?;
         let moves = drawing.iter().flat_map(|drawing| &drawing.moves);
         let rapid = moves.map(|step| step.rapid).collect();
@@ -104,26 +93,5 @@ impl Job {
     pub fn ticks_at_least(&self) -> u64 {
         let periods = (self.program.profile.duration / self.period_s()).ceil() as u64;
         periods.saturating_mul(u64::from(self.program.period_ticks))
-    }
-}
-
-/// A setting, or a parameter of an axis, with the line it stands in.
-fn machine_fault(
-    loaded: &Loaded,
-    scenario: &Scenario,
-    axis: Option<usize>,
-    error: SettingError,
-) -> Fault {
-    let SettingError {
-        field,
-        problem,
-        allowed,
-    } = error;
-    match axis.filter(|_| MACHINE.contains(&field)) {
-        None => loaded.fault(field, problem, allowed),
-        Some(axis) if !scenario.axis.is_empty() => {
-            loaded.table_fault(("axis", axis), field, problem, allowed)
-        }
-        Some(_) => loaded.part_fault("machine", field, problem, allowed),
     }
 }

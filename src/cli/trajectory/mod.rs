@@ -8,14 +8,14 @@ mod summary;
 mod text;
 mod verdict;
 
-pub use job::{Job, MACHINE};
+pub use job::Job;
 
 use super::Failure;
 use super::files::Files;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces, conclude};
 use motion_rtl::kernel::RunError;
-use motion_rtl::plant::{ParameterError, TwoMassAxis};
+use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::trace::Options;
 use motion_rtl::trajectory_controller::job::{Controller, Played, play};
 use motion_rtl::trajectory_controller::settings::Correction;
@@ -97,22 +97,12 @@ fn all<const AXES: usize>(
 fn plants<const AXES: usize>(job: &Job) -> Result<[TwoMassAxis; AXES], Failure> {
     let tick_s = 1.0 / job.settings.clock_hz as f64;
     let plants = job.machines.iter().map(|machine| {
-        // What the settings let through, a motor takes but for the length of a tick.
-        TwoMassAxis::new(machine, tick_s).map_err(|error| too_fast(job, &error))
+        // What the settings let through, a motor takes.
+        TwoMassAxis::new(machine, tick_s).map_err(|error| Failure::Check(error.to_string()))
     });
     let plants: Vec<_> = plants.collect::<Result<_, _>>()?;
     let wanted = format!("{AXES} axes, not {}", plants.len());
     plants.try_into().map_err(|_| Failure::Check(wanted))
-}
-
-/// A machine that is too fast for the clock.
-fn too_fast(job: &Job, error: &ParameterError) -> Failure {
-    let allowed = format!("a faster clock: a tick of at most {:e} s", error.most);
-    let problem = format!(
-        "is {}: a tick of {:e} s",
-        job.settings.clock_hz, error.value
-    );
-    job.loaded.fault("clock_hz", problem, allowed).into()
 }
 
 /// Plays the path without waves.

@@ -4,8 +4,9 @@ use super::Runnable;
 use super::exactly::exactly;
 use crate::arc_generator::Rounding;
 use crate::arc_generator::path::Taught;
-use crate::arc_generator::settings::{SettingError, Settings, ShortPieces};
+use crate::arc_generator::settings::{Settings, ShortPieces};
 use crate::input::Point;
+use crate::settings::SettingError;
 use serde::{Deserialize, Deserializer};
 use std::path::PathBuf;
 
@@ -105,11 +106,11 @@ pub(super) fn taught(
     piece: &[PieceKeys],
 ) -> Result<Vec<Taught>, SettingError> {
     if input.is_some() && !piece.is_empty() {
-        return Err(SettingError {
-            field: "input",
-            problem: "given beside tables [[piece]]".to_owned(),
-            allowed: "a drawing or pieces, not both".to_owned(),
-        });
+        return Err(SettingError::new(
+            "input",
+            "given beside tables [[piece]]",
+            "a drawing or pieces, not both",
+        ));
     }
     let taught = |piece: &PieceKeys| Taught {
         to: piece.to_mm,

@@ -1,5 +1,6 @@
 use super::{Runnable, Scenario};
 use crate::input::{Fault, read_string};
+use crate::settings::{Place, SettingError};
 use serde::Deserialize;
 use serde_path_to_error::{Segment, Track};
 use std::path::Path;
@@ -76,6 +77,26 @@ impl Loaded {
         self.overridden.iter().any(|other| other == key)
     }
 
+    /// A fault of a setting, with the line it stands in.
+    pub fn refuse(&self, error: SettingError) -> Fault {
+        let SettingError {
+            field,
+            place,
+            problem,
+            allowed,
+        } = error;
+        match place {
+            None => self.fault(field, problem, allowed),
+            Some(Place::Element(axis)) => {
+                self.fault(field, format!("{problem} for {axis}"), allowed)
+            }
+            Some(Place::Table(name)) => self.part_fault(name, field, problem, allowed),
+            Some(Place::Row(name, index)) => {
+                self.table_fault((name, index), field, problem, allowed)
+            }
+        }
+    }
+
     /// A fault of the value of `key`, with the line it stands in.
     pub fn fault(&self, key: &str, problem: String, allowed: String) -> Fault {
         if self.overrides(key) {
@@ -89,7 +110,7 @@ impl Loaded {
 
     /// A fault of the value of `key` in the table `[name]`, with the line it stands in; where it has
     /// its default, the line of the table.
-    pub fn part_fault(&self, name: &str, key: &str, problem: String, allowed: String) -> Fault {
+    fn part_fault(&self, name: &str, key: &str, problem: String, allowed: String) -> Fault {
         let field = format!("{name}.{key}");
         if self.overrides(name) || self.overrides(&field) {
             return Fault::new(SET, 0, field, problem, allowed);

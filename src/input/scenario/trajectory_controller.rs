@@ -6,8 +6,9 @@ use super::exactly::exactly;
 use crate::arc_generator::path::Taught;
 use crate::input::Point;
 use crate::plant::TwoMassParameters;
+use crate::settings::SettingError;
 use crate::trajectory_controller::Rounding;
-use crate::trajectory_controller::settings::{Correction, SettingError, Settings};
+use crate::trajectory_controller::settings::{Correction, Settings};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -133,11 +134,7 @@ impl Scenario {
         let axes = self.axes.unwrap_or(if moves_in_z { 3 } else { 2 });
         match AXES.contains(&axes) {
             true => Ok(axes as usize),
-            false => Err(SettingError {
-                field: "axes",
-                problem: format!("is {axes}"),
-                allowed: "2 or 3".to_owned(),
-            }),
+            false => Err(SettingError::new("axes", format!("is {axes}"), "2 or 3")),
         }
     }
 
@@ -149,11 +146,11 @@ impl Scenario {
         match self.axis.len() {
             0 => Ok(vec![self.machine; axes]),
             given if given == axes => Ok(self.axis.clone()),
-            given => Err(SettingError {
-                field: "axis",
-                problem: format!("given {given} times"),
-                allowed: format!("{axes} tables [[axis]], or one table [machine] for all"),
-            }),
+            given => {
+                let allowed = format!("{axes} tables [[axis]], or one table [machine] for all");
+                let problem = format!("given {given} times");
+                Err(SettingError::new("axis", problem, allowed))
+            }
         }
     }
 }

@@ -46,120 +46,120 @@ fn what_is_out_of_range_is_named_with_what_is_allowed() {
     let cases: [(Break, &str); 30] = [
         (
             |s| s.clock_hz = 0,
-            "clock_hz = 0: allowed is 1 to 10000000000",
+            "clock_hz: is 0; allowed: 1 to 10000000000",
         ),
-        (|s| s.ck_ticks = 3, "ck_ticks = 3: allowed is 4 to 16777215"),
+        (|s| s.ck_ticks = 3, "ck_ticks: is 3; allowed: 4 to 16777215"),
         (
             |s| s.steps.truncate(1),
-            "step = 1 steps: allowed is 2 to 16 steps",
+            "step: is 1 steps; allowed: 2 to 16 steps",
         ),
         (
             |s| s.steps = s.steps.repeat(9),
-            "step = 18 steps: allowed is 2 to 16 steps",
+            "step: is 18 steps; allowed: 2 to 16 steps",
         ),
         (
             |s| s.steps[1].target = 2_097_153,
-            "step 1: target = 2097153: allowed is -2097152 to 2097152",
+            "step 1: target: is 2097153; allowed: -2097152 to 2097152",
         ),
         (
             |s| s.steps[1].target = 15_000,
-            "step 0: target = 15000: allowed is another target than that of step 1",
+            "step 0: target: is 15000; allowed: another target than that of step 1",
         ),
         (
             |s| s.steps[0].target = 0,
-            "step 0: target = 0: allowed is another target than that of the start",
+            "step 0: target: is 0; allowed: another target than that of the start",
         ),
         (
             |s| s.steps.insert(1, s.steps[0]),
-            "step 1: target = 15000: allowed is another target than that of step 0",
+            "step 1: target: is 15000; allowed: another target than that of step 0",
         ),
         (
             |s| s.steps[0].speed_counts_per_s = 0,
-            "step 0: speed_counts_per_s = 0: allowed is 10 to 655350, a multiple of 10",
+            "step 0: speed_counts_per_s: is 0; allowed: 10 to 655350, a multiple of 10",
         ),
         (
             |s| s.steps[1].speed_counts_per_s = 20_005,
-            "step 1: speed_counts_per_s = 20005: allowed is 10 to 655350, a multiple of 10",
+            "step 1: speed_counts_per_s: is 20005; allowed: 10 to 655350, a multiple of 10",
         ),
         (
             |s| s.clock_hz = 39_990,
-            "step 0: speed_counts_per_s = 40000: allowed is 10 to 39990, a multiple of 10",
+            "step 0: speed_counts_per_s: is 40000; allowed: 10 to 39990, a multiple of 10",
         ),
         (
             |s| s.steps[1].lead_ms = 39.9,
-            "step 1: lead_ms = 39.9: allowed is 39.8 or 40",
+            "step 1: lead_ms: is 39.9; allowed: 39.8 or 40",
         ),
         (
             |s| s.steps[0].lead_ms = 12.34,
-            "step 0: lead_ms = 12.34: allowed is 12.3 or 12.4",
+            "step 0: lead_ms: is 12.34; allowed: 12.3 or 12.4",
         ),
         (
             |s| s.steps[0].lead_ms = 200.0,
-            "step 0: lead_ms = 200: allowed is at most 199",
+            "step 0: lead_ms: is 200; allowed: at most 199",
         ),
         (
             |s| s.steps[0].lead_ms = -1.0,
-            "step 0: lead_ms = -1: allowed is 0 for none, 0.1 to 199",
+            "step 0: lead_ms: is -1; allowed: 0 for none, 0.1 to 199",
         ),
         (
             |s| s.steps[0].lead_ms = f64::NAN,
-            "step 0: lead_ms = NaN: allowed is 0 for none, 0.1 to 199",
+            "step 0: lead_ms: is NaN; allowed: 0 for none, 0.1 to 199",
         ),
         (
             |s| (s.common_time, s.steps[1].lead_ms) = (true, 2.0),
-            "step 1: lead_ms = 2: allowed is 0: with common_time all steps take that of step 0",
+            "step 1: lead_ms: is 2; allowed: 0: with common_time all steps take that of step 0",
         ),
         (
             |s| s.seed_ms = 99.7,
-            "seed_ms = 99.7: allowed is 99.5 or 100",
+            "seed_ms: is 99.7; allowed: 99.5 or 100",
         ),
         (
             |s| s.standstill_ms = 0.0,
-            "standstill_ms = 0: allowed is 0.1 to 6553.5",
+            "standstill_ms: is 0; allowed: 0.1 to 6553.5",
         ),
         (
             |s| s.time_out_ms = 6554.0,
-            "time_out_ms = 6554: allowed is 0.1 to 6553.5",
+            "time_out_ms: is 6554; allowed: 0.1 to 6553.5",
         ),
         (
             |s| s.rest_ms = f64::NAN,
-            "rest_ms = NaN: allowed is 0.1 to 6553.5",
+            "rest_ms: is NaN; allowed: 0.1 to 6553.5",
         ),
         (
             |s| s.speed_gate_ms = 0.0,
-            "speed_gate_ms = 0: allowed is 0.1 to 6553.5",
+            "speed_gate_ms: is 0; allowed: 0.1 to 6553.5",
         ),
         (
             |s| s.speed_lead_ms = -1.0,
-            "speed_lead_ms = -1: allowed is 0 to 199",
+            "speed_lead_ms: is -1; allowed: 0 to 199",
         ),
         (
             |s| s.positionings = 0,
-            "positionings = 0: allowed is 1 to 10000",
+            "positionings: is 0; allowed: 1 to 10000",
         ),
         (
             |s| s.positionings = 10_001,
-            "positionings = 10001: allowed is 1 to 10000",
+            "positionings: is 10001; allowed: 1 to 10000",
         ),
         (
             |s| s.load_change_after = Some(0),
-            "load_change_after = 0: allowed is 1 to 24",
+            "load_change_after: is 0; allowed: 1 to 24",
         ),
         (
             |s| s.load_change_after = Some(25),
-            "load_change_after = 25: allowed is 1 to 24",
+            "load_change_after: is 25; allowed: 1 to 24",
         ),
         (
             |s| s.load.load_inertia_factor = 0.0,
-            "load_inertia_factor = 0: allowed is 0.001 to 1000",
+            "load_inertia_factor: is 0; allowed: 0.001 to 1000",
         ),
         (
             |s| s.body.brake_dead_time_s = -1.0,
-            "brake_dead_time_s = -1: allowed is 0 to 10",
+            "brake_dead_time_s: is -1; allowed: 0 to 10",
         ),
         (
             |s| s.body.brake_fade = 0.6,
-            "brake_fade = 0.6: allowed is 0 to 0.5",
+            "brake_fade: is 0.6; allowed: 0 to 0.5",
         ),
     ];
     for (spoil, message) in cases {

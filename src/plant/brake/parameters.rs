@@ -1,7 +1,7 @@
 //! The numbers of a braked body, and what is allowed of them.
 
-use crate::plant::ParameterError;
-use crate::plant::parameters::{POSITIVE, within};
+use crate::plant::parameters::POSITIVE;
+use crate::settings::{SettingError, within};
 use serde::{Deserialize, Serialize};
 
 /// Motor drive, body, brake and encoder.
@@ -44,8 +44,8 @@ impl BodyParameters {
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] names the first that is outside its range or not a number.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    /// [`SettingError`] names the first that is outside its range or not a number.
+    pub fn validate(&self) -> Result<(), SettingError> {
         let from_zero = 0.0..=*POSITIVE.end();
         let acceleration = self.acceleration_counts_per_s2;
         within("counts_per_rev", self.counts_per_rev, &POSITIVE)?;
@@ -87,8 +87,8 @@ impl Load {
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] names the first that is outside its range or not a number.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    /// [`SettingError`] names the first that is outside its range or not a number.
+    pub fn validate(&self) -> Result<(), SettingError> {
         let factors = 1e-3..=1e3;
         within("load_inertia_factor", self.load_inertia_factor, &factors)?;
         within("load_friction_factor", self.load_friction_factor, &factors)?;

@@ -238,6 +238,6 @@ fn what_is_out_of_range_is_named() {
     let error = body().set_load(load).expect_err("no brake");
     assert_eq!(
         error.to_string(),
-        "load_brake_factor = 0: allowed are 0.001 to 1000"
+        "load_brake_factor: is 0; allowed: 0.001 to 1000"
     );
 }

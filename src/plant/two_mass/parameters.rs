@@ -1,7 +1,7 @@
 //! The numbers of a motor with an elastic load, and what is allowed of them.
 
-use crate::plant::ParameterError;
-use crate::plant::parameters::{POSITIVE, within};
+use crate::plant::parameters::POSITIVE;
+use crate::settings::{SettingError, within};
 use serde::{Deserialize, Serialize};
 
 /// Amplifier, motor 32, shaft, load 33 and encoder of one axis. What belongs to the load counts at
@@ -72,13 +72,16 @@ impl Default for TwoMassParameters {
     }
 }
 
+/// Most that the plant's fastest rate times a tick may be: a piece of the motion takes half of 1.
+const LONGEST: f64 = 1e4;
+
 impl TwoMassParameters {
     /// Checks every field.
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] names the first that is outside its range or not a number.
-    pub fn validate(&self) -> Result<(), ParameterError> {
+    /// [`SettingError`] names the first that is outside its range or not a number.
+    pub fn validate(&self) -> Result<(), SettingError> {
         let from_zero = 0.0..=*POSITIVE.end();
         let needed = [
             ("max_torque_nm", self.max_torque_nm),
@@ -128,5 +131,10 @@ impl TwoMassParameters {
             + self.damping_nm_s_per_rad * compliance
             + self.motor_viscous_nm_s_per_rad / motor
             + self.load_viscous_nm_s_per_rad / load
+    }
+
+    /// The longest tick that the axis can be simulated on.
+    pub fn longest_tick_s(&self) -> f64 {
+        LONGEST / self.fastest_per_s()
     }
 }

@@ -1,20 +1,14 @@
 //! Why a table cannot be made.
 
 use crate::plan::PlanError;
+use crate::settings::SettingError;
 
 /// Why a table cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TableError {
     /// A setting is outside what is allowed.
-    #[error("{field} = {value}: allowed is {allowed}")]
-    Setting {
-        /// Name of the setting.
-        field: &'static str,
-        /// Its value.
-        value: String,
-        /// What would be right.
-        allowed: String,
-    },
+    #[error(transparent)]
+    Setting(#[from] SettingError),
     /// The path cannot be planned.
     #[error(transparent)]
     Plan(#[from] PlanError),
@@ -52,18 +46,4 @@ pub enum TableError {
         /// The longest the word can hold.
         most: u32,
     },
-}
-
-impl TableError {
-    pub(super) fn setting(
-        field: &'static str,
-        value: impl ToString,
-        allowed: impl ToString,
-    ) -> Self {
-        Self::Setting {
-            field,
-            value: value.to_string(),
-            allowed: allowed.to_string(),
-        }
-    }
 }

@@ -20,5 +20,5 @@ pub use count_table::{CountTable, Offer, PulseLimits, choose_half_period};
 pub use error::TableError;
 pub use report::{AxisReport, FollowingError, Remedy, Report};
 pub use scale::{AxisScaling, Ratio, Scaled};
-pub use settings::{CLOCK_RANGE_HZ, STEPS_PER_MM_RANGE, Settings, StepTiming, WIDTH_RANGE};
+pub use settings::{Settings, StepTiming, WIDTH_RANGE};
 pub use words::{MAX_UNITS, Pattern, Table, Word};

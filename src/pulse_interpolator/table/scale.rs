@@ -4,6 +4,7 @@ use super::counts::pulses;
 use super::demand::AXES;
 use super::error::TableError;
 use super::words::{Table, Word};
+use crate::settings::SettingError;
 
 /// A ratio of two whole numbers above 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,11 +62,8 @@ impl Table {
     pub fn scaled(&self, ratio: Ratio) -> Result<Scaled, TableError> {
         let Ratio { num, den } = ratio;
         if num == 0 || den == 0 {
-            return Err(TableError::setting(
-                "ratio",
-                format!("{num}/{den}"),
-                "both above 0",
-            ));
+            let problem = format!("is {num}/{den}");
+            return Err(SettingError::new("ratio", problem, "both above 0").into());
         }
         let mut words = Vec::with_capacity(self.words.len());
         let mut sums = vec![Deviation::default(); self.axes];

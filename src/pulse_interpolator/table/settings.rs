@@ -1,17 +1,11 @@
 //! What a table is compiled for: machine, clock and unit times.
 
 use super::count_table::PulseLimits;
-use super::error::TableError;
 use crate::input::COORDINATES;
 use crate::plan::MotionLimits;
-use std::fmt::Display;
+use crate::pulse_interpolator::AXIS_NAMES;
+use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, Place, SettingError, within};
 use std::ops::RangeInclusive;
-
-/// Clocks that are accepted, in Hz.
-pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
-
-/// Magnitudes of steps per millimetre that are accepted.
-pub const STEPS_PER_MM_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
 
 /// Widths of the half-period and of the unit-time register that are accepted, in bits. The memory
 /// word keeps one of its 32 bits for the direction.
@@ -79,34 +73,32 @@ impl Settings {
     ///
     /// # Errors
     ///
-    /// [`TableError::Setting`] or [`TableError::Plan`] names the first field at fault, its value
-    /// and what is allowed.
-    pub fn validate(&self) -> Result<(), TableError> {
-        check("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
+    /// Names the first field at fault, its value and what is allowed.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         if !(1..=COORDINATES).contains(&self.steps_per_mm.len()) {
-            return Err(TableError::setting(
-                "steps_per_mm",
-                format!("{} axes", self.steps_per_mm.len()),
-                format!("1 to {COORDINATES} axes"),
-            ));
+            let problem = format!("is {} axes", self.steps_per_mm.len());
+            let allowed = format!("1 to {COORDINATES} axes");
+            return Err(SettingError::new("steps_per_mm", problem, allowed));
         }
-        for value in &self.steps_per_mm {
-            if !STEPS_PER_MM_RANGE.contains(&value.abs()) {
-                let (least, most) = STEPS_PER_MM_RANGE.into_inner();
+        for (value, name) in self.steps_per_mm.iter().zip(AXIS_NAMES) {
+            if !COUNTS_PER_MM_RANGE.contains(&value.abs()) {
+                let (least, most) = COUNTS_PER_MM_RANGE.into_inner();
                 let allowed = format!("{least} to {most}, or the negative of that");
-                return Err(TableError::setting("steps_per_mm", value, allowed));
+                let error = SettingError::new("steps_per_mm", format!("is {value}"), allowed);
+                return Err(error.at(Place::Element(name)));
             }
         }
         self.motion.validate()?;
-        check("half_period_bits", self.half_period_bits, &WIDTH_RANGE)?;
-        check("period_bits", self.period_bits, &WIDTH_RANGE)?;
+        within("half_period_bits", self.half_period_bits, &WIDTH_RANGE)?;
+        within("period_bits", self.period_bits, &WIDTH_RANGE)?;
         self.check_period("line_unit_ticks", self.line_unit_ticks)?;
         self.check_period("arc_unit_ticks", self.arc_unit_ticks)
     }
 
     /// A unit time must hold one pulse, also just after a change of direction: else a table could
     /// not end on every position. One pulse needs a half-period of a third of T.
-    fn check_period(&self, field: &'static str, period: u32) -> Result<(), TableError> {
+    fn check_period(&self, field: &'static str, period: u32) -> Result<(), SettingError> {
         let StepTiming {
             min_high,
             min_low,
@@ -115,16 +107,16 @@ impl Settings {
         } = self.timing;
         let max_half_period = self.pulse_limits().max_half_period;
         let longest = ((1 << self.period_bits) - 1).min(max_half_period.saturating_mul(3));
-        check(field, period, &(2..=longest))?;
-        check(
+        within(field, period, &(2..=longest))?;
+        within(
             "step_high_ticks",
             min_high,
             &(0..=max_half_period.min(period / 2)),
         )?;
         let room = 0..=max_half_period.min(period - min_high.max(1));
-        check("step_low_ticks", min_low, &room)?;
-        check("dir_setup_ticks", dir_setup, &room)?;
-        check("dir_hold_ticks", dir_hold, &(0..=period))
+        within("step_low_ticks", min_low, &room)?;
+        within("dir_setup_ticks", dir_setup, &room)?;
+        within("dir_hold_ticks", dir_hold, &(0..=period))
     }
 
     /// What a unit's pulses must keep to where the direction stays.
@@ -147,18 +139,6 @@ impl Settings {
     }
 }
 
-fn check<T: PartialOrd + Display>(
-    field: &'static str,
-    value: T,
-    allowed: &RangeInclusive<T>,
-) -> Result<(), TableError> {
-    if allowed.contains(&value) {
-        return Ok(());
-    }
-    let range = format!("{} to {}", allowed.start(), allowed.end());
-    Err(TableError::setting(field, value, range))
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::count_table::CountTable;
@@ -176,71 +156,71 @@ mod tests {
         let cases = [
             (
                 refusal(|s| s.clock_hz = 0),
-                "clock_hz = 0: allowed is 1 to 10000000000",
+                "clock_hz: is 0; allowed: 1 to 10000000000",
             ),
             (
                 refusal(|s| s.steps_per_mm.clear()),
-                "steps_per_mm = 0 axes: allowed is 1 to 3 axes",
+                "steps_per_mm: is 0 axes; allowed: 1 to 3 axes",
             ),
             (
                 refusal(|s| s.steps_per_mm = vec![1.0; 4]),
-                "steps_per_mm = 4 axes",
+                "steps_per_mm: is 4 axes",
             ),
             (
                 refusal(|s| s.steps_per_mm[1] = 0.0),
-                "steps_per_mm = 0: allowed is 0.000001 to",
+                "steps_per_mm: is 0 for y; allowed: 0.000001 to",
             ),
             (
                 refusal(|s| s.steps_per_mm[0] = f64::NAN),
-                "steps_per_mm = NaN",
+                "steps_per_mm: is NaN for x",
             ),
             (
                 refusal(|s| s.steps_per_mm[0] = -2e9),
-                "steps_per_mm = -2000000000",
+                "steps_per_mm: is -2000000000 for x",
             ),
             (
                 refusal(|s| s.motion.feed_mm_per_min = 0.0),
-                "feed_mm_per_min = 0: allowed are 0.001",
+                "feed_mm_per_min: is 0; allowed: 0.001",
             ),
             (
                 refusal(|s| s.line_unit_ticks = 1),
-                "line_unit_ticks = 1: allowed is 2 to 196605",
+                "line_unit_ticks: is 1; allowed: 2 to 196605",
             ),
             (
                 refusal(|s| s.arc_unit_ticks = 196_606),
-                "arc_unit_ticks = 196606: allowed is 2 to 196605",
+                "arc_unit_ticks: is 196606; allowed: 2 to 196605",
             ),
             (
                 refusal(|s| s.period_bits = 9),
-                "line_unit_ticks = 1000: allowed is 2 to 511",
+                "line_unit_ticks: is 1000; allowed: 2 to 511",
             ),
             (
                 refusal(|s| s.half_period_bits = 8),
-                "line_unit_ticks = 1000: allowed is 2 to 765",
+                "line_unit_ticks: is 1000; allowed: 2 to 765",
             ),
             (
                 refusal(|s| s.half_period_bits = 32),
-                "half_period_bits = 32: allowed is 2 to 31",
+                "half_period_bits: is 32; allowed: 2 to 31",
             ),
             (
                 refusal(|s| s.period_bits = 1),
-                "period_bits = 1: allowed is 2 to 31",
+                "period_bits: is 1; allowed: 2 to 31",
             ),
             (
                 refusal(|s| s.timing.min_high = 501),
-                "step_high_ticks = 501: allowed is 0 to 500",
+                "step_high_ticks: is 501; allowed: 0 to 500",
             ),
             (
                 refusal(|s| s.timing.min_low = 999),
-                "step_low_ticks = 999: allowed is 0 to 998",
+                "step_low_ticks: is 999; allowed: 0 to 998",
             ),
             (
                 refusal(|s| s.timing.dir_setup = 999),
-                "dir_setup_ticks = 999: allowed is 0 to 998",
+                "dir_setup_ticks: is 999; allowed: 0 to 998",
             ),
             (
                 refusal(|s| s.timing.dir_hold = 1001),
-                "dir_hold_ticks = 1001: allowed is 0 to 1000",
+                "dir_hold_ticks: is 1001; allowed: 0 to 1000",
             ),
         ];
         for (message, expected) in cases {

@@ -1,0 +1,161 @@
+//! Settings of circuits and plants: the checks that they have in common, and what is said of one
+//! that is refused.
+
+use std::fmt::{self, Display};
+use std::ops::RangeInclusive;
+
+/// Clocks that are accepted, in Hz.
+pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
+
+/// Counts or steps per millimetre that are accepted.
+pub const COUNTS_PER_MM_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
+
+/// Times are taken for whole numbers of ticks or samples within this part: decimal fractions are
+/// not exact in binary.
+const WHOLE: f64 = 1e-9;
+
+/// Where a setting stands that is not by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// In a list: the element for the axis of this name.
+    Element(&'static str),
+    /// In the table of this name.
+    Table(&'static str),
+    /// In one of the tables of this name, from 0.
+    Row(&'static str, usize),
+}
+
+/// A setting outside what is allowed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SettingError {
+    /// Name of the setting, as in scenarios.
+    pub field: &'static str,
+    /// Where it stands; none where it is by itself.
+    pub place: Option<Place>,
+    /// What is wrong with it.
+    pub problem: String,
+    /// What would be right.
+    pub allowed: String,
+}
+
+impl SettingError {
+    /// A setting by itself.
+    pub fn new(
+        field: &'static str,
+        problem: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Self {
+        SettingError {
+            field,
+            place: None,
+            problem: problem.into(),
+            allowed: allowed.into(),
+        }
+    }
+
+    /// The same at a place.
+    #[must_use]
+    pub fn at(self, place: Place) -> Self {
+        SettingError {
+            place: Some(place),
+            ..self
+        }
+    }
+}
+
+impl std::error::Error for SettingError {}
+
+impl Display for SettingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let SettingError {
+            field,
+            place,
+            problem,
+            allowed,
+        } = self;
+        match place {
+            None => write!(f, "{field}: {problem}")?,
+            Some(Place::Element(axis)) => write!(f, "{field}: {problem} for {axis}")?,
+            Some(Place::Table(name)) => write!(f, "{name}.{field}: {problem}")?,
+            Some(Place::Row(name, index)) => write!(f, "{name} {index}: {field}: {problem}")?,
+        }
+        write!(f, "; allowed: {allowed}")
+    }
+}
+
+/// Refuses a value that is out of range or not a number.
+///
+/// # Errors
+/// Names the setting, its value and the range.
+pub fn within<T: PartialOrd + Display>(
+    field: &'static str,
+    value: T,
+    allowed: &RangeInclusive<T>,
+) -> Result<(), SettingError> {
+    if allowed.contains(&value) {
+        return Ok(());
+    }
+    let range = format!("{} to {}", allowed.start(), allowed.end());
+    Err(SettingError::new(field, format!("is {value}"), range))
+}
+
+/// A time as ticks of the clock, which must be whole and within what is allowed.
+///
+/// # Errors
+/// Names the setting, its value, and the times that are ticks.
+pub fn whole_ticks(
+    field: &'static str,
+    time_ms: f64,
+    clock_hz: u64,
+    allowed: &RangeInclusive<u64>,
+) -> Result<u32, SettingError> {
+    let ms = |ticks: f64| ticks * 1e3 / clock_hz as f64;
+    let [least, most] = [*allowed.start(), *allowed.end()].map(|ticks| ticks as f64);
+    let ticks = time_ms * clock_hz as f64 / 1e3;
+    // Written so that NaN fails.
+    if !(ticks >= least - 0.5 && ticks <= most + 0.5) {
+        let allowed = format!("{} to {} ms: {least} to {most} ticks", ms(least), ms(most));
+        return Err(SettingError::new(field, format!("is {time_ms}"), allowed));
+    }
+    let whole = whole(ticks).ok_or_else(|| {
+        let [below, above] = [ticks.floor(), ticks.ceil()].map(ms);
+        // Without the rounding of the division.
+        let ticks = (ticks * 1e6).round() / 1e6;
+        let problem = format!("is {time_ms}: {ticks} ticks");
+        SettingError::new(field, problem, format!("whole ticks: {below} or {above}"))
+    })?;
+    Ok(whole as u32)
+}
+
+/// A whole number within the rounding of decimal fractions.
+pub(crate) fn whole(value: f64) -> Option<u64> {
+    let nearest = value.round();
+    ((value - nearest).abs() <= WHOLE * nearest).then_some(nearest as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_refused_is_told_with_its_place() {
+        let error = || within("friction_nm", f64::NAN, &(0.0..=2.5)).unwrap_err();
+        let shown = |place| error().at(place).to_string();
+        let problem = "friction_nm: is NaN";
+        assert_eq!(error().to_string(), format!("{problem}; allowed: 0 to 2.5"));
+        assert_eq!(
+            shown(Place::Element("y")),
+            format!("{problem} for y; allowed: 0 to 2.5")
+        );
+        assert_eq!(
+            shown(Place::Table("lift")),
+            format!("lift.{problem}; allowed: 0 to 2.5")
+        );
+        assert_eq!(
+            shown(Place::Row("axis", 1)),
+            format!("axis 1: {problem}; allowed: 0 to 2.5")
+        );
+        assert_eq!(within("ends", 0, &(0..=9)), Ok(()));
+        assert_eq!(within("ends", 9, &(0..=9)), Ok(()));
+    }
+}
