@@ -82,14 +82,14 @@ impl Settings {
     ///
     /// # Errors
     /// Names the first field at fault, its value and what is allowed.
-    pub fn check(&self, widths: &Widths) -> Result<(), SettingError> {
+    pub fn validate(&self, widths: &Widths) -> Result<(), SettingError> {
         self.timing(widths).map(drop)
     }
 
     /// Ts as ticks of the clock.
     ///
     /// # Errors
-    /// As [`Settings::check`], of the clock and the sampling period.
+    /// As [`Settings::validate`], of the clock and the sampling period.
     pub fn sample_ticks(&self, widths: &Widths) -> Result<u32, SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         let ticks = LEAST_SAMPLE_TICKS..=(1 << widths.period) - 1;
@@ -104,7 +104,7 @@ impl Settings {
     /// The times of a path, of which all that depend on the words are within them.
     ///
     /// # Errors
-    /// As [`Settings::check`].
+    /// As [`Settings::validate`].
     pub fn timing(&self, widths: &Widths) -> Result<Timing, SettingError> {
         let ticks = self.sample_ticks(widths)?;
         let blend_samples = self.blend_samples(widths)?;

@@ -114,7 +114,7 @@ impl Program {
     /// The first setting or move at fault: what does not fit into a word, a move out of the plane,
     /// more segments than the trajectory controller holds.
     pub fn of(drawing: &Drawing, settings: &Settings) -> Result<Self, ProgramError> {
-        settings.check()?;
+        settings.validate()?;
         settings.lift().validate().map_err(ProgramError::Lift)?;
         let speeds = Speeds {
             wanted: Some(settings.motion.feed_mm_per_min / 60.0),

@@ -127,7 +127,7 @@ impl Settings {
     ///
     /// # Errors
     /// Names the first field at fault, its value and what is allowed.
-    pub fn check(&self) -> Result<(), SettingError> {
+    pub fn validate(&self) -> Result<(), SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         let least = [
             ("unit_ticks", self.unit_ticks, 1),

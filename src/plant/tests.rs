@@ -1,6 +1,7 @@
 //! The plant against the closed forms of its equations.
 
 use super::*;
+use crate::settings::CLOCK_RANGE_HZ;
 
 const TICK_S: f64 = 5e-6;
 const FULL: i64 = 32_767;
@@ -141,6 +142,8 @@ fn what_is_out_of_range_is_named() {
             assert!(ServoAxis::new(&bad, TICK_S).is_err());
         }
     }
+    let shortest_s = 1.0 / *CLOCK_RANGE_HZ.end() as f64;
+    assert!(ServoAxis::new(&good, shortest_s).is_ok());
     let error = ServoAxis::new(&good, 0.0).expect_err("no tick");
     assert_eq!(
         error.to_string(),

@@ -141,7 +141,7 @@ impl Settings {
     ///
     /// # Errors
     /// Names the first field at fault, its value and what is allowed.
-    pub fn check(&self, widths: &Widths) -> Result<(), SettingError> {
+    pub fn validate(&self, widths: &Widths) -> Result<(), SettingError> {
         self.motion(widths)?;
         self.gains(widths).map(drop)
     }
@@ -149,7 +149,7 @@ impl Settings {
     /// Δt as ticks of the clock.
     ///
     /// # Errors
-    /// As [`Settings::check`], of the clock and the period.
+    /// As [`Settings::validate`], of the clock and the period.
     pub fn period_ticks(&self, widths: &Widths) -> Result<u32, SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         let ticks = LEAST_PERIOD_TICKS..=(1 << widths.period) - 1;
@@ -167,7 +167,7 @@ impl Settings {
     /// What the planner needs.
     ///
     /// # Errors
-    /// As [`Settings::check`], of all but the model's gains.
+    /// As [`Settings::validate`], of all but the model's gains.
     pub fn motion(&self, widths: &Widths) -> Result<Motion, SettingError> {
         let period = self.period_s(widths)?;
         within("counts_per_mm", self.counts_per_mm, &COUNTS_PER_MM_RANGE)?;
@@ -206,7 +206,7 @@ impl Settings {
     /// model go beyond its target.
     ///
     /// # Errors
-    /// As [`Settings::check`], of clock, period and gains. With gains k1, k2 a period: the model is
+    /// As [`Settings::validate`], of clock, period and gains. With gains k1, k2 a period: the model is
     /// stable where k1 < 1 and k2·(2 − k1) < 4, which a word below 2 always is; it does not go beyond
     /// its target where also 4·k1 <= k2; what rounding makes of it dies out where 2·k1 <= k2; and it
     /// comes to the count it is told to where k1·k2 is a guard unit or more, with

@@ -9,7 +9,7 @@ const FULL: Widths = Widths::FULL;
 fn refusal(change: impl Fn(&mut Settings)) -> SettingError {
     let mut settings = Settings::default();
     change(&mut settings);
-    settings.check(&FULL).unwrap_err()
+    settings.validate(&FULL).unwrap_err()
 }
 
 #[test]

@@ -313,6 +313,18 @@ fn bad_input_is_refused_with_its_line() {
             "s.toml:8: counts_per_rev: missing; allowed: a value for it: it has no default",
         ),
         (
+            "lift_lead_ms = 25\n[lift]\ncounts_per_rev = 8000\nacceleration_counts_per_s2 = 6e5\n\
+             inertia_kg_m2 = 0.02\nfriction_nm = -1\nbrake_dead_time_s = 0.012\n\
+             brake_torque_nm = 4\nbrake_fade = 0",
+            SHORT,
+            "s.toml:13: lift.friction_nm: is -1; allowed: 0 to 1000000000",
+        ),
+        (
+            "steps_per_mm = [40, 0]",
+            SHORT,
+            "s.toml:8: steps_per_mm: is 0 for y; allowed: ",
+        ),
+        (
             "steps_per_mm = [1]",
             SHORT,
             "s.toml:8: steps_per_mm: invalid length 1; allowed: ",

@@ -618,6 +618,12 @@ fn bad_machines_are_refused_with_their_line() {
         &["run", "s.toml", "--set", "machine.stiffness_nm_per_rad=0"],
         "--set: machine.stiffness_nm_per_rad: is 0; allowed: 0.000000001 to 1000000000",
     );
+    // One that the clock is too slow for.
+    bench.refuse(
+        &["run", "s.toml", "--set", "machine.damping_nm_s_per_rad=1e9"],
+        "s.toml:2: clock_hz: is 400000: a tick of 2.5e-6 s; allowed: a faster clock: a tick of at most \
+         6.666666664232344e-9 s",
+    );
     let run = [
         "run",
         "s.toml",

@@ -11,12 +11,12 @@ const WIDTHS: Widths = Widths::FULL;
 fn refused(change: impl FnOnce(&mut Settings)) -> String {
     let mut settings = Settings::default();
     change(&mut settings);
-    settings.check(&WIDTHS).unwrap_err().to_string()
+    settings.validate(&WIDTHS).unwrap_err().to_string()
 }
 
 #[test]
 fn what_is_not_allowed_is_refused_with_what_is() {
-    assert_eq!(Settings::default().check(&WIDTHS), Ok(()));
+    assert_eq!(Settings::default().validate(&WIDTHS), Ok(()));
     let gains = Settings::default().gains(&WIDTHS).unwrap();
     // 0.05 and 0.2 a period.
     assert_eq!([gains.k1, gains.k2], [1638, 6554]);
@@ -70,7 +70,7 @@ fn what_is_not_allowed_is_refused_with_what_is() {
         allow_overshoot: true,
         ..Settings::default()
     };
-    assert_eq!(beyond.check(&WIDTHS), Ok(()));
+    assert_eq!(beyond.validate(&WIDTHS), Ok(()));
     assert_eq!(
         field(refused(|s| (s.k1_per_s, s.allow_overshoot) = (1000.0, true))),
         "k1_per_s"
@@ -92,9 +92,9 @@ fn the_word_holds_the_product_of_both_gains() {
     let two_to = |exponent: i32| f64::from(exponent).exp2();
     for (rounding, bits) in [(Rounding::Nearest, 16), (Rounding::Floor, 15)] {
         let (k1, k2) = (two_to(-9), two_to(9 - bits));
-        assert_eq!(gains(k1, k2, rounding).check(&WIDTHS), Ok(()));
+        assert_eq!(gains(k1, k2, rounding).validate(&WIDTHS), Ok(()));
         let less = gains(k1, k2 - two_to(-15), rounding);
-        assert_eq!(less.check(&WIDTHS).unwrap_err().field, "k2_per_s");
+        assert_eq!(less.validate(&WIDTHS).unwrap_err().field, "k2_per_s");
     }
 }
 
