@@ -1,6 +1,7 @@
 //! Settings of circuits and plants: the checks that they have in common, and what is said of one
 //! that is refused.
 
+use crate::kernel::RunError;
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
 
@@ -53,6 +54,11 @@ impl SettingError {
         }
     }
 
+    /// A setting by itself whose value is at fault.
+    pub fn value(field: &'static str, value: impl Display, allowed: impl Into<String>) -> Self {
+        Self::new(field, format!("is {value}"), allowed)
+    }
+
     /// The same at a place.
     #[must_use]
     pub fn at(self, place: Place) -> Self {
@@ -83,6 +89,17 @@ impl Display for SettingError {
     }
 }
 
+/// Why a job cannot be played.
+#[derive(Debug, thiserror::Error)]
+pub enum JobError {
+    /// A setting that a circuit or a plant does not take.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// What an observer objects to.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
 /// Refuses a value that is out of range or not a number.
 ///
 /// # Errors
@@ -96,7 +113,7 @@ pub fn within<T: PartialOrd + Display>(
         return Ok(());
     }
     let range = format!("{} to {}", allowed.start(), allowed.end());
-    Err(SettingError::new(field, format!("is {value}"), range))
+    Err(SettingError::value(field, value, range))
 }
 
 /// A time as ticks of the clock, which must be whole and within what is allowed.
@@ -115,14 +132,14 @@ pub fn whole_ticks(
     // Written so that NaN fails.
     if !(ticks >= least - 0.5 && ticks <= most + 0.5) {
         let allowed = format!("{} to {} ms: {least} to {most} ticks", ms(least), ms(most));
-        return Err(SettingError::new(field, format!("is {time_ms}"), allowed));
+        return Err(SettingError::value(field, time_ms, allowed));
     }
     let whole = whole(ticks).ok_or_else(|| {
         let [below, above] = [ticks.floor(), ticks.ceil()].map(ms);
         // Without the rounding of the division.
         let ticks = (ticks * 1e6).round() / 1e6;
-        let problem = format!("is {time_ms}: {ticks} ticks");
-        SettingError::new(field, problem, format!("whole ticks: {below} or {above}"))
+        let time = format!("{time_ms}: {ticks} ticks");
+        SettingError::value(field, time, format!("whole ticks: {below} or {above}"))
     })?;
     Ok(whole as u32)
 }

@@ -134,7 +134,7 @@ impl Settings {
         if !(halves >= 0.5 && halves <= most as f64 / 2.0 + 0.5) {
             let (first, last) = (2.0 * period, most as f64 * period);
             let allowed = format!("{first} to {last} ms: 2 to {most} samples");
-            return Err(SettingError::new(field, format!("is {ms}"), allowed));
+            return Err(SettingError::value(field, ms, allowed));
         }
         let half = whole(halves).ok_or_else(|| {
             let times = [halves.floor(), halves.ceil()];
@@ -143,7 +143,7 @@ impl Settings {
                 true => format!("an even number of samples: {} or {}", times[0], times[1]),
                 false => format!("an even number of samples: {}", times[0]),
             };
-            SettingError::new(field, format!("is {ms}: {} samples", 2.0 * halves), allowed)
+            SettingError::value(field, format!("{ms}: {} samples", 2.0 * halves), allowed)
         })?;
         Ok(2 * half)
     }

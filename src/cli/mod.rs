@@ -24,6 +24,7 @@ pub mod verilog;
 
 use motion_rtl::input::Fault;
 use motion_rtl::kernel::RunError;
+use motion_rtl::settings::JobError;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -55,6 +56,16 @@ pub enum Failure {
     /// What should hold does not: 1.
     #[error("{0}")]
     Check(String),
+}
+
+impl From<JobError> for Failure {
+    fn from(error: JobError) -> Self {
+        match error {
+            // Settings have been checked; this is for what a check may yet let through.
+            JobError::Setting(error) => Failure::Check(error.to_string()),
+            JobError::Run(error) => Failure::Run(error),
+        }
+    }
 }
 
 impl Failure {

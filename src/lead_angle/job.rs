@@ -6,7 +6,7 @@ use super::{Compensator, LeadSource, PositionHistory, RamHistory, SpeedLead, Tim
 use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
 use crate::logic::{Image, Sim};
 use crate::plant::{BrakedBody, waves};
-use crate::settings::SettingError;
+use crate::settings::JobError;
 use std::ops::ControlFlow;
 
 /// Width of a lead time.
@@ -57,17 +57,6 @@ pub fn positioner<P: JobLead>(settings: &Settings) -> Positioner<P> {
         .iter()
         .map(|step| settings.code(step.lead_ms).unwrap_or(0));
     With::new(Compensator::new(variant, Image::new(codes)))
-}
-
-/// Why a job cannot be played.
-#[derive(Debug, thiserror::Error)]
-pub enum JobError {
-    /// A setting is outside its range.
-    #[error(transparent)]
-    Setting(#[from] SettingError),
-    /// What an observer objects to.
-    #[error(transparent)]
-    Run(#[from] RunError),
 }
 
 /// The control computer: writes a step a tick, then lets them run.

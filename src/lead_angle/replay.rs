@@ -1,13 +1,14 @@
 //! A position log on a compensator: where it would have given its signals, and how good its
 //! predictions were.
 
-use super::job::{ControlComputer, JobError, JobLead, Ports, Positioner};
+use super::job::{ControlComputer, JobLead, Ports, Positioner};
 use super::settings::Settings;
 use crate::input::position_log::PositionLog;
 use crate::kernel::{Observer, RunError, Sample, Simulator, WithIn};
 use crate::logic::Sim;
 use crate::plant::Encoder;
 use crate::plant::waves::BodySignals;
+use crate::settings::JobError;
 use std::ops::ControlFlow;
 
 /// A control signal that the log gave rise to.

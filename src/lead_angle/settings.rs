@@ -160,11 +160,8 @@ impl Settings {
         let count = self.steps.len();
         if !STEPS_RANGE.contains(&count) {
             let (least, most) = STEPS_RANGE.into_inner();
-            let (problem, allowed) = (
-                format!("is {count} steps"),
-                format!("{least} to {most} steps"),
-            );
-            return Err(SettingError::new("step", problem, allowed));
+            let (value, allowed) = (format!("{count} steps"), format!("{least} to {most} steps"));
+            return Err(SettingError::value("step", value, allowed));
         }
         for index in 0..count {
             self.validate_step(index)
@@ -208,25 +205,17 @@ impl Settings {
                 false => format!("step {before}"),
             };
             let allowed = format!("another target than that of {place}");
-            return Err(SettingError::new("target", format!("is {target}"), allowed));
+            return Err(SettingError::value("target", target, allowed));
         }
         let unit = SPEED_UNIT_COUNTS_PER_S;
         let fastest = self.fastest_counts_per_s();
         if !(unit..=fastest).contains(&speed) || !speed.is_multiple_of(unit) {
             let allowed = format!("{unit} to {fastest}, a multiple of {unit}");
-            return Err(SettingError::new(
-                "speed_counts_per_s",
-                format!("is {speed}"),
-                allowed,
-            ));
+            return Err(SettingError::value("speed_counts_per_s", speed, allowed));
         }
         if self.common_time && index > 0 && lead_ms != 0.0 {
             let allowed = "0: with common_time all steps take that of step 0";
-            return Err(SettingError::new(
-                "lead_ms",
-                format!("is {lead_ms}"),
-                allowed,
-            ));
+            return Err(SettingError::value("lead_ms", lead_ms, allowed));
         }
         self.check_lead("lead_ms", lead_ms)
     }
@@ -244,7 +233,7 @@ impl Settings {
             (below, None) if ms > 0.0 => format!("at most {}", shown(below)),
             _ => format!("0 for none, {} to {}", shown(1), shown(LARGEST)),
         };
-        Err(SettingError::new(field, format!("is {ms}"), allowed))
+        Err(SettingError::value(field, ms, allowed))
     }
 }
 

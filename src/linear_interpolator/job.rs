@@ -8,7 +8,7 @@ use super::{CommandSource, Controller, Conventional, LinearInterpolator, Rule, c
 use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
 use crate::logic::Sim;
 use crate::plant::{ServoAxis, ServoParameters, waves};
-use crate::settings::SettingError;
+use crate::settings::JobError;
 use fixed::types::U8F8;
 use std::ops::ControlFlow;
 
@@ -32,17 +32,6 @@ pub fn plotter(rule: Rule) -> Plotter<LinearInterpolator> {
 /// The plotter with the conventional system of Fig. 3.
 pub fn conventional() -> Plotter<Conventional> {
     With::new(Controller::new(Conventional::default()))
-}
-
-/// Why a job cannot be played.
-#[derive(Debug, thiserror::Error)]
-pub enum JobError {
-    /// A motor cannot be what the settings say.
-    #[error(transparent)]
-    Setting(#[from] SettingError),
-    /// What an observer objects to.
-    #[error(transparent)]
-    Run(#[from] RunError),
 }
 
 impl AxisSettings {

@@ -205,9 +205,8 @@ impl Settings {
         within("inertia_kg_m2", inertia, &(1e-9..=1e3))?;
         within("max_torque_nm", torque, &(1e-6..=1e6))?;
         if !(0.0..torque).contains(&friction) {
-            let problem = format!("is {friction}");
             let allowed = format!("0 to below max_torque_nm, {torque}");
-            return Err(SettingError::new("friction_nm", problem, allowed));
+            return Err(SettingError::value("friction_nm", friction, allowed));
         }
         Ok(())
     }

@@ -12,7 +12,7 @@ use crate::logic::{Image, Sim};
 use crate::plant::{BrakedBody, TwoMassAxis};
 use crate::pulse_interpolator::step_dir::Driver;
 use crate::pulse_interpolator::{self as pulse, StepTiming};
-use crate::settings::SettingError;
+use crate::settings::{JobError, SettingError};
 use crate::trajectory_controller::job::patience;
 use std::array::from_fn;
 
@@ -119,17 +119,6 @@ pub struct Played {
     pub settled: bool,
     /// Something came too late, or could not be counted.
     pub fault: bool,
-}
-
-/// Why a job cannot be played.
-#[derive(Debug, thiserror::Error)]
-pub enum JobError {
-    /// A plant cannot be what the settings say.
-    #[error(transparent)]
-    Setting(#[from] SettingError),
-    /// What an observer objects to.
-    #[error(transparent)]
-    Run(#[from] RunError),
 }
 
 /// Everything around the circuit.

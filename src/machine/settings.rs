@@ -150,19 +150,18 @@ impl Settings {
         let blend = 2.0 * self.sample_s();
         let longest = LONGEST_RAMP as f64 * self.scan_s();
         if blend > longest {
-            let problem = format!("is {}", self.sample_ticks);
+            let (ticks, scan) = (self.sample_ticks, self.scan_ticks);
             let allowed = format!(
-                "up to {} at scan_ticks = {}: an arc's two sampling times within {LONGEST_RAMP} scans",
-                LONGEST_RAMP * u64::from(self.scan_ticks) / 2,
-                self.scan_ticks
+                "up to {} at scan_ticks = {scan}: an arc's two sampling times within {LONGEST_RAMP} scans",
+                LONGEST_RAMP * u64::from(scan) / 2
             );
-            return Err(SettingError::new("sample_ticks", problem, allowed));
+            return Err(SettingError::value("sample_ticks", ticks, allowed));
         }
         let range = 1e3 * blend.max(self.scan_s())..=1e3 * longest;
         within("acceleration_ms", self.acceleration_ms, &range)?;
         if self.pen_down_counts == 0 {
             let allowed = "a position other than 0, where the pen is up";
-            return Err(SettingError::new("pen_down_counts", "is 0", allowed));
+            return Err(SettingError::value("pen_down_counts", 0, allowed));
         }
         let in_table = |name| move |error: SettingError| error.at(Place::Table(name));
         self.axis.validate().map_err(in_table("machine"))?;

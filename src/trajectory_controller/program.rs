@@ -66,8 +66,7 @@ impl Program {
         let motion = settings.motion(widths)?;
         let gains = settings.gains(widths)?;
         if !(2..=COORDINATES).contains(&machine.len()) {
-            let problem = format!("is {}", machine.len());
-            return Err(SettingError::new("axes", problem, "2 or 3").into());
+            return Err(SettingError::value("axes", machine.len(), "2 or 3").into());
         }
         let mut servo = [ServoGains::default(); COORDINATES];
         for (axis, parameters) in machine.iter().enumerate() {

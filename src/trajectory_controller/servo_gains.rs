@@ -49,9 +49,9 @@ impl ServoGains {
         let (hz, longest_s) = (settings.clock_hz, axis.longest_tick_s());
         let tick_s = 1.0 / hz as f64;
         if tick_s > longest_s {
-            let problem = format!("is {hz}: a tick of {tick_s:e} s");
+            let value = format!("{hz}: a tick of {tick_s:e} s");
             let allowed = format!("a faster clock: a tick of at most {longest_s:e} s");
-            return Err(SettingError::new("clock_hz", problem, allowed));
+            return Err(SettingError::value("clock_hz", value, allowed));
         }
         let (rate, hz) = (settings.position_gain_per_s, settings.speed_hz);
         within("position_gain_per_s", rate, &RATE_RANGE)?;

@@ -16,7 +16,7 @@ use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces, conclude};
 use motion_rtl::kernel::Without;
 use motion_rtl::lead_angle::job::{
-    Conventional, JobError, JobLead, Played, RamLead, ShiftLead, play, positioner,
+    Conventional, JobLead, Played, RamLead, ShiftLead, play, positioner,
 };
 use motion_rtl::lead_angle::settings::{History, Settings};
 use motion_rtl::trace::Options;
@@ -49,23 +49,14 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     conclude(arguments, &options, summary.ticks, files, summary)
 }
 
-pub(super) fn refuse(error: JobError) -> Failure {
-    match error {
-        JobError::Run(error) => Failure::Run(error),
-        // What the settings let through, a body takes.
-        JobError::Setting(error) => Failure::Check(error.to_string()),
-    }
-}
-
 /// Plays a system without waves.
 fn alone(system: &System) -> Result<Played, Failure> {
     let settings = &system.settings;
-    let played = match system.conventional {
-        true => play(&positioner::<Conventional>(settings), settings, ()),
+    Ok(match system.conventional {
+        true => play(&positioner::<Conventional>(settings), settings, ())?,
         // The RAM gives the same in every tick.
-        false => play(&positioner::<ShiftLead>(settings), settings, ()),
-    };
-    played.map_err(refuse)
+        false => play(&positioner::<ShiftLead>(settings), settings, ())?,
+    })
 }
 
 /// Plays the settings' own system with its waves.
@@ -85,11 +76,10 @@ fn simulate<P: JobLead>(
         false => {
             let stimulus = traces.stimulus.as_mut().map(Without);
             let files = (traces.waves.as_mut(), stimulus);
-            play(&circuit, settings, (files, &mut progress))
+            play(&circuit, settings, (files, &mut progress))?
         }
-        true => play(&circuit, settings, &mut progress),
+        true => play(&circuit, settings, &mut progress)?,
     };
-    let played = played.map_err(refuse)?;
     drop(progress);
     let first = played.positionings.first();
     let focus = focus(settings, first.map_or(0, |positioning| positioning.fired));

@@ -14,7 +14,7 @@ use super::files::Files;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces, conclude};
 use motion_rtl::kernel::Without;
-use motion_rtl::linear_interpolator::job::{JobError, conventional, play, plotter};
+use motion_rtl::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::linear_interpolator::measure::Played;
 use motion_rtl::trace::Options;
 use picture::draw;
@@ -42,22 +42,14 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         &job.compiled.targets,
         &job.settings,
         progress,
-    );
+    )?;
     let runs = Runs {
         interpolator,
-        conventional: conventional.map_err(refuse)?,
+        conventional,
     };
     files.write("svg", &draw(job, &runs))?;
     let summary = Summary::new(job, &runs);
     conclude(arguments, &options, summary.ticks, files, summary)
-}
-
-fn refuse(error: JobError) -> Failure {
-    match error {
-        JobError::Run(error) => Failure::Run(error),
-        // What the settings let through, a motor takes; this is for what they may yet let through.
-        JobError::Setting(error) => Failure::Check(error.to_string()),
-    }
 }
 
 /// Plays the job on the linear interpolator, with its waves.
@@ -77,11 +69,10 @@ fn simulate(
         false => {
             let stimulus = traces.stimulus.as_mut().map(Without);
             let files = (traces.waves.as_mut(), stimulus);
-            play(&circuit, targets, settings, (files, &mut progress))
+            play(&circuit, targets, settings, (files, &mut progress))?
         }
-        true => play(&circuit, targets, settings, &mut progress),
+        true => play(&circuit, targets, settings, &mut progress)?,
     };
-    let played = played.map_err(refuse)?;
     drop(progress);
     let scan = u64::from(settings.scan_ticks);
     let first = played.cycles.first().map_or(0, |cycle| cycle.scans.start);

@@ -14,7 +14,7 @@ use super::files::Files;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces, conclude};
 use motion_rtl::kernel::Without;
-use motion_rtl::machine::job::{JobError, Played, machine, play};
+use motion_rtl::machine::job::{Played, machine, play};
 use motion_rtl::machine::measure::Measured;
 use motion_rtl::trace::Options;
 use summary::Summary;
@@ -82,7 +82,7 @@ fn simulate(
     let played = {
         let stimulus = traces.stimulus.as_mut().map(Without);
         let mut observer = (traces.waves.as_mut(), stimulus, &mut progress);
-        play(&circuit, program, settings, &mut observer).map_err(refuse)?
+        play(&circuit, program, settings, &mut observer)?
     };
     drop(progress);
     let sample = u64::from(settings.sample_ticks);
@@ -96,12 +96,4 @@ fn simulate(
     };
     let files = traces.finish(&circuit, &focus, played.ticks)?;
     Ok((played, files))
-}
-
-fn refuse(error: JobError) -> Failure {
-    match error {
-        JobError::Run(error) => Failure::Run(error),
-        // What the settings let through, a plant takes.
-        JobError::Setting(error) => Failure::Check(error.to_string()),
-    }
 }

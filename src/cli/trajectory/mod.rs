@@ -16,6 +16,7 @@ use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces, conclude};
 use motion_rtl::kernel::RunError;
 use motion_rtl::plant::TwoMassAxis;
+use motion_rtl::settings::JobError;
 use motion_rtl::trace::Options;
 use motion_rtl::trajectory_controller::job::{Controller, Played, play};
 use motion_rtl::trajectory_controller::settings::Correction;
@@ -96,10 +97,10 @@ fn all<const AXES: usize>(
 /// Motors and loads at rest.
 fn plants<const AXES: usize>(job: &Job) -> Result<[TwoMassAxis; AXES], Failure> {
     let tick_s = 1.0 / job.settings.clock_hz as f64;
-    let plants = job.machines.iter().map(|machine| {
-        // What the settings let through, a motor takes.
-        TwoMassAxis::new(machine, tick_s).map_err(|error| Failure::Check(error.to_string()))
-    });
+    let plants = job
+        .machines
+        .iter()
+        .map(|machine| TwoMassAxis::new(machine, tick_s).map_err(JobError::from));
     let plants: Vec<_> = plants.collect::<Result<_, _>>()?;
     let wanted = format!("{AXES} axes, not {}", plants.len());
     plants.try_into().map_err(|_| Failure::Check(wanted))

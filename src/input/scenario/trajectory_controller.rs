@@ -134,7 +134,7 @@ impl Scenario {
         let axes = self.axes.unwrap_or(if moves_in_z { 3 } else { 2 });
         match AXES.contains(&axes) {
             true => Ok(axes as usize),
-            false => Err(SettingError::new("axes", format!("is {axes}"), "2 or 3")),
+            false => Err(SettingError::value("axes", axes, "2 or 3")),
         }
     }
 

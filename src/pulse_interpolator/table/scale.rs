@@ -62,8 +62,8 @@ impl Table {
     pub fn scaled(&self, ratio: Ratio) -> Result<Scaled, TableError> {
         let Ratio { num, den } = ratio;
         if num == 0 || den == 0 {
-            let problem = format!("is {num}/{den}");
-            return Err(SettingError::new("ratio", problem, "both above 0").into());
+            let value = format!("{num}/{den}");
+            return Err(SettingError::value("ratio", value, "both above 0").into());
         }
         let mut words = Vec::with_capacity(self.words.len());
         let mut sums = vec![Deviation::default(); self.axes];

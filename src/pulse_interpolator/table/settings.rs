@@ -77,15 +77,15 @@ impl Settings {
     pub fn validate(&self) -> Result<(), SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         if !(1..=COORDINATES).contains(&self.steps_per_mm.len()) {
-            let problem = format!("is {} axes", self.steps_per_mm.len());
+            let value = format!("{} axes", self.steps_per_mm.len());
             let allowed = format!("1 to {COORDINATES} axes");
-            return Err(SettingError::new("steps_per_mm", problem, allowed));
+            return Err(SettingError::value("steps_per_mm", value, allowed));
         }
         for (value, name) in self.steps_per_mm.iter().zip(AXIS_NAMES) {
             if !COUNTS_PER_MM_RANGE.contains(&value.abs()) {
                 let (least, most) = COUNTS_PER_MM_RANGE.into_inner();
                 let allowed = format!("{least} to {most}, or the negative of that");
-                let error = SettingError::new("steps_per_mm", format!("is {value}"), allowed);
+                let error = SettingError::value("steps_per_mm", value, allowed);
                 return Err(error.at(Place::Element(name)));
             }
         }

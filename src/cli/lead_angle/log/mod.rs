@@ -3,7 +3,7 @@
 mod picture;
 mod text;
 
-use super::{Job, focus, refuse};
+use super::{Job, focus};
 use crate::cli::Failure;
 use crate::cli::files::Files;
 use crate::cli::run::{Arguments, Progress};
@@ -92,11 +92,10 @@ fn simulate<P: JobLead>(
         false => {
             let stimulus = traces.stimulus.as_mut().map(Without);
             let files = (traces.waves.as_mut(), stimulus);
-            replay(&circuit, settings, log, (files, &mut progress))
+            replay(&circuit, settings, log, (files, &mut progress))?
         }
-        true => replay(&circuit, settings, log, &mut progress),
+        true => replay(&circuit, settings, log, &mut progress)?,
     };
-    let replayed = replayed.map_err(refuse)?;
     drop(progress);
     let action = replayed.signals.first().map_or(0, |signal| signal.tick);
     let files = traces.finish(&circuit, &focus(settings, action), replayed.ticks)?;
