@@ -1,4 +1,4 @@
-use super::{Fault, Pair, Verdict};
+use super::{Fault, Pair, SamePorts, Verdict};
 use crate::kernel::{
     Circuit, Field, Observer, Path, Probe, Role, RunError, Sample, Shape, Signals, Words,
 };
@@ -33,8 +33,8 @@ pub enum LockstepError {
 /// every input sequence, or the whole as an observer of a run.
 ///
 /// ```no_run
-/// # use motion_rtl::{check::*, kernel::*, logic::Sim};
-/// # fn agree<A: Circuit + 'static, B: Circuit<In<Sim> = A::In<Sim>> + 'static>(left: A, right: B)
+/// # use motion_rtl::{check::*, kernel::*};
+/// # fn agree<A: Circuit, B: SamePorts<A>>(left: A, right: B)
 /// # -> Result<(), Box<dyn std::error::Error>> {
 /// let pair = Pair { left, right };
 /// let lockstep = Lockstep::by_name(&pair)?;
@@ -127,8 +127,8 @@ impl Lockstep {
     /// They differ.
     pub fn compare<A, B>(&self, now: &Sample<'_, Pair<A, B>>) -> Verdict
     where
-        A: Circuit + 'static,
-        B: Circuit<In<Sim> = A::In<Sim>> + 'static,
+        A: Circuit,
+        B: SamePorts<A>,
     {
         let left = Numbers::of(&now.q.left, &now.w.left);
         let right = Numbers::of(&now.q.right, &now.w.right);
@@ -166,8 +166,8 @@ impl fmt::Display for Lockstep {
 
 impl<A, B> Observer<Pair<A, B>> for Lockstep
 where
-    A: Circuit + 'static,
-    B: Circuit<In<Sim> = A::In<Sim>> + 'static,
+    A: Circuit,
+    B: SamePorts<A>,
 {
     fn sample(&mut self, now: &Sample<'_, Pair<A, B>>) -> Result<ControlFlow<()>, RunError> {
         match self.compare(now) {

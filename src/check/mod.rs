@@ -101,7 +101,7 @@ pub use drive::{Drive, Driven, drive};
 pub use enumerate::{Random, TooWide, all};
 pub use invariant::{Fault, Invariants, Monitor, Verdict, require};
 pub use lockstep::{Lockstep, LockstepError};
-pub use pair::{Pair, Sides};
+pub use pair::{Pair, SamePorts, Sides};
 pub use reach::{Outcome, Progress, Proof, Reach, reach};
 pub use specified::Specified;
 pub use stimulus::Stimulus;

@@ -1,8 +1,75 @@
 use crate::kernel::{Circuit, Extent, Field, Make, Signals, Visit};
 use crate::logic::{Logic, Sim};
-use std::any::Any;
 use std::fmt;
 use std::marker::PhantomData;
+
+/// A circuit with the ports in of another.
+///
+/// Every circuit has its own. For two circuits whose `In` is one struct the function gives back
+/// what it is given:
+///
+/// ```
+/// # use motion_rtl::{check::{Lockstep, Pair, SamePorts}, kernel::{Circuit, Nothing}};
+/// # use motion_rtl::{logic::Logic, signals};
+/// signals! { pub struct In<L> { pub a: L::Bit, pub b: L::Bit } }
+/// signals! { pub struct Net<L> { pub both: L::Bit } }
+/// # struct And;
+/// # struct Nor;
+/// # impl Circuit for And {
+/// #     const NAME: &'static str = "and";
+/// #     const ABOUT: &'static str = "a and b";
+/// #     type In<L: Logic> = In<L>;
+/// #     type Reg<L: Logic> = Nothing<L>;
+/// #     type Net<L: Logic> = Net<L>;
+/// #     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L>) -> Net<L> {
+/// #         Net { both: i.a & i.b }
+/// #     }
+/// #     fn next<L: Logic>(&self, q: Nothing<L>, _: &Net<L>, _: &In<L>) -> Nothing<L> { q }
+/// # }
+/// # impl Circuit for Nor {
+/// #     const NAME: &'static str = "nor";
+/// #     const ABOUT: &'static str = "not (not a or not b)";
+/// #     type In<L: Logic> = In<L>;
+/// #     type Reg<L: Logic> = Nothing<L>;
+/// #     type Net<L: Logic> = Net<L>;
+/// #     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L>) -> Net<L> {
+/// #         Net { both: !(!i.a | !i.b) }
+/// #     }
+/// #     fn next<L: Logic>(&self, q: Nothing<L>, _: &Net<L>, _: &In<L>) -> Nothing<L> { q }
+/// # }
+///
+/// impl SamePorts<And> for Nor {
+///     fn ports<L: Logic>(i: &In<L>) -> &In<L> {
+///         i
+///     }
+/// }
+///
+/// let lockstep = Lockstep::by_name(&Pair { left: And, right: Nor })?;
+/// assert_eq!(lockstep.to_string(), "and.both = nor.both");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Circuits with other ports are no [`Circuit`] side by side:
+///
+/// ```compile_fail,E0277
+/// # use motion_rtl::check::Pair;
+/// # use motion_rtl::kernel::Circuit;
+/// # use motion_rtl::pulse_interpolator::{SyncStage, UnitTimeCounter};
+/// fn simulate<C: Circuit>(_: &C) {}
+/// simulate(&Pair { left: UnitTimeCounter::<4>, right: SyncStage });
+/// ```
+// A bound would say so only for one meaning of the words: it cannot quantify over types.
+pub trait SamePorts<A: Circuit>: Circuit {
+    /// The ports in of `A` as the circuit's own.
+    fn ports<L: Logic>(i: &A::In<L>) -> &Self::In<L>;
+}
+
+impl<A: Circuit> SamePorts<A> for A {
+    #[inline(always)]
+    fn ports<L: Logic>(i: &A::In<L>) -> &A::In<L> {
+        i
+    }
+}
 
 /// Two circuits side by side on the same inputs.
 ///
@@ -111,11 +178,7 @@ where
     }
 }
 
-impl<A, B> Circuit for Pair<A, B>
-where
-    A: Circuit + 'static,
-    B: Circuit<In<Sim> = A::In<Sim>> + 'static,
-{
+impl<A: Circuit, B: SamePorts<A>> Circuit for Pair<A, B> {
     const NAME: &'static str = "pair";
     const ABOUT: &'static str = "two circuits side by side on the same inputs";
     type In<L: Logic> = A::In<L>;
@@ -125,37 +188,18 @@ where
     #[inline]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
         let left = self.left.comb(&q.left, i);
-        let right = self.right.comb(&q.right, ports::<A, B, L>(i));
+        let right = self.right.comb(&q.right, B::ports(i));
         Sides::new(left, right)
     }
 
     #[inline]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, i: &Self::In<L>) -> Self::Reg<L> {
         let left = self.left.next(q.left, &w.left, i);
-        let right = self.right.next(q.right, &w.right, ports::<A, B, L>(i));
+        let right = self.right.next(q.right, &w.right, B::ports(i));
         Sides::new(left, right)
     }
 
     fn power_on(&self) -> Self::Reg<Sim> {
         Sides::new(self.left.power_on(), self.right.power_on())
-    }
-}
-
-/// The ports in of `A` as those of `B`.
-///
-/// That they are the same type can only be asked for one meaning of the words, not for all: a
-/// bound cannot quantify over types. A struct of signals that is the same for [`Sim`] is the same
-/// for every meaning; the compiler knows the types and leaves nothing of the question.
-#[inline]
-fn ports<A, B, L>(i: &A::In<L>) -> &B::In<L>
-where
-    A: Circuit + 'static,
-    B: Circuit<In<Sim> = A::In<Sim>> + 'static,
-    L: Logic,
-{
-    let i: &dyn Any = i;
-    match i.downcast_ref() {
-        Some(i) => i,
-        None => unreachable!("ports in that are the same type only in simulation"),
     }
 }

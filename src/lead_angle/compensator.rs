@@ -18,10 +18,12 @@
 use super::lead_source::{LeadSource, SourceIn};
 use super::{
     Comparator, Comparing, CompletionDetector, Correction, LeadPlacement, Placement, RatioLogic,
-    Sign, StepSequencer, TargetSetter, TimeData, comparator, completion_detector, correction,
-    placement, ratio_logic, step_sequencer, target_setter, time_data,
+    PositionHistory, RamHistory, Sign, StepSequencer, TargetSetter, TimeData, TimeLead, comparator,
+    completion_detector, correction, placement, ratio_logic, step_sequencer, target_setter,
+    time_data,
 };
 use crate::blocks::{EnableCounter, QuadratureCounter, enable_counter, quadrature_counter};
+use crate::check::SamePorts;
 use crate::kernel::{Circuit, Instance, Nothing};
 use crate::logic::{Image, Logic, Sim};
 use crate::signals;
@@ -492,5 +494,24 @@ impl<
             correction: self.correction.power_on(),
             sequencer: self.sequencer.power_on(),
         }
+    }
+}
+
+impl<
+    const K: usize,
+    const T: usize,
+    const C: usize,
+    const W: usize,
+    const A: usize,
+    const D: usize,
+    const R: usize,
+    const N: usize,
+    const S: usize,
+> SamePorts<Compensator<TimeLead<PositionHistory<K, T, W>, K, T, C, W>, K, T, C, W, A, D, R, N, S>>
+    for Compensator<TimeLead<RamHistory<K, T, W>, K, T, C, W>, K, T, C, W, A, D, R, N, S>
+{
+    #[inline(always)]
+    fn ports<L: Logic>(i: &In<L, C, W, A, D, N, S>) -> &In<L, C, W, A, D, N, S> {
+        i
     }
 }

@@ -10,8 +10,9 @@
 //! Samples stay where they were written; what moves is the address. Ports and every tick at them
 //! are those of the [shift register](super::position_history).
 
+use super::PositionHistory;
 use super::position_history::{In, Net, Pair, nets, pair_after};
-use crate::check::{Invariants, Specified, require};
+use crate::check::{Invariants, SamePorts, Specified, require};
 use crate::kernel::Circuit;
 use crate::logic::{Bit, Logic, Ram, Signed, Sim, Unsigned};
 use crate::signals;
@@ -66,6 +67,15 @@ impl<const K: usize, const T: usize, const W: usize> Circuit for RamHistory<K, T
         i: &In<L, T, W>,
     ) -> Option<L::Bit> {
         Some(!(i.ck | i.restart | q.pair.fresh))
+    }
+}
+
+impl<const K: usize, const T: usize, const W: usize> SamePorts<PositionHistory<K, T, W>>
+    for RamHistory<K, T, W>
+{
+    #[inline(always)]
+    fn ports<L: Logic>(i: &In<L, T, W>) -> &In<L, T, W> {
+        i
     }
 }
 

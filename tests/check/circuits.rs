@@ -1,5 +1,6 @@
 //! Small circuits.
 
+use motion_rtl::check::SamePorts;
 use motion_rtl::kernel::Circuit;
 use motion_rtl::logic::{Bit, Image, Logic, Ram, ShiftRegister, Signed, Unsigned};
 use motion_rtl::signals;
@@ -89,6 +90,18 @@ impl Circuit for Toggle {
         ToggleReg { last: w.parity }
     }
 }
+
+/// Circuits with the one port in.
+macro_rules! enabled {
+    ($($left:ty, $right:ty;)*) => {$(
+        impl SamePorts<$left> for $right {
+            fn ports<L: Logic>(i: &Enable<L>) -> &Enable<L> {
+                i
+            }
+        }
+    )*};
+}
+enabled! { Up, Down; Up, Toggle; Toggle, Up; }
 
 signals! { pub struct Digit<L> { pub digit: L::U<2> } }
 signals! { pub struct LockReg<L> { pub right: L::U<2> as States(&["shut", "one", "two", "open"]) } }

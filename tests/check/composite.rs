@@ -1,7 +1,7 @@
 //! A circuit made of circuits.
 
 use crate::circuits::*;
-use motion_rtl::check::{Invariants, Lockstep, LockstepError, Pair, reach, require};
+use motion_rtl::check::{Invariants, Lockstep, LockstepError, Pair, SamePorts, reach, require};
 use motion_rtl::kernel::{Circuit, Declarations, Instance, Role, Sample};
 use motion_rtl::logic::{Logic, Sim};
 use motion_rtl::signals;
@@ -51,6 +51,12 @@ impl Circuit for Clock {
                 w.digits[2].next(c, z),
             ],
         }
+    }
+}
+
+impl SamePorts<Clock> for Toggle {
+    fn ports<L: Logic>(i: &Enable<L>) -> &Enable<L> {
+        i
     }
 }
 
