@@ -6,8 +6,8 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
 use motion_rtl::input::scenario::pulse_interpolator::VariantName;
-use motion_rtl::input::scenario::{self, BARE, BARE_LOG, Loaded};
-use motion_rtl::input::{Drawing, Fault, read_path};
+use motion_rtl::input::scenario::{self, Loaded};
+use motion_rtl::input::{DRAWINGS, Drawing, Fault, Kind, read_path};
 use motion_rtl::plan::{FEED_RANGE, PlanError};
 use motion_rtl::pulse_interpolator::{Report, Settings, Table, TableError, Variant, compile};
 use std::path::{Path, PathBuf};
@@ -71,7 +71,7 @@ impl Source {
     /// Reads the input of a circuit that can do without: a drawing.
     pub fn drawing_if_any(&self) -> Option<Result<Drawing, Fault>> {
         match &self.origin {
-            Origin::File(path) => Some(read_path(path)),
+            Origin::File(path) => Some(self.takes(path).and_then(|()| read_path(path))),
             Origin::Crate(shipped) => shipped.drawing(),
             Origin::Nowhere => None,
         }
@@ -80,9 +80,31 @@ impl Source {
     /// Reads the input of a circuit that can do without: a position log.
     pub fn log(&self, columns: &Columns) -> Result<Option<PositionLog>, Fault> {
         match &self.origin {
-            Origin::File(path) => position_log::read_path(path, columns).map(Some),
+            Origin::File(path) => {
+                self.takes(path)?;
+                position_log::read_path(path, columns).map(Some)
+            }
             Origin::Crate(_) | Origin::Nowhere => Ok(None),
         }
+    }
+
+    /// Refuses an input of a kind that the circuit does not take.
+    fn takes(&self, input: &Path) -> Result<(), Fault> {
+        let circuit = self.loaded.scenario.circuit();
+        // A file of another name may hold what the circuit takes.
+        let Ok(kind) = Kind::of(input) else {
+            return Ok(());
+        };
+        if circuit.takes(kind) {
+            return Ok(());
+        }
+        Err(Fault {
+            file: input.display().to_string(),
+            line: 0,
+            field: "file".to_owned(),
+            problem: format!("is {kind}, which {} does not take", circuit.name()),
+            allowed: circuit.inputs().to_owned(),
+        })
     }
 }
 
@@ -145,9 +167,22 @@ impl Job {
             scenario::Scenario::Machine(_) => Err("machine"),
         };
         let scenario = scenario.map_err(|circuit| {
-            let problem = format!("the {circuit} has no table");
-            let allowed = "pulse_interpolator, or the command run".to_owned();
-            source.loaded.fault("circuit", problem, allowed)
+            let loaded = &source.loaded;
+            match &source.origin {
+                // The file's extension chose the circuit.
+                Origin::File(path) if loaded.is_bare() && !loaded.overrides("circuit") => Fault {
+                    file: path.display().to_string(),
+                    line: 0,
+                    field: "file".to_owned(),
+                    problem: format!("is for the {circuit}, which has no table"),
+                    allowed: format!("{DRAWINGS}; or the command run"),
+                },
+                _ => {
+                    let problem = format!("the {circuit} has no table");
+                    let allowed = "pulse_interpolator, or the command run".to_owned();
+                    loaded.fault("circuit", problem, allowed)
+                }
+            }
         })?;
         let drawing = source.drawing()?;
         let variant = match scenario.variant {
@@ -183,9 +218,6 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
         None => SHIPPED.first(),
         Some(path) => shipped::find(path),
     };
-    let is_scenario = path
-        .extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
     let (loaded, origin) = if let Some(shipped) = shipped {
         let loaded = shipped.load(&input.sets)?;
         let origin = match loaded.scenario.input() {
@@ -193,20 +225,12 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
             _ => Origin::Crate(shipped),
         };
         (loaded, origin)
-    } else if is_scenario {
+    } else if Kind::of(path)? == Kind::Scenario {
         let loaded = Loaded::read(path, &input.sets)?;
         let given = loaded.scenario.input().cloned();
         (loaded, given.map_or(Origin::Nowhere, Origin::File))
     } else {
-        let is_log = path
-            .extension()
-            .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
-        let defaults = if is_log { BARE_LOG } else { BARE };
-        let loaded = Loaded::parse("defaults", defaults, &input.sets)?;
-        if loaded.overrides("input") {
-            let problem = format!("{} is the input", path.display());
-            return Err(loaded.fault("input", problem, "input with a scenario only".to_owned()));
-        }
+        let loaded = Loaded::bare(path, &input.sets)?;
         (loaded, Origin::File(path.to_owned()))
     };
     if loaded.scenario.vcd_ticks() == 0 {

@@ -1,5 +1,6 @@
 //! Reading files: any, and drawings.
 
+use std::fmt;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
@@ -10,8 +11,55 @@ use super::{Drawing, Fault, gcode, hpgl};
 /// moves take several times the memory of their text.
 pub const LARGEST_FILE: u64 = 256 << 20;
 
-const EXTENSIONS: &str = "HPGL as .hpgl, .hpg, .plt or .hgl; G-code as .ngc, .gcode, .nc, .tap, \
-                          .gc or .cnc";
+/// What a drawing or part program may be, for faults.
+pub const DRAWINGS: &str = "HPGL as .hpgl, .hpg, .plt or .hgl; G-code as .ngc, .gcode, .nc, .tap, \
+                            .gc or .cnc";
+
+/// What a position log may be, for faults.
+pub const POSITION_LOGS: &str = "a position log as .csv";
+
+/// What a file is, by its extension in either case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A scenario in TOML.
+    Scenario,
+    /// A drawing in HPGL, or a part program in G-code.
+    Drawing,
+    /// A position log in CSV.
+    PositionLog,
+}
+
+impl Kind {
+    /// The kind of a file.
+    ///
+    /// # Errors
+    ///
+    /// A path without a known extension.
+    pub fn of(path: &Path) -> Result<Self, Fault> {
+        let extension = path.extension().and_then(|text| text.to_str());
+        match extension.map(str::to_ascii_lowercase).as_deref() {
+            Some("toml") => return Ok(Kind::Scenario),
+            Some("csv") => return Ok(Kind::PositionLog),
+            _ => {}
+        }
+        let name = path.display().to_string();
+        let known = reader(&name, path).map(|_| Kind::Drawing);
+        known.map_err(|fault| Fault {
+            allowed: format!("a scenario as .toml; {DRAWINGS}; {POSITION_LOGS}"),
+            ..fault
+        })
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Kind::Scenario => "a scenario",
+            Kind::Drawing => "a drawing or part program",
+            Kind::PositionLog => "a position log",
+        })
+    }
+}
 
 /// What reads a text, by the name of its file.
 type Reader = fn(&str, &[u8]) -> Result<Drawing, Fault>;
@@ -45,7 +93,7 @@ fn reader(name: &str, path: &Path) -> Result<Reader, Fault> {
         Some(other) => format!("unknown extension .{other}"),
         None => "no extension".to_owned(),
     };
-    Err(Fault::new(name, 0, "file", problem, EXTENSIONS))
+    Err(Fault::new(name, 0, "file", problem, DRAWINGS))
 }
 
 /// The bytes of a file.

@@ -11,7 +11,9 @@ pub mod position_log;
 pub mod scenario;
 mod track;
 
-pub use file::{LARGEST_FILE, read_bytes, read_path, read_string, read_text};
+pub use file::{
+    DRAWINGS, Kind, LARGEST_FILE, POSITION_LOGS, read_bytes, read_path, read_string, read_text,
+};
 
 use std::fmt;
 

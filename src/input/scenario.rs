@@ -15,14 +15,15 @@ pub mod trajectory_controller;
 
 pub use loaded::Loaded;
 
+use super::file::{DRAWINGS, Kind, POSITION_LOGS};
 use serde::Deserialize;
 use std::path::PathBuf;
 
 /// A scenario with no key but the one that has no default: for an input given by itself.
-pub const BARE: &str = "circuit = \"pulse_interpolator\"\n";
+const BARE: &str = "circuit = \"pulse_interpolator\"\n";
 
 /// The same for a position log given by itself: two targets, and a lead to be judged.
-pub const BARE_LOG: &str = "circuit = \"lead_angle\"\n\
+const BARE_LOG: &str = "circuit = \"lead_angle\"\n\
      [[step]]\ntarget = 1000\nspeed_counts_per_s = 1000\nlead_ms = 10\n\
      [[step]]\ntarget = 0\nspeed_counts_per_s = 1000\nlead_ms = 10\n";
 
@@ -47,6 +48,18 @@ pub enum Scenario {
 }
 
 impl Scenario {
+    /// The circuit.
+    pub fn circuit(&self) -> Runnable {
+        match self {
+            Scenario::PulseInterpolator(_) => Runnable::PulseInterpolator,
+            Scenario::LinearInterpolator(_) => Runnable::LinearInterpolator,
+            Scenario::LeadAngle(_) => Runnable::LeadAngle,
+            Scenario::ArcGenerator(_) => Runnable::ArcGenerator,
+            Scenario::TrajectoryController(_) => Runnable::TrajectoryController,
+            Scenario::Machine(_) => Runnable::Machine,
+        }
+    }
+
     /// The drawing, part program or position log; in a file relative to that file.
     pub fn input(&self) -> Option<&PathBuf> {
         match self {
@@ -112,4 +125,38 @@ pub enum Runnable {
     TrajectoryController,
     /// All of them as one motion controller.
     Machine,
+}
+
+impl Runnable {
+    /// The name it has in scenarios.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Runnable::PulseInterpolator => "pulse_interpolator",
+            Runnable::LinearInterpolator => "linear_interpolator",
+            Runnable::LeadAngle => "lead_angle",
+            Runnable::ArcGenerator => "arc_generator",
+            Runnable::TrajectoryController => "trajectory_controller",
+            Runnable::Machine => "machine",
+        }
+    }
+
+    /// Whether its input is of this kind.
+    #[must_use]
+    pub fn takes(self, kind: Kind) -> bool {
+        match kind {
+            Kind::Scenario => false,
+            Kind::Drawing => self != Runnable::LeadAngle,
+            Kind::PositionLog => self == Runnable::LeadAngle,
+        }
+    }
+
+    /// What its input may be, for faults.
+    #[must_use]
+    pub fn inputs(self) -> &'static str {
+        match self {
+            Runnable::LeadAngle => POSITION_LOGS,
+            _ => DRAWINGS,
+        }
+    }
 }

@@ -17,10 +17,10 @@
 
 use super::lead_source::{LeadSource, SourceIn};
 use super::{
-    Comparator, Comparing, CompletionDetector, Correction, LeadPlacement, Placement, RatioLogic,
-    PositionHistory, RamHistory, Sign, StepSequencer, TargetSetter, TimeData, TimeLead, comparator,
-    completion_detector, correction, placement, ratio_logic, step_sequencer, target_setter,
-    time_data,
+    Comparator, Comparing, CompletionDetector, Correction, LeadPlacement, Placement,
+    PositionHistory, RamHistory, RatioLogic, Sign, StepSequencer, TargetSetter, TimeData, TimeLead,
+    comparator, completion_detector, correction, placement, ratio_logic, step_sequencer,
+    target_setter, time_data,
 };
 use crate::blocks::{EnableCounter, QuadratureCounter, enable_counter, quadrature_counter};
 use crate::check::SamePorts;

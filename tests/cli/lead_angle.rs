@@ -1,6 +1,6 @@
 //! `run` of the lead-angle compensator: summary, files, logs, settings, refusals.
 
-use super::support::{Bench, keys, whole};
+use super::support::{Bench, DRAWINGS, keys, whole};
 use expect_test::expect;
 use serde_json::{Value, json};
 
@@ -412,8 +412,10 @@ fn a_log_runs_without_a_scenario() {
     assert!(text.contains(none), "{text}");
     bench.refuse(
         &["table", "log.csv"],
-        "defaults:1: circuit: the lead-angle compensator has no table; allowed: \
-         pulse_interpolator, or the command run",
+        &format!(
+            "log.csv: file: is for the lead-angle compensator, which has no table; allowed: \
+             {DRAWINGS}; or the command run"
+        ),
     );
 }
 

@@ -1,6 +1,10 @@
 //! Bad drawings, part programs and arguments: their errors, and nothing left behind.
 
-use super::support::{Bench, LINE, SHORT};
+use super::support::{Bench, DRAWINGS, LINE, SHORT};
+
+/// Every file that can be run.
+const KNOWN: &str = "a scenario as .toml; HPGL as .hpgl, .hpg, .plt or .hgl; G-code as .ngc, \
+     .gcode, .nc, .tap, .gc or .cnc; a position log as .csv";
 
 const SCOPES: &str = "pulse_interpolator, pulse_interpolator.unit_time, \
      pulse_interpolator.counter, pulse_interpolator.port, pulse_interpolator.sequencer, \
@@ -33,7 +37,7 @@ fn bad_drawings_are_refused() {
         ("p.ngc", b"G1 X1 F100000000\n", "p.ngc:1: F: is 100000000 mm/min; allowed: 0.001 to 10000000 mm/min".into()),
         ("p.ngc", b"G2 X10 R1\n", "p.ngc:1: R: a radius of 1.0000 mm does not span 10.0000 mm; allowed: half the distance to the end, or more".into()),
         ("p.ngc", b"\xff\xfeG1 X1\n", "p.ngc:1: line: characters that are not UTF-8; allowed: ASCII letters, digits and signs, in lines that end in LF or CR LF".into()),
-        ("p.txt", b"PD1,1;", "p.txt: file: unknown extension .txt; allowed: HPGL as .hpgl, .hpg, .plt or .hgl; G-code as .ngc, .gcode, .nc, .tap, .gc or .cnc".into()),
+        ("p.txt", b"PD1,1;", format!("p.txt: file: unknown extension .txt; allowed: {KNOWN}")),
     ];
     for (name, text, refusal) in cases {
         let bench = Bench::with(name, text);
@@ -56,7 +60,66 @@ fn files_that_are_none_are_refused() {
     );
     bench.refuse(
         &["run", "plain"],
-        "plain: file: no extension; allowed: HPGL as .hpgl, .hpg, .plt or .hgl; G-code as .ngc, .gcode, .nc, .tap, .gc or .cnc",
+        &format!("plain: file: no extension; allowed: {KNOWN}"),
+    );
+}
+
+#[test]
+fn a_circuit_that_does_not_take_the_input_is_refused_by_its_option() {
+    let bench = Bench::with("l.hpgl", LINE);
+    bench.write("p.ngc", "G1 X1\n");
+    bench.write("log.csv", "t,x\n0,0\n1,1\n");
+    for circuit in [
+        "pulse_interpolator",
+        "linear_interpolator",
+        "arc_generator",
+        "trajectory_controller",
+        "machine",
+    ] {
+        bench.refuse(
+            &["run", "log.csv", "--set", &format!("circuit={circuit}")],
+            &format!(
+                "--set: circuit: {circuit} does not take log.csv, a position log; allowed: \
+                 lead_angle"
+            ),
+        );
+    }
+    for name in ["l.hpgl", "p.ngc"] {
+        bench.refuse(
+            &["run", name, "--set", "circuit=lead_angle"],
+            &format!(
+                "--set: circuit: lead_angle does not take {name}, a drawing or part program; \
+                 allowed: another circuit, or a position log as .csv"
+            ),
+        );
+    }
+}
+
+#[test]
+fn an_input_of_a_scenario_that_its_circuit_does_not_take_is_refused_by_its_name() {
+    let bench = Bench::with("l.hpgl", LINE);
+    bench.write("log.csv", "t,x\n0,0\n1,1\n");
+    bench.refuse(
+        &["run", "waves/bracket.toml", "--set", "input=log.csv"],
+        &format!(
+            "log.csv: file: is a position log, which pulse_interpolator does not take; allowed: \
+             {DRAWINGS}"
+        ),
+    );
+    bench.refuse(
+        &["run", "waves/turntable.toml", "--set", "input=l.hpgl"],
+        "l.hpgl: file: is a drawing or part program, which lead_angle does not take; allowed: a \
+         position log as .csv",
+    );
+}
+
+#[test]
+fn a_default_that_does_not_suit_is_named_with_the_option_that_gives_it() {
+    let bench = Bench::with("p.ngc", "G1 X1\n");
+    let slow = ["run", "p.ngc", "--set", "circuit=linear_interpolator"];
+    bench.refuse(
+        &[&slow[..], &["--set", "clock_hz=100000"]].concat(),
+        "--set: rated_speed_rev_per_min (default): is 3000 for x; allowed: 0.001 to 1500",
     );
 }
 

@@ -12,6 +12,10 @@ pub const PROGRAM: &str = env!("CARGO_BIN_EXE_motion-rtl");
 /// 10 mm along X with the pen down.
 pub const LINE: &str = "PD400,0;";
 
+/// Drawings and part programs, as faults list them.
+pub const DRAWINGS: &str =
+    "HPGL as .hpgl, .hpg, .plt or .hgl; G-code as .ngc, .gcode, .nc, .tap, .gc or .cnc";
+
 /// Settings that make a run short: at the usual unit time a tenth of the ticks.
 pub const SHORT: [&str; 4] = ["--set", "clock_hz=100000", "--set", "line_unit_ticks=500"];
 

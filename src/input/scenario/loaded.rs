@@ -1,5 +1,5 @@
-use super::{Runnable, Scenario};
-use crate::input::{Fault, read_string};
+use super::{BARE, BARE_LOG, Runnable, Scenario};
+use crate::input::{DRAWINGS, Fault, Kind, POSITION_LOGS, read_string};
 use crate::settings::{Place, SettingError};
 use serde::Deserialize;
 use serde_path_to_error::{Segment, Track};
@@ -17,7 +17,8 @@ const CIRCUIT: &str = "circuit";
 pub struct Loaded {
     /// The scenario.
     pub scenario: Scenario,
-    file: String,
+    /// Its file; none where its keys are defaults and overrides.
+    file: Option<String>,
     text: String,
     /// Keys that were overridden.
     overridden: Vec<String>,
@@ -48,11 +49,55 @@ impl Loaded {
     /// # Errors
     /// As [`Loaded::read`].
     pub fn parse(file: &str, text: &str, sets: &[String]) -> Result<Self, Fault> {
+        let loaded = Self::build(file, text, sets)?;
+        Ok(Loaded {
+            file: Some(file.to_owned()),
+            ..loaded
+        })
+    }
+
+    /// A scenario of defaults and overrides for an input that is given by itself.
+    ///
+    /// # Errors
+    /// The input has no known extension or is a scenario; an override is wrong, or chooses a circuit
+    /// that does not take such an input.
+    pub fn bare(input: &Path, sets: &[String]) -> Result<Self, Fault> {
+        let kind = Kind::of(input)?;
+        let name = input.display();
+        let (text, others) = match kind {
+            Kind::PositionLog => (BARE_LOG, Runnable::LeadAngle.name().to_owned()),
+            Kind::Drawing => (BARE, format!("another circuit, or {POSITION_LOGS}")),
+            Kind::Scenario => {
+                let allowed = format!("{DRAWINGS}; {POSITION_LOGS}");
+                return Err(Fault::new(
+                    &name.to_string(),
+                    0,
+                    "file",
+                    "is a scenario",
+                    allowed,
+                ));
+            }
+        };
+        if let Some(circuit) = chosen(sets)?
+            && !circuit.takes(kind)
+        {
+            let problem = format!("{} does not take {name}, {kind}", circuit.name());
+            return Err(Fault::new(SET, 0, CIRCUIT, problem, others));
+        }
+        let loaded = Self::build(SET, text, sets)?;
+        if loaded.overrides("input") {
+            let (problem, allowed) = (format!("{name} is the input"), "it with a scenario only");
+            return Err(Fault::new(SET, 0, "input", problem, allowed));
+        }
+        Ok(loaded)
+    }
+
+    fn build(file: &str, text: &str, sets: &[String]) -> Result<Self, Fault> {
         let refuse = |error| fault(file, text, &error);
         let mut loaded = Loaded {
             scenario: scenario(|| toml::Deserializer::parse(text))
                 .map_err(|error| refuse(error.into_inner()))?,
-            file: file.to_owned(),
+            file: None,
             text: text.to_owned(),
             overridden: Vec::new(),
         };
@@ -70,6 +115,11 @@ impl Loaded {
             loaded.overridden.push(key.to_owned());
         }
         Ok(loaded)
+    }
+
+    /// Whether it was made for an input given by itself.
+    pub fn is_bare(&self) -> bool {
+        self.file.is_none()
     }
 
     /// Whether an override gave this key.
@@ -105,7 +155,15 @@ impl Loaded {
         // An absent key has its default: the file as a whole is at fault.
         let line = self.text.lines().position(|line| key_of(line) == key);
         let line = line.map_or(0, |before| before + 1);
-        Fault::new(&self.file, line, key, problem, allowed)
+        self.given(line, key.to_owned(), problem, allowed)
+    }
+
+    /// A fault of what no override gave: of a line of the file, or of a default.
+    fn given(&self, line: usize, field: String, problem: String, allowed: String) -> Fault {
+        match &self.file {
+            Some(file) => Fault::new(file, line, field, problem, allowed),
+            None => Fault::new(SET, 0, format!("{field} (default)"), problem, allowed),
+        }
     }
 
     /// A fault of the value of `key` in the table `[name]`, with the line it stands in; where it has
@@ -129,7 +187,7 @@ impl Loaded {
         let mut keys = lines.take_while(|(_, line)| !line.trim_start().starts_with('['));
         let line = keys.find(|(_, line)| key_of(line) == key);
         let line = line.map_or(header, |(line, _)| line) + 1;
-        Fault::new(&self.file, line, field, problem, allowed)
+        self.given(line, field, problem, allowed)
     }
 
     /// A fault of the value of `key` in the table `[[name]]` number `index` from 0, with the line
@@ -157,8 +215,17 @@ impl Loaded {
         let mut keys = lines.take_while(|(_, line)| !line.trim_start().starts_with('['));
         let line = keys.find(|(_, line)| key_of(line) == key);
         let line = line.map_or(header, |(line, _)| line) + 1;
-        Fault::new(&self.file, line, field, problem, allowed)
+        self.given(line, field, problem, allowed)
     }
+}
+
+/// The circuit that overrides choose; none where they choose none that there is.
+fn chosen(sets: &[String]) -> Result<Option<Runnable>, Fault> {
+    let pairs = sets.iter().map(|set| key_value(set));
+    let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
+    let mut circuits = pairs.into_iter().rev().filter(|(key, _)| *key == CIRCUIT);
+    let circuit = circuits.next();
+    Ok(circuit.and_then(|(_, circuit)| circuit.try_into().ok()))
 }
 
 /// What is allowed where a key is missing.
