@@ -17,6 +17,7 @@ pub mod run;
 mod shipped;
 mod summary;
 pub mod table;
+mod times;
 mod traces;
 mod trajectory;
 mod verdict;

@@ -4,9 +4,8 @@ use super::job::Job;
 use motion_rtl::input::Course;
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
 use motion_rtl::plan::outline;
-use motion_rtl::plan::{Plan, PlanError};
 use motion_rtl::pulse_interpolator::job::Played;
-use motion_rtl::pulse_interpolator::{AXIS_NAMES, FollowingError};
+use motion_rtl::pulse_interpolator::{AXIS_NAMES, FollowingError, TableError, follow};
 
 /// Chords of a full circle.
 const CHORDS: u32 = 180;
@@ -27,36 +26,16 @@ impl Following {
     ///
     /// # Errors
     /// The path cannot be planned, which a job that is compiled rules out.
-    pub fn new(job: &Job, played: &Played) -> Result<Self, PlanError> {
-        let plan = Plan::new(&job.drawing, &job.settings.motion)?;
-        let mut sampler = plan.sampler();
-        let axes = job.report.axes.len();
-        let mut largest = vec![FollowingError::default(); axes];
-        let mut curves = vec![Points::expecting(job.table.units()); axes];
-        let mut rapid = Vec::with_capacity(job.table.units());
-        let mut ticks = 0;
-        let units = job.table.iter().zip(played.positions.chunks_exact(axes));
-        for (unit, ((period, _), positions)) in units.enumerate() {
-            ticks += u64::from(period);
-            let time_s = ticks as f64 / job.settings.clock_hz as f64;
-            let demand = sampler.at(time_s);
-            rapid.push(demand.rapid);
-            for (axis, position) in positions.iter().enumerate() {
-                let start = job.report.axes[axis].start_position;
-                let demanded = demand.position[axis] * job.settings.steps_per_mm[axis];
-                let error = demanded - f64::from(start) - f64::from(*position);
-                curves[axis].push((time_s, error));
-                if error.abs() > largest[axis].steps {
-                    let (steps, line) = (error.abs(), demand.line);
-                    largest[axis] = FollowingError {
-                        steps,
-                        unit,
-                        time_s,
-                        line,
-                    };
-                }
+    pub fn new(job: &Job, played: &Played) -> Result<Self, TableError> {
+        let (drawing, settings, table) = (&job.drawing, &job.settings, &job.table);
+        let mut curves = vec![Points::expecting(table.units()); job.report.axes.len()];
+        let mut rapid = Vec::with_capacity(table.units());
+        let largest = follow(drawing, settings, table, &played.positions, |end| {
+            rapid.push(end.rapid);
+            for (curve, error) in curves.iter_mut().zip(end.errors) {
+                curve.push((end.time_s, error));
             }
-        }
+        })?;
         Ok(Following {
             largest,
             curves,

@@ -156,7 +156,8 @@ fn simulate<const AXES: usize>(
     Ok((played, files))
 }
 
-/// The clock of the waves, in which the last tick must have a time.
+/// The clock of the waves, in which the last tick must have a time; ticks that do not fit their
+/// counter are given as its largest number.
 pub(super) fn clock(
     arguments: &Arguments,
     loaded: &Loaded,
@@ -169,6 +170,14 @@ pub(super) fn clock(
         let allowed = format!("1 to {} Hz", Clock::MAX_HZ);
         refuse(error.to_string(), allowed)
     })?;
+    if ticks == u64::MAX {
+        let allowed = "a run of fewer ticks: a slower clock, or faster motions".to_owned();
+        return Err(refuse(
+            format!("is {hz}: the run takes 2^64 ticks or more"),
+            allowed,
+        )
+        .into());
+    }
     let last = options.ticks.end.min(ticks);
     if clock.rise(last).is_none() && !arguments.no_vcd {
         let (problem, allowed) = (

@@ -136,6 +136,42 @@ impl Default for Settings {
     }
 }
 
+/// A time that is taken as a whole number of periods: the nearest, at least one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WholeTime {
+    /// The setting.
+    pub field: &'static str,
+    /// What it says.
+    pub wanted_ms: f64,
+    /// The period.
+    pub period_ms: f64,
+    /// Periods that are taken.
+    pub periods: u64,
+}
+
+impl WholeTime {
+    pub(crate) fn new(field: &'static str, wanted_ms: f64, period_ms: f64) -> Self {
+        WholeTime {
+            field,
+            wanted_ms,
+            period_ms,
+            periods: (wanted_ms / period_ms).round().max(1.0) as u64,
+        }
+    }
+
+    /// The time that is taken.
+    #[must_use]
+    pub fn ms(&self) -> f64 {
+        self.periods as f64 * self.period_ms
+    }
+
+    /// Whether that is another than was wanted, by more than decimal fractions are rounded.
+    #[must_use]
+    pub fn is_rounded(&self) -> bool {
+        (self.ms() - self.wanted_ms).abs() > 1e-9 * self.ms()
+    }
+}
+
 impl Settings {
     /// Duration of a scan.
     #[must_use]
@@ -150,9 +186,14 @@ impl Settings {
         (60.0 * self.clock_hz as f64 / x.max(y)).min(*FEED_RANGE.end())
     }
 
-    /// A time in whole scans, at least one.
-    pub(super) fn scans(&self, ms: f64) -> u64 {
-        (ms / 1e3 / self.scan_s()).round().max(1.0) as u64
+    /// Times of acceleration and deceleration as they are taken.
+    #[must_use]
+    pub fn ramps(&self) -> [WholeTime; 2] {
+        [
+            ("acceleration_ms", self.acceleration_ms),
+            ("deceleration_ms", self.deceleration_ms),
+        ]
+        .map(|(field, ms)| WholeTime::new(field, ms, 1e3 * self.scan_s()))
     }
 
     /// Checks every field.

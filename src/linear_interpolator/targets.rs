@@ -218,7 +218,7 @@ pub(crate) fn whole_speed(exact: f64) -> Option<u64> {
 /// times k·Ta and k·Td and to the peak k·V with k² = 2·Δ/(V·(Ta + Td)). Rounded up, they never lead
 /// to a larger acceleration.
 fn ramps(settings: &Settings, distance: u64, speed: u64) -> [u64; 2] {
-    let times = [settings.acceleration_ms, settings.deceleration_ms].map(|ms| settings.scans(ms));
+    let times = settings.ramps().map(|ramp| ramp.periods);
     let twice = 2 * u128::from(distance);
     let ramps = u128::from(speed) * u128::from(times[0] + times[1]);
     if settings.short_moves == ShortMoves::ConstantTime || twice >= ramps {

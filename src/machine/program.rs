@@ -142,7 +142,7 @@ impl Program {
             moves: Vec::with_capacity(pieces.len()),
             arcs: Vec::new(),
             profile: Vec::new(),
-            ramp_scans: (settings.acceleration_ms / 1e3 / settings.scan_s()).round() as u64,
+            ramp_scans: settings.ramps()[0].periods,
             pieces: Vec::new(),
         };
         program.add_moves(drawing, &pieces, settings, &widths)?;

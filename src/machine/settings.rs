@@ -3,6 +3,7 @@
 use crate::arc_generator::settings::{self as arcs, ShortPieces};
 use crate::lead_angle::settings as lift;
 use crate::linear_interpolator::LinearInterpolator;
+use crate::linear_interpolator::settings::WholeTime;
 use crate::linear_interpolator::targets::LONGEST_RAMP;
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
@@ -180,6 +181,13 @@ impl Settings {
         f64::from(self.scan_ticks) / self.clock_hz as f64
     }
 
+    /// `acceleration_ms` as it is taken on lines, in scans, and on arcs, in pairs of samples.
+    #[must_use]
+    pub fn ramps(&self) -> [WholeTime; 2] {
+        [self.scan_s(), 2.0 * self.sample_s()]
+            .map(|period_s| WholeTime::new("acceleration_ms", self.acceleration_ms, 1e3 * period_s))
+    }
+
     /// What the steppers' table is compiled for.
     #[must_use]
     pub fn pulse(&self) -> pulse::Settings {
@@ -197,11 +205,11 @@ impl Settings {
     /// What arcs are prepared for: an even number of samples to come to speed.
     #[must_use]
     pub fn arcs(&self) -> arcs::Settings {
-        let pairs = (self.acceleration_ms / (2e3 * self.sample_s())).round();
+        let [_, arcs] = self.ramps();
         arcs::Settings {
             clock_hz: self.clock_hz,
             sample_period_ms: 1e3 * self.sample_s(),
-            acceleration_ms: 2e3 * self.sample_s() * pairs.max(1.0),
+            acceleration_ms: arcs.ms(),
             counts_per_mm: self.counts_per_mm,
             speed_mm_per_s: Some(self.motion.feed_mm_per_min / 60.0),
             rapid_mm_per_s: self.motion.rapid_mm_per_min / 60.0,

@@ -307,3 +307,25 @@ fn a_million_moves_end_at_rest() {
     let last = plan.segments().last().unwrap();
     assert_eq!(last.exit, 0.0);
 }
+
+#[test]
+fn the_outline_of_an_arc_that_is_almost_closed_goes_nearly_all_around() {
+    for gap in [1e-3, 1e-6] {
+        for clockwise in [false, true] {
+            let end = if clockwise { gap } else { -gap };
+            let open = drawing(
+                [10.0, 0.0, 0.0],
+                vec![arc(10.0, end, 0.0, [0.0; 2], clockwise)],
+            );
+            let points: Vec<_> = outline(&open, 0, 180).collect();
+            assert_eq!(points.len(), 180);
+            assert_eq!(points[179], [10.0, end, 0.0]);
+            let way = |k: usize| distance(points[k - 1], points[k]);
+            let around: f64 = (1..180).map(way).sum();
+            let chord = 20.0 * (PI / 180.0).sin();
+            assert!((around - 179.0 * chord).abs() < 2.0 * gap, "{around}");
+            // The first quarter lies on the side that the turn goes to.
+            assert_eq!(points[44][1] < 0.0, clockwise);
+        }
+    }
+}

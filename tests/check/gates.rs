@@ -1,7 +1,10 @@
 //! Clock gates, right and wrong.
 
 use motion_rtl::check::{Drive, Invariants, drive, reach};
-use motion_rtl::kernel::{Circuit, Instance, RunError, Sample, Simulator, StopWhen};
+use motion_rtl::kernel::{
+    Beside, Circuit, Instance, Moment, Property, RunError, Sample, Simulator, StopWhen, With,
+    WithIn,
+};
 use motion_rtl::logic::{Bit, Logic, Sim, Unsigned};
 use motion_rtl::signals;
 use motion_rtl::trace::Clock;
@@ -71,6 +74,18 @@ impl Circuit for Timer {
             ..q
         }
     }
+
+    fn properties<L: Logic>(&self, now: &Moment<'_, Self, L>, _: &Reg<L>) -> Vec<Property<L>> {
+        let seven = now.q.count.equals(7.into());
+        vec![
+            Property::always(
+                "rests at zero",
+                &["count", "busy"],
+                now.q.busy | now.q.count.is_zero(),
+            ),
+            Property::always("never comes to seven", &["count"], !seven),
+        ]
+    }
 }
 
 signals! { struct OuterReg<L> { timer: Reg<L> } }
@@ -100,10 +115,20 @@ impl Circuit for Outer {
     }
 }
 
+signals! { struct Lamp<L> { lit: L::Bit } }
+
+/// A lamp that nothing drives.
+struct LampBeside;
+
+impl Beside for LampBeside {
+    const SCOPE: &'static str = "lamp";
+    type Signals<L: Logic> = Lamp<L>;
+}
+
 /// What a proof and a random run say of a timer.
-fn faults(flaw: Flaw) -> [Option<String>; 2] {
+fn faults<C: Circuit>(timer: &C) -> [Option<String>; 2] {
     let none = Invariants::new();
-    let proof = reach(&Timer(flaw), &none).run().expect("narrow enough");
+    let proof = reach(timer, &none).run().expect("narrow enough");
     let found = proof.counterexample().map(|found| {
         assert_eq!(found.invariant, "the clock gate");
         assert_eq!(found.signals, ["timer"]);
@@ -115,7 +140,7 @@ fn faults(flaw: Flaw) -> [Option<String>; 2] {
         resets: true,
         clock: Clock::default(),
     };
-    let driven = match drive(&Timer(flaw), &run, sink(), sink()) {
+    let driven = match drive(timer, &run, sink(), sink()) {
         Ok(_) => None,
         Err(RunError::Violation {
             signals, message, ..
@@ -130,6 +155,16 @@ fn faults(flaw: Flaw) -> [Option<String>; 2] {
 
 #[test]
 fn proofs_and_random_runs_find_wrong_gates() {
+    let faults = |flaw| {
+        let found = faults(&Timer(flaw));
+        let beside = With::<_, LampBeside>::new(Timer(flaw));
+        assert_eq!(
+            found,
+            self::faults(&beside),
+            "{flaw:?}, with a lamp beside it"
+        );
+        found
+    };
     assert_eq!(faults(Flaw::None), [None, None]);
     let gated = "a register changes where the clock is gated";
     assert_eq!(
@@ -145,15 +180,31 @@ fn proofs_and_random_runs_find_wrong_gates() {
     }
 }
 
+#[test]
+fn a_circuit_has_its_properties_whatever_stands_beside_it() {
+    let beside = With::<_, LampBeside>::new(Timer(Flaw::None));
+    let properties = Invariants::of(&beside);
+    let found = reach(&beside, &properties).run().expect("narrow enough");
+    let found = found.counterexample().expect("it comes to seven");
+    assert_eq!(found.invariant, "never comes to seven");
+    assert_eq!((found.signals, found.tick), (vec!["count".to_owned()], 8));
+}
+
 /// The counts of some ticks after a start in tick 1.
-fn counts<C: Circuit<In<Sim> = In<Sim>>>(circuit: &C, count: fn(&C::Reg<Sim>) -> u64) -> Vec<u64> {
+fn counts<C: Circuit>(
+    circuit: &C,
+    ports: fn(In<Sim>) -> C::In<Sim>,
+    count: fn(&C::Reg<Sim>) -> u64,
+) -> Vec<u64> {
     let mut counts = Vec::new();
     let look = StopWhen(|now: &Sample<'_, C>| {
         counts.push(count(now.q));
         false
     });
-    let stimulus = |tick, _: &C::Reg<Sim>| In {
-        start: (tick == 1).into(),
+    let stimulus = |tick, _: &C::Reg<Sim>| {
+        ports(In {
+            start: (tick == 1).into(),
+        })
     };
     Simulator::new(circuit)
         .run(12, stimulus, look)
@@ -163,15 +214,18 @@ fn counts<C: Circuit<In<Sim> = In<Sim>>>(circuit: &C, count: fn(&C::Reg<Sim>) ->
 
 /// Seen by what comes of wrong ones.
 #[test]
-fn the_simulator_goes_by_the_gates_outermost_and_within() {
+fn the_simulator_goes_by_the_gates_outermost_and_within_and_beside() {
     let timer = |flaw| {
-        let counts = counts(&Timer(flaw), |q| q.count.get());
-        let within = Outer(Timer(flaw));
-        assert_eq!(
-            counts,
-            self::counts(&within, |q| q.timer.count.get()),
-            "{flaw:?}"
-        );
+        let counts = counts(&Timer(flaw), |i| i, |q| q.count.get());
+        let within = self::counts(&Outer(Timer(flaw)), |i| i, |q| q.timer.count.get());
+        assert_eq!(counts, within, "{flaw:?}");
+        let beside = With::<_, LampBeside>::new(Timer(flaw));
+        let lit = |i| WithIn {
+            i,
+            beside: Lamp { lit: true.into() },
+        };
+        let beside = self::counts(&beside, lit, |q| q.count.get());
+        assert_eq!(counts, beside, "{flaw:?}, with a lamp beside it");
         counts
     };
     assert_eq!(timer(Flaw::None), [0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 0, 0]);

@@ -168,3 +168,49 @@ fn every_field_has_its_type_and_value() {
         (&Value::Null, &Value::Null)
     );
 }
+
+/// The points of the path of that colour in a picture.
+fn points(svg: &str, colour: &str) -> Vec<[f64; 2]> {
+    let mut paths = svg.split("<path ").filter(|path| path.contains(colour));
+    let (path, None) = (paths.next().unwrap(), paths.next()) else {
+        panic!("two paths of {colour}");
+    };
+    let (_, data) = path.split_once("d=\"").unwrap();
+    let (data, _) = data.split_once('"').unwrap();
+    let points = data.split_whitespace().map(|point| {
+        let (x, y) = point
+            .trim_start_matches(['M', 'L'])
+            .split_once(',')
+            .unwrap();
+        [x, y].map(|number| number.parse().unwrap())
+    });
+    points.collect()
+}
+
+/// What is left to the full circle is a step; the other way round the arc would be a dot.
+#[test]
+fn an_arc_that_ends_a_step_before_its_start_is_drawn_nearly_all_around() {
+    for (turn, end) in [("G3", -0.025), ("G2", 0.025)] {
+        let bench = Bench::with("o.ngc", format!("G0 X10\n{turn} Y{end} I-10 F1200\n"));
+        let sets = [
+            "--set",
+            "arc_unit_ticks=500",
+            "--set",
+            "steps_per_mm=[40,40]",
+        ];
+        bench.succeed(&[&["run", "o.ngc", "--no-vcd"], &SHORT[..], &sets].concat());
+        let drawn = points(&bench.read("waves/o.svg"), "#f0c9a0");
+        assert!(drawn.len() > 100, "{turn}: {} points", drawn.len());
+        let [x, y] = [0, 1].map(|axis| {
+            let all = drawn.iter().map(|point| point[axis]);
+            let (least, most) = (
+                all.clone().fold(f64::INFINITY, f64::min),
+                all.fold(f64::NEG_INFINITY, f64::max),
+            );
+            most - least
+        });
+        assert!(x > 300.0 && (x - y).abs() < 0.01 * x, "{turn}: {x} by {y}");
+        let gap = |k: usize| drawn[0][k] - drawn[drawn.len() - 1][k];
+        assert!(gap(0).hypot(gap(1)) < 0.01 * x, "{turn}");
+    }
+}

@@ -29,6 +29,27 @@ fn of(summary: &Value, segment: usize, pointer: &str) -> Value {
 }
 
 #[test]
+fn a_ramp_that_is_no_whole_number_of_scans_is_told() {
+    let times = |acceleration: &str, deceleration: &str| {
+        let sets = [
+            "--set",
+            "scan_ticks=2000",
+            "--set",
+            &format!("acceleration_ms={acceleration}"),
+            "--set",
+            &format!("deceleration_ms={deceleration}"),
+        ];
+        summary("line.hpgl", LINE, &sets)["warnings"].clone()
+    };
+    assert_eq!(times("26", "40.0"), json!([]));
+    let rounded = [
+        "acceleration_ms: 24.9 ms taken as 24 ms (scan of 2 ms × 12)",
+        "deceleration_ms: 0 ms taken as 2 ms (scan of 2 ms × 1)",
+    ];
+    assert_eq!(times("24.9", "0"), json!(rounded));
+}
+
+#[test]
 fn ten_millimetres_are_two_hundred_scans() {
     // 2000 counts at 20 a scan, and 100 scans each to get there and to rest: no steady scan.
     let summary = summary("line.hpgl", LINE, &[]);

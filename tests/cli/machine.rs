@@ -26,6 +26,20 @@ fn with(keys: &str, drawing: &str) -> Bench {
 }
 
 #[test]
+fn a_ramp_that_is_no_whole_number_of_scans_or_samples_is_told() {
+    let warnings = |keys: &str| {
+        let bench = with(&format!("{GAINS}{keys}"), "G1 X1 F1500\n");
+        bench.json(&["run", "s.toml", "--no-vcd"])["warnings"].clone()
+    };
+    assert_eq!(warnings(""), json!([]));
+    let rounded = [
+        "acceleration_ms: 42 ms taken as 42.5 ms on lines (scan of 1.25 ms × 34)",
+        "acceleration_ms: 42 ms taken as 40 ms on arcs (pair of Ts of 5 ms × 8)",
+    ];
+    assert_eq!(warnings("acceleration_ms = 42\n"), json!(rounded));
+}
+
+#[test]
 fn both_machines_end_at_the_same_point() {
     let bench = with(GAINS, SHORT);
     let summary = bench.json(&["run", "s.toml", "--no-vcd"]);

@@ -154,6 +154,33 @@ fn a_path_that_takes_too_long_is_refused() {
 }
 
 #[test]
+fn a_run_of_more_ticks_than_can_be_counted_is_refused() {
+    let bench = Bench::with("log.csv", "t,x\n0,0\n1e30,10\n");
+    bench.refuse(
+        &["run", "log.csv", "--no-vcd"],
+        "log.csv:3: time: is 1000000000000000000000000000 s after the first; allowed: less than \
+         18446744073710 s, 2^64 ticks of 1000000 Hz",
+    );
+    bench.write("p.ngc", "G1 X100000 F0.001\n");
+    let run = ["run", "p.ngc", "--no-vcd"];
+    let slow = [
+        "--set",
+        "circuit=trajectory_controller",
+        "--set",
+        "clock_hz=4000000000",
+        "--set",
+        "period_ms=1",
+        "--set",
+        "counts_per_mm=10",
+    ];
+    bench.refuse(
+        &[&run[..], &slow].concat(),
+        "--set: clock_hz: is 4000000000: the run takes 2^64 ticks or more; allowed: a run of fewer \
+         ticks: a slower clock, or faster motions",
+    );
+}
+
+#[test]
 fn windows_and_scopes_that_are_none_are_refused() {
     let bench = Bench::with("p.hpgl", LINE);
     let refuse = |arguments: &[&str], text: &str| {

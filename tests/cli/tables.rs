@@ -247,3 +247,19 @@ fn a_million_points_are_compiled() {
     assert_eq!(whole(&report, "/axes/1/end_position"), 0);
     assert_eq!(whole(&report, "/unattainable_units"), 0);
 }
+
+/// Where one error is as large as another, the earlier, by the same numbers.
+#[test]
+fn run_and_table_tell_the_same_largest_following_errors() {
+    for scenario in ["waves/bracket.toml", "waves/rosette.toml"] {
+        let bench = Bench::new();
+        let run = bench.json(&["run", scenario, "--no-vcd"]);
+        let table = bench.json(&["table", scenario]);
+        for (index, axis) in ["x", "y"].into_iter().enumerate() {
+            assert_eq!(
+                run["axes"][axis]["following_error_max"], table["axes"][index]["following_error"],
+                "{scenario}, {axis}"
+            );
+        }
+    }
+}

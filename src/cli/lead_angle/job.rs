@@ -109,6 +109,20 @@ fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<
         let allowed = format!("up to {FARTHEST_COUNTS} counts from the first, {first}");
         return Err(fault(sample.line, problem, allowed));
     }
+    let (longest, seconds) = (u64::MAX as f64 / settings.clock_hz as f64, log.seconds());
+    if let Some(last) = log.samples.last().filter(|_| seconds >= longest) {
+        return Err(Fault {
+            field: "time".to_owned(),
+            ..fault(
+                last.line,
+                format!("is {seconds} s after the first"),
+                format!(
+                    "less than {longest:.0} s, 2^64 ticks of {} Hz",
+                    settings.clock_hz
+                ),
+            )
+        });
+    }
     // An encoder is counted at one count per tick.
     let (speed, line) = log.fastest();
     if speed > settings.clock_hz as f64 {

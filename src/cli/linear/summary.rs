@@ -3,6 +3,7 @@
 use super::rows::{Figures, Row, rows};
 use super::verdict::complaints;
 use super::{Job, Runs};
+use crate::cli::times::rounded;
 use motion_rtl::linear_interpolator::measure::Played;
 use motion_rtl::linear_interpolator::settings::AXIS_NAMES;
 use serde::Serialize;
@@ -129,7 +130,7 @@ impl Summary {
     }
 }
 
-/// What was skipped or assumed on the way to the cycles, and what slowed them down.
+/// What was skipped, assumed or rounded on the way to the cycles, and what slowed them down.
 fn warnings(job: &Job, played: &Played) -> Vec<String> {
     let file = &job.drawing.file;
     let own = job.drawing.warnings.iter();
@@ -151,6 +152,8 @@ fn warnings(job: &Job, played: &Played) -> Vec<String> {
     if job.compiled.targets.is_empty() {
         warnings.push(format!("{file}: no axis moves"));
     }
+    let ramps = job.settings.ramps();
+    warnings.extend(ramps.iter().filter_map(|ramp| rounded(ramp, "scan", "")));
     for (axis, name) in AXIS_NAMES.iter().enumerate() {
         let scans = played.saturated_scans[axis];
         if scans > 0 {

@@ -3,6 +3,7 @@
 use super::Job;
 use super::rows::{self, EndRow, LiftRow, PieceRow};
 use super::verdict::{complaints, steppers_cut_off};
+use crate::cli::times::rounded;
 use motion_rtl::machine::job::Played;
 use motion_rtl::machine::measure::Measured;
 use serde::Serialize;
@@ -115,13 +116,19 @@ impl Summary {
             pieces: rows::pieces(job, measured),
             lifts: rows::lifts(job, played),
             vcd_window: None,
-            warnings: job
-                .drawing
-                .warnings
-                .iter()
-                .map(ToString::to_string)
-                .collect(),
+            warnings: warnings(job),
             files: Vec::new(),
         }
     }
+}
+
+/// What was skipped, assumed or rounded.
+fn warnings(job: &Job) -> Vec<String> {
+    let [lines, arcs] = job.settings.ramps();
+    let ramps = [
+        rounded(&lines, "scan", " on lines"),
+        rounded(&arcs, "pair of Ts", " on arcs"),
+    ];
+    let own = job.drawing.warnings.iter().map(ToString::to_string);
+    own.chain(ramps.into_iter().flatten()).collect()
 }

@@ -1,8 +1,9 @@
 //! From a drawing to a table.
 
 use super::count_table::{CountTable, PulseLimits, choose_half_period};
-use super::demand::{AXES, Demand, Demands, Steps};
+use super::demand::{AXES, Demand, Demands};
 use super::error::TableError;
+use super::following::Following;
 use super::remedy;
 use super::report::{AxisReport, FollowingError, Report};
 use super::settings::Settings;
@@ -126,6 +127,7 @@ struct Compiler<'s> {
     settings: &'s Settings,
     table: Table,
     axes: Vec<Axis>,
+    following: Following,
     ticks: u64,
     unattainable_units: usize,
 }
@@ -151,6 +153,7 @@ impl<'s> Compiler<'s> {
             settings,
             table: Table::new(settings.clock_hz, axes, settings.half_period_bits),
             axes: (0..axes).map(axis).collect(),
+            following: Following::new(axes),
             ticks: 0,
             unattainable_units: 0,
         }
@@ -190,8 +193,10 @@ impl<'s> Compiler<'s> {
                 self.step(k, unit, kind, wanted, appended)
             };
             self.table.push(word);
-            self.follow(k, unit, next);
         }
+        let positions = self.axes.iter().map(|axis| axis.position);
+        let time_s = self.ticks as f64 / self.settings.clock_hz as f64;
+        self.following.take(unit, time_s, next, positions);
         self.unattainable_units += usize::from(!attainable);
         Ok(())
     }
@@ -263,26 +268,11 @@ impl<'s> Compiler<'s> {
         true
     }
 
-    fn follow(&mut self, k: usize, unit: usize, demand: &Demand) {
-        let time_s = self.ticks as f64 / self.settings.clock_hz as f64;
-        let axis = &mut self.axes[k];
-        let error = (Steps::from_num(axis.position) - demand.steps[k])
-            .abs()
-            .to_num::<f64>();
-        if error > axis.report.following_error.steps {
-            axis.report.following_error = FollowingError {
-                steps: error,
-                unit,
-                time_s,
-                line: demand.line,
-            };
-        }
-    }
-
     fn finish(self, start: &Demand, end: &Demand, path_units: usize) -> (Table, Report) {
         let axis = |(k, axis): (usize, Axis)| AxisReport {
             end_position: axis.position as i32,
             steps_demanded: end.rounded(k) - start.rounded(k),
+            following_error: self.following.largest[k],
             ..axis.report
         };
         let report = Report {

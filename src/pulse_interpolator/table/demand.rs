@@ -20,6 +20,8 @@ pub(super) struct Demand {
     pub(super) steps: [Steps; COORDINATES],
     /// Whether an arc is under way.
     pub(super) arc: bool,
+    /// Whether a rapid move is under way.
+    pub(super) rapid: bool,
     /// Line of the input under way.
     pub(super) line: usize,
 }
@@ -66,6 +68,7 @@ impl<'p, 'd> Demands<'p, 'd> {
         Ok(Demand {
             steps: self.convert(sample.position, sample.line)?,
             arc: sample.arc,
+            rapid: sample.rapid,
             line: sample.line,
         })
     }

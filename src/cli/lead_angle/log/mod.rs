@@ -54,6 +54,11 @@ struct Row {
     error_counts: Option<f64>,
 }
 
+/// Ticks that a log takes.
+fn ticks(log: &PositionLog, clock_hz: u64) -> u64 {
+    ((log.seconds() * clock_hz as f64) as u64).saturating_add(1)
+}
+
 /// Replays a log with its waves.
 pub fn run(
     arguments: &Arguments,
@@ -62,7 +67,7 @@ pub fn run(
     options: &Options,
 ) -> Result<(), Failure> {
     let settings = settings_for(log, &job.settings);
-    let ticks = (log.seconds() * settings.clock_hz as f64) as u64 + 1;
+    let ticks = ticks(log, settings.clock_hz);
     no_such_tick(options, ticks)?;
     let simulate = match settings.history {
         History::ShiftRegister => simulate::<ShiftLead>,
@@ -83,7 +88,7 @@ fn simulate<P: JobLead>(
     options: &Options,
 ) -> Result<(Replayed, Files), Failure> {
     let circuit = positioner::<P>(settings);
-    let ticks = (log.seconds() * settings.clock_hz as f64) as u64 + 1;
+    let ticks = ticks(log, settings.clock_hz);
     let (printed, scenario) = (&circuit.circuit, (&job.loaded, job.stem.as_str()));
     let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
