@@ -1,7 +1,7 @@
 //! Reading files: any, and drawings.
 
 use std::fmt;
-use std::fs::File;
+use std::fs::{File, Metadata};
 use std::io::Read as _;
 use std::path::Path;
 
@@ -68,8 +68,8 @@ type Reader = fn(&str, &[u8]) -> Result<Drawing, Fault>;
 ///
 /// # Errors
 ///
-/// A path without a known extension, that is not a regular file, cannot be read or is larger
-/// than [`LARGEST_FILE`]; and whatever [`hpgl::read`] and [`gcode::read`] object to.
+/// A path without a known extension, that is neither a regular file nor a pipe, cannot be read or is
+/// larger than [`LARGEST_FILE`]; and whatever [`hpgl::read`] and [`gcode::read`] object to.
 pub fn read_path(path: &Path) -> Result<Drawing, Fault> {
     let name = path.display().to_string();
     let read = reader(&name, path)?;
@@ -96,11 +96,11 @@ fn reader(name: &str, path: &Path) -> Result<Reader, Fault> {
     Err(Fault::new(name, 0, "file", problem, DRAWINGS))
 }
 
-/// The bytes of a file.
+/// The bytes of a file or of a pipe, which are read once.
 ///
 /// # Errors
 ///
-/// A path that is not a regular file, cannot be read or is larger than `most` bytes.
+/// A path that is neither a regular file nor a pipe, cannot be read or is larger than `most` bytes.
 pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
     let name = path.display().to_string();
     let fault = |problem: String| Fault::new(&name, 0, "file", problem, "a readable file");
@@ -109,9 +109,9 @@ pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
         Fault::new(&name, 0, "file", "too large", allowed)
     };
     let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"));
-    // Asked before opening: opening a pipe would wait for its writer.
+    // Asked before opening, which may do something to a device.
     let metadata = path.metadata().map_err(unreadable)?;
-    if !metadata.is_file() {
+    if !(metadata.is_file() || is_pipe(&metadata)) {
         return Err(fault("not a regular file".to_owned()));
     }
     if metadata.len() > most {
@@ -129,6 +129,16 @@ pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
         return Err(too_large());
     }
     Ok(bytes)
+}
+
+#[cfg(unix)]
+fn is_pipe(metadata: &Metadata) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type())
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &Metadata) -> bool {
+    false
 }
 
 /// The text of a file of at most [`LARGEST_FILE`]; `allowed` says what it is to be.

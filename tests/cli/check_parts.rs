@@ -225,6 +225,18 @@ fn a_width_of_a_sweep_is_refused_by_its_own() {
     Bench::new().refuse(&["check", "integrator", "--width", "9"], text);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_part_may_come_through_a_pipe() {
+    let bench = Bench::new();
+    let files = parts(&bench, &WORK, 2);
+    let mut merge = bench.command(&["check", "--merge", &files[0], "/dev/stdin"]);
+    let output = merge.write_stdin(bench.read(&files[1])).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    assert_eq!(text(output.stderr), "");
+    assert_eq!(text(output.stdout), self::merge(&bench, &files).stdout);
+}
+
 #[test]
 fn parts_that_do_not_belong_together_are_refused() {
     let bench = Bench::new();

@@ -46,6 +46,19 @@ fn shows(bench: &Bench, more: &[&str], code: i32, text: &Expect) {
     assert_eq!(done.code, code, "{more:?}");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_waveform_may_come_through_a_pipe() {
+    let bench = bench(&golden());
+    let files = bench.succeed(&["compare", "golden.vcd", "other.vcd"]);
+    let mut compare = bench.command(&["compare", "golden.vcd", "/dev/stdin"]);
+    let output = compare.write_stdin(golden()).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    assert_eq!(text(output.stderr), "");
+    let piped = text(output.stdout).replace("/dev/stdin", "other.vcd");
+    assert_eq!(piped, files);
+}
+
 #[test]
 fn equal_waves_are_equal() {
     let other = dump(

@@ -171,7 +171,10 @@ fn every_field_has_its_type_and_value() {
 
 /// The points of the path of that colour in a picture.
 fn points(svg: &str, colour: &str) -> Vec<[f64; 2]> {
-    let mut paths = svg.split("<path ").filter(|path| path.contains(colour));
+    let elements = svg
+        .split('<')
+        .filter(|element| element.starts_with("path "));
+    let mut paths = elements.filter(|path| path.contains(colour));
     let (path, None) = (paths.next().unwrap(), paths.next()) else {
         panic!("two paths of {colour}");
     };

@@ -168,10 +168,6 @@ fn a_run_of_more_ticks_than_can_be_counted_is_refused() {
         "circuit=trajectory_controller",
         "--set",
         "clock_hz=4000000000",
-        "--set",
-        "period_ms=1",
-        "--set",
-        "counts_per_mm=10",
     ];
     bench.refuse(
         &[&run[..], &slow].concat(),

@@ -71,12 +71,16 @@ fn all<const AXES: usize>(
     options: &Options,
 ) -> Result<(Runs, Files), Failure> {
     let traced = job.settings.correction;
+    let circuit = Controller::<AXES>::new(traced, job.settings.rounding);
+    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
+    // Before the others run, as what it refuses would wait for them.
+    let traces = Traces::begin((&circuit, &circuit), arguments, scenario, options, ticks)?;
     thread::scope(|scope| {
         let others = CORRECTIONS.map(|correction| {
             let untraced = move || untraced::<AXES>(job, correction);
             (correction != traced).then(|| scope.spawn(untraced))
         });
-        let own = simulate::<AXES>(arguments, job, options);
+        let own = simulate(&circuit, job, traces);
         let others = others.map(|other| other.map(thread::ScopedJoinHandle::join));
         let (own, files) = own?;
         let mut own = Some(own);
@@ -114,23 +118,19 @@ fn untraced<const AXES: usize>(job: &Job, correction: Correction) -> Result<Play
 
 /// Plays the path with its waves.
 fn simulate<const AXES: usize>(
-    arguments: &Arguments,
+    circuit: &Controller<AXES>,
     job: &Job,
-    options: &Options,
+    mut traces: Traces<'_, Controller<AXES>, Controller<AXES>>,
 ) -> Result<(Played<AXES>, Files), Failure> {
-    let settings = &job.settings;
-    let circuit = Controller::<AXES>::new(settings.correction, settings.rounding);
-    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     let plants = plants(job)?;
-    let mut traces = Traces::begin((&circuit, &circuit), arguments, scenario, options, ticks)?;
-    let mut progress = Progress::new(ticks);
+    let mut progress = Progress::new(job.ticks_at_least());
     // Two calls, so that a run without waves is compiled without a trace of them.
     let played: Result<_, RunError> = match traces.is_empty() {
         false => {
             let files = (traces.waves.as_mut(), traces.stimulus.as_mut());
-            play(&circuit, &job.program, plants, (files, &mut progress))
+            play(circuit, &job.program, plants, (files, &mut progress))
         }
-        true => play(&circuit, &job.program, plants, &mut progress),
+        true => play(circuit, &job.program, plants, &mut progress),
     };
     let played = played?;
     drop(progress);
@@ -144,6 +144,6 @@ fn simulate<const AXES: usize>(
         shown,
         overview: &OVERVIEW,
     };
-    let files = traces.finish(&circuit, &focus, played.ticks)?;
+    let files = traces.finish(circuit, &focus, played.ticks)?;
     Ok((played, files))
 }

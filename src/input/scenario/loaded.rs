@@ -86,7 +86,7 @@ impl Loaded {
         }
         let loaded = Self::build(SET, text, sets)?;
         if loaded.overrides("input") {
-            let (problem, allowed) = (format!("{name} is the input"), "it with a scenario only");
+            let (problem, allowed) = (format!("{name} is the input"), "input with a scenario only");
             return Err(Fault::new(SET, 0, "input", problem, allowed));
         }
         Ok(loaded)
