@@ -1,6 +1,7 @@
 //! The command line: what it prints, writes, refuses and exits with.
 
 mod arc;
+mod arc_refusals;
 mod check_parts;
 mod checks;
 mod compare;
@@ -11,6 +12,7 @@ mod files;
 mod fst;
 mod lead_angle;
 mod linear;
+mod linear_refusals;
 mod machine;
 #[cfg(target_os = "linux")]
 mod memory;
@@ -22,4 +24,5 @@ mod streams;
 mod support;
 mod tables;
 mod trajectory;
+mod trajectory_refusals;
 mod verilog;

@@ -1,4 +1,4 @@
-//! `run` of the trajectory controller: figures against closed forms, files, windows, refusals.
+//! `run` of the trajectory controller: figures against closed forms, files, windows.
 
 use super::scenarios::{CIRCLE, POCKET, runs_exactly};
 use super::support::{Bench, keys, whole};
@@ -39,7 +39,7 @@ fn close(value: f64, expected: f64, part: f64) {
     near(value, expected, part * expected.abs());
 }
 
-fn with(text: &str) -> Bench {
+pub fn with(text: &str) -> Bench {
     Bench::with("s.toml", format!("{HEAD}{text}"))
 }
 
@@ -497,189 +497,9 @@ fn a_drawing_by_itself() {
     near(number(&summary, "/path/length_mm"), 10.0, 1e-6);
 }
 
-const MACHINE: &str = "max_torque_nm = 10\nmotor_inertia_kg_m2 = 1e-3\n\
+pub const MACHINE: &str = "max_torque_nm = 10\nmotor_inertia_kg_m2 = 1e-3\n\
      load_inertia_kg_m2 = 2e-3\nstiffness_nm_per_rad = 200\ncounts_per_rev = 10_000\n\
      mm_per_rev = 10\n";
-
-#[test]
-fn bad_settings_are_refused_with_their_line() {
-    // The head has five lines, the piece two.
-    let cases = [
-        (
-            "",
-            "s.toml: piece: missing; allowed: tables [[piece]], or an input: an HPGL drawing or a G-code program",
-        ),
-        (
-            "start_mm = [1, 0, 0]\ninput = \"l.ngc\"\n",
-            "s.toml:6: start_mm: is [1.0, 0.0, 0.0] beside an input; allowed: where the drawing begins: no start_mm",
-        ),
-        (
-            "input = \"l.ngc\"\n[[piece]]\nto_mm = [10, 0, 0]\n",
-            "s.toml:6: input: given beside tables [[piece]]; allowed: a drawing or pieces, not both",
-        ),
-        (
-            "axes = 4\n[[piece]]\nto_mm = [10, 0, 0]\n",
-            "s.toml:6: axes: is 4; allowed: 2 or 3",
-        ),
-        (
-            "axes = 2\n[[piece]]\nto_mm = [10, 0, 1]\n",
-            "s.toml:8: piece 0: to_mm: leaves the plane of x and y by 1 mm; allowed: the height of the start, or three axes",
-        ),
-        (
-            "[[piece]]\nto_mm = [10, 0, 0]\n[[piece]]\nvia_mm = [20, 0, 0]\nto_mm = [30, 0, 0]\nspeed_mm_per_s = 3\n",
-            "",
-        ),
-        (
-            "[[piece]]\nto_mm = [10, 0, 0]\nspeed_mm_per_s = 0\n",
-            "s.toml:8: piece 0: speed_mm_per_s: is 0 mm/s; allowed: a speed above 0",
-        ),
-        (
-            "k1_per_s = 0\n[[piece]]\nto_mm = [10, 0, 0]\n",
-            "s.toml:6: k1_per_s: is 0: ",
-        ),
-        (
-            "k2_per_s = 100\n[[piece]]\nto_mm = [10, 0, 0]\n",
-            "s.toml:6: k2_per_s: is 100: ",
-        ),
-        (
-            "correction = \"both\"\n",
-            "s.toml:6: correction: unknown variant `both`; allowed: one of `vector`, `none`, `steady`",
-        ),
-        (
-            "acceleration_mm_per_s2 = nan\n[[piece]]\nto_mm = [10, 0, 0]\n",
-            "s.toml:6: acceleration_mm_per_s2: is NaN; allowed: ",
-        ),
-        (
-            "jerk_time_ms = -1\n[[piece]]\nto_mm = [10, 0, 0]\n",
-            "s.toml:6: jerk_time_ms: is -1; allowed: 0 to ",
-        ),
-        (
-            "position_gain_per_s = 0\n[[piece]]\nto_mm = [10, 0, 0]\n",
-            "s.toml:6: position_gain_per_s: is 0; allowed: ",
-        ),
-        (
-            "speed_hz = 1e6\n[[piece]]\nto_mm = [10, 0, 0]\n",
-            "s.toml:6: speed_hz: is 1000000: ",
-        ),
-        (
-            "integral_ms = -1\n[[piece]]\nto_mm = [10, 0, 0]\n",
-            "s.toml:6: integral_ms: is -1; allowed: 0 to ",
-        ),
-        (
-            "[[piece]]\nto_mm = [2e6, 0, 0]\n",
-            "s.toml:7: piece 0: to_mm: x reaches ",
-        ),
-        (
-            "[machine]\nmass = 1\n",
-            "s.toml:7: mass: unknown field `mass`; allowed: one of `max_torque_nm`, ",
-        ),
-        (
-            "[machine]\nmax_torque_nm = 1\n",
-            "s.toml:6: motor_inertia_kg_m2: missing; allowed: a value for it: it has no default",
-        ),
-    ];
-    for (text, refusal) in cases {
-        let bench = with(text);
-        bench.write("l.ngc", "G1 X20 F600\n");
-        let before = bench.names();
-        let done = bench.run(&["run", "s.toml", "--no-vcd"]);
-        let start = match refusal {
-            // The three points on a line.
-            "" => "error: s.toml:9: piece 1: via_mm: the point via is only ".to_owned(),
-            refusal => format!("error: {refusal}"),
-        };
-        assert!(done.stderr.starts_with(&start), "{text}: {}", done.stderr);
-        assert_eq!((done.code, done.stdout.as_str()), (2, ""), "{text}");
-        assert_eq!(bench.names(), before, "{text}");
-    }
-}
-
-#[test]
-fn bad_machines_are_refused_with_their_line() {
-    let piece = "[[piece]]\nto_mm = [10, 0, 0]\n";
-    let with_machine = |change: (&str, &str)| {
-        let machine = MACHINE.replace(change.0, change.1);
-        format!("{piece}[machine]\n{machine}")
-    };
-    // The head has five lines, the piece two, the table begins in the eighth.
-    let bench = with(&with_machine(("mm_per_rev = 10", "mm_per_rev = 5")));
-    bench.refuse(
-        &["run", "s.toml"],
-        "s.toml:14: machine.mm_per_rev: is 5: 2000 counts a millimetre; allowed: 10: 1000, as \
-         counts_per_mm",
-    );
-    let bench = with(&with_machine(("= 200", "= -1")));
-    bench.refuse(
-        &["run", "s.toml"],
-        "s.toml:12: machine.stiffness_nm_per_rad: is -1; allowed: 0.000000001 to 1000000000",
-    );
-    // A key of the table by an override.
-    bench.refuse(
-        &["run", "s.toml", "--set", "machine.stiffness_nm_per_rad=0"],
-        "--set: machine.stiffness_nm_per_rad: is 0; allowed: 0.000000001 to 1000000000",
-    );
-    let run = [
-        "run",
-        "s.toml",
-        "--no-vcd",
-        "--set",
-        "machine.stiffness_nm_per_rad=300",
-    ];
-    assert_eq!(bench.json(&run)["exact"], true);
-    // One that the clock is too slow for.
-    let bench = with(&format!(
-        "{piece}[machine]\n{MACHINE}damping_nm_s_per_rad = 1e9\n"
-    ));
-    bench.refuse(
-        &["run", "s.toml"],
-        "s.toml:2: clock_hz: is 400000: a tick of 2.5e-6 s; allowed: a faster clock: a tick of at \
-         most 6.666666664232344e-9 s",
-    );
-    let bench = with(&format!("{piece}[[axis]]\n{MACHINE}"));
-    bench.refuse(
-        &["run", "s.toml"],
-        "s.toml: axis: given 1 times; allowed: 2 tables [[axis]], or one table [machine] for all",
-    );
-    let second = MACHINE.replace("= 2e-3", "= 0");
-    let bench = with(&format!("{piece}[[axis]]\n{MACHINE}[[axis]]\n{second}"));
-    bench.refuse(
-        &["run", "s.toml"],
-        "s.toml:18: axis 1: load_inertia_kg_m2: is 0; allowed: 0.000000001 to 1000000000",
-    );
-}
-
-#[test]
-fn bad_moves_are_refused_with_their_line() {
-    let cases = [
-        (
-            "G1 X20 F600\nG2 X40 I10 Z5\n",
-            "p.ngc:2: Z: climbs 5 mm along its axis: a helix; allowed: an arc in a plane: a rotation has no feed along its axis",
-        ),
-        (
-            "G1 X20 F600\nG2 X40 Y1 I3\n",
-            "p.ngc:2: I, J: the radius is 3.0000 mm at the start and 17.0294 mm at the end; allowed: radii that agree to 0.005 mm or 0.1 %",
-        ),
-    ];
-    for (text, refusal) in cases {
-        let bench = with("input = \"p.ngc\"\n");
-        bench.write("p.ngc", text);
-        bench.refuse(&["run", "s.toml", "--out", "new"], refusal);
-    }
-    let many: String = (1..=4097)
-        .map(|k| format!("G1 X{k} Y{}\n", k % 2))
-        .collect();
-    let bench = with("input = \"p.ngc\"\n");
-    bench.write("p.ngc", format!("G1 F600\n{many}"));
-    bench.refuse(
-        &["run", "s.toml", "--out", "new"],
-        "p.ngc:4098: path: the path has 4097 segments, which needs A = 13; allowed: at most 4096",
-    );
-    bench.refuse(
-        &["table", "waves/corner.toml"],
-        "waves/corner.toml:2: circuit: the trajectory controller has no table; allowed: \
-         pulse_interpolator, or the command run",
-    );
-}
 
 #[test]
 fn a_torque_that_is_not_enough_is_said() {

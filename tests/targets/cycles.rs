@@ -1,43 +1,10 @@
-//! Drawings as positioning cycles: positions, speeds, times, and what is refused.
+//! Positions, speeds and times of cycles; arcs as chords.
 
-use motion_rtl::input::{Course, Drawing, Move, read_text};
+use crate::{circle, compiled, lines};
+use motion_rtl::input::read_text;
 use motion_rtl::linear_interpolator::settings::{Settings, ShortMoves};
-use motion_rtl::linear_interpolator::targets::{Target, TargetError, Targets, compile};
+use motion_rtl::linear_interpolator::targets::{Target, TargetError, compile};
 use proptest::prelude::*;
-
-fn move_to(x: f64, y: f64) -> Move {
-    Move {
-        to: [x, y, 0.0],
-        course: Course::Line,
-        rapid: false,
-        feed_mm_per_min: None,
-        line: 1,
-    }
-}
-
-fn drawing(moves: Vec<Move>) -> Drawing {
-    Drawing {
-        file: "d".into(),
-        start: [0.0; 3],
-        moves,
-        zero_length: 0,
-        warnings: Vec::new(),
-    }
-}
-
-fn lines(points: &[[f64; 2]]) -> Drawing {
-    let moves = points.iter().enumerate().map(|(k, [x, y])| Move {
-        line: k + 1,
-        ..move_to(*x, *y)
-    });
-    drawing(moves.collect())
-}
-
-fn compiled(drawing: &Drawing, change: impl FnOnce(&mut Settings)) -> Targets {
-    let mut settings = Settings::default();
-    change(&mut settings);
-    compile(drawing, &settings).unwrap()
-}
 
 /// The one cycle from the origin to a point in millimetres.
 fn cycle(x: f64, y: f64, change: impl FnOnce(&mut Settings)) -> Target {
@@ -213,15 +180,6 @@ fn z_is_left_out_and_said_so() {
     assert!(!compiled(&lines(&[[1.0, 0.0]]), |_| ()).moves_in_z);
 }
 
-fn circle(radius: f64, sweep_to: [f64; 2], clockwise: bool) -> Drawing {
-    let mut arc = move_to(sweep_to[0], sweep_to[1]);
-    arc.course = Course::Arc {
-        centre: [radius, 0.0],
-        clockwise,
-    };
-    drawing(vec![arc])
-}
-
 #[test]
 fn an_arc_has_as_few_chords_as_its_tolerance_allows() {
     // A full circle of 50 mm: chords over φ are 50·(1 − cos(φ/2)) off, and 0.1 mm is φ = 7.2484°.
@@ -388,17 +346,17 @@ fn whole_drawings_are_taken() {
     for (name, text, ends) in [
         (
             "rosette.hpgl",
-            include_bytes!("../waves/rosette.hpgl").as_slice(),
+            include_bytes!("../../waves/rosette.hpgl").as_slice(),
             [0, 0],
         ),
         (
             "bracket.ngc",
-            include_bytes!("../waves/bracket.ngc"),
+            include_bytes!("../../waves/bracket.ngc"),
             [0, 0],
         ),
         (
             "plotter.hpgl",
-            include_bytes!("../waves/plotter.hpgl"),
+            include_bytes!("../../waves/plotter.hpgl"),
             [0, 0],
         ),
     ] {
@@ -412,171 +370,5 @@ fn whole_drawings_are_taken() {
         );
         let lines: Vec<_> = made.targets.iter().map(|target| target.line).collect();
         assert!(lines.is_sorted(), "{name}");
-    }
-}
-
-#[test]
-fn what_cannot_be_played_is_refused() {
-    let refusal = |drawing: &Drawing, change: &dyn Fn(&mut Settings)| {
-        let mut settings = Settings::default();
-        change(&mut settings);
-        compile(drawing, &settings).unwrap_err()
-    };
-    let mut d = lines(&[[1.0, 0.0], [2.0, 0.0]]);
-    d.moves[1].feed_mm_per_min = Some(300_000.5);
-    let feed = TargetError::Feed {
-        line: 2,
-        value: 300_000.5,
-        most: 300_000.0,
-    };
-    assert_eq!(refusal(&d, &|_| ()), feed);
-    d.moves[1].feed_mm_per_min = Some(300_000.0);
-    assert_eq!(compiled(&d, |_| ()).targets[1].speed, 1000);
-
-    let far = lines(&[[1e6, 0.0], [0.0, -1e6]]);
-    let wide = |settings: &mut Settings| settings.counts_per_mm = [100.0, 1074.0];
-    let position = TargetError::Position {
-        line: 2,
-        axis: "y",
-        counts: -1_074_000_000.0,
-    };
-    assert_eq!(refusal(&far, &wide), position);
-    // 2^30 itself is in reach.
-    let just = lines(&[[1_073_741.824, 0.0]]);
-    assert!(
-        compile(&just, &Settings::default()).is_err(),
-        "out of the reader's reach"
-    );
-    let just = lines(&[[107_374.182_4, 0.0]]);
-    let made = compiled(&just, |settings| {
-        settings.counts_per_mm = [1e4, 1.0];
-        settings.rapid_mm_per_min = 6000.0;
-    });
-    assert_eq!(made.targets[0].x, 1 << 30);
-
-    let mut many = circle(3e5, [0.0, 0.0], false);
-    many.moves[0].line = 7;
-    let fine = |settings: &mut Settings| {
-        settings.chord_tolerance_mm = 1e-6;
-        settings.counts_per_mm = [1000.0; 2];
-    };
-    assert_eq!(refusal(&many, &fine), TargetError::TooMany { line: 7 });
-
-    let nan = lines(&[[f64::NAN, 0.0]]);
-    assert!(matches!(refusal(&nan, &|_| ()), TargetError::Drawing(_)));
-}
-
-type Change<'a> = &'a dyn Fn(&mut Settings);
-
-#[test]
-fn every_setting_is_refused_by_name_value_and_range() {
-    assert_eq!(Settings::default().validate(), Ok(()));
-    let cases: [(Change, &str); 25] = [
-        (
-            &|s| s.clock_hz = 0,
-            "clock_hz: is 0; allowed: 1 to 10000000000",
-        ),
-        (
-            &|s| s.scan_ticks = 185,
-            "scan_ticks: is 185; allowed: 186 to 16777215",
-        ),
-        (
-            &|s| s.scan_ticks = 1 << 24,
-            "scan_ticks: is 16777216; allowed: 186 to 16777215",
-        ),
-        (
-            &|s| s.counts_per_mm[1] = 0.0,
-            "counts_per_mm: is 0 for y; allowed: 0.000001 to 1000000000",
-        ),
-        (
-            &|s| s.counts_per_mm[0] = -80.0,
-            "counts_per_mm: is -80 for x; ",
-        ),
-        (
-            &|s| s.counts_per_mm[0] = f64::NAN,
-            "counts_per_mm: is NaN for x; ",
-        ),
-        (
-            &|s| s.feed_mm_per_min = 0.0,
-            "feed_mm_per_min: is 0; allowed: 0.001 to 300000",
-        ),
-        (
-            &|s| s.feed_mm_per_min = 300_001.0,
-            "feed_mm_per_min: is 300001; allowed: 0.001 to 300000",
-        ),
-        (
-            &|s| s.rapid_mm_per_min = f64::INFINITY,
-            "rapid_mm_per_min: is inf; allowed: 0.001 to 300000",
-        ),
-        (
-            &|s| s.counts_per_mm[1] = 4e3,
-            "rapid_mm_per_min: is 18000; allowed: 0.001 to 15000",
-        ),
-        (
-            &|s| s.acceleration_ms = -1.0,
-            "acceleration_ms: is -1; allowed: 0 to 4095",
-        ),
-        (
-            &|s| s.acceleration_ms = 4095.1,
-            "acceleration_ms: is 4095.1; allowed: 0 to 4095",
-        ),
-        (
-            &|s| s.deceleration_ms = f64::NAN,
-            "deceleration_ms: is NaN; allowed: 0 to 4095",
-        ),
-        (
-            &|s| s.chord_tolerance_mm = 0.0,
-            "chord_tolerance_mm: is 0; allowed: 0.000001 to 1000",
-        ),
-        (
-            &|s| s.in_position_counts = 0,
-            "in_position_counts: is 0; allowed: 1 to 1000000",
-        ),
-        (
-            &|s| s.axes[0].position_gain_per_s = 1001.0,
-            "position_gain_per_s: is 1001 for x; allowed: 0.001 to 1000",
-        ),
-        (
-            &|s| s.axes[1].position_gain_per_s = 0.0,
-            "position_gain_per_s: is 0 for y; ",
-        ),
-        (
-            &|s| s.axes[0].counts_per_rev = 3,
-            "counts_per_rev: is 3 for x; allowed: 4 to 100000000",
-        ),
-        (
-            &|s| s.axes[1].rated_speed_rev_per_min = 15_001.0,
-            "rated_speed_rev_per_min: is 15001 for y; allowed: 0.001 to 15000",
-        ),
-        (
-            &|s| s.axes[1].rated_speed_rev_per_min = 0.0,
-            "rated_speed_rev_per_min: is 0 for y; ",
-        ),
-        (
-            &|s| s.axes[0].velocity_loop_ms = 0.0,
-            "velocity_loop_ms: is 0 for x; allowed: 0.001 to 10000",
-        ),
-        (
-            &|s| s.axes[0].inertia_kg_m2 = 0.0,
-            "inertia_kg_m2: is 0 for x; allowed: 0.000000001 to 1000",
-        ),
-        (
-            &|s| s.axes[1].max_torque_nm = -1.0,
-            "max_torque_nm: is -1 for y; allowed: 0.000001 to 1000000",
-        ),
-        (
-            &|s| s.axes[1].friction_nm = 0.9,
-            "friction_nm: is 0.9 for y; allowed: 0 to below max_torque_nm, 0.9",
-        ),
-        (
-            &|s| s.axes[0].friction_nm = -0.1,
-            "friction_nm: is -0.1 for x; ",
-        ),
-    ];
-    for (change, expected) in cases {
-        let mut settings = Settings::default();
-        change(&mut settings);
-        let message = settings.validate().unwrap_err().to_string();
-        assert!(message.starts_with(expected), "{message}");
     }
 }
