@@ -39,6 +39,9 @@ pub struct Program {
     pub origin: [i64; COORDINATES],
 }
 
+/// The most periods of a path: so many, the records of its profile fit into memory.
+pub const MOST_PERIODS: u64 = 1 << 32;
+
 /// Why there is no program.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ProgramError {
@@ -90,6 +93,13 @@ impl Program {
         let spans = spans(&path, &motion);
         path.widen(&spans, gains.radial_s2(widths, motion.period));
         let profile = plan(&spans, motion.slope);
+        let periods = profile.duration / motion.period;
+        if periods > MOST_PERIODS as f64 {
+            let ms = settings.period_ms;
+            let problem = format!("the path takes {periods:.0} periods of {ms} ms");
+            let allowed = format!("{MOST_PERIODS}: a faster or shorter path, or longer periods");
+            return Err(refusal("period_ms", problem, allowed).into());
+        }
         let origin = path.point(0.0).map(|units| units.round() as i64);
         Ok(Program {
             records: records(&profile, motion.period, widths),

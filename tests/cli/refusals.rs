@@ -161,18 +161,34 @@ fn a_run_of_more_ticks_than_can_be_counted_is_refused() {
         "log.csv:3: time: is 1000000000000000000000000000 s after the first; allowed: less than \
          18446744073710 s, 2^64 ticks of 1000000 Hz",
     );
-    bench.write("p.ngc", "G1 X100000 F0.001\n");
-    let run = ["run", "p.ngc", "--no-vcd"];
+    // Some 600 ways of 2 * 10^9 counts, each at a count per scan of 2^24 ticks.
+    let zigzag = "G1 X1000000\nG1 X-1000000\n".repeat(300);
+    bench.write("z.ngc", zigzag);
     let slow = [
-        "--set",
-        "circuit=trajectory_controller",
-        "--set",
-        "clock_hz=4000000000",
+        "circuit=linear_interpolator",
+        "clock_hz=10_000_000_000",
+        "scan_ticks=16777215",
+        "counts_per_mm=[1000,1000]",
+        "feed_mm_per_min=36",
+        "acceleration_ms=2",
+        "deceleration_ms=2",
     ];
+    let slow: Vec<_> = slow.iter().flat_map(|set| ["--set", set]).collect();
     bench.refuse(
-        &[&run[..], &slow].concat(),
-        "--set: clock_hz: is 4000000000: the run takes 2^64 ticks or more; allowed: a run of fewer \
+        &[&["run", "z.ngc", "--no-vcd"], &slow[..]].concat(),
+        "--set: clock_hz: is 10000000000: the run takes 2^64 ticks or more; allowed: a run of fewer \
          ticks: a slower clock, or faster motions",
+    );
+}
+
+#[test]
+fn a_path_of_more_periods_than_its_records_can_hold_is_refused() {
+    let bench = Bench::with("p.ngc", "G1 X100000 F0.001\n");
+    let run = ["run", "p.ngc", "--no-vcd", "--set"];
+    bench.refuse(
+        &[&run[..], &["circuit=trajectory_controller"]].concat(),
+        "--set: period_ms (default): the path takes 6000000000000 periods of 1 ms; allowed: \
+         4294967296: a faster or shorter path, or longer periods",
     );
 }
 
