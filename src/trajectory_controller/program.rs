@@ -98,7 +98,7 @@ impl Program {
             let ms = settings.period_ms;
             let problem = format!("the path takes {periods:.0} periods of {ms} ms");
             let allowed = format!("{MOST_PERIODS}: a faster or shorter path, or longer periods");
-            return Err(refusal("period_ms", problem, allowed).into());
+            return Err(SettingError::new("period_ms", problem, allowed).into());
         }
         let origin = path.point(0.0).map(|units| units.round() as i64);
         Ok(Program {
