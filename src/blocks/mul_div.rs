@@ -127,7 +127,7 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
         let (multiplies, undivided) = (q.state.bit(0), q.undivided);
         let after = (multiplies & !undivided).mux(DIVIDE.into(), IDLE.into());
         let state = (w.busy & w.last).mux(after, q.state);
-        let stepped = step(q, w.partial, w.fits);
+        let stepped = step(q, w.busy, w.partial, w.fits);
         Reg {
             state: w.take.mux(MULTIPLY.into(), state),
             count: (w.take | w.last).mux(0.into(), stepped.count),
@@ -164,9 +164,10 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
 
     #[inline(always)]
     fn coast<L: Logic>(&self, q: Reg<L, M, Q>) -> Reg<L, M, Q> {
+        let busy = q.state.bit(0) | q.state.bit(1);
         let partial = partial(&q);
         let fits = !partial.below(q.by);
-        step(q, partial, fits)
+        step(q, busy, partial, fits)
     }
 }
 
@@ -180,6 +181,7 @@ fn partial<L: Logic, const M: usize, const Q: usize>(q: &Reg<L, M, Q>) -> L::U<Q
 #[inline(always)]
 fn step<L: Logic, const M: usize, const Q: usize>(
     q: Reg<L, M, Q>,
+    busy: L::Bit,
     partial: L::U<Q>,
     fits: L::Bit,
 ) -> Reg<L, M, Q> {
@@ -187,7 +189,7 @@ fn step<L: Logic, const M: usize, const Q: usize>(
     let sum = q.quotient + q.factor.bit(0).mux(q.shifted, 0.into());
     let shifted_quotient = q.quotient.shift_left(1) | fits.word().resize();
     Reg {
-        count: q.count + (multiplies | divides).word().resize(),
+        count: busy.mux(q.count + 1, q.count),
         shifted: multiplies.mux(q.shifted.shift_left(1), q.shifted),
         factor: multiplies.mux(q.factor.shift_right(1), q.factor),
         quotient: divides.mux(shifted_quotient, multiplies.mux(sum, q.quotient)),
