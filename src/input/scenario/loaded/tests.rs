@@ -1,0 +1,176 @@
+use super::*;
+
+fn refusal(text: &str, sets: &[&str]) -> String {
+    let sets: Vec<_> = sets.iter().map(|&set| set.to_owned()).collect();
+    Loaded::parse("s.toml", text, &sets)
+        .unwrap_err()
+        .to_string()
+}
+
+const BARE: &str = crate::input::scenario::BARE;
+
+#[test]
+fn a_fault_of_a_value_has_its_line_however_much_is_overridden() {
+    let text = format!("# first\n\n{BARE}# clock_hz = 1\n\"clock_hz\" = 0\n");
+    let sets = ["line_unit_ticks=500", "variant=literal"].map(str::to_owned);
+    let loaded = Loaded::parse("s.toml", &text, &sets).unwrap();
+    let shown = |key| loaded.fault(key, "is 0".into(), "more".into()).to_string();
+    assert_eq!(shown("clock_hz"), "s.toml:5: clock_hz: is 0; allowed: more");
+    assert_eq!(
+        shown("line_unit_ticks"),
+        "--set: line_unit_ticks: is 0; allowed: more"
+    );
+    assert_eq!(shown("vcd_ticks"), "s.toml: vcd_ticks: is 0; allowed: more");
+}
+
+#[test]
+fn a_wrong_type_names_the_key_also_lines_below_it() {
+    assert_eq!(
+        refusal(
+            &format!("{BARE}steps_per_mm = [\n  80,\n  \"a\",\n]\n"),
+            &[]
+        ),
+        "s.toml:4: steps_per_mm: invalid type: string \"a\"; allowed: a number"
+    );
+}
+
+#[test]
+fn a_list_that_is_too_long_is_refused_in_a_file_too() {
+    for list in ["[1]", "[1, 2, 3]"] {
+        let text = format!("circuit = \"linear_interpolator\"\ncounts_per_mm = {list}\n");
+        let given = list.matches(',').count() + 1;
+        assert_eq!(
+            refusal(&text, &[]),
+            format!(
+                "s.toml:2: counts_per_mm: invalid length {given}; allowed: a list of two \
+                 numbers, of X and of Y"
+            )
+        );
+    }
+}
+
+const STEPS: &str = "circuit = \"lead_angle\"\nrest_ms = 0\n[[step]]\ntarget = 1\n\
+                     speed_counts_per_s = 10\n\n[[ step ]] # second\nspeed_counts_per_s = 20\n\
+                     target = 2\n";
+
+#[test]
+fn a_fault_in_a_table_has_its_line() {
+    let sets = ["step=[{target=3,speed_counts_per_s=4}]".to_owned()];
+    let loaded = Loaded::parse("s.toml", STEPS, &[]).unwrap();
+    let shown = |loaded: &Loaded, index, key| {
+        let fault = loaded.table_fault(("step", index), key, "is bad".into(), "good".into());
+        fault.to_string()
+    };
+    let text = |line: &str, step: &str| format!("{line}: step {step}: is bad; allowed: good");
+    assert_eq!(shown(&loaded, 0, "target"), text("s.toml:4", "0: target"));
+    assert_eq!(shown(&loaded, 1, "target"), text("s.toml:9", "1: target"));
+    assert_eq!(shown(&loaded, 0, "lead_ms"), text("s.toml:3", "0: lead_ms"));
+    assert_eq!(shown(&loaded, 1, "lead_ms"), text("s.toml:7", "1: lead_ms"));
+    let loaded = Loaded::parse("s.toml", STEPS, &sets).unwrap();
+    assert_eq!(shown(&loaded, 0, "target"), text("--set", "0: target"));
+    let inline = "circuit = \"lead_angle\"\nstep = [{target = 3, speed_counts_per_s = 4}]\n";
+    let loaded = Loaded::parse("s.toml", inline, &[]).unwrap();
+    assert_eq!(shown(&loaded, 0, "target"), text("s.toml:2", "0: target"));
+}
+
+#[test]
+fn a_fault_in_a_single_table_has_its_line() {
+    let machine = "max_torque_nm = 1\nmotor_inertia_kg_m2 = 1\nload_inertia_kg_m2 = 1\n\
+                   stiffness_nm_per_rad = 1\ncounts_per_rev = 1\nmm_per_rev = 1\n";
+    let head = "circuit = \"trajectory_controller\"\n";
+    let text = format!("{head}\n[machine] # all\n{machine}\n[[piece]]\nto_mm = [1, 0, 0]\n");
+    let shown = |sets: &[&str], key| {
+        let sets: Vec<_> = sets.iter().map(|&set| set.to_owned()).collect();
+        let loaded = Loaded::parse("s.toml", &text, &sets).unwrap();
+        let fault = loaded.part_fault("machine", key, "is bad".into(), "good".into());
+        fault.to_string()
+    };
+    let at = |line: &str, key: &str| format!("{line}: machine.{key}: is bad; allowed: good");
+    assert_eq!(shown(&[], "mm_per_rev"), at("s.toml:9", "mm_per_rev"));
+    assert_eq!(shown(&[], "backlash_rad"), at("s.toml:3", "backlash_rad"));
+    // One key of the table, and what the others make of it.
+    let set = ["machine.mm_per_rev=3"];
+    assert_eq!(shown(&set, "mm_per_rev"), at("--set", "mm_per_rev"));
+    assert_eq!(
+        shown(&set, "max_torque_nm"),
+        at("s.toml:4", "max_torque_nm")
+    );
+    let loaded = Loaded::parse("s.toml", &text, &set.map(str::to_owned)).unwrap();
+    let Scenario::TrajectoryController(scenario) = &loaded.scenario else {
+        panic!("another circuit");
+    };
+    assert_eq!(scenario.machine.mm_per_rev, 3.0);
+    assert_eq!(scenario.machine.max_torque_nm, 1.0);
+    assert!(refusal(&text, &["machine.mass=3"]).starts_with("--set: machine.mass: unknown"));
+    // Without the table in the file, the default is at fault.
+    let loaded = Loaded::parse("s.toml", head, &[]).unwrap();
+    let fault = loaded.part_fault("machine", "mm_per_rev", "is bad".into(), "good".into());
+    assert_eq!(fault.to_string(), at("s.toml", "mm_per_rev"));
+}
+
+#[test]
+fn a_step_of_the_wrong_shape_is_refused_with_its_line() {
+    let with = |steps: &str| refusal(&format!("circuit = \"lead_angle\"\n{steps}"), &[]);
+    assert_eq!(
+        with(""),
+        "s.toml: step: missing; allowed: a value for it: it has no default"
+    );
+    assert_eq!(
+        with("step = 5\n"),
+        "s.toml:2: step: invalid type: integer `5`; allowed: tables [[step]]"
+    );
+    assert_eq!(
+        with("[[step]]\ntarget = 1\n"),
+        "s.toml:2: speed_counts_per_s: missing; allowed: a value for it: it has no default"
+    );
+    assert_eq!(
+        with("[[step]]\nspeed_counts_per_s = 1\ntarget = 1.5\n"),
+        "s.toml:4: target: invalid type: floating point `1.5`; allowed: a whole number"
+    );
+    assert_eq!(
+        with("[[step]]\nspeed = 1\n"),
+        "s.toml:3: speed: unknown field `speed`; allowed: one of `target`, \
+         `speed_counts_per_s`, `lead_ms`"
+    );
+    assert_eq!(
+        with("sign = \"both\"\n[[step]]\n"),
+        "s.toml:2: sign: unknown variant `both`; allowed: `converging` or `literal`"
+    );
+}
+
+#[test]
+fn a_fault_within_the_value_of_an_override_names_its_place() {
+    let speed = "speed_counts_per_s=4";
+    assert_eq!(
+        refusal(STEPS, &["step=[{target=1}]"]),
+        "--set: step 0: speed_counts_per_s: missing; allowed: a value for it: it has no default"
+    );
+    assert_eq!(
+        refusal(
+            STEPS,
+            &[&format!(
+                "step=[{{target=1,{speed}}},{{target=1.5,{speed}}}]"
+            )]
+        ),
+        "--set: step 1: target: invalid type: floating point `1.5`; allowed: a whole number"
+    );
+    assert_eq!(
+        refusal(STEPS, &["step=5"]),
+        "--set: step: invalid type: integer `5`; allowed: tables [[step]]"
+    );
+    assert_eq!(
+        refusal("circuit = \"machine\"\n", &["machine=5"]),
+        "--set: machine: invalid type: integer `5`; allowed: a table of keys and values"
+    );
+    assert_eq!(
+        refusal("circuit = \"machine\"\n", &["machine.mass=5"]),
+        "--set: machine.mass: the scenario has no table [machine]; allowed: a table that it \
+         has, or all of it: machine={key=value,…}"
+    );
+}
+
+#[test]
+fn an_override_holds_one_value() {
+    let set = "clock_hz=1\nline_unit_ticks=2";
+    assert!(refusal(BARE, &[set]).starts_with("--set: clock_hz: invalid type: string"));
+}
