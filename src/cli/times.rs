@@ -1,6 +1,6 @@
 //! Times of a scenario that are taken as whole numbers of periods.
 
-use motion_rtl::linear_interpolator::settings::WholeTime;
+use motion_rtl::settings::WholeTime;
 
 /// Says what is taken for a time, which is a number of `period`s and holds `place`, where that is
 /// not the time itself.

@@ -2,7 +2,9 @@
 
 use super::targets::{LATENCY_TICKS, LONGEST_RAMP};
 use crate::plan::FEED_RANGE;
-use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, Place, SettingError, within};
+use crate::settings::{
+    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, Place, SettingError, WholeTime, within,
+};
 use serde::Deserialize;
 use std::ops::RangeInclusive;
 
@@ -133,42 +135,6 @@ impl Default for Settings {
                 friction_nm: 0.0,
             }; 2],
         }
-    }
-}
-
-/// A time that is taken as a whole number of periods: the nearest, at least one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WholeTime {
-    /// The setting.
-    pub field: &'static str,
-    /// What it says.
-    pub wanted_ms: f64,
-    /// The period.
-    pub period_ms: f64,
-    /// Periods that are taken.
-    pub periods: u64,
-}
-
-impl WholeTime {
-    pub(crate) fn new(field: &'static str, wanted_ms: f64, period_ms: f64) -> Self {
-        WholeTime {
-            field,
-            wanted_ms,
-            period_ms,
-            periods: (wanted_ms / period_ms).round().max(1.0) as u64,
-        }
-    }
-
-    /// The time that is taken.
-    #[must_use]
-    pub fn ms(&self) -> f64 {
-        self.periods as f64 * self.period_ms
-    }
-
-    /// Whether that is another than was wanted, by more than decimal fractions are rounded.
-    #[must_use]
-    pub fn is_rounded(&self) -> bool {
-        (self.ms() - self.wanted_ms).abs() > 1e-9 * self.ms()
     }
 }
 

@@ -3,12 +3,11 @@
 use crate::arc_generator::settings::{self as arcs, ShortPieces};
 use crate::lead_angle::settings as lift;
 use crate::linear_interpolator::LinearInterpolator;
-use crate::linear_interpolator::settings::WholeTime;
 use crate::linear_interpolator::targets::LONGEST_RAMP;
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
 use crate::pulse_interpolator::{self as pulse, StepTiming};
-use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
+use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, WholeTime, within};
 use crate::trajectory_controller::settings as trajectory;
 pub use crate::trajectory_controller::settings::Correction;
 use std::ops::RangeInclusive;
