@@ -1,6 +1,7 @@
 mod file;
 mod header;
 mod text;
+mod time;
 
 use super::behind::Behind;
 use super::dump::Dump;

@@ -15,9 +15,9 @@ const GATHERED: usize = 256 * 1024;
 
 /// The code of `clk`: variable 0.
 pub const CLK_CODE: IdCode = IdCode::FIRST;
-/// Its lines.
-const CLK_HIGH: &[u8] = b"1!\n";
-const CLK_LOW: &[u8] = b"0!\n";
+/// The end of a time's line and its own.
+const CLK_HIGH: &[u8; 4] = b"\n1!\n";
+const CLK_LOW: &[u8; 4] = b"\n0!\n";
 
 /// A value change dump as it is written.
 #[derive(Debug)]
@@ -58,18 +58,16 @@ impl<W: Write> VcdFile<W> {
 
     fn lines(&mut self, rise: u64, fall: u64, changes: &[Change]) -> io::Result<()> {
         let VcdFile { text, signals, .. } = self;
-        text.time(rise);
-        if !self.begun {
-            text.raw(b"$dumpvars\n");
-        }
-        text.raw(CLK_HIGH);
-        text.changes(signals, changes);
-        if !self.begun {
+        if self.begun {
+            text.time(rise, CLK_HIGH);
+            text.changes(signals, changes);
+        } else {
+            text.time(rise, b"\n$dumpvars\n1!\n");
+            text.changes(signals, changes);
             text.raw(b"$end\n");
             self.begun = true;
         }
-        text.time(fall);
-        text.raw(CLK_LOW);
+        text.time(fall, CLK_LOW);
 
         if text.bytes().len() >= GATHERED {
             self.out.write_all(text.bytes())?;
@@ -98,7 +96,7 @@ impl<W: Write> Format for VcdFile<W> {
 
     fn finish(mut self, end: Option<u64>, _: &mut Vec<Change>) -> io::Result<W> {
         if let Some(end) = end {
-            self.text.time(end);
+            self.text.time(end, b"\n");
         }
         self.close()
     }
@@ -116,7 +114,7 @@ impl<W: Write + Send + 'static> Sink for VcdFile<W> {
             self.lines(tick.rise, tick.fall, changes)?;
         }
         if let Some(end) = section.end {
-            self.text.time(end);
+            self.text.time(end, b"\n");
         }
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! Values as lines of text.
 
+use super::time::{self, Times};
 use crate::trace::walk::Change;
 use std::num::NonZeroU32;
 use vcd::IdCode;
@@ -12,8 +13,6 @@ const END: usize = 8;
 const SOME: usize = 64;
 /// The room in the buffer at first, doubled where a tick needs more.
 const ROOM: usize = 16 * 1024;
-/// Eight digits more.
-const EIGHT: u64 = 100_000_000;
 
 /// How a leaf is written. There is one for every leaf and every change looks at one: it is kept
 /// small.
@@ -109,8 +108,6 @@ impl End {
     #[inline(always)]
     fn line(&self, line: &mut [u8], bits: u64) -> usize {
         let lead = usize::from(self.word);
-        // All bits of a word, the lowest of a scalar.
-        let bits = bits & (1 | u64::from(self.word).wrapping_neg());
         let digits = 64 - (bits | 1).leading_zeros() as usize;
         let rest = (bits << (64 - digits)).to_be_bytes();
         line[0] = b'b';
@@ -153,11 +150,7 @@ pub struct Text {
     /// More than there are, so that a line can be put in its place at its full length.
     buffer: Vec<u8>,
     len: usize,
-    /// The digits of the last time before its last eight, as a number.
-    high: u64,
-    /// How a line of such a time begins, and zeros behind it.
-    head: [u8; 16],
-    head_len: usize,
+    times: Times,
 }
 
 impl Text {
@@ -165,15 +158,11 @@ impl Text {
         let len = head.len();
         let mut buffer = head;
         buffer.resize(len + ROOM, 0);
-        let mut text = Text {
+        Text {
             buffer,
             len,
-            high: 0,
-            head: [0; 16],
-            head_len: 0,
-        };
-        text.begin_times(0);
-        text
+            times: Times::new(),
+        }
     }
 
     pub fn bytes(&self) -> &[u8] {
@@ -182,13 +171,6 @@ impl Text {
 
     pub fn clear(&mut self) {
         self.len = 0;
-    }
-
-    /// Room for a line.
-    #[inline]
-    fn line(&mut self) -> &mut [u8] {
-        self.room(LINE);
-        &mut self.buffer[self.len..][..LINE]
     }
 
     #[inline]
@@ -204,12 +186,10 @@ impl Text {
         self.buffer.resize(2 * self.buffer.len() + bytes, 0);
     }
 
-    #[inline]
     pub fn raw(&mut self, bytes: &[u8]) {
-        for part in bytes.chunks(LINE) {
-            self.line()[..part.len()].copy_from_slice(part);
-            self.len += part.len();
-        }
+        self.room(bytes.len());
+        self.buffer[self.len..][..bytes.len()].copy_from_slice(bytes);
+        self.len += bytes.len();
     }
 
     /// Lines of new values.
@@ -229,37 +209,13 @@ impl Text {
         }
     }
 
-    pub fn time(&mut self, time: u64) {
-        let (high, low) = (time / EIGHT, time % EIGHT);
-        if self.high != high {
-            self.begin_times(high);
+    /// A time, and what follows on and after its line.
+    #[inline(always)]
+    pub fn time<const N: usize>(&mut self, time: u64, then: &[u8; N]) {
+        self.room(time::ROOM);
+        if let Some(line) = self.buffer[self.len..].first_chunk_mut() {
+            self.len += self.times.put(line, time, then);
         }
-        let digits = eight_decimals(low);
-        // The last digit stands even where all are zero.
-        let zeros = match high {
-            0 => (digits.trailing_zeros() as usize / 8).min(7),
-            _ => 0,
-        };
-        let digits = (digits | 0x3030_3030_3030_3030) >> (8 * zeros);
-        let (head, len) = (self.head, self.head_len);
-        let end = len + 8 - zeros;
-        let line = self.line();
-        line[..16].copy_from_slice(&head);
-        line[len..len + 8].copy_from_slice(&digits.to_le_bytes());
-        line[end] = b'\n';
-        self.len += end + 1;
-    }
-
-    /// The times that come have these digits before their last eight, where it is not 0.
-    #[cold]
-    fn begin_times(&mut self, high: u64) {
-        let head = match high {
-            0 => "#".to_owned(),
-            _ => format!("#{high}"),
-        };
-        self.high = high;
-        self.head_len = head.len();
-        self.head[..head.len()].copy_from_slice(head.as_bytes());
     }
 }
 
@@ -269,16 +225,6 @@ fn put_digits(digits: &mut [u8], bytes: &[u8]) {
     for (eight, &byte) in digits.chunks_exact_mut(8).zip(bytes) {
         eight.copy_from_slice(&eight_digits(byte));
     }
-}
-
-/// The digits of a number below 10^8, the first in the lowest byte: four and four, then two and
-/// two, then one and one are taken apart at once.
-fn eight_decimals(number: u64) -> u64 {
-    let fours = (number / 10_000) | ((number % 10_000) << 32);
-    let hundreds = (fours * 10_486) >> 20 & 0x0000_007f_0000_007f;
-    let twos = hundreds | ((fours - hundreds * 100) << 16);
-    let tens = (twos * 103) >> 10 & 0x000f_000f_000f_000f;
-    tens | ((twos - tens * 10) << 8)
 }
 
 /// The bits of a byte as text, the highest first: a copy for each, whose bit stands at the top of
@@ -291,12 +237,6 @@ pub fn eight_digits(byte: u8) -> [u8; 8] {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn line(text: &mut Text, time: u64) -> String {
-        text.clear();
-        text.time(time);
-        String::from_utf8(text.bytes().to_vec()).unwrap()
-    }
 
     /// However the lines lie in the buffer when it grows, and however long a name is.
     #[test]
@@ -352,8 +292,10 @@ mod tests {
                 text.clear();
                 text.raw(&[b'x'; 3 * LINE]);
                 text.clear();
-                text.changes(&signals, &[0, 1].map(|leaf| Change { leaf, bits }));
-                let wanted = format!("b{bits:b} {code}\n{}{code}\n", bits & 1);
+                let scalar = bits & 1;
+                let changes = [(0, bits), (1, scalar)].map(|(leaf, bits)| Change { leaf, bits });
+                text.changes(&signals, &changes);
+                let wanted = format!("b{bits:b} {code}\n{scalar}{code}\n");
                 assert_eq!(str::from_utf8(text.bytes()).unwrap(), wanted);
             }
         }
@@ -377,22 +319,6 @@ mod tests {
             text.changes(&signals, &changes);
             text.changes(&signals, &long);
             assert!(text.bytes()[before..] == *wanted.as_bytes(), "{before}");
-        }
-    }
-
-    #[test]
-    fn times_of_every_length_in_any_order() {
-        let mut text = Text::new(Vec::new());
-        let powers = (0..20).map(|power| 10u64.pow(power));
-        let around = powers.flat_map(|power| [power - 1, power, power + 1, power / 8 * 9]);
-        for time in around.chain([0, 9_999, 99_990_000, u64::MAX, 7]) {
-            assert_eq!(line(&mut text, time), format!("#{time}\n"));
-        }
-        for time in 0..200_000 {
-            assert_eq!(
-                line(&mut text, 99_900_000 + time),
-                format!("#{}\n", 99_900_000 + time)
-            );
         }
     }
 }
