@@ -19,12 +19,15 @@
 
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::Circuit;
-use crate::logic::sim::Wire;
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 
 /// Samples that fill the flip-flops of a channel.
 const FILLED: u64 = 3;
+/// The flip-flop of a channel that holds its present level.
+const PRESENT: usize = 1;
+/// That of the level before.
+const PREVIOUS: usize = 2;
 
 signals! {
     /// Ports in.
@@ -41,18 +44,11 @@ signals! {
 signals! {
     /// Flip-flops.
     pub struct Reg<L, const W: usize> {
-        /// First flip-flop of channel A; read by nothing but the second.
-        meta_a: L::Bit,
-        /// First flip-flop of channel B; read by nothing but the second.
-        meta_b: L::Bit,
-        /// Second flip-flop of channel A: its present level.
-        present_a: L::Bit,
-        /// Second flip-flop of channel B: its present level.
-        present_b: L::Bit,
-        /// Channel A a tick before its present level.
-        previous_a: L::Bit,
-        /// Channel B a tick before its present level.
-        previous_b: L::Bit,
+        /// The last three samples of channel A: bit 0 is the flip-flop at the pin, read by nothing
+        /// but the second; bit 1 the present level; bit 2 the level a tick before it.
+        sync_a: L::U<3> as Hex = 0,
+        /// Those of channel B.
+        sync_b: L::U<3> as Hex = 0,
         /// Samples taken since power-on, up to 3: from then on the levels above are real.
         samples: L::U<2>,
         /// Position in counts, quarters of an encoder period; wraps.
@@ -89,13 +85,12 @@ impl<const W: usize> Circuit for QuadratureCounter<W> {
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W>, _: &In<L>) -> Net<L> {
-        let a = q.present_a ^ q.previous_a;
-        let b = q.present_b ^ q.previous_b;
+        let [a, b] = [q.sync_a, q.sync_b].map(|sync| sync.bit(PRESENT) ^ sync.bit(PREVIOUS));
         let valid = q.samples.equals(FILLED.into());
         Net {
             valid,
             moves: valid & (a ^ b),
-            up: q.present_a ^ q.previous_b,
+            up: q.sync_a.bit(PRESENT) ^ q.sync_b.bit(PREVIOUS),
             illegal: valid & a & b,
         }
     }
@@ -104,12 +99,8 @@ impl<const W: usize> Circuit for QuadratureCounter<W> {
     fn next<L: Logic>(&self, q: Reg<L, W>, w: &Net<L>, i: &In<L>) -> Reg<L, W> {
         let moved = w.up.mux(q.position + 1, q.position - 1);
         Reg {
-            meta_a: i.a,
-            meta_b: i.b,
-            present_a: q.meta_a,
-            present_b: q.meta_b,
-            previous_a: q.present_a,
-            previous_b: q.present_b,
+            sync_a: q.sync_a.join(i.a.word()),
+            sync_b: q.sync_b.join(i.b.word()),
             samples: w.valid.mux(q.samples, q.samples + 1),
             position: i.clear.mux(0.into(), w.moves.mux(moved, q.position)),
             lost: (q.lost | w.illegal) & !i.clear,
@@ -118,15 +109,15 @@ impl<const W: usize> Circuit for QuadratureCounter<W> {
 
     #[inline(always)]
     fn gated<L: Logic>(&self, q: &Reg<L, W>, _: &Self::Net<L>, i: &In<L>) -> Option<L::Bit> {
-        let a = (i.a ^ q.meta_a) | (q.meta_a ^ q.present_a) | (q.present_a ^ q.previous_a);
-        let b = (i.b ^ q.meta_b) | (q.meta_b ^ q.present_b) | (q.present_b ^ q.previous_b);
-        Some(!(i.clear | a | b) & q.samples.equals(FILLED.into()))
+        let steady = |sync: L::U<3>, pin: L::Bit| sync.equals(pin.mux(7.into(), 0.into()));
+        let still = steady(q.sync_a, i.a) & steady(q.sync_b, i.b);
+        Some(!i.clear & still & q.samples.equals(FILLED.into()))
     }
 }
 
 /// The quarter of the encoder's period, 0 to 3 in the direction up.
-fn quarter(a: Wire, b: Wire) -> u32 {
-    match (a.get(), b.get()) {
+fn quarter(a: bool, b: bool) -> u32 {
+    match (a, b) {
         (false, false) => 0,
         (true, false) => 1,
         (true, true) => 2,
@@ -134,11 +125,16 @@ fn quarter(a: Wire, b: Wire) -> u32 {
     }
 }
 
+/// The quarter that a flip-flop of each channel holds.
+fn held<const W: usize>(q: &Reg<Sim, W>, place: usize) -> u32 {
+    let level = |sync: u64| sync >> place & 1 == 1;
+    quarter(level(q.sync_a.get()), level(q.sync_b.get()))
+}
+
 /// Quarters turned between the previous and the present levels, 0 to 3; none before they are real.
 fn turned<const W: usize>(q: &Reg<Sim, W>) -> u32 {
-    let before = quarter(q.previous_a, q.previous_b);
     match q.samples.get() {
-        3 => (quarter(q.present_a, q.present_b) + 4 - before) % 4,
+        3 => (held(q, PRESENT) + 4 - held(q, PREVIOUS)) % 4,
         _ => 0,
     }
 }
@@ -158,7 +154,7 @@ impl<const W: usize> Specified for QuadratureCounter<W> {
                         true => 0.into(),
                         false => now.q.position + moved,
                     };
-                    let signals = ["position", "present_a", "present_b"];
+                    let signals = ["position", "sync_a", "sync_b"];
                     require(next.position == expected, signals, || {
                         format!("{} after {}", next.position.get(), now.q.position.get())
                     })
@@ -186,12 +182,11 @@ impl<const W: usize> Specified for QuadratureCounter<W> {
                 "a level passes one flip-flop a tick, and three fill them",
                 |now, next| {
                     let (q, i) = (now.q, now.i);
-                    let passed = quarter(next.meta_a, next.meta_b) == quarter(i.a, i.b)
-                        && quarter(next.present_a, next.present_b) == quarter(q.meta_a, q.meta_b)
-                        && quarter(next.previous_a, next.previous_b)
-                            == quarter(q.present_a, q.present_b)
+                    let passed = held(next, 0) == quarter(i.a.get(), i.b.get())
+                        && held(next, PRESENT) == held(q, 0)
+                        && held(next, PREVIOUS) == held(q, PRESENT)
                         && next.samples.get() == 3.min(q.samples.get() + 1);
-                    require(passed, ["meta_a", "meta_b", "samples"], || {
+                    require(passed, ["sync_a", "sync_b", "samples"], || {
                         "not those of a tick ago".into()
                     })
                 },
