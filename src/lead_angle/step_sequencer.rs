@@ -173,11 +173,11 @@ impl<const A: usize, const W: usize, const N: usize> Circuit for StepSequencer<A
         w: &Self::Net<L>,
         i: &In<L, A, W, N>,
     ) -> Option<L::Bit> {
-        let is = |state: u64| q.state.equals(state.into());
-        let moves = w.goes_on | w.rested | w.halts | (is(IDLE) & i.run);
-        let pulses = q.load | q.arm | q.halting;
-        let counts = is(REST).mux(i.ck, !q.count.is_zero());
-        Some(!(moves | pulses | counts))
+        let begins = !q.busy & (i.run | !q.count.is_zero());
+        let moves = q.drive & (i.control | i.halt);
+        let ends = (q.braking & i.complete) | i.corrected;
+        let rests = q.state.equals(REST.into()) & (i.ck | w.rested);
+        Some(!(begins | q.load | q.arm | moves | q.halting | ends | rests))
     }
 }
 
