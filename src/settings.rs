@@ -11,6 +11,9 @@ pub const CLOCK_RANGE_HZ: RangeInclusive<u64> = 1..=10_000_000_000;
 /// Counts or steps per millimetre that are accepted.
 pub const COUNTS_PER_MM_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
 
+/// Counts that an axis that is in position may be off by.
+pub const IN_POSITION_RANGE: RangeInclusive<u32> = 1..=1_000_000;
+
 /// Times are taken for whole numbers of ticks or samples within this part: decimal fractions are
 /// not exact in binary.
 const WHOLE: f64 = 1e-9;

@@ -3,7 +3,7 @@
 use super::targets::{LATENCY_TICKS, LONGEST_RAMP};
 use crate::plan::FEED_RANGE;
 use crate::settings::{
-    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, Place, SettingError, WholeTime, within,
+    CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, IN_POSITION_RANGE, Place, SettingError, WholeTime, within,
 };
 use serde::Deserialize;
 use std::ops::RangeInclusive;
@@ -183,7 +183,7 @@ impl Settings {
         let tolerance = self.chord_tolerance_mm;
         within("chord_tolerance_mm", tolerance, &(1e-6..=1e3))?;
         let counts = self.in_position_counts;
-        within("in_position_counts", counts, &(1..=1_000_000))?;
+        within("in_position_counts", counts, &IN_POSITION_RANGE)?;
         for (axis, name) in self.axes.iter().zip(AXIS_NAMES) {
             self.validate_axis(axis)
                 .map_err(|error| error.at(Place::Element(name)))?;

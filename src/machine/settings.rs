@@ -7,7 +7,7 @@ use crate::linear_interpolator::targets::LONGEST_RAMP;
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
 use crate::pulse_interpolator::{self as pulse, StepTiming};
-use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, WholeTime, within};
+use crate::settings::{CLOCK_RANGE_HZ, IN_POSITION_RANGE, Place, SettingError, WholeTime, within};
 use crate::trajectory_controller::settings as trajectory;
 pub use crate::trajectory_controller::settings::Correction;
 use std::ops::RangeInclusive;
@@ -145,7 +145,7 @@ impl Settings {
         within(
             "in_position_counts",
             self.in_position_counts,
-            &(1..=1 << 20),
+            &IN_POSITION_RANGE,
         )?;
         let blend = 2.0 * self.sample_s();
         let longest = LONGEST_RAMP as f64 * self.scan_s();

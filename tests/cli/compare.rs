@@ -59,6 +59,21 @@ fn a_waveform_may_come_through_a_pipe() {
     assert_eq!(piped, files);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_map_may_come_through_a_pipe() {
+    let bench = bench(&golden());
+    let map = "ignore = [\"top.x\"]\n";
+    bench.write("map.toml", map);
+    let files = bench.succeed(&["compare", "golden.vcd", "other.vcd", "--map", "map.toml"]);
+    assert!(files.contains("ignored: 1\n  top.x\n"), "{files}");
+    let arguments = ["compare", "golden.vcd", "other.vcd", "--map", "/dev/stdin"];
+    let output = bench.command(&arguments).write_stdin(map).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    assert_eq!(text(output.stderr), "");
+    assert_eq!(text(output.stdout), files);
+}
+
 #[test]
 fn equal_waves_are_equal() {
     let other = dump(

@@ -373,7 +373,7 @@ fn bad_input_is_refused_with_its_line() {
         (
             "in_position_counts = 0",
             SHORT,
-            "s.toml:8: in_position_counts: is 0; allowed: 1 to 1048576",
+            "s.toml:8: in_position_counts: is 0; allowed: 1 to 1000000",
         ),
         (
             "counts_per_mm = 500",
