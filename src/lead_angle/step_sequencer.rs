@@ -173,7 +173,7 @@ impl<const A: usize, const W: usize, const N: usize> Circuit for StepSequencer<A
         w: &Self::Net<L>,
         i: &In<L, A, W, N>,
     ) -> Option<L::Bit> {
-        let begins = !q.busy & (i.run | !q.count.is_zero());
+        let begins = !q.busy & i.run;
         let moves = q.drive & (i.control | i.halt);
         let ends = (q.braking & i.complete) | i.corrected;
         let rests = q.state.equals(REST.into()) & (i.ck | w.rested);
