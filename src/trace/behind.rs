@@ -64,18 +64,16 @@ impl<S: Sink> Behind<S> {
         })
     }
 
-    /// Hands the section over, with these changes, and puts an empty one in its place.
+    /// Hands the section over and puts an empty one in its place.
     ///
     /// # Errors
     /// That of the sink, with an earlier section.
-    fn hand_over(&mut self, changes: &mut Vec<Change>) -> io::Result<()> {
-        mem::swap(changes, &mut self.section.changes);
+    fn hand_over(&mut self) -> io::Result<()> {
         let full = mem::take(&mut self.section);
         let sent = self.full.as_ref().is_some_and(|to| to.send(full).is_ok());
         match (sent, self.spare.recv()) {
             (true, Ok(empty)) => {
                 self.section = empty;
-                mem::swap(changes, &mut self.section.changes);
                 Ok(())
             }
             // It ends early only with an error.
@@ -97,21 +95,23 @@ impl<S: Sink> Format for Behind<S> {
     type Out = S::Out;
 
     #[inline(never)]
-    fn tick(&mut self, rise: u64, fall: u64, changes: &mut Vec<Change>) -> io::Result<()> {
-        self.section.ticks.push(Tick {
+    fn tick(&mut self, rise: u64, fall: u64, changes: &[Change]) -> io::Result<()> {
+        let section = &mut self.section;
+        section.changes.extend_from_slice(changes);
+        section.ticks.push(Tick {
             rise,
             fall,
-            changes: changes.len(),
+            changes: section.changes.len(),
         });
-        if changes.len() >= S::CHANGES || self.section.ticks.len() >= S::TICKS {
-            self.hand_over(changes)?;
+        if section.changes.len() >= S::CHANGES || section.ticks.len() >= S::TICKS {
+            self.hand_over()?;
         }
         Ok(())
     }
 
-    fn finish(mut self, end: Option<u64>, changes: &mut Vec<Change>) -> io::Result<S::Out> {
+    fn finish(mut self, end: Option<u64>) -> io::Result<S::Out> {
         self.section.end = end;
-        self.hand_over(changes)?;
+        self.hand_over()?;
         self.join()?.finish()
     }
 }

@@ -11,11 +11,10 @@ use std::ops::{ControlFlow, Range};
 pub(crate) trait Format {
     /// What is left of it when it has ended.
     type Out;
-    /// Takes the changes of a tick, at which `clk` rises and falls; it may leave them where they
-    /// are for later.
-    fn tick(&mut self, rise: u64, fall: u64, changes: &mut Vec<Change>) -> io::Result<()>;
+    /// Takes the changes of a tick, at which `clk` rises and falls.
+    fn tick(&mut self, rise: u64, fall: u64, changes: &[Change]) -> io::Result<()>;
     /// Writes what is left, up to the end of the last tick, if there was one.
-    fn finish(self, end: Option<u64>, changes: &mut Vec<Change>) -> io::Result<Self::Out>;
+    fn finish(self, end: Option<u64>) -> io::Result<Self::Out>;
 }
 
 /// Waves under way.
@@ -52,8 +51,8 @@ impl<F: Format> Dump<F> {
     }
 
     /// Gives the last tick its full length.
-    pub fn finish(mut self) -> io::Result<F::Out> {
+    pub fn finish(self) -> io::Result<F::Out> {
         let end = self.walk.end()?;
-        self.format.finish(end, self.walk.changes())
+        self.format.finish(end)
     }
 }

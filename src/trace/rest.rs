@@ -1,5 +1,6 @@
 //! Which circuits within a circuit can be passed over.
 
+use super::walk::Change;
 use crate::kernel::{Declaration, InstanceDeclaration, Role};
 use std::collections::HashMap;
 use std::iter::repeat_n;
@@ -7,12 +8,15 @@ use std::mem;
 use std::sync::Arc;
 
 /// Which circuits within have registers that have changed.
+///
+/// Behind all circuits within stands the one that holds them: what is a register of none of them is
+/// one of its own, and it is always awake.
 #[derive(Debug)]
 pub(super) struct Rest {
-    /// For every leaf, the innermost circuit within that it is a register of.
-    of: Vec<Option<u32>>,
+    /// For every leaf, the innermost circuit that it is a register of.
+    of: Vec<u32>,
     /// For every circuit within, the one around it.
-    around: Vec<Option<u32>>,
+    around: Vec<u32>,
     /// Those whose registers stand elsewhere than they do, so that nothing is known of them.
     unknown: Vec<usize>,
 }
@@ -24,15 +28,17 @@ impl Rest {
             .map(|instance| &instance.scopes[..])
             .zip(0..)
             .collect();
+        let whole = instances.len() as u32;
         let innermost = |scopes: &[String]| {
             let mut outward = (0..=scopes.len()).rev();
-            outward.find_map(|depth| places.get(&scopes[..depth]).copied())
+            let place = outward.find_map(|depth| places.get(&scopes[..depth]).copied());
+            place.unwrap_or(whole)
         };
         let around: Vec<_> = instances
             .iter()
-            .map(|instance| {
-                let (_, outer) = instance.scopes.split_last()?;
-                innermost(outer)
+            .map(|instance| match instance.scopes.split_last() {
+                Some((_, outer)) => innermost(outer),
+                None => whole,
             })
             .collect();
 
@@ -42,14 +48,13 @@ impl Rest {
             a.role == b.role && Arc::ptr_eq(&a.scopes, &b.scopes)
         };
         for leaves in leaves.chunk_by(alike) {
-            let instance = match leaves[0].role {
+            let mut instance = match leaves[0].role {
                 Role::Register => innermost(&leaves[0].scopes),
-                Role::Input | Role::Net => None,
+                Role::Input | Role::Net => whole,
             };
             of.extend(repeat_n(instance, leaves.len()));
-            let mut instance = instance;
-            while let Some(place) = instance {
-                let place = place as usize;
+            while instance != whole {
+                let place = instance as usize;
                 missing[place] = missing[place].wrapping_sub(leaves.len());
                 instance = around[place];
             }
@@ -63,6 +68,11 @@ impl Rest {
         }
     }
 
+    /// All circuits, awake.
+    pub fn awake(&self) -> Vec<bool> {
+        vec![true; self.around.len() + 1]
+    }
+
     /// At a tick's begin.
     pub fn begin(&self, awake: &mut [bool]) {
         for &instance in &self.unknown {
@@ -70,22 +80,15 @@ impl Rest {
         }
     }
 
-    /// The innermost circuit within that a leaf is a register of.
-    #[inline]
-    pub fn of(&self, leaf: usize) -> Option<usize> {
-        self.of[leaf].map(|instance| instance as usize)
-    }
-
-    /// A register of a circuit has changed.
+    /// Leaves have changed: the circuits that they are registers of are awake.
     #[inline(never)]
-    pub fn wake(&self, instance: usize, awake: &mut [bool]) {
-        let mut instance = Some(instance);
-        while let Some(place) = instance {
-            if mem::replace(&mut awake[place], true) {
-                // And so are those around it.
-                break;
+    pub fn wake(&self, changes: &[Change], awake: &mut [bool]) {
+        for change in changes {
+            let mut instance = self.of[change.leaf as usize] as usize;
+            // Those around one that is awake are so too.
+            while !mem::replace(&mut awake[instance], true) {
+                instance = self.around[instance] as usize;
             }
-            instance = self.around[place].map(|place| place as usize);
         }
     }
 }

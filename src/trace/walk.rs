@@ -33,34 +33,36 @@ pub(super) struct Walk {
     last: Option<u64>,
     /// The values of the tick before, in the order of the walk.
     before: Vec<u64>,
-    /// Which circuits within have registers that have changed.
+    /// Which circuits within have registers that have changed, and the one that holds them.
     awake: Vec<bool>,
     /// How often every memory had changed in the tick before, at the place of its first word.
     marks: Vec<u64>,
-    notes: Notes,
-}
-
-#[derive(Debug)]
-struct Notes {
     rest: Rest,
-    selected: Vec<bool>,
+    /// Which leaves are wanted, unless all are.
+    selected: Option<Vec<bool>>,
+    /// What has changed in the tick, with room for every leaf.
     changes: Vec<Change>,
+    /// How many of these there are.
+    changed: usize,
 }
 
 impl Walk {
     pub fn new(layout: &Layout, clock: Clock) -> Self {
         let leaves = layout.leaves.len();
+        let rest = Rest::new(&layout.leaves, &layout.instances);
         Walk {
             clock,
             last: None,
             before: vec![UNKNOWN; leaves],
-            awake: vec![true; layout.instances.len()],
+            awake: rest.awake(),
             marks: vec![UNKNOWN; leaves],
-            notes: Notes {
-                rest: Rest::new(&layout.leaves, &layout.instances),
-                selected: layout.selected.clone(),
-                changes: Vec::new(),
-            },
+            rest,
+            selected: layout
+                .selected
+                .contains(&false)
+                .then(|| layout.selected.clone()),
+            changes: vec![Change { leaf: 0, bits: 0 }; leaves],
+            changed: 0,
         }
     }
 
@@ -78,11 +80,13 @@ impl Walk {
         // a constant.
         if look.before.len() != extent.leaves
             || look.marks.len() != extent.leaves
-            || look.awake.len() != extent.instances
+            || look.changes.len() != extent.leaves
+            || look.awake.len() != extent.instances + 1
         {
             return Err(wrong_extent(C::NAME));
         }
         now.visit(&mut look);
+        self.changed = look.changed;
         self.seen(now.tick);
         Ok(times)
     }
@@ -92,6 +96,7 @@ impl Walk {
         let times = self.begin(tick)?;
         let mut look = self.look(false);
         running.show(&mut look);
+        self.changed = look.changed;
         self.seen(tick);
         Ok(times)
     }
@@ -103,7 +108,7 @@ impl Walk {
                 format!("tick {tick} comes twice"),
             ));
         }
-        self.notes.rest.begin(&mut self.awake);
+        self.rest.begin(&mut self.awake);
         let times = (self.clock.rise(tick), self.clock.fall(tick));
         times.0.zip(times.1).ok_or_else(too_late)
     }
@@ -114,11 +119,14 @@ impl Walk {
             before: &mut self.before,
             awake: &mut self.awake,
             marks: &mut self.marks,
-            notes: &mut self.notes,
+            rest: &self.rest,
+            changes: &mut self.changes,
+            changed: 0,
             passes_over,
             cursor: 0,
             instance: 0,
             differ: false,
+            registers: true,
         }
     }
 
@@ -129,6 +137,9 @@ impl Walk {
         if self.last.replace(tick).is_none() {
             self.note_unknown();
         }
+        if let Some(selected) = &self.selected {
+            self.changed = select(selected, &mut self.changes[..self.changed]);
+        }
     }
 
     #[cold]
@@ -136,14 +147,14 @@ impl Walk {
     fn note_unknown(&mut self) {
         for leaf in 0..self.before.len() {
             if self.before[leaf] == UNKNOWN {
-                self.notes.change(leaf, UNKNOWN, &mut self.awake);
+                self.changed = note(&mut self.changes, self.changed, leaf, UNKNOWN);
             }
         }
     }
 
-    /// What has changed since it was last taken away.
-    pub fn changes(&mut self) -> &mut Vec<Change> {
-        &mut self.notes.changes
+    /// What has changed in the tick.
+    pub fn changes(&self) -> &[Change] {
+        &self.changes[..self.changed]
     }
 
     /// When the last tick is over, if there was one.
@@ -158,7 +169,10 @@ struct Look<'a> {
     before: &'a mut [u64],
     awake: &'a mut [bool],
     marks: &'a mut [u64],
-    notes: &'a mut Notes,
+    rest: &'a Rest,
+    changes: &'a mut [Change],
+    /// How many of these there are.
+    changed: usize,
     /// Whether circuits within that rest are passed over.
     passes_over: bool,
     /// The leaf that comes next.
@@ -167,13 +181,19 @@ struct Look<'a> {
     instance: usize,
     /// Whether a leaf has changed since the ports in of a circuit within began.
     differ: bool,
+    /// Registers are still to come, or have just been seen.
+    registers: bool,
 }
 
 impl Probe for Look<'_> {
     #[inline(always)]
     fn enter(&mut self, field: &'static Field) {
-        if field.role == Some(Role::Input) {
-            self.differ = false;
+        match field.role {
+            Some(Role::Input) => self.differ = false,
+            Some(Role::Net) if mem::take(&mut self.registers) => {
+                self.rest.wake(&self.changes[..self.changed], self.awake);
+            }
+            _ => {}
         }
     }
 
@@ -185,7 +205,7 @@ impl Probe for Look<'_> {
             cold_path();
             self.before[leaf] = bits;
             self.differ = true;
-            self.notes.change(leaf, bits, self.awake);
+            self.changed = note(self.changes, self.changed, leaf, bits);
         }
     }
 
@@ -218,22 +238,33 @@ impl Probe for Look<'_> {
             let first = *mark == UNKNOWN;
             let changed = words.changed(mark);
             let changed = if first { Changed::All } else { changed };
-            note_words(words, changed, self.before, self.awake, self.notes, start);
+            let (before, changes) = (&mut *self.before, &mut *self.changes);
+            self.changed = note_words(words, changed, before, start, changes, self.changed);
         }
     }
 }
 
 // Functions, not methods: a reference to the whole walk would keep it in memory.
 
+/// Adds a change; returns how many there are now. There is room, since a leaf changes once a tick.
+#[inline(always)]
+fn note(changes: &mut [Change], changed: usize, leaf: usize, bits: u64) -> usize {
+    if let Some(place) = changes.get_mut(changed) {
+        let leaf = leaf as u32;
+        *place = Change { leaf, bits };
+    }
+    changed + 1
+}
+
 #[inline(never)]
 fn note_words(
     words: &dyn Words,
     changed: Changed,
     before: &mut [u64],
-    awake: &mut [bool],
-    notes: &mut Notes,
     start: usize,
-) {
+    changes: &mut [Change],
+    mut noted: usize,
+) -> usize {
     let indices = match changed {
         Changed::None => 0..0,
         Changed::One(index) => index..index + 1,
@@ -243,35 +274,22 @@ fn note_words(
         let (leaf, bits) = (start + index, words.word(index));
         if bits != before[leaf] {
             before[leaf] = bits;
-            notes.change(leaf, bits, awake);
+            noted = note(changes, noted, leaf, bits);
         }
     }
+    noted
 }
 
-impl Notes {
-    /// A leaf has changed. It calls others only where it ends, so it has no registers to save.
-    #[inline(never)]
-    fn change(&mut self, leaf: usize, bits: u64, awake: &mut [bool]) {
-        if self.selected[leaf] {
-            if self.changes.len() == self.changes.capacity() {
-                return self.grow(leaf, bits, awake);
-            }
-            let leaf = leaf as u32;
-            self.changes.push(Change { leaf, bits });
-        }
-        if let Some(instance) = self.rest.of(leaf)
-            && !awake[instance]
-        {
-            self.rest.wake(instance, awake);
-        }
+/// Drops the changes of leaves that are not wanted; returns how many are left.
+#[inline(never)]
+fn select(selected: &[bool], changes: &mut [Change]) -> usize {
+    let mut kept = 0;
+    for index in 0..changes.len() {
+        let change = changes[index];
+        changes[kept] = change;
+        kept += usize::from(selected[change.leaf as usize]);
     }
-
-    #[cold]
-    #[inline(never)]
-    fn grow(&mut self, leaf: usize, bits: u64, awake: &mut [bool]) {
-        self.changes.reserve(1);
-        self.change(leaf, bits, awake);
-    }
+    kept
 }
 
 #[cold]

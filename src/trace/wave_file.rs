@@ -84,17 +84,17 @@ enum Either {
 impl Format for Either {
     type Out = AtomicFile;
 
-    fn tick(&mut self, rise: u64, fall: u64, changes: &mut Vec<Change>) -> io::Result<()> {
+    fn tick(&mut self, rise: u64, fall: u64, changes: &[Change]) -> io::Result<()> {
         match self {
             Either::Vcd(file) => file.tick(rise, fall, changes),
             Either::Fst(file) => file.tick(rise, fall, changes),
         }
     }
 
-    fn finish(self, end: Option<u64>, changes: &mut Vec<Change>) -> io::Result<AtomicFile> {
+    fn finish(self, end: Option<u64>) -> io::Result<AtomicFile> {
         match self {
-            Either::Vcd(file) => file.finish(end, changes),
-            Either::Fst(file) => file.finish(end, changes),
+            Either::Vcd(file) => file.finish(end),
+            Either::Fst(file) => file.finish(end),
         }
     }
 }

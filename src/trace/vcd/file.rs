@@ -88,13 +88,11 @@ impl<W: Write> Format for VcdFile<W> {
     type Out = W;
 
     #[inline(never)]
-    fn tick(&mut self, rise: u64, fall: u64, changes: &mut Vec<Change>) -> io::Result<()> {
-        self.lines(rise, fall, changes)?;
-        changes.clear();
-        Ok(())
+    fn tick(&mut self, rise: u64, fall: u64, changes: &[Change]) -> io::Result<()> {
+        self.lines(rise, fall, changes)
     }
 
-    fn finish(mut self, end: Option<u64>, _: &mut Vec<Change>) -> io::Result<W> {
+    fn finish(mut self, end: Option<u64>) -> io::Result<W> {
         if let Some(end) = end {
             self.text.time(end, b"\n");
         }
