@@ -63,10 +63,10 @@ fn a_waveform_may_come_through_a_pipe() {
 #[test]
 fn a_map_may_come_through_a_pipe() {
     let bench = bench(&golden());
-    let map = "ignore = [\"top.x\"]\n";
+    let map = "ignore = [\"counter.last\"]\n";
     bench.write("map.toml", map);
     let files = bench.succeed(&["compare", "golden.vcd", "other.vcd", "--map", "map.toml"]);
-    assert!(files.contains("ignored: 1\n  top.x\n"), "{files}");
+    assert!(files.contains("ignored: 1\n  counter.last\n"), "{files}");
     let arguments = ["compare", "golden.vcd", "other.vcd", "--map", "/dev/stdin"];
     let output = bench.command(&arguments).write_stdin(map).output().unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
