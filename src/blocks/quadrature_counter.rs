@@ -63,6 +63,10 @@ signals! {
     pub struct Net<L> {
         /// The levels are real.
         valid: L::Bit,
+        /// Channel A has changed.
+        changes_a: L::Bit,
+        /// Channel B has changed.
+        changes_b: L::Bit,
         /// One channel has changed: the position moves by one.
         moves: L::Bit,
         /// Upwards, if it moves.
@@ -85,13 +89,16 @@ impl<const W: usize> Circuit for QuadratureCounter<W> {
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W>, _: &In<L>) -> Net<L> {
-        let [a, b] = [q.sync_a, q.sync_b].map(|sync| sync.bit(PRESENT) ^ sync.bit(PREVIOUS));
+        let changes = |sync: L::U<3>| sync.bit(PRESENT) ^ sync.bit(PREVIOUS);
+        let (changes_a, changes_b) = (changes(q.sync_a), changes(q.sync_b));
         let valid = q.samples.equals(FILLED.into());
         Net {
             valid,
-            moves: valid & (a ^ b),
+            changes_a,
+            changes_b,
+            moves: valid & (changes_a ^ changes_b),
             up: q.sync_a.bit(PRESENT) ^ q.sync_b.bit(PREVIOUS),
-            illegal: valid & a & b,
+            illegal: valid & changes_a & changes_b,
         }
     }
 
