@@ -41,12 +41,16 @@ impl AtomicFile {
         // A temporary file is private; this one is to become an ordinary file.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder
-            .tempfile_in(directory)
-            // The kind alone: the rest would name the temporary file.
-            .map_err(|error| named(&path, &error.kind().into()))?;
+        // Made while the list is held: a signal in between would leave it.
+        let made = unfinished(|all| {
+            let file = builder.tempfile_in(directory)?;
+            all.push(file.path().to_owned());
+            Ok(file)
+        });
+        // The kind alone: the rest would name the temporary file.
+        let file = made.map_err(|error: io::Error| named(&path, &error.kind().into()))?;
         Ok(AtomicFile {
-            _unfinished: Unfinished::new(file.path()),
+            _unfinished: Unfinished(file.path().to_owned()),
             file,
             path,
             target,
@@ -91,13 +95,6 @@ static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// An entry in that list.
 #[derive(Debug)]
 struct Unfinished(PathBuf);
-
-impl Unfinished {
-    fn new(path: &Path) -> Self {
-        unfinished(|all| all.push(path.to_owned()));
-        Unfinished(path.to_owned())
-    }
-}
 
 impl Drop for Unfinished {
     fn drop(&mut self) {
