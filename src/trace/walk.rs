@@ -86,8 +86,8 @@ impl Walk {
             return Err(wrong_extent(C::NAME));
         }
         now.visit(&mut look);
-        self.changed = look.changed;
-        self.seen(now.tick);
+        let changed = look.changed;
+        self.seen(now.tick, changed);
         Ok(times)
     }
 
@@ -96,8 +96,8 @@ impl Walk {
         let times = self.begin(tick)?;
         let mut look = self.look(false);
         running.show(&mut look);
-        self.changed = look.changed;
-        self.seen(tick);
+        let changed = look.changed;
+        self.seen(tick, changed);
         Ok(times)
     }
 
@@ -130,10 +130,11 @@ impl Walk {
         }
     }
 
-    /// A tick was looked at. At the first one the words that do not differ from [`UNKNOWN`] are new
-    /// too.
+    /// A tick was looked at, and so many leaves have changed. At the first one the words that do not
+    /// differ from [`UNKNOWN`] are new too.
     #[inline(always)]
-    fn seen(&mut self, tick: u64) {
+    fn seen(&mut self, tick: u64, changed: usize) {
+        self.changed = changed;
         if self.last.replace(tick).is_none() {
             self.note_unknown();
         }

@@ -18,6 +18,8 @@ pub const CLK_CODE: IdCode = IdCode::FIRST;
 /// The end of a time's line and its own.
 const CLK_HIGH: &[u8; 4] = b"\n1!\n";
 const CLK_LOW: &[u8; 4] = b"\n0!\n";
+/// The same where it rises for the first time.
+const CLK_FIRST: &[u8; 14] = b"\n$dumpvars\n1!\n";
 
 /// A value change dump as it is written.
 #[derive(Debug)]
@@ -62,7 +64,7 @@ impl<W: Write> VcdFile<W> {
             text.time(rise, CLK_HIGH);
             text.changes(signals, changes);
         } else {
-            text.time(rise, b"\n$dumpvars\n1!\n");
+            text.time(rise, CLK_FIRST);
             text.changes(signals, changes);
             text.raw(b"$end\n");
             self.begun = true;

@@ -161,7 +161,7 @@ impl Text {
         Text {
             buffer,
             len,
-            times: Times::new(),
+            times: Times::default(),
         }
     }
 

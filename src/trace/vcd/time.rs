@@ -13,12 +13,13 @@ pub const ROOM: usize = HEAD + DIGITS + THEN;
 
 /// The times of a dump, counted in decimal: each is mostly as far from the last as that from the
 /// one before.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Times {
     last: u64,
     /// How far the next one is from it, most likely.
     step: u64,
-    /// From here on a time has more digits, or others before those that are counted.
+    /// From here on a time has more digits, or others before those that are counted; at first
+    /// every time.
     end: u64,
     /// The last digits of the time, one a byte, the first in the highest.
     low: u64,
@@ -32,21 +33,6 @@ pub struct Times {
 }
 
 impl Times {
-    pub fn new() -> Self {
-        let mut times = Times {
-            last: 0,
-            step: 0,
-            end: 0,
-            low: 0,
-            plus: 0,
-            head: [0; HEAD],
-            head_len: 0,
-            zeros: 0,
-        };
-        times.anew(0);
-        times
-    }
-
     /// Writes a time, with what follows on and after its line; returns how long that is.
     #[inline(always)]
     pub fn put<const N: usize>(
@@ -118,7 +104,7 @@ mod tests {
 
     #[test]
     fn of_every_length_in_any_order() {
-        let mut times = Times::new();
+        let mut times = Times::default();
         let powers = (0..20).map(|power| 10u64.pow(power));
         let around = powers.flat_map(|power| [power - 1, power, power + 1, power / 8 * 9]);
         for time in around.chain([0, 9_999, 99_990_000, u64::MAX, u64::MAX, 7]) {
@@ -130,13 +116,13 @@ mod tests {
     fn over_every_carry_in_steps_of_every_length() {
         for step in (0..11).flat_map(|power| [1, 5, 9].map(|digit| digit * 10u64.pow(power))) {
             for from in [0, END - 40 * step.min(END / 40), 9_999_999_900 * END] {
-                let mut times = Times::new();
+                let mut times = Times::default();
                 for time in (0..100).map(|count| from + count * step) {
                     assert_eq!(text(&mut times, time), format!("#{time}\n1!\n"));
                 }
             }
         }
-        let mut times = Times::new();
+        let mut times = Times::default();
         for time in 99_900_000..100_100_000 {
             assert_eq!(text(&mut times, time), format!("#{time}\n1!\n"));
         }
