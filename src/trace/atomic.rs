@@ -28,7 +28,8 @@ impl AtomicFile {
     ///
     /// # Errors
     /// The directory does not exist or cannot be written; what has this name is a directory, a
-    /// pipe, a device, anything but a regular file. The error names the path.
+    /// pipe, a device, anything but a regular file; the files were [abandoned](abandon). The error
+    /// names the path.
     pub fn create(path: impl Into<PathBuf>) -> io::Result<Self> {
         let path = path.into();
         let target = target(&path).map_err(|error| named(&path, &error))?;
@@ -43,6 +44,7 @@ impl AtomicFile {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         // Made while the list is held: a signal in between would leave it.
         let made = unfinished(|all| {
+            let all = all.as_mut().ok_or(io::ErrorKind::Interrupted)?;
             let file = builder.tempfile_in(directory)?;
             all.push(file.path().to_owned());
             Ok(file)
@@ -50,7 +52,7 @@ impl AtomicFile {
         // The kind alone: the rest would name the temporary file.
         let file = made.map_err(|error: io::Error| named(&path, &error.kind().into()))?;
         Ok(AtomicFile {
-            _unfinished: Unfinished(file.path().to_owned()),
+            _unfinished: Unfinished(vec![file.path().to_owned()]),
             file,
             path,
             target,
@@ -89,28 +91,34 @@ impl Seek for AtomicFile {
     }
 }
 
-/// The temporary files there are.
-static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+/// The temporary files there are, and the directories made for files that are not there yet; a
+/// directory before what is in it. None once they were abandoned.
+static UNFINISHED: Mutex<Option<Vec<PathBuf>>> = Mutex::new(Some(Vec::new()));
 
-/// An entry in that list.
+/// Entries in that list.
 #[derive(Debug)]
-struct Unfinished(PathBuf);
+struct Unfinished(Vec<PathBuf>);
 
 impl Drop for Unfinished {
     fn drop(&mut self) {
-        unfinished(|all| all.retain(|path| *path != self.0));
+        unfinished(|all| {
+            if let Some(all) = all {
+                all.retain(|path| !self.0.contains(path));
+            }
+        });
     }
 }
 
-fn unfinished<T>(work: impl FnOnce(&mut Vec<PathBuf>) -> T) -> T {
+fn unfinished<T>(work: impl FnOnce(&mut Option<Vec<PathBuf>>) -> T) -> T {
     work(&mut UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Removes every temporary file: for a program that is about to end by a signal, which drops
-/// nothing. The files are still open, and commits fail from then on.
+/// Removes every temporary file, and what is empty of the directories made for them: for a program
+/// that is about to end by a signal, which drops nothing. The files are still open; from then on
+/// commits fail, and nothing can be begun.
 pub fn abandon() {
-    for path in unfinished(mem::take) {
-        let _ = fs::remove_file(path);
+    for path in unfinished(mem::take).into_iter().flatten().rev() {
+        let _ = fs::remove_file(&path).or_else(|_| fs::remove_dir(&path));
     }
 }
 
@@ -118,31 +126,38 @@ pub fn abandon() {
 #[derive(Debug)]
 #[must_use = "dropped, an empty directory goes again"]
 pub struct Directory {
-    /// What was not there before, innermost first.
-    made: Vec<PathBuf>,
+    /// What was not there before, outermost first.
+    made: Unfinished,
 }
 
 impl Directory {
     /// Creates the directory and those around it where they are missing.
     ///
     /// # Errors
-    /// It cannot be created; the error names the path.
+    /// It cannot be created; the files were [abandoned](abandon). The error names the path.
     pub fn create(path: &Path) -> io::Result<Self> {
         let missing =
             |path: &&Path| !path.as_os_str().is_empty() && path.symlink_metadata().is_err();
         let made = path.ancestors().take_while(missing).map(Path::to_owned);
-        // Made before the directories, so that it clears away what an error leaves.
+        let mut made: Vec<_> = made.collect();
+        made.reverse();
+        // Before an error is returned, so that it clears away what that leaves.
         let directory = Directory {
-            made: made.collect(),
+            made: Unfinished(made.clone()),
         };
-        fs::create_dir_all(path).map_err(|error| named(path, &error))?;
+        let created = unfinished(|all| {
+            let all = all.as_mut().ok_or(io::ErrorKind::Interrupted)?;
+            all.extend(made);
+            fs::create_dir_all(path)
+        });
+        created.map_err(|error| named(path, &error))?;
         Ok(directory)
     }
 }
 
 impl Drop for Directory {
     fn drop(&mut self) {
-        for directory in &self.made {
+        for directory in self.made.0.iter().rev() {
             // Fails where there is something in it, which is then to stay.
             let _ = fs::remove_dir(directory);
         }
