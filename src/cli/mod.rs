@@ -12,6 +12,7 @@ mod machine;
 mod magnification;
 mod picture;
 mod pieces;
+mod report;
 mod rows;
 pub mod run;
 mod shipped;

@@ -3,8 +3,9 @@
 use super::files::Files;
 use super::job::{Input, Job, Source};
 use super::picture::{Following, draw};
+use super::report::conclude;
 use super::summary::Summary;
-use super::traces::{Focus, Format, Traces, conclude};
+use super::traces::{Focus, Format, Traces};
 use super::{Failure, arc, lead_angle, linear, machine, trajectory};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
@@ -105,7 +106,7 @@ fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
         Following::new(&job, &played).map_err(|error| Failure::Check(error.to_string()))?;
     let summary = Summary::new(&job, &played, &following.largest);
     files.write("svg", &draw(&job, &played, &following))?;
-    conclude(arguments, &options, played.ticks, files, summary)
+    conclude(arguments, &options, files, summary)
 }
 
 /// The window and the signals that are asked for.

@@ -1,7 +1,7 @@
 //! What a run or a compilation came to, for people and for machines.
 
 use super::job::Job;
-use super::traces::{Report, Tail};
+use super::report::{Outcome, Report};
 use super::verdict::complaints;
 use motion_rtl::pulse_interpolator::job::Played;
 use motion_rtl::pulse_interpolator::step_dir::TimingMinima;
@@ -13,23 +13,14 @@ use std::fmt::Write as _;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// The circuit that ran.
-    pub circuit: &'static str,
-    /// The input file.
-    pub input: String,
+    /// What it has as all others.
+    #[serde(flatten)]
+    pub outcome: Outcome,
     /// What RST cleared.
     pub variant: &'static str,
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
-    /// Ticks of the run.
-    pub ticks: u64,
-    /// The same in seconds.
-    pub seconds: f64,
     /// Whether every unit time has the pulses that its word makes, and every axis ended where it
     /// should and kept the driver's timing.
     pub exact: bool,
-    /// What is wrong where it is not.
-    pub complaints: Vec<String>,
     /// Each axis by its name.
     pub axes: BTreeMap<&'static str, AxisSummary>,
     /// The table.
@@ -37,12 +28,6 @@ pub struct Summary {
     pub table: TableSummary,
     /// Unit times without pulses between two patterns of the memory.
     pub idle_units: u64,
-    /// Ticks that went into the VCD, half-open; `null` without one.
-    pub vcd_window: Option<[u64; 2]>,
-    /// What was skipped or assumed.
-    pub warnings: Vec<String>,
-    /// The files written.
-    pub files: Vec<String>,
 }
 
 /// The table of a run.
@@ -185,55 +170,43 @@ impl Summary {
             .collect();
         let complaints = complaints(job, played);
         Summary {
-            circuit: "pulse_interpolator",
-            input: job.drawing.file.clone(),
+            exact: complaints.is_empty(),
+            outcome: Outcome {
+                complaints,
+                warnings: warnings(job),
+                ..Outcome::new(
+                    "pulse_interpolator",
+                    &job.drawing.file,
+                    job.settings.clock_hz,
+                    played.ticks,
+                )
+            },
             variant: match job.variant {
                 Variant::Safe => "safe",
                 Variant::Literal => "literal",
             },
-            clock_hz: job.settings.clock_hz,
-            ticks: played.ticks,
-            seconds: played.ticks as f64 / job.settings.clock_hz as f64,
-            exact: complaints.is_empty(),
-            complaints,
             axes,
             table: TableSummary::new(job),
             idle_units: played.idle_units,
-            vcd_window: None,
-            warnings: warnings(job),
-            files: Vec::new(),
         }
     }
 }
 
 impl Report for Summary {
-    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
-        (self.vcd_window, self.files) = (vcd_window, files);
-    }
-
-    fn complaints(&self) -> &[String] {
-        &self.complaints
-    }
-
-    fn tail(&self) -> Tail<'_> {
-        Tail {
-            warnings: &self.warnings,
-            window: self.vcd_window,
-            ticks: self.ticks,
-            files: &self.files,
-        }
+    fn outcome(&mut self) -> &mut Outcome {
+        &mut self.outcome
     }
 
     fn write(&self, text: &mut String, _: bool) -> std::fmt::Result {
-        let Summary {
+        let Outcome {
             input,
             circuit,
-            variant,
             ticks,
             seconds,
             clock_hz,
             ..
-        } = self;
+        } = &self.outcome;
+        let variant = self.variant;
         writeln!(
             text,
             "{input} on {circuit} ({variant}): {ticks} ticks, {seconds:.3} s at {clock_hz} Hz"

@@ -1,17 +1,15 @@
 //! The files of a run while it goes on: waves, save file, and the circuit in Verilog with its
-//! stimulus; and how every run ends.
+//! stimulus.
 
+use super::Failure;
 use super::files::Files;
 use super::run::{Arguments, clock};
-use super::{Failure, print, print_json};
 use clap::ValueEnum;
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::kernel::{Circuit, RunError};
 use motion_rtl::trace::atomic::AtomicFile;
 use motion_rtl::trace::{Clock, LayoutError, Options, StimulusFile, WaveFile, WaveFormat, gtkw};
 use motion_rtl::verilog::Verilog;
-use serde::Serialize;
-use std::fmt::{self, Write as _};
 use std::io;
 use std::ops::Range;
 use std::path::Path;
@@ -200,77 +198,4 @@ pub fn no_such_tick(options: &Options, ticks: u64) -> Result<(), Failure> {
         problem: format!("is {}", options.ticks.start),
         allowed: format!("0 to {}, the last tick of the run", ticks.saturating_sub(1)),
     })
-}
-
-/// The summary of a run.
-pub trait Report: Serialize {
-    /// Takes note of the ticks in the VCD, half-open, and of the files written.
-    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>);
-    /// What is wrong with the run; nothing where it did what it was to do.
-    fn complaints(&self) -> &[String];
-    /// Writes it for people, with every part of the run if `all` are wanted.
-    fn write(&self, text: &mut String, all: bool) -> fmt::Result;
-    /// What its text ends with.
-    fn tail(&self) -> Tail<'_>;
-}
-
-/// What every summary ends with.
-#[derive(Debug)]
-pub struct Tail<'a> {
-    /// What the reader of the input warned of.
-    pub warnings: &'a [String],
-    /// The ticks in the waves, half-open; none without waves.
-    pub window: Option<[u64; 2]>,
-    /// The ticks of the run.
-    pub ticks: u64,
-    /// The files that were written.
-    pub files: &'a [String],
-}
-
-impl Tail<'_> {
-    fn write(&self, text: &mut String) -> fmt::Result {
-        for warning in self.warnings {
-            writeln!(text, "warning: {warning}")?;
-        }
-        if let Some([from, to]) = self.window
-            && (from > 0 || to < self.ticks)
-        {
-            writeln!(
-                text,
-                "the waves show ticks {from} to {to} of {}: --from and --to choose others",
-                self.ticks
-            )?;
-        }
-        for file in self.files {
-            writeln!(text, "wrote {file}")?;
-        }
-        Ok(())
-    }
-}
-
-/// Ends a run of so many ticks: names its files, prints its summary, fails where it complains.
-pub fn conclude(
-    arguments: &Arguments,
-    options: &Options,
-    ticks: u64,
-    files: Files,
-    mut summary: impl Report,
-) -> Result<(), Failure> {
-    let Range { start, end } = options.ticks;
-    let window = (!arguments.no_vcd).then(|| [start, end.min(ticks).max(start)]);
-    summary.written(window, files.commit()?);
-    match arguments.json {
-        true => print_json(&summary)?,
-        false => {
-            let mut text = String::new();
-            // Writing to a string does not fail.
-            let _ = summary.write(&mut text, arguments.segments);
-            let _ = summary.tail().write(&mut text);
-            print(&text)?;
-        }
-    }
-    match summary.complaints() {
-        [] => Ok(()),
-        complaints => Err(Failure::Check(complaints.join("\n"))),
-    }
 }

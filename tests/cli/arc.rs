@@ -1,6 +1,6 @@
 //! `run` of the arc generator: summary against closed forms, files, windows.
 
-use super::support::{Bench, keys, whole};
+use super::support::{Bench, keys, list, near, number, whole};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
@@ -12,25 +12,6 @@ const TA: f64 = 0.1;
 
 /// Half a circle of 10 mm, from the origin.
 pub const SEAM: &str = "[[piece]]\nvia_mm = [10, 10, 0]\nto_mm = [20, 0, 0]\n";
-
-fn number(value: &Value, pointer: &str) -> f64 {
-    let found = value.pointer(pointer).and_then(Value::as_f64);
-    found.unwrap_or_else(|| panic!("no number at {pointer}: {value}"))
-}
-
-fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
-    value[name]
-        .as_array()
-        .unwrap_or_else(|| panic!("no {name}"))
-}
-
-#[track_caller]
-fn near(value: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (value - expected).abs() <= tolerance,
-        "{value}, not {expected} within {tolerance}"
-    );
-}
 
 /// A scenario with the usual head.
 pub fn with(text: &str) -> Bench {

@@ -1,6 +1,6 @@
 //! `check` as JSON, in parts, and parts put together.
 
-use super::support::{Bench, Done, keys};
+use super::support::{Bench, Done, keys, list};
 use serde_json::{Value, json};
 
 /// Proofs and a sweep that take no time.
@@ -60,7 +60,7 @@ fn the_table_is_printed_as_json() {
         ["asked", "rows", "shard", "too_wide", "version"]
     );
     assert_eq!(report["shard"], json!({"part": 1, "of": 1}));
-    let rows = report["rows"].as_array().unwrap();
+    let rows = list(&report, "rows");
     let named: Vec<_> = rows
         .iter()
         .map(|row| {
@@ -100,7 +100,7 @@ fn parts_come_together_to_the_whole() {
         assert_eq!(timeless(&done.stdout), whole, "of {of}");
     }
     let report: Value = serde_json::from_str(&bench.read("part1.json")).unwrap();
-    let rows = report["rows"].as_array().unwrap();
+    let rows = list(&report, "rows");
     // Of five parts the first has the first proof and a fifth of the cases, those of a master of 0
     // or 1 above.
     assert_eq!(rows.len(), 2);

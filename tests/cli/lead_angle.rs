@@ -1,6 +1,6 @@
 //! `run` of the lead-angle compensator: summary, files, logs, settings, refusals.
 
-use super::support::{Bench, DRAWINGS, keys, whole};
+use super::support::{Bench, DRAWINGS, keys, list, number, whole};
 use expect_test::expect;
 use serde_json::{Value, json};
 
@@ -56,14 +56,6 @@ fn log() -> Bench {
     bench
 }
 
-fn list<'a>(value: &'a Value, key: &str) -> &'a Vec<Value> {
-    value[key].as_array().unwrap_or_else(|| panic!("no {key}"))
-}
-
-fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap_or_else(|| panic!("no {key}"))
-}
-
 /// Where a system is in the lists of errors.
 fn system(summary: &Value, name: &str) -> usize {
     let place = list(summary, "systems")
@@ -90,7 +82,7 @@ fn the_turntable_shows_what_the_circuit_is_for() {
             let rows = rows.filter(|row| row["loaded"] == loaded && row["step"] == step["step"]);
             let within = |row: &Value| {
                 let error = row["error_counts"][learning].as_f64().unwrap();
-                error.abs() <= number(row, "code_travel_counts") + 1e-6
+                error.abs() <= number(row, "/code_travel_counts") + 1e-6
             };
             let within: Vec<bool> = rows.map(within).collect();
             assert_eq!(within.len(), 6);
@@ -108,7 +100,7 @@ fn the_turntable_shows_what_the_circuit_is_for() {
     let rms = |name: &str| {
         number(
             &summary["systems"][system(&summary, name)],
-            "error_rms_counts",
+            "/error_rms_counts",
         )
     };
     for other in ["no lead", "by speed", "fixed lead", "literal sign"] {
@@ -138,7 +130,7 @@ fn the_literal_sign_drives_the_lead_times_to_their_ends() {
         true
     );
     let last = &list(&summary, "positionings")[44..];
-    let leads: Vec<f64> = last.iter().map(|row| number(row, "lead_ms")).collect();
+    let leads: Vec<f64> = last.iter().map(|row| number(row, "/lead_ms")).collect();
     // The shortest code, and the longest where the first lead was too long.
     assert_eq!(leads, [199.0, 0.1, 0.1, 0.1]);
     for phase in list(&summary, "phases") {
@@ -159,12 +151,12 @@ fn the_summary_has_these_keys() {
         "complaints",
         "files",
         "history",
+        "input",
         "lead_times_of",
         "learn",
         "phases",
         "placement",
         "positionings",
-        "scenario",
         "seconds",
         "sign",
         "systems",
@@ -173,7 +165,7 @@ fn the_summary_has_these_keys() {
         "warnings",
     ];
     assert_eq!(keys(&summary), expected);
-    assert_eq!(summary["scenario"], "s");
+    assert_eq!(summary["input"], "s");
     assert_eq!(summary["vcd_window"], Value::Null);
     assert_eq!(summary["files"], json!(["waves/s.svg"]));
     let row = [
@@ -192,8 +184,8 @@ fn the_summary_has_these_keys() {
     assert_eq!(json!(of("loaded")), loaded);
     // The first two lead times are the scenario's; at 20000 counts/s one of 150 CKs has a code
     // of 1 CK up to 199: 2 counts.
-    assert_eq!(number(&rows[0], "lead_ms"), 15.0);
-    assert!((number(&rows[0], "code_travel_counts") - 2.0).abs() < 0.01);
+    assert_eq!(number(&rows[0], "/lead_ms"), 15.0);
+    assert!((number(&rows[0], "/code_travel_counts") - 2.0).abs() < 0.01);
 }
 
 #[test]
@@ -347,24 +339,25 @@ fn a_log_is_predicted_and_signals_come_a_lead_before_their_targets() {
     let summary = log().json(&["run", "s.toml", "--no-vcd"]);
     assert_eq!(summary["input"], "log.csv");
     assert_eq!(whole(&summary, "/samples"), 501);
-    assert_eq!(summary["seconds"], 0.5);
+    assert_eq!(whole(&summary, "/ticks"), 500_001);
+    assert_eq!(number(&summary, "/seconds"), 0.500_001);
     assert_eq!(summary["complaints"], json!([]));
     // 5000 CKs, less what is not yet in the history and what lies after the end.
     let predictions = whole(&summary, "/predictions");
     assert!((4000..4900).contains(&predictions), "{predictions}");
     // At a count a CK all samples are cut off alike: nothing is left but the cut.
-    assert!(number(&summary, "error_max_counts") <= 1.0);
-    assert!((100.0..410.0).contains(&number(&summary, "without_lead_rms_counts")));
+    assert!(number(&summary, "/error_max_counts") <= 1.0);
+    assert!((100.0..410.0).contains(&number(&summary, "/without_lead_rms_counts")));
     let signals = list(&summary, "signals");
     assert_eq!(signals.len(), 2);
     for (signal, (step, target, lead)) in signals.iter().zip([(0, 1000, 10), (1, 3000, 40)]) {
         assert_eq!(whole(signal, "/step"), step);
         assert_eq!(whole(signal, "/target"), target);
-        assert_eq!(number(signal, "lead_ms"), lead as f64);
+        assert_eq!(number(signal, "/lead_ms"), lead as f64);
         assert!((whole(signal, "/position") - (target - 10 * lead)).abs() <= 1);
-        assert!(number(signal, "error_counts").abs() <= 1.0, "{signal}");
+        assert!(number(signal, "/error_counts").abs() <= 1.0, "{signal}");
         let seconds = (target - 10 * lead) as f64 / 1e4;
-        assert!((number(signal, "seconds") - seconds).abs() < 1e-3);
+        assert!((number(signal, "/seconds") - seconds).abs() < 1e-3);
     }
 }
 

@@ -1,6 +1,6 @@
 //! `run` of the linear interpolator: summary, files, settings.
 
-use super::support::{Bench, LINE, keys, whole};
+use super::support::{Bench, LINE, keys, list, whole};
 use serde_json::{Value, json};
 use std::fs;
 
@@ -115,7 +115,7 @@ fn ten_millimetres_are_two_hundred_scans() {
         "scans",
         "seconds",
     ];
-    assert_eq!(summary["segments"].as_array().unwrap().len(), 1);
+    assert_eq!(list(&summary, "segments").len(), 1);
     assert_eq!(keys(&summary["segments"][0]), row);
     for name in ["interpolator", "conventional"] {
         assert_eq!(keys(&summary[name]), system);
@@ -212,7 +212,7 @@ vcd_ticks = 100
         ]
     );
     // 30 and 45.5 ms are 25 and 38 scans of 1.2 ms, also for the chords, which are too short.
-    let mut rows = summary["segments"].as_array().unwrap().iter();
+    let mut rows = list(&summary, "segments").iter();
     assert!(rows.all(|row| whole(row, "/interpolator/scans") >= 63));
 }
 
@@ -239,7 +239,7 @@ fn an_arc_becomes_chords_and_z_is_left_out_with_a_warning() {
     let warnings = ["arc.ngc: the drawing moves in Z, which no axis drives"];
     assert_eq!(summary["warnings"], json!(warnings));
     // Half a circle of 5 mm: 0.5 mm off are 51.7 degrees.
-    assert_eq!(summary["segments"].as_array().unwrap().len(), 1 + 4);
+    assert_eq!(list(&summary, "segments").len(), 1 + 4);
     assert_eq!(summary["interpolator"]["end_position"], json!([1000, 2000]));
 }
 
@@ -280,7 +280,7 @@ fn people_see_the_worst_segments_or_all_and_machines_see_all() {
     let bench = Bench::with("z.hpgl", zigzag(15));
     let text = bench.succeed(&run("z.hpgl", &[]));
     let json = bench.json(&run("z.hpgl", &[]));
-    assert_eq!(json["segments"].as_array().unwrap().len(), 15);
+    assert_eq!(list(&json, "segments").len(), 15);
     let (scans, ticks) = (whole(&json, "/scans"), whole(&json, "/ticks"));
     let seconds = ticks as f64 / 1e6;
     let head = format!(
@@ -396,7 +396,7 @@ fn the_plotter_shows_what_the_circuit_is_for() {
     let bench = Bench::new();
     let summary = bench.json(&["run", "waves/plotter.toml", "--no-vcd"]);
     assert!(whole(&summary, "/ticks") < 2_000_000);
-    assert!(summary["segments"].as_array().unwrap().len() > 50);
+    assert!(list(&summary, "segments").len() > 50);
     let system = |name: &str, field: &str| summary[name][field].as_f64().unwrap();
     assert!(system("interpolator", "deviation_max_lsb") < 1.0);
     assert!(system("conventional", "deviation_max_lsb") > 20.0);
@@ -404,7 +404,7 @@ fn the_plotter_shows_what_the_circuit_is_for() {
         ["interpolator", "conventional"].map(|s| system(s, "contour_error_max_um"));
     assert!(ours < others, "{ours} and {others} um");
     let masters = |name: &str| {
-        let rows = summary["segments"].as_array().unwrap();
+        let rows = list(&summary, "segments");
         rows.iter().filter(|row| row["master"] == name).count()
     };
     assert!(masters("x") > 20 && masters("y") > 20);

@@ -1,6 +1,6 @@
 //! `run` of the machine: figures of a short drawing, files, what is complained of, refusals.
 
-use super::support::{Bench, keys, whole};
+use super::support::{Bench, keys, list, number, whole};
 use serde_json::{Value, json};
 
 /// 1 um a count, 1/40 mm a step; slow rates, for few ticks.
@@ -13,11 +13,6 @@ const GAINS: &str = "position_gain_per_s = 16\nspeed_hz = 10\nintegral_ms = 75\n
 
 /// The pen goes down, draws a line and an arc, and comes back up and home.
 const SHORT: &str = "G1 X1 F1500\nG3 X2 Y1 I0 J1\nG0 X0 Y0\n";
-
-fn number(value: &Value, pointer: &str) -> f64 {
-    let found = value.pointer(pointer).and_then(Value::as_f64);
-    found.unwrap_or_else(|| panic!("no number at {pointer}: {value}"))
-}
 
 fn with(keys: &str, drawing: &str) -> Bench {
     let bench = Bench::with("s.toml", format!("{HEAD}{keys}"));
@@ -90,7 +85,7 @@ fn both_machines_end_at_the_same_point() {
     assert_eq!(summary["ends"], ends);
     assert_eq!(number(&summary, "/apart_um"), 0.0);
 
-    let pieces = summary["pieces"].as_array().unwrap();
+    let pieces = list(&summary, "pieces");
     let kinds: Vec<_> = pieces
         .iter()
         .map(|row| (row["kind"].as_str(), whole(row, "/line")))
@@ -138,7 +133,7 @@ fn both_machines_end_at_the_same_point() {
     assert!((parts - number(times, "/servos_s")).abs() < 1e-9);
     assert!(number(times, "/servos_s") > number(times, "/steppers_s"));
 
-    let lifts = summary["lifts"].as_array().unwrap();
+    let lifts = list(&summary, "lifts");
     let steps: Vec<_> = lifts
         .iter()
         .map(|row| (row["pen"].as_str(), whole(row, "/line")))
@@ -263,7 +258,7 @@ fn motors_that_do_not_come_to_rest_are_complained_of() {
     assert_eq!(done.code, 1, "{}", done.stdout);
     let summary: Value = serde_json::from_str(&done.stdout).unwrap();
     assert_eq!(summary["exact"], false);
-    let complaints = summary["complaints"].as_array().unwrap();
+    let complaints = list(&summary, "complaints");
     assert_eq!(
         complaints[0],
         "the servos did not come to rest: 1 of 1 moves"

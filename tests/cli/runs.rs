@@ -1,6 +1,6 @@
 //! What `run` puts into its files: windows and scopes of the dump, the same bytes every time.
 
-use super::support::{Bench, LINE, SHORT, whole};
+use super::support::{Bench, LINE, SHORT, list, whole};
 use serde_json::json;
 use std::fs;
 
@@ -209,7 +209,7 @@ fn the_literal_variant_fails_and_says_where_it_first_miscounts() {
         (&summary["exact"], &summary["variant"]),
         (&json!(false), &json!("literal"))
     );
-    let complaints = summary["complaints"].as_array().unwrap();
+    let complaints = list(&summary, "complaints");
     let complaints: Vec<_> = complaints
         .iter()
         .map(|text| text.as_str().unwrap())

@@ -1,6 +1,6 @@
 //! Scenarios: those that ship with the crate, and files of one's own.
 
-use super::support::{Bench, LINE, SHORT, whole};
+use super::support::{Bench, LINE, SHORT, list, whole};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
@@ -80,12 +80,12 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
     assert_eq!(summary["warnings"], json!([]), "{scenario}");
     let mut shown = whole(&summary, "/ticks");
     if summary["circuit"] == "lead_angle" {
-        assert_eq!(summary["positionings"].as_array().unwrap().len(), 48);
+        assert_eq!(list(&summary, "positionings").len(), 48);
         // The scenario says so: all ticks would be a gigabyte.
         shown = 300_000;
     } else if summary["circuit"] == "machine" {
         assert_eq!(summary["exact"], true, "{scenario}");
-        for end in summary["ends"].as_array().unwrap() {
+        for end in list(&summary, "ends") {
             assert_eq!(end["position"], json!([0, 0]), "{end}");
         }
         // The scenario says so: all ticks would be a gigabyte.

@@ -100,18 +100,18 @@ impl Bench {
     /// Everything in the directory, directories with a slash at the end.
     pub fn names(&self) -> Vec<String> {
         let mut names = Vec::new();
-        list(self.directory.path(), "", &mut names);
+        walk(self.directory.path(), "", &mut names);
         names.sort();
         names
     }
 }
 
-fn list(directory: &Path, prefix: &str, names: &mut Vec<String>) {
+fn walk(directory: &Path, prefix: &str, names: &mut Vec<String>) {
     for entry in fs::read_dir(directory).unwrap() {
         let entry = entry.unwrap();
         let name = format!("{prefix}{}", entry.file_name().to_str().unwrap());
         if entry.file_type().unwrap().is_dir() {
-            list(&entry.path(), &format!("{name}/"), names);
+            walk(&entry.path(), &format!("{name}/"), names);
             names.push(format!("{name}/"));
         } else {
             names.push(name);
@@ -119,13 +119,31 @@ fn list(directory: &Path, prefix: &str, names: &mut Vec<String>) {
     }
 }
 
-/// The number at a JSON pointer.
+/// The whole number at a JSON pointer.
 #[track_caller]
 pub fn whole(value: &Value, pointer: &str) -> i64 {
     let found = value.pointer(pointer);
     found
         .and_then(Value::as_i64)
         .unwrap_or_else(|| panic!("{pointer} is {found:?}"))
+}
+
+/// The number at a JSON pointer.
+#[track_caller]
+pub fn number(value: &Value, pointer: &str) -> f64 {
+    let found = value.pointer(pointer);
+    found
+        .and_then(Value::as_f64)
+        .unwrap_or_else(|| panic!("{pointer} is {found:?}"))
+}
+
+/// The list of that name in an object.
+#[track_caller]
+pub fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
+    let found = &value[name];
+    found
+        .as_array()
+        .unwrap_or_else(|| panic!("{name} is {found:?}"))
 }
 
 /// The keys of an object, sorted.
@@ -138,4 +156,12 @@ pub fn keys(value: &Value) -> Vec<&str> {
         .collect();
     keys.sort_unstable();
     keys
+}
+
+#[track_caller]
+pub fn near(value: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (value - expected).abs() <= tolerance,
+        "{value}, not {expected} within {tolerance}"
+    );
 }

@@ -1,7 +1,7 @@
 //! `run` of the trajectory controller: figures against closed forms, files, windows.
 
 use super::scenarios::{CIRCLE, POCKET, runs_exactly};
-use super::support::{Bench, keys, whole};
+use super::support::{Bench, keys, list, near, number, whole};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::fs;
@@ -13,25 +13,6 @@ const HEAD: &str = "circuit = \"trajectory_controller\"\nclock_hz = 400_000\nper
 
 /// Ten millimetres along x.
 const LINE: &str = "[[piece]]\nto_mm = [10, 0, 0]\n";
-
-fn number(value: &Value, pointer: &str) -> f64 {
-    let found = value.pointer(pointer).and_then(Value::as_f64);
-    found.unwrap_or_else(|| panic!("no number at {pointer}: {value}"))
-}
-
-fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
-    value[name]
-        .as_array()
-        .unwrap_or_else(|| panic!("no {name}"))
-}
-
-#[track_caller]
-fn near(value: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (value - expected).abs() <= tolerance,
-        "{value}, not {expected} within {tolerance}"
-    );
-}
 
 /// Within so large a part.
 #[track_caller]

@@ -14,8 +14,9 @@ pub use job::Job;
 
 use super::Failure;
 use super::files::Files;
+use super::report::conclude;
 use super::run::{Arguments, Progress, options};
-use super::traces::{Focus, Traces, conclude};
+use super::traces::{Focus, Traces};
 use figures::Figures;
 use motion_rtl::arc_generator::job::{Played, arc_generator, play};
 use motion_rtl::trace::Options;
@@ -32,7 +33,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let figures = Figures::of(job, &played);
     files.write("svg", &draw(job, &figures))?;
     let summary = Summary::new(job, &played, &figures);
-    conclude(arguments, &options, played.ticks, files, summary)
+    conclude(arguments, &options, files, summary)
 }
 
 /// Plays the path with its waves.

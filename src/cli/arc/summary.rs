@@ -5,6 +5,7 @@ use super::figures::Figures;
 use super::operations;
 use super::rows::{self, ArcRow, BlendRow, LineRow};
 use super::verdict::{bounds, complaints};
+use crate::cli::report::Outcome;
 use motion_rtl::arc_generator::job::Played;
 use motion_rtl::arc_generator::settings::LEAST_SAMPLE_TICKS;
 use serde::Serialize;
@@ -12,14 +13,11 @@ use serde::Serialize;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// The circuit that ran.
-    pub circuit: &'static str,
-    /// The input file, or the scenario's name.
-    pub input: String,
+    /// What it has as all others.
+    #[serde(flatten)]
+    pub outcome: Outcome,
     /// How the rotation rounds.
     pub rounding: &'static str,
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
     /// Ts in ticks.
     pub sample_ticks: u32,
     /// Ticks that the circuit needs of them.
@@ -30,14 +28,8 @@ pub struct Summary {
     pub counts_per_mm: f64,
     /// Samples, the start of the path with them.
     pub samples: usize,
-    /// Ticks of the run.
-    pub ticks: u64,
-    /// The same in seconds.
-    pub seconds: f64,
     /// Whether every sample is where it should be, within its bound, and the last is the path's end.
     pub exact: bool,
-    /// What is wrong where it is not.
-    pub complaints: Vec<String>,
     /// The last command, in counts.
     pub end_position: [i64; 3],
     /// The end of the path before it is rounded, in counts.
@@ -54,12 +46,6 @@ pub struct Summary {
     pub blends: Vec<BlendRow>,
     /// What a sample costs.
     pub operations: Vec<operations::Row>,
-    /// Ticks that went into the VCD, half-open; `null` without one.
-    pub vcd_window: Option<[u64; 2]>,
-    /// What was skipped or assumed.
-    pub warnings: Vec<String>,
-    /// The files written.
-    pub files: Vec<String>,
 }
 
 impl Summary {
@@ -71,23 +57,23 @@ impl Summary {
         let last = played.commands.last();
         let end = job.prepared.pieces.last();
         let mm = |mm: f64| mm * 1e3;
+        let input = match &job.drawing {
+            Some(drawing) => &drawing.file,
+            None => &job.stem,
+        };
         Summary {
-            circuit: "arc_generator",
-            input: match &job.drawing {
-                Some(drawing) => drawing.file.clone(),
-                None => job.stem.clone(),
+            exact: complaints.is_empty(),
+            outcome: Outcome {
+                complaints,
+                warnings: warnings(job),
+                ..Outcome::new("arc_generator", input, settings.clock_hz, played.ticks)
             },
             rounding: settings.rounding.name(),
-            clock_hz: settings.clock_hz,
             sample_ticks: job.sample_ticks,
             sample_ticks_needed: LEAST_SAMPLE_TICKS,
             blend_samples: job.prepared.timing.blend_samples,
             counts_per_mm: settings.counts_per_mm,
             samples: played.commands.len(),
-            ticks: played.ticks,
-            seconds: played.ticks as f64 / settings.clock_hz as f64,
-            exact: complaints.is_empty(),
-            complaints,
             end_position: last.map_or([0; 3], |command| command.counts),
             end_demanded: end.map_or([0.0; 3], |piece| {
                 piece.to.map(|mm| mm * settings.counts_per_mm)
@@ -101,9 +87,6 @@ impl Summary {
             lines: rows::lines(job),
             blends: rows::blends(job, figures),
             operations: operations::rows(job),
-            vcd_window: None,
-            warnings: warnings(job),
-            files: Vec::new(),
         }
     }
 }

@@ -2,41 +2,29 @@
 
 use super::rows::{ArcRow, BlendRow, LineRow};
 use super::summary::Summary;
+use crate::cli::report::{Outcome, Report};
 use crate::cli::rows::{fixed, more, or_dash, table, worst};
-use crate::cli::traces::{Report, Tail};
 use motion_rtl::input::Point;
 use std::fmt::{self, Write};
 
 impl Report for Summary {
-    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
-        (self.vcd_window, self.files) = (vcd_window, files);
-    }
-
-    fn complaints(&self) -> &[String] {
-        &self.complaints
-    }
-
-    fn tail(&self) -> Tail<'_> {
-        Tail {
-            warnings: &self.warnings,
-            window: self.vcd_window,
-            ticks: self.ticks,
-            files: &self.files,
-        }
+    fn outcome(&mut self) -> &mut Outcome {
+        &mut self.outcome
     }
 
     fn write(&self, text: &mut String, all: bool) -> fmt::Result {
+        let outcome = &self.outcome;
         let [x, y, z] = self.end_position;
         writeln!(
             text,
             "{} on {} ({}): {} samples, {} ticks, {:.3} s at {} Hz",
-            self.input,
-            self.circuit,
+            outcome.input,
+            outcome.circuit,
             self.rounding,
             self.samples,
-            self.ticks,
-            self.seconds,
-            self.clock_hz
+            outcome.ticks,
+            outcome.seconds,
+            outcome.clock_hz
         )?;
         writeln!(
             text,

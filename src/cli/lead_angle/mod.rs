@@ -12,8 +12,9 @@ pub use job::Job;
 
 use super::Failure;
 use super::files::Files;
+use super::report::conclude;
 use super::run::{Arguments, Progress, options};
-use super::traces::{Focus, Traces, conclude};
+use super::traces::{Focus, Traces};
 use motion_rtl::kernel::Without;
 use motion_rtl::lead_angle::job::{
     Conventional, JobLead, Played, RamLead, ShiftLead, play, positioner,
@@ -46,7 +47,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let played = played.collect::<Result<Vec<_>, Failure>>()?;
     files.write("svg", &picture::draw(job, &played))?;
     let summary = Summary::new(job, &played);
-    conclude(arguments, &options, summary.ticks, files, summary)
+    conclude(arguments, &options, files, summary)
 }
 
 /// Plays a system without waves.

@@ -2,6 +2,7 @@
 
 use super::Job;
 use super::systems::{LEARNING, LITERAL, System};
+use crate::cli::report::Outcome;
 use motion_rtl::lead_angle::codes::{STAGES, code};
 use motion_rtl::lead_angle::job::{Played, Positioning};
 use motion_rtl::lead_angle::settings::{Comparing, History, Placement, Settings, Sign};
@@ -14,10 +15,9 @@ const SETTLED_WITHIN: usize = 6;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// The circuit that ran.
-    pub circuit: &'static str,
-    /// The scenario's name.
-    pub scenario: String,
+    /// What it has as all others.
+    #[serde(flatten)]
+    pub outcome: Outcome,
     /// What keeps the positions of the past.
     pub history: History,
     /// What the lead is put on.
@@ -28,16 +28,8 @@ pub struct Summary {
     pub sign: Sign,
     /// Whether times are learned.
     pub learn: bool,
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
     /// Ticks of a CK.
     pub ck_ticks: u32,
-    /// Ticks of the run.
-    pub ticks: u64,
-    /// The same in seconds.
-    pub seconds: f64,
-    /// What is wrong with the run; nothing where it did what it was to do.
-    pub complaints: Vec<String>,
     /// All systems with their errors.
     pub systems: Vec<SystemSummary>,
     /// The system whose lead times are shown: the scenario's own where it learns, or else the one
@@ -47,12 +39,6 @@ pub struct Summary {
     pub phases: Vec<Phase>,
     /// Every positioning, with the errors of all systems.
     pub positionings: Vec<Row>,
-    /// Ticks that went into the VCD, half-open; `null` without one.
-    pub vcd_window: Option<[u64; 2]>,
-    /// What is worth knowing.
-    pub warnings: Vec<String>,
-    /// The files written.
-    pub files: Vec<String>,
 }
 
 /// What one system made of all positionings.
@@ -150,31 +136,26 @@ impl Summary {
             _ => LEARNING,
         };
         let mut summary = Summary {
-            circuit: "lead_angle",
-            scenario: job.stem.clone(),
+            outcome: Outcome {
+                complaints: own.map_or(Vec::new(), |(_, run)| complaints(settings, run)),
+                ..Outcome::new("lead_angle", &job.stem, settings.clock_hz, ticks)
+            },
             history: settings.history,
             placement: settings.placement,
             comparing: settings.comparing,
             sign: settings.sign,
             learn: settings.learn,
-            clock_hz: settings.clock_hz,
             ck_ticks: settings.ck_ticks,
-            ticks,
-            seconds: ticks as f64 / settings.clock_hz as f64,
-            complaints: own.map_or(Vec::new(), |(_, run)| complaints(settings, run)),
             systems: played.iter().map(system_summary).collect(),
             lead_times_of,
             phases: Vec::new(),
             positionings: Vec::new(),
-            vcd_window: None,
-            warnings: Vec::new(),
-            files: Vec::new(),
         };
         if let Some(learner) = of(played, lead_times_of) {
             summary.positionings = rows(settings, played, learner);
             summary.phases = phases(settings, played, learner);
         }
-        summary.warnings = warnings(&summary);
+        summary.outcome.warnings = warnings(&summary);
         summary
     }
 }

@@ -1,7 +1,7 @@
 //! The summary for people.
 
 use super::summary::{Phase, Summary, SystemSummary};
-use crate::cli::traces::{Report, Tail};
+use crate::cli::report::{Outcome, Report};
 use std::fmt::Write;
 
 /// Characters of a column of stop errors at least.
@@ -14,33 +14,21 @@ fn name(value: impl serde::Serialize) -> String {
 }
 
 impl Report for Summary {
-    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
-        (self.vcd_window, self.files) = (vcd_window, files);
-    }
-
-    fn complaints(&self) -> &[String] {
-        &self.complaints
-    }
-
-    fn tail(&self) -> Tail<'_> {
-        Tail {
-            warnings: &self.warnings,
-            window: self.vcd_window,
-            ticks: self.ticks,
-            files: &self.files,
-        }
+    fn outcome(&mut self) -> &mut Outcome {
+        &mut self.outcome
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
+        let outcome = &self.outcome;
         writeln!(
             text,
             "{} on {}: {} positionings, {} ticks, {:.3} s at {} Hz, CK of {} ticks",
-            self.scenario,
-            self.circuit,
+            outcome.input,
+            outcome.circuit,
             self.positionings.len(),
-            self.ticks,
-            self.seconds,
-            self.clock_hz,
+            outcome.ticks,
+            outcome.seconds,
+            outcome.clock_hz,
             self.ck_ticks
         )?;
         writeln!(

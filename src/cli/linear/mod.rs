@@ -11,8 +11,9 @@ pub use job::Job;
 
 use super::Failure;
 use super::files::Files;
+use super::report::conclude;
 use super::run::{Arguments, Progress, options};
-use super::traces::{Focus, Traces, conclude};
+use super::traces::{Focus, Traces};
 use motion_rtl::kernel::Without;
 use motion_rtl::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::linear_interpolator::measure::Played;
@@ -49,7 +50,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     };
     files.write("svg", &draw(job, &runs))?;
     let summary = Summary::new(job, &runs);
-    conclude(arguments, &options, summary.ticks, files, summary)
+    conclude(arguments, &options, files, summary)
 }
 
 /// Plays the job on the linear interpolator, with its waves.

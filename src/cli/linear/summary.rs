@@ -3,6 +3,7 @@
 use super::rows::{Figures, Row, rows};
 use super::verdict::complaints;
 use super::{Job, Runs};
+use crate::cli::report::Outcome;
 use crate::cli::times::rounded;
 use motion_rtl::linear_interpolator::measure::Played;
 use motion_rtl::linear_interpolator::settings::AXIS_NAMES;
@@ -11,27 +12,18 @@ use serde::Serialize;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// The circuit that ran.
-    pub circuit: &'static str,
-    /// The input file.
-    pub input: String,
+    /// What it has as all others.
+    #[serde(flatten)]
+    pub outcome: Outcome,
     /// How the integrator divides.
     pub variant: &'static str,
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
     /// Ticks of a scan.
     pub scan_ticks: u32,
-    /// Ticks of the run.
-    pub ticks: u64,
-    /// The same in seconds.
-    pub seconds: f64,
     /// Scans of the run.
     pub scans: usize,
     /// Whether every cycle ended on its target, stayed as near to its line as the division allows,
     /// and no scan, count or target was lost.
     pub exact: bool,
-    /// What is wrong where it is not.
-    pub complaints: Vec<String>,
     /// Points of the drawing that have the counts of the point before.
     pub dropped_points: usize,
     /// The linear interpolator.
@@ -40,12 +32,6 @@ pub struct Summary {
     pub conventional: SystemSummary,
     /// Every cycle.
     pub segments: Vec<Row>,
-    /// Ticks that went into the VCD, half-open; `null` without one.
-    pub vcd_window: Option<[u64; 2]>,
-    /// What was skipped or assumed.
-    pub warnings: Vec<String>,
-    /// The files written.
-    pub files: Vec<String>,
 }
 
 /// What one system made of all cycles.
@@ -109,23 +95,24 @@ impl Summary {
         let conventional =
             SystemSummary::new(job, &runs.conventional, &segments, |row| row.conventional);
         Summary {
-            circuit: "linear_interpolator",
-            input: job.drawing.file.clone(),
-            variant: job.settings.rule.name(),
-            clock_hz: job.settings.clock_hz,
-            scan_ticks: job.settings.scan_ticks,
-            ticks: interpolator.ticks,
-            seconds: interpolator.seconds,
-            scans: interpolator.scans,
             exact: complaints.is_empty(),
-            complaints,
+            outcome: Outcome {
+                complaints,
+                warnings: warnings(job, &runs.interpolator),
+                ..Outcome::new(
+                    "linear_interpolator",
+                    &job.drawing.file,
+                    job.settings.clock_hz,
+                    interpolator.ticks,
+                )
+            },
+            variant: job.settings.rule.name(),
+            scan_ticks: job.settings.scan_ticks,
+            scans: interpolator.scans,
             dropped_points: job.compiled.dropped,
-            warnings: warnings(job, &runs.interpolator),
             interpolator,
             conventional,
             segments,
-            vcd_window: None,
-            files: Vec::new(),
         }
     }
 }

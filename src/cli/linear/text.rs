@@ -2,41 +2,27 @@
 
 use super::rows::{Figures, Row};
 use super::summary::{Summary, SystemSummary};
-use crate::cli::traces::{Report, Tail};
+use crate::cli::report::{Outcome, Report};
 use std::fmt::Write;
 
 /// Cycles in the table, unless all are asked for.
 const SHOWN: usize = 12;
 
 impl Report for Summary {
-    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
-        (self.vcd_window, self.files) = (vcd_window, files);
-    }
-
-    fn complaints(&self) -> &[String] {
-        &self.complaints
-    }
-
-    fn tail(&self) -> Tail<'_> {
-        Tail {
-            warnings: &self.warnings,
-            window: self.vcd_window,
-            ticks: self.ticks,
-            files: &self.files,
-        }
+    fn outcome(&mut self) -> &mut Outcome {
+        &mut self.outcome
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
-        let Summary {
+        let Outcome {
             input,
             circuit,
-            variant,
-            scans,
             ticks,
             seconds,
             clock_hz,
             ..
-        } = self;
+        } = &self.outcome;
+        let Summary { variant, scans, .. } = self;
         writeln!(
             text,
             "{input} on {circuit} ({variant}): {scans} scans, {ticks} ticks, {seconds:.3} s at \

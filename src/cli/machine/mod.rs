@@ -11,8 +11,9 @@ pub use job::Job;
 
 use super::Failure;
 use super::files::Files;
+use super::report::conclude;
 use super::run::{Arguments, Progress, options};
-use super::traces::{Focus, Traces, conclude};
+use super::traces::{Focus, Traces};
 use motion_rtl::kernel::Without;
 use motion_rtl::machine::job::{Played, machine, play};
 use motion_rtl::machine::measure::Measured;
@@ -64,7 +65,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         .map_err(|error| Failure::Check(error.to_string()))?;
     files.write("svg", &picture::draw(job, &played, &measured))?;
     let summary = Summary::new(job, &played, &measured);
-    conclude(arguments, &options, played.ticks, files, summary)
+    conclude(arguments, &options, files, summary)
 }
 
 /// Plays the job with its waves.

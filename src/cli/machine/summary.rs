@@ -3,6 +3,7 @@
 use super::Job;
 use super::rows::{self, EndRow, LiftRow, PieceRow};
 use super::verdict::{complaints, steppers_cut_off};
+use crate::cli::report::Outcome;
 use crate::cli::times::rounded;
 use motion_rtl::machine::job::Played;
 use motion_rtl::machine::measure::Measured;
@@ -11,12 +12,9 @@ use serde::Serialize;
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// The circuit that ran.
-    pub circuit: &'static str,
-    /// The input file.
-    pub input: String,
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
+    /// What it has as all others.
+    #[serde(flatten)]
+    pub outcome: Outcome,
     /// T in ticks.
     pub unit_ticks: u32,
     /// A scan in ticks.
@@ -29,14 +27,8 @@ pub struct Summary {
     pub steps_per_mm: [f64; 2],
     /// Counts of a millimetre.
     pub counts_per_mm: f64,
-    /// Ticks of the run.
-    pub ticks: u64,
-    /// The same in seconds.
-    pub seconds: f64,
     /// Whether both machines came to rest at the job's end, on the nearest step and count.
     pub exact: bool,
-    /// What is wrong where they did not.
-    pub complaints: Vec<String>,
     /// Pulses of the steppers, either way.
     pub pulses: [u64; 2],
     /// Unit times whose steps no half-period gives.
@@ -53,12 +45,6 @@ pub struct Summary {
     pub pieces: Vec<PieceRow>,
     /// Every step of the pen lift.
     pub lifts: Vec<LiftRow>,
-    /// Ticks that went into the VCD, half-open; `null` without one.
-    pub vcd_window: Option<[u64; 2]>,
-    /// What was skipped or assumed.
-    pub warnings: Vec<String>,
-    /// The files written.
-    pub files: Vec<String>,
 }
 
 /// Where the time went, in seconds.
@@ -87,19 +73,23 @@ impl Summary {
         let complaints = complaints(job, played, ends);
         let [x, y] = [0, 1].map(|axis| ends.stepper_mm[axis] - ends.command_mm[axis]);
         Summary {
-            circuit: "machine",
-            input: job.drawing.file.clone(),
-            clock_hz: settings.clock_hz,
+            exact: complaints.is_empty(),
+            outcome: Outcome {
+                complaints,
+                warnings: warnings(job),
+                ..Outcome::new(
+                    "machine",
+                    &job.drawing.file,
+                    settings.clock_hz,
+                    played.ticks,
+                )
+            },
             unit_ticks: settings.unit_ticks,
             scan_ticks: settings.scan_ticks,
             ck_ticks: settings.ck_ticks,
             sample_ticks: settings.sample_ticks,
             steps_per_mm: settings.steps_per_mm,
             counts_per_mm: settings.counts_per_mm,
-            ticks: played.ticks,
-            seconds: seconds(played.ticks),
-            exact: complaints.is_empty(),
-            complaints,
             pulses: played.pulses,
             unattainable_units: job.program.report.unattainable_units,
             times: TimesRow {
@@ -115,9 +105,6 @@ impl Summary {
             apart_um: x.hypot(y) * 1e3,
             pieces: rows::pieces(job, measured),
             lifts: rows::lifts(job, played),
-            vcd_window: None,
-            warnings: warnings(job),
-            files: Vec::new(),
         }
     }
 }

@@ -2,40 +2,28 @@
 
 use super::rows::{FarthestRow, LiftRow, PieceRow};
 use super::summary::Summary;
+use crate::cli::report::{Outcome, Report};
 use crate::cli::rows::{fixed, more, or_dash, table, worst};
-use crate::cli::traces::{Report, Tail};
 use std::fmt::{self, Write};
 
 /// Below this two places are the same.
 const SAME_UM: f64 = 1e-6;
 
 impl Report for Summary {
-    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
-        (self.vcd_window, self.files) = (vcd_window, files);
-    }
-
-    fn complaints(&self) -> &[String] {
-        &self.complaints
-    }
-
-    fn tail(&self) -> Tail<'_> {
-        Tail {
-            warnings: &self.warnings,
-            window: self.vcd_window,
-            ticks: self.ticks,
-            files: &self.files,
-        }
+    fn outcome(&mut self) -> &mut Outcome {
+        &mut self.outcome
     }
 
     fn write(&self, text: &mut String, all: bool) -> fmt::Result {
+        let outcome = &self.outcome;
         writeln!(
             text,
             "{} on {}: {} ticks, {:.3} s at {} Hz; unit time {}, scan {}, CK {}, Ts {} ticks",
-            self.input,
-            self.circuit,
-            self.ticks,
-            self.seconds,
-            self.clock_hz,
+            outcome.input,
+            outcome.circuit,
+            outcome.ticks,
+            outcome.seconds,
+            outcome.clock_hz,
             self.unit_ticks,
             self.scan_ticks,
             self.ck_ticks,

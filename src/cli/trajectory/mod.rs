@@ -12,8 +12,9 @@ pub use job::Job;
 
 use super::Failure;
 use super::files::Files;
+use super::report::conclude;
 use super::run::{Arguments, Progress, options};
-use super::traces::{Focus, Traces, conclude};
+use super::traces::{Focus, Traces};
 use motion_rtl::kernel::RunError;
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::settings::JobError;
@@ -61,7 +62,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     }?;
     files.write("svg", &draw(job, &runs))?;
     let summary = Summary::new(job, &runs);
-    conclude(arguments, &options, runs.traced().ticks, files, summary)
+    conclude(arguments, &options, files, summary)
 }
 
 /// Plays the path by every correction, that of the scenario with its waves.

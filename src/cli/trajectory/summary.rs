@@ -4,24 +4,22 @@ use super::Job;
 use super::rows::{self, CorrectionRow, SegmentRow};
 use super::runs::Runs;
 use super::verdict::complaints;
+use crate::cli::report::Outcome;
 use motion_rtl::trajectory_controller::settings::LEAST_PERIOD_TICKS;
 use serde::Serialize;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary {
-    /// The circuit that ran.
-    pub circuit: &'static str,
-    /// The input file, or the scenario's name.
-    pub input: String,
+    /// What it has as all others.
+    #[serde(flatten)]
+    pub outcome: Outcome,
     /// The correction in the waves.
     pub correction: &'static str,
     /// How the models round.
     pub rounding: &'static str,
     /// Axes.
     pub axes: usize,
-    /// Reference clock in Hz.
-    pub clock_hz: u64,
     /// Δt in ticks.
     pub period_ticks: u32,
     /// Ticks that the circuit needs of them.
@@ -34,18 +32,12 @@ pub struct Summary {
     pub k2_per_s: f64,
     /// Counts of a millimetre.
     pub counts_per_mm: f64,
-    /// Ticks of the run in the waves.
-    pub ticks: u64,
-    /// The same in seconds.
-    pub seconds: f64,
     /// Ticks of it in which the path was written, before it began.
     pub loading_ticks: u64,
     /// Interpolation periods.
     pub periods: usize,
     /// Whether every command is on the path, and every run came to rest at the path's end.
     pub exact: bool,
-    /// What is wrong where it is not.
-    pub complaints: Vec<String>,
     /// The path.
     pub path: PathSummary,
     /// The look-ahead.
@@ -54,12 +46,6 @@ pub struct Summary {
     pub corrections: Vec<CorrectionRow>,
     /// Every segment.
     pub segments: Vec<SegmentRow>,
-    /// Ticks that went into the VCD, half-open; `null` without one.
-    pub vcd_window: Option<[u64; 2]>,
-    /// What was skipped or assumed.
-    pub warnings: Vec<String>,
-    /// The files written.
-    pub files: Vec<String>,
 }
 
 /// A path by its length.
@@ -106,28 +92,33 @@ impl Summary {
         let complaints = complaints(job, runs);
         let segments = rows::segments(job, runs);
         let traced = runs.traced();
+        let input = match &job.drawing {
+            Some(drawing) => &drawing.file,
+            None => &job.stem,
+        };
         Summary {
-            circuit: "trajectory_controller",
-            input: match &job.drawing {
-                Some(drawing) => drawing.file.clone(),
-                None => job.stem.clone(),
+            exact: complaints.is_empty(),
+            outcome: Outcome {
+                complaints,
+                warnings: warnings(job, runs),
+                ..Outcome::new(
+                    "trajectory_controller",
+                    input,
+                    settings.clock_hz,
+                    traced.ticks,
+                )
             },
             correction: settings.correction.name(),
             rounding: settings.rounding.name(),
             axes: job.axes(),
-            clock_hz: settings.clock_hz,
             period_ticks: program.period_ticks,
             period_ticks_needed: LEAST_PERIOD_TICKS,
             period_ms: settings.period_ms,
             k1_per_s: settings.k1_per_s,
             k2_per_s: settings.k2_per_s,
             counts_per_mm: settings.counts_per_mm,
-            ticks: traced.ticks,
-            seconds: traced.ticks as f64 / settings.clock_hz as f64,
             loading_ticks: traced.start,
             periods: traced.periods,
-            exact: complaints.is_empty(),
-            complaints,
             path: PathSummary {
                 segments: program.path.stretches.len(),
                 length_mm: program.path.length as f64 / program.motion.units_per_mm,
@@ -136,9 +127,6 @@ impl Summary {
             plan: plan(job, &segments),
             corrections: rows::corrections(job, runs),
             segments,
-            vcd_window: None,
-            warnings: warnings(job, runs),
-            files: Vec::new(),
         }
     }
 }

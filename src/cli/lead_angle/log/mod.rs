@@ -6,8 +6,9 @@ mod text;
 use super::{Job, focus};
 use crate::cli::Failure;
 use crate::cli::files::Files;
+use crate::cli::report::{Outcome, conclude};
 use crate::cli::run::{Arguments, Progress};
-use crate::cli::traces::{Traces, conclude, no_such_tick};
+use crate::cli::traces::{Traces, no_such_tick};
 use motion_rtl::input::position_log::PositionLog;
 use motion_rtl::kernel::Without;
 use motion_rtl::lead_angle::job::{JobLead, RamLead, ShiftLead, positioner};
@@ -19,12 +20,9 @@ use serde::Serialize;
 /// The summary of a log.
 #[derive(Debug, Serialize)]
 struct Summary {
-    circuit: &'static str,
-    input: String,
+    #[serde(flatten)]
+    outcome: Outcome,
     samples: usize,
-    seconds: f64,
-    ticks: u64,
-    clock_hz: u64,
     ck_ticks: u32,
     /// Predictions with a lead that the log can judge, and their errors in counts.
     predictions: u64,
@@ -33,9 +31,6 @@ struct Summary {
     without_lead_rms_counts: f64,
     without_lead_max_counts: f64,
     signals: Vec<Row>,
-    complaints: Vec<String>,
-    vcd_window: Option<[u64; 2]>,
-    files: Vec<String>,
 }
 
 /// One signal.
@@ -76,7 +71,7 @@ pub fn run(
     let (replayed, mut files) = simulate(arguments, job, &settings, log, options)?;
     files.write("svg", &picture::draw(job, log, &settings, &replayed))?;
     let summary = summary(log, &settings, &replayed);
-    conclude(arguments, options, summary.ticks, files, summary)
+    conclude(arguments, options, files, summary)
 }
 
 /// Replays it with these settings.
@@ -121,12 +116,11 @@ fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summa
     let predictions = replayed.predictions;
     let lost = "the encoder was too fast for the detector".to_owned();
     Summary {
-        circuit: "lead_angle",
-        input: log.file.clone(),
+        outcome: Outcome {
+            complaints: replayed.lost.then_some(lost).into_iter().collect(),
+            ..Outcome::new("lead_angle", &log.file, settings.clock_hz, replayed.ticks)
+        },
         samples: log.samples.len(),
-        seconds: log.seconds(),
-        ticks: replayed.ticks,
-        clock_hz: settings.clock_hz,
         ck_ticks: settings.ck_ticks,
         predictions: predictions.count,
         error_rms_counts: predictions.rms,
@@ -134,8 +128,5 @@ fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summa
         without_lead_rms_counts: predictions.rms_without,
         without_lead_max_counts: predictions.largest_without,
         signals: replayed.signals.iter().map(row).collect(),
-        complaints: replayed.lost.then_some(lost).into_iter().collect(),
-        vcd_window: None,
-        files: Vec::new(),
     }
 }

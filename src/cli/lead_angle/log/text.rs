@@ -1,40 +1,28 @@
 //! The summary of a log for people.
 
 use super::Summary;
-use crate::cli::traces::{Report, Tail};
+use crate::cli::report::{Outcome, Report};
 use std::fmt::Write;
 
 /// Signals that are shown, unless all are asked for.
 const SHOWN: usize = 16;
 
 impl Report for Summary {
-    fn written(&mut self, vcd_window: Option<[u64; 2]>, files: Vec<String>) {
-        (self.vcd_window, self.files) = (vcd_window, files);
-    }
-
-    fn complaints(&self) -> &[String] {
-        &self.complaints
-    }
-
-    fn tail(&self) -> Tail<'_> {
-        Tail {
-            warnings: &[],
-            window: self.vcd_window,
-            ticks: self.ticks,
-            files: &self.files,
-        }
+    fn outcome(&mut self) -> &mut Outcome {
+        &mut self.outcome
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
+        let outcome = &self.outcome;
         writeln!(
             text,
             "{} on {}: {} samples, {:.3} s, {} ticks at {} Hz, CK of {} ticks\n",
-            self.input,
-            self.circuit,
+            outcome.input,
+            outcome.circuit,
             self.samples,
-            self.seconds,
-            self.ticks,
-            self.clock_hz,
+            outcome.seconds,
+            outcome.ticks,
+            outcome.clock_hz,
             self.ck_ticks
         )?;
         self.predictions(text)?;

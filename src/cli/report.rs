@@ -1,0 +1,105 @@
+//! How every run ends: what all summaries have, and what is said of it.
+
+use super::files::Files;
+use super::run::Arguments;
+use super::{Failure, print, print_json};
+use motion_rtl::trace::Options;
+use serde::Serialize;
+use std::fmt::{self, Write as _};
+use std::ops::Range;
+
+/// What all summaries have.
+#[derive(Debug, Serialize)]
+pub struct Outcome {
+    /// The circuit that ran.
+    pub circuit: &'static str,
+    /// The input file, or the scenario's name.
+    pub input: String,
+    /// Reference clock in Hz.
+    pub clock_hz: u64,
+    /// Ticks of the run, where there are more than one of that in the waves.
+    pub ticks: u64,
+    /// The same in seconds.
+    pub seconds: f64,
+    /// What is wrong with the run; nothing where it did what it was to do.
+    pub complaints: Vec<String>,
+    /// What was skipped, assumed or rounded, and what else is worth knowing.
+    pub warnings: Vec<String>,
+    /// Ticks that went into the waves, half-open; `null` without any.
+    pub vcd_window: Option<[u64; 2]>,
+    /// The files written.
+    pub files: Vec<String>,
+}
+
+impl Outcome {
+    /// Of a run that nothing is known to be wrong with; its files are not written yet.
+    pub fn new(circuit: &'static str, input: &str, clock_hz: u64, ticks: u64) -> Self {
+        Outcome {
+            circuit,
+            input: input.to_owned(),
+            clock_hz,
+            ticks,
+            seconds: ticks as f64 / clock_hz as f64,
+            complaints: Vec::new(),
+            warnings: Vec::new(),
+            vcd_window: None,
+            files: Vec::new(),
+        }
+    }
+
+    /// What the text of every summary ends with.
+    fn tail(&self, text: &mut String) -> fmt::Result {
+        for warning in &self.warnings {
+            writeln!(text, "warning: {warning}")?;
+        }
+        if let Some([from, to]) = self.vcd_window
+            && (from > 0 || to < self.ticks)
+        {
+            writeln!(
+                text,
+                "the waves show ticks {from} to {to} of {}: --from and --to choose others",
+                self.ticks
+            )?;
+        }
+        for file in &self.files {
+            writeln!(text, "wrote {file}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The summary of a run.
+pub trait Report: Serialize {
+    /// What it has as all others.
+    fn outcome(&mut self) -> &mut Outcome;
+    /// Writes it for people, with every part of the run if `all` are wanted.
+    fn write(&self, text: &mut String, all: bool) -> fmt::Result;
+}
+
+/// Ends a run: names its files, prints its summary, fails where it complains.
+pub fn conclude(
+    arguments: &Arguments,
+    options: &Options,
+    files: Files,
+    mut summary: impl Report,
+) -> Result<(), Failure> {
+    let Range { start, end } = options.ticks;
+    let outcome = summary.outcome();
+    let window = [start, end.min(outcome.ticks).max(start)];
+    outcome.vcd_window = (!arguments.no_vcd).then_some(window);
+    outcome.files = files.commit()?;
+    match arguments.json {
+        true => print_json(&summary)?,
+        false => {
+            let mut text = String::new();
+            // Writing to a string does not fail.
+            let _ = summary.write(&mut text, arguments.segments);
+            let _ = summary.outcome().tail(&mut text);
+            print(&text)?;
+        }
+    }
+    match &summary.outcome().complaints[..] {
+        [] => Ok(()),
+        complaints => Err(Failure::Check(complaints.join("\n"))),
+    }
+}
