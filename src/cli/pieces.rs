@@ -1,7 +1,7 @@
 //! The pieces of a path, from a scenario's tables or its drawing, and what is wrong with one.
 
 use super::Failure;
-use super::job::{Source, drawing_fault};
+use super::source::{Source, drawing_fault};
 use motion_rtl::arc_generator::error::{PathError, Reason};
 use motion_rtl::arc_generator::path::{Piece, Speeds, Taught, from_drawing, from_points};
 use motion_rtl::input::scenario::Loaded;

@@ -103,3 +103,26 @@ pub fn conclude(
         complaints => Err(Failure::Check(complaints.join("\n"))),
     }
 }
+
+/// The first of some complaints of a kind, and how many more there are.
+pub fn first(mut all: impl Iterator<Item = String>) -> Option<String> {
+    let text = all.next()?;
+    Some(match all.count() {
+        0 => text,
+        more => format!("{text} (and {more} more like it)"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first;
+
+    #[test]
+    fn the_first_of_many_stands_for_all() {
+        let all = |count: usize| first((0..count).map(|k| format!("{k} ends")));
+        assert_eq!(all(0), None);
+        assert_eq!(all(1).unwrap(), "0 ends");
+        assert_eq!(all(2).unwrap(), "0 ends (and 1 more like it)");
+        assert_eq!(all(4).unwrap(), "0 ends (and 3 more like it)");
+    }
+}

@@ -1,25 +1,18 @@
-//! `run`: a job on the circuit, with waves, save file and picture.
+//! `run`: a job on its circuit, with waves, save file and picture.
 
-use super::files::Files;
-use super::job::{Input, Job, Source};
-use super::picture::{Following, draw};
-use super::report::conclude;
-use super::summary::Summary;
-use super::traces::{Focus, Format, Traces};
-use super::{Failure, arc, lead_angle, linear, machine, trajectory};
+use super::source::{Input, Source};
+use super::traces::Format;
+use super::{Failure, arc, lead_angle, linear, machine, pulse, trajectory};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
-use motion_rtl::pulse_interpolator::job::{Played, fast_forward, group, play};
 use motion_rtl::trace::{Clock, Options};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 /// Ticks between two looks at the progress bar.
 const PROGRESS: u64 = 1 << 18;
-/// Unit times that the save file's window shows.
-const UNITS_SHOWN: u64 = 6;
 
 /// What to run, and what to write.
 #[derive(Debug, Default, Args)]
@@ -60,7 +53,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = Source::read(&arguments.input)?;
     match &source.loaded.scenario {
-        Scenario::PulseInterpolator(_) => pulse(arguments, Job::prepare(source)?),
+        Scenario::PulseInterpolator(_) => pulse::run(arguments, &pulse::Job::prepare(source)?),
         Scenario::LinearInterpolator(scenario) => {
             let settings = scenario.settings();
             linear::run(arguments, &linear::Job::prepare(source, settings)?)
@@ -87,28 +80,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Runs a job on the pulse interpolator.
-fn pulse(arguments: &Arguments, job: Job) -> Result<(), Failure> {
-    if arguments.segments {
-        return Err(Failure::Argument {
-            field: "--segments",
-            problem: "the pulse interpolator has no segments".into(),
-            allowed: "a scenario of another circuit".into(),
-        });
-    }
-    let options = options(arguments, job.vcd_ticks)?;
-    let (played, mut files) = match job.table.axes() {
-        1 => simulate::<1>(arguments, &job, &options),
-        2 => simulate::<2>(arguments, &job, &options),
-        _ => simulate::<3>(arguments, &job, &options),
-    }?;
-    let following =
-        Following::new(&job, &played).map_err(|error| Failure::Check(error.to_string()))?;
-    let summary = Summary::new(&job, &played, &following.largest);
-    files.write("svg", &draw(&job, &played, &following))?;
-    conclude(arguments, &options, files, summary)
-}
-
 /// The window and the signals that are asked for.
 pub(super) fn options(arguments: &Arguments, most: u64) -> Result<Options, Failure> {
     let from = arguments.from.unwrap_or(0);
@@ -125,36 +96,6 @@ pub(super) fn options(arguments: &Arguments, most: u64) -> Result<Options, Failu
         ticks: from..to,
         only,
     })
-}
-
-fn simulate<const AXES: usize>(
-    arguments: &Arguments,
-    job: &Job,
-    options: &Options,
-) -> Result<(Played, Files), Failure> {
-    let group = group::<AXES>(&job.table, job.variant);
-    let ticks = job.table.total_ticks();
-    let scenario = (&job.loaded, job.stem.as_str());
-    let mut traces = Traces::begin((&group, &group), arguments, scenario, options, ticks)?;
-    let mut progress = Progress::new(ticks);
-    // Two calls, so that a run without waves is compiled without a trace of them.
-    let played = match traces.is_empty() {
-        false => {
-            let files = (traces.waves.as_mut(), traces.stimulus.as_mut());
-            play(&group, &job.table, (files, &mut progress))
-        }
-        true => fast_forward(&group, &job.table, &mut progress),
-    }?;
-    drop(progress);
-    let unit = u64::from(job.table.patterns().first().map_or(1, |first| first.period));
-    let focus = Focus {
-        action: played.first_step.unwrap_or(played.begun),
-        before: unit,
-        shown: UNITS_SHOWN * unit,
-        overview: &[],
-    };
-    let files = traces.finish(&group, &focus, played.ticks)?;
-    Ok((played, files))
 }
 
 /// The clock of the waves, in which the last tick must have a time; ticks that do not fit their

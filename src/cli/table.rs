@@ -1,7 +1,7 @@
 //! `table`: a drawing compiled into the pattern memory's contents.
 
-use super::job::{Input, Job, Source};
-use super::summary::{TableSummary, warnings};
+use super::pulse::{Job, TableSummary, warnings};
+use super::source::{Input, Source};
 use super::{Failure, print, print_json};
 use clap::Args;
 use motion_rtl::pulse_interpolator::{AXIS_NAMES, Ratio, Report, Scaled, Table};

@@ -3,7 +3,7 @@
 use super::Job;
 use super::figures::Figures;
 use super::rows::{ArcRow, bound};
-use crate::cli::verdict::first;
+use crate::cli::report::first;
 use motion_rtl::arc_generator::job::Played;
 use motion_rtl::arc_generator::vector::distance;
 use motion_rtl::arc_generator::widths::Widths;
@@ -86,7 +86,7 @@ fn straight(job: &Job) -> f64 {
 mod tests {
     use super::*;
     use crate::cli::arc::rows::arcs;
-    use crate::cli::job::{Input, Source};
+    use crate::cli::source::{Input, Source};
     use motion_rtl::arc_generator::job::Command;
     use motion_rtl::arc_generator::reference;
     use motion_rtl::input::scenario::Scenario;

@@ -1,7 +1,7 @@
 //! What a run of the lead-angle compensator begins with: settings, and perhaps a position log.
 
 use crate::cli::Failure;
-use crate::cli::job::Source;
+use crate::cli::source::Source;
 use motion_rtl::input::Fault;
 use motion_rtl::input::position_log::{Columns, PositionLog, Sample};
 use motion_rtl::input::scenario::Loaded;

@@ -1,7 +1,7 @@
 //! What a run of the linear interpolator begins with: settings and cycles.
 
 use crate::cli::Failure;
-use crate::cli::job::{Source, compiling, drawing_fault, plan_fault};
+use crate::cli::source::{Source, compiling, drawing_fault, plan_fault};
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault};
 use motion_rtl::linear_interpolator::settings::Settings;

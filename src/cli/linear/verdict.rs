@@ -1,7 +1,7 @@
 //! Whether a run did what its targets say.
 
 use super::{Job, Runs};
-use crate::cli::verdict::first;
+use crate::cli::report::first;
 use motion_rtl::linear_interpolator::measure::{Played, Segment};
 use motion_rtl::linear_interpolator::settings::{AXIS_NAMES, Rule};
 use motion_rtl::linear_interpolator::targets::Target;

@@ -1,8 +1,9 @@
 //! What a run of the machine begins with: a job for all circuits, prepared.
 
 use crate::cli::Failure;
-use crate::cli::job::{Source, compiling, table_fault};
 use crate::cli::pieces::{SpeedKeys, fault};
+use crate::cli::pulse::table_fault;
+use crate::cli::source::{Source, compiling};
 use motion_rtl::arc_generator::path::Speeds;
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault};

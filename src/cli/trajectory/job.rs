@@ -1,8 +1,8 @@
 //! What a run of the trajectory controller begins with: a path, planned, and its machine.
 
 use crate::cli::Failure;
-use crate::cli::job::Source;
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
+use crate::cli::source::Source;
 use motion_rtl::arc_generator::error::PathError;
 use motion_rtl::arc_generator::path::Speeds;
 use motion_rtl::input::Drawing;

@@ -55,7 +55,7 @@ fn of_run(job: &Job, run: &Run) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::job::{Input, Source};
+    use crate::cli::source::{Input, Source};
     use crate::cli::trajectory::CORRECTIONS;
     use motion_rtl::input::scenario::Scenario;
     use motion_rtl::trajectory_controller::job::{Period, Played};

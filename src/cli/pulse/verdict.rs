@@ -1,6 +1,6 @@
 //! Whether a run did what its table says and what its driver asks for.
 
-use super::job::Job;
+use super::Job;
 use super::summary::Minima;
 use motion_rtl::pulse_interpolator::counts::pulses;
 use motion_rtl::pulse_interpolator::job::Played;
@@ -59,27 +59,4 @@ fn miscount(job: &Job, played: &Played, axis: usize) -> Option<String> {
 fn count(word: Word, period: u32) -> i64 {
     let steps = i64::from(pulses(word.half_period(), period));
     if word.negative() { -steps } else { steps }
-}
-
-/// The first of some complaints of a kind, and how many more there are.
-pub fn first(mut all: impl Iterator<Item = String>) -> Option<String> {
-    let text = all.next()?;
-    Some(match all.count() {
-        0 => text,
-        more => format!("{text} (and {more} more like it)"),
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::first;
-
-    #[test]
-    fn the_first_of_many_stands_for_all() {
-        let all = |count: usize| first((0..count).map(|k| format!("{k} ends")));
-        assert_eq!(all(0), None);
-        assert_eq!(all(1).unwrap(), "0 ends");
-        assert_eq!(all(2).unwrap(), "0 ends (and 1 more like it)");
-        assert_eq!(all(4).unwrap(), "0 ends (and 3 more like it)");
-    }
 }

@@ -1,6 +1,6 @@
 //! The picture of a run: the path as commanded and as pulsed, and the following error over time.
 
-use super::job::Job;
+use super::Job;
 use motion_rtl::input::Course;
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
 use motion_rtl::plan::outline;

@@ -1,15 +1,12 @@
-//! What `run` and `table` begin with: scenario, input, settings, table.
+//! What `run` and `table` begin with: a scenario and its input.
 
-use super::Failure;
 use super::shipped::{self, SHIPPED, Shipped};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
-use motion_rtl::input::scenario::pulse_interpolator::VariantName;
-use motion_rtl::input::scenario::{self, Loaded};
-use motion_rtl::input::{DRAWINGS, Drawing, Fault, Kind, read_path};
+use motion_rtl::input::scenario::Loaded;
+use motion_rtl::input::{Drawing, Fault, Kind, read_path};
 use motion_rtl::plan::{FEED_RANGE, PlanError};
-use motion_rtl::pulse_interpolator::{Report, Settings, Table, TableError, Variant, compile};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -88,6 +85,15 @@ impl Source {
         }
     }
 
+    /// The input, where its extension and nothing else chose the circuit.
+    pub fn chose_circuit(&self) -> Option<&Path> {
+        let loaded = &self.loaded;
+        match &self.origin {
+            Origin::File(path) if loaded.is_bare() && !loaded.overrides("circuit") => Some(path),
+            _ => None,
+        }
+    }
+
     /// Refuses an input of a kind that the circuit does not take.
     fn takes(&self, input: &Path) -> Result<(), Fault> {
         let circuit = self.loaded.scenario.circuit();
@@ -134,81 +140,6 @@ pub fn compiling() -> ProgressBar {
     spinner
 }
 
-/// An input ready to be run on the pulse interpolator.
-#[derive(Debug)]
-pub struct Job {
-    /// The scenario it came from.
-    pub loaded: Loaded,
-    /// What its files are called.
-    pub stem: String,
-    /// The input.
-    pub drawing: Drawing,
-    /// What RST clears.
-    pub variant: Variant,
-    /// The most ticks that go into the VCD unless a window is asked for.
-    pub vcd_ticks: u64,
-    /// Its settings.
-    pub settings: Settings,
-    /// The pattern memory's contents.
-    pub table: Table,
-    /// What came of the compilation.
-    pub report: Report,
-}
-
-impl Job {
-    /// Compiles an input; one of another circuit has no table.
-    pub fn prepare(source: Source) -> Result<Self, Failure> {
-        let scenario = match &source.loaded.scenario {
-            scenario::Scenario::PulseInterpolator(scenario) => Ok(scenario),
-            scenario::Scenario::LinearInterpolator(_) => Err("linear interpolator"),
-            scenario::Scenario::LeadAngle(_) => Err("lead-angle compensator"),
-            scenario::Scenario::ArcGenerator(_) => Err("arc generator"),
-            scenario::Scenario::TrajectoryController(_) => Err("trajectory controller"),
-            scenario::Scenario::Machine(_) => Err("machine"),
-        };
-        let scenario = scenario.map_err(|circuit| {
-            let loaded = &source.loaded;
-            match &source.origin {
-                // The file's extension chose the circuit.
-                Origin::File(path) if loaded.is_bare() && !loaded.overrides("circuit") => Fault {
-                    file: path.display().to_string(),
-                    line: 0,
-                    field: "file".to_owned(),
-                    problem: format!("is for the {circuit}, which has no table"),
-                    allowed: format!("{DRAWINGS}; or the command run"),
-                },
-                _ => {
-                    let problem = format!("the {circuit} has no table");
-                    let allowed = "pulse_interpolator, or the command run".to_owned();
-                    loaded.fault("circuit", problem, allowed)
-                }
-            }
-        })?;
-        let drawing = source.drawing()?;
-        let variant = match scenario.variant {
-            VariantName::Safe => Variant::Safe,
-            VariantName::Literal => Variant::Literal,
-        };
-        let vcd_ticks = scenario.vcd_ticks;
-        let settings = scenario.settings(&drawing);
-        let spinner = compiling();
-        let (table, report) = compile(&drawing, &settings)
-            .map_err(|error| table_fault(&source.loaded, &drawing, &settings, error))?;
-        drop(spinner);
-        let Source { loaded, stem, .. } = source;
-        Ok(Job {
-            loaded,
-            stem,
-            drawing,
-            variant,
-            vcd_ticks,
-            settings,
-            table,
-            report,
-        })
-    }
-}
-
 fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
     let path = match &input.input {
         None => Path::new(SHIPPED[0].file),
@@ -238,37 +169,6 @@ fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {
         return Err(loaded.fault("vcd_ticks", "is 0".to_owned(), allowed));
     }
     Ok((loaded, origin, path.to_owned()))
-}
-
-/// What the compiler objects to, with the file and line it stands in.
-pub fn table_fault(
-    loaded: &Loaded,
-    drawing: &Drawing,
-    settings: &Settings,
-    error: TableError,
-) -> Fault {
-    let in_drawing = |line, field: String, problem, allowed| {
-        drawing_fault(drawing, line, &field, problem, allowed)
-    };
-    match error {
-        TableError::Setting(error) => loaded.refuse(error),
-        TableError::Position { line, axis, steps } => {
-            let per_mm = &settings.steps_per_mm;
-            let problem = format!("is {steps} steps at {per_mm:?} steps/mm");
-            let allowed = format!("{} to {} steps", i32::MIN, i32::MAX);
-            in_drawing(line, axis.to_owned(), problem, allowed)
-        }
-        TableError::TooLong { units, most } => {
-            let problem = format!("the path takes {units} unit times");
-            let allowed = format!("{most}: fewer moves, a higher feed or longer unit times");
-            in_drawing(0, "path".into(), problem, allowed)
-        }
-        TableError::Plan(error) => plan_fault(loaded, drawing, error),
-        error @ TableError::ScaledHalfPeriod { .. } => {
-            let allowed = "a smaller ratio".to_owned();
-            in_drawing(0, "--scale".into(), error.to_string(), allowed)
-        }
-    }
 }
 
 /// What the planner objects to, with the file and line it stands in.

@@ -1,14 +1,13 @@
-//! What a run or a compilation came to, for people and for machines.
+//! What a run or a compilation came to.
 
-use super::job::Job;
-use super::report::{Outcome, Report};
+use super::Job;
 use super::verdict::complaints;
+use crate::cli::report::Outcome;
 use motion_rtl::pulse_interpolator::job::Played;
 use motion_rtl::pulse_interpolator::step_dir::TimingMinima;
 use motion_rtl::pulse_interpolator::{AXIS_NAMES, FollowingError, Remedy, StepTiming, Variant};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
@@ -66,10 +65,14 @@ pub struct AxisSummary {
 /// Shortest times on the step and direction lines, in ticks.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Minima {
-    high: Option<u64>,
-    low: Option<u64>,
-    setup: Option<u64>,
-    hold: Option<u64>,
+    /// High time of a step pulse.
+    pub high: Option<u64>,
+    /// Low time between two.
+    pub low: Option<u64>,
+    /// From a change of direction to the next pulse.
+    pub setup: Option<u64>,
+    /// From a pulse to a change of direction.
+    pub hold: Option<u64>,
 }
 
 impl From<TimingMinima> for Minima {
@@ -189,95 +192,5 @@ impl Summary {
             table: TableSummary::new(job),
             idle_units: played.idle_units,
         }
-    }
-}
-
-impl Report for Summary {
-    fn outcome(&mut self) -> &mut Outcome {
-        &mut self.outcome
-    }
-
-    fn write(&self, text: &mut String, _: bool) -> std::fmt::Result {
-        let Outcome {
-            input,
-            circuit,
-            ticks,
-            seconds,
-            clock_hz,
-            ..
-        } = &self.outcome;
-        let variant = self.variant;
-        writeln!(
-            text,
-            "{input} on {circuit} ({variant}): {ticks} ticks, {seconds:.3} s at {clock_hz} Hz"
-        )?;
-        text.push('\n');
-        writeln!(
-            text,
-            "axis  steps demanded  pulses emitted      up    down  end position  following error \
-             (unit, line)  high   low setup  hold (min ticks)"
-        )?;
-        for (name, axis) in &self.axes {
-            let error = axis.following_error_max;
-            let least = |ticks: Option<u64>| ticks.map_or("-".to_owned(), |t| t.to_string());
-            let Minima {
-                high,
-                low,
-                setup,
-                hold,
-            } = axis.timing_min_ticks;
-            writeln!(
-                text,
-                "{name:<4}  {:>14}  {:>14}  {:>6}  {:>6}  {:>12}  {:>15} {:>12}  {:>5} {:>5} {:>5} {:>5}",
-                axis.steps_demanded,
-                axis.pulses_emitted,
-                axis.pulses_up,
-                axis.pulses_down,
-                axis.end_position,
-                format!("{:.3} steps", error.steps),
-                format!("({}, {})", error.unit, error.line),
-                least(high),
-                least(low),
-                least(setup),
-                least(hold),
-            )?;
-        }
-        text.push('\n');
-        text.push_str(&self.table.text());
-        if self.idle_units > 0 {
-            let idle = self.idle_units;
-            writeln!(
-                text,
-                "{idle} unit times without pulses between two patterns"
-            )?;
-        }
-        Ok(())
-    }
-}
-
-impl TableSummary {
-    /// The table for people.
-    pub fn text(&self) -> String {
-        let mut text = format!("{} unit times", self.units);
-        if self.appended_units > 0 {
-            let _ = write!(
-                text,
-                ", {} of them appended after the path",
-                self.appended_units
-            );
-        }
-        let _ = match (self.unattainable_units, self.remedy) {
-            (0, _) => write!(text, ", every demand attainable"),
-            (units, Some(remedy)) => write!(
-                text,
-                ", {units} with a demand that is not attainable: with T = {} it would be",
-                remedy.period
-            ),
-            (units, None) => write!(
-                text,
-                ", {units} with a demand that is not attainable, nor with a shorter T"
-            ),
-        };
-        text + "\n"
     }
 }

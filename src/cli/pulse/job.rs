@@ -1,0 +1,110 @@
+//! A drawing compiled for the pulse interpolator.
+
+use crate::cli::Failure;
+use crate::cli::source::{Source, compiling, drawing_fault, plan_fault};
+use motion_rtl::input::scenario::pulse_interpolator::VariantName;
+use motion_rtl::input::scenario::{Loaded, Scenario};
+use motion_rtl::input::{DRAWINGS, Drawing, Fault};
+use motion_rtl::pulse_interpolator::{Report, Settings, Table, TableError, Variant, compile};
+
+/// An input ready to be run on the pulse interpolator.
+#[derive(Debug)]
+pub struct Job {
+    /// The scenario it came from.
+    pub loaded: Loaded,
+    /// What its files are called.
+    pub stem: String,
+    /// The input.
+    pub drawing: Drawing,
+    /// What RST clears.
+    pub variant: Variant,
+    /// The most ticks that go into the VCD unless a window is asked for.
+    pub vcd_ticks: u64,
+    /// Its settings.
+    pub settings: Settings,
+    /// The pattern memory's contents.
+    pub table: Table,
+    /// What came of the compilation.
+    pub report: Report,
+}
+
+impl Job {
+    /// Compiles an input; one of another circuit has no table.
+    pub fn prepare(source: Source) -> Result<Self, Failure> {
+        let scenario = match &source.loaded.scenario {
+            Scenario::PulseInterpolator(scenario) => Ok(scenario),
+            Scenario::LinearInterpolator(_) => Err("linear interpolator"),
+            Scenario::LeadAngle(_) => Err("lead-angle compensator"),
+            Scenario::ArcGenerator(_) => Err("arc generator"),
+            Scenario::TrajectoryController(_) => Err("trajectory controller"),
+            Scenario::Machine(_) => Err("machine"),
+        };
+        let scenario = scenario.map_err(|circuit| match source.chose_circuit() {
+            Some(path) => Fault {
+                file: path.display().to_string(),
+                line: 0,
+                field: "file".to_owned(),
+                problem: format!("is for the {circuit}, which has no table"),
+                allowed: format!("{DRAWINGS}; or the command run"),
+            },
+            None => {
+                let problem = format!("the {circuit} has no table");
+                let allowed = "pulse_interpolator, or the command run".to_owned();
+                source.loaded.fault("circuit", problem, allowed)
+            }
+        })?;
+        let drawing = source.drawing()?;
+        let variant = match scenario.variant {
+            VariantName::Safe => Variant::Safe,
+            VariantName::Literal => Variant::Literal,
+        };
+        let vcd_ticks = scenario.vcd_ticks;
+        let settings = scenario.settings(&drawing);
+        let spinner = compiling();
+        let (table, report) = compile(&drawing, &settings)
+            .map_err(|error| table_fault(&source.loaded, &drawing, &settings, error))?;
+        drop(spinner);
+        let Source { loaded, stem, .. } = source;
+        Ok(Job {
+            loaded,
+            stem,
+            drawing,
+            variant,
+            vcd_ticks,
+            settings,
+            table,
+            report,
+        })
+    }
+}
+
+/// What the compiler objects to, with the file and line it stands in.
+pub fn table_fault(
+    loaded: &Loaded,
+    drawing: &Drawing,
+    settings: &Settings,
+    error: TableError,
+) -> Fault {
+    let in_drawing = |line, field: String, problem, allowed| {
+        drawing_fault(drawing, line, &field, problem, allowed)
+    };
+    match error {
+        TableError::Setting(error) => loaded.refuse(error),
+        TableError::Position { line, axis, steps } => {
+            let per_mm = &settings.steps_per_mm;
+            let problem = format!("is {steps} steps at {per_mm:?} steps/mm");
+            let allowed = format!("{} to {} steps", i32::MIN, i32::MAX);
+            in_drawing(line, axis.to_owned(), problem, allowed)
+        }
+        TableError::TooLong { units, most } => {
+            let problem = format!("the path takes {units} unit times");
+            let allowed = format!("{most}: fewer moves, a higher feed or longer unit times");
+            in_drawing(0, "path".into(), problem, allowed)
+        }
+        TableError::Plan(error) => plan_fault(loaded, drawing, error),
+        error @ TableError::ScaledHalfPeriod { .. } => {
+            let allowed = "a smaller ratio".to_owned();
+            in_drawing(0, "--scale".into(), error.to_string(), allowed)
+        }
+    }
+}

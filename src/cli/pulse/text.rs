@@ -1,0 +1,95 @@
+//! The summary for people.
+
+use super::summary::{Minima, Summary, TableSummary};
+use crate::cli::report::{Outcome, Report};
+use std::fmt::Write;
+
+impl Report for Summary {
+    fn outcome(&mut self) -> &mut Outcome {
+        &mut self.outcome
+    }
+
+    fn write(&self, text: &mut String, _: bool) -> std::fmt::Result {
+        let Outcome {
+            input,
+            circuit,
+            ticks,
+            seconds,
+            clock_hz,
+            ..
+        } = &self.outcome;
+        let variant = self.variant;
+        writeln!(
+            text,
+            "{input} on {circuit} ({variant}): {ticks} ticks, {seconds:.3} s at {clock_hz} Hz"
+        )?;
+        text.push('\n');
+        writeln!(
+            text,
+            "axis  steps demanded  pulses emitted      up    down  end position  following error \
+             (unit, line)  high   low setup  hold (min ticks)"
+        )?;
+        for (name, axis) in &self.axes {
+            let error = axis.following_error_max;
+            let least = |ticks: Option<u64>| ticks.map_or("-".to_owned(), |t| t.to_string());
+            let Minima {
+                high,
+                low,
+                setup,
+                hold,
+            } = axis.timing_min_ticks;
+            writeln!(
+                text,
+                "{name:<4}  {:>14}  {:>14}  {:>6}  {:>6}  {:>12}  {:>15} {:>12}  {:>5} {:>5} {:>5} {:>5}",
+                axis.steps_demanded,
+                axis.pulses_emitted,
+                axis.pulses_up,
+                axis.pulses_down,
+                axis.end_position,
+                format!("{:.3} steps", error.steps),
+                format!("({}, {})", error.unit, error.line),
+                least(high),
+                least(low),
+                least(setup),
+                least(hold),
+            )?;
+        }
+        text.push('\n');
+        text.push_str(&self.table.text());
+        if self.idle_units > 0 {
+            let idle = self.idle_units;
+            writeln!(
+                text,
+                "{idle} unit times without pulses between two patterns"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+impl TableSummary {
+    /// The table for people.
+    pub fn text(&self) -> String {
+        let mut text = format!("{} unit times", self.units);
+        if self.appended_units > 0 {
+            let _ = write!(
+                text,
+                ", {} of them appended after the path",
+                self.appended_units
+            );
+        }
+        let _ = match (self.unattainable_units, self.remedy) {
+            (0, _) => write!(text, ", every demand attainable"),
+            (units, Some(remedy)) => write!(
+                text,
+                ", {units} with a demand that is not attainable: with T = {} it would be",
+                remedy.period
+            ),
+            (units, None) => write!(
+                text,
+                ", {units} with a demand that is not attainable, nor with a shorter T"
+            ),
+        };
+        text + "\n"
+    }
+}
