@@ -213,7 +213,7 @@ fn seen<W: Law, L: Logic>(
             w: &w,
         };
         seen = law.see(seen, tick, &now);
-        q = circuit.next(q, &w, &i);
+        q = L::clock(circuit, q, &w, &i);
     }
     seen
 }

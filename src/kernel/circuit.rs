@@ -4,6 +4,7 @@ use super::signals::{Extent, Field, Inside, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Logic, Sim};
 use std::any::Any;
 use std::fmt;
+use std::hint::cold_path;
 use std::mem::ManuallyDrop;
 use std::process::abort;
 
@@ -35,8 +36,8 @@ pub trait Circuit: 'static {
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, i: &Self::In<L>) -> Self::Reg<L>;
 
     /// A clock gate, if it has one: high where the edge would leave every register as it is, in
-    /// every state that the circuit can reach. In the meaning [`Sim`] it is not clocked then; the
-    /// HDL has no gate.
+    /// every state that the circuit can reach. In the meanings [`Sim`] and
+    /// [`Lanes`](crate::logic::Lanes) it is not clocked then; the HDL has no gate.
     ///
     /// Only speed depends on it, so a condition may leave ticks out, but none in which a register
     /// changes: [`reach`](crate::check::reach) and [`drive`](crate::check::drive()) find it.
@@ -53,7 +54,7 @@ pub trait Circuit: 'static {
 
     /// A gate for all but what goes on by itself, if it has one: high where the edge would do what
     /// [`coast`](Circuit::coast) does and no more, in every state that the circuit can reach. In the
-    /// meaning [`Sim`] it coasts then.
+    /// meanings [`Sim`] and [`Lanes`](crate::logic::Lanes) it coasts then.
     ///
     /// It is there for speed only, as [`gated`](Circuit::gated) is, and checked in the same way.
     #[inline(always)]
@@ -101,6 +102,29 @@ pub trait Circuit: 'static {
             }
         }
         supply(Role::Register, &mut PowerOn)
+    }
+}
+
+/// The registers after an edge, where a value can be looked at: by its gates a circuit rests or
+/// coasts.
+#[inline(always)]
+pub(crate) fn clocked<L: Logic, C: Circuit>(
+    circuit: &C,
+    q: C::Reg<L>,
+    w: &C::Net<L>,
+    i: &C::In<L>,
+    high: impl Fn(L::Bit) -> bool,
+) -> C::Reg<L> {
+    match (circuit.coasting(&q, w, i), circuit.gated(&q, w, i)) {
+        (None, None) => circuit.next(q, w, i),
+        (Some(coasting), _) if high(coasting) => circuit.coast(q),
+        (_, Some(gate)) if high(gate) => q,
+        _ => {
+            cold_path();
+            // The nets once more: those that are read here only are computed here only.
+            let w = circuit.comb(&q, i);
+            circuit.next(q, &w, i)
+        }
     }
 }
 

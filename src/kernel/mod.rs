@@ -18,6 +18,7 @@ mod simulator;
 mod tests;
 
 pub use beside::{Beside, With, WithIn, Without};
+pub(crate) use circuit::clocked;
 pub use circuit::{Circuit, Instance};
 pub use declare::{Declaration, Declarations, InstanceDeclaration, MemoryDeclaration, Path};
 pub use fast_forward::FastForward;

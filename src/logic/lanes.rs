@@ -11,7 +11,7 @@ pub use pack::{lane, pack, spread, unpack};
 pub use words::{LaneBit, LaneInt, LaneUInt};
 
 use super::{Image, Logic};
-use crate::kernel::Circuit;
+use crate::kernel::{Circuit, clocked};
 use std::marker::PhantomData;
 
 /// A word is `K` words side by side, each in an element `E`: the meaning for exhaustive
@@ -30,7 +30,7 @@ impl<const K: usize, E: Element> Logic for Lanes<K, E> {
     type Ram<const A: usize, const D: usize> = LaneRam<K, E, A, D>;
     type ShiftRegister<const S: usize, const D: usize> = LaneShiftRegister<K, E, S, D>;
 
-    /// Where every lane rests, as in a sweep, whose lanes are in step.
+    /// A gate is high where it is in every lane: those of a sweep are in step.
     #[inline(always)]
     fn clock<C: Circuit>(
         circuit: &C,
@@ -38,10 +38,7 @@ impl<const K: usize, E: Element> Logic for Lanes<K, E> {
         w: &C::Net<Self>,
         i: &C::In<Self>,
     ) -> C::Reg<Self> {
-        match circuit.gated(&q, w, i) {
-            Some(gate) if gate.all() => q,
-            _ => circuit.next(q, w, i),
-        }
+        clocked(circuit, q, w, i, LaneBit::all)
     }
 
     #[inline]

@@ -7,8 +7,7 @@ pub use memory::{RamWords, SimRam, SimShiftRegister, Stages};
 pub use words::{Int, UInt, Wire};
 
 use super::{Image, Logic};
-use crate::kernel::Circuit;
-use std::hint::cold_path;
+use crate::kernel::{Circuit, clocked};
 
 /// Words are numbers, memories hold bits: the meaning that runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,16 +31,6 @@ impl Logic for Sim {
         w: &C::Net<Self>,
         i: &C::In<Self>,
     ) -> C::Reg<Self> {
-        match (circuit.coasting(&q, w, i), circuit.gated(&q, w, i)) {
-            (None, None) => circuit.next(q, w, i),
-            (Some(coasting), _) if coasting.get() => circuit.coast(q),
-            (_, Some(gate)) if gate.get() => q,
-            _ => {
-                cold_path();
-                // The nets once more: those that are read here only are computed here only.
-                let w = circuit.comb(&q, i);
-                circuit.next(q, &w, i)
-            }
-        }
+        clocked(circuit, q, w, i, Wire::get)
     }
 }
