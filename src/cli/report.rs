@@ -17,7 +17,7 @@ pub struct Outcome {
     pub input: String,
     /// Reference clock in Hz.
     pub clock_hz: u64,
-    /// Ticks of the run, where there are more than one of that in the waves.
+    /// Ticks of the run: of several that in the waves.
     pub ticks: u64,
     /// The same in seconds.
     pub seconds: f64,
@@ -45,6 +45,19 @@ impl Outcome {
             vcd_window: None,
             files: Vec::new(),
         }
+    }
+
+    /// What ran on which circuit: the text of every summary begins so.
+    pub fn subject(&self) -> String {
+        format!("{} on {}", self.input, self.circuit)
+    }
+
+    /// How long it took.
+    pub fn length(&self) -> String {
+        format!(
+            "{} ticks, {:.3} s at {} Hz",
+            self.ticks, self.seconds, self.clock_hz
+        )
     }
 
     /// What the text of every summary ends with.

@@ -365,7 +365,7 @@ fn a_log_is_predicted_and_signals_come_a_lead_before_their_targets() {
 fn the_text_of_a_log_has_its_signals() {
     let text = log().succeed(&["run", "s.toml", "--no-vcd"]);
     expect![[r#"
-        log.csv on lead_angle: 501 samples, 0.500 s, 500001 ticks at 1000000 Hz, CK of 100 ticks
+        log.csv on lead_angle: 501 samples, 500001 ticks, 0.500 s at 1000000 Hz, CK of 100 ticks
 
         prediction error in counts   largest       rms
         with the lead                    0.0       0.0

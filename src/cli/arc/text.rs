@@ -13,18 +13,14 @@ impl Report for Summary {
     }
 
     fn write(&self, text: &mut String, all: bool) -> fmt::Result {
-        let outcome = &self.outcome;
         let [x, y, z] = self.end_position;
         writeln!(
             text,
-            "{} on {} ({}): {} samples, {} ticks, {:.3} s at {} Hz",
-            outcome.input,
-            outcome.circuit,
+            "{} ({}): {} samples, {}",
+            self.outcome.subject(),
             self.rounding,
             self.samples,
-            outcome.ticks,
-            outcome.seconds,
-            outcome.clock_hz
+            self.outcome.length()
         )?;
         writeln!(
             text,

@@ -19,16 +19,12 @@ impl Report for Summary {
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
-        let outcome = &self.outcome;
         writeln!(
             text,
-            "{} on {}: {} positionings, {} ticks, {:.3} s at {} Hz, CK of {} ticks",
-            outcome.input,
-            outcome.circuit,
+            "{}: {} positionings, {}, CK of {} ticks",
+            self.outcome.subject(),
             self.positionings.len(),
-            outcome.ticks,
-            outcome.seconds,
-            outcome.clock_hz,
+            self.outcome.length(),
             self.ck_ticks
         )?;
         writeln!(

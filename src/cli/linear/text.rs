@@ -14,19 +14,13 @@ impl Report for Summary {
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
-        let Outcome {
-            input,
-            circuit,
-            ticks,
-            seconds,
-            clock_hz,
-            ..
-        } = &self.outcome;
-        let Summary { variant, scans, .. } = self;
         writeln!(
             text,
-            "{input} on {circuit} ({variant}): {scans} scans, {ticks} ticks, {seconds:.3} s at \
-             {clock_hz} Hz\n"
+            "{} ({}): {} scans, {}\n",
+            self.outcome.subject(),
+            self.variant,
+            self.scans,
+            self.outcome.length()
         )?;
         writeln!(
             text,

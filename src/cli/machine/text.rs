@@ -15,15 +15,11 @@ impl Report for Summary {
     }
 
     fn write(&self, text: &mut String, all: bool) -> fmt::Result {
-        let outcome = &self.outcome;
         writeln!(
             text,
-            "{} on {}: {} ticks, {:.3} s at {} Hz; unit time {}, scan {}, CK {}, Ts {} ticks",
-            outcome.input,
-            outcome.circuit,
-            outcome.ticks,
-            outcome.seconds,
-            outcome.clock_hz,
+            "{}: {}; unit time {}, scan {}, CK {}, Ts {} ticks",
+            self.outcome.subject(),
+            self.outcome.length(),
             self.unit_ticks,
             self.scan_ticks,
             self.ck_ticks,

@@ -10,18 +10,12 @@ impl Report for Summary {
     }
 
     fn write(&self, text: &mut String, _: bool) -> std::fmt::Result {
-        let Outcome {
-            input,
-            circuit,
-            ticks,
-            seconds,
-            clock_hz,
-            ..
-        } = &self.outcome;
-        let variant = self.variant;
         writeln!(
             text,
-            "{input} on {circuit} ({variant}): {ticks} ticks, {seconds:.3} s at {clock_hz} Hz"
+            "{} ({}): {}",
+            self.outcome.subject(),
+            self.variant,
+            self.outcome.length()
         )?;
         text.push('\n');
         writeln!(

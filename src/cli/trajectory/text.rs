@@ -15,19 +15,15 @@ impl Report for Summary {
     }
 
     fn write(&self, text: &mut String, all: bool) -> fmt::Result {
-        let outcome = &self.outcome;
         writeln!(
             text,
-            "{} on {} ({}, {}): {} axes, {} periods, {} ticks, {:.3} s at {} Hz",
-            outcome.input,
-            outcome.circuit,
+            "{} ({}, {}): {} axes, {} periods, {}",
+            self.outcome.subject(),
             self.correction,
             self.rounding,
             self.axes,
             self.periods,
-            outcome.ticks,
-            outcome.seconds,
-            outcome.clock_hz
+            self.outcome.length()
         )?;
         writeln!(
             text,

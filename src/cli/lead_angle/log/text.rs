@@ -13,16 +13,12 @@ impl Report for Summary {
     }
 
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
-        let outcome = &self.outcome;
         writeln!(
             text,
-            "{} on {}: {} samples, {:.3} s, {} ticks at {} Hz, CK of {} ticks\n",
-            outcome.input,
-            outcome.circuit,
+            "{}: {} samples, {}, CK of {} ticks\n",
+            self.outcome.subject(),
             self.samples,
-            outcome.seconds,
-            outcome.ticks,
-            outcome.clock_hz,
+            self.outcome.length(),
             self.ck_ticks
         )?;
         self.predictions(text)?;
