@@ -30,9 +30,49 @@ pub struct Job<C> {
     pub stimulus: Stimulus,
 }
 
-fn scenario(name: &str) -> Scenario {
+/// The reference clock of a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Clock {
+    /// The scenario's own, slow enough for a dump of every tick of a job: of 10 to 400 kHz.
+    Shipped,
+    /// One of 10 MHz, with all periods as long as they were.
+    Fast,
+}
+
+/// What makes the clock of a scenario a fast one.
+const FAST: [(&str, &[&str]); 6] = [
+    (
+        "bracket",
+        &["line_unit_ticks=80000", "arc_unit_ticks=50000"],
+    ),
+    ("plotter", &["scan_ticks=20000"]),
+    ("turntable", &["ck_ticks=1000"]),
+    ("weld", &[]),
+    ("pocket", &[]),
+    (
+        "machine",
+        &[
+            "unit_ticks=50000",
+            "scan_ticks=12500",
+            "ck_ticks=2000",
+            "sample_ticks=25000",
+        ],
+    ),
+];
+
+fn scenario(name: &str, clock: Clock) -> Scenario {
     let waves = Path::new(env!("CARGO_MANIFEST_DIR")).join("waves");
-    let loaded = Loaded::read(&waves.join(name).with_extension("toml"), &[]);
+    let mut sets = Vec::new();
+    if clock == Clock::Fast {
+        let periods = FAST.iter().find(|(of, _)| *of == name).expect("listed").1;
+        sets.extend(
+            ["clock_hz=10000000"]
+                .iter()
+                .chain(periods)
+                .map(|set| (*set).to_owned()),
+        );
+    }
+    let loaded = Loaded::read(&waves.join(name).with_extension("toml"), &sets);
     loaded.expect("a good scenario").scenario
 }
 
@@ -55,8 +95,8 @@ macro_rules! outputs {
 outputs!([const AXES: usize] Group<AXES>: step dir unit_rst ready busy);
 
 /// The bracket on two axes.
-pub fn bracket(ticks: u64) -> Job<Group<2>> {
-    let whole = scenario("bracket");
+pub fn bracket(ticks: u64, clock: Clock) -> Job<Group<2>> {
+    let whole = scenario("bracket", clock);
     let Scenario::PulseInterpolator(scenario) = &whole else {
         unreachable!("the pulse interpolator's")
     };
@@ -116,8 +156,8 @@ outputs!([] Controller<LinearInterpolator>:
     late refused lost_x lost_y);
 
 /// The plotter's drawing.
-pub fn plotting(ticks: u64) -> Job<Controller<LinearInterpolator>> {
-    let whole = scenario("plotter");
+pub fn plotting(ticks: u64, clock: Clock) -> Job<Controller<LinearInterpolator>> {
+    let whole = scenario("plotter", clock);
     let Scenario::LinearInterpolator(scenario) = &whole else {
         unreachable!("the linear interpolator's")
     };
@@ -139,8 +179,8 @@ outputs!([] Compensator<ShiftLead>:
     timed_out overrun error learned learned_time refused lost);
 
 /// The turntable's positionings.
-pub fn turntable(ticks: u64) -> Job<Compensator<ShiftLead>> {
-    let Scenario::LeadAngle(scenario) = scenario("turntable") else {
+pub fn turntable(ticks: u64, clock: Clock) -> Job<Compensator<ShiftLead>> {
+    let Scenario::LeadAngle(scenario) = scenario("turntable", clock) else {
         unreachable!("the lead-angle compensator's")
     };
     let settings = scenario.settings();
@@ -156,8 +196,8 @@ pub fn turntable(ticks: u64) -> Job<Compensator<ShiftLead>> {
 outputs!([] ArcGenerator: x y z sampled ready busy kind late starved);
 
 /// The weld seam.
-pub fn weld(ticks: u64) -> Job<ArcGenerator> {
-    let Scenario::ArcGenerator(scenario) = scenario("weld") else {
+pub fn weld(ticks: u64, clock: Clock) -> Job<ArcGenerator> {
+    let Scenario::ArcGenerator(scenario) = scenario("weld", clock) else {
         unreachable!("the arc generator's")
     };
     let (settings, widths) = (scenario.settings(), arc_generator::widths::Widths::FULL);
@@ -180,8 +220,8 @@ outputs!([const AXES: usize] trajectory::Controller<AXES>:
     torque position lost ready busy sampled fresh late profile_late starved);
 
 /// The pocket on three axes.
-pub fn pocket(ticks: u64) -> Job<trajectory::Controller<3>> {
-    let whole = scenario("pocket");
+pub fn pocket(ticks: u64, clock: Clock) -> Job<trajectory::Controller<3>> {
+    let whole = scenario("pocket", clock);
     let Scenario::TrajectoryController(scenario) = &whole else {
         unreachable!("the trajectory controller's")
     };
@@ -211,8 +251,8 @@ outputs!([] Machine:
     reverse speed brake lift_busy fault);
 
 /// The bracket on all five circuits.
-pub fn machine(ticks: u64) -> Job<Machine> {
-    let whole = scenario("machine");
+pub fn machine(ticks: u64, clock: Clock) -> Job<Machine> {
+    let whole = scenario("machine", clock);
     let Scenario::Machine(scenario) = &whole else {
         unreachable!("the machine's")
     };

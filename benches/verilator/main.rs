@@ -1,6 +1,10 @@
 //! The model beside its own Verilog, compiled by Verilator: nanoseconds a tick, on the same inputs,
 //! with outputs that are compared.
 //!
+//! Each job runs at the clock of its scenario, which is slow enough for a dump of all of it, and at
+//! 10 MHz, where fewer things happen in a tick. Where idle ticks are gone over in one, the outputs
+//! of every tick are read as well: those of idle ticks are held.
+//!
 //! Both get the inputs of a job that ships with the crate, as they were recorded. They run in turn,
 //! and the medians are shown: of both, and of the ratios of runs one after the other, since a shared
 //! machine is now fast and now slow; last stands the ratio of the fastest run of each. Settings are
@@ -14,7 +18,8 @@ mod ours;
 mod stimulus;
 mod theirs;
 
-use jobs::Job;
+use jobs::{Clock, Job};
+use motion_rtl::kernel::FastForward;
 use ours::{Outputs, Waves};
 use std::time::Duration;
 use theirs::{Build, Verilated};
@@ -89,12 +94,23 @@ impl Times {
         let ratios: Vec<_> = pairs.map(|(theirs, ours)| theirs / ours).collect();
         let (theirs, ours, ratio) = (median(&self.theirs), median(&self.ours), median(&ratios));
         let fastest = fastest(&self.theirs) / fastest(&self.ours);
-        println!("{circuit:<28} {what:<28} {theirs:>9.1} {ours:>9.1} {ratio:>6.1} {fastest:>7.1}");
+        println!("{circuit:<36} {what:<28} {theirs:>9.1} {ours:>9.1} {ratio:>6.1} {fastest:>7.1}");
     }
 }
 
-/// Measures a circuit: untraced over all of the stimulus, with waves over its beginning.
-fn circuit<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C>) {
+/// Measures a circuit at both clocks.
+fn circuit<C: Outputs + FastForward>(
+    asked: &Asked,
+    name: &str,
+    job: impl Fn(u64, Clock) -> Job<C>,
+) {
+    measure(asked, name, |ticks| job(ticks, Clock::Shipped));
+    let fast = format!("{name}, 10 MHz");
+    measure(asked, &fast, |ticks| job(ticks, Clock::Fast));
+}
+
+/// Measures a job: untraced over all of the stimulus, with waves over its beginning.
+fn measure<C: Outputs + FastForward>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C>) {
     if asked.only.as_ref().is_some_and(|only| !name.contains(only)) {
         return;
     }
@@ -111,6 +127,9 @@ fn circuit<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
         let run = || ours::run::<C, SELDOM>(circuit, stimulus);
         let seldom = Times::measure(asked, stimulus.ticks, || theirs.run(SELDOM), run);
         seldom.print(name, "outputs now and then");
+        let run = || ours::forward(circuit, stimulus);
+        let held = Times::measure(asked, stimulus.ticks, || theirs.run(1), run);
+        held.print(name, "idle ticks gone over");
     }
     let begin = &stimulus.first(asked.ticks(TRACED));
     let (a, b) = (&path.join("a"), &path.join("b"));
@@ -143,11 +162,11 @@ fn main() {
     }
     let asked = &asked;
     println!(
-        "{:<28} {:<28} {:>9} {:>9} {:>6} {:>7}",
+        "{:<36} {:<28} {:>9} {:>9} {:>6} {:>7}",
         "nanoseconds a tick", "", "Verilator", "ours", "ratio", "fastest"
     );
     circuit(asked, "pulse interpolator, 2 axes", jobs::bracket);
-    circuit(asked, "pulse interpolator, 8 axes", jobs::eight_axes);
+    measure(asked, "pulse interpolator, 8 axes", jobs::eight_axes);
     circuit(asked, "linear interpolator", jobs::plotting);
     circuit(asked, "lead-angle compensator", jobs::turntable);
     circuit(asked, "arc generator", jobs::weld);

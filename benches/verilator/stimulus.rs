@@ -144,6 +144,14 @@ impl<'a, C: Circuit> Replay<'a, C> {
         self.i.clone()
     }
 
+    /// The same, and for how many ticks they are held: the next tick asked for is in these, or the
+    /// one after them.
+    #[inline(always)]
+    pub fn held(&mut self, tick: u64) -> (C::In<Sim>, u64) {
+        let i = self.tick(tick);
+        (i, self.next - tick)
+    }
+
     fn apply(&mut self) {
         while let Some((change, rest)) = self.changes.split_first() {
             if u64::from(change.tick) != self.next {

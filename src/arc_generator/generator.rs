@@ -14,8 +14,8 @@ use crate::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
     enable_counter, record_memory, record_sequencer,
 };
-use crate::kernel::{Circuit, Instance};
-use crate::logic::Logic;
+use crate::kernel::{Circuit, FastForward, Instance, least};
+use crate::logic::{Logic, Sim};
 use crate::signals;
 
 signals! {
@@ -224,6 +224,21 @@ impl<
     const A: usize,
     const K: usize,
     const T: usize,
+> FastForward for ArcGenerator<W, P, C, S, F, D, N, A, K, T>
+{
+}
+
+impl<
+    const W: usize,
+    const P: usize,
+    const C: usize,
+    const S: usize,
+    const F: usize,
+    const D: usize,
+    const N: usize,
+    const A: usize,
+    const K: usize,
+    const T: usize,
 > Circuit for ArcGenerator<W, P, C, S, F, D, N, A, K, T>
 {
     const NAME: &'static str = "arc_generator";
@@ -368,6 +383,25 @@ impl<
     fn coast<L: Logic>(&self, q: Self::Reg<L>) -> Self::Reg<L> {
         Reg {
             sample_counter: self.sample_counter.coast(q.sample_counter),
+            ..q
+        }
+    }
+
+    #[inline(always)]
+    fn coasts_for(&self, q: &Self::Reg<Sim>, w: &Self::Net<Sim>, _: &Self::In<Sim>) -> u64 {
+        least([
+            w.sample_counter
+                .coasts_for(&self.sample_counter, &q.sample_counter),
+            w.memory.coasts_for(&self.memory, &q.memory),
+            w.sequencer.coasts_for(&self.sequencer, &q.sequencer),
+            w.rotation.coasts_for(&self.rotation, &q.rotation),
+        ])
+    }
+
+    #[inline(always)]
+    fn coasted(&self, q: Self::Reg<Sim>, ticks: u64) -> Self::Reg<Sim> {
+        Reg {
+            sample_counter: self.sample_counter.coasted(q.sample_counter, ticks),
             ..q
         }
     }

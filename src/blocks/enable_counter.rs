@@ -11,8 +11,8 @@
 //! A period of 0 counts as 1.
 
 use crate::check::{Invariants, Specified};
-use crate::kernel::{Circuit, Moment, Property};
-use crate::logic::{Bit, Logic, Unsigned};
+use crate::kernel::{Circuit, Moment, Property, ticks_below};
+use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 
 signals! {
@@ -77,6 +77,18 @@ impl<const W: usize> Circuit for EnableCounter<W> {
     #[inline(always)]
     fn coast<L: Logic>(&self, q: Reg<L, W>) -> Reg<L, W> {
         Reg { count: q.count + 1 }
+    }
+
+    #[inline(always)]
+    fn coasts_for(&self, q: &Reg<Sim, W>, _: &Net<Sim, W>, i: &In<Sim, W>) -> u64 {
+        ticks_below(q.count.get(), i.period.get())
+    }
+
+    #[inline(always)]
+    fn coasted(&self, q: Reg<Sim, W>, ticks: u64) -> Reg<Sim, W> {
+        Reg {
+            count: q.count + ticks,
+        }
     }
 
     fn properties<L: Logic>(

@@ -169,6 +169,27 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
         let fits = !partial.below(q.by);
         step(q, busy, partial, fits)
     }
+
+    #[inline(always)]
+    fn coasts_for(&self, q: &Reg<Sim, M, Q>, _: &Net<Sim, Q>, i: &In<Sim, M, Q>) -> u64 {
+        let left = |bits: usize| bits as u64 - 1 - q.count.get();
+        match q.state.get() {
+            _ if i.start.get() || q.done.get() => 0,
+            MULTIPLY => left(M),
+            DIVIDE => left(Q),
+            _ => u64::MAX,
+        }
+    }
+
+    #[inline(always)]
+    fn coasted(&self, mut q: Reg<Sim, M, Q>, ticks: u64) -> Reg<Sim, M, Q> {
+        if q.state.get() != IDLE {
+            for _ in 0..ticks {
+                q = self.coast(q);
+            }
+        }
+        q
+    }
 }
 
 /// The remainder with the next bit of the dividend.

@@ -2,7 +2,7 @@ use super::enumerate::{all, from_word, to_word};
 use super::search::{Report, Search};
 use super::visited::Visited;
 use super::{Counterexample, Fault, Invariants, TooWide};
-use crate::kernel::{COASTING, Circuit, GATED, Sample};
+use crate::kernel::{COASTING, Circuit, GATED, Sample, coasting_fault};
 use crate::logic::Sim;
 use crate::logic::sim::Wire;
 use std::fmt;
@@ -205,8 +205,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
                     let way = way.into_iter().map(|index| inputs[index].clone());
                     return Ok(self.violated(name, fault, way.collect()));
                 }
-                let next = to_word(&next);
-                if let Some(message) = self.gates(&q, &w, i, next) {
+                if let Some(message) = self.gates(&q, &w, i, &next) {
                     let fault = Fault {
                         signals: vec![C::NAME.to_owned()],
                         message: message.into(),
@@ -215,7 +214,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
                     let way = way.into_iter().map(|index| inputs[index].clone());
                     return Ok(self.violated("the clock gate", fault, way.collect()));
                 }
-                if !search.found(next, index) {
+                if !search.found(to_word(&next), index) {
                     return Ok(Outcome::Limit(search.progress()));
                 }
             }
@@ -230,16 +229,17 @@ impl<'a, C: Circuit> Reach<'a, C> {
         q: &C::Reg<Sim>,
         w: &C::Net<Sim>,
         i: &C::In<Sim>,
-        next: u64,
+        next: &C::Reg<Sim>,
     ) -> Option<&'static str> {
+        let same = |a: &_, b: &_| to_word::<C::Reg<Sim>>(a) == to_word(b);
         let high = |gate: Option<Wire>| gate.is_some_and(|gate| gate.get());
-        if high(self.circuit.gated(q, w, i)) && to_word(q) != next {
+        if high(self.circuit.gated(q, w, i)) && !same(q, next) {
             return Some(GATED);
         }
-        if high(self.circuit.coasting(q, w, i)) && to_word(&self.circuit.coast(q.clone())) != next {
+        if high(self.circuit.coasting(q, w, i)) && !same(&self.circuit.coast(q.clone()), next) {
             return Some(COASTING);
         }
-        None
+        coasting_fault(self.circuit, q, w, i, next, same)
     }
 
     fn violated(&self, name: &str, fault: Fault, inputs: Vec<C::In<Sim>>) -> Outcome<C> {

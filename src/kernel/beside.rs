@@ -1,6 +1,6 @@
 use super::{
-    Circuit, Extent, Field, Make, Moment, Observer, Property, Role, RunError, Sample, Signals,
-    Visit,
+    Circuit, Extent, FastForward, Field, Make, Moment, Observer, Property, Role, RunError, Sample,
+    Signals, Visit,
 };
 use crate::logic::{Logic, Sim};
 use std::fmt;
@@ -137,6 +137,16 @@ impl<C: Circuit, B: Beside> Circuit for With<C, B> {
         self.circuit.coast(q)
     }
 
+    #[inline(always)]
+    fn coasts_for(&self, q: &C::Reg<Sim>, w: &C::Net<Sim>, i: &WithIn<Sim, C, B>) -> u64 {
+        self.circuit.coasts_for(q, w, &i.i)
+    }
+
+    #[inline(always)]
+    fn coasted(&self, q: C::Reg<Sim>, ticks: u64) -> C::Reg<Sim> {
+        self.circuit.coasted(q, ticks)
+    }
+
     fn properties<L: Logic>(
         &self,
         now: &Moment<'_, Self, L>,
@@ -150,6 +160,8 @@ impl<C: Circuit, B: Beside> Circuit for With<C, B> {
         self.circuit.power_on()
     }
 }
+
+impl<C: FastForward, B: Beside> FastForward for With<C, B> {}
 
 /// An observer of a circuit that sees it without what stands beside it.
 #[derive(Debug)]

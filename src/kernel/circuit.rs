@@ -75,6 +75,29 @@ pub trait Circuit: 'static {
         q
     }
 
+    /// For how many ticks, this one included, an edge does what [`coast`](Circuit::coast) does, if
+    /// the inputs stay as they are. It may be fewer than there are, never more: 0 where this edge
+    /// does more, `u64::MAX` where nothing but an input ends it.
+    ///
+    /// Unless overridden it goes on for ever where the clock is gated. A circuit made of circuits
+    /// takes the least of theirs. [`fast_forward`](super::Simulator::fast_forward) depends on it;
+    /// checked as the gates are.
+    #[inline(always)]
+    fn coasts_for(&self, q: &Self::Reg<Sim>, w: &Self::Net<Sim>, i: &Self::In<Sim>) -> u64 {
+        match self.gated(q, w, i) {
+            Some(gate) if gate.get() => u64::MAX,
+            _ => 0,
+        }
+    }
+
+    /// The registers after so many edges in which it coasts. To be overridden with
+    /// [`coasts_for`](Circuit::coasts_for): as they are, unless it is.
+    #[inline(always)]
+    fn coasted(&self, q: Self::Reg<Sim>, ticks: u64) -> Self::Reg<Sim> {
+        let _ = ticks;
+        q
+    }
+
     /// Invariants in words, for proofs by other tools beside `check`; see
     /// [`Invariants::of`](crate::check::Invariants::of). What looks at the registers after the
     /// edge looks at `next`.
@@ -242,6 +265,14 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
             }};
         }
         each!(K, clock, C::Reg<L>)
+    }
+}
+
+impl<C: Circuit> Instance<C, Sim> {
+    /// For how many ticks it coasts; see [`Circuit::coasts_for`].
+    #[inline(always)]
+    pub fn coasts_for(&self, circuit: &C, q: &C::Reg<Sim>) -> u64 {
+        circuit.coasts_for(q, &self.w, &self.i)
     }
 }
 

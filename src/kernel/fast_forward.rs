@@ -1,17 +1,18 @@
 use super::Circuit;
-use crate::logic::Sim;
 
-/// A circuit that knows how long it only counts.
-///
-/// A tick is *idle* if its edge changes nothing but free-running counters, each of them by one,
-/// and if no port out changes with it, those that are nets included. Which registers are such
-/// counters the implementation says.
-/// [`Simulator::fast_forward`](super::Simulator::fast_forward) goes over idle ticks in one.
-pub trait FastForward: Circuit {
-    /// How many ticks, from this one on, are idle if the inputs stay as they are. It may be fewer
-    /// than there are, never more; 0 where this one is not.
-    fn idle(&self, q: &Self::Reg<Sim>, i: &Self::In<Sim>) -> u64;
+/// A circuit that [`Simulator::fast_forward`](super::Simulator::fast_forward) can run: while it
+/// [coasts](Circuit::coasts_for) under inputs that stay as they are, no port out changes, those that
+/// are nets included.
+pub trait FastForward: Circuit {}
 
-    /// Makes the registers those after so many idle ticks.
-    fn forward(&self, q: &mut Self::Reg<Sim>, ticks: u64);
+/// For how many ticks all of the parts coast, of which each coasts for so many.
+#[inline(always)]
+pub fn least<const K: usize>(parts: [u64; K]) -> u64 {
+    parts.into_iter().fold(u64::MAX, u64::min)
+}
+
+/// The ticks from `count` on in which the count after the edge is still below `limit`.
+#[inline(always)]
+pub(crate) fn ticks_below(count: u64, limit: u64) -> u64 {
+    limit.saturating_sub(1).saturating_sub(count)
 }

@@ -21,13 +21,16 @@ pub use beside::{Beside, With, WithIn, Without};
 pub(crate) use circuit::clocked;
 pub use circuit::{Circuit, Instance};
 pub use declare::{Declaration, Declarations, InstanceDeclaration, MemoryDeclaration, Path};
-pub use fast_forward::FastForward;
+pub(crate) use fast_forward::ticks_below;
+pub use fast_forward::{FastForward, least};
 pub use observe::{Observer, RunError, Sample, StopWhen};
 pub use pack::{Bits, pack, unpack, width, zero};
 pub use probe::{Changed, Probe, Source, Words};
 pub(crate) use probe::{STAGE, WORD, part};
 pub use property::{Moment, Property};
-pub(crate) use running::{COASTING, GATED, Machine, Running, Values, show_power_on};
+pub(crate) use running::{
+    COASTING, GATED, Machine, Running, Values, coasting_fault, show_power_on,
+};
 pub use signals::{
     Extent, Field, Format, Inside, Kind, Make, Nothing, Role, Shape, Signals, Visit,
 };

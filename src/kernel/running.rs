@@ -91,9 +91,18 @@ impl<C: Circuit> Running for Machine<'_, C> {
         let high = |gate: &Wire| gate.get();
         let gated = q().filter(|q| circuit.gated(q, w, i).as_ref().is_some_and(high));
         let coasting = q().filter(|q| circuit.coasting(q, w, i).as_ref().is_some_and(high));
+        let goes_on = |q: &C::Reg<Sim>| {
+            let next = circuit.next(q.clone(), w, i);
+            let same = |a: &_, b: &_| Standing::of::<C::Reg<Sim>>(a) == Standing::of(b);
+            coasting_fault(circuit, q, w, i, &next, same)
+        };
+        let goes_on = q()
+            .filter(|q| circuit.coasts_for(q, w, i) > 0)
+            .and_then(goes_on);
         AtRest {
             gated: gated.map(Standing::of),
             coasting: coasting.map(|q| Standing::of(&circuit.coast(q.clone()))),
+            fault: goes_on,
         }
     }
 
@@ -159,6 +168,7 @@ impl Standing {
 pub(crate) struct AtRest {
     gated: Option<Standing>,
     coasting: Option<Standing>,
+    fault: Option<&'static str>,
 }
 
 impl AtRest {
@@ -173,7 +183,7 @@ impl AtRest {
         } else if wrong(&self.coasting) {
             Some(COASTING)
         } else {
-            None
+            self.fault
         }
     }
 }
@@ -182,6 +192,32 @@ impl AtRest {
 pub(crate) const GATED: &str = "a register changes where the clock is gated";
 /// The [other gate](Circuit::coasting) is.
 pub(crate) const COASTING: &str = "the registers are not as `coast` makes them where it coasts";
+
+/// [`Circuit::coasts_for`] or [`Circuit::coasted`] is.
+pub(crate) const COASTS_FOR: &str = "it does not coast for as long as it says, or otherwise";
+
+/// Edges of which [`Circuit::coasted`] is held against as many of one.
+const MANY: u64 = 64;
+
+/// What is wrong with for how long the circuit says that it coasts, if the edge leads to `next`.
+/// That it goes on for as long is left to the next tick, of which it has to say so too.
+pub(crate) fn coasting_fault<C: Circuit>(
+    circuit: &C,
+    q: &C::Reg<Sim>,
+    w: &C::Net<Sim>,
+    i: &C::In<Sim>,
+    next: &C::Reg<Sim>,
+    same: impl Fn(&C::Reg<Sim>, &C::Reg<Sim>) -> bool,
+) -> Option<&'static str> {
+    let ticks = circuit.coasts_for(q, w, i);
+    let many = ticks.min(MANY);
+    let coasted = |q: &C::Reg<Sim>, ticks| circuit.coasted(q.clone(), ticks);
+    let right = ticks == 0
+        || same(&coasted(q, 1), next)
+            && same(&coasted(q, many), &coasted(next, many - 1))
+            && circuit.coasts_for(next, &settled(circuit, next, i), i) >= ticks - 1;
+    (!right).then_some(COASTS_FOR)
+}
 
 impl Probe for Standing {
     fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {

@@ -117,23 +117,64 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     /// after it, so every change of a port out in its tick. It does not see every value of a
     /// counter.
     ///
+    /// ```
+    /// use motion_rtl::kernel::{RunError, Sample, Simulator, StopWhen, zero};
+    /// use motion_rtl::pulse_interpolator::{Group, Pattern, Variant};
+    ///
+    /// # fn main() -> Result<(), RunError> {
+    /// // A second at 10 MHz: a pulse a millisecond, unit times of a tenth of a second.
+    /// let pattern = Pattern { base: 0, last: 0, cyclic: true, period: 1_000_000 };
+    /// let mut group = Group::<1>::free_running(Variant::Safe, pattern);
+    /// group.axes[0].memory.half_periods.set(0, 5_000);
+    ///
+    /// let (mut ticks, mut pulses, mut before) = (0, 0, false);
+    /// let count = StopWhen(|now: &Sample<'_, Group<1>>| {
+    ///     ticks += 1;
+    ///     pulses += u32::from(now.w.step[0].get() && !before);
+    ///     before = now.w.step[0].get();
+    ///     false
+    /// });
+    /// let quiet = |_, _: &_| (zero(), u64::MAX);
+    /// Simulator::new(&group).fast_forward(10_000_000, quiet, count)?;
+    /// assert_eq!(pulses, 900);
+    /// assert!(ticks < 5000);
+    /// # Ok(()) }
+    /// ```
+    ///
     /// # Errors
     /// The first error of an observer; the run is over then.
     pub fn fast_forward(
         self,
         ticks: u64,
-        mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> (C::In<Sim>, u64),
-        mut observer: impl Observer<C>,
+        stimulus: impl FnMut(u64, &C::Reg<Sim>) -> (C::In<Sim>, u64),
+        observer: impl Observer<C>,
     ) -> Result<Self, RunError>
     where
         C: FastForward,
     {
-        let Simulator {
-            circuit,
-            mut q,
-            mut tick,
-        } = self;
-        let end = tick.saturating_add(ticks);
+        match Self::forward_on(self.circuit, self.q, self.tick, ticks, stimulus, observer) {
+            (simulator, None) => Ok(simulator),
+            (_, Some(error)) => Err(error),
+        }
+    }
+
+    /// A function of its own, with registers that are not dropped, as [`run_on`](Self::run_on).
+    #[inline(never)]
+    fn forward_on(
+        circuit: &'c C,
+        q: C::Reg<Sim>,
+        start: u64,
+        ticks: u64,
+        mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> (C::In<Sim>, u64),
+        mut observer: impl Observer<C>,
+    ) -> (Self, Option<RunError>)
+    where
+        C: FastForward,
+    {
+        let mut q = ManuallyDrop::new(q);
+        let mut tick = start;
+        let end = start.saturating_add(ticks);
+        let mut failed = None;
         while tick < end {
             let (i, held) = stimulus(tick, &q);
             let w = circuit.comb(&q, &i);
@@ -142,20 +183,28 @@ impl<'c, C: Circuit> Simulator<'c, C> {
                 i: &i,
                 q: &q,
                 w: &w,
-            })?;
-            let idle = circuit.idle(&q, &i).min(held).min(end - tick);
+            });
+            let flow = match flow {
+                Ok(flow) => flow,
+                Err(error) => {
+                    failed = Some(error);
+                    break;
+                }
+            };
+            let idle = circuit.coasts_for(&q, &w, &i).min(held).min(end - tick);
             if idle == 0 || flow.is_break() {
-                q = circuit.next(q, &w, &i);
+                q = ManuallyDrop::new(circuit.next(ManuallyDrop::into_inner(q), &w, &i));
                 tick += 1;
             } else {
-                circuit.forward(&mut q, idle);
+                q = ManuallyDrop::new(circuit.coasted(ManuallyDrop::into_inner(q), idle));
                 tick += idle;
             }
             if flow.is_break() {
                 break;
             }
         }
-        Ok(Simulator { circuit, q, tick })
+        let q = ManuallyDrop::into_inner(q);
+        (Simulator { circuit, q, tick }, failed)
     }
 
     /// Runs one tick and shows its sample.

@@ -14,8 +14,8 @@
 use super::{CorrectionArithmetic, RatioLogic, Sign, StopError};
 use super::{correction_arithmetic, ratio_logic, stop_error};
 use crate::blocks::{MulDiv, mul_div};
-use crate::kernel::{Circuit, Instance, Nothing};
-use crate::logic::Logic;
+use crate::kernel::{Circuit, Instance, Nothing, least};
+use crate::logic::{Logic, Sim};
 use crate::signals;
 
 signals! {
@@ -215,5 +215,22 @@ impl<const K: usize, const T: usize, const C: usize, const W: usize, const R: us
                 & w.arithmetic.gated(&self.arithmetic, &q.arithmetic)
                 & w.mul_div.gated(&self.mul_div, &q.mul_div),
         )
+    }
+
+    #[inline(always)]
+    fn coasts_for(&self, q: &Self::Reg<Sim>, w: &Self::Net<Sim>, _: &Self::In<Sim>) -> u64 {
+        least([
+            w.stop_error.coasts_for(&self.stop_error, &q.stop_error),
+            w.arithmetic.coasts_for(&self.arithmetic, &q.arithmetic),
+            w.mul_div.coasts_for(&self.mul_div, &q.mul_div),
+        ])
+    }
+
+    #[inline(always)]
+    fn coasted(&self, q: Self::Reg<Sim>, ticks: u64) -> Self::Reg<Sim> {
+        Reg {
+            mul_div: self.mul_div.coasted(q.mul_div, ticks),
+            ..q
+        }
     }
 }

@@ -15,7 +15,7 @@
 use super::{Conventional, CycleGate, LinearInterpolator, PositionLoop};
 use super::{cycle_gate, interpolator, position_loop};
 use crate::blocks::{EnableCounter, enable_counter};
-use crate::kernel::{Circuit, Instance};
+use crate::kernel::{Circuit, FastForward, Instance, least};
 use crate::logic::{Logic, Sim};
 use crate::signals;
 use std::fmt::Debug;
@@ -264,6 +264,19 @@ impl<
     const D: usize,
     const K: usize,
     const S: usize,
+> FastForward for Controller<C, P, T, G, F, D, K, S>
+{
+}
+
+impl<
+    C: CommandSource<P, T>,
+    const P: usize,
+    const T: usize,
+    const G: usize,
+    const F: usize,
+    const D: usize,
+    const K: usize,
+    const S: usize,
 > Circuit for Controller<C, P, T, G, F, D, K, S>
 {
     const NAME: &'static str = C::CONTROLLER;
@@ -358,6 +371,28 @@ impl<
             loop_x: w.loop_x.next(&self.position_loop, q.loop_x),
             loop_y: w.loop_y.next(&self.position_loop, q.loop_y),
             gate: w.gate.next(&self.gate, q.gate),
+        }
+    }
+
+    #[inline(always)]
+    fn coasts_for(&self, q: &Self::Reg<Sim>, w: &Self::Net<Sim>, _: &Self::In<Sim>) -> u64 {
+        least([
+            w.scan_counter
+                .coasts_for(&self.scan_counter, &q.scan_counter),
+            w.interpolator
+                .coasts_for(&self.interpolator, &q.interpolator),
+            w.loop_x.coasts_for(&self.position_loop, &q.loop_x),
+            w.loop_y.coasts_for(&self.position_loop, &q.loop_y),
+            w.gate.coasts_for(&self.gate, &q.gate),
+        ])
+    }
+
+    #[inline(always)]
+    fn coasted(&self, q: Self::Reg<Sim>, ticks: u64) -> Self::Reg<Sim> {
+        Reg {
+            scan_counter: self.scan_counter.coasted(q.scan_counter, ticks),
+            interpolator: self.interpolator.coasted(q.interpolator, ticks),
+            ..q
         }
     }
 

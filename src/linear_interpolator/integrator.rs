@@ -14,7 +14,7 @@
 use super::{Accumulator, Rule, accumulator};
 use crate::blocks::{MulDiv, mul_div};
 use crate::kernel::{Circuit, Instance};
-use crate::logic::Logic;
+use crate::logic::{Logic, Sim};
 use crate::signals;
 
 signals! {
@@ -156,6 +156,20 @@ impl<const P: usize, const R: usize> Circuit for Integrator<P, R> {
     fn coast<L: Logic>(&self, q: Reg<L, P, R>) -> Reg<L, P, R> {
         Reg {
             mul_div: self.mul_div.coast(q.mul_div),
+            ..q
+        }
+    }
+
+    #[inline(always)]
+    fn coasts_for(&self, q: &Reg<Sim, P, R>, w: &Self::Net<Sim>, _: &In<Sim, P>) -> u64 {
+        let accumulator = w.accumulator.coasts_for(&self.accumulator, &q.accumulator);
+        accumulator.min(w.mul_div.coasts_for(&self.mul_div, &q.mul_div))
+    }
+
+    #[inline(always)]
+    fn coasted(&self, q: Reg<Sim, P, R>, ticks: u64) -> Reg<Sim, P, R> {
+        Reg {
+            mul_div: self.mul_div.coasted(q.mul_div, ticks),
             ..q
         }
     }

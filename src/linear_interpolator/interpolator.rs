@@ -13,8 +13,8 @@ use super::{
     AxisSwitch, Differentiator, Integrator, PatternGenerator, Rule, Sequencer, TargetData,
     axis_switch, differentiator, integrator, pattern_generator, sequencer, target_data,
 };
-use crate::kernel::{Circuit, Instance};
-use crate::logic::Logic;
+use crate::kernel::{Circuit, Instance, least};
+use crate::logic::{Logic, Sim};
 use crate::signals;
 
 signals! {
@@ -317,6 +317,34 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
         Reg {
             pattern: self.pattern.coast(q.pattern),
             integrator: self.integrator.coast(q.integrator),
+            ..q
+        }
+    }
+
+    #[inline(always)]
+    fn coasts_for(
+        &self,
+        q: &Reg<Sim, A, P, T, M, Q, R>,
+        w: &Self::Net<Sim>,
+        _: &In<Sim, P, T>,
+    ) -> u64 {
+        let parts = [
+            w.sequencer.coasts_for(&self.sequencer, &q.sequencer),
+            w.targets.coasts_for(&self.targets, &q.targets),
+            w.pattern.coasts_for(&self.pattern, &q.pattern),
+            w.differentiator
+                .coasts_for(&self.differentiator, &q.differentiator),
+            w.integrator.coasts_for(&self.integrator, &q.integrator),
+            w.switch.coasts_for(&self.switch, &q.switch),
+        ];
+        least(parts)
+    }
+
+    #[inline(always)]
+    fn coasted(&self, q: Reg<Sim, A, P, T, M, Q, R>, ticks: u64) -> Reg<Sim, A, P, T, M, Q, R> {
+        Reg {
+            pattern: self.pattern.coasted(q.pattern, ticks),
+            integrator: self.integrator.coasted(q.integrator, ticks),
             ..q
         }
     }

@@ -15,7 +15,7 @@
 use super::{Trapezoid, trapezoid};
 use crate::blocks::{MulDiv, mul_div};
 use crate::kernel::{Circuit, Instance};
-use crate::logic::Logic;
+use crate::logic::{Logic, Sim};
 use crate::signals;
 
 signals! {
@@ -176,6 +176,20 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
     fn coast<L: Logic>(&self, q: Reg<L, P, T, M, Q>) -> Reg<L, P, T, M, Q> {
         Reg {
             mul_div: self.mul_div.coast(q.mul_div),
+            ..q
+        }
+    }
+
+    #[inline(always)]
+    fn coasts_for(&self, q: &Reg<Sim, P, T, M, Q>, w: &Self::Net<Sim>, _: &In<Sim, P, T>) -> u64 {
+        let trapezoid = w.trapezoid.coasts_for(&self.trapezoid, &q.trapezoid);
+        trapezoid.min(w.mul_div.coasts_for(&self.mul_div, &q.mul_div))
+    }
+
+    #[inline(always)]
+    fn coasted(&self, q: Reg<Sim, P, T, M, Q>, ticks: u64) -> Reg<Sim, P, T, M, Q> {
+        Reg {
+            mul_div: self.mul_div.coasted(q.mul_div, ticks),
             ..q
         }
     }

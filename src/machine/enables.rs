@@ -14,8 +14,8 @@
 
 use crate::blocks::{EnableCounter, enable_counter};
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, Instance};
-use crate::logic::{Bit, Logic};
+use crate::kernel::{Circuit, Instance, least};
+use crate::logic::{Bit, Logic, Sim};
 use crate::signals;
 
 signals! {
@@ -118,6 +118,28 @@ impl<const W: usize> Circuit for Enables<W> {
             scan_counter: w.scan_counter.next(&self.counter, q.scan_counter),
             ck_counter: w.ck_counter.next(&self.counter, q.ck_counter),
             sample_counter: w.sample_counter.next(&self.counter, q.sample_counter),
+        }
+    }
+
+    #[inline(always)]
+    fn coasts_for(&self, q: &Reg<Sim, W>, w: &Net<Sim, W>, _: &In<Sim, W>) -> u64 {
+        least([
+            w.unit_counter.coasts_for(&self.counter, &q.unit_counter),
+            w.scan_counter.coasts_for(&self.counter, &q.scan_counter),
+            w.ck_counter.coasts_for(&self.counter, &q.ck_counter),
+            w.sample_counter
+                .coasts_for(&self.counter, &q.sample_counter),
+        ])
+    }
+
+    #[inline(always)]
+    fn coasted(&self, q: Reg<Sim, W>, ticks: u64) -> Reg<Sim, W> {
+        let coasted = |count| self.counter.coasted(count, ticks);
+        Reg {
+            unit_counter: coasted(q.unit_counter),
+            scan_counter: coasted(q.scan_counter),
+            ck_counter: coasted(q.ck_counter),
+            sample_counter: coasted(q.sample_counter),
         }
     }
 }

@@ -12,7 +12,8 @@
 use super::{PatternMemory, PulseGenerator, SyncStage, Variant};
 use super::{pattern_memory, pulse_generator, sync_stage};
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, Instance};
+use crate::kernel::{Circuit, Instance, ticks_below};
+use crate::logic::sim::UInt;
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 
@@ -98,6 +99,32 @@ impl<const N: usize, const A: usize> Axis<N, A> {
         let safe: L::Bit = (self.generator.variant == Variant::Safe).into();
         // 0 - 1 is more than any count.
         safe & q.generator.count.below(q.memory.half_period - 1)
+    }
+
+    /// For how many ticks that is so, if the unit time does not end before.
+    #[inline(always)]
+    pub(super) fn coasts_for(&self, q: &Reg<Sim, N, A>) -> u64 {
+        let pulse_generator::Reg { count, toggle } = q.generator;
+        let half_period = q.memory.half_period;
+        if q.sync.step != toggle {
+            return 0;
+        }
+        match self.generator.variant {
+            Variant::Safe if half_period.get() > 0 => ticks_below(count.get(), half_period.get()),
+            Variant::Safe if count.get() == 0 && !toggle.get() => u64::MAX,
+            Variant::Safe => 0,
+            Variant::Literal => (half_period - 1 - count).get(),
+        }
+    }
+
+    /// The counter after so many of these ticks.
+    #[inline(always)]
+    pub(super) fn coasted(&self, q: &Reg<Sim, N, A>, ticks: u64) -> UInt<N> {
+        let count = q.generator.count;
+        match self.generator.variant == Variant::Literal || q.memory.half_period.get() > 0 {
+            true => count + ticks,
+            false => count,
+        }
     }
 
     /// The counter after that edge.

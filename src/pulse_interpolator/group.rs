@@ -17,7 +17,7 @@ use super::{
 };
 use super::{address_sequencer, axis, command_port, unit_time_counter, unit_time_register};
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, Instance};
+use crate::kernel::{Circuit, FastForward, Instance, least};
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 use std::array::from_fn;
@@ -280,6 +280,36 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
         }
     }
 
+    #[inline(always)]
+    fn coasts_for(
+        &self,
+        q: &Reg<Sim, AXES, N, T, A>,
+        w: &Self::Net<Sim>,
+        i: &In<Sim, N, T, A>,
+    ) -> u64 {
+        if i.write.get() {
+            return 0;
+        }
+        let blocks = least([
+            w.counter.coasts_for(&self.counter, &q.counter),
+            w.unit_time.coasts_for(&self.unit_time, &q.unit_time),
+            w.port.coasts_for(&self.port, &q.port),
+        ]);
+        let axes = self.axes.iter().zip(&q.axes);
+        axes.fold(blocks, |least, (axis, q)| least.min(axis.coasts_for(q)))
+    }
+
+    #[inline(always)]
+    fn coasted(&self, mut q: Reg<Sim, AXES, N, T, A>, ticks: u64) -> Reg<Sim, AXES, N, T, A> {
+        for (axis, q) in self.axes.iter().zip(&mut q.axes) {
+            q.generator.count = axis.coasted(q, ticks);
+        }
+        Reg {
+            counter: self.counter.coasted(q.counter, ticks),
+            ..q
+        }
+    }
+
     fn power_on(&self) -> Reg<Sim, AXES, N, T, A> {
         Reg {
             unit_time: self.unit_time.power_on(),
@@ -289,6 +319,11 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
             axes: from_fn(|axis| self.axes[axis].power_on()),
         }
     }
+}
+
+impl<const AXES: usize, const N: usize, const T: usize, const A: usize> FastForward
+    for Group<AXES, N, T, A>
+{
 }
 
 impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Specified
@@ -349,3 +384,6 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Specifie
         !i.write.get() && unused
     }
 }
+
+#[cfg(test)]
+mod tests;

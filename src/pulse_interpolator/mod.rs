@@ -30,7 +30,6 @@ pub mod axis;
 pub mod command_port;
 pub mod control_computer;
 pub mod group;
-mod idle;
 pub mod job;
 pub mod pattern_memory;
 pub mod pulse_generator;

@@ -10,8 +10,8 @@
 //! counter run to its wrap. T = 0 counts as 1.
 
 use crate::check::{Invariants, Specified};
-use crate::kernel::{Circuit, Moment, Property};
-use crate::logic::{Bit, Logic, Unsigned};
+use crate::kernel::{Circuit, Moment, Property, ticks_below};
+use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 
 signals! {
@@ -76,6 +76,18 @@ impl<const T: usize> Circuit for UnitTimeCounter<T> {
     #[inline(always)]
     fn coast<L: Logic>(&self, q: Reg<L, T>) -> Reg<L, T> {
         Reg { count: q.count + 1 }
+    }
+
+    #[inline(always)]
+    fn coasts_for(&self, q: &Reg<Sim, T>, _: &Net<Sim, T>, i: &In<Sim, T>) -> u64 {
+        ticks_below(q.count.get(), i.period.get())
+    }
+
+    #[inline(always)]
+    fn coasted(&self, q: Reg<Sim, T>, ticks: u64) -> Reg<Sim, T> {
+        Reg {
+            count: q.count + ticks,
+        }
     }
 
     fn properties<L: Logic>(

@@ -20,6 +20,12 @@ enum Flaw {
     CoastsToEnd,
     /// It coasts by two.
     CoastsByTwo,
+    /// It says that it coasts for a tick more than it does.
+    SaysOneMore,
+    /// It does not coast for ever where it rests, as it says.
+    CountsAtRest,
+    /// Over more than two ticks it coasts by as many less one.
+    ShortOfOne,
 }
 
 signals! { struct In<L> { start: L::Bit } }
@@ -71,6 +77,28 @@ impl Circuit for Timer {
         };
         Reg {
             count: q.count + step,
+            ..q
+        }
+    }
+
+    fn coasts_for(&self, q: &Reg<Sim>, _: &Net<Sim>, i: &In<Sim>) -> u64 {
+        match (self.0, q.busy.get()) {
+            (Flaw::SaysOneMore, true) => 8 - q.count.get(),
+            (_, true) => 7 - q.count.get(),
+            (_, false) if i.start.get() => 0,
+            (_, false) => u64::MAX,
+        }
+    }
+
+    fn coasted(&self, q: Reg<Sim>, ticks: u64) -> Reg<Sim> {
+        let counts = q.busy.get() || self.0 == Flaw::CountsAtRest;
+        let steps = match self.0 {
+            _ if !counts => 0,
+            Flaw::ShortOfOne if ticks > 2 => ticks - 1,
+            _ => ticks,
+        };
+        Reg {
+            count: q.count + steps,
             ..q
         }
     }
@@ -176,6 +204,14 @@ fn proofs_and_random_runs_find_wrong_gates() {
         assert_eq!(
             faults(flaw),
             [coasts, coasts].map(|message| Some(message.into()))
+        );
+    }
+    let long = "it does not coast for as long as it says, or otherwise";
+    for flaw in [Flaw::SaysOneMore, Flaw::CountsAtRest, Flaw::ShortOfOne] {
+        assert_eq!(
+            faults(flaw),
+            [long, long].map(|message| Some(message.into())),
+            "{flaw:?}"
         );
     }
 }

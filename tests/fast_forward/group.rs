@@ -1,7 +1,6 @@
-//! Runs that go over idle ticks in one, against the same runs tick by tick.
+//! Groups under random control computers, and drawings that ship with the crate.
 
-mod common;
-
+use crate::common;
 use motion_rtl::check::Random;
 use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::input::{Drawing, read_text};
@@ -229,12 +228,12 @@ fn both((drawing, settings): &(Drawing, Settings), variant: Variant) -> (u64, u6
 #[test]
 fn the_drawings_that_ship_are_played_the_same_at_slow_and_fast_clocks() {
     let bracket = |times| {
-        let input = include_bytes!("../waves/bracket.ngc");
-        let text = include_str!("../waves/bracket.toml");
+        let input = include_bytes!("../../waves/bracket.ngc");
+        let text = include_str!("../../waves/bracket.toml");
         shipped("bracket.toml", text, ("bracket.ngc", input), times)
     };
-    let text = include_str!("../waves/rosette.toml");
-    let input = include_bytes!("../waves/rosette.hpgl");
+    let text = include_str!("../../waves/rosette.toml");
+    let input = include_bytes!("../../waves/rosette.hpgl");
     let rosette = shipped("rosette.toml", text, ("rosette.hpgl", input), 1);
     both(&rosette, Variant::Safe);
     both(&bracket(1), Variant::Literal);

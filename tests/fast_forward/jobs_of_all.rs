@@ -1,0 +1,98 @@
+//! The jobs of all circuits: the ports out of every tick, stepped and gone over.
+
+use crate::jobs::{self, Clock, Job};
+use crate::ours::Outputs;
+use crate::stimulus::Replay;
+use motion_rtl::kernel::{FastForward, Observer, RunError, Sample, Simulator, pack};
+use std::ops::ControlFlow;
+
+/// A word of the ports out for every tick; where a tick is not seen they are held.
+#[derive(Default)]
+struct Words {
+    words: Vec<u64>,
+    seen: usize,
+}
+
+impl Words {
+    fn hold(&mut self, ticks: u64) {
+        let last = self.words.last().copied().unwrap_or_default();
+        self.words.resize(ticks as usize, last);
+    }
+}
+
+impl<C: Outputs> Observer<C> for Words {
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        self.hold(now.tick);
+        self.words.push(C::outputs(now).word);
+        self.seen += 1;
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+/// Runs a job both ways; how many ticks of a hundred are looked at where idle ones are gone over.
+fn same<C: Outputs + FastForward>(job: Job<C>) -> usize {
+    let Job { circuit, stimulus } = job;
+    let (mut stepped, mut jumped) = (Words::default(), Words::default());
+    let ticks = stimulus.ticks;
+    let mut replay = Replay::<C>::new(&stimulus);
+    let run = Simulator::new(&circuit).run(ticks, |tick, _| replay.tick(tick), &mut stepped);
+    let mut replay = Replay::<C>::new(&stimulus);
+    let held = |tick, _: &_| replay.held(tick);
+    let forward = Simulator::new(&circuit).fast_forward(ticks, held, &mut jumped);
+    let (run, forward) = (run.expect("no objection"), forward.expect("no objection"));
+    jumped.hold(ticks);
+    let words = stepped.words.iter().zip(&jumped.words);
+    let differs = words.enumerate().find(|(_, (a, b))| a != b);
+    assert_eq!(
+        differs.map(|(tick, _)| tick),
+        None,
+        "the first tick that differs"
+    );
+    assert_eq!(stepped.words.len(), jumped.words.len());
+    assert_eq!((run.tick(), forward.tick()), (ticks, ticks));
+    assert!(pack(run.registers()) == pack(forward.registers()));
+    println!("{}: {} of {ticks} ticks looked at", C::NAME, jumped.seen);
+    100 * jumped.seen / stepped.seen
+}
+
+/// At the clock of the scenario and at a fast one, in which most ticks are idle.
+fn both<C: Outputs + FastForward>(job: impl Fn(u64, Clock) -> Job<C>) {
+    let _ = same(job(100_000, Clock::Shipped));
+    let looked = same(job(400_000, Clock::Fast));
+    assert!(looked < 10, "{looked} of 100 ticks");
+}
+
+#[test]
+fn a_group_of_two_axes() {
+    both(jobs::bracket);
+}
+
+#[test]
+fn a_group_of_eight_axes() {
+    assert!(same(jobs::eight_axes(100_000)) < 20);
+}
+
+#[test]
+fn the_linear_interpolator() {
+    both(jobs::plotting);
+}
+
+#[test]
+fn the_lead_angle_compensator() {
+    both(jobs::turntable);
+}
+
+#[test]
+fn the_arc_generator() {
+    both(jobs::weld);
+}
+
+#[test]
+fn the_trajectory_controller() {
+    both(jobs::pocket);
+}
+
+#[test]
+fn the_machine() {
+    both(jobs::machine);
+}
