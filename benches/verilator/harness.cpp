@@ -31,14 +31,13 @@ static inline uint64_t rotated(uint64_t word, unsigned bits) {
 #include "ports.h"
 
 static std::vector<Change> stimulus;
-static uint64_t ticks;
+static uint64_t ticks, traced_from;
 
 // A tick is what stands before a rising edge: inputs, settled nets, then the edge.
 template <uint64_t EVERY>
-static uint64_t run(Vtop& top) {
-    const Change* next = stimulus.data();
+static uint64_t run(Vtop& top, const Change*& next, uint64_t end) {
     uint64_t sum = 0;
-    for (uint64_t tick = 0; tick < ticks; ++tick) {
+    for (uint64_t tick = 0; tick < end; ++tick) {
         for (; next->tick == tick; ++next) apply(top, next->port, next->value);
         top.clk = 0;
         top.eval();
@@ -50,15 +49,16 @@ static uint64_t run(Vtop& top) {
 }
 
 #if VM_TRACE
-// The same with waves: what ours show at the same times, clk too. Their head takes no time.
+// The same with waves of the last ticks: what ours show at the same times, clk too. Their head and
+// the ticks before them take no time.
 static uint64_t dump(Vtop& top, const char* path, Clock::time_point& begun) {
     Waves waves;
     top.trace(&waves, 99);
+    const Change* next = stimulus.data();
+    uint64_t sum = run<1>(top, next, traced_from);
     waves.open(path);
     begun = Clock::now();
-    const Change* next = stimulus.data();
-    uint64_t sum = 0;
-    for (uint64_t tick = 0; tick < ticks; ++tick) {
+    for (uint64_t tick = traced_from; tick < ticks; ++tick) {
         for (; next->tick == tick; ++next) apply(top, next->port, next->value);
         top.eval();
         waves.dump(10 * tick);
@@ -77,6 +77,7 @@ static uint64_t dump(Vtop& top, const char* path, Clock::time_point& begun) {
 int main(int, char** argv) {
     FILE* file = std::fopen(argv[1], "rb");
     ticks = std::strtoull(argv[2], nullptr, 10);
+    traced_from = std::strtoull(argv[3], nullptr, 10);
     Change change;
     while (file && std::fread(&change, sizeof change, 1, file) == 1) stimulus.push_back(change);
     if (stimulus.empty()) return 1;
@@ -96,8 +97,9 @@ int main(int, char** argv) {
 #if VM_TRACE
         sum = dump(*top, line, begun);
 #else
-        if (!std::strcmp(line, "every")) sum = run<1>(*top);
-        if (!std::strcmp(line, "seldom")) sum = run<SELDOM>(*top);
+        const Change* next = stimulus.data();
+        if (!std::strcmp(line, "every")) sum = run<1>(*top, next, ticks);
+        if (!std::strcmp(line, "seldom")) sum = run<SELDOM>(*top, next, ticks);
 #endif
         const std::chrono::nanoseconds taken = Clock::now() - begun;
         std::printf("%lld %llu\n", (long long)taken.count(), (unsigned long long)sum);

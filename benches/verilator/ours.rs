@@ -157,51 +157,63 @@ pub enum Waves {
     Fst,
 }
 
-/// A run with waves, from behind their head to their end, and the checksum.
+/// A run with waves from a tick on: how long these take, behind their head, and the checksum.
 pub fn dump<C: Outputs>(
     circuit: &C,
     stimulus: &Stimulus,
+    from: u64,
     waves: Waves,
     path: &Path,
 ) -> (Duration, u64) {
     let clock = Clock::from_hz(100_000_000).expect("a good rate");
-    let options = Options::default();
+    let options = Options {
+        ticks: from..u64::MAX,
+        only: None,
+    };
     let file = File::create(path).expect("a file");
     match waves {
         Waves::Vcd => {
             let mut vcd = Vcd::new(file, circuit, clock, &options).expect("a good circuit");
-            let (begun, sum) = seen(circuit, stimulus, &mut vcd);
+            let (begun, sum) = seen(circuit, stimulus, from, &mut vcd);
             vcd.finish().expect("room");
             (begun.elapsed(), sum)
         }
         Waves::VcdBehind => {
             let mut vcd = VcdBehind::new(file, circuit, clock, &options).expect("a good circuit");
-            let (begun, sum) = seen(circuit, stimulus, &mut vcd);
+            let (begun, sum) = seen(circuit, stimulus, from, &mut vcd);
             vcd.finish().expect("room");
             (begun.elapsed(), sum)
         }
         Waves::Fst => {
             let mut fst = Fst::new(file, circuit, clock, &options).expect("a good circuit");
-            let (begun, sum) = seen(circuit, stimulus, &mut fst);
+            let (begun, sum) = seen(circuit, stimulus, from, &mut fst);
             fst.finish().expect("room");
             (begun.elapsed(), sum)
         }
     }
 }
 
-/// A run with an observer: when it began, and the checksum over the outputs of every tick.
+/// A run with an observer from a tick on: when that began, and the checksum over the outputs of
+/// every tick.
 #[inline(never)]
 fn seen<C: Outputs>(
     circuit: &C,
     stimulus: &Stimulus,
+    from: u64,
     observer: impl Observer<C>,
 ) -> (Instant, u64) {
     let mut replay = Replay::<C>::new(stimulus);
     let mut sum = Checksum::<1>(0);
-    let observers = (observer, &mut sum);
     let simulator = Simulator::new(circuit);
+    let before = simulator.run(from, |tick, _| replay.tick(tick), &mut sum);
+    let before = before.expect("no observer objects");
+    let observers = (observer, &mut sum);
     let begun = Instant::now();
-    let run = simulator.run(stimulus.ticks, |tick, _| replay.tick(tick), observers);
+    let run = before.run(
+        stimulus.ticks - from,
+        |tick, _| replay.tick(tick),
+        observers,
+    );
     drop(run.expect("room"));
     (begun, sum.0)
 }

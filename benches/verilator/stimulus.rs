@@ -25,15 +25,6 @@ pub struct Stimulus {
 }
 
 impl Stimulus {
-    /// The first ticks of it.
-    pub fn first(&self, ticks: u64) -> Self {
-        let within = |change: &&Change| u64::from(change.tick) < ticks;
-        Stimulus {
-            changes: self.changes.iter().take_while(within).copied().collect(),
-            ticks: self.ticks.min(ticks),
-        }
-    }
-
     /// For the Verilated model: 16 bytes a change.
     pub fn write(&self, path: &Path) -> io::Result<()> {
         let mut out = BufWriter::new(File::create(path)?);

@@ -29,10 +29,11 @@ pub struct Verilated {
 pub const ROTATION: u32 = 7;
 
 impl Verilated {
-    /// Exports, compiles and starts a circuit.
+    /// Exports, compiles and starts a circuit; waves are those from tick `traced_from` on.
     pub fn new<C: Circuit>(
         circuit: &C,
         stimulus: &Stimulus,
+        traced_from: u64,
         build: Build,
         directory: &Path,
     ) -> Self {
@@ -71,7 +72,8 @@ impl Verilated {
         let make = ["-C", "obj_dir", "-f", "Vtop.mk", "-j", "2"];
         command(Command::new("make").args(make).args(LEVELS), directory);
         let mut child = Command::new(directory.join("obj_dir/Vtop"))
-            .args(["stimulus", &stimulus.ticks.to_string()])
+            .arg("stimulus")
+            .args([stimulus.ticks, traced_from].map(|tick| tick.to_string()))
             .current_dir(directory)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -101,7 +103,7 @@ impl Verilated {
         self.ask(if every == 1 { "every" } else { "seldom" })
     }
 
-    /// A run with waves, and the checksum.
+    /// A run with waves of its end, and the checksum.
     pub fn dump(&mut self, path: &Path) -> (Duration, u64) {
         self.ask(&path.display().to_string())
     }

@@ -13,7 +13,7 @@
 //! restores, from the dividend's highest bit down. Dividend and quotient share a register.
 
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::Circuit;
+use crate::kernel::{Circuit, ticks_below};
 use crate::logic::sim::UInt;
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
@@ -172,11 +172,10 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
 
     #[inline(always)]
     fn coasts_for(&self, q: &Reg<Sim, M, Q>, _: &Net<Sim, Q>, i: &In<Sim, M, Q>) -> u64 {
-        let left = |bits: usize| bits as u64 - 1 - q.count.get();
         match q.state.get() {
             _ if i.start.get() || q.done.get() => 0,
-            MULTIPLY => left(M),
-            DIVIDE => left(Q),
+            MULTIPLY => ticks_below(q.count.get(), M as u64),
+            DIVIDE => ticks_below(q.count.get(), Q as u64),
             _ => u64::MAX,
         }
     }

@@ -75,13 +75,13 @@ pub trait Circuit: 'static {
         q
     }
 
-    /// For how many ticks, this one included, an edge does what [`coast`](Circuit::coast) does, if
-    /// the inputs stay as they are. It may be fewer than there are, never more: 0 where this edge
-    /// does more, `u64::MAX` where nothing but an input ends it.
+    /// For how many ticks, this one included, it does no more than what goes on by itself, if the
+    /// inputs stay as they are. It may be fewer than there are, never more: 0 where this edge does
+    /// more, `u64::MAX` where nothing but an input ends it.
     ///
-    /// Unless overridden it goes on for ever where the clock is gated. A circuit made of circuits
-    /// takes the least of theirs. [`fast_forward`](super::Simulator::fast_forward) depends on it;
-    /// checked as the gates are.
+    /// Unless overridden it rests for ever where the clock is gated. A circuit made of circuits takes
+    /// the [`least`](super::least) of theirs. [`fast_forward`](super::Simulator::fast_forward)
+    /// depends on it; checked as the gates are.
     #[inline(always)]
     fn coasts_for(&self, q: &Self::Reg<Sim>, w: &Self::Net<Sim>, i: &Self::In<Sim>) -> u64 {
         match self.gated(q, w, i) {
@@ -90,8 +90,8 @@ pub trait Circuit: 'static {
         }
     }
 
-    /// The registers after so many edges in which it coasts. To be overridden with
-    /// [`coasts_for`](Circuit::coasts_for): as they are, unless it is.
+    /// The registers after so many of these edges: as they are, unless overridden with
+    /// [`coasts_for`](Circuit::coasts_for).
     #[inline(always)]
     fn coasted(&self, q: Self::Reg<Sim>, ticks: u64) -> Self::Reg<Sim> {
         let _ = ticks;
