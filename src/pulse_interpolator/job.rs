@@ -64,7 +64,8 @@ struct Bench<const AXES: usize> {
 }
 
 impl<const AXES: usize> Observer<JobGroup<AXES>> for Bench<AXES> {
-    #[inline]
+    // A call would have all registers and nets in memory, in every tick.
+    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, JobGroup<AXES>>) -> Result<ControlFlow<()>, RunError> {
         for (axis, driver) in self.drivers.iter_mut().enumerate() {
             // The drivers ask for nothing here, so they have nothing to complain of.
