@@ -132,11 +132,7 @@ impl Held {
 #[inline(never)]
 pub fn forward<C: Outputs + FastForward>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
     let mut replay = Replay::<C>::new(stimulus);
-    let mut held = Held {
-        sum: 0,
-        word: 0,
-        tick: 0,
-    };
+    let mut held = Held::default();
     let simulator = Simulator::new(circuit);
     let begun = Instant::now();
     let run = simulator.fast_forward(stimulus.ticks, |tick, _| replay.held(tick), &mut held);

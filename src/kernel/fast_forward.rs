@@ -11,8 +11,8 @@ pub fn least<const K: usize>(parts: [u64; K]) -> u64 {
     parts.into_iter().fold(u64::MAX, u64::min)
 }
 
-/// For how many ticks a counter that stands at `count` only counts, if it starts again at `limit`: those
-/// after whose edge it is still below.
+/// For how many ticks a counter that stands at `count` only counts, if it starts again at `limit`:
+/// those after whose edge it is still below.
 #[inline(always)]
 pub fn ticks_below(count: u64, limit: u64) -> u64 {
     limit.saturating_sub(1).saturating_sub(count)

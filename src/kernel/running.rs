@@ -194,7 +194,7 @@ pub(crate) const GATED: &str = "a register changes where the clock is gated";
 pub(crate) const COASTING: &str = "the registers are not as `coast` makes them where it coasts";
 
 /// [`Circuit::coasts_for`] or [`Circuit::coasted`] is.
-pub(crate) const COASTS_FOR: &str = "it does not coast for as long as it says, or otherwise";
+const COASTS_FOR: &str = "it does not coast for as long as it says, or otherwise";
 
 /// Edges of which [`Circuit::coasted`] is held against as many of one.
 const MANY: u64 = 64;

@@ -328,7 +328,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
         w: &Self::Net<Sim>,
         _: &In<Sim, P, T>,
     ) -> u64 {
-        let parts = [
+        least([
             w.sequencer.coasts_for(&self.sequencer, &q.sequencer),
             w.targets.coasts_for(&self.targets, &q.targets),
             w.pattern.coasts_for(&self.pattern, &q.pattern),
@@ -336,8 +336,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
                 .coasts_for(&self.differentiator, &q.differentiator),
             w.integrator.coasts_for(&self.integrator, &q.integrator),
             w.switch.coasts_for(&self.switch, &q.switch),
-        ];
-        least(parts)
+        ])
     }
 
     #[inline(always)]

@@ -287,6 +287,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
         w: &Self::Net<Sim>,
         i: &In<Sim, N, T, A>,
     ) -> u64 {
+        // Of what the axes look at nothing else moves without RST.
         if i.write.get() {
             return 0;
         }
