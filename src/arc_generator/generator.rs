@@ -14,7 +14,7 @@ use crate::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
     enable_counter, record_memory, record_sequencer,
 };
-use crate::kernel::{Circuit, FastForward, Instance, least};
+use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, least};
 use crate::logic::{Logic, Sim};
 use crate::signals;
 
@@ -247,6 +247,7 @@ impl<
     type In<L: Logic> = In<L, D, T>;
     type Reg<L: Logic> = Reg<L, W, P, C, S, F, D, N, A, K, T>;
     type Net<L: Logic> = Net<L, W, P, C, S, F, D, N, A, K, T>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {

@@ -11,7 +11,7 @@
 //! A period of 0 counts as 1.
 
 use crate::check::{Invariants, Specified};
-use crate::kernel::{Circuit, Moment, Property, ticks_below};
+use crate::kernel::{Circuit, FreeRunning, Moment, Property, ticks_below};
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 
@@ -52,6 +52,7 @@ impl<const W: usize> Circuit for EnableCounter<W> {
     type In<L: Logic> = In<L, W>;
     type Reg<L: Logic> = Reg<L, W>;
     type Net<L: Logic> = Net<L, W>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W>, i: &In<L, W>) -> Net<L, W> {

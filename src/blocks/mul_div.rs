@@ -13,7 +13,7 @@
 //! restores, from the dividend's highest bit down. Dividend and quotient share a register.
 
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, ticks_below};
+use crate::kernel::{Circuit, FreeRunning, ticks_below};
 use crate::logic::sim::UInt;
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
@@ -103,6 +103,7 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
     type In<L: Logic> = In<L, M, Q>;
     type Reg<L: Logic> = Reg<L, M, Q>;
     type Net<L: Logic> = Net<L, Q>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, M, Q>, i: &In<L, M, Q>) -> Net<L, Q> {

@@ -64,7 +64,7 @@ impl Drive {
             lines.tick(running, rst, stimulus)?;
             dump.tick(tick, running)?;
             running.show(coverage.tick());
-            let at_rest = running.at_rest();
+            let at_rest = running.at_rest(&layout.free);
             running.clock(rst);
             if let (false, Some(message)) = (rst, at_rest.fault(running)) {
                 return Err(RunError::Violation {

@@ -1,6 +1,6 @@
 use super::{
-    Circuit, Extent, FastForward, Field, Make, Moment, Observer, Property, Role, RunError, Sample,
-    Signals, Visit,
+    Circuit, Extent, FastForward, Field, FreeRunning, Make, Moment, Observer, Property, Role,
+    RunError, Sample, Signals, Visit,
 };
 use crate::logic::{Logic, Sim};
 use std::fmt;
@@ -106,6 +106,7 @@ impl<C: Circuit, B: Beside> Circuit for With<C, B> {
     type In<L: Logic> = WithIn<L, C, B>;
     type Reg<L: Logic> = C::Reg<L>;
     type Net<L: Logic> = C::Net<L>;
+    const FREE_RUNNING: FreeRunning = C::FREE_RUNNING;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &C::Reg<L>, i: &WithIn<L, C, B>) -> C::Net<L> {
@@ -168,10 +169,21 @@ impl<C: FastForward, B: Beside> FastForward for With<C, B> {}
 pub struct Without<O>(pub O);
 
 impl<C: Circuit, B: Beside, O: Observer<C>> Observer<With<C, B>> for Without<O> {
+    #[inline(always)]
+    fn coasts(&self) -> bool {
+        self.0.coasts()
+    }
+
+    #[inline(always)]
+    fn follows(&self, tick: u64) -> bool {
+        self.0.follows(tick)
+    }
+
     #[inline]
     fn sample(&mut self, now: &Sample<'_, With<C, B>>) -> Result<ControlFlow<()>, RunError> {
         self.0.sample(&Sample {
             tick: now.tick,
+            coasting: now.coasting,
             i: &now.i.i,
             q: now.q,
             w: now.w,

@@ -1,3 +1,4 @@
+use super::FreeRunning;
 use super::probe::{Source, supply};
 use super::property::{Moment, Property};
 use super::signals::{Extent, Field, Inside, Make, Role, Shape, Signals, Visit};
@@ -28,6 +29,11 @@ pub trait Circuit: 'static {
     type Reg<L: Logic>: Signals<L>;
     /// Combinational nets.
     type Net<L: Logic>: Signals<L>;
+    /// What goes on in it while it, or the circuit around it, coasts.
+    ///
+    /// Whoever overrides [`coasted`](Circuit::coasted) overrides it: waves do not look at the rest
+    /// then, and its nets are not even computed. Checked by [`drive`](crate::check::drive()).
+    const FREE_RUNNING: FreeRunning = FreeRunning::Nothing;
 
     /// The nets of this tick.
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L>;
@@ -307,16 +313,19 @@ impl<C: Circuit, L: Logic> Signals<L> for Instance<C, L> {
     #[inline(always)]
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.enter(field);
-        self.i.visit(const { &Field::part(Role::Input) }, visitor);
         let inside = const {
             Inside {
                 ports: C::In::<L>::EXTENT,
                 registers: C::Reg::<L>::EXTENT,
                 nets: C::Net::<L>::EXTENT,
+                free_running: C::FREE_RUNNING,
             }
         };
-        if !visitor.rests(inside) {
-            self.w.visit(const { &Field::part(Role::Net) }, visitor);
+        if !visitor.passes_over(inside) {
+            self.i.visit(const { &Field::part(Role::Input) }, visitor);
+            if !visitor.rests(inside) {
+                self.w.visit(const { &Field::part(Role::Net) }, visitor);
+            }
         }
         visitor.leave();
     }

@@ -1,7 +1,7 @@
-use super::Circuit;
 use super::probe::{Probe, Words};
 use super::running::{Machine, Running};
 use super::signals::{Field, Inside, Kind, Role, Shape};
+use super::{Circuit, FreeRunning};
 use std::sync::Arc;
 
 /// Where a walk is: the scopes around the next leaf and the part of the circuit it belongs to.
@@ -116,6 +116,8 @@ pub struct InstanceDeclaration {
     pub scopes: Vec<String>,
     /// The number of leaves that are registers of it or of circuits within it.
     pub registers: usize,
+    /// What goes on in it while it coasts.
+    pub free_running: FreeRunning,
 }
 
 /// Every leaf of a walk, in its order.
@@ -201,6 +203,7 @@ impl Probe for Declarations {
         self.instances.push(InstanceDeclaration {
             scopes: self.path.scopes().to_vec(),
             registers: inside.registers.leaves,
+            free_running: inside.free_running,
         });
         false
     }

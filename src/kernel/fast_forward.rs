@@ -1,5 +1,28 @@
 use super::Circuit;
 
+/// What goes on in a circuit while it [coasts](Circuit::coasts_for) under inputs that stay as they
+/// are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FreeRunning {
+    /// Nothing: no register and no net changes.
+    Nothing,
+    /// What goes on in its parts. None of its own registers and nets changes, and no port in of a
+    /// part.
+    Parts,
+    /// Registers and nets of its own, and whatever depends on them in its parts.
+    All,
+}
+
+impl FreeRunning {
+    /// What goes on in a part of it that by itself says `part`.
+    pub(crate) const fn within(self, part: FreeRunning) -> FreeRunning {
+        match self {
+            FreeRunning::Parts => part,
+            FreeRunning::Nothing | FreeRunning::All => self,
+        }
+    }
+}
+
 /// A circuit that [`Simulator::fast_forward`](super::Simulator::fast_forward) can run: while it
 /// [coasts](Circuit::coasts_for) under inputs that stay as they are, no port out changes, those that
 /// are nets included.

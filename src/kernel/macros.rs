@@ -51,13 +51,15 @@ macro_rules! signals {
                 visitor: &mut Visitor,
             ) {
                 visitor.enter(field);
-                $(
-                    $crate::kernel::Signals::<L>::visit(
-                        &self.$field,
-                        $crate::signals!(@field $public $field, [$($doc)*], [$($format $(($names))?)?], [$($power_on)?]),
-                        visitor,
-                    );
-                )*
+                if !visitor.passes(<Self as $crate::kernel::Signals<L>>::EXTENT) {
+                    $(
+                        $crate::kernel::Signals::<L>::visit(
+                            &self.$field,
+                            $crate::signals!(@field $public $field, [$($doc)*], [$($format $(($names))?)?], [$($power_on)?]),
+                            visitor,
+                        );
+                    )*
+                }
                 visitor.leave();
             }
 

@@ -11,6 +11,8 @@ use std::ops::ControlFlow;
 pub struct Sample<'a, C: Circuit> {
     /// The tick, from 0.
     pub tick: u64,
+    /// Since the tick before nothing but what [runs free](Circuit::FREE_RUNNING) has changed.
+    pub coasting: bool,
     /// Ports in.
     pub i: &'a C::In<Sim>,
     /// Registers.
@@ -44,6 +46,7 @@ impl<C: Circuit> Sample<'_, C> {
         let w = settled(circuit, &q, &i);
         show(&Sample {
             tick: 0,
+            coasting: false,
             i: &i,
             q: &q,
             w: &w,
@@ -73,6 +76,21 @@ pub enum RunError {
 ///
 /// `()` observes nothing and costs nothing; a tuple observes with each of its parts in turn.
 pub trait Observer<C: Circuit> {
+    /// Whether it looks at less where the circuit [coasts](Sample::coasting): only if somebody does
+    /// are such ticks found out.
+    #[inline(always)]
+    fn coasts(&self) -> bool {
+        false
+    }
+
+    /// Whether a tick may come as one in which the circuit coasts. Waves need to have seen the tick
+    /// before.
+    #[inline(always)]
+    fn follows(&self, tick: u64) -> bool {
+        let _ = tick;
+        true
+    }
+
     /// Sees one tick; `Break` ends the run after this tick's edge.
     ///
     /// # Errors
@@ -89,12 +107,32 @@ impl<C: Circuit> Observer<C> for () {
 
 impl<C: Circuit, O: Observer<C>> Observer<C> for &mut O {
     #[inline(always)]
+    fn coasts(&self) -> bool {
+        (**self).coasts()
+    }
+
+    #[inline(always)]
+    fn follows(&self, tick: u64) -> bool {
+        (**self).follows(tick)
+    }
+
+    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         (**self).sample(now)
     }
 }
 
 impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
+    #[inline(always)]
+    fn coasts(&self) -> bool {
+        self.as_ref().is_some_and(|observer| observer.coasts())
+    }
+
+    #[inline(always)]
+    fn follows(&self, tick: u64) -> bool {
+        self.as_ref().is_none_or(|observer| observer.follows(tick))
+    }
+
     #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         match self {
@@ -107,6 +145,16 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
 macro_rules! together {
     ($($part:ident $place:tt),+) => {
         impl<C: Circuit, $($part: Observer<C>),+> Observer<C> for ($($part,)+) {
+            #[inline(always)]
+            fn coasts(&self) -> bool {
+                $(self.$place.coasts())||+
+            }
+
+            #[inline(always)]
+            fn follows(&self, tick: u64) -> bool {
+                $(self.$place.follows(tick))&&+
+            }
+
             #[inline(always)]
             fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
                 let mut stop = false;

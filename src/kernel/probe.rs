@@ -1,4 +1,4 @@
-use super::signals::{Field, Inside, Kind, Make, Role, Shape, Signals, Visit};
+use super::signals::{Extent, Field, Inside, Kind, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Bit, Image, Signed, Sim, sim::*};
 use std::any::Any;
 
@@ -48,6 +48,16 @@ pub trait Probe {
     fn element(&mut self, _index: usize) {}
     /// A leaf; `bits` holds its value in the low `shape.width` bits, zeros above.
     fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64);
+    /// See [`Visit::passes`].
+    #[inline(always)]
+    fn passes(&mut self, _extent: Extent) -> bool {
+        false
+    }
+    /// See [`Visit::passes_over`].
+    #[inline(always)]
+    fn passes_over(&mut self, _inside: Inside) -> bool {
+        false
+    }
     /// See [`Visit::rests`].
     #[inline(always)]
     fn rests(&mut self, _inside: Inside) -> bool {
@@ -118,6 +128,14 @@ impl<P: Probe> Visit<Sim> for P {
         if !self.memory_rests(K, register.mark()) {
             self.memory(field, &register.words());
         }
+    }
+    #[inline(always)]
+    fn passes(&mut self, extent: Extent) -> bool {
+        Probe::passes(self, extent)
+    }
+    #[inline(always)]
+    fn passes_over(&mut self, inside: Inside) -> bool {
+        Probe::passes_over(self, inside)
     }
     #[inline(always)]
     fn rests(&mut self, inside: Inside) -> bool {

@@ -1,9 +1,9 @@
-use super::Circuit;
 use super::circuit::settled;
 use super::pack::zero;
 use super::probe::{Probe, Source, Words, show, supply};
 use super::reset::reset;
 use super::signals::{Field, Role, Shape, Signals};
+use super::{Circuit, FreeRunning};
 use crate::logic::Sim;
 use crate::logic::sim::Wire;
 
@@ -14,13 +14,16 @@ use crate::logic::sim::Wire;
 pub(crate) trait Running {
     /// The scope of the whole circuit.
     fn scope(&self) -> &'static Field;
+    /// What goes on in it while it coasts.
+    fn free_running(&self) -> FreeRunning;
     /// Applies the inputs of a tick and settles its nets.
     fn settle(&mut self, inputs: &mut dyn Source);
     /// Shows the ports in, the registers or the nets.
     fn part(&self, role: Role, probe: &mut dyn Probe);
     /// How the edge has to leave the registers: as they stand where the clock is
-    /// [gated](Circuit::gated), coasted where it [coasts](Circuit::coasting).
-    fn at_rest(&self) -> AtRest;
+    /// [gated](Circuit::gated), coasted where it [coasts](Circuit::coasting); and where it
+    /// [coasts for](Circuit::coasts_for) longer, how nothing changes but the leaves that run `free`.
+    fn at_rest(&self, free: &[bool]) -> AtRest;
     /// The edge that ends the tick; with `rst` high that of a synchronous reset.
     fn clock(&mut self, rst: bool);
 }
@@ -69,6 +72,10 @@ impl<C: Circuit> Running for Machine<'_, C> {
         const { &Field::named(C::NAME) }
     }
 
+    fn free_running(&self) -> FreeRunning {
+        C::FREE_RUNNING
+    }
+
     fn settle(&mut self, inputs: &mut dyn Source) {
         self.i = supply(Role::Input, inputs);
         if let Some(q) = &self.q {
@@ -85,7 +92,7 @@ impl<C: Circuit> Running for Machine<'_, C> {
         }
     }
 
-    fn at_rest(&self) -> AtRest {
+    fn at_rest(&self, free: &[bool]) -> AtRest {
         let (circuit, w, i) = (self.circuit, &self.w, &self.i);
         let q = || self.q.as_ref();
         let high = |gate: &Wire| gate.get();
@@ -94,7 +101,7 @@ impl<C: Circuit> Running for Machine<'_, C> {
         let goes_on = |q: &C::Reg<Sim>| {
             let next = circuit.next(q.clone(), w, i);
             let same = |a: &_, b: &_| Standing::of::<C::Reg<Sim>>(a) == Standing::of(b);
-            coasting_fault(circuit, q, w, i, &next, same)
+            coasting_fault(circuit, q, w, i, &next, same, free)
         };
         let goes_on = q()
             .filter(|q| circuit.coasts_for(q, w, i) > 0)
@@ -164,6 +171,47 @@ impl Standing {
     }
 }
 
+/// The leaves that do not change while the circuit coasts, and of each memory how often it was
+/// written.
+#[derive(PartialEq, Eq)]
+struct Fixed<'a> {
+    free: &'a [bool],
+    cursor: usize,
+    values: Vec<u64>,
+}
+
+impl<'a> Fixed<'a> {
+    fn of<C: Circuit>(free: &'a [bool], i: &C::In<Sim>, q: &C::Reg<Sim>, w: &C::Net<Sim>) -> Self {
+        let mut fixed = Fixed {
+            free,
+            cursor: 0,
+            values: Vec::new(),
+        };
+        show(i, Role::Input, &mut fixed);
+        show(q, Role::Register, &mut fixed);
+        show(w, Role::Net, &mut fixed);
+        fixed
+    }
+
+    fn keep(&mut self, leaves: usize, value: u64) {
+        if self.free.get(self.cursor) == Some(&false) {
+            self.values.push(value);
+        }
+        self.cursor += leaves;
+    }
+}
+
+impl Probe for Fixed<'_> {
+    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
+        self.keep(1, bits);
+    }
+    fn memory(&mut self, _: &'static Field, words: &dyn Words) {
+        let mut mark = 0;
+        words.changed(&mut mark);
+        self.keep(words.len(), mark);
+    }
+}
+
 /// What the gates of a clock say of an edge.
 pub(crate) struct AtRest {
     gated: Option<Standing>,
@@ -193,14 +241,18 @@ pub(crate) const GATED: &str = "a register changes where the clock is gated";
 /// The [other gate](Circuit::coasting) is.
 pub(crate) const COASTING: &str = "the registers are not as `coast` makes them where it coasts";
 
+/// [`Circuit::FREE_RUNNING`] is.
+const RUNS_FREE: &str = "what is not said to run free changes while it coasts";
+
 /// [`Circuit::coasts_for`] or [`Circuit::coasted`] is.
 const COASTS_FOR: &str = "it does not coast for as long as it says, or otherwise";
 
 /// Edges of which [`Circuit::coasted`] is held against as many of one.
 const MANY: u64 = 64;
 
-/// What is wrong with for how long the circuit says that it coasts, if the edge leads to `next`.
-/// That it goes on for as long is left to the next tick, of which it has to say so too.
+/// What is wrong with for how long the circuit says that it coasts, or with what it says to go on
+/// meanwhile, if the edge leads to `next`; by the leaf, what runs `free`. That it goes on for as long
+/// is left to the next tick, of which it has to say so too.
 pub(crate) fn coasting_fault<C: Circuit>(
     circuit: &C,
     q: &C::Reg<Sim>,
@@ -208,15 +260,29 @@ pub(crate) fn coasting_fault<C: Circuit>(
     i: &C::In<Sim>,
     next: &C::Reg<Sim>,
     same: impl Fn(&C::Reg<Sim>, &C::Reg<Sim>) -> bool,
+    free: &[bool],
 ) -> Option<&'static str> {
     let ticks = circuit.coasts_for(q, w, i);
+    if ticks == 0 {
+        return None;
+    }
     let many = ticks.min(MANY);
     let coasted = |q: &C::Reg<Sim>, ticks| circuit.coasted(q.clone(), ticks);
-    let right = ticks == 0
-        || same(&coasted(q, 1), next)
-            && same(&coasted(q, many), &coasted(next, many - 1))
-            && circuit.coasts_for(next, &settled(circuit, next, i), i) >= ticks - 1;
-    (!right).then_some(COASTS_FOR)
+    let then = settled(circuit, next, i);
+    let still = circuit.coasts_for(next, &then, i);
+    let right = still >= ticks - 1
+        && same(&coasted(q, 1), next)
+        && same(&coasted(q, many), &coasted(next, many - 1));
+    if !right {
+        return Some(COASTS_FOR);
+    }
+    let fixed = |q: &_, w: &_| Fixed::of::<C>(free, i, q, w);
+    let rests = match C::FREE_RUNNING {
+        FreeRunning::Nothing => same(q, next),
+        FreeRunning::Parts => still == 0 || fixed(q, w) == fixed(next, &then),
+        FreeRunning::All => true,
+    };
+    (!rests).then_some(RUNS_FREE)
 }
 
 impl Probe for Standing {

@@ -1,3 +1,4 @@
+use super::FreeRunning;
 use crate::logic::Logic;
 use std::borrow::Cow;
 use std::fmt::Debug;
@@ -137,6 +138,8 @@ pub struct Inside {
     pub registers: Extent,
     /// Its nets.
     pub nets: Extent,
+    /// What goes on in it while it coasts.
+    pub free_running: FreeRunning,
 }
 
 /// The reading half of a walk.
@@ -161,6 +164,18 @@ pub trait Visit<L: Logic> {
         field: &'static Field,
         register: &L::ShiftRegister<K, D>,
     );
+    /// A struct has begun that shows so much: true leaves its fields out.
+    #[inline(always)]
+    fn passes(&mut self, extent: Extent) -> bool {
+        let _ = extent;
+        false
+    }
+    /// A circuit within has begun: true leaves out its ports in and its nets.
+    #[inline(always)]
+    fn passes_over(&mut self, inside: Inside) -> bool {
+        let _ = inside;
+        false
+    }
     /// The ports in of a circuit within have just been shown, and its nets would come next: true
     /// leaves them out, since nothing that they depend on is other than the last time.
     #[inline(always)]

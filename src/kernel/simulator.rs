@@ -1,3 +1,4 @@
+use super::ports::Ports;
 use super::reset::reset;
 use super::{Circuit, FastForward, Observer, RunError, Sample};
 use crate::logic::{Logic, Sim};
@@ -61,7 +62,12 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
         observer: impl Observer<C>,
     ) -> Result<Self, RunError> {
-        match Self::run_on(self.circuit, self.q, self.tick, ticks, stimulus, observer) {
+        let Simulator { circuit, q, tick } = self;
+        let ran = match observer.coasts() {
+            true => Self::watch_on(circuit, q, tick, ticks, stimulus, observer),
+            false => Self::run_on(circuit, q, tick, ticks, stimulus, observer),
+        };
+        match ran {
             (simulator, None) => Ok(simulator),
             (_, Some(error)) => Err(error),
         }
@@ -89,6 +95,7 @@ impl<'c, C: Circuit> Simulator<'c, C> {
             let w = circuit.comb(&q, &i);
             let flow = observer.sample(&Sample {
                 tick,
+                coasting: false,
                 i: &i,
                 q: &q,
                 w: &w,
@@ -104,6 +111,70 @@ impl<'c, C: Circuit> Simulator<'c, C> {
             tick += 1;
             if let ControlFlow::Break(()) = flow {
                 break;
+            }
+        }
+        let q = ManuallyDrop::into_inner(q);
+        (Simulator { circuit, q, tick }, failed)
+    }
+
+    /// As [`run_on`](Self::run_on), for an observer that looks at less where the circuit coasts. It
+    /// has nets of its own there: those that nobody looks at are not computed.
+    #[inline(never)]
+    fn watch_on(
+        circuit: &'c C,
+        q: C::Reg<Sim>,
+        start: u64,
+        ticks: u64,
+        mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
+        mut observer: impl Observer<C>,
+    ) -> (Self, Option<RunError>) {
+        let mut q = ManuallyDrop::new(q);
+        let mut tick = start;
+        let end = start.saturating_add(ticks);
+        let mut failed = None;
+        // For how many ticks from this one on it coasts, and did with the edge before, under which
+        // ports in.
+        let mut still = 0;
+        let mut ports = Ports::new::<C>();
+        while tick < end {
+            let i = stimulus(tick, &q);
+            let coasting = still > 0 && ports.are(&i) && observer.follows(tick);
+            let flow = if coasting {
+                still -= 1;
+                let w = circuit.comb(&q, &i);
+                let flow = observer.sample(&Sample {
+                    tick,
+                    coasting,
+                    i: &i,
+                    q: &q,
+                    w: &w,
+                });
+                q = ManuallyDrop::new(circuit.coasted(ManuallyDrop::into_inner(q), 1));
+                flow
+            } else {
+                let w = circuit.comb(&q, &i);
+                let flow = observer.sample(&Sample {
+                    tick,
+                    coasting,
+                    i: &i,
+                    q: &q,
+                    w: &w,
+                });
+                still = circuit.coasts_for(&q, &w, &i).saturating_sub(1);
+                if still > 0 {
+                    ports.keep(&i);
+                }
+                q = ManuallyDrop::new(Sim::clock(circuit, ManuallyDrop::into_inner(q), &w, &i));
+                flow
+            };
+            tick += 1;
+            match flow {
+                Ok(ControlFlow::Continue(())) => {}
+                Ok(ControlFlow::Break(())) => break,
+                Err(error) => {
+                    failed = Some(error);
+                    break;
+                }
             }
         }
         let q = ManuallyDrop::into_inner(q);
@@ -180,6 +251,7 @@ impl<'c, C: Circuit> Simulator<'c, C> {
             let w = circuit.comb(&q, &i);
             let flow = observer.sample(&Sample {
                 tick,
+                coasting: false,
                 i: &i,
                 q: &q,
                 w: &w,
@@ -243,6 +315,7 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         let w = circuit.comb(&q, &i);
         let shown = show(&Sample {
             tick,
+            coasting: false,
             i: &i,
             q: &q,
             w: &w,

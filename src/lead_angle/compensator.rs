@@ -24,7 +24,7 @@ use super::{
 };
 use crate::blocks::{EnableCounter, QuadratureCounter, enable_counter, quadrature_counter};
 use crate::check::SamePorts;
-use crate::kernel::{Circuit, FastForward, Instance, Nothing, least};
+use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, Nothing, least};
 use crate::logic::{Image, Logic, Sim};
 use crate::signals;
 
@@ -313,6 +313,7 @@ impl<
     type In<L: Logic> = In<L, C, W, A, D, N, S>;
     type Reg<L: Logic> = Reg<L, P, C, W, A, D, R, N, S>;
     type Net<L: Logic> = Net<L, P, K, T, C, W, A, D, R, N, S>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {

@@ -14,7 +14,7 @@
 use super::{CorrectionArithmetic, RatioLogic, Sign, StopError};
 use super::{correction_arithmetic, ratio_logic, stop_error};
 use crate::blocks::{MulDiv, mul_div};
-use crate::kernel::{Circuit, Instance, Nothing, least};
+use crate::kernel::{Circuit, FreeRunning, Instance, Nothing, least};
 use crate::logic::{Logic, Sim};
 use crate::signals;
 
@@ -129,6 +129,7 @@ impl<const K: usize, const T: usize, const C: usize, const W: usize, const R: us
     type In<L: Logic> = In<L, C, W>;
     type Reg<L: Logic> = Reg<L, C, W, R>;
     type Net<L: Logic> = Net<L, K, T, C, W, R>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, C, W, R>, i: &In<L, C, W>) -> Net<L, K, T, C, W, R> {

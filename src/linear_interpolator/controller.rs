@@ -15,7 +15,7 @@
 use super::{Conventional, CycleGate, LinearInterpolator, PositionLoop};
 use super::{cycle_gate, interpolator, position_loop};
 use crate::blocks::{EnableCounter, enable_counter};
-use crate::kernel::{Circuit, FastForward, Instance, least};
+use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, least};
 use crate::logic::{Logic, Sim};
 use crate::signals;
 use std::fmt::Debug;
@@ -284,6 +284,7 @@ impl<
     type In<L: Logic> = In<L, P, T, G, S>;
     type Reg<L: Logic> = Reg<L, C, P, D, S>;
     type Net<L: Logic> = Net<L, C, P, G, F, D, K, S>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {

@@ -13,7 +13,7 @@
 
 use super::{Accumulator, Rule, accumulator};
 use crate::blocks::{MulDiv, mul_div};
-use crate::kernel::{Circuit, Instance};
+use crate::kernel::{Circuit, FreeRunning, Instance};
 use crate::logic::{Logic, Sim};
 use crate::signals;
 
@@ -92,6 +92,7 @@ impl<const P: usize, const R: usize> Circuit for Integrator<P, R> {
     type In<L: Logic> = In<L, P>;
     type Reg<L: Logic> = Reg<L, P, R>;
     type Net<L: Logic> = Net<L, P, R>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, R>, i: &In<L, P>) -> Net<L, P, R> {

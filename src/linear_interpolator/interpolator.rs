@@ -13,7 +13,7 @@ use super::{
     AxisSwitch, Differentiator, Integrator, PatternGenerator, Rule, Sequencer, TargetData,
     axis_switch, differentiator, integrator, pattern_generator, sequencer, target_data,
 };
-use crate::kernel::{Circuit, Instance, least};
+use crate::kernel::{Circuit, FreeRunning, Instance, least};
 use crate::logic::{Logic, Sim};
 use crate::signals;
 
@@ -168,6 +168,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
     type In<L: Logic> = In<L, P, T>;
     type Reg<L: Logic> = Reg<L, A, P, T, M, Q, R>;
     type Net<L: Logic> = Net<L, A, P, T, M, Q, R>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
     #[inline(always)]
     fn comb<L: Logic>(

@@ -14,7 +14,7 @@
 
 use super::{Trapezoid, trapezoid};
 use crate::blocks::{MulDiv, mul_div};
-use crate::kernel::{Circuit, Instance};
+use crate::kernel::{Circuit, FreeRunning, Instance};
 use crate::logic::{Logic, Sim};
 use crate::signals;
 
@@ -104,6 +104,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
     type In<L: Logic> = In<L, P, T>;
     type Reg<L: Logic> = Reg<L, P, T, M, Q>;
     type Net<L: Logic> = Net<L, P, T, M, Q>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, T, M, Q>, i: &In<L, P, T>) -> Net<L, P, T, M, Q> {

@@ -11,7 +11,7 @@
 
 use super::{CommandJoin, Enables, command_join, enables, ports};
 use crate::arc_generator::{ArcGenerator, generator};
-use crate::kernel::{Circuit, FastForward, Instance, least};
+use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, least};
 use crate::lead_angle::job::RamLead;
 use crate::lead_angle::{Compensator, compensator};
 use crate::linear_interpolator::{LinearInterpolator, interpolator};
@@ -170,6 +170,7 @@ impl Circuit for Machine {
     type In<L: Logic> = In<L>;
     type Reg<L: Logic> = Reg<L>;
     type Net<L: Logic> = Net<L>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Net<L> {

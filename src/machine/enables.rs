@@ -14,7 +14,7 @@
 
 use crate::blocks::{EnableCounter, enable_counter};
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, Instance, least};
+use crate::kernel::{Circuit, FreeRunning, Instance, least};
 use crate::logic::{Bit, Logic, Sim};
 use crate::signals;
 
@@ -86,6 +86,7 @@ impl<const W: usize> Circuit for Enables<W> {
     type In<L: Logic> = In<L, W>;
     type Reg<L: Logic> = Reg<L, W>;
     type Net<L: Logic> = Net<L, W>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W>, i: &In<L, W>) -> Net<L, W> {

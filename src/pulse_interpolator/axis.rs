@@ -12,7 +12,7 @@
 use super::{PatternMemory, PulseGenerator, SyncStage, Variant};
 use super::{pattern_memory, pulse_generator, sync_stage};
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, Instance, ticks_below};
+use crate::kernel::{Circuit, FreeRunning, Instance, ticks_below};
 use crate::logic::sim::UInt;
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
@@ -141,6 +141,7 @@ impl<const N: usize, const A: usize> Circuit for Axis<N, A> {
     type In<L: Logic> = In<L, N, A>;
     type Reg<L: Logic> = Reg<L, N, A>;
     type Net<L: Logic> = Net<L, N, A>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, N, A>, i: &In<L, N, A>) -> Net<L, N, A> {

@@ -17,7 +17,7 @@ use super::{
 };
 use super::{address_sequencer, axis, command_port, unit_time_counter, unit_time_register};
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, FastForward, Instance, least};
+use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, least};
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 use std::array::from_fn;
@@ -153,6 +153,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
     type In<L: Logic> = In<L, N, T, A>;
     type Reg<L: Logic> = Reg<L, AXES, N, T, A>;
     type Net<L: Logic> = Net<L, AXES, N, T, A>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
     #[inline(always)]
     fn comb<L: Logic>(

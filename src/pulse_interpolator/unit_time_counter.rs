@@ -10,7 +10,7 @@
 //! counter run to its wrap. T = 0 counts as 1.
 
 use crate::check::{Invariants, Specified};
-use crate::kernel::{Circuit, Moment, Property, ticks_below};
+use crate::kernel::{Circuit, FreeRunning, Moment, Property, ticks_below};
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 
@@ -51,6 +51,7 @@ impl<const T: usize> Circuit for UnitTimeCounter<T> {
     type In<L: Logic> = In<L, T>;
     type Reg<L: Logic> = Reg<L, T>;
     type Net<L: Logic> = Net<L, T>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, T>, i: &In<L, T>) -> Net<L, T> {

@@ -1,3 +1,4 @@
+use super::tree::free_running;
 use crate::kernel::{Declaration, Declarations, Format, InstanceDeclaration, Running, STAGE, WORD};
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -69,6 +70,8 @@ pub(crate) struct Layout {
     pub leaves: Vec<Declaration>,
     /// The circuits within, in its order.
     pub instances: Vec<InstanceDeclaration>,
+    /// Which leaves of the walk can change while the circuit coasts.
+    pub free: Vec<bool>,
     /// For every leaf, whether it is selected.
     pub selected: Vec<bool>,
     /// The circuit's scope with the selected leaves in it.
@@ -102,6 +105,7 @@ impl Layout {
             top = Scope::tree(circuit.name(), &leaves, |index| selected[index]);
         }
         Ok(Layout {
+            free: free_running(&leaves, &instances, circuit.free_running()),
             leaves,
             instances,
             selected,

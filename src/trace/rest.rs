@@ -1,11 +1,10 @@
 //! Which circuits within a circuit can be passed over.
 
+use super::tree::{Tree, alike};
 use super::walk::Change;
 use crate::kernel::{Declaration, InstanceDeclaration, Role};
-use std::collections::HashMap;
 use std::iter::repeat_n;
 use std::mem;
-use std::sync::Arc;
 
 /// Which circuits within have registers that have changed.
 ///
@@ -23,47 +22,27 @@ pub(super) struct Rest {
 
 impl Rest {
     pub fn new(leaves: &[Declaration], instances: &[InstanceDeclaration]) -> Self {
-        let places: HashMap<&[String], u32> = instances
-            .iter()
-            .map(|instance| &instance.scopes[..])
-            .zip(0..)
-            .collect();
-        let whole = instances.len() as u32;
-        let innermost = |scopes: &[String]| {
-            let mut outward = (0..=scopes.len()).rev();
-            let place = outward.find_map(|depth| places.get(&scopes[..depth]).copied());
-            place.unwrap_or(whole)
-        };
-        let around: Vec<_> = instances
-            .iter()
-            .map(|instance| match instance.scopes.split_last() {
-                Some((_, outer)) => innermost(outer),
-                None => whole,
-            })
-            .collect();
-
+        let tree = Tree::new(instances);
+        let whole = tree.whole;
         let mut of = Vec::with_capacity(leaves.len());
         let mut missing: Vec<_> = instances.iter().map(|each| each.registers).collect();
-        let alike = |a: &Declaration, b: &Declaration| {
-            a.role == b.role && Arc::ptr_eq(&a.scopes, &b.scopes)
-        };
         for leaves in leaves.chunk_by(alike) {
             let mut instance = match leaves[0].role {
-                Role::Register => innermost(&leaves[0].scopes),
+                Role::Register => tree.innermost(&leaves[0].scopes),
                 Role::Input | Role::Net => whole,
             };
             of.extend(repeat_n(instance, leaves.len()));
             while instance != whole {
                 let place = instance as usize;
                 missing[place] = missing[place].wrapping_sub(leaves.len());
-                instance = around[place];
+                instance = tree.around[place];
             }
         }
         let unknown = (0..instances.len()).filter(|&place| missing[place] != 0);
         let unknown = unknown.collect();
         Rest {
             of,
-            around,
+            around: tree.around,
             unknown,
         }
     }

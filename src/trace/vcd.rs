@@ -59,6 +59,16 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
 
 impl<C: Circuit, W: Write> Observer<C> for Vcd<C, W> {
     #[inline(always)]
+    fn coasts(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn follows(&self, tick: u64) -> bool {
+        self.dump.follows(tick)
+    }
+
+    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.dump.sample(now)
     }
@@ -104,6 +114,16 @@ impl<C: Circuit, W: Write + Send + 'static> VcdBehind<C, W> {
 }
 
 impl<C: Circuit, W: Write + Send + 'static> Observer<C> for VcdBehind<C, W> {
+    #[inline(always)]
+    fn coasts(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn follows(&self, tick: u64) -> bool {
+        self.dump.follows(tick)
+    }
+
     /// # Errors
     /// The writer failed with earlier ticks.
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! The walk over all signals that finds out which have changed.
 
 use super::Clock;
+use super::glance::Glance;
 use super::layout::Layout;
 use super::rest::Rest;
 use crate::kernel::{
@@ -9,6 +10,7 @@ use crate::kernel::{
 use crate::logic::Sim;
 use std::hint::cold_path;
 use std::io;
+use std::iter;
 use std::mem;
 
 /// What stands for the tick before the first: all but words of 64 bits differ from it.
@@ -27,6 +29,8 @@ pub(crate) struct Change {
 ///
 /// A circuit within whose ports in and registers are as in the tick before rests: its nets are
 /// not looked at, and where the walk is compiled with the circuit they are not even computed.
+///
+/// Where the whole circuit coasts, only what [runs free](Circuit::FREE_RUNNING) is looked at.
 #[derive(Debug)]
 pub(super) struct Walk {
     clock: Clock,
@@ -38,6 +42,8 @@ pub(super) struct Walk {
     /// How often every memory had changed in the tick before, at the place of its first word.
     marks: Vec<u64>,
     rest: Rest,
+    /// How many leaves before each, and before the end, can change while the circuit coasts.
+    free: Vec<u32>,
     /// Which leaves are wanted, unless all are.
     selected: Option<Vec<bool>>,
     /// What has changed in the tick, with room for every leaf.
@@ -57,6 +63,7 @@ impl Walk {
             awake: rest.awake(),
             marks: vec![UNKNOWN; leaves],
             rest,
+            free: counted(&layout.free),
             selected: layout
                 .selected
                 .contains(&false)
@@ -69,6 +76,9 @@ impl Walk {
     /// Looks at a tick. Returns when `clk` rises and when it falls.
     #[inline(always)]
     pub fn sample<C: Circuit>(&mut self, now: &Sample<'_, C>) -> io::Result<(u64, u64)> {
+        if now.coasting && !self.follows(now.tick) {
+            return Err(unseen(now.tick));
+        }
         let times = self.begin(now.tick)?;
         let extent = const {
             C::In::<Sim>::EXTENT
@@ -82,13 +92,26 @@ impl Walk {
             || look.marks.len() != extent.leaves
             || look.changes.len() != extent.leaves
             || look.awake.len() != extent.instances + 1
+            || look.free.len() != extent.leaves + 1
         {
             return Err(wrong_extent(C::NAME));
         }
-        now.visit(&mut look);
-        let changed = look.changed;
+        let changed = match now.coasting {
+            true => look.glance().look(now),
+            false => {
+                now.visit(&mut look);
+                look.changed
+            }
+        };
         self.seen(now.tick, changed);
         Ok(times)
+    }
+
+    /// Whether it saw the tick before.
+    #[inline(always)]
+    pub fn follows(&self, tick: u64) -> bool {
+        self.last
+            .is_some_and(|last| last.checked_add(1) == Some(tick))
     }
 
     /// The same of a circuit whose type is forgotten; it looks at everything.
@@ -120,6 +143,7 @@ impl Walk {
             awake: &mut self.awake,
             marks: &mut self.marks,
             rest: &self.rest,
+            free: &self.free,
             changes: &mut self.changes,
             changed: 0,
             passes_over,
@@ -171,6 +195,7 @@ struct Look<'a> {
     awake: &'a mut [bool],
     marks: &'a mut [u64],
     rest: &'a Rest,
+    free: &'a [u32],
     changes: &'a mut [Change],
     /// How many of these there are.
     changed: usize,
@@ -184,6 +209,26 @@ struct Look<'a> {
     differ: bool,
     /// Registers are still to come, or have just been seen.
     registers: bool,
+}
+
+impl<'a> Look<'a> {
+    /// Looks at less.
+    #[inline(always)]
+    fn glance(self) -> Glance<'a> {
+        Glance {
+            before: self.before,
+            marks: self.marks,
+            awake: self.awake,
+            rest: self.rest,
+            free: self.free,
+            changes: self.changes,
+            changed: 0,
+            cursor: 0,
+            instance: 0,
+            registers: true,
+            looks: 1,
+        }
+    }
 }
 
 impl Probe for Look<'_> {
@@ -235,13 +280,8 @@ impl Probe for Look<'_> {
     fn memory(&mut self, _: &'static Field, words: &dyn Words) {
         let start = self.cursor;
         self.cursor += words.len();
-        if let Some(mark) = self.marks[start..self.cursor].first_mut() {
-            let first = *mark == UNKNOWN;
-            let changed = words.changed(mark);
-            let changed = if first { Changed::All } else { changed };
-            let (before, changes) = (&mut *self.before, &mut *self.changes);
-            self.changed = note_words(words, changed, before, start, changes, self.changed);
-        }
+        let (before, marks) = (&mut *self.before, &mut *self.marks);
+        self.changed = note_memory(words, start, before, marks, self.changes, self.changed);
     }
 }
 
@@ -249,7 +289,7 @@ impl Probe for Look<'_> {
 
 /// Adds a change; returns how many there are now. There is room, since a leaf changes once a tick.
 #[inline(always)]
-fn note(changes: &mut [Change], changed: usize, leaf: usize, bits: u64) -> usize {
+pub(super) fn note(changes: &mut [Change], changed: usize, leaf: usize, bits: u64) -> usize {
     if let Some(place) = changes.get_mut(changed) {
         let leaf = leaf as u32;
         *place = Change { leaf, bits };
@@ -257,16 +297,22 @@ fn note(changes: &mut [Change], changed: usize, leaf: usize, bits: u64) -> usize
     changed + 1
 }
 
+/// Looks at the memory whose first word is the leaf `start`.
 #[inline(never)]
-fn note_words(
+pub(super) fn note_memory(
     words: &dyn Words,
-    changed: Changed,
-    before: &mut [u64],
     start: usize,
+    before: &mut [u64],
+    marks: &mut [u64],
     changes: &mut [Change],
     mut noted: usize,
 ) -> usize {
-    let indices = match changed {
+    let Some(mark) = marks[start..start + words.len()].first_mut() else {
+        return noted;
+    };
+    let first = *mark == UNKNOWN;
+    let changed = words.changed(mark);
+    let indices = match if first { Changed::All } else { changed } {
         Changed::None => 0..0,
         Changed::One(index) => index..index + 1,
         Changed::All => 0..words.len(),
@@ -279,6 +325,16 @@ fn note_words(
         }
     }
     noted
+}
+
+/// How many of the flags before each, and before the end, are set.
+fn counted(flags: &[bool]) -> Vec<u32> {
+    let mut count = 0;
+    let after = flags.iter().map(|&flag| {
+        count += u32::from(flag);
+        count
+    });
+    iter::once(0).chain(after).collect()
 }
 
 /// Drops the changes of leaves that are not wanted; returns how many are left.
@@ -298,6 +354,16 @@ fn wrong_extent(circuit: &str) -> io::Error {
     io::Error::new(
         io::ErrorKind::InvalidInput,
         format!("{circuit}: a walk shows more or less than the `EXTENT` of its signals says"),
+    )
+}
+
+#[cold]
+fn unseen(tick: u64) -> io::Error {
+    io::Error::new(
+        io::ErrorKind::InvalidInput,
+        format!(
+            "tick {tick} comes as one in which the circuit coasts, but the one before was not seen"
+        ),
     )
 }
 

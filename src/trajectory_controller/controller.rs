@@ -18,7 +18,7 @@ use crate::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
     enable_counter, record_memory, record_sequencer,
 };
-use crate::kernel::{Circuit, FastForward, Instance, Nothing, least};
+use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, Nothing, least};
 use crate::logic::{Bit, Logic, Sim};
 use crate::signals;
 use std::array::from_fn;
@@ -393,6 +393,7 @@ impl<
     type In<L: Logic> = In<L, AXES, A, P, D, E, K, G, T, U>;
     type Reg<L: Logic> = Reg<L, AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>;
     type Net<L: Logic> = Net<L, AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
     #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {

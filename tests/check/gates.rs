@@ -2,8 +2,8 @@
 
 use motion_rtl::check::{Drive, Invariants, drive, reach};
 use motion_rtl::kernel::{
-    Beside, Circuit, Instance, Moment, Property, RunError, Sample, Simulator, StopWhen, With,
-    WithIn,
+    Beside, Circuit, FreeRunning, Instance, Moment, Property, RunError, Sample, Simulator,
+    StopWhen, With, WithIn,
 };
 use motion_rtl::logic::{Bit, Logic, Sim, Unsigned};
 use motion_rtl::signals;
@@ -32,16 +32,20 @@ signals! { struct In<L> { start: L::Bit } }
 signals! { struct Reg<L> { count: L::U<3> = 0, busy: L::Bit = 0 } }
 signals! { struct Net<L> { last: L::Bit } }
 
-/// Counts eight ticks after `start`.
+/// Counts eight ticks after `start`. It says that something goes on in it, or that nothing does.
 #[derive(Debug, Clone)]
-struct Timer(Flaw);
+struct Timer<const GOES_ON: bool = true>(Flaw);
 
-impl Circuit for Timer {
+impl<const GOES_ON: bool> Circuit for Timer<GOES_ON> {
     const NAME: &'static str = "timer";
     const ABOUT: &'static str = "counts eight ticks";
     type In<L: Logic> = In<L>;
     type Reg<L: Logic> = Reg<L>;
     type Net<L: Logic> = Net<L>;
+    const FREE_RUNNING: FreeRunning = match GOES_ON {
+        true => FreeRunning::All,
+        false => FreeRunning::Nothing,
+    };
 
     fn comb<L: Logic>(&self, q: &Reg<L>, _: &In<L>) -> Net<L> {
         Net {
@@ -143,6 +147,51 @@ impl Circuit for Outer {
     }
 }
 
+signals! { struct AroundReg<L> { timer: Reg<L> } }
+signals! { struct AroundNet<L> { even: L::Bit, timer: Instance<Timer, L> } }
+
+/// A timer inside a circuit that coasts with it; it says that nothing else goes on in it, and looks
+/// at the timer's count.
+#[derive(Debug)]
+struct Around {
+    looks: bool,
+}
+
+const TIMER: Timer = Timer(Flaw::None);
+
+impl Circuit for Around {
+    const NAME: &'static str = "timer";
+    const ABOUT: &'static str = "a timer, and whether its count is even";
+    type In<L: Logic> = In<L>;
+    type Reg<L: Logic> = AroundReg<L>;
+    type Net<L: Logic> = AroundNet<L>;
+    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
+
+    fn comb<L: Logic>(&self, q: &AroundReg<L>, i: &In<L>) -> AroundNet<L> {
+        let looks: L::Bit = self.looks.into();
+        AroundNet {
+            even: looks & !q.timer.count.bit(0),
+            timer: Instance::settle(&TIMER, &q.timer, i.clone()),
+        }
+    }
+
+    fn next<L: Logic>(&self, q: AroundReg<L>, w: &AroundNet<L>, _: &In<L>) -> AroundReg<L> {
+        AroundReg {
+            timer: w.timer.next(&TIMER, q.timer),
+        }
+    }
+
+    fn coasts_for(&self, q: &AroundReg<Sim>, w: &AroundNet<Sim>, _: &In<Sim>) -> u64 {
+        w.timer.coasts_for(&TIMER, &q.timer)
+    }
+
+    fn coasted(&self, q: AroundReg<Sim>, ticks: u64) -> AroundReg<Sim> {
+        AroundReg {
+            timer: TIMER.coasted(q.timer, ticks),
+        }
+    }
+}
+
 signals! { struct Lamp<L> { lit: L::Bit } }
 
 /// A lamp that nothing drives.
@@ -184,8 +233,8 @@ fn faults<C: Circuit>(timer: &C) -> [Option<String>; 2] {
 #[test]
 fn proofs_and_random_runs_find_wrong_gates() {
     let faults = |flaw| {
-        let found = faults(&Timer(flaw));
-        let beside = With::<_, LampBeside>::new(Timer(flaw));
+        let found = faults(&Timer::<true>(flaw));
+        let beside = With::<_, LampBeside>::new(Timer::<true>(flaw));
         assert_eq!(
             found,
             self::faults(&beside),
@@ -217,8 +266,17 @@ fn proofs_and_random_runs_find_wrong_gates() {
 }
 
 #[test]
+fn proofs_and_random_runs_find_what_goes_on_unsaid() {
+    let unsaid = "what is not said to run free changes while it coasts";
+    let unsaid = [unsaid, unsaid].map(|message| Some(message.into()));
+    assert_eq!(faults(&Timer::<false>(Flaw::None)), unsaid);
+    assert_eq!(faults(&Around { looks: true }), unsaid);
+    assert_eq!(faults(&Around { looks: false }), [None, None]);
+}
+
+#[test]
 fn a_circuit_has_its_properties_whatever_stands_beside_it() {
-    let beside = With::<_, LampBeside>::new(Timer(Flaw::None));
+    let beside = With::<_, LampBeside>::new(Timer::<true>(Flaw::None));
     let properties = Invariants::of(&beside);
     let found = reach(&beside, &properties).run().expect("narrow enough");
     let found = found.counterexample().expect("it comes to seven");
@@ -252,10 +310,10 @@ fn counts<C: Circuit>(
 #[test]
 fn the_simulator_goes_by_the_gates_outermost_and_within_and_beside() {
     let timer = |flaw| {
-        let counts = counts(&Timer(flaw), |i| i, |q| q.count.get());
+        let counts = counts(&Timer::<true>(flaw), |i| i, |q| q.count.get());
         let within = self::counts(&Outer(Timer(flaw)), |i| i, |q| q.timer.count.get());
         assert_eq!(counts, within, "{flaw:?}");
-        let beside = With::<_, LampBeside>::new(Timer(flaw));
+        let beside = With::<_, LampBeside>::new(Timer::<true>(flaw));
         let lit = |i| WithIn {
             i,
             beside: Lamp { lit: true.into() },

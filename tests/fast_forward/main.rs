@@ -13,6 +13,7 @@ mod ours;
 #[path = "../../benches/verilator/stimulus.rs"]
 #[allow(dead_code)]
 mod stimulus;
+mod waves;
 /// What [`ours`] asks for of the Verilated model.
 mod theirs {
     pub const ROTATION: u32 = 7;
