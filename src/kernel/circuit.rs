@@ -32,7 +32,7 @@ pub trait Circuit: 'static {
     /// What goes on in it while it, or the circuit around it, coasts.
     ///
     /// Whoever overrides [`coasted`](Circuit::coasted) overrides it: waves do not look at the rest
-    /// then, and its nets are not even computed. Checked by [`drive`](crate::check::drive()).
+    /// then, and its nets are not even computed. Checked as the gates are.
     const FREE_RUNNING: FreeRunning = FreeRunning::Nothing;
 
     /// The nets of this tick.

@@ -11,7 +11,8 @@ use std::ops::ControlFlow;
 pub struct Sample<'a, C: Circuit> {
     /// The tick, from 0.
     pub tick: u64,
-    /// Since the tick before nothing but what [runs free](Circuit::FREE_RUNNING) has changed.
+    /// Since the tick before nothing but what [runs free](Circuit::FREE_RUNNING) has changed. Who
+    /// hands only some ticks on to waves sets it low.
     pub coasting: bool,
     /// Ports in.
     pub i: &'a C::In<Sim>,

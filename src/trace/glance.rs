@@ -38,7 +38,6 @@ impl Glance<'_> {
             return 0;
         }
         self.cursor = const { C::In::<Sim>::EXTENT.leaves };
-        self.looks = 1;
         now.q.visit(part(Role::Register), &mut self);
         self.rest.wake(&self.changes[..self.changed], self.awake);
         self.registers = false;
