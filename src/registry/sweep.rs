@@ -24,7 +24,7 @@ pub struct SweepEntry {
 }
 
 /// Every law.
-pub const SWEEPS: &[SweepEntry] = &[SweepEntry {
+pub static SWEEPS: &[SweepEntry] = &[SweepEntry {
     circuit: "integrator",
     make: |given| {
         let rule = match given.get(1) {
