@@ -5,7 +5,6 @@ use super::reset::reset;
 use super::signals::{Field, Role, Shape, Signals};
 use super::{Circuit, FreeRunning};
 use crate::logic::Sim;
-use crate::logic::sim::Wire;
 
 /// A circuit that is run tick by tick, its type forgotten.
 ///
@@ -92,25 +91,23 @@ impl<C: Circuit> Running for Machine<'_, C> {
         }
     }
 
+    // Plain branches: this is compiled for every circuit at every width.
     fn at_rest(&self, free: &[bool]) -> AtRest {
+        let mut rest = AtRest::default();
         let (circuit, w, i) = (self.circuit, &self.w, &self.i);
-        let q = || self.q.as_ref();
-        let high = |gate: &Wire| gate.get();
-        let gated = q().filter(|q| circuit.gated(q, w, i).as_ref().is_some_and(high));
-        let coasting = q().filter(|q| circuit.coasting(q, w, i).as_ref().is_some_and(high));
-        let goes_on = |q: &C::Reg<Sim>| {
+        let Some(q) = &self.q else { return rest };
+        if matches!(circuit.gated(q, w, i), Some(gate) if gate.get()) {
+            rest.gated = Some(Standing::of(q));
+        }
+        if matches!(circuit.coasting(q, w, i), Some(gate) if gate.get()) {
+            rest.coasting = Some(Standing::of(&circuit.coast(q.clone())));
+        }
+        if circuit.coasts_for(q, w, i) > 0 {
             let next = circuit.next(q.clone(), w, i);
             let same = |a: &_, b: &_| Standing::of::<C::Reg<Sim>>(a) == Standing::of(b);
-            coasting_fault(circuit, q, w, i, &next, same, free)
-        };
-        let goes_on = q()
-            .filter(|q| circuit.coasts_for(q, w, i) > 0)
-            .and_then(goes_on);
-        AtRest {
-            gated: gated.map(Standing::of),
-            coasting: coasting.map(|q| Standing::of(&circuit.coast(q.clone()))),
-            fault: goes_on,
+            rest.fault = coasting_fault(circuit, q, w, i, &next, same, free);
         }
+        rest
     }
 
     fn clock(&mut self, rst: bool) {
@@ -213,6 +210,7 @@ impl Probe for Fixed<'_> {
 }
 
 /// What the gates of a clock say of an edge.
+#[derive(Default)]
 pub(crate) struct AtRest {
     gated: Option<Standing>,
     coasting: Option<Standing>,
