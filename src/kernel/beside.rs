@@ -179,6 +179,11 @@ impl<C: Circuit, B: Beside, O: Observer<C>> Observer<With<C, B>> for Without<O> 
         self.0.follows(tick)
     }
 
+    #[inline(always)]
+    fn looks(&self, tick: u64) -> bool {
+        self.0.looks(tick)
+    }
+
     #[inline]
     fn sample(&mut self, now: &Sample<'_, With<C, B>>) -> Result<ControlFlow<()>, RunError> {
         self.0.sample(&Sample {

@@ -92,6 +92,15 @@ pub trait Observer<C: Circuit> {
         true
     }
 
+    /// Whether it looks at that tick: of one that it does not, [`sample`](Self::sample) takes
+    /// nothing. Where ticks are [watched](super::Simulator::step_watched) one by one, those at which
+    /// nobody looks are not shown.
+    #[inline(always)]
+    fn looks(&self, tick: u64) -> bool {
+        let _ = tick;
+        true
+    }
+
     /// Sees one tick; `Break` ends the run after this tick's edge.
     ///
     /// # Errors
@@ -101,12 +110,17 @@ pub trait Observer<C: Circuit> {
 
 impl<C: Circuit> Observer<C> for () {
     #[inline(always)]
+    fn looks(&self, _: u64) -> bool {
+        false
+    }
+
+    #[inline(always)]
     fn sample(&mut self, _: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         Ok(ControlFlow::Continue(()))
     }
 }
 
-impl<C: Circuit, O: Observer<C>> Observer<C> for &mut O {
+impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
     #[inline(always)]
     fn coasts(&self) -> bool {
         (**self).coasts()
@@ -115,6 +129,11 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for &mut O {
     #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         (**self).follows(tick)
+    }
+
+    #[inline(always)]
+    fn looks(&self, tick: u64) -> bool {
+        (**self).looks(tick)
     }
 
     #[inline(always)]
@@ -132,6 +151,11 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
     #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         self.as_ref().is_none_or(|observer| observer.follows(tick))
+    }
+
+    #[inline(always)]
+    fn looks(&self, tick: u64) -> bool {
+        self.as_ref().is_some_and(|observer| observer.looks(tick))
     }
 
     #[inline(always)]
@@ -154,6 +178,11 @@ macro_rules! together {
             #[inline(always)]
             fn follows(&self, tick: u64) -> bool {
                 $(self.$place.follows(tick))&&+
+            }
+
+            #[inline(always)]
+            fn looks(&self, tick: u64) -> bool {
+                $(self.$place.looks(tick))||+
             }
 
             #[inline(always)]

@@ -284,6 +284,29 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         self.tick_once(i, show, |_, q| q)
     }
 
+    /// Runs one tick and shows its sample, which `observer` sees too if it
+    /// [looks](Observer::looks) at the tick. Also gives whether the observer goes on.
+    ///
+    /// Ticks that are looked at and others are compiled apart: where it does not look, no net is
+    /// computed for it.
+    ///
+    /// # Errors
+    /// What `observer` objects to.
+    pub fn step_watched<T>(
+        self,
+        i: C::In<Sim>,
+        mut observer: impl Observer<C>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> Result<(Self, T, ControlFlow<()>), RunError> {
+        if !observer.looks(self.tick) {
+            let (next, shown) = self.tick_once(i, show, |_, q| q);
+            return Ok((next, shown, ControlFlow::Continue(())));
+        }
+        let both = |now: &Sample<'_, C>| (show(now), observer.sample(now));
+        let (next, (shown, flow)) = self.tick_once(i, both, |_, q| q);
+        Ok((next, shown, flow?))
+    }
+
     /// Runs one tick and shows its sample; with `rst` high its edge is that of a synchronous
     /// reset.
     ///

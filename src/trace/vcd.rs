@@ -69,6 +69,11 @@ impl<C: Circuit, W: Write> Observer<C> for Vcd<C, W> {
     }
 
     #[inline(always)]
+    fn looks(&self, tick: u64) -> bool {
+        self.dump.looks(tick)
+    }
+
+    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.dump.sample(now)
     }
@@ -122,6 +127,11 @@ impl<C: Circuit, W: Write + Send + 'static> Observer<C> for VcdBehind<C, W> {
     #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         self.dump.follows(tick)
+    }
+
+    #[inline(always)]
+    fn looks(&self, tick: u64) -> bool {
+        self.dump.looks(tick)
     }
 
     /// # Errors

@@ -8,7 +8,6 @@ use crate::kernel::{Observer, RunError, Sample, Simulator};
 use crate::logic::Sim;
 use crate::plant::TwoMassAxis;
 use std::array::from_fn;
-use std::ops::ControlFlow;
 
 const P: usize = 47;
 const D: usize = 55;
@@ -80,7 +79,6 @@ pub struct Played<const AXES: usize> {
 
 /// What one tick shows.
 struct Seen<const AXES: usize> {
-    flow: ControlFlow<()>,
     ready: bool,
     busy: bool,
     late: bool,
@@ -92,10 +90,11 @@ struct Seen<const AXES: usize> {
     driven: Option<([i64; AXES], [bool; AXES])>,
 }
 
+// A call would have all registers and nets in memory, in every tick.
+#[inline(always)]
 fn see<const AXES: usize, const A: usize, const E: usize>(
     now: &Sample<'_, Controller<AXES, A, E>>,
-    observer: &mut impl Observer<Controller<AXES, A, E>>,
-) -> Result<Seen<AXES>, RunError> {
+) -> Seen<AXES> {
     let (q, w) = (now.q, now.w);
     let period = || Period {
         tick: 0,
@@ -116,8 +115,7 @@ fn see<const AXES: usize, const A: usize, const E: usize>(
         (torque, from_fn(|k| w.axes[k].w.saturated.get()))
     };
     let axis = &w.axes[0].w;
-    Ok(Seen {
-        flow: observer.sample(now)?,
+    Seen {
         ready: w.ready.get(),
         busy: w.busy.get(),
         late: w.late.get() || w.profile_late.get(),
@@ -125,7 +123,7 @@ fn see<const AXES: usize, const A: usize, const E: usize>(
         // Without a path the servo controls hold the machine: a period that began before the start.
         period: (axis.servo.w.model.w.fresh.get() && !q.progress.waiting.get()).then(period),
         driven: axis.driven.get().then(torques),
-    })
+    }
 }
 
 /// How long models and motors may take to settle, in periods: 20 times their slowest decay, and a
@@ -164,9 +162,8 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
         });
         let i = host.ports(channels);
         let (starts, pushed) = (i.start.get(), i.push.get());
-        let (next, seen) = simulator.step(i, |now| see(now, &mut observer));
+        let (next, seen, flow) = simulator.step_watched(i, &mut observer, see)?;
         simulator = next;
-        let seen = seen?;
         host.records.free = seen.ready && !pushed;
         if starts {
             played.start = played.ticks;
@@ -195,7 +192,7 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
             }
         }
         played.settled = calm >= CALM;
-        if played.settled || rests > patience || seen.flow.is_break() {
+        if played.settled || rests > patience || flow.is_break() {
             break;
         }
     }

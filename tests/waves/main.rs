@@ -12,6 +12,7 @@ mod replay;
 mod reset;
 mod rest;
 mod text;
+mod watched;
 mod zoo;
 
 use motion_rtl::kernel::{Circuit, RunError, Simulator};

@@ -15,7 +15,6 @@ use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
-use motion_rtl::kernel::RunError;
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::settings::JobError;
 use motion_rtl::trace::Options;
@@ -125,15 +124,8 @@ fn simulate<const AXES: usize>(
 ) -> Result<(Played<AXES>, Files), Failure> {
     let plants = plants(job)?;
     let mut progress = Progress::new(job.ticks_at_least());
-    // Two calls, so that a run without waves is compiled without a trace of them.
-    let played: Result<_, RunError> = match traces.is_empty() {
-        false => {
-            let files = (traces.waves.as_mut(), traces.stimulus.as_mut());
-            play(circuit, &job.program, plants, (files, &mut progress))
-        }
-        true => play(circuit, &job.program, plants, &mut progress),
-    };
-    let played = played?;
+    let files = (traces.waves.as_mut(), traces.stimulus.as_mut());
+    let played = play(circuit, &job.program, plants, (files, &mut progress))?;
     drop(progress);
     let shown = PERIODS_SHOWN * u64::from(job.program.period_ticks);
     let focus = Focus {
