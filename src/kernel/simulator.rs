@@ -298,13 +298,32 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         mut observer: impl Observer<C>,
         show: impl FnOnce(&Sample<'_, C>) -> T,
     ) -> Result<(Self, T, ControlFlow<()>), RunError> {
-        if !observer.looks(self.tick) {
-            let (next, shown) = self.tick_once(i, show, |_, q| q);
-            return Ok((next, shown, ControlFlow::Continue(())));
-        }
-        let both = |now: &Sample<'_, C>| (show(now), observer.sample(now));
-        let (next, (shown, flow)) = self.tick_once(i, both, |_, q| q);
-        Ok((next, shown, flow?))
+        let Simulator { circuit, q, tick } = self;
+        let (q, shown, flow) = match observer.looks(tick) {
+            false => {
+                let (q, shown) = Self::tick_on(circuit, q, tick, i, show);
+                (q, shown, ControlFlow::Continue(()))
+            }
+            true => {
+                let both = |now: &Sample<'_, C>| (show(now), observer.sample(now));
+                let (q, (shown, flow)) = Self::tick_on(circuit, q, tick, i, both);
+                (q, shown, flow?)
+            }
+        };
+        let tick = tick + 1;
+        Ok((Simulator { circuit, q, tick }, shown, flow))
+    }
+
+    /// A function of its own, with the circuit among its arguments, as [`run_on`](Self::run_on).
+    #[inline(never)]
+    fn tick_on<T>(
+        circuit: &C,
+        q: C::Reg<Sim>,
+        tick: u64,
+        i: C::In<Sim>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> (C::Reg<Sim>, T) {
+        Self::to_edge(circuit, q, tick, i, show)
     }
 
     /// Runs one tick and shows its sample; with `rst` high its edge is that of a synchronous
@@ -333,6 +352,26 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         after: impl FnOnce(&C, C::Reg<Sim>) -> C::Reg<Sim>,
     ) -> (Self, T) {
         let Simulator { circuit, q, tick } = self;
+        let (q, shown) = Self::to_edge(circuit, q, tick, i, show);
+        let q = after(circuit, q);
+        (
+            Simulator {
+                circuit,
+                q,
+                tick: tick + 1,
+            },
+            shown,
+        )
+    }
+
+    #[inline(always)]
+    fn to_edge<T>(
+        circuit: &C,
+        q: C::Reg<Sim>,
+        tick: u64,
+        i: C::In<Sim>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> (C::Reg<Sim>, T) {
         // As in `run`.
         let q = ManuallyDrop::new(q);
         let w = circuit.comb(&q, &i);
@@ -344,14 +383,6 @@ impl<'c, C: Circuit> Simulator<'c, C> {
             w: &w,
         });
         let q = circuit.next(ManuallyDrop::into_inner(q), &w, &i);
-        let q = after(circuit, q);
-        (
-            Simulator {
-                circuit,
-                q,
-                tick: tick + 1,
-            },
-            shown,
-        )
+        (q, shown)
     }
 }

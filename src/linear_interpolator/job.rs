@@ -5,12 +5,11 @@ use super::measure::{Cycle, Played, ScanRecord};
 use super::settings::{AxisSettings, Settings};
 use super::targets::{TIME_BITS, Target};
 use super::{CommandSource, Controller, Conventional, LinearInterpolator, Rule, controller};
-use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
+use crate::kernel::{Observer, Sample, Simulator, With, WithIn};
 use crate::logic::Sim;
 use crate::plant::{ServoAxis, ServoParameters, waves};
 use crate::settings::JobError;
 use fixed::types::U8F8;
-use std::ops::ControlFlow;
 
 /// Position width of the controller that plays a job.
 const P: usize = 32;
@@ -67,16 +66,13 @@ struct Seen {
     lost: [bool; 2],
     saturated: [bool; 2],
     command: [i64; 2],
-    flow: ControlFlow<()>,
 }
 
-fn see<C: CommandSource<P, T>>(
-    now: &Sample<'_, Plotter<C>>,
-    observer: &mut impl Observer<Plotter<C>>,
-) -> Result<Seen, RunError> {
+// A call would have all registers and nets in memory, in every tick.
+#[inline(always)]
+fn see<C: CommandSource<P, T>>(now: &Sample<'_, Plotter<C>>) -> Seen {
     let w = now.w;
-    Ok(Seen {
-        flow: observer.sample(now)?,
+    Seen {
         scan: w.scan.get(),
         start: w.start.get(),
         load: w.load.get(),
@@ -87,7 +83,7 @@ fn see<C: CommandSource<P, T>>(
         lost: [w.lost_x.get(), w.lost_y.get()],
         saturated: [&w.loop_x, &w.loop_y].map(|axis| axis.w.saturated.get()),
         command: [w.command_x.get(), w.command_y.get()],
-    })
+    }
 }
 
 /// The control computer: gives targets, and writes down what comes of them.
@@ -169,7 +165,7 @@ impl Bench<'_> {
         if over && seen.refused {
             played.refused = (self.targets.len() - played.cycles.len()) as u64;
         }
-        !over && !played.unsettled && seen.flow.is_continue()
+        !over && !played.unsettled
     }
 }
 
@@ -231,9 +227,9 @@ pub fn play<C: CommandSource<P, T>>(
             beside: waves::Signals::of(&servos),
         };
         let motor = [0, 1].map(|axis: usize| servos[axis].position_counts());
-        let (next, seen) = simulator.step(i, |now| see(now, &mut observer));
+        let (next, seen, flow) = simulator.step_watched(i, &mut observer, see)?;
         simulator = next;
-        if !bench.take(&seen?, motor) {
+        if !bench.take(&seen, motor) || flow.is_break() {
             return Ok(bench.played);
         }
     }

@@ -65,15 +65,8 @@ fn simulate(
     let printed = &circuit.circuit;
     let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
-    // Two calls, so that a run without waves is compiled without a trace of them.
-    let played = match traces.is_empty() {
-        false => {
-            let stimulus = traces.stimulus.as_mut().map(Without);
-            let files = (traces.waves.as_mut(), stimulus);
-            play(&circuit, targets, settings, (files, &mut progress))?
-        }
-        true => play(&circuit, targets, settings, &mut progress)?,
-    };
+    let files = (traces.waves.as_mut(), traces.stimulus.as_mut().map(Without));
+    let played = play(&circuit, targets, settings, (files, &mut progress))?;
     drop(progress);
     let scan = u64::from(settings.scan_ticks);
     let first = played.cycles.first().map_or(0, |cycle| cycle.scans.start);
