@@ -170,11 +170,6 @@ pub struct Without<O>(pub O);
 
 impl<C: Circuit, B: Beside, O: Observer<C>> Observer<With<C, B>> for Without<O> {
     #[inline(always)]
-    fn coasts(&self) -> bool {
-        self.0.coasts()
-    }
-
-    #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         self.0.follows(tick)
     }

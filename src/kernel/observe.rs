@@ -77,15 +77,8 @@ pub enum RunError {
 ///
 /// `()` observes nothing and costs nothing; a tuple observes with each of its parts in turn.
 pub trait Observer<C: Circuit> {
-    /// Whether it looks at less where the circuit [coasts](Sample::coasting): only if somebody does
-    /// are such ticks found out.
-    #[inline(always)]
-    fn coasts(&self) -> bool {
-        false
-    }
-
-    /// Whether a tick may come as one in which the circuit coasts. Waves need to have seen the tick
-    /// before.
+    /// Whether a tick may come as one in which the circuit [coasts](Sample::coasting). Waves need
+    /// to have seen the tick before.
     #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         let _ = tick;
@@ -122,11 +115,6 @@ impl<C: Circuit> Observer<C> for () {
 
 impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
     #[inline(always)]
-    fn coasts(&self) -> bool {
-        (**self).coasts()
-    }
-
-    #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         (**self).follows(tick)
     }
@@ -143,11 +131,6 @@ impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
 }
 
 impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
-    #[inline(always)]
-    fn coasts(&self) -> bool {
-        self.as_ref().is_some_and(|observer| observer.coasts())
-    }
-
     #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         self.as_ref().is_none_or(|observer| observer.follows(tick))
@@ -170,11 +153,6 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
 macro_rules! together {
     ($($part:ident $place:tt),+) => {
         impl<C: Circuit, $($part: Observer<C>),+> Observer<C> for ($($part,)+) {
-            #[inline(always)]
-            fn coasts(&self) -> bool {
-                $(self.$place.coasts())||+
-            }
-
             #[inline(always)]
             fn follows(&self, tick: u64) -> bool {
                 $(self.$place.follows(tick))&&+

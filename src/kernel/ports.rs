@@ -22,13 +22,14 @@ impl Ports {
         let mut compare = Compare {
             kept: &self.0,
             cursor: 0,
-            // After this the compiler knows that every port has its place.
-            same: self.0.len() == S::EXTENT.leaves,
+            differ: 0,
         };
-        if compare.same {
-            i.visit(part(Role::Input), &mut compare);
+        // After this the compiler knows that every port has its place.
+        if self.0.len() != S::EXTENT.leaves {
+            return false;
         }
-        compare.same
+        i.visit(part(Role::Input), &mut compare);
+        compare.differ == 0
     }
 }
 
@@ -46,13 +47,15 @@ impl Probe for Keep<'_> {
 struct Compare<'a> {
     kept: &'a [u64],
     cursor: usize,
-    same: bool,
+    /// Ones where a port is not as it was: with a flag instead every port is a branch.
+    differ: u64,
 }
 
 impl Probe for Compare<'_> {
     #[inline(always)]
     fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
-        self.same &= self.kept.get(self.cursor) == Some(&bits);
+        let kept = self.kept.get(self.cursor).copied().unwrap_or(!bits);
+        self.differ |= kept ^ bits;
         self.cursor += 1;
     }
 }

@@ -52,7 +52,9 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     ///
     /// `stimulus` gives the inputs of a tick from its number and its registers. The state moves
     /// through the call so that the compiler can hold it in machine registers; with `()` as
-    /// observer nothing but the circuit is executed.
+    /// observer nothing but the circuit is executed. Where the circuit
+    /// [coasts](Circuit::coasts_for) it is stepped by [`coasted`](Circuit::coasted), unless the
+    /// observer does not [follow](Observer::follows).
     ///
     /// # Errors
     /// The first error of an observer; the run is over then.
@@ -62,12 +64,7 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
         observer: impl Observer<C>,
     ) -> Result<Self, RunError> {
-        let Simulator { circuit, q, tick } = self;
-        let ran = match observer.coasts() {
-            true => Self::watch_on(circuit, q, tick, ticks, stimulus, observer),
-            false => Self::run_on(circuit, q, tick, ticks, stimulus, observer),
-        };
-        match ran {
+        match Self::run_on(self.circuit, self.q, self.tick, ticks, stimulus, observer) {
             (simulator, None) => Ok(simulator),
             (_, Some(error)) => Err(error),
         }
@@ -76,6 +73,9 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     /// A function of its own: where registers are dropped they stand in memory all the time. What is
     /// behind a reference among its arguments nobody else writes, so what `circuit` holds is read
     /// before the first tick.
+    ///
+    /// Ticks in which the circuit coasts have a loop and nets of their own: it computes the counters
+    /// and what is looked at, and nothing else.
     #[inline(never)]
     fn run_on(
         circuit: &'c C,
@@ -85,96 +85,72 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
         mut observer: impl Observer<C>,
     ) -> (Self, Option<RunError>) {
+        let mut tick = start;
+        let end = start.saturating_add(ticks);
+        if tick >= end {
+            return (Simulator { circuit, q, tick }, None);
+        }
         // So they are where a panic unwinds.
         let mut q = ManuallyDrop::new(q);
-        let mut tick = start;
-        let end = start.saturating_add(ticks);
         let mut failed = None;
-        while tick < end {
-            let i = stimulus(tick, &q);
-            let w = circuit.comb(&q, &i);
-            let flow = observer.sample(&Sample {
-                tick,
-                coasting: false,
-                i: &i,
-                q: &q,
-                w: &w,
-            });
-            let flow = match flow {
-                Ok(flow) => flow,
-                Err(error) => {
-                    failed = Some(error);
+        let mut ports = Ports::new::<C>();
+        let mut pause = Pause::default();
+        let mut i = stimulus(tick, &q);
+        'run: loop {
+            // For how many ticks behind this one it coasts, under these ports in. This one is
+            // sampled as all are: what differs in it from the tick before is not known.
+            let mut still = 0;
+            if tick >= pause.end {
+                let coasts = circuit.coasts_for(&q, &circuit.comb(&q, &i), &i);
+                still = coasts.saturating_sub(1);
+                match still {
+                    0 => pause.at_work(tick),
+                    _ => ports.keep(&i),
+                }
+            }
+            loop {
+                let w = circuit.comb(&q, &i);
+                let flow = observer.sample(&Sample {
+                    tick,
+                    coasting: false,
+                    i: &i,
+                    q: &q,
+                    w: &w,
+                });
+                q = ManuallyDrop::new(Sim::clock(circuit, ManuallyDrop::into_inner(q), &w, &i));
+                tick += 1;
+                if ends(flow, &mut failed) || tick >= end {
+                    break 'run;
+                }
+                i = stimulus(tick, &q);
+                if tick >= pause.end {
                     break;
                 }
-            };
-            q = ManuallyDrop::new(Sim::clock(circuit, ManuallyDrop::into_inner(q), &w, &i));
-            tick += 1;
-            if let ControlFlow::Break(()) = flow {
-                break;
             }
-        }
-        let q = ManuallyDrop::into_inner(q);
-        (Simulator { circuit, q, tick }, failed)
-    }
-
-    /// As [`run_on`](Self::run_on), for an observer that looks at less where the circuit coasts. It
-    /// has nets of its own there: those that nobody looks at are not computed.
-    #[inline(never)]
-    fn watch_on(
-        circuit: &'c C,
-        q: C::Reg<Sim>,
-        start: u64,
-        ticks: u64,
-        mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
-        mut observer: impl Observer<C>,
-    ) -> (Self, Option<RunError>) {
-        let mut q = ManuallyDrop::new(q);
-        let mut tick = start;
-        let end = start.saturating_add(ticks);
-        let mut failed = None;
-        // For how many ticks from this one on it coasts, and did with the edge before, under which
-        // ports in.
-        let mut still = 0;
-        let mut ports = Ports::new::<C>();
-        while tick < end {
-            let i = stimulus(tick, &q);
-            let coasting = still > 0 && ports.are(&i) && observer.follows(tick);
-            let flow = if coasting {
+            if still == 0 {
+                continue;
+            }
+            let began = tick;
+            while still > 0 && ports.are(&i) && observer.follows(tick) {
                 still -= 1;
                 let w = circuit.comb(&q, &i);
                 let flow = observer.sample(&Sample {
                     tick,
-                    coasting,
+                    coasting: true,
                     i: &i,
                     q: &q,
                     w: &w,
                 });
                 q = ManuallyDrop::new(circuit.coasted(ManuallyDrop::into_inner(q), 1));
-                flow
-            } else {
-                let w = circuit.comb(&q, &i);
-                let flow = observer.sample(&Sample {
-                    tick,
-                    coasting,
-                    i: &i,
-                    q: &q,
-                    w: &w,
-                });
-                still = circuit.coasts_for(&q, &w, &i).saturating_sub(1);
-                if still > 0 {
-                    ports.keep(&i);
+                tick += 1;
+                if ends(flow, &mut failed) || tick >= end {
+                    break 'run;
                 }
-                q = ManuallyDrop::new(Sim::clock(circuit, ManuallyDrop::into_inner(q), &w, &i));
-                flow
-            };
-            tick += 1;
-            match flow {
-                Ok(ControlFlow::Continue(())) => {}
-                Ok(ControlFlow::Break(())) => break,
-                Err(error) => {
-                    failed = Some(error);
-                    break;
-                }
+                i = stimulus(tick, &q);
+            }
+            match tick == began {
+                true => pause.at_work(tick),
+                false => pause = Pause::default(),
             }
         }
         let q = ManuallyDrop::into_inner(q);
@@ -242,37 +218,53 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     where
         C: FastForward,
     {
-        let mut q = ManuallyDrop::new(q);
         let mut tick = start;
         let end = start.saturating_add(ticks);
+        if tick >= end {
+            return (Simulator { circuit, q, tick }, None);
+        }
+        let mut q = ManuallyDrop::new(q);
         let mut failed = None;
-        while tick < end {
-            let (i, held) = stimulus(tick, &q);
+        let mut pause = Pause::default();
+        let (mut i, mut held) = stimulus(tick, &q);
+        'run: loop {
             let w = circuit.comb(&q, &i);
-            let flow = observer.sample(&Sample {
-                tick,
-                coasting: false,
-                i: &i,
-                q: &q,
-                w: &w,
-            });
-            let flow = match flow {
-                Ok(flow) => flow,
-                Err(error) => {
-                    failed = Some(error);
+            let idle = circuit.coasts_for(&q, &w, &i).min(held).min(end - tick);
+            if idle > 1 {
+                pause = Pause::default();
+                let flow = observer.sample(&Sample {
+                    tick,
+                    coasting: false,
+                    i: &i,
+                    q: &q,
+                    w: &w,
+                });
+                let over = ends(flow, &mut failed);
+                let ticks = if over { 1 } else { idle };
+                q = ManuallyDrop::new(circuit.coasted(ManuallyDrop::into_inner(q), ticks));
+                tick += ticks;
+                if over || tick >= end {
                     break;
                 }
-            };
-            let idle = circuit.coasts_for(&q, &w, &i).min(held).min(end - tick);
-            if idle == 0 || flow.is_break() {
-                q = ManuallyDrop::new(circuit.next(ManuallyDrop::into_inner(q), &w, &i));
-                tick += 1;
-            } else {
-                q = ManuallyDrop::new(circuit.coasted(ManuallyDrop::into_inner(q), idle));
-                tick += idle;
+                (i, held) = stimulus(tick, &q);
+                continue;
             }
-            if flow.is_break() {
-                break;
+            pause.at_work(tick);
+            while tick < pause.end {
+                let w = circuit.comb(&q, &i);
+                let flow = observer.sample(&Sample {
+                    tick,
+                    coasting: false,
+                    i: &i,
+                    q: &q,
+                    w: &w,
+                });
+                q = ManuallyDrop::new(Sim::clock(circuit, ManuallyDrop::into_inner(q), &w, &i));
+                tick += 1;
+                if ends(flow, &mut failed) || tick >= end {
+                    break 'run;
+                }
+                (i, held) = stimulus(tick, &q);
             }
         }
         let q = ManuallyDrop::into_inner(q);
@@ -384,5 +376,36 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         });
         let q = circuit.next(ManuallyDrop::into_inner(q), &w, &i);
         (q, shown)
+    }
+}
+
+/// When a circuit is asked again for how long it coasts. Where it is at work it mostly will be in
+/// the next tick: each time that it is, it is asked after twice as many ticks, so that being asked
+/// costs little and no more ticks are missed than it was at work for.
+#[derive(Default)]
+struct Pause {
+    ticks: u64,
+    end: u64,
+}
+
+impl Pause {
+    const LONGEST: u64 = 64;
+
+    #[inline(always)]
+    fn at_work(&mut self, tick: u64) {
+        self.ticks = (2 * self.ticks).clamp(1, Self::LONGEST);
+        self.end = tick.saturating_add(self.ticks);
+    }
+}
+
+/// Whether an observer ends the run, and with which error.
+#[inline(always)]
+fn ends(flow: Result<ControlFlow<()>, RunError>, failed: &mut Option<RunError>) -> bool {
+    match flow {
+        Ok(flow) => flow.is_break(),
+        Err(error) => {
+            *failed = Some(error);
+            true
+        }
     }
 }

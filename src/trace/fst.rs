@@ -58,11 +58,6 @@ impl<C: Circuit, W: Write + Seek + Send + 'static> Fst<C, W> {
 
 impl<C: Circuit, W: Write + Seek + Send + 'static> Observer<C> for Fst<C, W> {
     #[inline(always)]
-    fn coasts(&self) -> bool {
-        true
-    }
-
-    #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         self.dump.follows(tick)
     }

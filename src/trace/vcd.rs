@@ -59,11 +59,6 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
 
 impl<C: Circuit, W: Write> Observer<C> for Vcd<C, W> {
     #[inline(always)]
-    fn coasts(&self) -> bool {
-        true
-    }
-
-    #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         self.dump.follows(tick)
     }
@@ -119,11 +114,6 @@ impl<C: Circuit, W: Write + Send + 'static> VcdBehind<C, W> {
 }
 
 impl<C: Circuit, W: Write + Send + 'static> Observer<C> for VcdBehind<C, W> {
-    #[inline(always)]
-    fn coasts(&self) -> bool {
-        true
-    }
-
     #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         self.dump.follows(tick)

@@ -69,11 +69,6 @@ impl<C: Circuit> WaveFile<C> {
 
 impl<C: Circuit> Observer<C> for WaveFile<C> {
     #[inline(always)]
-    fn coasts(&self) -> bool {
-        true
-    }
-
-    #[inline(always)]
     fn follows(&self, tick: u64) -> bool {
         self.dump.follows(tick)
     }

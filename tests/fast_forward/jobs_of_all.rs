@@ -1,4 +1,4 @@
-//! The jobs of all circuits: the ports out of every tick, stepped and gone over.
+//! The jobs of all circuits: the ports out of every tick, stepped one by one, run, and gone over.
 
 use crate::jobs::{self, Clock, Job};
 use crate::ours::Outputs;
@@ -29,30 +29,37 @@ impl<C: Outputs> Observer<C> for Words {
     }
 }
 
-/// Runs a job both ways; how many ticks of a hundred are looked at where idle ones are gone over.
+/// Runs a job in all three ways; how many ticks of a hundred are looked at where idle ones are gone over.
 fn same<C: Outputs + FastForward>(job: Job<C>) -> usize {
     let Job { circuit, stimulus } = job;
-    let (mut stepped, mut jumped) = (Words::default(), Words::default());
+    let (mut ran, mut jumped) = (Words::default(), Words::default());
     let ticks = stimulus.ticks;
     let mut replay = Replay::<C>::new(&stimulus);
-    let run = Simulator::new(&circuit).run(ticks, |tick, _| replay.tick(tick), &mut stepped);
+    let mut step = Simulator::new(&circuit);
+    let mut words = Vec::new();
+    for tick in 0..ticks {
+        let (next, word) = step.step(replay.tick(tick), |now| C::outputs(now).word);
+        step = next;
+        words.push(word);
+    }
+    let mut replay = Replay::<C>::new(&stimulus);
+    let run = Simulator::new(&circuit).run(ticks, |tick, _| replay.tick(tick), &mut ran);
     let mut replay = Replay::<C>::new(&stimulus);
     let held = |tick, _: &_| replay.held(tick);
     let forward = Simulator::new(&circuit).fast_forward(ticks, held, &mut jumped);
     let (run, forward) = (run.expect("no objection"), forward.expect("no objection"));
     jumped.hold(ticks);
-    let words = stepped.words.iter().zip(&jumped.words);
-    let differs = words.enumerate().find(|(_, (a, b))| a != b);
-    assert_eq!(
-        differs.map(|(tick, _)| tick),
-        None,
-        "the first tick that differs"
-    );
-    assert_eq!(stepped.words.len(), jumped.words.len());
+    for (how, other) in [("run", &ran.words), ("gone over", &jumped.words)] {
+        let differs = words.iter().zip(other).position(|(a, b)| a != b);
+        assert_eq!(differs, None, "{how}: the first tick that differs");
+        assert_eq!(words.len(), other.len(), "{how}");
+    }
     assert_eq!((run.tick(), forward.tick()), (ticks, ticks));
-    assert!(pack(run.registers()) == pack(forward.registers()));
+    let registers = pack(step.registers());
+    assert!(registers == pack(run.registers()), "run");
+    assert!(registers == pack(forward.registers()), "gone over");
     println!("{}: {} of {ticks} ticks looked at", C::NAME, jumped.seen);
-    100 * jumped.seen / stepped.seen
+    100 * jumped.seen / words.len()
 }
 
 /// At the clock of the scenario and at a fast one, in which most ticks are idle.

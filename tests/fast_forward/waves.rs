@@ -18,12 +18,8 @@ struct Look<O> {
 }
 
 impl<C: Circuit, O: Observer<C>> Observer<C> for Look<O> {
-    fn coasts(&self) -> bool {
-        !self.everything && Observer::<C>::coasts(&self.waves)
-    }
-
     fn follows(&self, tick: u64) -> bool {
-        Observer::<C>::follows(&self.waves, tick)
+        !self.everything && Observer::<C>::follows(&self.waves, tick)
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
