@@ -58,8 +58,8 @@ pub fn save_file<C: Circuit>(
     save_file_with(circuit, clock, options, dump, focus, &[])
 }
 
-/// The same with some signals once more behind `clk`, by their paths from the circuit's name on and
-/// shown by these: those that say most of what the circuit does.
+/// The same with some signals once more behind `clk`, by their paths within the circuit and shown
+/// by these: those that say most of what the circuit does. What the dump has not is left out.
 ///
 /// # Errors
 /// What [`Vcd::new`](super::Vcd::new) refuses.
@@ -88,8 +88,9 @@ pub(super) fn save(
         layout,
         flags: None,
     };
-    save.window(clock, dump, focus);
-    save.top(overview);
+    let overview: Vec<_> = overview.iter().filter_map(|path| save.at(path)).collect();
+    save.window(clock, dump, focus, &overview);
+    save.top(&overview);
     save.text
 }
 
@@ -106,14 +107,20 @@ impl Save<'_> {
         let _ = writeln!(self.text, "{line}");
     }
 
-    fn window(&mut self, clock: Clock, dump: &str, focus: Range<u64>) {
+    /// The place of a signal that is in the dump.
+    fn at(&self, path: &str) -> Option<usize> {
+        let mut leaves = self.layout.leaves.iter().zip(&self.layout.selected);
+        leaves.position(|(leaf, selected)| *selected && within(leaf, ".") == path)
+    }
+
+    fn window(&mut self, clock: Clock, dump: &str, focus: Range<u64>, overview: &[usize]) {
         // GTKWave counts time in whole s, ms, ... fs: a unit of 10 ns is ten to it.
         let scale = u64::from(clock.timescale().0);
         let from = clock.rise(focus.start).and_then(|t| t.checked_mul(scale));
         let from = from.unwrap_or(0);
         let ticks = focus.end.saturating_sub(focus.start).max(1);
         let shown = (clock.period() * scale) as f64 * ticks as f64;
-        let names = self.column();
+        let names = self.column(overview);
         // Half a frame goes to scroll bars and borders.
         let pane = (WINDOW.0 - TREE - names) as f64 - FRAME / 2.0;
         let zoom = -(shown * FRAME / pane).max(1.0).log2();
@@ -134,8 +141,12 @@ impl Save<'_> {
     }
 
     /// Room for the longest name and, right of it, the longest value, in pixels.
-    fn column(&self) -> usize {
+    fn column(&self, overview: &[usize]) -> usize {
         let (mut names, mut values) = ("ports out".len(), 0);
+        for &index in overview {
+            let shown = within(&self.layout.leaves[index], "/");
+            names = names.max(shown.len() + "[63:0]".len());
+        }
         for (leaf, selected) in self.layout.leaves.iter().zip(&self.layout.selected) {
             if *selected {
                 let digits = match leaf.field.format {
@@ -151,19 +162,14 @@ impl Save<'_> {
         (characters * CHARACTER).clamp(COLUMN.0, COLUMN.1)
     }
 
-    fn top(&mut self, overview: &[&str]) {
+    fn top(&mut self, overview: &[usize]) {
         let layout = self.layout;
         let top = &layout.top;
         self.trace(BINARY | RIGHT, format_args!("{}.{CLK}", top.name));
-        let shown = |path: &&str| {
-            let mut leaves = layout.leaves.iter().zip(&layout.selected);
-            leaves.position(|(leaf, selected)| *selected && leaf.path() == **path)
-        };
-        let overview: Vec<usize> = overview.iter().filter_map(shown).collect();
         if !overview.is_empty() {
             self.comment("");
             self.comment("overview");
-            for index in overview {
+            for &index in overview {
                 self.leaf(&layout.leaves[index], true);
             }
         }
@@ -251,12 +257,12 @@ impl Save<'_> {
             1 => String::new(),
             width => format!("[{}:0]", width - 1),
         };
-        // GTKWave shows the last part of a path, or else an alias before it.
-        let alias = |name: &str| match whole && leaf.scopes.len() > 1 {
-            true => format!("+{{{}.{name}}} ", leaf.scopes[1..].join(".")),
+        // GTKWave shows what stands behind the last dot of a path, or else of an alias before it.
+        let alias = |rest: &str| match whole && leaf.scopes.len() > 1 {
+            true => format!("+{{{}{rest}}} ", within(leaf, "/")),
             false => String::new(),
         };
-        let shown = alias(&format!("{}{range}", leaf.name));
+        let shown = alias(&range);
         self.trace(flags, format_args!("{shown}{}{range}", leaf.path()));
         if flags & ANALOG_STEP != 0 {
             for _ in 0..ANALOG_ROWS {
@@ -264,7 +270,7 @@ impl Save<'_> {
             }
         }
         if let Some(name) = companion(leaf) {
-            let (shown, scope) = (alias(&name), leaf.scopes.join("."));
+            let (shown, scope) = (alias("_name"), leaf.scopes.join("."));
             self.trace(ASCII | RIGHT, format_args!("{shown}{scope}.{name}"));
         }
     }
@@ -280,6 +286,13 @@ impl Save<'_> {
         }
         self.line(line);
     }
+}
+
+/// The path of a signal within the circuit.
+fn within(leaf: &Declaration, joint: &str) -> String {
+    let scopes = leaf.scopes.iter().skip(1).map(String::as_str);
+    let path: Vec<_> = scopes.chain([leaf.name.as_str()]).collect();
+    path.join(joint)
 }
 
 fn flags(leaf: &Declaration) -> u32 {

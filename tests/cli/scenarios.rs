@@ -117,8 +117,22 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
     }
     assert_eq!(summary["vcd_window"], json!([0, shown]), "{scenario}");
     let save = scenario.replace(".toml", ".gtkw");
+    let text = bench.read(&save);
+    let overview = text.split("-overview\n").nth(1).expect("an overview");
+    let overview = overview.split("-ports in\n").next().unwrap();
+    let shown = |line: &&str| line.contains('.') && !line.ends_with("_name");
+    let rows = overview.lines().filter(shown).count();
+    let expected = match summary["circuit"].as_str().unwrap() {
+        "pulse_interpolator" => 1 + 4 * summary["axes"].as_object().unwrap().len(),
+        "linear_interpolator" => 11,
+        "lead_angle" | "arc_generator" => 14,
+        "trajectory_controller" => 16,
+        "machine" => 28,
+        other => panic!("{other}"),
+    };
+    assert_eq!(rows, expected, "{save}: {overview}");
     assert!(
-        bench.read(&save) == fs::read_to_string(Path::new(CRATE).join(&save)).unwrap(),
+        text == fs::read_to_string(Path::new(CRATE).join(&save)).unwrap(),
         "{save} in the crate is not what a run of {scenario} writes"
     );
     (bench, summary)

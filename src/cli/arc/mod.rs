@@ -26,6 +26,24 @@ use summary::Summary;
 /// Samples that the save file's window shows, with the change into the rotation in its middle.
 const SAMPLES_SHOWN: u64 = 12;
 
+/// What the save file shows on top.
+const OVERVIEW: [&str; 14] = [
+    "sampled",
+    "kind",
+    "sequencer.state",
+    "memory.word",
+    "engine_x.nearest",
+    "engine_y.nearest",
+    "engine_z.nearest",
+    "rotation.control.bit_index",
+    "rotation.row_x.sum",
+    "rotation.row_y.sum",
+    "rotation.row_z.sum",
+    "x",
+    "y",
+    "z",
+];
+
 /// Runs a path.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
@@ -74,7 +92,7 @@ fn simulate(
             .map_or(0, |command| command.tick),
         before: shown / 2,
         shown,
-        overview: &[],
+        overview: &OVERVIEW,
     };
     let files = traces.finish(&circuit, &focus, played.ticks)?;
     Ok((played, files))

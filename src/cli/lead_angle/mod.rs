@@ -27,6 +27,24 @@ use systems::{System, systems};
 /// CKs that the save file's window shows.
 const CKS_SHOWN: u64 = 400;
 
+/// What the save file shows on top.
+const OVERVIEW: [&str; 14] = [
+    "ck",
+    "position",
+    "predicted",
+    "target",
+    "lead_source.lead_time",
+    "lead_source.history.tap",
+    "lead_source.history.ratio",
+    "placement.lead",
+    "drive",
+    "fire",
+    "brake",
+    "complete",
+    "error",
+    "learned_time",
+];
+
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
@@ -95,6 +113,6 @@ fn focus(settings: &Settings, action: u64) -> Focus {
         action,
         before: shown / 2,
         shown,
-        overview: &[],
+        overview: &OVERVIEW,
     }
 }

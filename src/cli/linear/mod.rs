@@ -24,6 +24,21 @@ use summary::Summary;
 /// Scans that the save file's window shows.
 const SCANS_SHOWN: u64 = 60;
 
+/// What the save file shows on top.
+const OVERVIEW: [&str; 11] = [
+    "scan",
+    "interpolator.pattern.trapezoid.phase",
+    "interpolator.pattern.trapezoid.level",
+    "interpolator.integrator.integral",
+    "interpolator.integrator.remainder",
+    "command_x",
+    "command_y",
+    "feedback_x",
+    "feedback_y",
+    "reference_x",
+    "reference_y",
+];
+
 /// The two systems that play a job.
 #[derive(Debug)]
 pub struct Runs {
@@ -74,7 +89,7 @@ fn simulate(
         action: played.records.get(first).map_or(0, |record| record.tick),
         before: 2 * scan,
         shown: SCANS_SHOWN * scan,
-        overview: &[],
+        overview: &OVERVIEW,
     };
     let files = traces.finish(&circuit, &focus, played.ticks)?;
     Ok((played, files))

@@ -22,6 +22,23 @@ use summary::Summary;
 /// Unit times that the save file's window shows.
 const UNITS_SHOWN: u64 = 6;
 
+/// What the save file shows on top; an axis that the job has not is left out.
+const OVERVIEW: [&str; 13] = [
+    "unit_rst",
+    "x.memory.half_period",
+    "x.generator.count",
+    "step_x",
+    "dir_x",
+    "y.memory.half_period",
+    "y.generator.count",
+    "step_y",
+    "dir_y",
+    "z.memory.half_period",
+    "z.generator.count",
+    "step_z",
+    "dir_z",
+];
+
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     if arguments.segments {
@@ -69,7 +86,7 @@ fn simulate<const AXES: usize>(
         action: played.first_step.unwrap_or(played.begun),
         before: unit,
         shown: UNITS_SHOWN * unit,
-        overview: &[],
+        overview: &OVERVIEW,
     };
     let files = traces.finish(&group, &focus, played.ticks)?;
     Ok((played, files))

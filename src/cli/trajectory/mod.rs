@@ -31,22 +31,22 @@ const IN_MOTION: usize = 200;
 
 /// What the save file begins with: from the length along the path to the torques.
 const OVERVIEW: [&str; 16] = [
-    "trajectory_controller.sampled",
-    "trajectory_controller.fresh",
-    "trajectory_controller.progress.length",
-    "trajectory_controller.tangential.integrators.position",
-    "trajectory_controller.x.command",
-    "trajectory_controller.x.corrector.correction",
-    "trajectory_controller.x.servo.model.integrators.position",
-    "trajectory_controller.x.servo.arithmetic.state",
-    "trajectory_controller.torque_x",
-    "trajectory_controller.position_x",
-    "trajectory_controller.y.command",
-    "trajectory_controller.y.corrector.correction",
-    "trajectory_controller.y.servo.model.integrators.position",
-    "trajectory_controller.y.servo.arithmetic.state",
-    "trajectory_controller.torque_y",
-    "trajectory_controller.position_y",
+    "sampled",
+    "fresh",
+    "progress.length",
+    "tangential.integrators.position",
+    "x.command",
+    "x.corrector.correction",
+    "x.servo.model.integrators.position",
+    "x.servo.arithmetic.state",
+    "torque_x",
+    "position_x",
+    "y.command",
+    "y.corrector.correction",
+    "y.servo.model.integrators.position",
+    "y.servo.arithmetic.state",
+    "torque_y",
+    "position_y",
 ];
 
 /// In the order in which they are shown.
