@@ -148,7 +148,10 @@ fn model(arguments: &Arguments) -> Result<Box<dyn AnyModel>, Failure> {
     (entry.model)(&given).ok_or_else(|| {
         let widths: Vec<String> = entry.offered.iter().map(u64::to_string).collect();
         Failure::Argument {
-            field: "--width",
+            field: match entry.offered.contains(&width) {
+                true => "--with",
+                false => "--width",
+            },
             problem: format!("{} cannot be made with {given:?}", entry.name),
             allowed: format!(
                 "{}, the first of them one of {}",

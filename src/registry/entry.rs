@@ -59,6 +59,9 @@ macro_rules! at_width {
 
 /// The two functions of an [`Entry`] for a circuit that can have any width.
 macro_rules! any_width {
+    (|$width:ident| $circuit:expr) => {
+        any_width!(|given, $width| $crate::registry::entry::alone(given, $circuit)?)
+    };
     (|$given:ident, $width:ident| $circuit:expr) => {
         Made {
             make: |$given| at_width!([2 3 4], $given, $width => $circuit),
@@ -70,6 +73,9 @@ macro_rules! any_width {
 
 /// The functions of an [`Entry`] for a circuit without proofs by exhaustion, at some widths.
 macro_rules! some_widths {
+    ([$($bits:literal)*], |$width:ident| $circuit:expr) => {
+        some_widths!([$($bits)*], |given, $width| $crate::registry::entry::alone(given, $circuit)?)
+    };
     ([$($bits:literal)*], |$given:ident, $width:ident| $circuit:expr) => {
         Made {
             make: |_given| None,
@@ -82,6 +88,9 @@ macro_rules! some_widths {
 /// The functions of an [`Entry`] for a circuit that is proved at one width and offered at some: what
 /// each width costs in building time, a large circuit does not need.
 macro_rules! proved_at {
+    ($proof:literal; [$($bits:literal)*], |$width:ident| $circuit:expr) => {
+        proved_at!($proof; [$($bits)*], |given, $width| $crate::registry::entry::alone(given, $circuit)?)
+    };
     ($proof:literal; [$($bits:literal)*], |$given:ident, $width:ident| $circuit:expr) => {
         Made {
             make: |$given| at_width!([$proof], $given, $width => $circuit),
@@ -89,6 +98,11 @@ macro_rules! proved_at {
             offered: &[$($bits),*],
         }
     };
+}
+
+/// A circuit that takes nothing but its width.
+pub(super) fn alone<C>(given: &[u64], circuit: C) -> Option<C> {
+    (given.len() <= 1).then_some(circuit)
 }
 
 /// How an entry is made from numbers.

@@ -1,6 +1,7 @@
 //! Laws that are swept, their types forgotten.
 
 use super::Verdict;
+use super::circuits::make::{RULES, one_of};
 use crate::check::{Law, Swept, TooWide, cases, sweep};
 use crate::linear_interpolator::{Integrator, LineSweep, Rule};
 use crate::logic::lanes::Element;
@@ -27,11 +28,7 @@ pub struct SweepEntry {
 pub static SWEEPS: &[SweepEntry] = &[SweepEntry {
     circuit: "integrator",
     make: |given| {
-        let rule = match given.get(1) {
-            None | Some(0) => Rule::Floor,
-            Some(1) => Rule::Truncating,
-            Some(_) => Rule::Centred,
-        };
+        let rule = one_of(given, RULES)?;
         Some(match given.first()? {
             2 => line::<2, 4>(rule),
             3 => line::<3, 6>(rule),

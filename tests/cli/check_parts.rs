@@ -112,7 +112,7 @@ fn parts_come_together_to_the_whole() {
 #[test]
 fn what_is_broken_in_a_part_is_broken_in_the_whole() {
     let bench = Bench::new();
-    let work = ["check", "unit_law", "sync_stage", "--with", "1"];
+    let work = ["check", "unit_law", "line_law", "--with", "1"];
     let whole = bench.run(&work);
     assert_eq!(whole.code, 1);
     let files = ["a.json".to_owned(), "b.json".to_owned()];

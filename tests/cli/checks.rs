@@ -75,6 +75,15 @@ fn a_counterexample_is_told_where_its_waves_cannot_be_written() {
 }
 
 #[test]
+fn the_table_tells_what_a_circuit_is_made_with() {
+    let run = Bench::new().run(&["check", "line_law", "--with", "2"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let row = run.stdout.lines().nth(1).expect("a row");
+    let words: Vec<_> = row.split_whitespace().take(2).collect();
+    assert_eq!(words, ["line_law", "3,2"]);
+}
+
+#[test]
 fn one_circuit_that_is_too_wide_does_not_hide_the_others() {
     let text = "error: pulse_interpolator at width 4: ";
     Bench::new()
@@ -98,6 +107,22 @@ fn what_cannot_be_proved_is_refused() {
         let text = format!("--width: is {width}; allowed: 2 to 4");
         bench.refuse(&["check", "--width", width], &text);
     }
+    let with = |circuit: &str, numbers: &str, text: &str| {
+        let problem = format!("--with: {circuit} cannot be made with {text}");
+        bench.refuse(&["check", circuit, "--with", numbers], &problem);
+    };
+    const VARIANTS: &str = "allowed: width, 0 for safe or 1 for literal";
+    const RULES: &str = "allowed: width, 0 for floor, 1 for truncating or 2 for centred";
+    with("unit_law", "7", &format!("[3, 7]; {VARIANTS}"));
+    with("unit_law", "1,0", &format!("[3, 1, 0]; {VARIANTS}"));
+    with("integrator", "9", &format!("[6, 9]; {RULES}"));
+    with("line_law", "3", &format!("[3, 3]; {RULES}"));
+    with("sync_stage", "1", "[3, 1]; allowed: nothing");
+    with(
+        "unit_time_register",
+        "8",
+        "[3, 8]; allowed: width, T at power-on",
+    );
     for arguments in [["check", "--width", "wide"], ["check", "--limit", "-1"]] {
         assert_eq!(bench.run(&arguments).code, 2);
     }

@@ -136,6 +136,11 @@ fn widths_that_are_not_offered_are_refused() {
         "--width: unit_time_counter cannot be made with [5]; allowed: width, the first of them \
          one of 2, 3, 4, 8, 16, 32",
     );
+    bench.refuse(
+        &verilog("unit_law", &["--width", "8", "--with", "99", "--out", "v"]),
+        "--with: unit_law cannot be made with [8, 99]; allowed: width, 0 for safe or 1 for \
+         literal, the first of them one of 2, 3, 4, 8, 16, 32",
+    );
 }
 
 #[test]

@@ -101,7 +101,7 @@ impl Report {
                 table,
                 "{:<22} {:>5} {:>10} {:>12} {:>5} {:>7.2} s  {ended}",
                 row.circuit,
-                row.width,
+                self.made_with(row),
                 number(row.states),
                 number(row.transitions),
                 number(row.depth),
@@ -122,6 +122,12 @@ impl Report {
             let _ = writeln!(table, "part {} of {}", self.shard.part, self.shard.of);
         }
         table
+    }
+
+    /// The width, and what else it is made with.
+    fn made_with(&self, row: &Row) -> String {
+        let numbers = std::iter::once(&row.width).chain(&self.asked.with);
+        numbers.map(u64::to_string).collect::<Vec<_>>().join(",")
     }
 
     /// A failure where something does not hold, and another where it is left undecided: that is a

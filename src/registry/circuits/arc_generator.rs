@@ -1,16 +1,9 @@
-use super::make::second;
+use super::make::{ROUNDINGS, one_of};
 use crate::arc_generator::{ArcGenerator, PositionCommand, Rotation, RotationRow, Rounding};
 use crate::registry::Entry;
 use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
 
 /// The rounding by its number.
-fn rounding(number: u64) -> Rounding {
-    match number {
-        0 => Rounding::Nearest,
-        _ => Rounding::Floor,
-    }
-}
-
 /// The circuits of JPH0743606B2.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
@@ -22,7 +15,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "width of points and coefficients, 1 for rounding down",
         some_widths!([4 8], |given, W| RotationRow::<W, W, { W + 3 }, W> {
             coordinate: 0,
-            rounding: rounding(second(given, 0)),
+            rounding: one_of(given, ROUNDINGS)?,
         })
     ),
     entry!(
@@ -33,7 +26,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["P" = 40, "C" = 42, "S" = 43, "D" = 42],
         "width of points and coefficients, 1 for rounding down",
         some_widths!([4 8], |given, W| {
-            Rotation::<W, W, { W + 3 }, W>::new(rounding(second(given, 0)))
+            Rotation::<W, W, { W + 3 }, W>::new(one_of(given, ROUNDINGS)?)
         })
     ),
     entry!(
@@ -43,7 +36,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0743606B2 [4]",
         ["W" = 24, "P" = 40, "D" = 42],
         "width of commands; as many guard bits",
-        proved_at!(2; [4 8], |given, W| {
+        proved_at!(2; [4 8], |W| {
             PositionCommand::<W, { 2 * W }, { 2 * W }>::default()
         })
     ),
@@ -77,7 +70,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
                 1,
                 6,
                 { 2 * W },
-            >::new(rounding(second(given, 0)))
+            >::new(one_of(given, ROUNDINGS)?)
         })
     ),
 ];

@@ -3,7 +3,7 @@ use crate::blocks::{
     QuadratureCounter, RecordMemory, RecordSequencer,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{Made, any_width, at_width, entry, proved_at, some_widths};
+use crate::registry::entry::{Made, alone, any_width, at_width, entry, proved_at, some_widths};
 
 /// A first difference of x.
 fn column<const P: usize, const F: usize, const D: usize>() -> DifferenceColumn<P, F, D> {
@@ -20,8 +20,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["M" = 25, "Q" = 58],
         "width of the words; the multiplier has one bit less",
         Made {
-            make: |given| at_width!([2 3 4], given, W => MulDiv::<{ W - 1 }, W>),
-            model: |given| at_width!([2 3 4 8 32], given, W => MulDiv::<{ W - 1 }, W>),
+            make: |given| at_width!([2 3 4], given, W => alone(given, MulDiv::<{ W - 1 }, W>)?),
+            model: |given| at_width!([2 3 4 8 32], given, W => alone(given, MulDiv::<{ W - 1 }, W>)?),
             offered: &[2, 3, 4, 8, 32],
         }
     ),
@@ -32,7 +32,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: scan and sample enables",
         ["W" = 24],
         "width",
-        any_width!(|given, W| EnableCounter::<W>)
+        any_width!(|W| EnableCounter::<W>)
     ),
     entry!(
         QuadratureCounter<32>,
@@ -41,7 +41,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: 13 of JP3608587B2 and others",
         ["W" = 32],
         "width",
-        any_width!(|given, W| QuadratureCounter::<W>)
+        any_width!(|W| QuadratureCounter::<W>)
     ),
     entry!(
         DifferenceColumn<40, 41, 42>,
@@ -50,7 +50,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: a difference of JPH0743606B2 [5], [10]",
         ["P" = 40, "F" = 41, "D" = 42],
         "width of wholes and parts",
-        proved_at!(3; [4 8], |given, W| column::<W, W, W>())
+        proved_at!(3; [4 8], |W| column::<W, W, W>())
     ),
     entry!(
         DifferenceEngine<40, 41, 42>,
@@ -59,7 +59,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: polynomials of JPH0743606B2, CN104204977",
         ["P" = 40, "F" = 41, "D" = 42],
         "width of points",
-        some_widths!([4 8], |given, W| DifferenceEngine::<W, { 2 * W + 1 }, { 2 * W + 1 }>::default())
+        some_widths!([4 8], |W| DifferenceEngine::<W, { 2 * W + 1 }, { 2 * W + 1 }>::default())
     ),
     entry!(
         CoefficientControl<42>,
@@ -68,7 +68,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: which bit of a sequential product",
         ["C" = 42],
         "width of a coefficient",
-        proved_at!(4; [4 8], |given, W| CoefficientControl::<W>)
+        proved_at!(4; [4 8], |W| CoefficientControl::<W>)
     ),
     entry!(
         RecordMemory<4, 9, 42>,
@@ -77,7 +77,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: records that wait",
         ["A" = 4, "K" = 9, "D" = 42],
         "width of a word (two records)",
-        some_widths!([4 8], |given, W| RecordMemory::<1, 6, W>)
+        some_widths!([4 8], |W| RecordMemory::<1, 6, W>)
     ),
     entry!(
         RecordSequencer<41, 20, 42>,
@@ -86,6 +86,6 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: record after record",
         ["F" = 41, "N" = 20, "D" = 42],
         "width of moduli; a word has three bits more",
-        proved_at!(2; [4 8], |given, W| RecordSequencer::<W, W, { W + 3 }>)
+        proved_at!(2; [4 8], |W| RecordSequencer::<W, W, { W + 3 }>)
     ),
 ];

@@ -1,4 +1,4 @@
-use super::make::second;
+use super::make::{choice, one_of, words};
 use crate::lead_angle::{
     Comparator, Comparing, Compensator, CompletionDetector, Correction, CorrectionArithmetic, Lead,
     LeadPlacement, Placement, PositionHistory, RamHistory, RatioLogic, Sign, SpeedLead,
@@ -27,41 +27,23 @@ const fn time_bits(width: usize) -> usize {
     if width <= 4 { 5 } else { 8 }
 }
 
-fn placement(number: u64) -> Placement {
-    match number {
-        0 => Placement::Position,
-        1 => Placement::Target,
-        _ => Placement::Halves,
-    }
+const PLACEMENTS: &[Placement] = &[Placement::Position, Placement::Target, Placement::Halves];
+const COMPARINGS: &[Comparing] = &[Comparing::Crossing, Comparing::Equal];
+const SIGNS: &[Sign] = &[Sign::Converging, Sign::Literal];
+
+/// The variant that follows the width.
+fn variant(given: &[u64]) -> Option<Variant> {
+    Some(Variant {
+        placement: choice(given, 1, PLACEMENTS)?,
+        comparing: choice(given, 2, COMPARINGS)?,
+        sign: choice(given, 3, SIGNS)?,
+    })
 }
 
-fn comparing(number: u64) -> Comparing {
-    match number {
-        0 => Comparing::Crossing,
-        _ => Comparing::Equal,
-    }
-}
-
-fn sign(number: u64) -> Sign {
-    match number {
-        0 => Sign::Converging,
-        _ => Sign::Literal,
-    }
-}
-
-/// The variant that follows the width, and the times that follow the variant.
-fn variant(given: &[u64]) -> Variant {
-    let number = |place: usize| given.get(place).copied().unwrap_or(0);
-    Variant {
-        placement: placement(number(1)),
-        comparing: comparing(number(2)),
-        sign: sign(number(3)),
-    }
-}
-
-/// A time in each word, from step 0 up.
-fn rom<const A: usize, const C: usize>(words: &[u64]) -> Image<A, C> {
-    Image::new(words.iter().copied())
+/// The times from a place on, one in each word from step 0 up.
+fn rom<const A: usize, const C: usize>(given: &[u64], place: usize) -> Option<Image<A, C>> {
+    let times = words(given, place, 1 << A, C)?;
+    Some(Image::new(times.iter().copied()))
 }
 
 /// A time lead of the widths that go with positions of `$width` bits.
@@ -91,7 +73,7 @@ macro_rules! compensator {
             { $width + time_bits($width) },
             $width,
             $width,
-        >::new(variant($given), rom($given.get(4..).unwrap_or(&[])))
+        >::new(variant($given)?, rom($given, 4)?)
     };
 }
 
@@ -104,7 +86,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 13",
         ["K" = 199, "T" = 8, "C" = 11],
         "4 for 3 stages, 8 for 15",
-        proved_at!(4; [4 8], |given, W| RatioLogic::<{ stages(W) }, { tap_bits(W) }, { time_bits(W) }>)
+        proved_at!(4; [4 8], |W| RatioLogic::<{ stages(W) }, { tap_bits(W) }, { time_bits(W) }>)
     ),
     entry!(
         PositionHistory<199, 8, 24>,
@@ -113,7 +95,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 11 + 14",
         ["K" = 199, "T" = 8, "W" = 24],
         "width: 2 stages for 2, 3 for 4, 15 for 8",
-        proved_at!(2; [2 4 8], |given, W| PositionHistory::<{ stages(W) }, { tap_bits(W) }, W>)
+        proved_at!(2; [2 4 8], |W| PositionHistory::<{ stages(W) }, { tap_bits(W) }, W>)
     ),
     entry!(
         RamHistory<199, 8, 24>,
@@ -122,7 +104,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 11 + 14, as a RAM",
         ["K" = 199, "T" = 8, "W" = 24],
         "width: 2 stages for 2, 3 for 4, 15 for 8",
-        proved_at!(2; [2 4 8], |given, W| RamHistory::<{ stages(W) }, { tap_bits(W) }, W>)
+        proved_at!(2; [2 4 8], |W| RamHistory::<{ stages(W) }, { tap_bits(W) }, W>)
     ),
     entry!(
         Lead<24>,
@@ -131,7 +113,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 15 + 16",
         ["W" = 24],
         "width",
-        proved_at!(4; [4 8], |given, W| Lead::<W>)
+        proved_at!(4; [4 8], |W| Lead::<W>)
     ),
     entry!(
         TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>,
@@ -140,7 +122,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 11, 13–16",
         ["K" = 199, "T" = 8, "C" = 11, "W" = 24],
         "width of positions: 3 stages for 4, 15 for 8",
-        some_widths!([4 8], |given, W| <time_lead!(PositionHistory, W)>::default())
+        some_widths!([4 8], |W| <time_lead!(PositionHistory, W)>::default())
     ),
     entry!(
         TimeLead<RamHistory<199, 8, 24>, 199, 8, 11, 24>,
@@ -149,7 +131,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 11, 13–16, with a RAM",
         ["K" = 199, "T" = 8, "C" = 11, "W" = 24],
         "width of positions: 3 stages for 4, 15 for 8",
-        some_widths!([4 8], |given, W| <time_lead!(RamHistory, W)>::default())
+        some_widths!([4 8], |W| <time_lead!(RamHistory, W)>::default())
     ),
     entry!(
         SpeedLead<24, 16>,
@@ -158,7 +140,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 1 + 2 of Fig. 7",
         ["W" = 24, "N" = 16],
         "width",
-        proved_at!(2; [2 4 8], |given, W| SpeedLead::<W, W>)
+        proved_at!(2; [2 4 8], |W| SpeedLead::<W, W>)
     ),
     entry!(
         LeadPlacement<24>,
@@ -168,7 +150,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["W" = 24],
         "width, 0 for the position, 1 for the target or 2 for halves",
         proved_at!(4; [4 8], |given, W| LeadPlacement::<W> {
-            placement: placement(second(given, 0))
+            placement: one_of(given, PLACEMENTS)?
         })
     ),
     entry!(
@@ -179,7 +161,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["W" = 24],
         "width, 0 for crossing or 1 for equal",
         proved_at!(4; [4 8], |given, W| Comparator::<W> {
-            comparing: comparing(second(given, 0))
+            comparing: one_of(given, COMPARINGS)?
         })
     ),
     entry!(
@@ -189,7 +171,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 18",
         ["A" = 4, "W" = 24, "D" = 16],
         "width of positions and speeds (steps have two bits)",
-        proved_at!(2; [2 4 8], |given, W| TargetSetter::<2, W, W>)
+        proved_at!(2; [2 4 8], |W| TargetSetter::<2, W, W>)
     ),
     entry!(
         TimeData<4, 11>,
@@ -198,7 +180,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 21 = 24 + 25, 29",
         ["A" = 4, "C" = 11],
         "width (steps have two bits), and the times of the ROM",
-        proved_at!(2; [2 4 8], |given, W| TimeData::<2, W> { rom: rom(given.get(1..).unwrap_or(&[])) })
+        proved_at!(2; [2 4 8], |given, W| TimeData::<2, W> { rom: rom(given, 1)? })
     ),
     entry!(
         CompletionDetector<24, 16>,
@@ -207,7 +189,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 26",
         ["W" = 24, "N" = 16],
         "width",
-        proved_at!(2; [2 4 8], |given, W| CompletionDetector::<W, W>)
+        proved_at!(2; [2 4 8], |W| CompletionDetector::<W, W>)
     ),
     entry!(
         StopError<24>,
@@ -217,7 +199,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["W" = 24],
         "width, 0 for the converging sign or 1 for the literal one",
         proved_at!(4; [4 8], |given, W| StopError::<W> {
-            sign: sign(second(given, 0))
+            sign: one_of(given, SIGNS)?
         })
     ),
     entry!(
@@ -227,7 +209,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 28",
         ["K" = 199, "C" = 11, "W" = 24, "R" = 35],
         "width of positions: 3 stages for 4, 15 for 8",
-        some_widths!([4 8], |given, W| CorrectionArithmetic::<
+        some_widths!([4 8], |W| CorrectionArithmetic::<
             { stages(W) },
             { time_bits(W) },
             W,
@@ -248,7 +230,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             { time_bits(W) },
             W,
             { W + time_bits(W) },
-        >::new(sign(second(given, 0))))
+        >::new(one_of(given, SIGNS)?))
     ),
     entry!(
         StepSequencer<4, 24, 16>,
@@ -257,7 +239,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2, step numbers",
         ["A" = 4, "W" = 24, "N" = 16],
         "width of positions and times (steps have two bits)",
-        proved_at!(2; [2 4 8], |given, W| StepSequencer::<2, W, W>)
+        proved_at!(2; [2 4 8], |W| StepSequencer::<2, W, W>)
     ),
     entry!(
         Compensator<TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>>,

@@ -1,27 +1,19 @@
-use super::make::second;
+use super::make::{RULES, at_most, one_of};
 use crate::linear_interpolator::{
     Accumulator, AxisSwitch, Controller, Conventional, CycleGate, Differentiator, Integrator,
-    LineLaw, LinearInterpolator, PatternGenerator, PositionControl, PositionLoop, Rule, Sequencer,
+    LineLaw, LinearInterpolator, PatternGenerator, PositionControl, PositionLoop, Sequencer,
     TargetData, Trapezoid,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
 
 /// The rule by its number.
-fn rule(number: u64) -> Rule {
-    match number {
-        0 => Rule::Floor,
-        1 => Rule::Truncating,
-        _ => Rule::Centred,
-    }
-}
-
 /// The circuits of JP3608587B2.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         TargetData<6, 32, 12>, TargetData, Some(2), "JP3608587B2 20", ["A" = 6, "P" = 32, "T" = 12],
         "width of positions and times (addresses have two bits)",
-        proved_at!(2; [3 4 8], |given, W| TargetData::<2, W, W>)
+        proved_at!(2; [3 4 8], |W| TargetData::<2, W, W>)
     ),
     entry!(
         Sequencer<32>,
@@ -30,7 +22,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 ¶0005, ¶0014",
         ["P" = 32],
         "width",
-        proved_at!(2; [3 4 8], |given, W| Sequencer::<W>)
+        proved_at!(2; [3 4 8], |W| Sequencer::<W>)
     ),
     entry!(
         Trapezoid<32, 12, 25, 58>,
@@ -39,7 +31,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 14, control",
         ["P" = 32, "T" = 12, "M" = 25, "Q" = 58],
         "width of positions; times have half of it",
-        some_widths!([4 8], |given, W| Trapezoid::<W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>)
+        some_widths!([4 8], |W| Trapezoid::<W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>)
     ),
     entry!(
         PatternGenerator<32, 12, 25, 58>,
@@ -48,7 +40,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 14",
         ["P" = 32, "T" = 12, "M" = 25, "Q" = 58],
         "width of positions; times have half of it",
-        some_widths!([2 4 8], |given, W| {
+        some_widths!([2 4 8], |W| {
             PatternGenerator::<W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>::default()
         })
     ),
@@ -59,7 +51,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 21 = 22 + 23",
         ["P" = 32],
         "width",
-        proved_at!(3; [4 8], |given, W| Differentiator::<W>)
+        proved_at!(3; [4 8], |W| Differentiator::<W>)
     ),
     entry!(
         Accumulator<32, 64>,
@@ -69,7 +61,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["P" = 32, "R" = 64],
         "width, 0 for floor, 1 for truncating or 2 for centred",
         some_widths!([3 4 8], |given, W| Accumulator::<W, { 2 * W }> {
-            rule: rule(second(given, 0))
+            rule: one_of(given, RULES)?
         })
     ),
     entry!(
@@ -79,7 +71,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 24",
         ["P" = 32, "R" = 64],
         "width, 0 for floor, 1 for truncating or 2 for centred",
-        some_widths!([3 4 8], |given, W| Integrator::<W, { 2 * W }>::new(rule(second(given, 0))))
+        some_widths!([3 4 8], |given, W| Integrator::<W, { 2 * W }>::new(one_of(given, RULES)?))
     ),
     entry!(
         LineLaw<32, 64>,
@@ -89,8 +81,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["P" = 32, "R" = 64],
         "width, 0 for floor, 1 for truncating or 2 for centred",
         Made {
-            make: |given| at_width!([3], given, W => LineLaw::<W, { 2 * W }>::new(rule(second(given, 0)))),
-            model: |given| at_width!([3 4 8], given, W => LineLaw::<W, { 2 * W }>::new(rule(second(given, 0)))),
+            make: |given| at_width!([3], given, W => LineLaw::<W, { 2 * W }>::new(one_of(given, RULES)?)),
+            model: |given| at_width!([3 4 8], given, W => LineLaw::<W, { 2 * W }>::new(one_of(given, RULES)?)),
             offered: &[3, 4, 8],
         }
     ),
@@ -101,7 +93,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 25, Figs 5 and 6",
         ["P" = 32],
         "width",
-        proved_at!(2; [4 8], |given, W| AxisSwitch::<W>)
+        proved_at!(2; [4 8], |W| AxisSwitch::<W>)
     ),
     entry!(
         CycleGate,
@@ -111,8 +103,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
         [],
         "nothing",
         Made {
-            make: |_given| Some(Box::new(CycleGate)),
-            model: |_given| Some(Box::new(CycleGate)),
+            make: |given| at_most(given, 1).map(|()| Box::new(CycleGate) as _),
+            model: |given| at_most(given, 1).map(|()| Box::new(CycleGate) as _),
             offered: &[],
         }
     ),
@@ -131,7 +123,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             { W + 1 },
             { 2 * W + 2 },
             { 2 * W },
-        >::new(rule(second(given, 0))))
+        >::new(one_of(given, RULES)?))
     ),
     entry!(
         PositionControl,
@@ -140,7 +132,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 10 + 11 + 12",
         ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
         "width of positions, gain and D/A converter; half of the gain is its fraction",
-        proved_at!(3; [4 8], |given, W| PositionControl::<W, W, { W / 2 }, W, { 2 * W }>)
+        proved_at!(3; [4 8], |W| PositionControl::<W, W, { W / 2 }, W, { 2 * W }>)
     ),
     entry!(
         PositionLoop,
@@ -149,7 +141,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 10–13",
         ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
         "width of positions, gain and D/A converter; half of the gain is its fraction",
-        proved_at!(2; [4 8], |given, W| PositionLoop::<W, W, { W / 2 }, W, { 2 * W }>::default())
+        proved_at!(2; [4 8], |W| PositionLoop::<W, W, { W / 2 }, W, { 2 * W }>::default())
     ),
     entry!(
         Conventional<6>,
@@ -158,7 +150,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 14, 20, Fig. 3",
         ["A" = 6, "P" = 32, "T" = 12, "M" = 25, "Q" = 58],
         "width of positions (times have half of it, addresses two bits)",
-        some_widths!([4 8], |given, W| Conventional::<
+        some_widths!([4 8], |W| Conventional::<
             2,
             W,
             { W / 2 },
@@ -191,7 +183,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             W,
             { 2 * W },
             W,
-        >::new(LinearInterpolator::new(rule(second(given, 0)))))
+        >::new(LinearInterpolator::new(one_of(given, RULES)?)))
     ),
     entry!(
         Controller<Conventional>,
@@ -209,7 +201,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ],
         "width of positions, gains, references and the scan (times have half of it, addresses two \
          bits)",
-        some_widths!([4 8], |given, W| Controller::<
+        some_widths!([4 8], |W| Controller::<
             Conventional<2, W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>,
             W,
             { W / 2 },

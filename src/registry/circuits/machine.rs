@@ -1,5 +1,6 @@
 //! The machine of all circuits, and what it has besides them.
 
+use super::make::at_most;
 use crate::machine::{CommandJoin, Enables, Machine, Settings, job};
 use crate::registry::Entry;
 use crate::registry::entry::{Made, at_width, entry, proved_at};
@@ -13,7 +14,7 @@ pub const CIRCUITS: &[Entry] = &[
         "system, rates",
         ["W" = 24],
         "width of the counters",
-        proved_at!(2; [2 4 8], |given, W| Enables::<W>::default())
+        proved_at!(2; [2 4 8], |W| Enables::<W>::default())
     ),
     entry!(
         CommandJoin<32, 24>,
@@ -22,7 +23,7 @@ pub const CIRCUITS: &[Entry] = &[
         "system, commands",
         ["W" = 32, "V" = 24],
         "width of the lines' way; that of the arcs is a bit less",
-        proved_at!(3; [3 4 8], |given, W| CommandJoin::<W, { W - 1 }>)
+        proved_at!(3; [3 4 8], |W| CommandJoin::<W, { W - 1 }>)
     ),
     entry!(
         Machine,
@@ -33,7 +34,10 @@ pub const CIRCUITS: &[Entry] = &[
         "nothing",
         Made {
             make: |_given| None,
-            model: |_given| Some(Box::new(job::machine(&Settings::default()).circuit)),
+            model: |given| {
+                at_most(given, 1)?;
+                Some(Box::new(job::machine(&Settings::default()).circuit))
+            },
             offered: &[],
         }
     ),

@@ -1,19 +1,53 @@
 //! Circuits from the numbers that an entry takes.
 
+use crate::arc_generator::Rounding;
+use crate::linear_interpolator::Rule;
 use crate::pulse_interpolator::{Group, Pattern, PatternMemory, Variant};
 use crate::registry::entry::at_width;
 use crate::registry::{AnyCircuit, AnyModel};
 
-/// The argument after the width, or else `default`.
-pub fn second(arguments: &[u64], default: u64) -> u64 {
-    arguments.get(1).copied().unwrap_or(default)
+/// Both kinds of pulse interpolator, by their numbers.
+pub const VARIANTS: &[Variant] = &[Variant::Safe, Variant::Literal];
+
+/// Which way a remainder goes, by its number.
+pub const RULES: &[Rule] = &[Rule::Floor, Rule::Truncating, Rule::Centred];
+
+/// How coordinates are rounded, by its number.
+pub const ROUNDINGS: &[Rounding] = &[Rounding::Nearest, Rounding::Floor];
+
+/// So many numbers at most.
+pub fn at_most(given: &[u64], count: usize) -> Option<()> {
+    (given.len() <= count).then_some(())
 }
 
-pub fn variant(argument: u64) -> Variant {
-    match argument {
-        0 => Variant::Safe,
-        _ => Variant::Literal,
-    }
+/// What a number chooses; the first where it is not given.
+pub fn choice<T: Copy>(given: &[u64], place: usize, of: &[T]) -> Option<T> {
+    let number = given.get(place).copied().unwrap_or(0);
+    of.get(usize::try_from(number).ok()?).copied()
+}
+
+/// What the last number chooses, behind the width.
+pub fn one_of<T: Copy>(given: &[u64], of: &[T]) -> Option<T> {
+    at_most(given, 2)?;
+    choice(given, 1, of)
+}
+
+/// A number that fits in `width` bits.
+pub fn word(number: u64, width: usize) -> Option<u64> {
+    (width >= 64 || number >> width == 0).then_some(number)
+}
+
+/// Numbers from a place on, at most so many of `width` bits each.
+pub fn words(given: &[u64], place: usize, count: usize, width: usize) -> Option<&[u64]> {
+    let words = given.get(place..).unwrap_or(&[]);
+    at_most(words, count)?;
+    let fit = words.iter().all(|&number| word(number, width).is_some());
+    fit.then_some(words)
+}
+
+/// The number behind the width, of as many bits.
+pub fn second(given: &[u64], default: u64, width: usize) -> Option<u64> {
+    word(given.get(1).copied().unwrap_or(default), width)
 }
 
 /// The address bits of a memory whose words have `width` bits: one is what a proof can bear.
@@ -33,60 +67,55 @@ fn fill<const N: usize, const A: usize>(
 }
 
 /// A memory of axis 0, or of the one that is given, with the words given after that.
-pub fn memory<const N: usize, const A: usize>(arguments: &[u64]) -> PatternMemory<N, A> {
-    let mut memory = PatternMemory::new(second(arguments, 0));
-    fill(&mut memory, arguments.iter().skip(2).copied());
-    memory
+pub fn memory<const N: usize, const A: usize>(given: &[u64]) -> Option<PatternMemory<N, A>> {
+    let words = words(given, 2, 1 << A, N + 1)?;
+    let mut memory = PatternMemory::new(second(given, 0, 3)?);
+    fill(&mut memory, words.iter().copied());
+    Some(memory)
 }
 
 /// A group of one axis whose memory holds half-periods 1 and 2 in turn, the second downwards.
-fn small_group<const W: usize>(period: u64) -> Group<1, W, W, 1> {
-    let mut group = Group::new(Variant::Safe, period);
+fn small_group<const W: usize>(given: &[u64]) -> Option<Group<1, W, W, 1>> {
+    at_most(given, 2)?;
+    let mut group = Group::new(Variant::Safe, second(given, 3, W)?);
     fill(&mut group.axes[0].memory, [1, 2 | 1 << W].into_iter());
-    group
+    Some(group)
 }
 
-/// A group of two axes with eight words of memory each; `words` are those of x and y in turn.
-fn group_of_two<const W: usize>(
-    period: u64,
-    kind: u64,
-    start: u64,
-    words: &[u64],
-) -> Group<2, W, W, 3> {
-    let mut group = Group::new(variant(kind), period);
+/// A group of two axes with eight words of memory each; the words given are those of x and y in
+/// turn.
+fn group_of_two<const W: usize>(given: &[u64]) -> Option<Group<2, W, W, 3>> {
+    let (period, variant) = (second(given, 3, W)?, choice(given, 2, VARIANTS)?);
+    let cyclic = choice(given, 3, &[None, Some(false), Some(true)])?;
+    let words = words(given, 4, 16, W + 1)?;
+    let mut group = Group::new(variant, period);
     for (axis, block) in group.axes.iter_mut().enumerate() {
         fill(
             &mut block.memory,
             words.iter().skip(axis).step_by(2).copied(),
         );
     }
-    group.port.free_running = (start > 0).then_some(Pattern {
+    group.port.free_running = cyclic.map(|cyclic| Pattern {
         base: 0,
         last: (words.len().div_ceil(2) as u64).saturating_sub(1),
-        cyclic: start == 2,
+        cyclic,
         period,
     });
-    group
+    Some(group)
 }
 
 /// A group as small as a proof needs, or, where more than width and T is given, one for charts.
-pub fn group(arguments: &[u64]) -> Option<Box<dyn AnyCircuit>> {
-    let period = second(arguments, 3);
-    match arguments {
-        [_, _, kind, start, words @ ..] => {
-            at_width!([2 3 4], arguments, W => group_of_two::<W>(period, *kind, *start, words))
-        }
-        _ => at_width!([2 3 4], arguments, W => small_group::<W>(period)),
+pub fn group(given: &[u64]) -> Option<Box<dyn AnyCircuit>> {
+    match given.len() {
+        0..=2 => at_width!([2 3 4], given, W => small_group::<W>(given)?),
+        _ => at_width!([2 3 4], given, W => group_of_two::<W>(given)?),
     }
 }
 
 /// The same; the wide ones have two axes and wait for a command unless told otherwise.
-pub fn group_model(arguments: &[u64]) -> Option<Box<dyn AnyModel>> {
-    if let Some(small) = group(arguments) {
+pub fn group_model(given: &[u64]) -> Option<Box<dyn AnyModel>> {
+    if let Some(small) = group(given) {
         return Some(small);
     }
-    let (kind, start) = (arguments.get(2), arguments.get(3));
-    let (kind, start) = (kind.copied().unwrap_or(0), start.copied().unwrap_or(0));
-    let (period, words) = (second(arguments, 3), arguments.get(4..).unwrap_or(&[]));
-    at_width!([8 16], arguments, W => group_of_two::<W>(period, kind, start, words))
+    at_width!([8 16], given, W => group_of_two::<W>(given)?)
 }

@@ -5,7 +5,7 @@ mod blocks;
 mod lead_angle;
 mod linear_interpolator;
 mod machine;
-mod make;
+pub(super) mod make;
 mod pulse_interpolator;
 mod trajectory_controller;
 

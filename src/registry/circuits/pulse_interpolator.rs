@@ -1,4 +1,4 @@
-use super::make::{address_bits, group, group_model, memory, second, variant};
+use super::make::{VARIANTS, address_bits, at_most, group, group_model, memory, one_of, second};
 use crate::pulse_interpolator::{
     AddressSequencer, Axis, CommandPort, Group, PatternMemory, PulseGenerator, SyncStage, UnitLaw,
     UnitTimeCounter, UnitTimeRegister, Variant,
@@ -15,7 +15,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3640909B2 30",
         ["T" = 24],
         "width",
-        any_width!(|given, W| UnitTimeCounter::<W>)
+        any_width!(|W| UnitTimeCounter::<W>)
     ),
     entry!(
         UnitTimeRegister<24>,
@@ -24,8 +24,11 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3640909B2 ¶0016",
         ["T" = 24],
         "width, T at power-on",
-        any_width!(|given, W| UnitTimeRegister::<W> {
-            period: second(given, 1)
+        any_width!(|given, W| {
+            at_most(given, 2)?;
+            UnitTimeRegister::<W> {
+                period: second(given, 1, W)?,
+            }
         })
     ),
     entry!(
@@ -36,7 +39,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["N" = 16],
         "width, 0 for safe or 1 for literal",
         any_width!(|given, W| PulseGenerator::<W> {
-            variant: variant(second(given, 0))
+            variant: one_of(given, VARIANTS)?
         })
     ),
     entry!(
@@ -47,8 +50,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
         [],
         "nothing",
         Made {
-            make: |_given| Some(Box::new(SyncStage)),
-            model: |_given| Some(Box::new(SyncStage)),
+            make: |given| at_most(given, 1).map(|()| Box::new(SyncStage) as _),
+            model: |given| at_most(given, 1).map(|()| Box::new(SyncStage) as _),
             offered: &[],
         }
     ),
@@ -56,7 +59,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         PatternMemory<16, 12>, PatternMemory::new(0), Some(3), "JP3640909B2 10", ["N" = 16, "A" = 12],
         "width of the half-period (addresses have one bit, above a width of 4 four), axis, words \
          at power-on (a half-period, 2^width more for down)",
-        any_width!(|given, W| memory::<W, { address_bits(W) }>(given))
+        any_width!(|given, W| memory::<W, { address_bits(W) }>(given)?)
     ),
     entry!(
         AddressSequencer<12>,
@@ -65,18 +68,18 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3640909B2 50",
         ["A" = 12],
         "width",
-        any_width!(|given, W| AddressSequencer::<W>)
+        any_width!(|W| AddressSequencer::<W>)
     ),
     entry!(
         CommandPort<12, 24>, CommandPort::default(), Some(3), "JP3640909B2 ¶0018, ¶0026", ["A" = 12, "T" = 24],
         "width",
-        any_width!(|given, W| CommandPort::<W, W>::default())
+        any_width!(|W| CommandPort::<W, W>::default())
     ),
     entry!(
         Axis<16, 12>, Axis::new(0, Variant::Safe), Some(3), "JP3640909B2 10 + 20 + 40", ["N" = 16, "A" = 12],
         "width of the half-period (addresses have one bit, above a width of 4 four), 0 for safe or \
          1 for literal",
-        any_width!(|given, W| Axis::<W, { address_bits(W) }>::new(0, variant(second(given, 0))))
+        any_width!(|given, W| Axis::<W, { address_bits(W) }>::new(0, one_of(given, VARIANTS)?))
     ),
     entry!(
         UnitLaw<16>,
@@ -85,7 +88,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3640909B2 30 + 20 + 40, with ghosts",
         ["W" = 16],
         "width, 0 for safe or 1 for literal",
-        any_width!(|given, W| UnitLaw::<W>::new(variant(second(given, 0))))
+        any_width!(|given, W| UnitLaw::<W>::new(one_of(given, VARIANTS)?))
     ),
     entry!(
         Group<2>,

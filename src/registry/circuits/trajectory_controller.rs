@@ -1,4 +1,4 @@
-use super::make::second;
+use super::make::{ROUNDINGS, at_most, one_of};
 use crate::registry::Entry;
 use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
 use crate::trajectory_controller::{
@@ -9,26 +9,14 @@ use crate::trajectory_controller::{
 };
 
 /// The rounding by its number.
-fn rounding(number: u64) -> Rounding {
-    match number {
-        0 => Rounding::Nearest,
-        _ => Rounding::Floor,
-    }
-}
-
-/// The correction by its number.
-fn correction(number: u64) -> Correction {
-    match number {
-        0 => Correction::Vector,
-        1 => Correction::None,
-        _ => Correction::Steady,
-    }
-}
+/// The corrections by their numbers.
+const CORRECTIONS: &[Correction] = &[Correction::Vector, Correction::None, Correction::Steady];
 
 /// A join that waits for so many ticks.
-fn join(given: &[u64]) -> PeriodJoin {
+fn join(given: &[u64]) -> Option<PeriodJoin> {
+    at_most(given, 1)?;
     let wait = given.first().copied().unwrap_or(0);
-    PeriodJoin { wait }
+    Some(PeriodJoin { wait })
 }
 
 /// The circuits of CN104204977.
@@ -36,36 +24,36 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Scaler<24, 58>, Scaler, Some(3), "CN104204977 21, 23, 27, 29, 30: a gain",
         ["K" = 24, "Q" = 58], "width of a gain; a value has as many bits",
-        proved_at!(3; [4 8], |given, W| Scaler::<W, { W + 1 }>)
+        proved_at!(3; [4 8], |W| Scaler::<W, { W + 1 }>)
     ),
     entry!(
         ModelState<47, 16, 64>, ModelState::default(), None, "CN104204977 20, 22, 24, 25",
         ["P" = 47, "K" = 16, "Q" = 64], "width of positions and gains, 1 for rounding down",
         some_widths!([4 8], |given, W| ModelState::<W, W, { 2 * W + 1 }> {
-            rounding: rounding(second(given, 0)),
+            rounding: one_of(given, ROUNDINGS)?,
         })
     ),
     entry!(
         ReferenceModel<47, 16, 64>, ReferenceModel::default(), None, "CN104204977 12, 50, 51, 52",
         ["P" = 47, "K" = 16, "Q" = 64], "width of positions and gains, 1 for rounding down",
         some_widths!([4 8], |given, W| {
-            ReferenceModel::<W, W, { 2 * W + 1 }>::new(rounding(second(given, 0)))
+            ReferenceModel::<W, W, { 2 * W + 1 }>::new(one_of(given, ROUNDINGS)?)
         })
     ),
     entry!(
         SegmentSearch<8, 47>, SegmentSearch, None, "CN104204977 2, 3: segment",
         ["A" = 8, "P" = 47], "width of lengths (four segments)",
-        some_widths!([4 8], |given, W| SegmentSearch::<2, W>)
+        some_widths!([4 8], |W| SegmentSearch::<2, W>)
     ),
     entry!(
         SegmentStore<8, 12, 55>, SegmentStore, None, "CN104204977 2, 3: segments",
         ["A" = 8, "K" = 12, "D" = 55], "width of a word (two segments)",
-        some_widths!([4 8], |given, W| SegmentStore::<1, 5, W>)
+        some_widths!([4 8], |W| SegmentStore::<1, 5, W>)
     ),
     entry!(
         ArcAngle<47, 44, 44, 52>, ArcAngle, None, "CN104204977 2, 3: arc",
         ["P" = 47, "M" = 44, "H" = 44, "X" = 52], "width of lengths, curvatures and angles",
-        some_widths!([4 8], |given, W| ArcAngle::<W, W, W, { W + 5 }>)
+        some_widths!([4 8], |W| ArcAngle::<W, W, W, { W + 5 }>)
     ),
     entry!(
         Shifter<55>,
@@ -74,28 +62,28 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "CN104204977 2, 3: arc",
         ["R" = 55],
         "width",
-        proved_at!(4; [4 8], |given, W| Shifter::<W>)
+        proved_at!(4; [4 8], |W| Shifter::<W>)
     ),
     entry!(
         CordicState<55, 44>, CordicState::default(), None, "CN104204977 2, 3: arc",
         ["R" = 55, "H" = 44], "width of coordinates and angles",
-        some_widths!([4 8], |given, W| CordicState::<W, W>::default())
+        some_widths!([4 8], |W| CordicState::<W, W>::default())
     ),
     entry!(
         Cordic<55, 44>, Cordic::default(), None, "CN104204977 2, 3: arc",
         ["R" = 55, "H" = 44], "width of coordinates and angles",
-        some_widths!([4 8], |given, W| Cordic::<W, W>::default())
+        some_widths!([4 8], |W| Cordic::<W, W>::default())
     ),
     entry!(
         AxisRow<47, 55, 42, 57, 55>, AxisRow::default(), None, "CN104204977 (1), (5)",
         ["P" = 47, "R" = 55, "C" = 42, "S" = 57, "D" = 55],
         "width of points and coefficients; two bits more inside",
-        some_widths!([4 8], |given, W| AxisRow::<W, { W + 2 }, W, { W + 4 }, { W + 2 }>::default())
+        some_widths!([4 8], |W| AxisRow::<W, { W + 2 }, W, { W + 4 }, { W + 2 }>::default())
     ),
     entry!(
         PointSequencer<47, 55, 44, 55>, PointSequencer::default(), None, "CN104204977 2, 3",
         ["P" = 47, "R" = 55, "M" = 44, "D" = 55], "width of lengths; two bits more inside",
-        some_widths!([4 8], |given, W| PointSequencer::<W, { W + 2 }, W, { W + 2 }>::default())
+        some_widths!([4 8], |W| PointSequencer::<W, { W + 2 }, W, { W + 2 }>::default())
     ),
     entry!(
         PathPoint<3, 8, 47, 55, 42, 57, 44, 44, 52, 55, 12>, PathPoint::default(), None,
@@ -105,7 +93,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             "X" = 52, "D" = 55, "K" = 12
         ],
         "width of points, lengths, coefficients and angles (two axes, two segments)",
-        some_widths!([4 8], |given, W| {
+        some_widths!([4 8], |W| {
             PathPoint::<2, 1, W, { W + 2 }, W, { W + 4 }, W, W, { W + 5 }, { W + 2 }, 5>::default()
         })
     ),
@@ -116,7 +104,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "CN104204977 2, ends",
         ["P" = 47],
         "width",
-        proved_at!(4; [4 8], |given, W| LengthClamp::<W>)
+        proved_at!(4; [4 8], |W| LengthClamp::<W>)
     ),
     entry!(
         PathLength<47>,
@@ -125,7 +113,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "CN104204977 1, qc",
         ["P" = 47],
         "width",
-        proved_at!(4; [4 8], |given, W| PathLength::<W>)
+        proved_at!(4; [4 8], |W| PathLength::<W>)
     ),
     entry!(
         VectorCorrection<47>,
@@ -135,7 +123,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["P" = 47],
         "width, 1 for no correction, 2 for the steady one",
         proved_at!(3; [4 8], |given, W| VectorCorrection::<W> {
-            correction: correction(second(given, 0)),
+            correction: one_of(given, CORRECTIONS)?,
         })
     ),
     entry!(
@@ -146,8 +134,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
         [],
         "ticks to wait",
         Made {
-            make: |given| Some(Box::new(join(given))),
-            model: |given| Some(Box::new(join(given))),
+            make: |given| Some(Box::new(join(given)?)),
+            model: |given| Some(Box::new(join(given)?)),
             offered: &[],
         }
     ),
@@ -155,13 +143,13 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ServoArithmetic<31, 47, 24, 58, 16>, ServoArithmetic, None, "CN104204977 26 to 31",
         ["W" = 31, "P" = 47, "G" = 24, "Q" = 58, "T" = 16],
         "width of counts, gains and torques; two guard bits",
-        some_widths!([4 8], |given, W| ServoArithmetic::<W, { W + 2 }, W, { W + 13 }, W>)
+        some_widths!([4 8], |W| ServoArithmetic::<W, { W + 2 }, W, { W + 13 }, W>)
     ),
     entry!(
         Servo<31, 47, 16, 64, 24, 58, 16>, Servo::default(), None, "CN104204977 11",
         ["W" = 31, "P" = 47, "K" = 16, "M" = 64, "G" = 24, "Q" = 58, "T" = 16],
         "width of counts, gains and torques; two guard bits",
-        some_widths!([4 8], |given, W| Servo::<W, { W + 2 }, W, { 2 * W + 3 }, W, { W + 13 }, W>::default())
+        some_widths!([4 8], |W| Servo::<W, { W + 2 }, W, { 2 * W + 3 }, W, { W + 13 }, W>::default())
     ),
     entry!(
         ControlledAxis<31, 47, 16, 64, 24, 58, 16>, ControlledAxis::default(), None,
@@ -169,7 +157,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ["W" = 31, "P" = 47, "K" = 16, "M" = 64, "G" = 24, "Q" = 58, "T" = 16],
         "width of counts, gains and torques, 1 for no correction, 2 for the steady one; two guard bits",
         some_widths!([4 8], |given, W| {
-            ControlledAxis::<W, { W + 2 }, W, { 2 * W + 3 }, W, { W + 13 }, W>::new(correction(second(given, 0)), Rounding::Nearest)
+            ControlledAxis::<W, { W + 2 }, W, { 2 * W + 3 }, W, { W + 13 }, W>::new(one_of(given, CORRECTIONS)?, Rounding::Nearest)
         })
     ),
     entry!(
@@ -189,7 +177,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
                 { 2 * W + 4 }, 5, { 2 * W + 1 }, { 2 * W - 2 }, W, { 2 * W + 3 }, W, { W + 13 },
                 W,
                 { 2 * W },
-            >::new(correction(second(given, 0)), Rounding::Nearest)
+            >::new(one_of(given, CORRECTIONS)?, Rounding::Nearest)
             .waiting(0)
         })
     ),
