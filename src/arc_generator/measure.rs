@@ -1,7 +1,7 @@
 //! What came out: measured from position commands, sample by sample.
 
 use super::prepared::{Kind, Prepared, Shape};
-use super::vector::{angle_between, distance, norm, scale, sub};
+use super::vector::{add, angle_between, distance, norm, scale, sub};
 use crate::input::{COORDINATES, Point};
 
 /// Degree of the polynomial that is laid through the samples at a joint: that of a blend.
@@ -48,7 +48,8 @@ pub struct BlendMeasured {
     pub off_path: f64,
     /// Least distance from the taught point, in mm.
     pub from_corner: f64,
-    /// Largest acceleration, in mm/s².
+    /// Largest acceleration, in mm/s²: that of the parabola of least squares through the second
+    /// differences of the samples. One of them alone may be off by two counts over Ts² for rounding.
     pub peak_acceleration: f64,
 }
 
@@ -103,21 +104,17 @@ impl Measured {
             accelerations: Vec::new(),
         };
         for (index, segment) in prepared.segments.iter().enumerate() {
-            let samples = segment.first_sample as usize..=segment.end() as usize;
-            // Between its own samples only.
-            let inner = samples.start() + 1..*samples.end();
-            let own = &points[samples];
+            let own = &points[segment.first_sample as usize..=segment.end() as usize];
             match segment.shape {
                 Shape::Line { .. } => {}
                 Shape::Blend { corner, .. } => {
                     let off = own.iter().map(|&p| prepared.distance(segment, p));
                     let from = own.iter().map(|&p| distance(p, corner));
-                    let peak = inner.map(|sample| accelerations[sample - 1]);
                     measured.blends.push(BlendMeasured {
                         segment: index,
                         off_path: off.fold(0.0, f64::max),
                         from_corner: from.fold(f64::INFINITY, f64::min),
-                        peak_acceleration: peak.fold(0.0, f64::max),
+                        peak_acceleration: peak_acceleration(own) / (ts * ts),
                     });
                 }
                 Shape::Arc { circle, .. } => {
@@ -140,6 +137,25 @@ impl Measured {
         }
         measured.accelerations = accelerations;
         Some(measured)
+    }
+}
+
+/// The largest second difference of a blend, by what of the second differences of its samples is
+/// in the shape that a blend has: those of x'' = 12S·h(1 − h), which a step of 1/n makes less by
+/// 2S/n².
+fn peak_acceleration(samples: &[Point]) -> f64 {
+    let n = samples.len().saturating_sub(1) as f64;
+    let (mut along, mut square) = ([0.0; COORDINATES], 0.0);
+    for (sample, p) in (1..).zip(samples.windows(3)) {
+        let h = f64::from(sample) / n;
+        let shape = 4.0 * h * (1.0 - h) - 2.0 / (3.0 * n * n);
+        let second = sub(sub(p[2], p[1]), sub(p[1], p[0]));
+        along = add(along, scale(second, shape));
+        square += shape * shape;
+    }
+    match square > 0.0 {
+        true => norm(along) / square,
+        false => 0.0,
     }
 }
 
