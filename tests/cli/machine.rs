@@ -218,7 +218,7 @@ fn the_files_of_a_run() {
     }
     let shown = overview.lines().filter(|line| line.contains("machine."));
     assert_eq!(shown.count(), 28, "{overview}");
-    assert!(overview.contains("\n+{enables.sample} machine.enables.sample\n"));
+    assert!(overview.contains("\n+{enables/sample} machine.enables.sample\n"));
     for group in [
         "enables",
         "pulse_interpolator",
@@ -261,7 +261,9 @@ fn motors_that_do_not_come_to_rest_are_complained_of() {
     let complaints = list(&summary, "complaints");
     assert_eq!(
         complaints[0],
-        "the servos did not come to rest: 1 of 1 moves"
+        "the servos did not come to rest in move 1 of 1, of piece 0 in line 1: at Ts = 2.5 ms the \
+         gains may be too high; lower position_gain_per_s = 100, speed_hz = 60 or sample_ticks = \
+         400"
     );
     assert!(
         done.stderr
@@ -282,7 +284,7 @@ fn steppers_that_are_cut_off_are_not_complained_of() {
     assert_eq!(summary["times"]["steppers_cut_off"], true);
     assert!(!done.stderr.contains("steppers"), "{}", done.stderr);
     let done = bench.run(&["run", "s.toml", "--no-vcd"]);
-    let said = "steppers cut off by the end of the run; servos stop";
+    let said = "steppers cut off by the end of the run; servos do not come to rest\n";
     assert!(done.stdout.contains(said), "{}", done.stdout);
 }
 

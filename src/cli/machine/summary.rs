@@ -54,6 +54,8 @@ pub struct TimesRow {
     pub steppers_s: f64,
     /// The run ended, by the servos' fault, before the steppers could.
     pub steppers_cut_off: bool,
+    /// The servos came to rest at the end of each move, and of the job.
+    pub servos_settled: bool,
     /// The servos, which stop at the end of each piece.
     pub servos_s: f64,
     /// Of these on the way.
@@ -95,6 +97,7 @@ impl Summary {
             times: TimesRow {
                 steppers_s: seconds(times.steppers),
                 steppers_cut_off: steppers_cut_off(job, played),
+                servos_settled: played.settled,
                 servos_s: seconds(times.servos),
                 moving_s: seconds(times.moving),
                 settling_s: seconds(times.settling),

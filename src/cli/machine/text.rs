@@ -30,12 +30,15 @@ impl Report for Summary {
             false => write!(text, "steppers run through in {:.3} s", times.steppers_s)?,
             true => write!(text, "steppers cut off by the end of the run")?,
         }
-        writeln!(
-            text,
-            "; servos stop after each piece: {:.3} s, of which on the way {:.3}, coming to rest \
-             {:.3}, waiting for pen and records {:.3}\n",
-            times.servos_s, times.moving_s, times.settling_s, times.waiting_s
-        )?;
+        match times.servos_settled {
+            true => writeln!(
+                text,
+                "; servos stop after each piece: {:.3} s, of which on the way {:.3}, coming to \
+                 rest {:.3}, waiting for pen and records {:.3}\n",
+                times.servos_s, times.moving_s, times.settling_s, times.waiting_s
+            )?,
+            false => writeln!(text, "; servos do not come to rest\n")?,
+        }
         self.ends(text)?;
         self.pieces(text, all)?;
         self.lifts(text, all)?;

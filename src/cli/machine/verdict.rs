@@ -4,6 +4,7 @@ use super::Job;
 use super::rows;
 use motion_rtl::machine::job::Played;
 use motion_rtl::machine::measure::Ends;
+use motion_rtl::machine::program::Move;
 
 /// What is wrong with the run; empty where nothing is.
 pub fn complaints(job: &Job, played: &Played, ends: &Ends) -> Vec<String> {
@@ -11,11 +12,8 @@ pub fn complaints(job: &Job, played: &Played, ends: &Ends) -> Vec<String> {
     if played.fault {
         all.push("fault: a circuit was late, or an encoder too fast".to_owned());
     }
-    let (done, moves) = (played.moves.len(), job.program.moves.len());
     if !played.settled {
-        all.push(format!(
-            "the servos did not come to rest: {done} of {moves} moves"
-        ));
+        all.push(restless(job, played));
     }
     let cut_off = steppers_cut_off(job, played);
     for end in rows::ends(ends) {
@@ -27,6 +25,27 @@ pub fn complaints(job: &Job, played: &Played, ends: &Ends) -> Vec<String> {
         }
     }
     all
+}
+
+/// In which move the servos did not come to rest, and what helps.
+fn restless(job: &Job, played: &Played) -> String {
+    let (settings, moves) = (&job.settings, &job.program.moves);
+    let begun = played.moves.len();
+    let place = match begun.checked_sub(1).and_then(|last| moves.get(last)) {
+        None => "before their first move".to_owned(),
+        Some(Move { piece, line, .. }) => format!(
+            "in move {begun} of {}, of piece {piece} in line {line}",
+            moves.len()
+        ),
+    };
+    format!(
+        "the servos did not come to rest {place}: at Ts = {} ms the gains may be too high; lower \
+         position_gain_per_s = {}, speed_hz = {} or sample_ticks = {}",
+        settings.sample_s() * 1e3,
+        settings.position_gain_per_s,
+        settings.speed_hz,
+        settings.sample_ticks
+    )
 }
 
 /// Whether the run ended, by the servos' fault, before the steppers could.
