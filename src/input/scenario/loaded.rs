@@ -268,14 +268,22 @@ where
 fn insert(table: &mut Table, key: &str, value: Value) -> Result<(), Fault> {
     let (table, key) = match key.split_once('.') {
         None => (table, key),
-        Some((name, inner)) => match table.get_mut(name) {
-            Some(Value::Table(table)) => (table, inner),
-            _ => {
-                let problem = format!("the scenario has no table [{name}]");
-                let allowed = format!("a table that it has, or all of it: {name}={{key=value,…}}");
-                return Err(Fault::new(SET, 0, key, problem, allowed));
-            }
-        },
+        Some((name, inner)) => {
+            let (problem, whole) = match table.get_mut(name) {
+                Some(Value::Table(table)) => {
+                    table.insert(inner.to_owned(), value);
+                    return Ok(());
+                }
+                Some(Value::Array(_)) => (format!("{name} is a list"), "[{key=value,…},…]"),
+                Some(_) => (format!("{name} is no table"), "value"),
+                None => (
+                    format!("the scenario has no table [{name}]"),
+                    "{key=value,…} with every key that has no default",
+                ),
+            };
+            let allowed = format!("all of it: {name}={whole}");
+            return Err(Fault::new(SET, 0, key, problem, allowed));
+        }
     };
     table.insert(key.to_owned(), value);
     Ok(())
@@ -307,7 +315,8 @@ fn set_fault(key: &str, error: &Located) -> Fault {
         let missing = missing.trim_end_matches('`');
         let field = match field.as_str() {
             "" => missing.to_owned(),
-            within => format!("{within} {missing}"),
+            within if within.ends_with(':') => format!("{within} {missing}"),
+            within => format!("{within}.{missing}"),
         };
         return Fault::new(SET, 0, field, "missing", NO_DEFAULT);
     }
@@ -324,11 +333,14 @@ fn of_tables(key: &str, message: &str) -> Option<(String, String)> {
 }
 
 fn key_value(set: &str) -> Result<(&str, Value), Fault> {
+    let allowed = "key=value with a key of the scenario";
     let Some((key, value)) = set.split_once('=') else {
-        let allowed = "key=value with a key of the scenario";
         return Err(Fault::new(SET, 0, set, "no '='", allowed));
     };
     let (key, value) = (key.trim(), value.trim());
+    if key.is_empty() {
+        return Err(Fault::new(SET, 0, set, "no key", allowed));
+    }
     // A value that is no TOML is meant as a string: `--set variant=literal`.
     let parsed = format!("x = {value}").parse::<Table>().ok();
     let value = parsed

@@ -164,8 +164,22 @@ fn a_fault_within_the_value_of_an_override_names_its_place() {
     );
     assert_eq!(
         refusal("circuit = \"machine\"\n", &["machine.mass=5"]),
-        "--set: machine.mass: the scenario has no table [machine]; allowed: a table that it \
-         has, or all of it: machine={key=value,…}"
+        "--set: machine.mass: the scenario has no table [machine]; allowed: all of it: \
+         machine={key=value,…} with every key that has no default"
+    );
+    assert_eq!(
+        refusal("circuit = \"machine\"\nclock_hz = 9\n", &["clock_hz.b=5"]),
+        "--set: clock_hz.b: clock_hz is no table; allowed: all of it: clock_hz=value"
+    );
+    let one = refusal("circuit = \"machine\"\n", &["machine={max_torque_nm=1}"]);
+    assert!(
+        one.starts_with("--set: machine.") && one.contains(": missing; "),
+        "{one}"
+    );
+    let step = &format!("step=[{{target=1,{speed}}}]");
+    assert_eq!(
+        refusal(STEPS, &[step, "step.target=5"]),
+        "--set: step.target: step is a list; allowed: all of it: step=[{key=value,…},…]"
     );
 }
 
