@@ -142,3 +142,23 @@ fn the_literal_variant_ends_elsewhere() {
     let demanded: Vec<_> = report.axes.iter().map(|axis| axis.steps_demanded).collect();
     assert_ne!(ends, demanded);
 }
+
+/// Words that are cut would be other pulses.
+#[test]
+fn a_table_that_the_group_has_no_room_for_is_refused() {
+    let drawing = read("G1 X5 Y1 F1200\n");
+    let refused = |settings: &Settings| {
+        let (table, _) = compile(&drawing, settings).expect("it compiles");
+        let group = group::<2>(&table, Variant::Safe);
+        let both = [play(&group, &table, ()), fast_forward(&group, &table, ())];
+        let [played, jumped] = both.map(|run| run.map_err(|error| error.to_string()));
+        assert_eq!(played, jumped);
+        played.expect_err("it does not fit")
+    };
+    assert_eq!(refused(&settings(3)), "axes: is 3; allowed: 2");
+    let wide = Settings {
+        half_period_bits: 20,
+        ..settings(2)
+    };
+    assert_eq!(refused(&wide), "half_period_bits: is 20; allowed: 0 to 16");
+}

@@ -521,3 +521,14 @@ fn a_motor_that_is_too_slow_is_counted_as_saturated() {
     assert_eq!(played.saturated_scans[0], 0);
     assert!(played.saturated_scans[1] > 1000);
 }
+
+#[test]
+fn a_setting_that_is_no_number_is_refused() {
+    let mut settings = short_scans();
+    settings.axes[1].position_gain_per_s = f64::NAN;
+    let error = play(&plotter(Rule::Floor), &[], &settings, ()).expect_err("not a number");
+    assert!(
+        error.to_string().starts_with("position_gain_per_s: "),
+        "{error}"
+    );
+}

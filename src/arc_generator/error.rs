@@ -108,7 +108,7 @@ pub enum Reason {
         most: u64,
     },
     /// The memory has no room for so many segments.
-    #[error("the path has {count} segments, which needs A = {needed}")]
+    #[error("the path has {count} segments, which take addresses of A = {needed} bits")]
     Segments {
         /// Segments of the path.
         count: usize,

@@ -172,13 +172,14 @@ impl Bench<'_> {
 /// Plays the cycles on `circuit`, with motors as `settings` have them, seen by `observer` too.
 ///
 /// # Errors
-/// A setting of a motor is out of range, or what `observer` objects to.
+/// A setting is out of range, or what `observer` objects to.
 pub fn play<C: CommandSource<P, T>>(
     circuit: &Plotter<C>,
     targets: &[Target],
     settings: &Settings,
     mut observer: impl Observer<Plotter<C>>,
 ) -> Result<Played, JobError> {
+    settings.validate()?;
     let tick_s = 1.0 / settings.clock_hz as f64;
     let [x, y] = &settings.axes;
     let mut servos = [

@@ -4,6 +4,7 @@
 use super::step_dir::{Driver, TimingMinima};
 use super::{ControlComputer, Group, StepTiming, Table, Variant};
 use crate::kernel::{Observer, RunError, Sample, Simulator};
+use crate::settings::{JobError, SettingError, within};
 use std::ops::ControlFlow;
 
 /// Half-period width of the group that plays a job.
@@ -104,12 +105,12 @@ impl<const AXES: usize> Bench<AXES> {
 /// Plays `table` on a group of `AXES` axes, as `table` has them, seen by `observer` too.
 ///
 /// # Errors
-/// What `observer` objects to.
+/// The group is not as wide as the table, or what `observer` objects to.
 pub fn play<const AXES: usize>(
     group: &JobGroup<AXES>,
     table: &Table,
     observer: impl Observer<JobGroup<AXES>>,
-) -> Result<Played, RunError> {
+) -> Result<Played, JobError> {
     played(table, |computer, bench| {
         let simulator = Simulator::new(group);
         simulator.run(u64::MAX, |_, q| computer.drive(q), (bench, observer))
@@ -120,17 +121,27 @@ pub fn play<const AXES: usize>(
 /// them.
 ///
 /// # Errors
-/// What `observer` objects to.
+/// As [`play`].
 pub fn fast_forward<const AXES: usize>(
     group: &JobGroup<AXES>,
     table: &Table,
     observer: impl Observer<JobGroup<AXES>>,
-) -> Result<Played, RunError> {
+) -> Result<Played, JobError> {
     played(table, |computer, bench| {
         // All that the computer looks at is whether a command waits: no counter.
         let drive = |_, q: &_| (computer.drive(q), u64::MAX);
         Simulator::new(group).fast_forward(u64::MAX, drive, (bench, observer))
     })
+}
+
+/// Whether the words of a table have room in the group.
+fn fits<const AXES: usize>(table: &Table) -> Result<(), SettingError> {
+    let (axes, bits) = (table.axes(), table.half_period_bits());
+    if axes != AXES {
+        return Err(SettingError::value("axes", axes, AXES.to_string()));
+    }
+    // A unit time that is a few of these at most has room then.
+    within("half_period_bits", bits, &(0..=N as u32))
 }
 
 /// What the drivers see of a group that is run to the end of `table`.
@@ -141,7 +152,8 @@ fn played<'g, const AXES: usize>(
         &mut ControlComputer<'_, A>,
         &mut Bench<AXES>,
     ) -> Result<Simulator<'g, JobGroup<AXES>>, RunError>,
-) -> Result<Played, RunError> {
+) -> Result<Played, JobError> {
+    fits::<AXES>(table)?;
     let mut computer = ControlComputer::<A>::new(table);
     let mut bench = Bench {
         drivers: std::array::from_fn(|_| Driver::new(StepTiming::default())),

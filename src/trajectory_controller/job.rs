@@ -4,9 +4,10 @@
 use super::host::Host;
 pub use super::program::{Program, ProgramError};
 use super::{TrajectoryController, Widths, controller};
-use crate::kernel::{Observer, RunError, Sample, Simulator};
+use crate::kernel::{Observer, Sample, Simulator};
 use crate::logic::Sim;
 use crate::plant::TwoMassAxis;
+use crate::settings::{JobError, SettingError};
 use std::array::from_fn;
 
 const P: usize = 47;
@@ -141,13 +142,18 @@ pub(crate) fn patience(program: &Program) -> usize {
 /// they find room. The plants are stepped once a tick, with the torques of the tick before.
 ///
 /// # Errors
-/// What `observer` objects to.
+/// The path has more segments, or what `observer` objects to.
 pub fn play<const AXES: usize, const A: usize, const E: usize>(
     circuit: &Controller<AXES, A, E>,
     program: &Program,
     mut plants: [TwoMassAxis; AXES],
     mut observer: impl Observer<Controller<AXES, A, E>>,
-) -> Result<Played<AXES>, RunError> {
+) -> Result<Played<AXES>, JobError> {
+    let segments = program.path.stretches.len();
+    if segments > 1 << A {
+        let allowed = format!("up to {}", 1u64 << A);
+        return Err(SettingError::value("segments", segments, allowed).into());
+    }
     let mut host = Host::new(program);
     let mut played = Played::default();
     let mut simulator = Simulator::new(circuit);

@@ -173,7 +173,7 @@ fn bad_moves_are_refused_with_their_line() {
     bench.write("p.ngc", format!("G1 F600\n{many}"));
     bench.refuse(
         &["run", "s.toml", "--out", "new"],
-        "p.ngc:4098: path: the path has 4097 segments, which needs A = 13; allowed: at most 4096",
+        "p.ngc:4098: path: the path has 4097 segments, which take addresses of A = 13 bits; allowed: at most 4096",
     );
     bench.refuse(
         &["table", "waves/corner.toml"],

@@ -171,7 +171,7 @@ fn what_does_not_fit_is_refused_with_the_width_it_needs() {
     let many: Vec<Piece> = (1..=4097).map(|k| far(f64::from(k))).collect();
     assert_eq!(
         refusal(origin, &many, 1000.0),
-        "piece 4096: the path has 4097 segments, which needs A = 13; allowed: at most 4096"
+        "piece 4096: the path has 4097 segments, which take addresses of A = 13 bits; allowed: at most 4096"
     );
     assert!(Path::of(origin, &many[1..], 1000.0, &Widths::FULL).is_ok());
     let nothing = [far(0.0), far(1e-9)];
