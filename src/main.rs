@@ -33,12 +33,13 @@ enum Command {
     List(cli::list::Arguments),
 }
 
-/// What a shell says of a program that Ctrl-C has ended.
+/// What a shell says of a program that a signal has ended.
 const INTERRUPTED: i32 = 130;
 
 fn main() -> ExitCode {
-    // Where there can be no handler, what is half written stays behind a signal.
-    let _ = ctrlc::set_handler(|| {
+    // Where there can be no handler, what is half written stays behind a signal; what `nohup` or a
+    // shell has a program ignore, it ignores.
+    let _ = ctrlc::try_set_handler(|| {
         abandon();
         std::process::exit(INTERRUPTED);
     });

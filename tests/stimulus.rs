@@ -3,7 +3,7 @@
 
 use motion_rtl::arc_generator::ArcGenerator;
 use motion_rtl::check::{Drive, Driven, drive};
-use motion_rtl::kernel::{Bits, Circuit, Observer, Simulator, unpack, width};
+use motion_rtl::kernel::{Bits, Circuit, Observer, Simulator, unpack, width, zero};
 use motion_rtl::linear_interpolator::LinearInterpolator;
 use motion_rtl::logic::Sim;
 use motion_rtl::pulse_interpolator::{Axis, Group, UnitLaw, Variant};
@@ -98,6 +98,21 @@ fn without_resets_it_is_an_ordinary_run_with_its_observers() {
         .expect("waves");
     assert!(vcd.finish().expect("waves") == waves);
     assert_eq!(file.finish().expect("a file"), stimulus.as_bytes());
+}
+
+/// A line left out would shift all that follow.
+#[test]
+fn a_stimulus_file_refuses_a_run_that_goes_over_ticks() {
+    let circuit = Group::<2, 8, 8, 3>::new(Variant::Safe, 10);
+    let mut file = StimulusFile::new(Vec::new());
+    let quiet = |_, _: &_| (zero(), u64::MAX);
+    let error = Simulator::new(&circuit)
+        .fast_forward(2_000, quiet, &mut file)
+        .expect_err("a gap");
+    assert!(
+        error.to_string().contains("does not follow tick 0"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The files of a run: they get their names together, when all of them are complete.
 
 use super::Failure;
-use motion_rtl::trace::atomic::{AtomicFile, Directory};
+use motion_rtl::trace::atomic::{AtomicFile, Directory, commit_all};
 use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -72,24 +72,9 @@ impl Files {
 
     /// Names them all; returns the names. Where one cannot be named, none is there.
     pub fn commit(self) -> io::Result<Vec<String>> {
-        let mut named = Vec::new();
-        for file in self.complete {
-            match file.commit() {
-                Ok(path) => named.push(path),
-                Err(error) => {
-                    for path in named {
-                        // A link stays, and what it leads to goes. The first error is the one to
-                        // report.
-                        let _ = path.canonicalize().and_then(std::fs::remove_file);
-                    }
-                    return Err(error);
-                }
-            }
-        }
-        Ok(named
-            .iter()
-            .map(|path| path.display().to_string())
-            .collect())
+        let named = commit_all(self.complete)?;
+        let names = named.iter().map(|path| path.display().to_string());
+        Ok(names.collect())
     }
 }
 

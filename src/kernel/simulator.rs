@@ -162,7 +162,7 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it would
     /// give the same if they were idle. `observer` sees every tick that is not idle and the one
     /// after it, so every change of a port out in its tick. It does not see every value of a
-    /// counter.
+    /// counter: waves, stimulus files and monitors are for [`run`](Simulator::run).
     ///
     /// ```
     /// use motion_rtl::kernel::{RunError, Sample, Simulator, StopWhen, zero};

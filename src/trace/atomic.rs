@@ -1,4 +1,5 @@
-//! Files that appear whole or not at all.
+//! Files that appear whole or not at all, whatever ends the program. What a loss of power leaves is
+//! up to the file system: they are not synchronised.
 
 use std::fs;
 use std::io::{self, Seek, SeekFrom, Write};
@@ -72,6 +73,33 @@ impl AtomicFile {
             Err(failed) => Err(named(&path, &failed.error)),
         }
     }
+}
+
+/// Gives all of them their names, or none: where one cannot be named, those before it go again. What
+/// these have replaced is gone then too.
+///
+/// # Errors
+/// A rename failed. The error names the path.
+pub fn commit_all(files: impl IntoIterator<Item = AtomicFile>) -> io::Result<Vec<PathBuf>> {
+    let (mut named, mut targets) = (Vec::new(), Vec::new());
+    for file in files {
+        let target = file.target.clone();
+        match file.commit() {
+            Ok(path) => {
+                named.push(path);
+                // A link stays, and what it leads to goes.
+                targets.push(target);
+            }
+            Err(error) => {
+                for target in targets {
+                    // The first error is the one to report.
+                    let _ = fs::remove_file(target);
+                }
+                return Err(error);
+            }
+        }
+    }
+    Ok(named)
 }
 
 impl Write for AtomicFile {

@@ -39,8 +39,7 @@ pub use wave_file::{WaveFile, WaveFormat};
 
 use crate::kernel::{Circuit, Machine, RunError, Running, Values};
 use crate::logic::Sim;
-use atomic::AtomicFile;
-use std::fs;
+use atomic::{AtomicFile, commit_all};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -90,13 +89,5 @@ fn replay_values(
     let save = gtkw::save(&layout, clock, &name, 0..ticks.min(FOCUS), &[]);
     let mut save_file = AtomicFile::create(dir.join(format!("{stem}.gtkw")))?;
     save_file.write_all(save.as_bytes())?;
-    let dump = dump.commit()?;
-    match save_file.commit() {
-        Ok(save_file) => Ok(vec![dump, save_file]),
-        Err(error) => {
-            // The first error is the one to report.
-            let _ = fs::remove_file(dump);
-            Err(error.into())
-        }
-    }
+    Ok(commit_all([dump, save_file])?)
 }

@@ -16,7 +16,7 @@ const BUFFER: usize = 64 * 1024;
 /// [`pack`](crate::kernel::pack) has them, and above them one bit for a synchronous reset in this
 /// tick, which every word has. The word has as many digits as that takes.
 ///
-/// As an observer it writes the inputs of a run, which has no reset; a runner that resets calls
+/// As an observer it writes the inputs of a run tick by tick, which has no reset; a runner that resets calls
 /// [`line`](StimulusFile::line) instead. It gathers its own blocks, so the writer needs no buffer.
 /// Call [`finish`](StimulusFile::finish) after the run; without it the end is missing.
 #[derive(Debug)]
@@ -24,6 +24,8 @@ const BUFFER: usize = 64 * 1024;
 pub struct StimulusFile<C, W> {
     out: W,
     lines: Lines,
+    /// The tick seen last.
+    last: Option<u64>,
     circuit: PhantomData<fn(&C)>,
 }
 
@@ -33,6 +35,7 @@ impl<C: Circuit, W: Write> StimulusFile<C, W> {
         StimulusFile {
             out,
             lines: Lines::new(Self::bits()),
+            last: None,
             circuit: PhantomData,
         }
     }
@@ -63,6 +66,12 @@ impl<C: Circuit, W: Write> StimulusFile<C, W> {
 
 impl<C: Circuit, W: Write> Observer<C> for StimulusFile<C, W> {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        if let Some(last) = self.last.replace(now.tick)
+            && last.checked_add(1) != Some(now.tick)
+        {
+            let problem = format!("tick {} does not follow tick {last}", now.tick);
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, problem).into());
+        }
         self.line(now.i, false)?;
         Ok(ControlFlow::Continue(()))
     }

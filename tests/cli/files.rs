@@ -163,3 +163,19 @@ fn an_interrupted_run_leaves_nothing() {
         assert!(bench.names().is_empty(), "{signal}: {:?}", bench.names());
     }
 }
+
+/// As `nohup` begins it.
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_to_ignore_the_end_of_its_terminal_goes_on() {
+    use std::process::Command;
+    let bench = Bench::new();
+    let text = "trap '' HUP; \"$0\" run waves/turntable.toml --no-vcd & run=$!; \
+                sleep 0.2; kill -HUP $run; wait $run";
+    let done = Command::new("sh")
+        .args(["-c", text, PROGRAM])
+        .current_dir(bench.path(""))
+        .output()
+        .unwrap();
+    assert_eq!(done.status.code(), Some(0), "{done:?}");
+}
