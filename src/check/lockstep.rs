@@ -70,6 +70,18 @@ impl Lockstep {
         let right = ports_out(&pair.right);
         let shared = |(name, _): &(&str, &str)| right.iter().any(|other| other == name);
         let shared: Vec<_> = names.into_iter().filter(shared).collect();
+        if shared.is_empty() {
+            let of = |side: &str, names: Vec<String>| -> Vec<_> {
+                let named = names.iter().map(|name| format!("{side}.{name}"));
+                named.collect()
+            };
+            let left = of(Pair::<A, B>::LEFT, ports_out(&pair.left));
+            let all = [left, of(Pair::<A, B>::RIGHT, right)].concat();
+            return Err(match all.is_empty() {
+                true => LockstepError::Nothing,
+                false => LockstepError::Unpaired(all),
+            });
+        }
         let lockstep = Lockstep::of(pair, &shared)?;
         if lockstep.unpaired.is_empty() {
             Ok(lockstep)

@@ -106,6 +106,11 @@ impl Default for Settings {
 
 /// Compares two waveform files.
 ///
+/// The reader of waveforms panics at some files that are malformed. That is caught and becomes an
+/// error, where panics unwind; so that nothing is printed, the first call of this or of
+/// [`template`] in a process installs a panic hook that is silent meanwhile and otherwise calls the
+/// one before it.
+///
 /// # Errors
 /// A file that cannot be read or is no complete VCD or FST, a clock that is none or is not to be
 /// found, no scope or more than one that stands for golden's, a map that does not fit the files,

@@ -105,7 +105,7 @@ impl PositionLog {
 ///
 /// # Errors
 ///
-/// A path that is not a regular file, cannot be read or is larger than
+/// A path that is neither a regular file nor a pipe, cannot be read or is larger than
 /// [`LARGEST_FILE`]; and whatever [`read`] objects to.
 pub fn read_path(path: &Path, columns: &Columns) -> Result<PositionLog, Fault> {
     let name = path.display().to_string();

@@ -34,7 +34,8 @@ impl<C: Circuit> Sample<'_, C> {
         visitor.leave();
     }
 
-    /// The same walk, compiled once for all probes: for those that need not be fast.
+    /// The same walk, compiled once for all probes: for those that need not be fast. It goes through
+    /// every struct: what a probe [passes](Probe::passes) is not asked.
     #[inline(never)]
     pub fn show(&self, probe: &mut dyn Probe) {
         self.visit(&mut Shown(probe));

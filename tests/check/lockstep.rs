@@ -126,6 +126,19 @@ fn a_list_may_name_what_is_private_and_what_has_another_name() {
 }
 
 #[test]
+fn circuits_without_a_name_in_common_have_no_partners() {
+    let pair = Pair {
+        left: Up { n: 2 },
+        right: Wide::<1, 1>,
+    };
+    let alone = ["modulo.count", "modulo.last"].map(str::to_owned);
+    assert_eq!(
+        Lockstep::by_name(&pair).unwrap_err(),
+        LockstepError::Unpaired(alone.into())
+    );
+}
+
+#[test]
 fn circuits_without_ports_out_are_not_equal_by_default() {
     let pair = Pair {
         left: Wide::<1, 1>,

@@ -375,6 +375,7 @@ fn the_text_of_a_log_has_its_signals() {
         signal of step    target       time      lead  position  a lead later     error
                      0      1000    0.090 s   10.0 ms       900        1000.0       0.0
                      1      3000    0.260 s   40.0 ms      2600        3000.0       0.0
+        times are from the first sample of the log on
 
         wrote waves/s.svg
     "#]]

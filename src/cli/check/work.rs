@@ -177,8 +177,11 @@ fn sweep(
             ..row
         },
         Ok(Verdict::Broken { report, waves }) => broken(row, &report, waves),
-        // A sweep has no limit.
-        Ok(Verdict::Undecided(_)) => row,
+        Ok(Verdict::Undecided(_)) => Row {
+            ended: Ended::NotDecided,
+            fault: Some(format!("{name} at width {width}: not decided")),
+            ..row
+        },
         Err(error) => Row {
             ended: Ended::TooWide,
             fault: Some(format!(

@@ -91,7 +91,7 @@ fn totals(text: &mut String, name: &str, system: &SystemSummary) -> std::fmt::Re
         system.scans,
         system.seconds,
         format!("{x}, {y}"),
-        system.deviation_max_lsb,
+        rounded_down(system.deviation_max_lsb),
         system.contour_error_max_um,
         system.contour_error_max_rapid_um,
     )
@@ -100,6 +100,24 @@ fn totals(text: &mut String, name: &str, system: &SystemSummary) -> std::fmt::Re
 fn columns(figures: &Figures) -> String {
     format!(
         "{:>7}  {:>5.3} LSB  {:>10.1} um",
-        figures.scans, figures.deviation_lsb, figures.contour_error_um
+        figures.scans,
+        rounded_down(figures.deviation_lsb),
+        figures.contour_error_um
     )
+}
+
+/// To thousandths: what is below 1 does not show as 1.
+fn rounded_down(lsb: f64) -> f64 {
+    (lsb * 1000.0 + 1e-6).floor() / 1000.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded_down;
+
+    #[test]
+    fn a_deviation_below_one_does_not_show_as_one() {
+        let shown = [0.999_88, 1.0, 0.3, 0.5, 0.0].map(|lsb| format!("{:.3}", rounded_down(lsb)));
+        assert_eq!(shown, ["0.999", "1.000", "0.300", "0.500", "0.000"]);
+    }
 }

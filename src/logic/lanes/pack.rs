@@ -5,7 +5,8 @@ use crate::kernel::{Field, Make, Signals, Values, Visit};
 use crate::logic::{Image, Sim};
 use std::array::from_fn;
 
-/// A bundle of at most 64 bits in every lane, the first leaf in the lowest bits.
+/// A bundle of at most 64 bits in every lane, the first leaf in the lowest bits. Bits beyond 64 are
+/// lost: [`sweep`](crate::check::sweep) refuses such a law.
 #[inline]
 pub fn pack<const K: usize, E: Element, S: Signals<Lanes<K, E>>>(signals: &S) -> [u64; K] {
     let mut packer = Packer {
@@ -57,7 +58,7 @@ impl<const K: usize> Leaves<K> for Packer<K> {
     #[inline(always)]
     fn leaf(&mut self, width: usize, bits: impl Fn(usize) -> u64) {
         for (k, word) in self.words.iter_mut().enumerate() {
-            *word |= bits(k) << self.filled;
+            *word |= bits(k).checked_shl(self.filled as u32).unwrap_or(0);
         }
         self.filled += width;
     }

@@ -74,6 +74,7 @@ impl Summary {
                 row.step, row.target, row.seconds, row.lead_ms, row.position
             )?;
         }
+        writeln!(text, "times are from the first sample of the log on")?;
         let more = self.signals.len() - shown;
         if more > 0 {
             writeln!(text, "and {more} more: --segments shows all")?;
