@@ -70,23 +70,11 @@ impl Lockstep {
         let right = ports_out(&pair.right);
         let shared = |(name, _): &(&str, &str)| right.iter().any(|other| other == name);
         let shared: Vec<_> = names.into_iter().filter(shared).collect();
-        if shared.is_empty() {
-            let of = |side: &str, names: Vec<String>| -> Vec<_> {
-                let named = names.iter().map(|name| format!("{side}.{name}"));
-                named.collect()
-            };
-            let left = of(Pair::<A, B>::LEFT, ports_out(&pair.left));
-            let all = [left, of(Pair::<A, B>::RIGHT, right)].concat();
-            return Err(match all.is_empty() {
-                true => LockstepError::Nothing,
-                false => LockstepError::Unpaired(all),
-            });
-        }
-        let lockstep = Lockstep::of(pair, &shared)?;
-        if lockstep.unpaired.is_empty() {
-            Ok(lockstep)
-        } else {
-            Err(LockstepError::Unpaired(lockstep.unpaired))
+        let lockstep = Lockstep::pairing(pair, &shared)?;
+        match (lockstep.unpaired.is_empty(), lockstep.compared.is_empty()) {
+            (true, false) => Ok(lockstep),
+            (true, true) => Err(LockstepError::Nothing),
+            (false, _) => Err(LockstepError::Unpaired(lockstep.unpaired)),
         }
     }
 
@@ -101,6 +89,13 @@ impl Lockstep {
         if signals.is_empty() {
             return Err(LockstepError::Nothing);
         }
+        Lockstep::pairing(pair, signals)
+    }
+
+    fn pairing<A: Circuit, B: Circuit>(
+        pair: &Pair<A, B>,
+        signals: &[(&str, &str)],
+    ) -> Result<Self, LockstepError> {
         let (left, right) = (Leaves::of(&pair.left), Leaves::of(&pair.right));
         let compared: Vec<_> = signals
             .iter()

@@ -261,7 +261,7 @@ fn motors_that_do_not_come_to_rest_are_complained_of() {
     let complaints = list(&summary, "complaints");
     assert_eq!(
         complaints[0],
-        "the servos did not come to rest in move 1 of 1, of piece 0 in line 1: at Ts = 2.5 ms the \
+        "the servos did not come to rest in move 1 of 1, of piece 0 in line 1: at Ts = 2.500 ms the \
          gains may be too high; lower position_gain_per_s = 100, speed_hz = 60 or sample_ticks = \
          400"
     );

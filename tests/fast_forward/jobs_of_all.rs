@@ -29,7 +29,8 @@ impl<C: Outputs> Observer<C> for Words {
     }
 }
 
-/// Runs a job in all three ways; how many ticks of a hundred are looked at where idle ones are gone over.
+/// Runs a job in all three ways; how many ticks of a hundred are looked at where idle ones are gone
+/// over.
 fn same<C: Outputs + FastForward>(job: Job<C>) -> usize {
     let Job { circuit, stimulus } = job;
     let (mut ran, mut jumped) = (Words::default(), Words::default());

@@ -39,7 +39,7 @@ fn restless(job: &Job, played: &Played) -> String {
         ),
     };
     format!(
-        "the servos did not come to rest {place}: at Ts = {} ms the gains may be too high; lower \
+        "the servos did not come to rest {place}: at Ts = {:.3} ms the gains may be too high; lower \
          position_gain_per_s = {}, speed_hz = {} or sample_ticks = {}",
         settings.sample_s() * 1e3,
         settings.position_gain_per_s,

@@ -266,27 +266,24 @@ where
 
 /// Gives a key a value; `name.key` is one of the table `[name]`.
 fn insert(table: &mut Table, key: &str, value: Value) -> Result<(), Fault> {
-    let (table, key) = match key.split_once('.') {
-        None => (table, key),
-        Some((name, inner)) => {
-            let (problem, whole) = match table.get_mut(name) {
-                Some(Value::Table(table)) => {
-                    table.insert(inner.to_owned(), value);
-                    return Ok(());
-                }
-                Some(Value::Array(_)) => (format!("{name} is a list"), "[{key=value,…},…]"),
-                Some(_) => (format!("{name} is no table"), "value"),
-                None => (
-                    format!("the scenario has no table [{name}]"),
-                    "{key=value,…} with every key that has no default",
-                ),
-            };
-            let allowed = format!("all of it: {name}={whole}");
-            return Err(Fault::new(SET, 0, key, problem, allowed));
-        }
+    let Some((name, inner)) = key.split_once('.') else {
+        table.insert(key.to_owned(), value);
+        return Ok(());
     };
-    table.insert(key.to_owned(), value);
-    Ok(())
+    let (problem, whole) = match table.get_mut(name) {
+        Some(Value::Table(table)) => {
+            table.insert(inner.to_owned(), value);
+            return Ok(());
+        }
+        Some(Value::Array(_)) => (format!("{name} is a list"), "[{key=value,…},…]"),
+        Some(_) => (format!("{name} is no table"), "value"),
+        None => (
+            format!("the scenario has no table [{name}]"),
+            "{key=value,…} with every key that has no default",
+        ),
+    };
+    let allowed = format!("all of it: {name}={whole}");
+    Err(Fault::new(SET, 0, key, problem, allowed))
 }
 
 /// What an override makes wrong: of the key, or of one within its value.

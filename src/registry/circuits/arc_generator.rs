@@ -3,7 +3,6 @@ use crate::arc_generator::{ArcGenerator, PositionCommand, Rotation, RotationRow,
 use crate::registry::Entry;
 use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
 
-/// The rounding by its number.
 /// The circuits of JPH0743606B2.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(

@@ -1,13 +1,12 @@
-use super::make::{RULES, at_most, one_of};
+use super::make::{RULES, one_of};
 use crate::linear_interpolator::{
     Accumulator, AxisSwitch, Controller, Conventional, CycleGate, Differentiator, Integrator,
     LineLaw, LinearInterpolator, PatternGenerator, PositionControl, PositionLoop, Sequencer,
     TargetData, Trapezoid,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
+use crate::registry::entry::{Made, alone, at_width, entry, proved_at, some_widths};
 
-/// The rule by its number.
 /// The circuits of JP3608587B2.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
@@ -103,8 +102,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
         [],
         "nothing",
         Made {
-            make: |given| at_most(given, 1).map(|()| Box::new(CycleGate) as _),
-            model: |given| at_most(given, 1).map(|()| Box::new(CycleGate) as _),
+            make: |given| Some(Box::new(alone(given, CycleGate)?)),
+            model: |given| Some(Box::new(alone(given, CycleGate)?)),
             offered: &[],
         }
     ),

@@ -1,9 +1,8 @@
 //! The machine of all circuits, and what it has besides them.
 
-use super::make::at_most;
 use crate::machine::{CommandJoin, Enables, Machine, Settings, job};
 use crate::registry::Entry;
-use crate::registry::entry::{Made, at_width, entry, proved_at};
+use crate::registry::entry::{Made, alone, at_width, entry, proved_at};
 
 /// They.
 pub const CIRCUITS: &[Entry] = &[
@@ -35,8 +34,8 @@ pub const CIRCUITS: &[Entry] = &[
         Made {
             make: |_given| None,
             model: |given| {
-                at_most(given, 1)?;
-                Some(Box::new(job::machine(&Settings::default()).circuit))
+                let machine = job::machine(&Settings::default()).circuit;
+                Some(Box::new(alone(given, machine)?))
             },
             offered: &[],
         }

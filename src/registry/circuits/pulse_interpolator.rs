@@ -4,7 +4,7 @@ use crate::pulse_interpolator::{
     UnitTimeCounter, UnitTimeRegister, Variant,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{Made, any_width, at_width, entry};
+use crate::registry::entry::{Made, alone, any_width, at_width, entry};
 
 /// The circuits of JP3640909B2.
 pub(super) const CIRCUITS: &[Entry] = &[
@@ -50,8 +50,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
         [],
         "nothing",
         Made {
-            make: |given| at_most(given, 1).map(|()| Box::new(SyncStage) as _),
-            model: |given| at_most(given, 1).map(|()| Box::new(SyncStage) as _),
+            make: |given| Some(Box::new(alone(given, SyncStage)?)),
+            model: |given| Some(Box::new(alone(given, SyncStage)?)),
             offered: &[],
         }
     ),

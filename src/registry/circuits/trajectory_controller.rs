@@ -8,7 +8,6 @@ use crate::trajectory_controller::{
     vector_correction::Correction,
 };
 
-/// The rounding by its number.
 /// The corrections by their numbers.
 const CORRECTIONS: &[Correction] = &[Correction::Vector, Correction::None, Correction::Steady];
 
