@@ -202,6 +202,7 @@ pub mod arc_generator;
 pub mod blocks;
 pub mod check;
 pub mod compare;
+pub mod engine;
 pub mod input;
 pub mod kernel;
 pub mod lead_angle;

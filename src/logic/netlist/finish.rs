@@ -17,7 +17,7 @@ impl Builder {
         errors: &mut Vec<NetlistError>,
     ) -> (Module, Vec<Setting>) {
         self.name_instances(nets.instances);
-        self.claim(modules);
+        let owners = self.claim(modules);
         self.drive(edge, errors);
         let settings = self.settings();
         let module = Module {
@@ -39,6 +39,8 @@ impl Builder {
                 .collect(),
             registers: self.registers,
             nets: nets.leaves,
+            net_nodes: nets.nodes,
+            owners,
         };
         module.check(modules, errors);
         (module, settings)
@@ -69,7 +71,8 @@ impl Builder {
     }
 
     /// Gives the registers of instances to them.
-    fn claim(&mut self, modules: &[Module]) {
+    fn claim(&mut self, modules: &[Module]) -> Vec<Option<(usize, usize)>> {
+        let mut owners = vec![None; self.memories.len()];
         for (instance, building) in self.instances.iter().enumerate() {
             let inside = &modules[building.child.module].registers;
             for (register, inner) in self.registers[building.registers.clone()]
@@ -80,11 +83,15 @@ impl Builder {
                     (Register::Signal(signal), Register::Signal(inner)) => {
                         self.signals[*signal].owner = Some((instance, *inner));
                     }
-                    (Register::Memory(memory), _) => self.memories[*memory].inner = true,
+                    (Register::Memory(memory), Register::Memory(inner)) => {
+                        self.memories[*memory].inner = true;
+                        owners[*memory] = Some((instance, *inner));
+                    }
                     _ => {}
                 }
             }
         }
+        owners
     }
 
     /// Takes over what the edge makes of each register and memory.
@@ -241,6 +248,26 @@ impl Module {
                 None => errors.push(not_a_port(child, "a signal or memory further inside")),
             }
         }
+    }
+
+    /// The node that leaf `leaf` of the walk over the nets shows.
+    pub(crate) fn net_node(&self, leaf: usize) -> Option<Id> {
+        self.net_nodes.get(leaf).copied()
+    }
+
+    /// How many leaves the walk over the nets has.
+    pub(crate) fn net_leaves(&self) -> usize {
+        self.net_nodes.len()
+    }
+
+    /// The leaves of the walk over the registers; a memory is one.
+    pub(crate) fn register_leaves(&self) -> impl Iterator<Item = Register> + '_ {
+        self.registers.iter().copied()
+    }
+
+    /// The instance that a memory belongs to, and which one it is there.
+    pub(crate) fn memory_owner(&self, memory: usize) -> Option<(usize, usize)> {
+        self.owners.get(memory).copied().flatten()
     }
 
     /// The net that leaf `leaf` of the walk over the nets is.

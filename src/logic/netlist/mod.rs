@@ -17,6 +17,7 @@ mod words;
 
 pub use elaborate::elaborate;
 pub use memory::{NetRam, NetShiftRegister};
+pub(crate) use module::Register;
 pub use module::{
     Assertion, Child, Design, Memory, Module, NetlistError, Parameter, Port, Setting, Signal, Value,
 };

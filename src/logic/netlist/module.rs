@@ -27,6 +27,10 @@ pub struct Module {
     pub(super) registers: Vec<Register>,
     /// For every leaf of the walk over the nets the signal, if it is not one of an instance.
     pub(super) nets: Vec<Option<usize>>,
+    /// For every leaf of that walk the node that it shows.
+    pub(super) net_nodes: Vec<Id>,
+    /// For every memory that belongs to an instance, the instance and the memory there.
+    pub(super) owners: Vec<Option<(usize, usize)>>,
 }
 
 /// A signal of a module.
@@ -131,7 +135,7 @@ pub struct Child {
 
 /// What a leaf of the walk over the registers is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Register {
+pub(crate) enum Register {
     /// A flip-flop: the signal.
     Signal(usize),
     /// A memory.

@@ -33,6 +33,8 @@ pub(super) struct Nets {
     entered: Vec<usize>,
     /// The signal of each leaf, if it is not one of an instance.
     pub(super) leaves: Vec<Option<usize>>,
+    /// The node of each.
+    pub(super) nodes: Vec<Id>,
     /// The scopes that are instances, with the instance where a net tells it.
     pub(super) instances: Vec<(Vec<String>, Option<usize>)>,
 }
@@ -78,6 +80,7 @@ impl Look for Nets {
     }
     fn word(&mut self, field: &'static Field, shape: Shape, id: Id) {
         let name = self.path.name(field);
+        self.nodes.push(id);
         if let Some((_, role)) = self.parts.first() {
             self.leaves.push(None);
             let node = builder(|builder| builder.nodes.get(id).map(|(node, _)| *node));
@@ -97,5 +100,6 @@ impl Look for Nets {
     }
     fn memory(&mut self, _: usize, _: State) {
         self.leaves.push(None);
+        self.nodes.push(Id::MAX);
     }
 }

@@ -1,0 +1,526 @@
+//! A design of modules becomes one netlist.
+
+use super::flat::{EngineError, Flat, Id, Instance, Memory, Node, Op, Place, Port, Register, mask};
+use crate::kernel::{Kind, Role, Shape};
+use crate::logic::netlist::{self, Design, Module, Operator, Value};
+use std::collections::HashMap;
+
+impl Flat {
+    /// The netlist of a design.
+    ///
+    /// # Errors
+    /// The design is not what [`elaborate`](crate::logic::netlist::elaborate) makes: a node or an
+    /// instance is computed from itself, a word has no bits or more than 64, a register or net is
+    /// driven by nothing.
+    pub fn of(design: &Design) -> Result<Flat, EngineError> {
+        let top = design
+            .modules
+            .len()
+            .checked_sub(1)
+            .ok_or(EngineError::Empty)?;
+        let mut flattening = Flattening {
+            design,
+            numbers: HashMap::new(),
+            words: HashMap::new(),
+            flat: Flat::default(),
+            parts: Vec::new(),
+        };
+        for setting in &design.settings {
+            match &setting.value {
+                Value::Number(number) => {
+                    flattening.numbers.insert(&setting.path, *number).is_some()
+                }
+                Value::Words(words) => flattening.words.insert(&setting.path, words).is_some(),
+            };
+        }
+        let whole = flattening.allocate(top, Vec::new())?;
+        let inputs = flattening.ports();
+        flattening.parts[whole].inputs = inputs;
+        flattening.settle(whole)?;
+        flattening.leaves(whole)?;
+        Ok(flattening.flat)
+    }
+}
+
+struct Flattening<'d> {
+    design: &'d Design,
+    /// Values of parameters and contents of memories, by path.
+    numbers: HashMap<&'d [String], u64>,
+    words: HashMap<&'d [String], &'d [u64]>,
+    flat: Flat,
+    parts: Vec<Part<'d>>,
+}
+
+/// An instance under way.
+struct Part<'d> {
+    module: &'d Module,
+    instance: u32,
+    /// Its registers and memories, by signal and memory; none that belong to instances in it.
+    registers: Vec<Option<u32>>,
+    memories: Vec<Option<u32>>,
+    children: Vec<usize>,
+    /// What drives its ports in, in their order.
+    inputs: Vec<Id>,
+    /// Its nodes, as far as they are made.
+    map: Vec<Id>,
+    state: State,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum State {
+    Waiting,
+    Settling,
+    Settled,
+}
+
+fn unsettled(module: &Module, what: &str) -> EngineError {
+    EngineError::Unsettled {
+        module: module.name.clone(),
+        what: what.to_owned(),
+    }
+}
+
+fn width(module: &Module, what: impl Into<String>, width: usize) -> Result<u8, EngineError> {
+    match u8::try_from(width) {
+        Ok(bits @ 1..=64) => Ok(bits),
+        _ => Err(EngineError::Width {
+            module: module.name.clone(),
+            what: what.into(),
+            width,
+        }),
+    }
+}
+
+impl<'d> Flattening<'d> {
+    /// Registers and memories of a module and of all within it.
+    fn allocate(&mut self, module: usize, path: Vec<String>) -> Result<usize, EngineError> {
+        let module = self.design.modules.get(module).ok_or(EngineError::Empty)?;
+        let instance = self.flat.instances.len() as u32;
+        self.flat.instances.push(Instance {
+            path: path.clone(),
+            circuit: module.name.clone(),
+        });
+        let mut part = Part {
+            module,
+            instance,
+            registers: vec![None; module.signals.len()],
+            memories: vec![None; module.memories.len()],
+            children: Vec::new(),
+            inputs: Vec::new(),
+            map: Vec::new(),
+            state: State::Waiting,
+        };
+        for (index, signal) in module.signals.iter().enumerate() {
+            let width = width(module, &signal.name, signal.shape.width)?;
+            if signal.role == Role::Register && signal.owner.is_none() {
+                part.registers[index] = Some(self.flat.registers.len() as u32);
+                self.flat.registers.push(Register {
+                    width,
+                    power_on: signal.power_on & mask(width),
+                    next: 0,
+                    instance,
+                });
+            }
+        }
+        for (index, memory) in module.memories.iter().enumerate() {
+            let width = width(module, &memory.name, memory.width)?;
+            if !memory.inner {
+                let mut place = path.clone();
+                place.push(memory.name.clone());
+                let given = self.words.get(&place[..]).copied().unwrap_or(&[]);
+                let mut contents: Vec<u64> = given
+                    .iter()
+                    .take(memory.words)
+                    .map(|word| word & mask(width))
+                    .collect();
+                contents.resize(memory.words, 0);
+                part.memories[index] = Some(self.flat.memories.len() as u32);
+                self.flat.memories.push(Memory {
+                    width,
+                    contents,
+                    port: Port::Rom,
+                    instance,
+                });
+            }
+        }
+        let place = self.parts.len();
+        self.parts.push(part);
+        for child in &module.instances {
+            let mut path = path.clone();
+            path.push(child.name.clone());
+            let child = self.allocate(child.module, path)?;
+            self.parts[place].children.push(child);
+        }
+        Ok(place)
+    }
+
+    fn add(&mut self, part: usize, op: Op, width: u8) -> Id {
+        let instance = self.parts[part].instance;
+        self.flat.nodes.push(Node {
+            op,
+            width,
+            instance,
+        });
+        self.flat.nodes.len() as Id - 1
+    }
+
+    /// The ports in of the whole.
+    fn ports(&mut self) -> Vec<Id> {
+        let module = self.parts[0].module;
+        let inputs = module
+            .signals
+            .iter()
+            .filter(|signal| signal.role == Role::Input && signal.owner.is_none());
+        inputs
+            .map(|signal| {
+                // Checked with the registers.
+                let width = signal.shape.width as u8;
+                self.flat.inputs.push(width);
+                self.add(0, Op::Input(self.flat.inputs.len() as u32 - 1), width)
+            })
+            .collect()
+    }
+
+    /// The register that a signal of a part is, of it or of one within it.
+    fn register(&self, mut part: usize, mut signal: usize) -> Option<u32> {
+        loop {
+            let here = &self.parts[part];
+            match here.module.signals.get(signal)?.owner {
+                None => return here.registers[signal],
+                Some((instance, inner)) => {
+                    part = *here.children.get(instance)?;
+                    signal = inner;
+                }
+            }
+        }
+    }
+
+    /// Makes the nodes of a part whose ports in are known.
+    fn settle(&mut self, part: usize) -> Result<(), EngineError> {
+        let module = self.parts[part].module;
+        self.parts[part].state = State::Settling;
+        let ports: Vec<usize> = (0..module.signals.len())
+            .filter(|&signal| {
+                let signal = &module.signals[signal];
+                signal.role == Role::Input && signal.owner.is_none()
+            })
+            .collect();
+        for index in 0..module.nodes.len() {
+            let id = self.node(part, index, &ports)?;
+            self.parts[part].map.push(id);
+        }
+        for child in 0..module.instances.len() {
+            self.child(part, child)?;
+        }
+        self.drive(part)?;
+        self.parts[part].state = State::Settled;
+        self.properties(part)
+    }
+
+    /// Settles the instance within, if it is not.
+    fn child(&mut self, part: usize, child: usize) -> Result<usize, EngineError> {
+        let module = self.parts[part].module;
+        let missing = || unsettled(module, &format!("part {child}"));
+        let place = *self.parts[part].children.get(child).ok_or_else(missing)?;
+        match self.parts[place].state {
+            State::Settled => return Ok(place),
+            State::Settling => {
+                return Err(EngineError::Circle {
+                    module: module.name.clone(),
+                    node: self.parts[part].map.len(),
+                });
+            }
+            State::Waiting => {}
+        }
+        let inputs = module.instances[child].inputs.iter();
+        let inputs: Result<Vec<Id>, _> = inputs.map(|&id| self.made(part, id)).collect();
+        self.parts[place].inputs = inputs?;
+        self.settle(place)?;
+        Ok(place)
+    }
+
+    /// The node that one of a part has become.
+    fn made(&self, part: usize, id: netlist::Id) -> Result<Id, EngineError> {
+        let part = &self.parts[part];
+        part.map
+            .get(id)
+            .copied()
+            .ok_or_else(|| EngineError::Circle {
+                module: part.module.name.clone(),
+                node: id,
+            })
+    }
+
+    fn node(&mut self, part: usize, index: usize, ports: &[usize]) -> Result<Id, EngineError> {
+        use netlist::Node;
+        let module = self.parts[part].module;
+        let (node, shape) = module.nodes[index];
+        let width = width(module, format!("node {index}"), shape.width)?;
+        let of = |id| self.made(part, id);
+        let op = match node {
+            Node::Constant(bits) => Op::Constant(bits & mask(width)),
+            Node::Parameter(parameter) => {
+                let missing = || unsettled(module, &format!("parameter {parameter}"));
+                let parameter = module.parameters.get(parameter).ok_or_else(missing)?;
+                let mut path = self.flat.instances[self.parts[part].instance as usize]
+                    .path
+                    .clone();
+                path.push(parameter.name.to_owned());
+                let number = self.numbers.get(&path[..]);
+                let number = number.ok_or_else(|| unsettled(module, parameter.name))?;
+                Op::Constant(number & mask(width))
+            }
+            Node::Signal(signal) => {
+                if let Some(port) = ports.iter().position(|&port| port == signal) {
+                    let inputs = &self.parts[part].inputs;
+                    let name = || unsettled(module, &module.signals[signal].name);
+                    return inputs.get(port).copied().ok_or_else(name);
+                }
+                let missing = || unsettled(module, &format!("signal {signal}"));
+                Op::Register(self.register(part, signal).ok_or_else(missing)?)
+            }
+            Node::Port { instance, leaf } => {
+                let child = self.child(part, instance)?;
+                return self.net(child, leaf);
+            }
+            // Registers take their next values from the part that they belong to.
+            Node::Next(_) => Op::Constant(0),
+            // Of properties alone, which are made by themselves.
+            Node::Past(a) => return of(a),
+            Node::Read(memory, a) => {
+                let missing = || unsettled(module, &format!("memory {memory}"));
+                let memory = self.parts[part].memories.get(memory).copied().flatten();
+                Op::Read(memory.ok_or_else(missing)?, of(a)?)
+            }
+            node => {
+                let before = |id: netlist::Id| module.nodes[id].1;
+                operation(node, shape, before, of)?
+            }
+        };
+        // What changes no bit is the same node.
+        match op {
+            Op::Slice(a, 0) if self.flat.node(a).width == width => Ok(a),
+            Op::Extend(a) | Op::ExtendSigned(a) if self.flat.node(a).width == width => Ok(a),
+            op => Ok(self.add(part, op, width)),
+        }
+    }
+
+    /// The node that a leaf of the walk over the nets of a settled part is.
+    fn net(&self, part: usize, leaf: usize) -> Result<Id, EngineError> {
+        let module = self.parts[part].module;
+        let node = module.net_node(leaf);
+        self.made(
+            part,
+            node.ok_or_else(|| unsettled(module, &format!("net {leaf}")))?,
+        )
+    }
+
+    /// What registers and memories of a settled part take at an edge.
+    fn drive(&mut self, part: usize) -> Result<(), EngineError> {
+        let module = self.parts[part].module;
+        for (index, signal) in module.signals.iter().enumerate() {
+            let driver = match (signal.role, signal.owner) {
+                (Role::Input, _) | (_, Some(_)) => continue,
+                _ => signal
+                    .driver
+                    .ok_or_else(|| unsettled(module, &signal.name))?,
+            };
+            let driver = self.made(part, driver)?;
+            if let Some(register) = self.parts[part].registers[index] {
+                self.flat.registers[register as usize].next = driver;
+            }
+        }
+        for (index, memory) in module.memories.iter().enumerate() {
+            let Some(place) = self.parts[part].memories[index] else {
+                continue;
+            };
+            let of = |id| self.made(part, id);
+            let port = match memory.port {
+                netlist::Port::Rom => Port::Rom,
+                netlist::Port::Ram {
+                    enable,
+                    address,
+                    data,
+                } => Port::Ram {
+                    enable: of(enable)?,
+                    address: of(address)?,
+                    data: of(data)?,
+                },
+                netlist::Port::Shift { enable, data } => Port::Shift {
+                    enable: of(enable)?,
+                    data: of(data)?,
+                },
+            };
+            self.flat.memories[place as usize].port = port;
+        }
+        Ok(())
+    }
+
+    /// The properties of the whole, in terms of the tick before the edge: what a register holds
+    /// after it is what it takes.
+    fn properties(&mut self, part: usize) -> Result<(), EngineError> {
+        let module = self.parts[part].module;
+        if part != 0 || module.assertions.is_empty() {
+            return Ok(());
+        }
+        let mut after: Vec<Option<Id>> = vec![None; module.nodes.len()];
+        for assertion in &module.assertions {
+            let holds = match assertion.step {
+                true => self.after(&mut after, assertion.holds)?,
+                false => self.made(0, assertion.holds)?,
+            };
+            self.flat.properties.push(holds);
+        }
+        Ok(())
+    }
+
+    /// A node of a step property: one that looks at registers after the edge.
+    fn after(&mut self, after: &mut [Option<Id>], id: netlist::Id) -> Result<Id, EngineError> {
+        use netlist::Node;
+        if let Some(made) = after.get(id).copied().flatten() {
+            return Ok(made);
+        }
+        let module = self.parts[0].module;
+        let circle = || EngineError::Circle {
+            module: module.name.clone(),
+            node: id,
+        };
+        let (node, shape) = *module.nodes.get(id).ok_or_else(circle)?;
+        let made = match node {
+            Node::Past(a) => self.made(0, a)?,
+            Node::Signal(signal) => match self.register(0, signal) {
+                Some(register) => self.flat.registers[register as usize].next,
+                None => self.made(0, id)?,
+            },
+            Node::Constant(_) | Node::Parameter(_) | Node::Port { .. } | Node::Next(_) => {
+                self.made(0, id)?
+            }
+            node => {
+                let mut operands = Vec::new();
+                for operand in node.operands() {
+                    if operand >= id {
+                        return Err(circle());
+                    }
+                    operands.push((operand, self.after(after, operand)?));
+                }
+                let of = |id| {
+                    let made = operands.iter().find(|(operand, _)| *operand == id);
+                    made.map(|(_, made)| *made).ok_or_else(circle)
+                };
+                let width = shape.width as u8;
+                let op = match node {
+                    Node::Read(memory, a) => {
+                        let memory = self.parts[0].memories.get(memory).copied().flatten();
+                        Op::Read(memory.ok_or_else(circle)?, of(a)?)
+                    }
+                    node => operation(node, shape, |id| module.nodes[id].1, of)?,
+                };
+                match op {
+                    Op::Slice(a, 0) if self.flat.node(a).width == width => a,
+                    Op::Extend(a) | Op::ExtendSigned(a) if self.flat.node(a).width == width => a,
+                    op => self.add(0, op, width),
+                }
+            }
+        };
+        after[id] = Some(made);
+        Ok(made)
+    }
+
+    /// Where the leaves of a walk over the whole stand.
+    fn leaves(&mut self, whole: usize) -> Result<(), EngineError> {
+        let module = self.parts[whole].module;
+        let inputs = (0..self.flat.inputs.len() as u32).map(Place::Input);
+        self.flat.leaves = inputs.collect();
+        for register in module.register_leaves() {
+            match register {
+                netlist::Register::Signal(signal) => {
+                    let missing = || unsettled(module, &format!("signal {signal}"));
+                    let register = self.register(whole, signal).ok_or_else(missing)?;
+                    self.flat.leaves.push(Place::Register(register));
+                }
+                netlist::Register::Memory(memory) => {
+                    let missing = || unsettled(module, &format!("memory {memory}"));
+                    let memory = self.memory(whole, memory).ok_or_else(missing)?;
+                    let words = self.flat.memories[memory as usize].contents.len() as u32;
+                    let words = (0..words).map(|word| Place::Word(memory, word));
+                    self.flat.leaves.extend(words);
+                }
+            }
+        }
+        for leaf in 0..module.net_leaves() {
+            let node = self.net(whole, leaf)?;
+            self.flat.leaves.push(Place::Node(node));
+        }
+        for place in &mut self.flat.leaves {
+            if let Place::Node(id) = *place {
+                *place = match self.flat.nodes[id as usize].op {
+                    Op::Input(input) => Place::Input(input),
+                    Op::Register(register) => Place::Register(register),
+                    _ => Place::Node(id),
+                };
+            }
+        }
+        Ok(())
+    }
+
+    /// The memory that one of a part is, of it or of one within it: those within come in the order
+    /// of the registers.
+    fn memory(&self, part: usize, memory: usize) -> Option<u32> {
+        let here = &self.parts[part];
+        match here.memories.get(memory).copied().flatten() {
+            Some(memory) => Some(memory),
+            None => {
+                let (instance, inner) = here.module.memory_owner(memory)?;
+                self.memory(*here.children.get(instance)?, inner)
+            }
+        }
+    }
+}
+
+/// A node that is computed from others in one way only.
+fn operation(
+    node: netlist::Node,
+    shape: Shape,
+    before: impl Fn(netlist::Id) -> Shape,
+    of: impl Fn(netlist::Id) -> Result<Id, EngineError>,
+) -> Result<Op, EngineError> {
+    use netlist::Node;
+    let signed = |id| before(id).kind == Kind::Signed;
+    let bits = |bits: usize| bits.min(64) as u8;
+    Ok(match node {
+        Node::Not(a) => Op::Not(of(a)?),
+        Node::Negate(a) => Op::Negate(of(a)?),
+        Node::Binary(operator, a, b) => {
+            let (x, y) = (of(a)?, of(b)?);
+            match operator {
+                Operator::Add => Op::Add(x, y),
+                Operator::Subtract => Op::Subtract(x, y),
+                Operator::Multiply => Op::Multiply(x, y),
+                Operator::And => Op::And(x, y),
+                Operator::Or => Op::Or(x, y),
+                Operator::Xor => Op::Xor(x, y),
+                Operator::Equal => Op::Equal(x, y),
+                Operator::Below if signed(a) => Op::BelowSigned(x, y),
+                Operator::Below => Op::Below(x, y),
+            }
+        }
+        Node::Mux(choose, then, other) => Op::Mux(of(choose)?, of(then)?, of(other)?),
+        Node::ShiftLeft(a, by) => Op::ShiftLeft(of(a)?, bits(by)),
+        Node::ShiftRight(a, by) if shape.kind == Kind::Signed => {
+            Op::ShiftRightSigned(of(a)?, bits(by))
+        }
+        Node::ShiftRight(a, by) => Op::ShiftRight(of(a)?, bits(by)),
+        Node::Slice(a, low) => Op::Slice(of(a)?, bits(low)),
+        Node::Extend(a) if signed(a) => Op::ExtendSigned(of(a)?),
+        Node::Extend(a) => Op::Extend(of(a)?),
+        Node::Join(a, b) => Op::Join(of(a)?, of(b)?),
+        Node::Cast(a) | Node::Past(a) => Op::Slice(of(a)?, 0),
+        Node::Constant(bits) => Op::Constant(bits),
+        // The rest is made by who knows the parts.
+        Node::Parameter(_)
+        | Node::Signal(_)
+        | Node::Port { .. }
+        | Node::Next(_)
+        | Node::Read(..) => Op::Constant(0),
+    })
+}
