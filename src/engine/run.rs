@@ -1,0 +1,315 @@
+use super::flat::{Flat, Op, Place};
+use super::interpreter::{self, Counts};
+use super::layout::{Slot, Spot};
+use super::lines::Lines;
+use super::program::Program;
+use super::tier::Tier;
+use super::value;
+use std::cell::RefCell;
+use std::sync::Arc;
+
+/// A circuit that runs, its type forgotten.
+///
+/// A tick is: [`input`](Self::input) for ports in that change, [`settle`](Self::settle), a look at
+/// the leaves, [`edge`](Self::edge).
+#[derive(Debug)]
+pub struct Engine {
+    program: Arc<Program>,
+    slab: Vec<u64>,
+    tier: Tier,
+    lines: Option<Box<Lines>>,
+    /// Ticks to come before idle ticks are looked for again, and after the next failure.
+    pause: (u64, u64),
+    /// All leaves of this tick, where one was asked for that is not watched.
+    whole: RefCell<Option<Vec<u64>>>,
+}
+
+impl Clone for Engine {
+    fn clone(&self) -> Self {
+        Engine {
+            program: self.program.clone(),
+            slab: self.slab.clone(),
+            tier: self.tier.clone(),
+            lines: None,
+            pause: self.pause,
+            whole: RefCell::new(None),
+        }
+    }
+}
+
+/// Ticks after which it is asked again at the latest whether ticks are idle.
+const LONGEST_PAUSE: u64 = 64;
+
+impl Engine {
+    /// At power-on, all ports in low.
+    pub fn new(program: Arc<Program>) -> Self {
+        Engine {
+            slab: program.plan.layout.power_on(),
+            tier: Tier::new(&program.plan),
+            program,
+            lines: None,
+            pause: (0, 0),
+            whole: RefCell::new(None),
+        }
+    }
+
+    /// The same that compiles at once, with all blocks in line: where each tick is another state.
+    pub(crate) fn straight(program: Arc<Program>) -> Self {
+        let mut engine = Engine::new(program);
+        engine.tier.straight(&engine.program.plan);
+        engine
+    }
+
+    /// What runs.
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// Sets a port in, by its number.
+    #[inline]
+    pub fn input(&mut self, port: usize, word: u64) {
+        let layout = &self.program.plan.layout;
+        let Some(&slot) = layout.inputs.get(port) else {
+            return;
+        };
+        if self.slab[slot as usize] != word {
+            interpreter::put(layout, &mut self.slab, slot, word);
+            self.whole.take();
+        }
+    }
+
+    /// What a port in is.
+    #[inline]
+    pub fn port(&self, port: usize) -> u64 {
+        let slot = self.program.plan.layout.inputs.get(port);
+        slot.map_or(0, |&slot| self.slab[slot as usize])
+    }
+
+    /// Settles the nets.
+    #[inline]
+    pub fn settle(&mut self) {
+        self.tier.settle(&self.program.plan, &mut self.slab);
+    }
+
+    /// Makes the registers of the next tick. What has changed is counted from here.
+    #[inline]
+    pub fn edge(&mut self) {
+        self.begin();
+        self.tier.edge(&self.program.plan, &mut self.slab);
+    }
+
+    /// An edge with reset: flip-flops as at power-on, memories as the edge makes them.
+    pub fn reset(&mut self) {
+        self.edge();
+        let program = &self.program;
+        for (register, &word) in program.plan.registers.iter().zip(&program.power_on) {
+            interpreter::put(&program.plan.layout, &mut self.slab, register.slot, word);
+        }
+    }
+
+    fn begin(&mut self) {
+        let layout = &self.program.plan.layout;
+        self.slab[layout.event as usize] = 0;
+        let changed = layout.changed as usize;
+        self.slab[changed..changed + layout.changed_words as usize].fill(0);
+        self.whole.take();
+    }
+
+    /// Up to so many times an edge and a settling with ports in as they are; ends where a watched
+    /// leaf has changed. Returns how often.
+    pub fn advance(&mut self, ticks: u64) -> u64 {
+        self.begin();
+        let event = self.program.plan.layout.event as usize;
+        let mut done = 0;
+        while done < ticks && self.slab[event] == 0 {
+            done += self.tier.advance(&self.program.plan, &mut self.slab, ticks - done);
+        }
+        done
+    }
+
+    /// Goes over idle ticks: of a settled tick and at most `most` in all, ports in as they are.
+    /// Returns how many were gone over, at least 1; the next one is yet to settle. In none of them,
+    /// the first aside, has a port out changed.
+    pub fn forward(&mut self, most: u64) -> u64 {
+        if self.pause.0 == 0 && most > 1 {
+            let program = &self.program;
+            let lines = self
+                .lines
+                .get_or_insert_with(|| Box::new(Lines::new(&program.plan, &program.held)));
+            let ticks = lines.horizon(&program.plan, self.tier.hot(), &self.slab, most);
+            if ticks > 1 {
+                self.pause.1 = 0;
+                self.begin();
+                if let Some(lines) = &mut self.lines {
+                    lines.jump(&self.program.plan, &mut self.slab, ticks);
+                }
+                return ticks;
+            }
+            self.pause.1 = (2 * self.pause.1).clamp(1, LONGEST_PAUSE);
+            self.pause.0 = self.pause.1;
+        }
+        self.pause.0 = self.pause.0.saturating_sub(1);
+        self.edge();
+        1
+    }
+
+    /// How many leaves there are.
+    pub fn leaves(&self) -> usize {
+        self.program.plan.layout.leaves.len()
+    }
+
+    /// A leaf of the walk. A net needs a settled tick.
+    #[inline]
+    pub fn leaf(&self, leaf: usize) -> u64 {
+        match self.program.plan.layout.leaves.get(leaf) {
+            Some(Spot::Slot(slot)) => self.slab[*slot as usize],
+            Some(spot) => self.spot(*spot, leaf),
+            None => 0,
+        }
+    }
+
+    fn spot(&self, spot: Spot, leaf: usize) -> u64 {
+        match spot {
+            Spot::Slot(slot) => self.slab[slot as usize],
+            Spot::Constant(word) => word,
+            Spot::Stage(memory, stage) => {
+                let memory = &self.program.plan.memories[memory as usize];
+                interpreter::read(memory, &self.slab, stage.into())
+            }
+            Spot::Gone => {
+                let mut whole = self.whole.borrow_mut();
+                let whole = whole.get_or_insert_with(|| self.settled_whole());
+                whole.get(leaf).copied().unwrap_or(0)
+            }
+        }
+    }
+
+    /// Whether a property holds.
+    pub fn property(&self, property: usize) -> bool {
+        let spot = self.program.plan.layout.properties.get(property);
+        let leaf = self.leaves() + property;
+        spot.is_none_or(|&spot| self.spot(spot, leaf) != 0)
+    }
+
+    /// All leaves and properties, node by node from the netlist as it was written.
+    fn settled_whole(&self) -> Vec<u64> {
+        let flat = self.program.flat();
+        let plan = &self.program.plan;
+        let mut words: Vec<u64> = Vec::with_capacity(flat.nodes.len());
+        for node in &flat.nodes {
+            let word = match node.op {
+                Op::Input(port) => self.slab[plan.layout.inputs[port as usize] as usize],
+                Op::Register(register) => {
+                    self.slab[plan.registers[register as usize].slot as usize]
+                }
+                Op::Read(memory, address) => {
+                    let memory = &plan.memories[memory as usize];
+                    interpreter::read(memory, &self.slab, words[address as usize])
+                }
+                _ => value::of(*node, |id| (words[id as usize], flat.node(id).width)),
+            };
+            words.push(word);
+        }
+        let leaves = flat.leaves.iter().enumerate().map(|(leaf, place)| match *place {
+            Place::Node(id) => words[id as usize],
+            _ => self.leaf_in_slab(leaf),
+        });
+        let properties = flat.properties.iter().map(|&id| words[id as usize]);
+        leaves.chain(properties).collect()
+    }
+
+    fn leaf_in_slab(&self, leaf: usize) -> u64 {
+        match self.program.plan.layout.leaves.get(leaf) {
+            Some(Spot::Gone) | None => 0,
+            Some(&spot) => self.spot(spot, leaf),
+        }
+    }
+
+    /// Calls `see` with the place in [`Layout::watched`](super::Layout::watched) of all that has
+    /// changed since the tick before.
+    #[inline]
+    pub fn changed(&self, mut see: impl FnMut(usize)) {
+        let layout = &self.program.plan.layout;
+        for word in 0..layout.changed_words as usize {
+            let mut bits = self.slab[layout.changed as usize + word];
+            while bits != 0 {
+                see(word * 64 + bits.trailing_zeros() as usize);
+                bits &= bits - 1;
+            }
+        }
+    }
+
+    /// A word of the slab.
+    #[inline]
+    pub(crate) fn word(&self, slot: Slot) -> u64 {
+        self.slab[slot as usize]
+    }
+
+    /// Words of a memory in their order, stages of a shift register.
+    pub(crate) fn memory(&self, memory: usize) -> Vec<u64> {
+        let Some(memory) = self.program.plan.memories.get(memory) else {
+            return Vec::new();
+        };
+        let words = 0..u64::from(memory.words);
+        words.map(|word| interpreter::read(memory, &self.slab, word)).collect()
+    }
+
+    /// Which memory a leaf is the first word of, and how often that was written.
+    pub(crate) fn memory_at(&self, leaf: usize) -> Option<(usize, u64)> {
+        match self.program.flat().leaves.get(leaf) {
+            Some(Place::Word(memory, 0)) => {
+                let mark = self.program.plan.memories[*memory as usize].mark;
+                Some((*memory as usize, self.slab[mark as usize]))
+            }
+            _ => None,
+        }
+    }
+
+    /// The whole state: registers, memories and what has been settled.
+    pub(crate) fn slab(&self) -> &[u64] {
+        &self.slab
+    }
+
+    /// Takes over a state of an engine of the same program.
+    pub(crate) fn restore(&mut self, slab: &[u64]) {
+        self.slab.copy_from_slice(slab);
+        self.whole.take();
+    }
+
+    /// Sets a register or a word of a memory, by its leaf, and wakes everything.
+    pub(crate) fn set_leaf(&mut self, leaf: usize, word: u64) {
+        let plan = &self.program.plan;
+        let slot = match plan.layout.leaves.get(leaf) {
+            Some(Spot::Slot(slot)) => *slot,
+            Some(Spot::Stage(memory, stage)) => {
+                let memory = &plan.memories[*memory as usize];
+                // The stages are in their order from here on.
+                let head = memory.head.map_or(0, |head| self.slab[head as usize]);
+                memory.first + ((u64::from(*stage) + head) % u64::from(memory.words)) as u32
+            }
+            _ => return,
+        };
+        self.slab[slot as usize] = word;
+    }
+
+    /// Every block is to run: what [`set_leaf`](Self::set_leaf) has set is new.
+    pub(crate) fn wake(&mut self) {
+        self.program.plan.layout.wake(&mut self.slab);
+        self.whole.take();
+    }
+
+    /// How often each block has run, as far as it was counted.
+    pub fn counts(&self) -> &Counts {
+        self.tier.counts()
+    }
+
+    /// Counts blocks for as long as it runs, and does not compile.
+    pub fn count_only(&mut self) {
+        self.tier.interpret();
+    }
+
+    /// Netlist that it was made from.
+    pub fn flat(&self) -> &Flat {
+        self.program.flat()
+    }
+}

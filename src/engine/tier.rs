@@ -1,0 +1,145 @@
+//! Which backend runs: the interpreter at first, which counts how often each block runs, and
+//! compiled code once it has run for long enough to pay.
+
+use super::interpreter::{self, Counts};
+use super::plan::Plan;
+#[cfg(feature = "jit")]
+use super::compiler::Code;
+use std::sync::Arc;
+
+/// How often all of a circuit's steps, on average, are interpreted before it is compiled: compiling
+/// takes so many times as long as interpreting.
+const PAYS: u64 = 600;
+/// Ticks in which blocks are counted at least.
+const COUNTED: u64 = 256;
+
+/// A backend, and what it knows of the circuit.
+#[derive(Debug, Clone)]
+pub(super) struct Tier {
+    backend: Backend,
+    counts: Counts,
+    ticks: u64,
+    /// Steps interpreted, counted up to `due`.
+    work: u64,
+    due: u64,
+    /// The blocks compiled in line.
+    hot: Arc<[bool]>,
+    /// Whether blocks in line have left their bits as they were.
+    stale: bool,
+}
+
+#[derive(Debug, Clone)]
+enum Backend {
+    Interpreter,
+    #[cfg(feature = "jit")]
+    Code(Arc<Code>),
+}
+
+impl Tier {
+    pub fn new(plan: &Plan) -> Self {
+        let steps: usize = plan.blocks.iter().map(|block| block.steps.len() + 8).sum();
+        Tier {
+            backend: Backend::Interpreter,
+            counts: vec![0; plan.blocks.len()],
+            ticks: 0,
+            work: 0,
+            due: if cfg!(feature = "jit") { steps as u64 * PAYS } else { u64::MAX },
+            hot: vec![false; plan.blocks.len()].into(),
+            stale: false,
+        }
+    }
+
+    /// Never compiles.
+    pub fn interpret(&mut self) {
+        self.backend = Backend::Interpreter;
+        self.due = u64::MAX;
+    }
+
+    /// Compiles at once, all blocks in line.
+    pub fn straight(&mut self, plan: &Plan) {
+        self.compile(plan, vec![true; plan.blocks.len()]);
+    }
+
+    pub fn hot(&self) -> &[bool] {
+        &self.hot
+    }
+
+    pub fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    pub fn settle(&mut self, plan: &Plan, slab: &mut [u64]) {
+        match &self.backend {
+            Backend::Interpreter => interpreter::settle(plan, slab, &mut self.counts),
+            #[cfg(feature = "jit")]
+            Backend::Code(code) => code.settle(slab),
+        }
+    }
+
+    pub fn edge(&mut self, plan: &Plan, slab: &mut [u64]) {
+        match &self.backend {
+            Backend::Interpreter => {
+                interpreter::edge(plan, slab, &mut self.counts);
+                self.tick(plan);
+            }
+            #[cfg(feature = "jit")]
+            Backend::Code(code) => code.edge(slab),
+        }
+    }
+
+    /// Edge and settling, up to so many times; ends earlier where it likes. Returns how often.
+    pub fn advance(&mut self, plan: &Plan, slab: &mut [u64], ticks: u64) -> u64 {
+        let _ = ticks;
+        match &self.backend {
+            Backend::Interpreter => {
+                self.edge(plan, slab);
+                self.settle(plan, slab);
+                1
+            }
+            #[cfg(feature = "jit")]
+            Backend::Code(code) => code.advance(slab, ticks),
+        }
+    }
+
+    /// A tick was interpreted.
+    fn tick(&mut self, plan: &Plan) {
+        self.ticks += 1;
+        // Not in every tick: the sum takes longer than some ticks.
+        if self.due == u64::MAX || !self.ticks.is_multiple_of(COUNTED) {
+            return;
+        }
+        let steps = plan.blocks.iter().map(|block| block.steps.len() as u64 + 8);
+        self.work = self.counts.iter().zip(steps).map(|(count, steps)| count * steps).sum();
+        if self.work >= self.due {
+            let often = |count: &u64| 2 * count > self.ticks;
+            self.compile(plan, self.counts.iter().map(often).collect());
+        }
+    }
+
+    #[cfg(feature = "jit")]
+    fn compile(&mut self, plan: &Plan, hot: Vec<bool>) {
+        match Code::compile(plan, &hot) {
+            Ok(code) => {
+                self.backend = Backend::Code(Arc::new(code));
+                self.hot = hot.into();
+                self.stale = true;
+            }
+            Err(error) => {
+                self.due = u64::MAX;
+                say(&error);
+            }
+        }
+    }
+
+    #[cfg(not(feature = "jit"))]
+    fn compile(&mut self, _: &Plan, _: Vec<bool>) {}
+}
+
+/// Says once why runs are slow.
+#[cfg(feature = "jit")]
+fn say(error: &super::compiler::CompileError) {
+    static SAID: std::sync::Once = std::sync::Once::new();
+    SAID.call_once(|| {
+        eprintln!("warning: circuits are interpreted, which takes longer: {error}");
+    });
+}
