@@ -19,7 +19,7 @@ mod stimulus;
 mod theirs;
 
 use jobs::{Clock, Job};
-use motion_rtl::kernel::FastForward;
+use motion_rtl::kernel::;
 use ours::{Outputs, Waves};
 use std::time::Duration;
 use theirs::{Build, Verilated};
@@ -99,7 +99,7 @@ impl Times {
 }
 
 /// Measures a circuit at both clocks.
-fn circuit<C: Outputs + FastForward>(
+fn circuit<C: Outputs>(
     asked: &Asked,
     name: &str,
     job: impl Fn(u64, Clock) -> Job<C>,
@@ -110,7 +110,7 @@ fn circuit<C: Outputs + FastForward>(
 }
 
 /// Measures a job: untraced over all of the stimulus, with waves over its end.
-fn measure<C: Outputs + FastForward>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C>) {
+fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C>) {
     if asked.only.as_ref().is_some_and(|only| !name.contains(only)) {
         return;
     }

@@ -2,7 +2,7 @@
 
 use super::stimulus::{Replay, Stimulus};
 use super::theirs::ROTATION;
-use motion_rtl::kernel::{Circuit, FastForward, Observer, RunError, Sample, Simulator};
+use motion_rtl::kernel::{Circuit, Observer, RunError, Sample, Simulator};
 use motion_rtl::logic::sim::{Int, UInt, Wire};
 use motion_rtl::logic::{Bit, Signed, Sim};
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
@@ -130,7 +130,7 @@ impl Held {
 
 /// A run that goes over idle ticks in one, and the checksum over the outputs of every tick.
 #[inline(never)]
-pub fn forward<C: Outputs + FastForward>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
+pub fn forward<C: Outputs>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
     let mut replay = Replay::<C>::new(stimulus);
     let mut held = Held::default();
     let simulator = Simulator::new(circuit);

@@ -199,7 +199,6 @@ impl<'a, C: Circuit> Reach<'a, C> {
                 let next = self.circuit.next(q.clone(), &w, i);
                 let now = Sample {
                     tick: search.depth,
-                    coasting: false,
                     i,
                     q: &q,
                     w: &w,

@@ -44,7 +44,6 @@ macro_rules! signals {
             const EXTENT: $crate::kernel::Extent = $crate::kernel::Extent::NONE
                 $(.and(<$type as $crate::kernel::Signals<L>>::EXTENT))*;
 
-            #[inline(always)]
             fn visit<Visitor: $crate::kernel::Visit<L>>(
                 &self,
                 field: &'static $crate::kernel::Field,
@@ -63,7 +62,6 @@ macro_rules! signals {
                 visitor.leave();
             }
 
-            #[inline]
             fn make<Maker: $crate::kernel::Make<L>>(
                 field: &'static $crate::kernel::Field,
                 maker: &mut Maker,

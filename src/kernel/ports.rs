@@ -11,13 +11,11 @@ impl Ports {
         Ports(vec![0; C::In::<Sim>::EXTENT.leaves])
     }
 
-    #[inline(always)]
     pub fn keep<S: Signals<Sim>>(&mut self, i: &S) {
         let mut keep = Keep(self.0.iter_mut());
         i.visit(part(Role::Input), &mut keep);
     }
 
-    #[inline(always)]
     pub fn are<S: Signals<Sim>>(&self, i: &S) -> bool {
         let mut compare = Compare {
             kept: &self.0,
@@ -36,7 +34,6 @@ impl Ports {
 struct Keep<'a>(std::slice::IterMut<'a, u64>);
 
 impl Probe for Keep<'_> {
-    #[inline(always)]
     fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
         if let Some(kept) = self.0.next() {
             *kept = bits;
@@ -52,7 +49,6 @@ struct Compare<'a> {
 }
 
 impl Probe for Compare<'_> {
-    #[inline(always)]
     fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
         let kept = self.kept.get(self.cursor).copied().unwrap_or(!bits);
         self.differ |= kept ^ bits;

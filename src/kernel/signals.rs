@@ -165,20 +165,17 @@ pub trait Visit<L: Logic> {
         register: &L::ShiftRegister<K, D>,
     );
     /// A struct has begun that shows so much: true leaves its fields out.
-    #[inline(always)]
     fn passes(&mut self, extent: Extent) -> bool {
         let _ = extent;
         false
     }
     /// A circuit within has begun: true leaves out its ports in and its nets.
-    #[inline(always)]
     fn passes_over(&mut self, inside: Inside) -> bool {
         let _ = inside;
         false
     }
     /// The ports in of a circuit within have just been shown, and its nets would come next: true
     /// leaves them out, since nothing that they depend on is other than the last time.
-    #[inline(always)]
     fn rests(&mut self, inside: Inside) -> bool {
         let _ = inside;
         false
@@ -231,7 +228,6 @@ pub struct Shape {
 impl<L: Logic, T: Signals<L>, const N: usize> Signals<L> for [T; N] {
     const EXTENT: Extent = T::EXTENT.times(N);
 
-    #[inline(always)]
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
         // Written out, because a loop would need the array in memory.
         macro_rules! show {
@@ -278,7 +274,6 @@ impl<L> Default for Nothing<L> {
 impl<L: Logic> Signals<L> for Nothing<L> {
     const EXTENT: Extent = Extent::NONE;
 
-    #[inline(always)]
     fn visit<V: Visit<L>>(&self, _: &'static Field, _: &mut V) {}
     fn make<M: Make<L>>(_: &'static Field, _: &mut M) -> Self {
         Nothing::new()

@@ -76,7 +76,6 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     ///
     /// Ticks in which the circuit coasts have a loop and nets of their own: it computes the counters
     /// and what is looked at, and nothing else.
-    #[inline(never)]
     fn run_on(
         circuit: &'c C,
         q: C::Reg<Sim>,
@@ -112,7 +111,6 @@ impl<'c, C: Circuit> Simulator<'c, C> {
                 let w = circuit.comb(&q, &i);
                 let flow = observer.sample(&Sample {
                     tick,
-                    coasting: false,
                     i: &i,
                     q: &q,
                     w: &w,
@@ -206,7 +204,6 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     }
 
     /// A function of its own, with registers that are not dropped, as [`run_on`](Self::run_on).
-    #[inline(never)]
     fn forward_on(
         circuit: &'c C,
         q: C::Reg<Sim>,
@@ -234,7 +231,6 @@ impl<'c, C: Circuit> Simulator<'c, C> {
                 pause = Pause::default();
                 let flow = observer.sample(&Sample {
                     tick,
-                    coasting: false,
                     i: &i,
                     q: &q,
                     w: &w,
@@ -254,7 +250,6 @@ impl<'c, C: Circuit> Simulator<'c, C> {
                 let w = circuit.comb(&q, &i);
                 let flow = observer.sample(&Sample {
                     tick,
-                    coasting: false,
                     i: &i,
                     q: &q,
                     w: &w,
@@ -307,7 +302,6 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     }
 
     /// A function of its own, with the circuit among its arguments, as [`run_on`](Self::run_on).
-    #[inline(never)]
     fn tick_on<T>(
         circuit: &C,
         q: C::Reg<Sim>,
@@ -336,7 +330,6 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         })
     }
 
-    #[inline(always)]
     fn tick_once<T>(
         self,
         i: C::In<Sim>,
@@ -356,7 +349,6 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         )
     }
 
-    #[inline(always)]
     fn to_edge<T>(
         circuit: &C,
         q: C::Reg<Sim>,
@@ -369,7 +361,6 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         let w = circuit.comb(&q, &i);
         let shown = show(&Sample {
             tick,
-            coasting: false,
             i: &i,
             q: &q,
             w: &w,
@@ -391,7 +382,6 @@ struct Pause {
 impl Pause {
     const LONGEST: u64 = 64;
 
-    #[inline(always)]
     fn at_work(&mut self, tick: u64) {
         self.ticks = (2 * self.ticks).clamp(1, Self::LONGEST);
         self.end = tick.saturating_add(self.ticks);
@@ -399,7 +389,6 @@ impl Pause {
 }
 
 /// Whether an observer ends the run, and with which error.
-#[inline(always)]
 fn ends(flow: Result<ControlFlow<()>, RunError>, failed: &mut Option<RunError>) -> bool {
     match flow {
         Ok(flow) => flow.is_break(),

@@ -69,7 +69,6 @@ struct Seen {
 }
 
 // A call would have all registers and nets in memory, in every tick.
-#[inline(always)]
 fn see<C: CommandSource<P, T>>(now: &Sample<'_, Plotter<C>>) -> Seen {
     let w = now.w;
     Seen {

@@ -61,7 +61,6 @@ impl<'t, const A: usize> ControlComputer<'t, A> {
     }
 
     /// Its outputs in one tick, from what it sees of the group's registers.
-    #[inline(always)]
     pub fn drive<const AXES: usize, const N: usize, const T: usize>(
         &mut self,
         q: &Reg<Sim, AXES, N, T, A>,

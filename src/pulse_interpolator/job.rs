@@ -66,7 +66,6 @@ struct Bench<const AXES: usize> {
 
 impl<const AXES: usize> Observer<JobGroup<AXES>> for Bench<AXES> {
     // A call would have all registers and nets in memory, in every tick.
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, JobGroup<AXES>>) -> Result<ControlFlow<()>, RunError> {
         for (axis, driver) in self.drivers.iter_mut().enumerate() {
             // The drivers ask for nothing here, so they have nothing to complain of.
@@ -145,7 +144,6 @@ fn fits<const AXES: usize>(table: &Table) -> Result<(), SettingError> {
 }
 
 /// What the drivers see of a group that is run to the end of `table`.
-#[inline]
 fn played<'g, const AXES: usize>(
     table: &Table,
     run: impl FnOnce(

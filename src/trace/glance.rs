@@ -3,8 +3,7 @@
 use super::rest::Rest;
 use super::walk::{Change, note, note_memory};
 use crate::kernel::{
-    Circuit, Extent, Field, FreeRunning, Inside, Probe, Role, Sample, Shape, Signals, Words, part,
-};
+    Circuit, Extent, Field, Inside, Probe, Role, Sample, Shape, Signals, Words, part};
 use crate::logic::Sim;
 use std::hint::cold_path;
 use std::mem;

@@ -1,6 +1,6 @@
 //! Which circuit within a circuit a leaf belongs to.
 
-use crate::kernel::{Declaration, FreeRunning, InstanceDeclaration, Role};
+use crate::kernel::{Declaration, InstanceDeclaration, Role};
 use std::collections::HashMap;
 use std::sync::Arc;
 

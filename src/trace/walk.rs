@@ -74,7 +74,6 @@ impl Walk {
     }
 
     /// Looks at a tick. Returns when `clk` rises and when it falls.
-    #[inline(always)]
     pub fn sample<C: Circuit>(&mut self, now: &Sample<'_, C>) -> io::Result<(u64, u64)> {
         if now.coasting && !self.follows(now.tick) {
             return Err(unseen(now.tick));
@@ -107,13 +106,6 @@ impl Walk {
         Ok(times)
     }
 
-    /// Whether it saw the tick before.
-    #[inline(always)]
-    pub fn follows(&self, tick: u64) -> bool {
-        self.last
-            .is_some_and(|last| last.checked_add(1) == Some(tick))
-    }
-
     /// The same of a circuit whose type is forgotten; it looks at everything.
     pub fn tick(&mut self, tick: u64, running: &dyn Running) -> io::Result<(u64, u64)> {
         let times = self.begin(tick)?;
@@ -136,7 +128,6 @@ impl Walk {
         times.0.zip(times.1).ok_or_else(too_late)
     }
 
-    #[inline(always)]
     fn look(&mut self, passes_over: bool) -> Look<'_> {
         Look {
             before: &mut self.before,
@@ -156,7 +147,6 @@ impl Walk {
 
     /// A tick was looked at, and so many leaves have changed. At the first one the words that do not
     /// differ from [`UNKNOWN`] are new too.
-    #[inline(always)]
     fn seen(&mut self, tick: u64, changed: usize) {
         self.changed = changed;
         if self.last.replace(tick).is_none() {
@@ -168,7 +158,6 @@ impl Walk {
     }
 
     #[cold]
-    #[inline(never)]
     fn note_unknown(&mut self) {
         for leaf in 0..self.before.len() {
             if self.before[leaf] == UNKNOWN {
@@ -213,7 +202,6 @@ struct Look<'a> {
 
 impl<'a> Look<'a> {
     /// Looks at less.
-    #[inline(always)]
     fn glance(self) -> Glance<'a> {
         Glance {
             before: self.before,
@@ -232,7 +220,6 @@ impl<'a> Look<'a> {
 }
 
 impl Probe for Look<'_> {
-    #[inline(always)]
     fn enter(&mut self, field: &'static Field) {
         match field.role {
             Some(Role::Input) => self.differ = false,
@@ -243,7 +230,6 @@ impl Probe for Look<'_> {
         }
     }
 
-    #[inline(always)]
     fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
         let leaf = self.cursor;
         self.cursor += 1;
@@ -255,7 +241,6 @@ impl Probe for Look<'_> {
         }
     }
 
-    #[inline(always)]
     fn rests(&mut self, inside: Inside) -> bool {
         let awake = mem::take(&mut self.awake[self.instance]);
         self.instance += 1;
@@ -267,7 +252,6 @@ impl Probe for Look<'_> {
         rests
     }
 
-    #[inline(always)]
     fn memory_rests(&mut self, words: usize, mark: u64) -> bool {
         let rests = words == 0 || self.marks[self.cursor] == mark;
         if rests {
@@ -276,7 +260,6 @@ impl Probe for Look<'_> {
         rests
     }
 
-    #[inline(always)]
     fn memory(&mut self, _: &'static Field, words: &dyn Words) {
         let start = self.cursor;
         self.cursor += words.len();
@@ -288,7 +271,6 @@ impl Probe for Look<'_> {
 // Functions, not methods: a reference to the whole walk would keep it in memory.
 
 /// Adds a change; returns how many there are now. There is room, since a leaf changes once a tick.
-#[inline(always)]
 pub(super) fn note(changes: &mut [Change], changed: usize, leaf: usize, bits: u64) -> usize {
     if let Some(place) = changes.get_mut(changed) {
         let leaf = leaf as u32;
@@ -298,7 +280,6 @@ pub(super) fn note(changes: &mut [Change], changed: usize, leaf: usize, bits: u6
 }
 
 /// Looks at the memory whose first word is the leaf `start`.
-#[inline(never)]
 pub(super) fn note_memory(
     words: &dyn Words,
     start: usize,
@@ -338,7 +319,6 @@ fn counted(flags: &[bool]) -> Vec<u32> {
 }
 
 /// Drops the changes of leaves that are not wanted; returns how many are left.
-#[inline(never)]
 fn select(selected: &[bool], changes: &mut [Change]) -> usize {
     let mut kept = 0;
     for index in 0..changes.len() {

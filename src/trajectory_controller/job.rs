@@ -92,7 +92,6 @@ struct Seen<const AXES: usize> {
 }
 
 // A call would have all registers and nets in memory, in every tick.
-#[inline(always)]
 fn see<const AXES: usize, const A: usize, const E: usize>(
     now: &Sample<'_, Controller<AXES, A, E>>,
 ) -> Seen<AXES> {

@@ -3,7 +3,7 @@
 use crate::jobs::{self, Clock, Job};
 use crate::ours::Outputs;
 use crate::stimulus::Replay;
-use motion_rtl::kernel::{FastForward, Observer, RunError, Sample, Simulator, pack};
+use motion_rtl::kernel::{Observer, RunError, Sample, Simulator, pack};
 use std::ops::ControlFlow;
 
 /// A word of the ports out for every tick; where a tick is not seen they are held.
@@ -31,7 +31,7 @@ impl<C: Outputs> Observer<C> for Words {
 
 /// Runs a job in all three ways; how many ticks of a hundred are looked at where idle ones are gone
 /// over.
-fn same<C: Outputs + FastForward>(job: Job<C>) -> usize {
+fn same<C: Outputs>(job: Job<C>) -> usize {
     let Job { circuit, stimulus } = job;
     let (mut ran, mut jumped) = (Words::default(), Words::default());
     let ticks = stimulus.ticks;
@@ -64,7 +64,7 @@ fn same<C: Outputs + FastForward>(job: Job<C>) -> usize {
 }
 
 /// At the clock of the scenario and at a fast one, in which most ticks are idle.
-fn both<C: Outputs + FastForward>(job: impl Fn(u64, Clock) -> Job<C>) {
+fn both<C: Outputs>(job: impl Fn(u64, Clock) -> Job<C>) {
     let _ = same(job(100_000, Clock::Shipped));
     let looked = same(job(400_000, Clock::Fast));
     assert!(looked < 10, "{looked} of 100 ticks");

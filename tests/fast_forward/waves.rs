@@ -18,10 +18,6 @@ struct Look<O> {
 }
 
 impl<C: Circuit, O: Observer<C>> Observer<C> for Look<O> {
-    fn follows(&self, tick: u64) -> bool {
-        !self.everything && Observer::<C>::follows(&self.waves, tick)
-    }
-
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.coasting += u64::from(now.coasting && now.tick >= self.from);
         self.waves.sample(now)
