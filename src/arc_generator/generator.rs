@@ -224,21 +224,6 @@ impl<
     const A: usize,
     const K: usize,
     const T: usize,
-> FastForward for ArcGenerator<W, P, C, S, F, D, N, A, K, T>
-{
-}
-
-impl<
-    const W: usize,
-    const P: usize,
-    const C: usize,
-    const S: usize,
-    const F: usize,
-    const D: usize,
-    const N: usize,
-    const A: usize,
-    const K: usize,
-    const T: usize,
 > Circuit for ArcGenerator<W, P, C, S, F, D, N, A, K, T>
 {
     const NAME: &'static str = "arc_generator";

@@ -1,4 +1,4 @@
-use crate::kernel::{Circuit, Extent, Field, Make, Signals, Visit};
+use crate::kernel::{Circuit, Field, Make, Signals, Visit};
 use crate::logic::{Logic, Sim};
 use std::fmt;
 use std::marker::PhantomData;
@@ -155,8 +155,6 @@ where
     T: Signals<L>,
     U: Signals<L>,
 {
-    const EXTENT: Extent = T::EXTENT.and(U::EXTENT);
-
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.enter(field);
         self.left

@@ -1,6 +1,5 @@
 use super::{
-    Circuit, Extent, FastForward, Field, FreeRunning, Make, Moment, Observer, Property, Role,
-    RunError, Sample, Signals, Visit,
+    Circuit, Field, Make, Moment, Observer, Property, Role, RunError, Sample, Signals, Visit,
 };
 use crate::logic::{Logic, Sim};
 use std::fmt;
@@ -85,8 +84,6 @@ const fn scope<B: Beside>() -> Field {
 }
 
 impl<L: Logic, C: Circuit, B: Beside> Signals<L> for WithIn<L, C, B> {
-    const EXTENT: Extent = C::In::<L>::EXTENT.and(B::Signals::<L>::EXTENT);
-
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
         self.i.visit(field, visitor);
         self.beside.visit(const { &scope::<B>() }, visitor);
@@ -105,7 +102,6 @@ impl<C: Circuit, B: Beside> Circuit for With<C, B> {
     type In<L: Logic> = WithIn<L, C, B>;
     type Reg<L: Logic> = C::Reg<L>;
     type Net<L: Logic> = C::Net<L>;
-    const FREE_RUNNING: FreeRunning = C::FREE_RUNNING;
 
     fn comb<L: Logic>(&self, q: &C::Reg<L>, i: &WithIn<L, C, B>) -> C::Net<L> {
         self.circuit.comb(q, &i.i)
@@ -141,7 +137,6 @@ impl<C: Circuit, B: Beside, O: Observer<C>> Observer<With<C, B>> for Without<O> 
     fn sample(&mut self, now: &Sample<'_, With<C, B>>) -> Result<ControlFlow<()>, RunError> {
         self.0.sample(&Sample {
             tick: now.tick,
-            coasting: now.coasting,
             i: &now.i.i,
             q: now.q,
             w: now.w,

@@ -1,5 +1,4 @@
 use super::Circuit;
-use super::circuit::settled;
 use super::probe::{Probe, Shown};
 use super::signals::{Field, Role, Signals, Visit};
 use crate::logic::Sim;
@@ -11,9 +10,6 @@ use std::ops::ControlFlow;
 pub struct Sample<'a, C: Circuit> {
     /// The tick, from 0.
     pub tick: u64,
-    /// Since the tick before nothing but what [runs free](Circuit::FREE_RUNNING) has changed. Who
-    /// hands only some ticks on to waves sets it low.
-    pub coasting: bool,
     /// Ports in.
     pub i: &'a C::In<Sim>,
     /// Registers.
@@ -33,8 +29,7 @@ impl<C: Circuit> Sample<'_, C> {
         visitor.leave();
     }
 
-    /// The same walk, compiled once for all probes: for those that need not be fast. It goes through
-    /// every struct: what a probe [passes](Probe::passes) is not asked.
+    /// The same walk, compiled once for all probes.
     pub fn show(&self, probe: &mut dyn Probe) {
         self.visit(&mut Shown(probe));
     }
@@ -43,7 +38,7 @@ impl<C: Circuit> Sample<'_, C> {
     pub fn at_power_on<T>(circuit: &C, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
         let i = super::zero();
         let q = circuit.power_on();
-        let w = settled(circuit, &q, &i);
+        let w = circuit.comb(&q, &i);
         show(&Sample {
             tick: 0,
             i: &i,

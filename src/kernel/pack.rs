@@ -47,7 +47,7 @@ pub fn width<S: Signals<Sim>>() -> usize {
     counter.0
 }
 
-/// A bundle with every bit low. It is what a control computer mostly gives, so it is made in place.
+/// A bundle with every bit low.
 pub fn zero<S: Signals<Sim>>() -> S {
     S::make(part(Role::Input), &mut Zero)
 }

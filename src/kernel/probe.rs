@@ -1,4 +1,4 @@
-use super::signals::{Extent, Field, Inside, Kind, Make, Role, Shape, Signals, Visit};
+use super::signals::{Field, Kind, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Bit, Image, Signed, Sim, sim::*};
 use std::any::Any;
 
@@ -48,23 +48,6 @@ pub trait Probe {
     fn element(&mut self, _index: usize) {}
     /// A leaf; `bits` holds its value in the low `shape.width` bits, zeros above.
     fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64);
-    /// See [`Visit::passes`].
-    fn passes(&mut self, _extent: Extent) -> bool {
-        false
-    }
-    /// See [`Visit::passes_over`].
-    fn passes_over(&mut self, _inside: Inside) -> bool {
-        false
-    }
-    /// See [`Visit::rests`].
-    fn rests(&mut self, _inside: Inside) -> bool {
-        false
-    }
-    /// A memory comes next that has so many words and has been written or shifted `mark` times
-    /// since power-on: true leaves it out.
-    fn memory_rests(&mut self, _words: usize, _mark: u64) -> bool {
-        false
-    }
     /// A memory: unless overridden, a scope with a leaf for every word.
     fn memory(&mut self, field: &'static Field, words: &dyn Words) {
         self.enter(field);
@@ -103,28 +86,14 @@ impl<P: Probe> Visit<Sim> for P {
         self.leaf(field, Shape { kind, width: N }, value.unsigned().get());
     }
     fn ram<const A: usize, const D: usize>(&mut self, field: &'static Field, ram: &SimRam<A, D>) {
-        // Asked before there is anything to refer to, which would have to stand in memory.
-        if !self.memory_rests(Image::<A, D>::WORDS, ram.mark()) {
-            self.memory(field, &ram.words());
-        }
+        self.memory(field, ram);
     }
     fn shift_register<const K: usize, const D: usize>(
         &mut self,
         field: &'static Field,
         register: &SimShiftRegister<K, D>,
     ) {
-        if !self.memory_rests(K, register.mark()) {
-            self.memory(field, &register.words());
-        }
-    }
-    fn passes(&mut self, extent: Extent) -> bool {
-        Probe::passes(self, extent)
-    }
-    fn passes_over(&mut self, inside: Inside) -> bool {
-        Probe::passes_over(self, inside)
-    }
-    fn rests(&mut self, inside: Inside) -> bool {
-        Probe::rests(self, inside)
+        self.memory(field, register);
     }
 }
 
@@ -165,12 +134,6 @@ impl Probe for Shown<'_> {
     }
     fn memory(&mut self, field: &'static Field, words: &dyn Words) {
         self.0.memory(field, words);
-    }
-    fn memory_rests(&mut self, words: usize, mark: u64) -> bool {
-        self.0.memory_rests(words, mark)
-    }
-    fn rests(&mut self, inside: Inside) -> bool {
-        self.0.rests(inside)
     }
 }
 

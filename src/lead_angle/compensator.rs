@@ -291,21 +291,6 @@ impl<
     const R: usize,
     const N: usize,
     const S: usize,
-> FastForward for Compensator<P, K, T, C, W, A, D, R, N, S>
-{
-}
-
-impl<
-    P: LeadSource<C, W, N>,
-    const K: usize,
-    const T: usize,
-    const C: usize,
-    const W: usize,
-    const A: usize,
-    const D: usize,
-    const R: usize,
-    const N: usize,
-    const S: usize,
 > Circuit for Compensator<P, K, T, C, W, A, D, R, N, S>
 {
     const NAME: &'static str = P::COMPENSATOR;

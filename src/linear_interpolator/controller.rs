@@ -262,19 +262,6 @@ impl<
     const D: usize,
     const K: usize,
     const S: usize,
-> FastForward for Controller<C, P, T, G, F, D, K, S>
-{
-}
-
-impl<
-    C: CommandSource<P, T>,
-    const P: usize,
-    const T: usize,
-    const G: usize,
-    const F: usize,
-    const D: usize,
-    const K: usize,
-    const S: usize,
 > Circuit for Controller<C, P, T, G, F, D, K, S>
 {
     const NAME: &'static str = C::CONTROLLER;

@@ -91,8 +91,7 @@ impl<const N: usize, const A: usize> Axis<N, A> {
     }
 }
 
-impl<const N: usize, const A: usize> Axis<N, A> {
-}
+impl<const N: usize, const A: usize> Axis<N, A> {}
 
 impl<const N: usize, const A: usize> Circuit for Axis<N, A> {
     const NAME: &'static str = "axis";

@@ -261,11 +261,6 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
     }
 }
 
-impl<const AXES: usize, const N: usize, const T: usize, const A: usize> FastForward
-    for Group<AXES, N, T, A>
-{
-}
-
 impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Specified
     for Group<AXES, N, T, A>
 {

@@ -362,30 +362,6 @@ impl<
     const Q: usize,
     const T: usize,
     const U: usize,
-> FastForward for TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>
-{
-}
-
-impl<
-    const AXES: usize,
-    const A: usize,
-    const W: usize,
-    const P: usize,
-    const R: usize,
-    const C: usize,
-    const S: usize,
-    const H: usize,
-    const X: usize,
-    const D: usize,
-    const E: usize,
-    const F: usize,
-    const N: usize,
-    const K: usize,
-    const M: usize,
-    const G: usize,
-    const Q: usize,
-    const T: usize,
-    const U: usize,
 > Circuit for TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>
 {
     const NAME: &'static str = "trajectory_controller";

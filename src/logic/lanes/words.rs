@@ -1,5 +1,5 @@
 use super::{Element, Lanes};
-use crate::kernel::{Extent, Field, Make, Signals, Visit};
+use crate::kernel::{Field, Make, Signals, Visit};
 use crate::logic::{Bit, Select, Signed, Unsigned};
 use std::array::from_fn;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
@@ -144,8 +144,6 @@ macro_rules! word {
         impl<const K: usize, E: Element $(, const $n: usize)?> Signals<Lanes<K, E>>
             for $word<K, E $(, $n)?>
         {
-            const EXTENT: Extent = Extent::LEAF;
-
             #[inline(always)]
             fn visit<V: Visit<Lanes<K, E>>>(&self, field: &'static Field, visitor: &mut V) {
                 visitor.$walk(field, *self);
