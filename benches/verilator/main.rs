@@ -19,7 +19,6 @@ mod stimulus;
 mod theirs;
 
 use jobs::{Clock, Job};
-use motion_rtl::kernel::;
 use ours::{Outputs, Waves};
 use std::time::Duration;
 use theirs::{Build, Verilated};
@@ -99,11 +98,7 @@ impl Times {
 }
 
 /// Measures a circuit at both clocks.
-fn circuit<C: Outputs>(
-    asked: &Asked,
-    name: &str,
-    job: impl Fn(u64, Clock) -> Job<C>,
-) {
+fn circuit<C: Outputs>(asked: &Asked, name: &str, job: impl Fn(u64, Clock) -> Job<C>) {
     measure(asked, name, |ticks| job(ticks, Clock::Shipped));
     let fast = format!("{name}, 10 MHz");
     measure(asked, &fast, |ticks| job(ticks, Clock::Fast));

@@ -15,7 +15,7 @@ use crate::blocks::{
     enable_counter, record_memory, record_sequencer,
 };
 use crate::kernel::{Circuit, Instance};
-use crate::logic::{Logic, Sim};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {

@@ -12,7 +12,7 @@
 
 use crate::check::{Invariants, Specified};
 use crate::kernel::{Circuit, Moment, Property};
-use crate::logic::{Bit, Logic, Sim, Unsigned};
+use crate::logic::{Bit, Logic, Unsigned};
 use crate::signals;
 
 signals! {

@@ -4,7 +4,6 @@ use super::visited::Visited;
 use super::{Counterexample, Fault, Invariants, TooWide};
 use crate::kernel::{Circuit, Sample};
 use crate::logic::Sim;
-use crate::logic::sim::Wire;
 use std::fmt;
 
 /// The widest inputs: all their values are tried in every state.

@@ -15,7 +15,7 @@ use super::{CorrectionArithmetic, RatioLogic, Sign, StopError};
 use super::{correction_arithmetic, ratio_logic, stop_error};
 use crate::blocks::{MulDiv, mul_div};
 use crate::kernel::{Circuit, Instance, Nothing};
-use crate::logic::{Logic, Sim};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {

@@ -12,7 +12,7 @@
 
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::{Circuit, Nothing};
-use crate::logic::{Logic, Sim};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {

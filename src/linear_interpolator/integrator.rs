@@ -14,7 +14,7 @@
 use super::{Accumulator, Rule, accumulator};
 use crate::blocks::{MulDiv, mul_div};
 use crate::kernel::{Circuit, Instance};
-use crate::logic::{Logic, Sim};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {

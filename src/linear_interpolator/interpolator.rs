@@ -14,7 +14,7 @@ use super::{
     axis_switch, differentiator, integrator, pattern_generator, sequencer, target_data,
 };
 use crate::kernel::{Circuit, Instance};
-use crate::logic::{Logic, Sim};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {

@@ -15,7 +15,7 @@
 use super::{Trapezoid, trapezoid};
 use crate::blocks::{MulDiv, mul_div};
 use crate::kernel::{Circuit, Instance};
-use crate::logic::{Logic, Sim};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {

@@ -15,7 +15,7 @@
 use crate::blocks::{EnableCounter, enable_counter};
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::{Circuit, Instance};
-use crate::logic::{Bit, Logic, Sim};
+use crate::logic::{Bit, Logic};
 use crate::signals;
 
 signals! {

@@ -13,8 +13,7 @@ use super::{PatternMemory, PulseGenerator, SyncStage, Variant};
 use super::{pattern_memory, pulse_generator, sync_stage};
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::{Circuit, Instance};
-use crate::logic::sim::UInt;
-use crate::logic::{Bit, Logic, Sim, Unsigned};
+use crate::logic::{Logic, Sim};
 use crate::signals;
 
 signals! {
@@ -90,8 +89,6 @@ impl<const N: usize, const A: usize> Axis<N, A> {
         }
     }
 }
-
-impl<const N: usize, const A: usize> Axis<N, A> {}
 
 impl<const N: usize, const A: usize> Circuit for Axis<N, A> {
     const NAME: &'static str = "axis";

@@ -319,6 +319,3 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Specifie
         !i.write.get() && unused
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -19,7 +19,7 @@ use crate::blocks::{
     enable_counter, record_memory, record_sequencer,
 };
 use crate::kernel::{Circuit, Instance, Nothing};
-use crate::logic::{Bit, Logic, Sim};
+use crate::logic::{Bit, Logic};
 use crate::signals;
 use std::array::from_fn;
 
