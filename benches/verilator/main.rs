@@ -2,7 +2,7 @@
 //! with outputs that are compared.
 //!
 //! Each job runs at the clock of its scenario, which is slow enough for a dump of all of it, and at
-//! 10 MHz, where fewer things happen in a tick. Where idle ticks are gone over in one, the outputs
+//! 10 MHz, where fewer things happen in a tick. Where idle ticks are gone over, the outputs
 //! of every tick are read as well: those of idle ticks are held.
 //!
 //! Both get the inputs of a job that ships with the crate, as they were recorded. They run in turn,

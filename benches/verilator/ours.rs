@@ -118,7 +118,7 @@ impl Held {
     }
 }
 
-/// A run that goes over idle ticks in one, and the checksum over the outputs of every tick.
+/// A run that goes over idle ticks, and the checksum over the outputs of every tick.
 pub fn forward<C: Outputs>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
     let mut replay = Replay::<C>::new(stimulus);
     let mut held = Held::default();

@@ -82,7 +82,7 @@ impl<C: Circuit, L: Logic> Instance<C, L> {
         L::clock(circuit, q, &self.w, &self.i)
     }
 
-    /// The same for an array of circuits: applies `inputs` and settles the nets.
+    /// Applies `inputs` to an array of circuits and settles their nets.
     pub fn settle_each<const K: usize>(
         circuits: &[C; K],
         q: &[C::Reg<L>; K],
