@@ -82,7 +82,7 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     /// use motion_rtl::pulse_interpolator::{Group, Pattern, Variant};
     ///
     /// # fn main() -> Result<(), RunError> {
-    /// // A tenth of a second at 10 MHz: a pulse a millisecond, unit times of a hundredth of a second.
+    /// // A tenth of a second at 10 MHz: a pulse a millisecond, unit times of 10 ms.
     /// let pattern = Pattern { base: 0, last: 0, cyclic: true, period: 100_000 };
     /// let mut group = Group::<1>::free_running(Variant::Safe, pattern);
     /// group.axes[0].memory.half_periods.set(0, 5_000);

@@ -36,16 +36,6 @@ impl<const K: usize, E: Element> LaneBit<K, E> {
         self.0[k] != E::low(0)
     }
 
-    /// Whether it is high in every lane.
-    #[inline(always)]
-    pub fn all(self) -> bool {
-        let all = self
-            .0
-            .into_iter()
-            .fold(E::low(u64::MAX), |all, lane| all & lane);
-        all != E::low(0)
-    }
-
     /// A wire from the value in each lane.
     #[inline(always)]
     pub fn each(value: impl Fn(usize) -> bool) -> Self {
