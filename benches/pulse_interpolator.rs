@@ -1,7 +1,7 @@
 //! Ticks a second of the pulse interpolator, for groups of 1, 2, 3 and 8 axes that play a pattern
 //! of their own: untraced, with every output read at each tick, and with a dump of every signal.
 //! And for the job that ships with the crate, with drivers that count the pulses: every tick
-//! stepped, and over idle ticks in one.
+//! stepped, and over idle ticks.
 
 use divan::counter::ItemsCount;
 use motion_rtl::input::read_text;
@@ -43,7 +43,6 @@ fn group<const AXES: usize>() -> Group<AXES> {
 struct Outputs(u64);
 
 impl<const AXES: usize> Observer<Group<AXES>> for Outputs {
-    #[inline]
     fn sample(&mut self, now: &Sample<'_, Group<AXES>>) -> Result<ControlFlow<()>, RunError> {
         let lines = now.w.step.iter().chain(&now.w.dir);
         let lines = lines.chain([&now.w.unit_rst, &now.w.ready, &now.w.busy]);

@@ -84,7 +84,6 @@ fn drawing(scenario: &Scenario) -> Drawing {
 macro_rules! outputs {
     ([$($generic:tt)*] $circuit:ty: $($port:ident)*) => {
         impl<$($generic)*> Outputs for $circuit {
-            #[inline(always)]
             fn outputs(now: &Sample<'_, Self>) -> Mix {
                 Mix::default()$(.with(&now.w.$port))*
             }

@@ -2,7 +2,7 @@
 //! with outputs that are compared.
 //!
 //! Each job runs at the clock of its scenario, which is slow enough for a dump of all of it, and at
-//! 10 MHz, where fewer things happen in a tick. Where idle ticks are gone over in one, the outputs
+//! 10 MHz, where fewer things happen in a tick. Where idle ticks are gone over, the outputs
 //! of every tick are read as well: those of idle ticks are held.
 //!
 //! Both get the inputs of a job that ships with the crate, as they were recorded. They run in turn,
@@ -19,7 +19,6 @@ mod stimulus;
 mod theirs;
 
 use jobs::{Clock, Job};
-use motion_rtl::kernel::FastForward;
 use ours::{Outputs, Waves};
 use std::time::Duration;
 use theirs::{Build, Verilated};
@@ -99,18 +98,14 @@ impl Times {
 }
 
 /// Measures a circuit at both clocks.
-fn circuit<C: Outputs + FastForward>(
-    asked: &Asked,
-    name: &str,
-    job: impl Fn(u64, Clock) -> Job<C>,
-) {
+fn circuit<C: Outputs>(asked: &Asked, name: &str, job: impl Fn(u64, Clock) -> Job<C>) {
     measure(asked, name, |ticks| job(ticks, Clock::Shipped));
     let fast = format!("{name}, 10 MHz");
     measure(asked, &fast, |ticks| job(ticks, Clock::Fast));
 }
 
 /// Measures a job: untraced over all of the stimulus, with waves over its end.
-fn measure<C: Outputs + FastForward>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C>) {
+fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C>) {
     if asked.only.as_ref().is_some_and(|only| !name.contains(only)) {
         return;
     }

@@ -2,7 +2,7 @@
 
 use super::stimulus::{Replay, Stimulus};
 use super::theirs::ROTATION;
-use motion_rtl::kernel::{Circuit, FastForward, Observer, RunError, Sample, Simulator};
+use motion_rtl::kernel::{Circuit, Observer, RunError, Sample, Simulator};
 use motion_rtl::logic::sim::{Int, UInt, Wire};
 use motion_rtl::logic::{Bit, Signed, Sim};
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
@@ -25,12 +25,10 @@ pub struct Mix {
 }
 
 impl Mix {
-    #[inline(always)]
     pub fn with<P: Port>(self, port: &P) -> Self {
         port.mix(self)
     }
 
-    #[inline(always)]
     fn word(self, word: u64) -> Self {
         Mix {
             word: self.word ^ word.rotate_left(self.place),
@@ -45,28 +43,24 @@ pub trait Port {
 }
 
 impl Port for Wire {
-    #[inline(always)]
     fn mix(&self, mix: Mix) -> Mix {
         mix.word(Bit::<Sim>::word(*self).get())
     }
 }
 
 impl<const N: usize> Port for UInt<N> {
-    #[inline(always)]
     fn mix(&self, mix: Mix) -> Mix {
         mix.word(self.get())
     }
 }
 
 impl<const N: usize> Port for Int<N> {
-    #[inline(always)]
     fn mix(&self, mix: Mix) -> Mix {
         mix.word(Signed::<Sim, N>::unsigned(*self).get())
     }
 }
 
 impl<P: Port, const K: usize> Port for [P; K] {
-    #[inline(always)]
     fn mix(&self, mix: Mix) -> Mix {
         self.iter().fold(mix, Mix::with)
     }
@@ -76,7 +70,6 @@ impl<P: Port, const K: usize> Port for [P; K] {
 struct Checksum<const EVERY: u64>(u64);
 
 impl<C: Outputs, const EVERY: u64> Observer<C> for Checksum<EVERY> {
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         if now.tick.is_multiple_of(EVERY) {
             self.0 = self.0.rotate_left(1).wrapping_add(C::outputs(now).word);
@@ -86,7 +79,6 @@ impl<C: Outputs, const EVERY: u64> Observer<C> for Checksum<EVERY> {
 }
 
 /// A run, and the checksum over the outputs of every so many ticks.
-#[inline(never)]
 pub fn run<C: Outputs, const EVERY: u64>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
     let mut replay = Replay::<C>::new(stimulus);
     let mut sum = Checksum::<EVERY>(0);
@@ -110,7 +102,6 @@ struct Held {
 }
 
 impl<C: Outputs> Observer<C> for Held {
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.until(now.tick);
         self.word = C::outputs(now).word;
@@ -119,7 +110,6 @@ impl<C: Outputs> Observer<C> for Held {
 }
 
 impl Held {
-    #[inline(always)]
     fn until(&mut self, tick: u64) {
         for _ in self.tick..tick {
             self.sum = self.sum.rotate_left(1).wrapping_add(self.word);
@@ -128,9 +118,8 @@ impl Held {
     }
 }
 
-/// A run that goes over idle ticks in one, and the checksum over the outputs of every tick.
-#[inline(never)]
-pub fn forward<C: Outputs + FastForward>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
+/// A run that goes over idle ticks, and the checksum over the outputs of every tick.
+pub fn forward<C: Outputs>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
     let mut replay = Replay::<C>::new(stimulus);
     let mut held = Held::default();
     let simulator = Simulator::new(circuit);
@@ -191,7 +180,6 @@ pub fn dump<C: Outputs>(
 
 /// A run with an observer from a tick on: when that began, and the checksum over the outputs of
 /// every tick.
-#[inline(never)]
 fn seen<C: Outputs>(
     circuit: &C,
     stimulus: &Stimulus,

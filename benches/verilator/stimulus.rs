@@ -102,32 +102,28 @@ impl<C: Circuit> Observer<C> for Recorder {
     }
 }
 
-/// A power of two.
-const MOST_PORTS: usize = 128;
-
 /// The recorded inputs, tick after tick.
 pub struct Replay<'a, C: Circuit> {
     changes: &'a [Change],
-    words: [u64; MOST_PORTS],
+    /// Of the ports that have changed, and those before them.
+    words: Vec<u64>,
     i: C::In<Sim>,
     next: u64,
 }
 
 impl<'a, C: Circuit> Replay<'a, C> {
     pub fn new(stimulus: &'a Stimulus) -> Self {
-        const { assert!(C::In::<Sim>::EXTENT.leaves <= MOST_PORTS) };
         Replay {
             next: stimulus
                 .changes
                 .first()
                 .map_or(u64::MAX, |change| change.tick.into()),
             changes: &stimulus.changes,
-            words: [0; MOST_PORTS],
+            words: Vec::new(),
             i: zero::<C::In<Sim>>(),
         }
     }
 
-    #[inline(always)]
     pub fn tick(&mut self, tick: u64) -> C::In<Sim> {
         if tick == self.next {
             self.apply();
@@ -137,7 +133,6 @@ impl<'a, C: Circuit> Replay<'a, C> {
 
     /// The same, and for how many ticks they are held: the next tick asked for is in these, or the
     /// one after them.
-    #[inline(always)]
     pub fn held(&mut self, tick: u64) -> (C::In<Sim>, u64) {
         let i = self.tick(tick);
         (i, self.next - tick)
@@ -148,25 +143,24 @@ impl<'a, C: Circuit> Replay<'a, C> {
             if u64::from(change.tick) != self.next {
                 break;
             }
-            self.words[change.port as usize] = change.value;
+            let port = change.port as usize;
+            self.words.resize(self.words.len().max(port + 1), 0);
+            self.words[port] = change.value;
             self.changes = rest;
         }
         self.next = self
             .changes
             .first()
             .map_or(u64::MAX, |change| change.tick.into());
-        self.i = C::In::make(const { &Field::named("") }, &mut Given(&self.words, 0));
+        self.i = C::In::make(const { &Field::named("") }, &mut Given(self.words.iter()));
     }
 }
 
-/// Words, and the place of the next one. Every port has a place that the compiler knows.
-struct Given<'a>(&'a [u64; MOST_PORTS], usize);
+/// Words; those that are missing are low.
+struct Given<'a>(std::slice::Iter<'a, u64>);
 
 impl Source for Given<'_> {
-    #[inline(always)]
     fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
-        let word = self.0[self.1 % MOST_PORTS];
-        self.1 += 1;
-        word
+        self.0.next().copied().unwrap_or_default()
     }
 }

@@ -14,8 +14,8 @@ use crate::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
     enable_counter, record_memory, record_sequencer,
 };
-use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, least};
-use crate::logic::{Logic, Sim};
+use crate::kernel::{Circuit, Instance};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {
@@ -224,21 +224,6 @@ impl<
     const A: usize,
     const K: usize,
     const T: usize,
-> FastForward for ArcGenerator<W, P, C, S, F, D, N, A, K, T>
-{
-}
-
-impl<
-    const W: usize,
-    const P: usize,
-    const C: usize,
-    const S: usize,
-    const F: usize,
-    const D: usize,
-    const N: usize,
-    const A: usize,
-    const K: usize,
-    const T: usize,
 > Circuit for ArcGenerator<W, P, C, S, F, D, N, A, K, T>
 {
     const NAME: &'static str = "arc_generator";
@@ -247,9 +232,7 @@ impl<
     type In<L: Logic> = In<L, D, T>;
     type Reg<L: Logic> = Reg<L, W, P, C, S, F, D, N, A, K, T>;
     type Net<L: Logic> = Net<L, W, P, C, S, F, D, N, A, K, T>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
         let sample_counter = Instance::settle(
             &self.sample_counter,
@@ -343,7 +326,6 @@ impl<
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
         let [engine_x, engine_y, engine_z] = &self.engines;
         let [command_x, command_y, command_z] = &self.commands;
@@ -360,50 +342,6 @@ impl<
             command_x: w.command_x.next(command_x, q.command_x),
             command_y: w.command_y.next(command_y, q.command_y),
             command_z: w.command_z.next(command_z, q.command_z),
-        }
-    }
-
-    #[inline(always)]
-    fn coasting<L: Logic>(
-        &self,
-        q: &Self::Reg<L>,
-        w: &Self::Net<L>,
-        _: &Self::In<L>,
-    ) -> Option<L::Bit> {
-        // Engines and commands act with the memory or with the sequencer only.
-        Some(
-            w.sample_counter
-                .coasting(&self.sample_counter, &q.sample_counter)
-                & w.memory.gated(&self.memory, &q.memory)
-                & w.sequencer.gated(&self.sequencer, &q.sequencer)
-                & w.rotation.gated(&self.rotation, &q.rotation),
-        )
-    }
-
-    #[inline(always)]
-    fn coast<L: Logic>(&self, q: Self::Reg<L>) -> Self::Reg<L> {
-        Reg {
-            sample_counter: self.sample_counter.coast(q.sample_counter),
-            ..q
-        }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Self::Reg<Sim>, w: &Self::Net<Sim>, _: &Self::In<Sim>) -> u64 {
-        least([
-            w.sample_counter
-                .coasts_for(&self.sample_counter, &q.sample_counter),
-            w.memory.coasts_for(&self.memory, &q.memory),
-            w.sequencer.coasts_for(&self.sequencer, &q.sequencer),
-            w.rotation.coasts_for(&self.rotation, &q.rotation),
-        ])
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Self::Reg<Sim>, ticks: u64) -> Self::Reg<Sim> {
-        Reg {
-            sample_counter: self.sample_counter.coasted(q.sample_counter, ticks),
-            ..q
         }
     }
 }

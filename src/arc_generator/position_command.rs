@@ -74,7 +74,6 @@ impl<const W: usize, const P: usize, const D: usize> Circuit for PositionCommand
     type Reg<L: Logic> = Reg<L, W, P>;
     type Net<L: Logic> = Net<L, W, P>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W, P>, i: &In<L, P, D>) -> Net<L, W, P> {
         const {
             assert!(
@@ -91,7 +90,6 @@ impl<const W: usize, const P: usize, const D: usize> Circuit for PositionCommand
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, W, P>, w: &Net<L, W, P>, i: &In<L, P, D>) -> Reg<L, W, P> {
         let word = L::parameter("origin_word", 5 + self.coordinate);
         let load = i.load & i.word.equals(word);
@@ -99,16 +97,6 @@ impl<const W: usize, const P: usize, const D: usize> Circuit for PositionCommand
             origin: load.mux(i.data.resize().signed(), q.origin),
             command: i.present.mux(w.nearest, q.command),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        _: &Reg<L, W, P>,
-        _: &Self::Net<L>,
-        i: &In<L, P, D>,
-    ) -> Option<L::Bit> {
-        Some(!(i.load | i.present))
     }
 }
 

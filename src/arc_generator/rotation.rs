@@ -112,7 +112,6 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
     type Reg<L: Logic> = Reg<L, P, C, S>;
     type Net<L: Logic> = Net<L, P, C, S, D>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, C, S>, i: &In<L, D>) -> Net<L, P, C, S, D> {
         let control = Instance::settle(
             &self.control,
@@ -146,7 +145,6 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, P, C, S>,
@@ -159,20 +157,5 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
             row_y: w.row_y.next(&self.row_y, q.row_y),
             row_z: w.row_z.next(&self.row_z, q.row_z),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, P, C, S>,
-        w: &Self::Net<L>,
-        _: &In<L, D>,
-    ) -> Option<L::Bit> {
-        Some(
-            w.control.gated(&self.control, &q.control)
-                & w.row_x.gated(&self.row_x, &q.row_x)
-                & w.row_y.gated(&self.row_y, &q.row_y)
-                & w.row_z.gated(&self.row_z, &q.row_z),
-        )
     }
 }

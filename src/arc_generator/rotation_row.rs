@@ -108,7 +108,6 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
     type Reg<L: Logic> = Reg<L, P, C, S>;
     type Net<L: Logic> = Net<L, P, S>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, C, S>, i: &In<L, P, D>) -> Net<L, P, S> {
         const {
             assert!(
@@ -143,7 +142,6 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, P, C, S>,
@@ -172,16 +170,5 @@ impl<const P: usize, const C: usize, const S: usize, const D: usize> Circuit
             ),
             half: i.fraction.mux(w.total.unsigned().bit(0), q.half),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, P, C, S>,
-        _: &Self::Net<L>,
-        i: &In<L, P, D>,
-    ) -> Option<L::Bit> {
-        let bits = q.bits_x | q.bits_y | q.bits_z;
-        Some(!(i.load | i.copy | i.fraction | i.commit) & bits.is_zero())
     }
 }

@@ -71,7 +71,6 @@ impl<const C: usize> Circuit for CoefficientControl<C> {
     type Reg<L: Logic> = Reg<L>;
     type Net<L: Logic> = Net<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Net<L> {
         const {
             assert!(
@@ -90,18 +89,12 @@ impl<const C: usize> Circuit for CoefficientControl<C> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, _: &In<L>) -> Reg<L> {
         Reg {
             busy: w.going,
             bit_index: (w.going & !w.copy).mux(q.bit_index + 1, 0.into()),
             done: w.commit,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L>, _: &Self::Net<L>, i: &In<L>) -> Option<L::Bit> {
-        Some(!(i.step | q.busy | q.done))
     }
 }
 

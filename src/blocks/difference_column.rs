@@ -81,7 +81,6 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceColum
     type Reg<L: Logic> = Reg<L, P, F>;
     type Net<L: Logic> = Net<L, P, F>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, F>, i: &In<L, P, F, D>) -> Net<L, P, F> {
         const { assert!(D >= P && D >= F, "a word of a record holds whole and part") };
         let sum = q.part + i.by_part;
@@ -100,7 +99,6 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceColum
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, P, F>,
@@ -119,16 +117,6 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceColum
                 w.load_part.mux(i.data.resize(), i.step.mux(part, q.part)),
             ),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        _: &Reg<L, P, F>,
-        _: &Self::Net<L>,
-        i: &In<L, P, F, D>,
-    ) -> Option<L::Bit> {
-        Some(!(i.load | i.step))
     }
 }
 

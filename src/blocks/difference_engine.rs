@@ -114,7 +114,6 @@ impl<const P: usize, const F: usize, const D: usize> Default for DifferenceEngin
 }
 
 /// The ports in of a column with `below` it.
-#[inline(always)]
 fn column<L: Logic, const P: usize, const F: usize, const D: usize>(
     i: &In<L, F, D>,
     (by_whole, by_part): (L::I<P>, L::U<F>),
@@ -137,7 +136,6 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceEngin
     type Reg<L: Logic> = Reg<L, P, F>;
     type Net<L: Logic> = Net<L, P, F, D>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, F>, i: &In<L, F, D>) -> Net<L, P, F, D> {
         let below = |of: &difference_column::Reg<L, P, F>| (of.whole, of.part);
         let nothing = (0.into(), 0.into());
@@ -152,7 +150,6 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceEngin
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, P, F>,
@@ -166,15 +163,5 @@ impl<const P: usize, const F: usize, const D: usize> Circuit for DifferenceEngin
             d3: w.d3.next(&self.d3, q.d3),
             d4: w.d4.next(&self.d4, q.d4),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        _: &Reg<L, P, F>,
-        _: &Self::Net<L>,
-        i: &In<L, F, D>,
-    ) -> Option<L::Bit> {
-        Some(!(i.load | i.step))
     }
 }

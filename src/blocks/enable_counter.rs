@@ -11,8 +11,8 @@
 //! A period of 0 counts as 1.
 
 use crate::check::{Invariants, Specified};
-use crate::kernel::{Circuit, FreeRunning, Moment, Property, ticks_below};
-use crate::logic::{Bit, Logic, Sim, Unsigned};
+use crate::kernel::{Circuit, Moment, Property};
+use crate::logic::{Bit, Logic, Unsigned};
 use crate::signals;
 
 signals! {
@@ -52,9 +52,7 @@ impl<const W: usize> Circuit for EnableCounter<W> {
     type In<L: Logic> = In<L, W>;
     type Reg<L: Logic> = Reg<L, W>;
     type Net<L: Logic> = Net<L, W>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W>, i: &In<L, W>) -> Net<L, W> {
         let next = q.count + 1;
         Net {
@@ -63,32 +61,9 @@ impl<const W: usize> Circuit for EnableCounter<W> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, _: Reg<L, W>, w: &Net<L, W>, _: &In<L, W>) -> Reg<L, W> {
         Reg {
             count: w.enable.mux(0.into(), w.next),
-        }
-    }
-
-    #[inline(always)]
-    fn coasting<L: Logic>(&self, _: &Reg<L, W>, w: &Net<L, W>, _: &In<L, W>) -> Option<L::Bit> {
-        Some(!w.enable)
-    }
-
-    #[inline(always)]
-    fn coast<L: Logic>(&self, q: Reg<L, W>) -> Reg<L, W> {
-        Reg { count: q.count + 1 }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Reg<Sim, W>, _: &Net<Sim, W>, i: &In<Sim, W>) -> u64 {
-        ticks_below(q.count.get(), i.period.get())
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Reg<Sim, W>, ticks: u64) -> Reg<Sim, W> {
-        Reg {
-            count: q.count + ticks,
         }
     }
 

@@ -13,7 +13,7 @@
 //! restores, from the dividend's highest bit down. Dividend and quotient share a register.
 
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, FreeRunning, ticks_below};
+use crate::kernel::Circuit;
 use crate::logic::sim::UInt;
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
@@ -103,9 +103,7 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
     type In<L: Logic> = In<L, M, Q>;
     type Reg<L: Logic> = Reg<L, M, Q>;
     type Net<L: Logic> = Net<L, Q>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, M, Q>, i: &In<L, M, Q>) -> Net<L, Q> {
         let (multiplies, divides) = (q.state.bit(0), q.state.bit(1));
         let busy = multiplies | divides;
@@ -123,7 +121,6 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, M, Q>, w: &Net<L, Q>, i: &In<L, M, Q>) -> Reg<L, M, Q> {
         let (multiplies, undivided) = (q.state.bit(0), q.undivided);
         let after = (multiplies & !undivided).mux(DIVIDE.into(), IDLE.into());
@@ -141,65 +138,14 @@ impl<const M: usize, const Q: usize> Circuit for MulDiv<M, Q> {
             done: w.complete,
         }
     }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, M, Q>,
-        _: &Self::Net<L>,
-        i: &In<L, M, Q>,
-    ) -> Option<L::Bit> {
-        Some(!(i.start | q.done) & q.state.is_zero())
-    }
-
-    /// A bit of the product or of the quotient, but not the last one; or nothing, where it is idle.
-    #[inline(always)]
-    fn coasting<L: Logic>(
-        &self,
-        q: &Reg<L, M, Q>,
-        w: &Self::Net<L>,
-        i: &In<L, M, Q>,
-    ) -> Option<L::Bit> {
-        Some(!(i.start | q.done | w.last))
-    }
-
-    #[inline(always)]
-    fn coast<L: Logic>(&self, q: Reg<L, M, Q>) -> Reg<L, M, Q> {
-        let busy = q.state.bit(0) | q.state.bit(1);
-        let partial = partial(&q);
-        let fits = !partial.below(q.by);
-        step(q, busy, partial, fits)
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Reg<Sim, M, Q>, _: &Net<Sim, Q>, i: &In<Sim, M, Q>) -> u64 {
-        match q.state.get() {
-            _ if i.start.get() || q.done.get() => 0,
-            MULTIPLY => ticks_below(q.count.get(), M as u64),
-            DIVIDE => ticks_below(q.count.get(), Q as u64),
-            _ => u64::MAX,
-        }
-    }
-
-    #[inline(always)]
-    fn coasted(&self, mut q: Reg<Sim, M, Q>, ticks: u64) -> Reg<Sim, M, Q> {
-        if q.state.get() != IDLE {
-            for _ in 0..ticks {
-                q = self.coast(q);
-            }
-        }
-        q
-    }
 }
 
 /// The remainder with the next bit of the dividend.
-#[inline(always)]
 fn partial<L: Logic, const M: usize, const Q: usize>(q: &Reg<L, M, Q>) -> L::U<Q> {
     q.remainder.shift_left(1) | q.quotient.bit(Q - 1).word().resize()
 }
 
 /// The registers with one bit more of the product or of the quotient.
-#[inline(always)]
 fn step<L: Logic, const M: usize, const Q: usize>(
     q: Reg<L, M, Q>,
     busy: L::Bit,

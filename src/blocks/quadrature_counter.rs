@@ -87,7 +87,6 @@ impl<const W: usize> Circuit for QuadratureCounter<W> {
     type Reg<L: Logic> = Reg<L, W>;
     type Net<L: Logic> = Net<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W>, _: &In<L>) -> Net<L> {
         let changes = |sync: L::U<3>| sync.bit(PRESENT) ^ sync.bit(PREVIOUS);
         let (changes_a, changes_b) = (changes(q.sync_a), changes(q.sync_b));
@@ -102,7 +101,6 @@ impl<const W: usize> Circuit for QuadratureCounter<W> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, W>, w: &Net<L>, i: &In<L>) -> Reg<L, W> {
         let moved = w.up.mux(q.position + 1, q.position - 1);
         Reg {
@@ -112,13 +110,6 @@ impl<const W: usize> Circuit for QuadratureCounter<W> {
             position: i.clear.mux(0.into(), w.moves.mux(moved, q.position)),
             lost: (q.lost | w.illegal) & !i.clear,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, W>, _: &Self::Net<L>, i: &In<L>) -> Option<L::Bit> {
-        let steady = |sync: L::U<3>, pin: L::Bit| sync.equals(pin.mux(7.into(), 0.into()));
-        let still = steady(q.sync_a, i.a) & steady(q.sync_b, i.b);
-        Some(!i.clear & still & q.samples.equals(FILLED.into()))
     }
 }
 

@@ -117,7 +117,6 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for RecordMemory<A,
     type Reg<L: Logic> = Reg<L, A, K, D>;
     type Net<L: Logic> = Net<L, A, K>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, A, K, D>, i: &In<L, D>) -> Net<L, A, K> {
         const { assert!(K == A + 5, "a record has 32 words") };
         let arc = i.kind.equals(ARC.into());
@@ -140,7 +139,6 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for RecordMemory<A,
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, A, K, D>,
@@ -162,16 +160,5 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for RecordMemory<A,
             word: loads.mux(q.read_word, q.word),
             loaded: q.load & q.word.equals((RECORD as u64 - 1).into()) & !i.flush,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, A, K, D>,
-        _: &Self::Net<L>,
-        i: &In<L, D>,
-    ) -> Option<L::Bit> {
-        let strobes = i.write | i.push | i.take | i.flush;
-        Some(!(strobes | q.reading | q.load | q.loaded))
     }
 }

@@ -121,7 +121,6 @@ impl<const F: usize, const N: usize, const D: usize> Circuit for RecordSequencer
     type Reg<L: Logic> = Reg<L, F, N>;
     type Net<L: Logic> = Net<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, F, N>, i: &In<L, D>) -> Net<L> {
         const {
             assert!(
@@ -148,7 +147,6 @@ impl<const F: usize, const N: usize, const D: usize> Circuit for RecordSequencer
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, F, N>, w: &Net<L>, i: &In<L, D>) -> Reg<L, F, N> {
         let modulus = i.load & i.word.equals(1.into());
         let to = |state: u64| -> L::U<3> { state.into() };
@@ -178,12 +176,6 @@ impl<const F: usize, const N: usize, const D: usize> Circuit for RecordSequencer
             late: (q.late & !w.begins) | w.hurried,
             starved: (q.starved & !w.begins) | (w.over & !q.rests & !i.available),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, F, N>, _: &Self::Net<L>, i: &In<L, D>) -> Option<L::Bit> {
-        let strobes = i.start | i.halt | i.sample | i.load | i.loaded | i.rotated;
-        Some(!(strobes | q.take | q.rotate | q.sampled) & !q.state.equals(STEP.into()))
     }
 }
 

@@ -1,4 +1,4 @@
-use crate::kernel::{Circuit, Extent, Field, Make, Signals, Visit};
+use crate::kernel::{Circuit, Field, Make, Signals, Visit};
 use crate::logic::{Logic, Sim};
 use std::fmt;
 use std::marker::PhantomData;
@@ -65,7 +65,6 @@ pub trait SamePorts<A: Circuit>: Circuit {
 }
 
 impl<A: Circuit> SamePorts<A> for A {
-    #[inline(always)]
     fn ports<L: Logic>(i: &A::In<L>) -> &A::In<L> {
         i
     }
@@ -134,7 +133,6 @@ impl<A, B, T, U> Sides<A, B, T, U> {
 }
 
 impl<A, B, T: Clone, U: Clone> Clone for Sides<A, B, T, U> {
-    #[inline]
     fn clone(&self) -> Self {
         Sides::new(self.left.clone(), self.right.clone())
     }
@@ -157,9 +155,6 @@ where
     T: Signals<L>,
     U: Signals<L>,
 {
-    const EXTENT: Extent = T::EXTENT.and(U::EXTENT);
-
-    #[inline(always)]
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.enter(field);
         self.left
@@ -185,14 +180,12 @@ impl<A: Circuit, B: SamePorts<A>> Circuit for Pair<A, B> {
     type Reg<L: Logic> = Sides<A, B, A::Reg<L>, B::Reg<L>>;
     type Net<L: Logic> = Sides<A, B, A::Net<L>, B::Net<L>>;
 
-    #[inline]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
         let left = self.left.comb(&q.left, i);
         let right = self.right.comb(&q.right, B::ports(i));
         Sides::new(left, right)
     }
 
-    #[inline]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, i: &Self::In<L>) -> Self::Reg<L> {
         let left = self.left.next(q.left, &w.left, i);
         let right = self.right.next(q.right, &w.right, B::ports(i));

@@ -2,10 +2,8 @@ use super::enumerate::{all, from_word, to_word};
 use super::search::{Report, Search};
 use super::visited::Visited;
 use super::{Counterexample, Fault, Invariants, TooWide};
-use crate::kernel::{COASTING, Circuit, Declarations, GATED, Sample, coasting_fault};
+use crate::kernel::{Circuit, Sample};
 use crate::logic::Sim;
-use crate::logic::sim::Wire;
-use crate::trace::free_running;
 use std::fmt;
 
 /// The widest inputs: all their values are tried in every state.
@@ -182,8 +180,6 @@ impl<'a, C: Circuit> Reach<'a, C> {
             }
         }
 
-        let declared = Declarations::of(self.circuit);
-        let free = free_running(&declared.leaves, &declared.instances, C::FREE_RUNNING);
         let power_on = to_word(&self.circuit.power_on());
         let visited = Visited::new(bits, self.bitmap_bits);
         let mut search = Search::new(power_on, visited, self.limit, self.progress.take());
@@ -199,7 +195,6 @@ impl<'a, C: Circuit> Reach<'a, C> {
                 let next = self.circuit.next(q.clone(), &w, i);
                 let now = Sample {
                     tick: search.depth,
-                    coasting: false,
                     i,
                     q: &q,
                     w: &w,
@@ -209,15 +204,6 @@ impl<'a, C: Circuit> Reach<'a, C> {
                     let way = way.into_iter().map(|index| inputs[index].clone());
                     return Ok(self.violated(name, fault, way.collect()));
                 }
-                if let Some(message) = self.gates(&q, &w, i, &next, &free) {
-                    let fault = Fault {
-                        signals: vec![C::NAME.to_owned()],
-                        message: message.into(),
-                    };
-                    let way = search.way(index);
-                    let way = way.into_iter().map(|index| inputs[index].clone());
-                    return Ok(self.violated("the clock gate", fault, way.collect()));
-                }
                 if !search.found(to_word(&next), index) {
                     return Ok(Outcome::Limit(search.progress()));
                 }
@@ -225,27 +211,6 @@ impl<'a, C: Circuit> Reach<'a, C> {
             search.tried(before);
         }
         Ok(Outcome::Proof(search.proof()))
-    }
-
-    /// What is wrong with the gates of the clock, if the edge leads to `next`; by the leaf, what
-    /// runs `free`.
-    fn gates(
-        &self,
-        q: &C::Reg<Sim>,
-        w: &C::Net<Sim>,
-        i: &C::In<Sim>,
-        next: &C::Reg<Sim>,
-        free: &[bool],
-    ) -> Option<&'static str> {
-        let same = |a: &_, b: &_| to_word::<C::Reg<Sim>>(a) == to_word(b);
-        let high = |gate: Option<Wire>| gate.is_some_and(|gate| gate.get());
-        if high(self.circuit.gated(q, w, i)) && !same(q, next) {
-            return Some(GATED);
-        }
-        if high(self.circuit.coasting(q, w, i)) && !same(&self.circuit.coast(q.clone()), next) {
-            return Some(COASTING);
-        }
-        coasting_fault(self.circuit, q, w, i, next, same, free)
     }
 
     fn violated(&self, name: &str, fault: Fault, inputs: Vec<C::In<Sim>>) -> Outcome<C> {

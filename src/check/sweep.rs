@@ -92,8 +92,6 @@ pub struct Sweep<'a, W: Law> {
 
 /// Checks a law on every case: [`Lanes`] of them at a time, on as many threads as rayon has. The
 /// counterexample is the case with the lowest index, however many threads and lanes there are.
-/// Blocks rest and coast by their [gates](Circuit::gated) as in any run, which proofs and random
-/// runs check.
 #[must_use = "nothing is checked before it runs"]
 pub fn sweep<W: Law>(law: &W) -> Sweep<'_, W> {
     Sweep {

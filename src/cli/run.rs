@@ -151,12 +151,10 @@ impl Progress {
 }
 
 impl<C: Circuit> Observer<C> for Progress {
-    #[inline]
     fn looks(&self, tick: u64) -> bool {
         tick >= self.due
     }
 
-    #[inline]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         if Observer::<C>::looks(self, now.tick) {
             self.bar.set_position(now.tick);

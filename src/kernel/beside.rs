@@ -1,6 +1,5 @@
 use super::{
-    Circuit, Extent, FastForward, Field, FreeRunning, Make, Moment, Observer, Property, Role,
-    RunError, Sample, Signals, Visit,
+    Circuit, Field, Make, Moment, Observer, Property, Role, RunError, Sample, Signals, Visit,
 };
 use crate::logic::{Logic, Sim};
 use std::fmt;
@@ -85,9 +84,6 @@ const fn scope<B: Beside>() -> Field {
 }
 
 impl<L: Logic, C: Circuit, B: Beside> Signals<L> for WithIn<L, C, B> {
-    const EXTENT: Extent = C::In::<L>::EXTENT.and(B::Signals::<L>::EXTENT);
-
-    #[inline(always)]
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
         self.i.visit(field, visitor);
         self.beside.visit(const { &scope::<B>() }, visitor);
@@ -106,46 +102,13 @@ impl<C: Circuit, B: Beside> Circuit for With<C, B> {
     type In<L: Logic> = WithIn<L, C, B>;
     type Reg<L: Logic> = C::Reg<L>;
     type Net<L: Logic> = C::Net<L>;
-    const FREE_RUNNING: FreeRunning = C::FREE_RUNNING;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &C::Reg<L>, i: &WithIn<L, C, B>) -> C::Net<L> {
         self.circuit.comb(q, &i.i)
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: C::Reg<L>, w: &C::Net<L>, i: &WithIn<L, C, B>) -> C::Reg<L> {
         self.circuit.next(q, w, &i.i)
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, q: &C::Reg<L>, w: &C::Net<L>, i: &WithIn<L, C, B>) -> Option<L::Bit> {
-        self.circuit.gated(q, w, &i.i)
-    }
-
-    #[inline(always)]
-    fn coasting<L: Logic>(
-        &self,
-        q: &C::Reg<L>,
-        w: &C::Net<L>,
-        i: &WithIn<L, C, B>,
-    ) -> Option<L::Bit> {
-        self.circuit.coasting(q, w, &i.i)
-    }
-
-    #[inline(always)]
-    fn coast<L: Logic>(&self, q: C::Reg<L>) -> C::Reg<L> {
-        self.circuit.coast(q)
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &C::Reg<Sim>, w: &C::Net<Sim>, i: &WithIn<Sim, C, B>) -> u64 {
-        self.circuit.coasts_for(q, w, &i.i)
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: C::Reg<Sim>, ticks: u64) -> C::Reg<Sim> {
-        self.circuit.coasted(q, ticks)
     }
 
     fn properties<L: Logic>(
@@ -162,28 +125,18 @@ impl<C: Circuit, B: Beside> Circuit for With<C, B> {
     }
 }
 
-impl<C: FastForward, B: Beside> FastForward for With<C, B> {}
-
 /// An observer of a circuit that sees it without what stands beside it.
 #[derive(Debug)]
 pub struct Without<O>(pub O);
 
 impl<C: Circuit, B: Beside, O: Observer<C>> Observer<With<C, B>> for Without<O> {
-    #[inline(always)]
-    fn follows(&self, tick: u64) -> bool {
-        self.0.follows(tick)
-    }
-
-    #[inline(always)]
     fn looks(&self, tick: u64) -> bool {
         self.0.looks(tick)
     }
 
-    #[inline]
     fn sample(&mut self, now: &Sample<'_, With<C, B>>) -> Result<ControlFlow<()>, RunError> {
         self.0.sample(&Sample {
             tick: now.tick,
-            coasting: now.coasting,
             i: &now.i.i,
             q: now.q,
             w: now.w,

@@ -1,7 +1,7 @@
+use super::Circuit;
 use super::probe::{Probe, Words};
 use super::running::{Machine, Running};
-use super::signals::{Field, Inside, Kind, Role, Shape};
-use super::{Circuit, FreeRunning};
+use super::signals::{Field, Kind, Role, Shape};
 use std::sync::Arc;
 
 /// Where a walk is: the scopes around the next leaf and the part of the circuit it belongs to.
@@ -109,17 +109,6 @@ pub struct MemoryDeclaration {
     pub field: &'static Field,
 }
 
-/// A circuit within a circuit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct InstanceDeclaration {
-    /// The scopes around its signals, outermost first; the last one is its own.
-    pub scopes: Vec<String>,
-    /// The number of leaves that are registers of it or of circuits within it.
-    pub registers: usize,
-    /// What goes on in it while it coasts.
-    pub free_running: FreeRunning,
-}
-
 /// Every leaf of a walk, in its order.
 #[derive(Debug, Clone, Default)]
 pub struct Declarations {
@@ -127,8 +116,6 @@ pub struct Declarations {
     pub leaves: Vec<Declaration>,
     /// The memories, in the order of their first words.
     pub memories: Vec<MemoryDeclaration>,
-    /// The circuits within, each before those within it.
-    pub instances: Vec<InstanceDeclaration>,
     path: Path,
 }
 
@@ -198,14 +185,6 @@ impl Probe for Declarations {
             power_on: bits,
             field,
         });
-    }
-    fn rests(&mut self, inside: Inside) -> bool {
-        self.instances.push(InstanceDeclaration {
-            scopes: self.path.scopes().to_vec(),
-            registers: inside.registers.leaves,
-            free_running: inside.free_running,
-        });
-        false
     }
     fn memory(&mut self, field: &'static Field, words: &dyn Words) {
         let scopes = self.path.scopes().to_vec();

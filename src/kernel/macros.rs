@@ -41,29 +41,22 @@ macro_rules! signals {
         impl<L: $crate::logic::Logic $(, $part: $bound + Clone + ::std::fmt::Debug)* $(, const $width: usize)*> $crate::kernel::Signals<L>
             for $name<L $(, $part)* $(, $width)*>
         {
-            const EXTENT: $crate::kernel::Extent = $crate::kernel::Extent::NONE
-                $(.and(<$type as $crate::kernel::Signals<L>>::EXTENT))*;
-
-            #[inline(always)]
             fn visit<Visitor: $crate::kernel::Visit<L>>(
                 &self,
                 field: &'static $crate::kernel::Field,
                 visitor: &mut Visitor,
             ) {
                 visitor.enter(field);
-                if !visitor.passes(<Self as $crate::kernel::Signals<L>>::EXTENT) {
-                    $(
-                        $crate::kernel::Signals::<L>::visit(
-                            &self.$field,
-                            $crate::signals!(@field $public $field, [$($doc)*], [$($format $(($names))?)?], [$($power_on)?]),
-                            visitor,
-                        );
-                    )*
-                }
+                $(
+                    $crate::kernel::Signals::<L>::visit(
+                        &self.$field,
+                        $crate::signals!(@field $public $field, [$($doc)*], [$($format $(($names))?)?], [$($power_on)?]),
+                        visitor,
+                    );
+                )*
                 visitor.leave();
             }
 
-            #[inline]
             fn make<Maker: $crate::kernel::Make<L>>(
                 field: &'static $crate::kernel::Field,
                 maker: &mut Maker,

@@ -1,5 +1,4 @@
 use super::Circuit;
-use super::circuit::settled;
 use super::probe::{Probe, Shown};
 use super::signals::{Field, Role, Signals, Visit};
 use crate::logic::Sim;
@@ -11,9 +10,6 @@ use std::ops::ControlFlow;
 pub struct Sample<'a, C: Circuit> {
     /// The tick, from 0.
     pub tick: u64,
-    /// Since the tick before nothing but what [runs free](Circuit::FREE_RUNNING) has changed. Who
-    /// hands only some ticks on to waves sets it low.
-    pub coasting: bool,
     /// Ports in.
     pub i: &'a C::In<Sim>,
     /// Registers.
@@ -24,7 +20,6 @@ pub struct Sample<'a, C: Circuit> {
 
 impl<C: Circuit> Sample<'_, C> {
     /// Walks all signals: a scope with the circuit's name, in it ports in, registers and nets.
-    #[inline(always)]
     pub fn visit<V: Visit<Sim>>(&self, visitor: &mut V) {
         visitor.enter(const { &Field::named(C::NAME) });
         self.i.visit(const { &Field::part(Role::Input) }, visitor);
@@ -34,9 +29,7 @@ impl<C: Circuit> Sample<'_, C> {
         visitor.leave();
     }
 
-    /// The same walk, compiled once for all probes: for those that need not be fast. It goes through
-    /// every struct: what a probe [passes](Probe::passes) is not asked.
-    #[inline(never)]
+    /// The same walk, compiled once for all probes.
     pub fn show(&self, probe: &mut dyn Probe) {
         self.visit(&mut Shown(probe));
     }
@@ -45,10 +38,9 @@ impl<C: Circuit> Sample<'_, C> {
     pub fn at_power_on<T>(circuit: &C, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
         let i = super::zero();
         let q = circuit.power_on();
-        let w = settled(circuit, &q, &i);
+        let w = circuit.comb(&q, &i);
         show(&Sample {
             tick: 0,
-            coasting: false,
             i: &i,
             q: &q,
             w: &w,
@@ -78,18 +70,9 @@ pub enum RunError {
 ///
 /// `()` observes nothing and costs nothing; a tuple observes with each of its parts in turn.
 pub trait Observer<C: Circuit> {
-    /// Whether a tick may come as one in which the circuit [coasts](Sample::coasting). Waves need
-    /// to have seen the tick before.
-    #[inline(always)]
-    fn follows(&self, tick: u64) -> bool {
-        let _ = tick;
-        true
-    }
-
     /// Whether it looks at that tick: of one that it does not, [`sample`](Self::sample) takes
     /// nothing. Where ticks are [watched](super::Simulator::step_watched) one by one, those at which
     /// nobody looks are not shown.
-    #[inline(always)]
     fn looks(&self, tick: u64) -> bool {
         let _ = tick;
         true
@@ -103,46 +86,30 @@ pub trait Observer<C: Circuit> {
 }
 
 impl<C: Circuit> Observer<C> for () {
-    #[inline(always)]
     fn looks(&self, _: u64) -> bool {
         false
     }
 
-    #[inline(always)]
     fn sample(&mut self, _: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         Ok(ControlFlow::Continue(()))
     }
 }
 
 impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
-    #[inline(always)]
-    fn follows(&self, tick: u64) -> bool {
-        (**self).follows(tick)
-    }
-
-    #[inline(always)]
     fn looks(&self, tick: u64) -> bool {
         (**self).looks(tick)
     }
 
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         (**self).sample(now)
     }
 }
 
 impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
-    #[inline(always)]
-    fn follows(&self, tick: u64) -> bool {
-        self.as_ref().is_none_or(|observer| observer.follows(tick))
-    }
-
-    #[inline(always)]
     fn looks(&self, tick: u64) -> bool {
         self.as_ref().is_some_and(|observer| observer.looks(tick))
     }
 
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         match self {
             Some(observer) => observer.sample(now),
@@ -154,17 +121,10 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
 macro_rules! together {
     ($($part:ident $place:tt),+) => {
         impl<C: Circuit, $($part: Observer<C>),+> Observer<C> for ($($part,)+) {
-            #[inline(always)]
-            fn follows(&self, tick: u64) -> bool {
-                $(self.$place.follows(tick))&&+
-            }
-
-            #[inline(always)]
             fn looks(&self, tick: u64) -> bool {
                 $(self.$place.looks(tick))||+
             }
 
-            #[inline(always)]
             fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
                 let mut stop = false;
                 $( stop |= self.$place.sample(now)?.is_break(); )+
@@ -183,7 +143,6 @@ together!(A 0, B 1, D 2, E 3);
 pub struct StopWhen<F>(pub F);
 
 impl<C: Circuit, F: FnMut(&Sample<'_, C>) -> bool> Observer<C> for StopWhen<F> {
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         Ok(if (self.0)(now) {
             ControlFlow::Break(())

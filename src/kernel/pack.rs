@@ -47,8 +47,7 @@ pub fn width<S: Signals<Sim>>() -> usize {
     counter.0
 }
 
-/// A bundle with every bit low. It is what a control computer mostly gives, so it is made in place.
-#[inline]
+/// A bundle with every bit low.
 pub fn zero<S: Signals<Sim>>() -> S {
     S::make(part(Role::Input), &mut Zero)
 }
@@ -56,7 +55,6 @@ pub fn zero<S: Signals<Sim>>() -> S {
 struct Zero;
 
 impl Source for Zero {
-    #[inline(always)]
     fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
         0
     }

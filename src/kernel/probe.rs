@@ -1,4 +1,4 @@
-use super::signals::{Extent, Field, Inside, Kind, Make, Role, Shape, Signals, Visit};
+use super::signals::{Field, Kind, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Bit, Image, Signed, Sim, sim::*};
 use std::any::Any;
 
@@ -48,27 +48,6 @@ pub trait Probe {
     fn element(&mut self, _index: usize) {}
     /// A leaf; `bits` holds its value in the low `shape.width` bits, zeros above.
     fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64);
-    /// See [`Visit::passes`].
-    #[inline(always)]
-    fn passes(&mut self, _extent: Extent) -> bool {
-        false
-    }
-    /// See [`Visit::passes_over`].
-    #[inline(always)]
-    fn passes_over(&mut self, _inside: Inside) -> bool {
-        false
-    }
-    /// See [`Visit::rests`].
-    #[inline(always)]
-    fn rests(&mut self, _inside: Inside) -> bool {
-        false
-    }
-    /// A memory comes next that has so many words and has been written or shifted `mark` times
-    /// since power-on: true leaves it out.
-    #[inline(always)]
-    fn memory_rests(&mut self, _words: usize, _mark: u64) -> bool {
-        false
-    }
     /// A memory: unless overridden, a scope with a leaf for every word.
     fn memory(&mut self, field: &'static Field, words: &dyn Words) {
         self.enter(field);
@@ -85,72 +64,45 @@ pub trait Probe {
 }
 
 impl<P: Probe> Visit<Sim> for P {
-    #[inline(always)]
     fn enter(&mut self, field: &'static Field) {
         Probe::enter(self, field);
     }
-    #[inline(always)]
     fn leave(&mut self) {
         Probe::leave(self);
     }
-    #[inline(always)]
     fn element(&mut self, index: usize) {
         Probe::element(self, index);
     }
-    #[inline(always)]
     fn bit(&mut self, field: &'static Field, value: Wire) {
         let kind = Kind::Bit;
         self.leaf(field, Shape { kind, width: 1 }, value.word().get());
     }
-    #[inline(always)]
     fn unsigned<const N: usize>(&mut self, field: &'static Field, value: UInt<N>) {
         let kind = Kind::Unsigned;
         self.leaf(field, Shape { kind, width: N }, value.get());
     }
-    #[inline(always)]
     fn signed<const N: usize>(&mut self, field: &'static Field, value: Int<N>) {
         let kind = Kind::Signed;
         self.leaf(field, Shape { kind, width: N }, value.unsigned().get());
     }
-    #[inline(always)]
     fn ram<const A: usize, const D: usize>(&mut self, field: &'static Field, ram: &SimRam<A, D>) {
-        // Asked before there is anything to refer to, which would have to stand in memory.
-        if !self.memory_rests(Image::<A, D>::WORDS, ram.mark()) {
-            self.memory(field, &ram.words());
-        }
+        self.memory(field, ram);
     }
-    #[inline(always)]
     fn shift_register<const K: usize, const D: usize>(
         &mut self,
         field: &'static Field,
         register: &SimShiftRegister<K, D>,
     ) {
-        if !self.memory_rests(K, register.mark()) {
-            self.memory(field, &register.words());
-        }
-    }
-    #[inline(always)]
-    fn passes(&mut self, extent: Extent) -> bool {
-        Probe::passes(self, extent)
-    }
-    #[inline(always)]
-    fn passes_over(&mut self, inside: Inside) -> bool {
-        Probe::passes_over(self, inside)
-    }
-    #[inline(always)]
-    fn rests(&mut self, inside: Inside) -> bool {
-        Probe::rests(self, inside)
+        self.memory(field, register);
     }
 }
 
 /// Shows a part of a circuit: the same walk as any other, compiled once for all probes.
-#[inline(never)]
 pub(super) fn show<S: Signals<Sim>>(signals: &S, role: Role, probe: &mut dyn Probe) {
     signals.visit(part(role), &mut Shown(probe));
 }
 
 /// Makes a part of a circuit: compiled once for all sources.
-#[inline(never)]
 pub(super) fn supply<S: Signals<Sim>>(role: Role, source: &mut dyn Source) -> S {
     S::make(part(role), &mut Supplied(source))
 }
@@ -182,12 +134,6 @@ impl Probe for Shown<'_> {
     }
     fn memory(&mut self, field: &'static Field, words: &dyn Words) {
         self.0.memory(field, words);
-    }
-    fn memory_rests(&mut self, words: usize, mark: u64) -> bool {
-        self.0.memory_rests(words, mark)
-    }
-    fn rests(&mut self, inside: Inside) -> bool {
-        self.0.rests(inside)
     }
 }
 
@@ -245,17 +191,14 @@ impl<S: Source> Make<Sim> for S {
     fn element(&mut self, index: usize) {
         Source::element(self, index);
     }
-    #[inline]
     fn bit(&mut self, field: &'static Field) -> Wire {
         let kind = Kind::Bit;
         (self.leaf(field, Shape { kind, width: 1 }) & 1 == 1).into()
     }
-    #[inline]
     fn unsigned<const N: usize>(&mut self, field: &'static Field) -> UInt<N> {
         let kind = Kind::Unsigned;
         self.leaf(field, Shape { kind, width: N }).into()
     }
-    #[inline]
     fn signed<const N: usize>(&mut self, field: &'static Field) -> Int<N> {
         let kind = Kind::Signed;
         (self.leaf(field, Shape { kind, width: N }) as i64).into()

@@ -1,4 +1,3 @@
-use super::FreeRunning;
 use crate::logic::Logic;
 use std::borrow::Cow;
 use std::fmt::Debug;
@@ -83,63 +82,10 @@ impl Field {
 /// A walk goes through the leaves in the order of declaration and never branches on a value, so
 /// the place of a leaf in the walk is its identity.
 pub trait Signals<L: Logic>: Sized + Clone + Debug + 'static {
-    /// How much a walk shows; waves refuse a circuit that shows more or less.
-    const EXTENT: Extent;
     /// Shows each leaf to `visitor`.
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V);
     /// Makes a bundle with each leaf given by `maker`.
     fn make<M: Make<L>>(field: &'static Field, maker: &mut M) -> Self;
-}
-
-/// How much a walk shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Extent {
-    /// Leaves; every word of a memory is one.
-    pub leaves: usize,
-    /// Circuits within the circuit.
-    pub instances: usize,
-}
-
-impl Extent {
-    /// Nothing.
-    pub const NONE: Extent = Extent::words(0);
-    /// A word.
-    pub const LEAF: Extent = Extent::words(1);
-
-    /// The words of a memory.
-    pub const fn words(leaves: usize) -> Self {
-        let instances = 0;
-        Extent { leaves, instances }
-    }
-
-    /// Both.
-    pub const fn and(self, other: Extent) -> Self {
-        Extent {
-            leaves: self.leaves + other.leaves,
-            instances: self.instances + other.instances,
-        }
-    }
-
-    /// So many of it.
-    pub const fn times(self, count: usize) -> Self {
-        Extent {
-            leaves: self.leaves * count,
-            instances: self.instances * count,
-        }
-    }
-}
-
-/// How much belongs to a circuit within a circuit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Inside {
-    /// Its ports in.
-    pub ports: Extent,
-    /// Its registers, which the walk has shown with those of the circuit around it.
-    pub registers: Extent,
-    /// Its nets.
-    pub nets: Extent,
-    /// What goes on in it while it coasts.
-    pub free_running: FreeRunning,
 }
 
 /// The reading half of a walk.
@@ -164,25 +110,6 @@ pub trait Visit<L: Logic> {
         field: &'static Field,
         register: &L::ShiftRegister<K, D>,
     );
-    /// A struct has begun that shows so much: true leaves its fields out.
-    #[inline(always)]
-    fn passes(&mut self, extent: Extent) -> bool {
-        let _ = extent;
-        false
-    }
-    /// A circuit within has begun: true leaves out its ports in and its nets.
-    #[inline(always)]
-    fn passes_over(&mut self, inside: Inside) -> bool {
-        let _ = inside;
-        false
-    }
-    /// The ports in of a circuit within have just been shown, and its nets would come next: true
-    /// leaves them out, since nothing that they depend on is other than the last time.
-    #[inline(always)]
-    fn rests(&mut self, inside: Inside) -> bool {
-        let _ = inside;
-        false
-    }
 }
 
 /// The writing half of a walk.
@@ -229,25 +156,10 @@ pub struct Shape {
 }
 
 impl<L: Logic, T: Signals<L>, const N: usize> Signals<L> for [T; N] {
-    const EXTENT: Extent = T::EXTENT.times(N);
-
-    #[inline(always)]
     fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
-        // Written out, because a loop would need the array in memory.
-        macro_rules! show {
-            ($($index:literal)*) => {
-                $(if const { $index < N } {
-                    visitor.element($index);
-                    self[$index].visit(field, visitor);
-                })*
-            };
-        }
-        show!(0 1 2 3 4 5 6 7);
-        if const { N > 8 } {
-            for (index, element) in self.iter().enumerate().skip(8) {
-                visitor.element(index);
-                element.visit(field, visitor);
-            }
+        for (index, element) in self.iter().enumerate() {
+            visitor.element(index);
+            element.visit(field, visitor);
         }
     }
     fn make<M: Make<L>>(field: &'static Field, maker: &mut M) -> Self {
@@ -276,9 +188,6 @@ impl<L> Default for Nothing<L> {
 }
 
 impl<L: Logic> Signals<L> for Nothing<L> {
-    const EXTENT: Extent = Extent::NONE;
-
-    #[inline(always)]
     fn visit<V: Visit<L>>(&self, _: &'static Field, _: &mut V) {}
     fn make<M: Make<L>>(_: &'static Field, _: &mut M) -> Self {
         Nothing::new()

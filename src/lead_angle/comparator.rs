@@ -110,7 +110,6 @@ impl<const W: usize> Circuit for Comparator<W> {
     type Reg<L: Logic> = Reg<L>;
     type Net<L: Logic> = Net<L, W>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L>, i: &In<L, W>) -> Net<L, W> {
         let difference = i.position - i.target;
         let (negative, equal) = (difference.is_negative(), difference.is_zero());
@@ -137,7 +136,6 @@ impl<const W: usize> Circuit for Comparator<W> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L, W>, i: &In<L, W>) -> Reg<L> {
         let away = w.difference.is_negative().mux(BELOW.into(), ABOVE.into());
         let side = w.equal.mux(AT.into(), away);
@@ -147,11 +145,6 @@ impl<const W: usize> Circuit for Comparator<W> {
             control: (q.control | w.fire | i.halt) & !i.arm,
             upward: w.fire.mux(w.upwards, q.upward),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L>, _: &Net<L, W>, i: &In<L, W>) -> Option<L::Bit> {
-        Some(!(i.evaluate | i.arm | i.halt))
     }
 }
 

@@ -24,7 +24,7 @@ use super::{
 };
 use crate::blocks::{EnableCounter, QuadratureCounter, enable_counter, quadrature_counter};
 use crate::check::SamePorts;
-use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, Nothing, least};
+use crate::kernel::{Circuit, Instance, Nothing};
 use crate::logic::{Image, Logic, Sim};
 use crate::signals;
 
@@ -291,21 +291,6 @@ impl<
     const R: usize,
     const N: usize,
     const S: usize,
-> FastForward for Compensator<P, K, T, C, W, A, D, R, N, S>
-{
-}
-
-impl<
-    P: LeadSource<C, W, N>,
-    const K: usize,
-    const T: usize,
-    const C: usize,
-    const W: usize,
-    const A: usize,
-    const D: usize,
-    const R: usize,
-    const N: usize,
-    const S: usize,
 > Circuit for Compensator<P, K, T, C, W, A, D, R, N, S>
 {
     const NAME: &'static str = P::COMPENSATOR;
@@ -313,9 +298,7 @@ impl<
     type In<L: Logic> = In<L, C, W, A, D, N, S>;
     type Reg<L: Logic> = Reg<L, P, C, W, A, D, R, N, S>;
     type Net<L: Logic> = Net<L, P, K, T, C, W, A, D, R, N, S>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
         let ck_counter = Instance::settle(
             &self.ck_counter,
@@ -483,7 +466,6 @@ impl<
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
         Reg {
             ck_counter: w.ck_counter.next(&self.ck_counter, q.ck_counter),
@@ -495,31 +477,6 @@ impl<
             completion: w.completion.next(&self.completion, q.completion),
             correction: w.correction.next(&self.correction, q.correction),
             sequencer: w.sequencer.next(&self.sequencer, q.sequencer),
-        }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Self::Reg<Sim>, w: &Self::Net<Sim>, _: &Self::In<Sim>) -> u64 {
-        least([
-            w.ck_counter.coasts_for(&self.ck_counter, &q.ck_counter),
-            w.detector.coasts_for(&self.detector, &q.detector),
-            w.lead_source.coasts_for(&self.lead_source, &q.lead_source),
-            w.target_setter
-                .coasts_for(&self.target_setter, &q.target_setter),
-            w.time_data.coasts_for(&self.time_data, &q.time_data),
-            w.comparator.coasts_for(&self.comparator, &q.comparator),
-            w.completion.coasts_for(&self.completion, &q.completion),
-            w.correction.coasts_for(&self.correction, &q.correction),
-            w.sequencer.coasts_for(&self.sequencer, &q.sequencer),
-        ])
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Self::Reg<Sim>, ticks: u64) -> Self::Reg<Sim> {
-        Reg {
-            ck_counter: self.ck_counter.coasted(q.ck_counter, ticks),
-            correction: self.correction.coasted(q.correction, ticks),
-            ..q
         }
     }
 
@@ -551,7 +508,6 @@ impl<
 > SamePorts<Compensator<TimeLead<PositionHistory<K, T, W>, K, T, C, W>, K, T, C, W, A, D, R, N, S>>
     for Compensator<TimeLead<RamHistory<K, T, W>, K, T, C, W>, K, T, C, W, A, D, R, N, S>
 {
-    #[inline(always)]
     fn ports<L: Logic>(i: &In<L, C, W, A, D, N, S>) -> &In<L, C, W, A, D, N, S> {
         i
     }

@@ -81,7 +81,6 @@ impl<const W: usize, const N: usize> Circuit for CompletionDetector<W, N> {
     type Reg<L: Logic> = Reg<L, W, N>;
     type Net<L: Logic> = Net<L, N>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> Net<L, N> {
         let same = i.position.equals(q.last);
         let next_still = q.still + 1;
@@ -101,7 +100,6 @@ impl<const W: usize, const N: usize> Circuit for CompletionDetector<W, N> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, W, N>, w: &Net<L, N>, i: &In<L, W, N>) -> Reg<L, W, N> {
         let count = |more: L::Bit, next: L::U<N>, old: L::U<N>| {
             let counted = i.evaluate.mux(more.mux(next, 0.into()), old);
@@ -114,17 +112,6 @@ impl<const W: usize, const N: usize> Circuit for CompletionDetector<W, N> {
             complete: w.over,
             timed_out: w.over.mux(!w.stands, q.timed_out),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, W, N>,
-        _: &Self::Net<L>,
-        i: &In<L, W, N>,
-    ) -> Option<L::Bit> {
-        let counts = i.active | (q.still.is_zero() & q.elapsed.is_zero());
-        Some(!(i.evaluate | q.complete) & counts)
     }
 }
 

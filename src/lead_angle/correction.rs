@@ -14,8 +14,8 @@
 use super::{CorrectionArithmetic, RatioLogic, Sign, StopError};
 use super::{correction_arithmetic, ratio_logic, stop_error};
 use crate::blocks::{MulDiv, mul_div};
-use crate::kernel::{Circuit, FreeRunning, Instance, Nothing, least};
-use crate::logic::{Logic, Sim};
+use crate::kernel::{Circuit, Instance, Nothing};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {
@@ -129,9 +129,7 @@ impl<const K: usize, const T: usize, const C: usize, const W: usize, const R: us
     type In<L: Logic> = In<L, C, W>;
     type Reg<L: Logic> = Reg<L, C, W, R>;
     type Net<L: Logic> = Net<L, K, T, C, W, R>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, C, W, R>, i: &In<L, C, W>) -> Net<L, K, T, C, W, R> {
         let stop_error = Instance::settle(
             &self.stop_error,
@@ -190,7 +188,6 @@ impl<const K: usize, const T: usize, const C: usize, const W: usize, const R: us
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, C, W, R>,
@@ -201,37 +198,6 @@ impl<const K: usize, const T: usize, const C: usize, const W: usize, const R: us
             stop_error: w.stop_error.next(&self.stop_error, q.stop_error),
             arithmetic: w.arithmetic.next(&self.arithmetic, q.arithmetic),
             mul_div: w.mul_div.next(&self.mul_div, q.mul_div),
-        }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, C, W, R>,
-        w: &Self::Net<L>,
-        _: &In<L, C, W>,
-    ) -> Option<L::Bit> {
-        Some(
-            w.stop_error.gated(&self.stop_error, &q.stop_error)
-                & w.arithmetic.gated(&self.arithmetic, &q.arithmetic)
-                & w.mul_div.gated(&self.mul_div, &q.mul_div),
-        )
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Self::Reg<Sim>, w: &Self::Net<Sim>, _: &Self::In<Sim>) -> u64 {
-        least([
-            w.stop_error.coasts_for(&self.stop_error, &q.stop_error),
-            w.arithmetic.coasts_for(&self.arithmetic, &q.arithmetic),
-            w.mul_div.coasts_for(&self.mul_div, &q.mul_div),
-        ])
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Self::Reg<Sim>, ticks: u64) -> Self::Reg<Sim> {
-        Reg {
-            mul_div: self.mul_div.coasted(q.mul_div, ticks),
-            ..q
         }
     }
 }

@@ -117,7 +117,6 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
     type Reg<L: Logic> = Reg<L, C>;
     type Net<L: Logic> = Net<L, C, W, R>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, C>, i: &In<L, C, W, R>) -> Net<L, C, W, R> {
         let wanted = i.complete & i.learn & !i.missed;
         let none = i.lead_time.is_zero();
@@ -144,7 +143,6 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, C>, w: &Net<L, C, W, R>, i: &In<L, C, W, R>) -> Reg<L, C> {
         let opposed = i.error.is_negative() ^ i.overrun.is_negative();
         let result = q.negative.mux(w.shorter, w.longer);
@@ -155,16 +153,6 @@ impl<const K: usize, const C: usize, const W: usize, const R: usize> Circuit
             learned: w.divided | w.sow,
             corrected: w.divided | (i.complete & !w.divide),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, C>,
-        _: &Self::Net<L>,
-        i: &In<L, C, W, R>,
-    ) -> Option<L::Bit> {
-        Some(!(i.complete | i.done | q.learned | q.corrected))
     }
 }
 

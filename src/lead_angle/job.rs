@@ -100,7 +100,6 @@ impl<'a> ControlComputer<'a> {
     }
 
     /// What it gives in `tick`; steps run as soon as all are written.
-    #[inline]
     pub(super) fn tick(&self, tick: u64, run: bool) -> Ports {
         let steps = &self.settings.steps;
         let place = usize::try_from(tick).unwrap_or(usize::MAX);

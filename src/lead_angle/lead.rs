@@ -50,7 +50,6 @@ impl<const W: usize> Circuit for Lead<W> {
     type Reg<L: Logic> = Nothing<L>;
     type Net<L: Logic> = Net<L, W>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L, W>) -> Net<L, W> {
         let difference = i.present - i.old;
         let factor = i.ratio.resize::<5>().signed();
@@ -61,7 +60,6 @@ impl<const W: usize> Circuit for Lead<W> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, _: Nothing<L>, _: &Net<L, W>, _: &In<L, W>) -> Nothing<L> {
         Nothing::new()
     }

@@ -62,7 +62,6 @@ impl<
     const COMPENSATOR: &'static str = H::COMPENSATOR;
     const COMPENSATOR_ABOUT: &'static str = H::COMPENSATOR_ABOUT;
 
-    #[inline(always)]
     fn ports<L: Logic>(i: SourceIn<L, C, W, N>) -> time_lead::In<L, C, W> {
         time_lead::In {
             ck: i.ck,
@@ -72,7 +71,6 @@ impl<
         }
     }
 
-    #[inline(always)]
     fn outputs<L: Logic>(_: &Self::Reg<L>, w: &Self::Net<L>) -> SourceOut<L, W> {
         SourceOut {
             present: w.present,
@@ -88,7 +86,6 @@ impl<const C: usize, const W: usize, const N: usize> LeadSource<C, W, N> for Spe
     const COMPENSATOR_ABOUT: &'static str =
         "compensator whose lead is measured speed times a parameter";
 
-    #[inline(always)]
     fn ports<L: Logic>(i: SourceIn<L, C, W, N>) -> speed_lead::In<L, W, N> {
         speed_lead::In {
             ck: i.ck,
@@ -99,7 +96,6 @@ impl<const C: usize, const W: usize, const N: usize> LeadSource<C, W, N> for Spe
         }
     }
 
-    #[inline(always)]
     fn outputs<L: Logic>(q: &Self::Reg<L>, w: &Self::Net<L>) -> SourceOut<L, W> {
         SourceOut {
             present: q.present,

@@ -69,7 +69,6 @@ impl<const W: usize> Circuit for LeadPlacement<W> {
     type Reg<L: Logic> = Nothing<L>;
     type Net<L: Logic> = Net<L, W>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L, W>) -> Net<L, W> {
         let advance = match self.placement {
             Placement::Position => i.lead,
@@ -83,7 +82,6 @@ impl<const W: usize> Circuit for LeadPlacement<W> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, _: Nothing<L>, _: &Net<L, W>, _: &In<L, W>) -> Nothing<L> {
         Nothing::new()
     }

@@ -83,7 +83,6 @@ signals! {
 pub struct PositionHistory<const K: usize, const T: usize, const W: usize>;
 
 /// The nets of either form.
-#[inline(always)]
 pub(super) fn nets<L: Logic, const K: usize, const T: usize, const W: usize>(
     pair: &Pair<L, T, W>,
     i: &In<L, T, W>,
@@ -98,7 +97,6 @@ pub(super) fn nets<L: Logic, const K: usize, const T: usize, const W: usize>(
 }
 
 /// The outputs of either form after the edge; `old` is what its memory gives.
-#[inline(always)]
 pub(super) fn pair_after<L: Logic, const K: usize, const T: usize, const W: usize>(
     pair: Pair<L, T, W>,
     w: &Net<L, T>,
@@ -124,12 +122,10 @@ impl<const K: usize, const T: usize, const W: usize> Circuit for PositionHistory
     type Reg<L: Logic> = Reg<L, K, T, W>;
     type Net<L: Logic> = Net<L, T>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, K, T, W>, i: &In<L, T, W>) -> Net<L, T> {
         nets::<L, K, T, W>(&q.pair, i)
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, K, T, W>,
@@ -141,16 +137,6 @@ impl<const K: usize, const T: usize, const W: usize> Circuit for PositionHistory
             pair: pair_after::<L, K, T, W>(q.pair, w, i, old),
             stages: q.stages.shift(i.ck, i.position.unsigned()),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, K, T, W>,
-        _: &Self::Net<L>,
-        i: &In<L, T, W>,
-    ) -> Option<L::Bit> {
-        Some(!(i.ck | i.restart | q.pair.fresh))
     }
 }
 

@@ -42,12 +42,10 @@ impl<const K: usize, const T: usize, const W: usize> Circuit for RamHistory<K, T
     type Reg<L: Logic> = Reg<L, T, W>;
     type Net<L: Logic> = Net<L, T>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, T, W>, i: &In<L, T, W>) -> Net<L, T> {
         nets::<L, K, T, W>(&q.pair, i)
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, T, W>, w: &Net<L, T>, i: &In<L, T, W>) -> Reg<L, T, W> {
         let from = q.address - i.tap;
         let held = q.pair.old.unsigned();
@@ -58,22 +56,11 @@ impl<const K: usize, const T: usize, const W: usize> Circuit for RamHistory<K, T
             samples: q.samples.write(i.ck, q.address, i.position.unsigned()),
         }
     }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, T, W>,
-        _: &Self::Net<L>,
-        i: &In<L, T, W>,
-    ) -> Option<L::Bit> {
-        Some(!(i.ck | i.restart | q.pair.fresh))
-    }
 }
 
 impl<const K: usize, const T: usize, const W: usize> SamePorts<PositionHistory<K, T, W>>
     for RamHistory<K, T, W>
 {
-    #[inline(always)]
     fn ports<L: Logic>(i: &In<L, T, W>) -> &In<L, T, W> {
         i
     }

@@ -86,7 +86,6 @@ impl<const K: usize, const T: usize, const C: usize> Circuit for RatioLogic<K, T
     type Reg<L: Logic> = Nothing<L>;
     type Net<L: Logic> = Net<L, T, C>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L, C>) -> Net<L, T, C> {
         let time: L::U<14> = i.lead_time.resize();
         let from = |first: u64| !time.below(first.into());
@@ -120,7 +119,6 @@ impl<const K: usize, const T: usize, const C: usize> Circuit for RatioLogic<K, T
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, _: Nothing<L>, _: &Net<L, T, C>, _: &In<L, C>) -> Nothing<L> {
         Nothing::new()
     }

@@ -84,7 +84,6 @@ impl<const W: usize, const N: usize> Circuit for SpeedLead<W, N> {
     type Reg<L: Logic> = Reg<L, W, N>;
     type Net<L: Logic> = Net<L, W, N>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W, N>, i: &In<L, W, N>) -> Net<L, W, N> {
         const { assert!(W + 15 <= 64, "the product has at most 64 bits") };
         let next_count = q.count + 1;
@@ -102,7 +101,6 @@ impl<const W: usize, const N: usize> Circuit for SpeedLead<W, N> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, W, N>, w: &Net<L, W, N>, i: &In<L, W, N>) -> Reg<L, W, N> {
         let counted = i.ck.mux(w.next_count, q.count);
         Reg {
@@ -114,16 +112,6 @@ impl<const W: usize, const N: usize> Circuit for SpeedLead<W, N> {
             gate_position: w.begins.mux(i.position, q.gate_position),
             speed: w.over.mux(w.way, q.speed),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, W, N>,
-        _: &Self::Net<L>,
-        i: &In<L, W, N>,
-    ) -> Option<L::Bit> {
-        Some(!(i.ck | i.restart | q.fresh))
     }
 }
 

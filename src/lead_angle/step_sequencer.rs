@@ -118,7 +118,6 @@ impl<const A: usize, const W: usize, const N: usize> Circuit for StepSequencer<A
     type Reg<L: Logic> = Reg<L, A, N>;
     type Net<L: Logic> = Net<L, A, W>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, A, N>, i: &In<L, A, W, N>) -> Net<L, A, W> {
         let is = |state: u64| q.state.equals(state.into());
         let rested = is(REST) & !q.count.below(i.rest);
@@ -141,7 +140,6 @@ impl<const A: usize, const W: usize, const N: usize> Circuit for StepSequencer<A
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, A, N>,
@@ -164,20 +162,6 @@ impl<const A: usize, const W: usize, const N: usize> Circuit for StepSequencer<A
             missed: (q.missed | w.halts) & !q.load,
             busy: !to(IDLE),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, A, N>,
-        w: &Self::Net<L>,
-        i: &In<L, A, W, N>,
-    ) -> Option<L::Bit> {
-        let begins = !q.busy & i.run;
-        let moves = q.drive & (i.control | i.halt);
-        let ends = (q.braking & i.complete) | i.corrected;
-        let rests = q.state.equals(REST.into()) & (i.ck | w.rested);
-        Some(!(begins | q.load | q.arm | moves | q.halting | ends | rests))
     }
 }
 

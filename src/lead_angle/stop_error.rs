@@ -74,7 +74,6 @@ impl<const W: usize> Circuit for StopError<W> {
     type Reg<L: Logic> = Reg<L, W>;
     type Net<L: Logic> = Net<L, W>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W>, i: &In<L, W>) -> Net<L, W> {
         Net {
             overrun: i.position - q.trigger_position,
@@ -85,16 +84,10 @@ impl<const W: usize> Circuit for StopError<W> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, W>, _: &Net<L, W>, i: &In<L, W>) -> Reg<L, W> {
         Reg {
             trigger_position: i.fire.mux(i.position, q.trigger_position),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, W>, _: &Self::Net<L>, i: &In<L, W>) -> Option<L::Bit> {
-        Some(!i.fire)
     }
 }
 

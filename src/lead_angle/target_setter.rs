@@ -59,12 +59,10 @@ impl<const A: usize, const W: usize, const D: usize> Circuit for TargetSetter<A,
     type Reg<L: Logic> = Reg<L, A, W, D>;
     type Net<L: Logic> = Nothing<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L, A, W, D>, _: &In<L, A, W, D>) -> Self::Net<L> {
         Nothing::new()
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, A, W, D>,
@@ -80,16 +78,6 @@ impl<const A: usize, const W: usize, const D: usize> Circuit for TargetSetter<A,
                 .write(i.write, i.write_step, i.write_target.unsigned()),
             speeds: q.speeds.write(i.write, i.write_step, i.write_speed),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        _: &Reg<L, A, W, D>,
-        _: &Self::Net<L>,
-        i: &In<L, A, W, D>,
-    ) -> Option<L::Bit> {
-        Some(!(i.load | i.write))
     }
 }
 

@@ -98,7 +98,6 @@ impl<const A: usize, const C: usize> Circuit for TimeData<A, C> {
     type Reg<L: Logic> = Reg<L, A, C>;
     type Net<L: Logic> = Net<L, A, C>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L, A, C>, i: &In<L, A, C>) -> Net<L, A, C> {
         let address = i.common.mux(0.into(), i.step);
         let refuse = i.write & (i.learned | !i.write_on_grid);
@@ -111,23 +110,12 @@ impl<const A: usize, const C: usize> Circuit for TimeData<A, C> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, A, C>, w: &Net<L, A, C>, i: &In<L, A, C>) -> Reg<L, A, C> {
         Reg {
             lead_time: q.times.read_when(i.load, w.address, q.lead_time),
             refused: (q.refused & !i.clear) | w.refuse,
             times: q.times.write(w.store, w.store_address, w.store_time),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        _: &Reg<L, A, C>,
-        _: &Self::Net<L>,
-        i: &In<L, A, C>,
-    ) -> Option<L::Bit> {
-        Some(!(i.load | i.learned | i.write | i.clear))
     }
 
     fn power_on(&self) -> Reg<Sim, A, C> {

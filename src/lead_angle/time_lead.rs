@@ -39,12 +39,10 @@ impl<const K: usize, const T: usize, const W: usize> History<T, W> for PositionH
     const COMPENSATOR: &'static str = "compensator";
     const COMPENSATOR_ABOUT: &'static str = "lead-angle compensator that learns its lead times";
 
-    #[inline(always)]
     fn ports<L: Logic>(i: position_history::In<L, T, W>) -> Self::In<L> {
         i
     }
 
-    #[inline(always)]
     fn pair<L: Logic>(q: &position_history::Reg<L, K, T, W>) -> &Pair<L, T, W> {
         &q.pair
     }
@@ -56,12 +54,10 @@ impl<const K: usize, const T: usize, const W: usize> History<T, W> for RamHistor
     const COMPENSATOR: &'static str = "ram_compensator";
     const COMPENSATOR_ABOUT: &'static str = "lead-angle compensator with its history in a RAM";
 
-    #[inline(always)]
     fn ports<L: Logic>(i: position_history::In<L, T, W>) -> Self::In<L> {
         i
     }
 
-    #[inline(always)]
     fn pair<L: Logic>(q: &ram_history::Reg<L, T, W>) -> &Pair<L, T, W> {
         &q.pair
     }
@@ -138,7 +134,6 @@ impl<H: History<T, W>, const K: usize, const T: usize, const C: usize, const W: 
     type Reg<L: Logic> = Reg<L, H>;
     type Net<L: Logic> = Net<L, H, K, T, C, W>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, H>, i: &In<L, C, W>) -> Net<L, H, K, T, C, W> {
         let ratio_logic = Instance::settle(
             &self.ratio_logic,
@@ -179,7 +174,6 @@ impl<H: History<T, W>, const K: usize, const T: usize, const C: usize, const W: 
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, H>,
@@ -189,11 +183,6 @@ impl<H: History<T, W>, const K: usize, const T: usize, const C: usize, const W: 
         Reg {
             history: w.history.next(&self.history, q.history),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, H>, w: &Self::Net<L>, _: &In<L, C, W>) -> Option<L::Bit> {
-        Some(w.history.gated(&self.history, &q.history))
     }
 
     fn power_on(&self) -> Reg<Sim, H> {

@@ -109,7 +109,6 @@ pub struct Accumulator<const P: usize, const R: usize> {
 }
 
 /// `word`, or its negative.
-#[inline(always)]
 fn signed_by<L: Logic, const P: usize>(negative: L::Bit, word: L::I<P>) -> L::I<P> {
     negative.mux(-word, word)
 }
@@ -121,7 +120,6 @@ impl<const P: usize, const R: usize> Circuit for Accumulator<P, R> {
     type Reg<L: Logic> = Reg<L, P>;
     type Net<L: Logic> = Net<L, P, R>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P, R>) -> Net<L, P, R> {
         const { assert!(R == 2 * P, "the divider is twice as wide as a position") };
         let backwards = i.master.is_negative();
@@ -177,7 +175,6 @@ impl<const P: usize, const R: usize> Circuit for Accumulator<P, R> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L, P, R>, i: &In<L, P, R>) -> Reg<L, P> {
         Reg {
             integral: i
@@ -193,10 +190,5 @@ impl<const P: usize, const R: usize> Circuit for Accumulator<P, R> {
             },
             valid: w.taken & !i.clear,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, _: &Self::Net<L>, i: &In<L, P, R>) -> Option<L::Bit> {
-        Some(!(i.clear | i.start | i.done | q.valid))
     }
 }

@@ -65,14 +65,12 @@ impl<const P: usize> Circuit for AxisSwitch<P> {
     type Reg<L: Logic> = Reg<L, P>;
     type Net<L: Logic> = Net<L, P>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L, P>, i: &In<L, P>) -> Net<L, P> {
         Net {
             slave_position: i.slave_from + i.integral,
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L, P>, i: &In<L, P>) -> Reg<L, P> {
         let to = |own: L::Bit, old: L::I<P>| {
             let new = own.mux(i.position, w.slave_position);
@@ -82,11 +80,6 @@ impl<const P: usize> Circuit for AxisSwitch<P> {
             x: to(!i.swapped, q.x),
             y: to(i.swapped, q.y),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, P>, _: &Self::Net<L>, i: &In<L, P>) -> Option<L::Bit> {
-        Some(!(i.load | i.clear))
     }
 }
 

@@ -15,7 +15,7 @@
 use super::{Conventional, CycleGate, LinearInterpolator, PositionLoop};
 use super::{cycle_gate, interpolator, position_loop};
 use crate::blocks::{EnableCounter, enable_counter};
-use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, least};
+use crate::kernel::{Circuit, Instance};
 use crate::logic::{Logic, Sim};
 use crate::signals;
 use std::fmt::Debug;
@@ -61,12 +61,10 @@ macro_rules! command_source {
             const CONTROLLER: &'static str = $name;
             const CONTROLLER_ABOUT: &'static str = $about;
 
-            #[inline(always)]
             fn ports<L: Logic>(i: interpolator::In<L, P, T>) -> Self::In<L> {
                 i
             }
 
-            #[inline(always)]
             fn commands<L: Logic>(w: &Self::Net<L>) -> Commands<L, P> {
                 Commands {
                     x: w.x,
@@ -264,19 +262,6 @@ impl<
     const D: usize,
     const K: usize,
     const S: usize,
-> FastForward for Controller<C, P, T, G, F, D, K, S>
-{
-}
-
-impl<
-    C: CommandSource<P, T>,
-    const P: usize,
-    const T: usize,
-    const G: usize,
-    const F: usize,
-    const D: usize,
-    const K: usize,
-    const S: usize,
 > Circuit for Controller<C, P, T, G, F, D, K, S>
 {
     const NAME: &'static str = C::CONTROLLER;
@@ -284,9 +269,7 @@ impl<
     type In<L: Logic> = In<L, P, T, G, S>;
     type Reg<L: Logic> = Reg<L, C, P, D, S>;
     type Net<L: Logic> = Net<L, C, P, G, F, D, K, S>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
         let scan_counter = Instance::settle(
             &self.scan_counter,
@@ -364,7 +347,6 @@ impl<
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
         Reg {
             scan_counter: w.scan_counter.next(&self.scan_counter, q.scan_counter),
@@ -372,28 +354,6 @@ impl<
             loop_x: w.loop_x.next(&self.position_loop, q.loop_x),
             loop_y: w.loop_y.next(&self.position_loop, q.loop_y),
             gate: w.gate.next(&self.gate, q.gate),
-        }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Self::Reg<Sim>, w: &Self::Net<Sim>, _: &Self::In<Sim>) -> u64 {
-        least([
-            w.scan_counter
-                .coasts_for(&self.scan_counter, &q.scan_counter),
-            w.interpolator
-                .coasts_for(&self.interpolator, &q.interpolator),
-            w.loop_x.coasts_for(&self.position_loop, &q.loop_x),
-            w.loop_y.coasts_for(&self.position_loop, &q.loop_y),
-            w.gate.coasts_for(&self.gate, &q.gate),
-        ])
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Self::Reg<Sim>, ticks: u64) -> Self::Reg<Sim> {
-        Reg {
-            scan_counter: self.scan_counter.coasted(q.scan_counter, ticks),
-            interpolator: self.interpolator.coasted(q.interpolator, ticks),
-            ..q
         }
     }
 

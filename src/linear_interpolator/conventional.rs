@@ -113,7 +113,6 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
     type Reg<L: Logic> = Reg<L, A, P, T, M, Q>;
     type Net<L: Logic> = Net<L, A, P, T, M, Q>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, A, P, T, M, Q>, i: &In<L, P, T>) -> Net<L, A, P, T, M, Q> {
         let targets = Instance::settle(
             &self.targets,
@@ -200,7 +199,6 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, A, P, T, M, Q>,

@@ -12,7 +12,7 @@
 
 use crate::check::{Invariants, Specified, require};
 use crate::kernel::{Circuit, Nothing};
-use crate::logic::{Logic, Sim};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {
@@ -46,27 +46,16 @@ impl Circuit for CycleGate {
     type Reg<L: Logic> = Reg<L>;
     type Net<L: Logic> = Nothing<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L>, _: &In<L>) -> Nothing<L> {
         Nothing::new()
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, _: Reg<L>, _: &Nothing<L>, i: &In<L>) -> Reg<L> {
         Reg { hold: holds(i) }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Reg<Sim>, _: &Nothing<Sim>, i: &In<Sim>) -> u64 {
-        match q.hold == holds(i) {
-            true => u64::MAX,
-            false => 0,
-        }
     }
 }
 
 /// The level of `hold` after the edge.
-#[inline(always)]
 fn holds<L: Logic>(i: &In<L>) -> L::Bit {
     i.exact_stop & !(i.in_position_x & i.in_position_y)
 }

@@ -58,23 +58,16 @@ impl<const P: usize> Circuit for Differentiator<P> {
     type Reg<L: Logic> = Reg<L, P>;
     type Net<L: Logic> = Net<L, P>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Net<L, P> {
         Net {
             increment: i.position - q.lagged,
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, P>, _: &Net<L, P>, i: &In<L, P>) -> Reg<L, P> {
         Reg {
             lagged: i.load.mux(i.from, i.valid.mux(i.position, q.lagged)),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, P>, _: &Self::Net<L>, i: &In<L, P>) -> Option<L::Bit> {
-        Some(!(i.load | i.valid))
     }
 }
 

@@ -13,8 +13,8 @@
 
 use super::{Accumulator, Rule, accumulator};
 use crate::blocks::{MulDiv, mul_div};
-use crate::kernel::{Circuit, FreeRunning, Instance};
-use crate::logic::{Logic, Sim};
+use crate::kernel::{Circuit, Instance};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {
@@ -92,9 +92,7 @@ impl<const P: usize, const R: usize> Circuit for Integrator<P, R> {
     type In<L: Logic> = In<L, P>;
     type Reg<L: Logic> = Reg<L, P, R>;
     type Net<L: Logic> = Net<L, P, R>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, R>, i: &In<L, P>) -> Net<L, P, R> {
         let accumulator = Instance::settle(
             &self.accumulator,
@@ -132,46 +130,10 @@ impl<const P: usize, const R: usize> Circuit for Integrator<P, R> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, P, R>, w: &Net<L, P, R>, _: &In<L, P>) -> Reg<L, P, R> {
         Reg {
             accumulator: w.accumulator.next(&self.accumulator, q.accumulator),
             mul_div: w.mul_div.next(&self.mul_div, q.mul_div),
-        }
-    }
-
-    #[inline(always)]
-    fn coasting<L: Logic>(
-        &self,
-        q: &Reg<L, P, R>,
-        w: &Self::Net<L>,
-        _: &In<L, P>,
-    ) -> Option<L::Bit> {
-        Some(
-            w.accumulator.gated(&self.accumulator, &q.accumulator)
-                & w.mul_div.coasting(&self.mul_div, &q.mul_div),
-        )
-    }
-
-    #[inline(always)]
-    fn coast<L: Logic>(&self, q: Reg<L, P, R>) -> Reg<L, P, R> {
-        Reg {
-            mul_div: self.mul_div.coast(q.mul_div),
-            ..q
-        }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Reg<Sim, P, R>, w: &Self::Net<Sim>, _: &In<Sim, P>) -> u64 {
-        let accumulator = w.accumulator.coasts_for(&self.accumulator, &q.accumulator);
-        accumulator.min(w.mul_div.coasts_for(&self.mul_div, &q.mul_div))
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Reg<Sim, P, R>, ticks: u64) -> Reg<Sim, P, R> {
-        Reg {
-            mul_div: self.mul_div.coasted(q.mul_div, ticks),
-            ..q
         }
     }
 }

@@ -13,8 +13,8 @@ use super::{
     AxisSwitch, Differentiator, Integrator, PatternGenerator, Rule, Sequencer, TargetData,
     axis_switch, differentiator, integrator, pattern_generator, sequencer, target_data,
 };
-use crate::kernel::{Circuit, FreeRunning, Instance, least};
-use crate::logic::{Logic, Sim};
+use crate::kernel::{Circuit, Instance};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {
@@ -168,9 +168,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
     type In<L: Logic> = In<L, P, T>;
     type Reg<L: Logic> = Reg<L, A, P, T, M, Q, R>;
     type Net<L: Logic> = Net<L, A, P, T, M, Q, R>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
-    #[inline(always)]
     fn comb<L: Logic>(
         &self,
         q: &Reg<L, A, P, T, M, Q, R>,
@@ -276,7 +274,6 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, A, P, T, M, Q, R>,
@@ -292,60 +289,6 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
                 .next(&self.differentiator, q.differentiator),
             integrator: w.integrator.next(&self.integrator, q.integrator),
             switch: w.switch.next(&self.switch, q.switch),
-        }
-    }
-
-    #[inline(always)]
-    fn coasting<L: Logic>(
-        &self,
-        q: &Reg<L, A, P, T, M, Q, R>,
-        w: &Self::Net<L>,
-        _: &In<L, P, T>,
-    ) -> Option<L::Bit> {
-        Some(
-            w.targets.gated(&self.targets, &q.targets)
-                & w.sequencer.gated(&self.sequencer, &q.sequencer)
-                & w.pattern.coasting(&self.pattern, &q.pattern)
-                & w.differentiator
-                    .gated(&self.differentiator, &q.differentiator)
-                & w.integrator.coasting(&self.integrator, &q.integrator)
-                & w.switch.gated(&self.switch, &q.switch),
-        )
-    }
-
-    #[inline(always)]
-    fn coast<L: Logic>(&self, q: Reg<L, A, P, T, M, Q, R>) -> Reg<L, A, P, T, M, Q, R> {
-        Reg {
-            pattern: self.pattern.coast(q.pattern),
-            integrator: self.integrator.coast(q.integrator),
-            ..q
-        }
-    }
-
-    #[inline(always)]
-    fn coasts_for(
-        &self,
-        q: &Reg<Sim, A, P, T, M, Q, R>,
-        w: &Self::Net<Sim>,
-        _: &In<Sim, P, T>,
-    ) -> u64 {
-        least([
-            w.sequencer.coasts_for(&self.sequencer, &q.sequencer),
-            w.targets.coasts_for(&self.targets, &q.targets),
-            w.pattern.coasts_for(&self.pattern, &q.pattern),
-            w.differentiator
-                .coasts_for(&self.differentiator, &q.differentiator),
-            w.integrator.coasts_for(&self.integrator, &q.integrator),
-            w.switch.coasts_for(&self.switch, &q.switch),
-        ])
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Reg<Sim, A, P, T, M, Q, R>, ticks: u64) -> Reg<Sim, A, P, T, M, Q, R> {
-        Reg {
-            pattern: self.pattern.coasted(q.pattern, ticks),
-            integrator: self.integrator.coasted(q.integrator, ticks),
-            ..q
         }
     }
 }

@@ -68,8 +68,6 @@ struct Seen {
     command: [i64; 2],
 }
 
-// A call would have all registers and nets in memory, in every tick.
-#[inline(always)]
 fn see<C: CommandSource<P, T>>(now: &Sample<'_, Plotter<C>>) -> Seen {
     let w = now.w;
     Seen {

@@ -82,7 +82,6 @@ impl<const P: usize, const R: usize> Law for LineSweep<P, R> {
         1 + 2 * Self::SCAN
     }
 
-    #[inline(always)]
     fn input<L: Logic>(&self, case: &Case<L, P>, tick: u64) -> integrator::In<L, P> {
         let second = tick > Self::SCAN;
         integrator::In {
@@ -94,7 +93,6 @@ impl<const P: usize, const R: usize> Law for LineSweep<P, R> {
         }
     }
 
-    #[inline(always)]
     fn see<L: Logic>(
         &self,
         seen: Seen<L, P>,
@@ -117,7 +115,6 @@ impl<const P: usize, const R: usize> Law for LineSweep<P, R> {
         }
     }
 
-    #[inline]
     fn expected(&self, case: &Case<Sim, P>) -> Option<Seen<Sim, P>> {
         let (master, slave) = (case.master.get(), case.slave.get());
         let (sum, to) = (case.sum.get(), case.sum.get() + case.increment.get());

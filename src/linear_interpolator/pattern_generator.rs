@@ -14,8 +14,8 @@
 
 use super::{Trapezoid, trapezoid};
 use crate::blocks::{MulDiv, mul_div};
-use crate::kernel::{Circuit, FreeRunning, Instance};
-use crate::logic::{Logic, Sim};
+use crate::kernel::{Circuit, Instance};
+use crate::logic::Logic;
 use crate::signals;
 
 signals! {
@@ -104,9 +104,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
     type In<L: Logic> = In<L, P, T>;
     type Reg<L: Logic> = Reg<L, P, T, M, Q>;
     type Net<L: Logic> = Net<L, P, T, M, Q>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, T, M, Q>, i: &In<L, P, T>) -> Net<L, P, T, M, Q> {
         let trapezoid = Instance::settle(
             &self.trapezoid,
@@ -147,7 +145,6 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, P, T, M, Q>,
@@ -157,41 +154,6 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
         Reg {
             trapezoid: w.trapezoid.next(&self.trapezoid, q.trapezoid),
             mul_div: w.mul_div.next(&self.mul_div, q.mul_div),
-        }
-    }
-
-    #[inline(always)]
-    fn coasting<L: Logic>(
-        &self,
-        q: &Reg<L, P, T, M, Q>,
-        w: &Self::Net<L>,
-        _: &In<L, P, T>,
-    ) -> Option<L::Bit> {
-        Some(
-            w.trapezoid.gated(&self.trapezoid, &q.trapezoid)
-                & w.mul_div.coasting(&self.mul_div, &q.mul_div),
-        )
-    }
-
-    #[inline(always)]
-    fn coast<L: Logic>(&self, q: Reg<L, P, T, M, Q>) -> Reg<L, P, T, M, Q> {
-        Reg {
-            mul_div: self.mul_div.coast(q.mul_div),
-            ..q
-        }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Reg<Sim, P, T, M, Q>, w: &Self::Net<Sim>, _: &In<Sim, P, T>) -> u64 {
-        let trapezoid = w.trapezoid.coasts_for(&self.trapezoid, &q.trapezoid);
-        trapezoid.min(w.mul_div.coasts_for(&self.mul_div, &q.mul_div))
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Reg<Sim, P, T, M, Q>, ticks: u64) -> Reg<Sim, P, T, M, Q> {
-        Reg {
-            mul_div: self.mul_div.coasted(q.mul_div, ticks),
-            ..q
         }
     }
 }

@@ -111,7 +111,6 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
     type Reg<L: Logic> = Reg<L, D>;
     type Net<L: Logic> = Net<L, P, D, R>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L, D>, i: &In<L, P, G>) -> Net<L, P, D, R> {
         let deviation = i.command - i.feedback;
         let distance = deviation.magnitude();
@@ -132,17 +131,11 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, D>, w: &Net<L, P, D, R>, i: &In<L, P, G>) -> Reg<L, D> {
         Reg {
             speed_ref: i.scan.mux(w.limited_reference, q.speed_ref),
             saturated: i.scan.mux(w.limited, q.saturated),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, D>, _: &Self::Net<L>, i: &In<L, P, G>) -> Option<L::Bit> {
-        Some(!i.scan)
     }
 }
 

@@ -97,7 +97,6 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
     type Reg<L: Logic> = Reg<L, P, D>;
     type Net<L: Logic> = Net<L, P, G, F, D, R>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, D>, i: &In<L, P, G>) -> Net<L, P, G, F, D, R> {
         let counter = Instance::settle(
             &self.counter,
@@ -131,7 +130,6 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, P, D>,
@@ -142,18 +140,6 @@ impl<const P: usize, const G: usize, const F: usize, const D: usize, const R: us
             counter: w.counter.next(&self.counter, q.counter),
             control: w.control.next(&self.control, q.control),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, P, D>,
-        w: &Self::Net<L>,
-        _: &In<L, P, G>,
-    ) -> Option<L::Bit> {
-        Some(
-            w.counter.gated(&self.counter, &q.counter) & w.control.gated(&self.control, &q.control),
-        )
     }
 }
 

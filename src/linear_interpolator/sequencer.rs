@@ -138,7 +138,6 @@ signals! {
 pub struct Sequencer<const P: usize>;
 
 /// Whether `a - b`, which wraps, has the wrong sign.
-#[inline(always)]
 fn overflows<L: Logic, const P: usize>(a: L::I<P>, b: L::I<P>) -> L::Bit {
     let apart = a.is_negative() ^ b.is_negative();
     apart & ((a - b).is_negative() ^ a.is_negative())
@@ -151,7 +150,6 @@ impl<const P: usize> Circuit for Sequencer<P> {
     type Reg<L: Logic> = Reg<L, P>;
     type Net<L: Logic> = Net<L, P>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Net<L, P> {
         let is = |state: u64| q.state.equals(state.into());
         let runs = is(RUN);
@@ -175,7 +173,6 @@ impl<const P: usize> Circuit for Sequencer<P> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L, P>, i: &In<L, P>) -> Reg<L, P> {
         let is = |state: u64| q.state.equals(state.into());
         let to = |state: u64| L::U::<3>::from(state);
@@ -202,14 +199,6 @@ impl<const P: usize> Circuit for Sequencer<P> {
             late: (q.late | w.early) & !w.home,
             refused: (q.refused | (w.refuses & !i.halt)) & !w.home,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, w: &Self::Net<L>, _: &In<L, P>) -> Option<L::Bit> {
-        let is = |state: u64| q.state.equals(state.into());
-        let moves = w.takes | w.begins | w.over | w.early | w.home | (q.computing & w.quiet);
-        let pulses = q.pop | q.start | q.advance;
-        Some((is(IDLE) | is(RUN)) & !(moves | pulses))
     }
 }
 

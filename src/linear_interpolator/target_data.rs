@@ -97,7 +97,6 @@ impl<const A: usize, const P: usize, const T: usize> Circuit for TargetData<A, P
     type Reg<L: Logic> = Reg<L, A, P, T>;
     type Net<L: Logic> = Net<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, A, P, T>, i: &In<L, A, P, T>) -> Net<L> {
         let ready = !(q.write_address + 1).equals(q.read_address);
         let available = !q.write_address.equals(q.read_address);
@@ -109,7 +108,6 @@ impl<const A: usize, const P: usize, const T: usize> Circuit for TargetData<A, P
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, A, P, T>,
@@ -137,16 +135,6 @@ impl<const A: usize, const P: usize, const T: usize> Circuit for TargetData<A, P
             accelerations: q.accelerations.write(w.take, to, i.acceleration_time),
             decelerations: q.decelerations.write(w.take, to, i.deceleration_time),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        _: &Reg<L, A, P, T>,
-        _: &Self::Net<L>,
-        i: &In<L, A, P, T>,
-    ) -> Option<L::Bit> {
-        Some(!(i.push | i.pop | i.flush))
     }
 }
 

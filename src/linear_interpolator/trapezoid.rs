@@ -177,7 +177,6 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
     type Reg<L: Logic> = Reg<L, P, T, M, Q>;
     type Net<L: Logic> = Net<L, P, M, Q>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, T, M, Q>, i: &In<L, P, T, Q>) -> Net<L, P, M, Q> {
         const {
             assert!(
@@ -256,7 +255,6 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, P, T, M, Q>,
@@ -293,15 +291,5 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
             ready: w.next_state.equals(WAITING.into()),
             active: !w.next_state.is_zero(),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, P, T, M, Q>,
-        _: &Self::Net<L>,
-        i: &In<L, P, T, Q>,
-    ) -> Option<L::Bit> {
-        Some(!(i.start | i.advance | i.halt | i.done | q.request | q.valid))
     }
 }

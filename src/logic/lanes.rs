@@ -11,7 +11,6 @@ pub use pack::{lane, pack, spread, unpack};
 pub use words::{LaneBit, LaneInt, LaneUInt};
 
 use super::{Image, Logic};
-use crate::kernel::{Circuit, clocked};
 use std::marker::PhantomData;
 
 /// A word is `K` words side by side, each in an element `E`: the meaning for exhaustive
@@ -29,17 +28,6 @@ impl<const K: usize, E: Element> Logic for Lanes<K, E> {
     type I<const N: usize> = LaneInt<K, E, N>;
     type Ram<const A: usize, const D: usize> = LaneRam<K, E, A, D>;
     type ShiftRegister<const S: usize, const D: usize> = LaneShiftRegister<K, E, S, D>;
-
-    /// A gate is high where it is in every lane: those of a sweep are in step.
-    #[inline(always)]
-    fn clock<C: Circuit>(
-        circuit: &C,
-        q: C::Reg<Self>,
-        w: &C::Net<Self>,
-        i: &C::In<Self>,
-    ) -> C::Reg<Self> {
-        clocked(circuit, q, w, i, LaneBit::all)
-    }
 
     #[inline]
     fn rom<const A: usize, const D: usize>(image: &Image<A, D>, address: Self::U<A>) -> Self::U<D> {

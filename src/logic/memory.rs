@@ -67,27 +67,8 @@ impl<const A: usize, const D: usize> Image<A, D> {
     /// The word at `address`, which wraps at the number of words.
     #[inline]
     pub fn get(&self, address: usize) -> u64 {
-        Self::word(self.raw(), address)
-    }
-
-    /// The storage.
-    #[inline(always)]
-    pub(super) fn raw(&self) -> &[u64] {
-        self.bits.as_raw_slice()
-    }
-
-    /// The image with that storage.
-    pub(super) fn of_raw(raw: &[u64]) -> Self {
-        let mut bits = BitVec::from_slice(raw);
-        bits.truncate(Self::WORDS * D);
-        let bits = bits.into_boxed_bitslice();
-        Image { bits }
-    }
-
-    /// The word at `address` of an image with that storage.
-    #[inline]
-    pub(super) fn word(raw: &[u64], address: usize) -> u64 {
         let (place, shift) = Self::place(address);
+        let raw = self.bits.as_raw_slice();
         let low = raw.get(place).copied().unwrap_or(0) >> shift;
         let high = raw.get(place + 1).copied().unwrap_or(0);
         (low | high << 1 << (63 - shift)) & Self::MASK
@@ -112,9 +93,6 @@ impl<const A: usize, const D: usize> Image<A, D> {
     const MASK: u64 = u64::MAX >> (64 - D);
 
     /// The storage element that a word begins in, and the bit.
-    ///
-    /// Words are cut out of whole storage elements, not with `bitvec`'s ranges: code that cannot
-    /// panic lets the compiler hold the registers around it in machine registers.
     #[inline]
     fn place(address: usize) -> (usize, usize) {
         let bit = address % Self::WORDS * D;

@@ -40,20 +40,17 @@ pub trait Logic: Sized + Copy + Debug + 'static {
 
     /// A value that is fixed at elaboration and may differ between circuits of one kind, modulo
     /// 2^N: a parameter of their HDL module, called `name` there.
-    #[inline(always)]
     fn parameter<const N: usize>(name: &'static str, value: u64) -> Self::U<N> {
         let _ = name;
         value.into()
     }
 
     /// The nets of a circuit inside another; see [`Instance`](crate::kernel::Instance).
-    #[inline(always)]
     fn settle<C: Circuit>(circuit: &C, q: &C::Reg<Self>, i: &C::In<Self>) -> C::Net<Self> {
         circuit.comb(q, i)
     }
 
     /// The next registers of a circuit inside another.
-    #[inline(always)]
     fn clock<C: Circuit>(
         circuit: &C,
         q: C::Reg<Self>,

@@ -3,11 +3,10 @@
 mod memory;
 mod words;
 
-pub use memory::{RamWords, SimRam, SimShiftRegister, Stages};
+pub use memory::{SimRam, SimShiftRegister};
 pub use words::{Int, UInt, Wire};
 
 use super::{Image, Logic};
-use crate::kernel::{Circuit, clocked};
 
 /// Words are numbers, memories hold bits: the meaning that runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,15 +21,5 @@ impl Logic for Sim {
 
     fn rom<const A: usize, const D: usize>(image: &Image<A, D>, address: UInt<A>) -> UInt<D> {
         image.get(address.get() as usize).into()
-    }
-
-    #[inline(always)]
-    fn clock<C: Circuit>(
-        circuit: &C,
-        q: C::Reg<Self>,
-        w: &C::Net<Self>,
-        i: &C::In<Self>,
-    ) -> C::Reg<Self> {
-        clocked(circuit, q, w, i, Wire::get)
     }
 }

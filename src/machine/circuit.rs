@@ -11,7 +11,7 @@
 
 use super::{CommandJoin, Enables, command_join, enables, ports};
 use crate::arc_generator::{ArcGenerator, generator};
-use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, least};
+use crate::kernel::{Circuit, Instance};
 use crate::lead_angle::job::RamLead;
 use crate::lead_angle::{Compensator, compensator};
 use crate::linear_interpolator::{LinearInterpolator, interpolator};
@@ -162,17 +162,13 @@ pub struct Machine {
     pub lead_angle: Lift,
 }
 
-impl FastForward for Machine {}
-
 impl Circuit for Machine {
     const NAME: &'static str = "machine";
     const ABOUT: &'static str = "all five circuits as one motion controller";
     type In<L: Logic> = In<L>;
     type Reg<L: Logic> = Reg<L>;
     type Net<L: Logic> = Net<L>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Net<L> {
         let enables = Instance::settle(&self.enables, &q.enables, i.rates.clone());
         let low: L::Bit = false.into();
@@ -339,7 +335,6 @@ impl Circuit for Machine {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, _: &In<L>) -> Reg<L> {
         Reg {
             enables: w.enables.next(&self.enables, q.enables),
@@ -355,41 +350,6 @@ impl Circuit for Machine {
                 .trajectory_controller
                 .next(&self.trajectory_controller, q.trajectory_controller),
             lead_angle: w.lead_angle.next(&self.lead_angle, q.lead_angle),
-        }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Reg<Sim>, w: &Net<Sim>, _: &In<Sim>) -> u64 {
-        least([
-            w.enables.coasts_for(&self.enables, &q.enables),
-            w.pulse_interpolator
-                .coasts_for(&self.pulse_interpolator, &q.pulse_interpolator),
-            w.linear_interpolator
-                .coasts_for(&self.linear_interpolator, &q.linear_interpolator),
-            w.arc_generator
-                .coasts_for(&self.arc_generator, &q.arc_generator),
-            w.command_join
-                .coasts_for(&self.command_join, &q.command_join),
-            w.trajectory_controller
-                .coasts_for(&self.trajectory_controller, &q.trajectory_controller),
-            w.lead_angle.coasts_for(&self.lead_angle, &q.lead_angle),
-        ])
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Reg<Sim>, ticks: u64) -> Reg<Sim> {
-        Reg {
-            enables: self.enables.coasted(q.enables, ticks),
-            pulse_interpolator: self.pulse_interpolator.coasted(q.pulse_interpolator, ticks),
-            linear_interpolator: self
-                .linear_interpolator
-                .coasted(q.linear_interpolator, ticks),
-            arc_generator: self.arc_generator.coasted(q.arc_generator, ticks),
-            trajectory_controller: self
-                .trajectory_controller
-                .coasted(q.trajectory_controller, ticks),
-            lead_angle: self.lead_angle.coasted(q.lead_angle, ticks),
-            ..q
         }
     }
 

@@ -64,7 +64,6 @@ impl<const W: usize, const V: usize> Circuit for CommandJoin<W, V> {
     type Reg<L: Logic> = Reg<L, W>;
     type Net<L: Logic> = Net<L, W>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L, W>, i: &In<L, W, V>) -> Net<L, W> {
         const { assert!(W >= V, "the sum is as wide as the lines' way") };
         Net {
@@ -73,17 +72,11 @@ impl<const W: usize, const V: usize> Circuit for CommandJoin<W, V> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, W>, w: &Net<L, W>, i: &In<L, W, V>) -> Reg<L, W> {
         Reg {
             x: i.take.mux(w.counts_x, q.x),
             y: i.take.mux(w.counts_y, q.y),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, W>, _: &Self::Net<L>, i: &In<L, W, V>) -> Option<L::Bit> {
-        Some(!i.take)
     }
 }
 

@@ -14,8 +14,8 @@
 
 use crate::blocks::{EnableCounter, enable_counter};
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, FreeRunning, Instance, least};
-use crate::logic::{Bit, Logic, Sim};
+use crate::kernel::{Circuit, Instance};
+use crate::logic::{Bit, Logic};
 use crate::signals;
 
 signals! {
@@ -86,9 +86,7 @@ impl<const W: usize> Circuit for Enables<W> {
     type In<L: Logic> = In<L, W>;
     type Reg<L: Logic> = Reg<L, W>;
     type Net<L: Logic> = Net<L, W>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W>, i: &In<L, W>) -> Net<L, W> {
         let counter = |registers, period| {
             Instance::settle(&self.counter, registers, enable_counter::In { period })
@@ -112,35 +110,12 @@ impl<const W: usize> Circuit for Enables<W> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, W>, w: &Net<L, W>, _: &In<L, W>) -> Reg<L, W> {
         Reg {
             unit_counter: w.unit_counter.next(&self.counter, q.unit_counter),
             scan_counter: w.scan_counter.next(&self.counter, q.scan_counter),
             ck_counter: w.ck_counter.next(&self.counter, q.ck_counter),
             sample_counter: w.sample_counter.next(&self.counter, q.sample_counter),
-        }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Reg<Sim, W>, w: &Net<Sim, W>, _: &In<Sim, W>) -> u64 {
-        least([
-            w.unit_counter.coasts_for(&self.counter, &q.unit_counter),
-            w.scan_counter.coasts_for(&self.counter, &q.scan_counter),
-            w.ck_counter.coasts_for(&self.counter, &q.ck_counter),
-            w.sample_counter
-                .coasts_for(&self.counter, &q.sample_counter),
-        ])
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Reg<Sim, W>, ticks: u64) -> Reg<Sim, W> {
-        let coasted = |count| self.counter.coasted(count, ticks);
-        Reg {
-            unit_counter: coasted(q.unit_counter),
-            scan_counter: coasted(q.scan_counter),
-            ck_counter: coasted(q.ck_counter),
-            sample_counter: coasted(q.sample_counter),
         }
     }
 }

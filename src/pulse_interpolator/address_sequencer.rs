@@ -98,7 +98,6 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
     type Reg<L: Logic> = Reg<L, A>;
     type Net<L: Logic> = Net<L, A>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, A>, i: &In<L, A>) -> Net<L, A> {
         let running = q.state.bit(0);
         let at_last = q.address.equals(q.last);
@@ -122,7 +121,6 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, A>, w: &Net<L, A>, i: &In<L, A>) -> Reg<L, A> {
         let start = i.unit_rst & w.start;
         Reg {
@@ -132,11 +130,6 @@ impl<const A: usize> Circuit for AddressSequencer<A> {
             last: start.mux(i.pending_last, q.last),
             cyclic: start.mux(i.pending_cyclic, q.cyclic),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, A>, _: &Self::Net<L>, i: &In<L, A>) -> Option<L::Bit> {
-        Some(!i.unit_rst)
     }
 }
 

@@ -12,9 +12,8 @@
 use super::{PatternMemory, PulseGenerator, SyncStage, Variant};
 use super::{pattern_memory, pulse_generator, sync_stage};
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, FreeRunning, Instance, ticks_below};
-use crate::logic::sim::UInt;
-use crate::logic::{Bit, Logic, Sim, Unsigned};
+use crate::kernel::{Circuit, Instance};
+use crate::logic::{Logic, Sim};
 use crate::signals;
 
 signals! {
@@ -91,59 +90,13 @@ impl<const N: usize, const A: usize> Axis<N, A> {
     }
 }
 
-impl<const N: usize, const A: usize> Axis<N, A> {
-    /// High where, apart from the counter, nothing changes with an edge that is not that of RST. It
-    /// relies on that a half-period comes with RST only: one of 0 finds the counter cleared.
-    #[inline(always)]
-    pub(super) fn coasting<L: Logic>(&self, q: &Reg<L, N, A>) -> L::Bit {
-        let safe: L::Bit = (self.generator.variant == Variant::Safe).into();
-        // 0 - 1 is more than any count.
-        safe & q.generator.count.below(q.memory.half_period - 1)
-    }
-
-    /// For how many ticks that is so, if the unit time does not end before.
-    #[inline(always)]
-    pub(super) fn coasts_for(&self, q: &Reg<Sim, N, A>) -> u64 {
-        let pulse_generator::Reg { count, toggle } = q.generator;
-        let half_period = q.memory.half_period;
-        if q.sync.step != toggle {
-            return 0;
-        }
-        match self.generator.variant {
-            Variant::Safe if half_period.get() > 0 => ticks_below(count.get(), half_period.get()),
-            Variant::Safe if count.get() == 0 && !toggle.get() => u64::MAX,
-            Variant::Safe => 0,
-            Variant::Literal => (half_period - 1 - count).get(),
-        }
-    }
-
-    /// The counter after so many of these ticks.
-    #[inline(always)]
-    pub(super) fn coasted(&self, q: &Reg<Sim, N, A>, ticks: u64) -> UInt<N> {
-        let count = q.generator.count;
-        match self.generator.variant == Variant::Literal || q.memory.half_period.get() > 0 {
-            true => count + ticks,
-            false => count,
-        }
-    }
-
-    /// The counter after that edge.
-    #[inline(always)]
-    pub(super) fn coast<L: Logic>(&self, q: &Reg<L, N, A>) -> L::U<N> {
-        let count = q.generator.count;
-        q.memory.half_period.is_zero().mux(count, count + 1)
-    }
-}
-
 impl<const N: usize, const A: usize> Circuit for Axis<N, A> {
     const NAME: &'static str = "axis";
     const ABOUT: &'static str = "pattern memory, pulse generator and sync stage of one axis";
     type In<L: Logic> = In<L, N, A>;
     type Reg<L: Logic> = Reg<L, N, A>;
     type Net<L: Logic> = Net<L, N, A>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, N, A>, i: &In<L, N, A>) -> Net<L, N, A> {
         let memory = Instance::settle(
             &self.memory,
@@ -184,7 +137,6 @@ impl<const N: usize, const A: usize> Circuit for Axis<N, A> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, N, A>, w: &Net<L, N, A>, _: &In<L, N, A>) -> Reg<L, N, A> {
         Reg {
             memory: w.memory.next(&self.memory, q.memory),

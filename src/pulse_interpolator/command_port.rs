@@ -89,7 +89,6 @@ impl<const A: usize, const T: usize> Circuit for CommandPort<A, T> {
     type Reg<L: Logic> = Reg<L, A, T>;
     type Net<L: Logic> = Net<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, A, T>, i: &In<L, A, T>) -> Net<L> {
         Net {
             ready: !q.pending,
@@ -97,7 +96,6 @@ impl<const A: usize, const T: usize> Circuit for CommandPort<A, T> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, A, T>, w: &Net<L>, i: &In<L, A, T>) -> Reg<L, A, T> {
         Reg {
             pending: w.accept | (q.pending & !i.take),
@@ -108,16 +106,6 @@ impl<const A: usize, const T: usize> Circuit for CommandPort<A, T> {
             pending_now: w.accept.mux(i.now, q.pending_now),
             pending_period: w.accept.mux(i.period, q.pending_period),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        _: &Reg<L, A, T>,
-        _: &Self::Net<L>,
-        i: &In<L, A, T>,
-    ) -> Option<L::Bit> {
-        Some(!(i.valid | i.take))
     }
 
     fn power_on(&self) -> Reg<Sim, A, T> {

@@ -61,7 +61,6 @@ impl<'t, const A: usize> ControlComputer<'t, A> {
     }
 
     /// Its outputs in one tick, from what it sees of the group's registers.
-    #[inline(always)]
     pub fn drive<const AXES: usize, const N: usize, const T: usize>(
         &mut self,
         q: &Reg<Sim, AXES, N, T, A>,
@@ -72,8 +71,7 @@ impl<'t, const A: usize> ControlComputer<'t, A> {
         self.act(q.port.pending.get())
     }
 
-    /// Its outputs while there is something to do; `waiting` where the port holds a command. It
-    /// sees no more of the registers, so that they need not lie in memory for it.
+    /// Its outputs while there is something to do; `waiting` where the port holds a command.
     fn act<const N: usize, const T: usize>(&mut self, waiting: bool) -> In<Sim, N, T, A> {
         let taken = self.commands - usize::from(waiting);
         let Some(chunk) = self.chunks.get(self.chunk).copied() else {

@@ -17,7 +17,7 @@ use super::{
 };
 use super::{address_sequencer, axis, command_port, unit_time_counter, unit_time_register};
 use crate::check::{Invariants, Specified, require};
-use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, least};
+use crate::kernel::{Circuit, Instance};
 use crate::logic::{Bit, Logic, Sim, Unsigned};
 use crate::signals;
 use std::array::from_fn;
@@ -153,9 +153,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
     type In<L: Logic> = In<L, N, T, A>;
     type Reg<L: Logic> = Reg<L, AXES, N, T, A>;
     type Net<L: Logic> = Net<L, AXES, N, T, A>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
-    #[inline(always)]
     fn comb<L: Logic>(
         &self,
         q: &Reg<L, AXES, N, T, A>,
@@ -237,7 +235,6 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, AXES, N, T, A>,
@@ -253,65 +250,6 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
         }
     }
 
-    #[inline(always)]
-    fn coasting<L: Logic>(
-        &self,
-        q: &Reg<L, AXES, N, T, A>,
-        w: &Self::Net<L>,
-        i: &In<L, N, T, A>,
-    ) -> Option<L::Bit> {
-        let axes = self.axes.iter().zip(&q.axes);
-        let axes: L::Bit = axes.fold(true.into(), |all, (axis, q)| all & axis.coasting(q));
-        Some(
-            axes & !i.write
-                & w.counter.coasting(&self.counter, &q.counter)
-                & w.unit_time.gated(&self.unit_time, &q.unit_time)
-                & w.port.gated(&self.port, &q.port),
-        )
-    }
-
-    #[inline(always)]
-    fn coast<L: Logic>(&self, mut q: Reg<L, AXES, N, T, A>) -> Reg<L, AXES, N, T, A> {
-        for (axis, q) in self.axes.iter().zip(&mut q.axes) {
-            q.generator.count = axis.coast(q);
-        }
-        Reg {
-            counter: self.counter.coast(q.counter),
-            ..q
-        }
-    }
-
-    #[inline(always)]
-    fn coasts_for(
-        &self,
-        q: &Reg<Sim, AXES, N, T, A>,
-        w: &Self::Net<Sim>,
-        i: &In<Sim, N, T, A>,
-    ) -> u64 {
-        // Of what the axes look at nothing else moves without RST.
-        if i.write.get() {
-            return 0;
-        }
-        let blocks = least([
-            w.counter.coasts_for(&self.counter, &q.counter),
-            w.unit_time.coasts_for(&self.unit_time, &q.unit_time),
-            w.port.coasts_for(&self.port, &q.port),
-        ]);
-        let axes = self.axes.iter().zip(&q.axes);
-        axes.fold(blocks, |least, (axis, q)| least.min(axis.coasts_for(q)))
-    }
-
-    #[inline(always)]
-    fn coasted(&self, mut q: Reg<Sim, AXES, N, T, A>, ticks: u64) -> Reg<Sim, AXES, N, T, A> {
-        for (axis, q) in self.axes.iter().zip(&mut q.axes) {
-            q.generator.count = axis.coasted(q, ticks);
-        }
-        Reg {
-            counter: self.counter.coasted(q.counter, ticks),
-            ..q
-        }
-    }
-
     fn power_on(&self) -> Reg<Sim, AXES, N, T, A> {
         Reg {
             unit_time: self.unit_time.power_on(),
@@ -321,11 +259,6 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Circuit
             axes: from_fn(|axis| self.axes[axis].power_on()),
         }
     }
-}
-
-impl<const AXES: usize, const N: usize, const T: usize, const A: usize> FastForward
-    for Group<AXES, N, T, A>
-{
 }
 
 impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Specified
@@ -386,6 +319,3 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Specifie
         !i.write.get() && unused
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -65,8 +65,6 @@ struct Bench<const AXES: usize> {
 }
 
 impl<const AXES: usize> Observer<JobGroup<AXES>> for Bench<AXES> {
-    // A call would have all registers and nets in memory, in every tick.
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, JobGroup<AXES>>) -> Result<ControlFlow<()>, RunError> {
         for (axis, driver) in self.drivers.iter_mut().enumerate() {
             // The drivers ask for nothing here, so they have nothing to complain of.
@@ -117,7 +115,7 @@ pub fn play<const AXES: usize>(
     })
 }
 
-/// Does what [`play`] does, but goes over idle ticks in one: for an `observer` that need not see
+/// Does what [`play`] does, but goes over idle ticks: for an `observer` that need not see
 /// them.
 ///
 /// # Errors
@@ -145,7 +143,6 @@ fn fits<const AXES: usize>(table: &Table) -> Result<(), SettingError> {
 }
 
 /// What the drivers see of a group that is run to the end of `table`.
-#[inline]
 fn played<'g, const AXES: usize>(
     table: &Table,
     run: impl FnOnce(

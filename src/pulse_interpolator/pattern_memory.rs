@@ -97,7 +97,6 @@ impl<const N: usize, const A: usize> Circuit for PatternMemory<N, A> {
     type Reg<L: Logic> = Reg<L, N, A>;
     type Net<L: Logic> = Net<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L, N, A>, i: &In<L, N, A>) -> Net<L> {
         Net {
             selected: i.write & i.write_axis.equals(L::parameter("axis", self.axis)),
@@ -105,7 +104,6 @@ impl<const N: usize, const A: usize> Circuit for PatternMemory<N, A> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, N, A>, w: &Net<L>, i: &In<L, N, A>) -> Reg<L, N, A> {
         // A clear before the read, as the output register of block RAM has it.
         let read = q.half_periods.read_when(i.read, i.address, q.half_period);
@@ -120,16 +118,6 @@ impl<const N: usize, const A: usize> Circuit for PatternMemory<N, A> {
                 .directions
                 .write(w.selected, i.write_address, i.write_direction.word()),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        _: &Reg<L, N, A>,
-        _: &Self::Net<L>,
-        i: &In<L, N, A>,
-    ) -> Option<L::Bit> {
-        Some(!(i.read | i.blank | i.write))
     }
 
     fn power_on(&self) -> Reg<Sim, N, A> {

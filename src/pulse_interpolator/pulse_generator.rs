@@ -18,7 +18,7 @@
 
 use super::Variant;
 use crate::check::{Invariants, Specified};
-use crate::kernel::{Circuit, FreeRunning, Moment, Property};
+use crate::kernel::{Circuit, Moment, Property};
 use crate::logic::{Bit, Logic, Unsigned};
 use crate::signals;
 
@@ -67,9 +67,7 @@ impl<const N: usize> Circuit for PulseGenerator<N> {
     type In<L: Logic> = In<L, N>;
     type Reg<L: Logic> = Reg<L, N>;
     type Net<L: Logic> = Net<L, N>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, N>, i: &In<L, N>) -> Net<L, N> {
         let next = q.count + 1;
         let (over, exactly) = (!next.below(i.half_period), next.equals(i.half_period));
@@ -89,7 +87,6 @@ impl<const N: usize> Circuit for PulseGenerator<N> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, _: Reg<L, N>, w: &Net<L, N>, i: &In<L, N>) -> Reg<L, N> {
         match self.variant {
             Variant::Safe => Reg {

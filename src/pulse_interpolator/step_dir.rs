@@ -77,7 +77,6 @@ impl Driver {
     /// # Errors
     /// Two edges came closer than the limits allow; the minima and the position count them all
     /// the same.
-    #[inline]
     pub fn sample(&mut self, tick: u64, step: bool, dir: bool) -> Result<(), TooShort> {
         if step == self.step && self.dir == Some(dir) {
             return Ok(());
@@ -144,7 +143,6 @@ impl<const AXES: usize> Drivers<AXES> {
 impl<const AXES: usize, const N: usize, const T: usize, const A: usize>
     Observer<Group<AXES, N, T, A>> for Drivers<AXES>
 {
-    #[inline]
     fn sample(
         &mut self,
         now: &Sample<'_, Group<AXES, N, T, A>>,

@@ -42,12 +42,10 @@ impl Circuit for SyncStage {
     type Reg<L: Logic> = Reg<L>;
     type Net<L: Logic> = Nothing<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L>, _: &In<L>) -> Nothing<L> {
         Nothing::new()
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, _: Reg<L>, _: &Nothing<L>, i: &In<L>) -> Reg<L> {
         Reg {
             step: i.pulse & !i.unit_rst,

@@ -10,8 +10,8 @@
 //! counter run to its wrap. T = 0 counts as 1.
 
 use crate::check::{Invariants, Specified};
-use crate::kernel::{Circuit, FreeRunning, Moment, Property, ticks_below};
-use crate::logic::{Bit, Logic, Sim, Unsigned};
+use crate::kernel::{Circuit, Moment, Property};
+use crate::logic::{Bit, Logic, Unsigned};
 use crate::signals;
 
 signals! {
@@ -51,9 +51,7 @@ impl<const T: usize> Circuit for UnitTimeCounter<T> {
     type In<L: Logic> = In<L, T>;
     type Reg<L: Logic> = Reg<L, T>;
     type Net<L: Logic> = Net<L, T>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::All;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, T>, i: &In<L, T>) -> Net<L, T> {
         let next = q.count + 1;
         Net {
@@ -62,32 +60,9 @@ impl<const T: usize> Circuit for UnitTimeCounter<T> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, _: Reg<L, T>, w: &Net<L, T>, _: &In<L, T>) -> Reg<L, T> {
         Reg {
             count: w.unit_rst.mux(0.into(), w.next),
-        }
-    }
-
-    #[inline(always)]
-    fn coasting<L: Logic>(&self, _: &Reg<L, T>, w: &Net<L, T>, _: &In<L, T>) -> Option<L::Bit> {
-        Some(!w.unit_rst)
-    }
-
-    #[inline(always)]
-    fn coast<L: Logic>(&self, q: Reg<L, T>) -> Reg<L, T> {
-        Reg { count: q.count + 1 }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Reg<Sim, T>, _: &Net<Sim, T>, i: &In<Sim, T>) -> u64 {
-        ticks_below(q.count.get(), i.period.get())
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Reg<Sim, T>, ticks: u64) -> Reg<Sim, T> {
-        Reg {
-            count: q.count + ticks,
         }
     }
 

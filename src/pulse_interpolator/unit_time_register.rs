@@ -67,24 +67,17 @@ impl<const T: usize> Circuit for UnitTimeRegister<T> {
     type Reg<L: Logic> = Reg<L, T>;
     type Net<L: Logic> = Net<L, T>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, T>, i: &In<L, T>) -> Net<L, T> {
         Net {
             load: i.take.mux(i.take_period, q.shadow),
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, T>, w: &Net<L, T>, i: &In<L, T>) -> Reg<L, T> {
         Reg {
             shadow: i.write.mux(i.period, w.load),
             active: i.unit_rst.mux(w.load, q.active),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, _: &Reg<L, T>, _: &Self::Net<L>, i: &In<L, T>) -> Option<L::Bit> {
-        Some(!(i.write | i.unit_rst | i.take))
     }
 
     fn power_on(&self) -> Reg<Sim, T> {

@@ -94,7 +94,6 @@ impl<S: Sink> Behind<S> {
 impl<S: Sink> Format for Behind<S> {
     type Out = S::Out;
 
-    #[inline(never)]
     fn tick(&mut self, rise: u64, fall: u64, changes: &[Change]) -> io::Result<()> {
         let section = &mut self.section;
         section.changes.extend_from_slice(changes);

@@ -34,20 +34,12 @@ impl<F: Format> Dump<F> {
         }
     }
 
-    /// Whether a tick may come as one in which the circuit coasts.
-    #[inline(always)]
-    pub fn follows(&self, tick: u64) -> bool {
-        !self.looks(tick) || self.walk.follows(tick)
-    }
-
     /// Whether a tick is one of those that are asked for.
-    #[inline(always)]
     pub fn looks(&self, tick: u64) -> bool {
         self.ticks.contains(&tick)
     }
 
     /// Sees a tick, if it is one of those that are asked for.
-    #[inline(always)]
     pub fn sample<C: Circuit>(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         if self.looks(now.tick) {
             let (rise, fall) = self.walk.sample(now)?;

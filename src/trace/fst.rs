@@ -57,17 +57,10 @@ impl<C: Circuit, W: Write + Seek + Send + 'static> Fst<C, W> {
 }
 
 impl<C: Circuit, W: Write + Seek + Send + 'static> Observer<C> for Fst<C, W> {
-    #[inline(always)]
-    fn follows(&self, tick: u64) -> bool {
-        self.dump.follows(tick)
-    }
-
-    #[inline(always)]
     fn looks(&self, tick: u64) -> bool {
         self.dump.looks(tick)
     }
 
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.dump.sample(now)
     }

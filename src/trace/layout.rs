@@ -1,5 +1,4 @@
-use super::tree::free_running;
-use crate::kernel::{Declaration, Declarations, Format, InstanceDeclaration, Running, STAGE, WORD};
+use crate::kernel::{Declaration, Declarations, Format, Running, STAGE, WORD};
 use std::borrow::Cow;
 use std::collections::HashSet;
 use std::io;
@@ -68,10 +67,6 @@ pub(super) const CLK: &str = "clk";
 pub(crate) struct Layout {
     /// Every leaf of the walk, in its order.
     pub leaves: Vec<Declaration>,
-    /// The circuits within, in its order.
-    pub instances: Vec<InstanceDeclaration>,
-    /// Which leaves of the walk can change while the circuit coasts.
-    pub free: Vec<bool>,
     /// For every leaf, whether it is selected.
     pub selected: Vec<bool>,
     /// The circuit's scope with the selected leaves in it.
@@ -94,9 +89,7 @@ impl Layout {
     }
 
     pub fn of(circuit: &dyn Running, only: Option<&[String]>) -> Result<Self, LayoutError> {
-        let Declarations {
-            leaves, instances, ..
-        } = Declarations::walked(circuit);
+        let leaves = Declarations::walked(circuit).leaves;
         check(circuit.name(), &leaves)?;
         let mut top = Scope::tree(circuit.name(), &leaves, |_| true);
         top.check(&leaves, Some(CLK))?;
@@ -105,9 +98,7 @@ impl Layout {
             top = Scope::tree(circuit.name(), &leaves, |index| selected[index]);
         }
         Ok(Layout {
-            free: free_running(&leaves, &instances, circuit.free_running()),
             leaves,
-            instances,
             selected,
             top,
         })

@@ -58,17 +58,10 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
 }
 
 impl<C: Circuit, W: Write> Observer<C> for Vcd<C, W> {
-    #[inline(always)]
-    fn follows(&self, tick: u64) -> bool {
-        self.dump.follows(tick)
-    }
-
-    #[inline(always)]
     fn looks(&self, tick: u64) -> bool {
         self.dump.looks(tick)
     }
 
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.dump.sample(now)
     }
@@ -114,19 +107,12 @@ impl<C: Circuit, W: Write + Send + 'static> VcdBehind<C, W> {
 }
 
 impl<C: Circuit, W: Write + Send + 'static> Observer<C> for VcdBehind<C, W> {
-    #[inline(always)]
-    fn follows(&self, tick: u64) -> bool {
-        self.dump.follows(tick)
-    }
-
-    #[inline(always)]
     fn looks(&self, tick: u64) -> bool {
         self.dump.looks(tick)
     }
 
     /// # Errors
     /// The writer failed with earlier ticks.
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.dump.sample(now)
     }

@@ -68,17 +68,10 @@ impl<C: Circuit> WaveFile<C> {
 }
 
 impl<C: Circuit> Observer<C> for WaveFile<C> {
-    #[inline(always)]
-    fn follows(&self, tick: u64) -> bool {
-        self.dump.follows(tick)
-    }
-
-    #[inline(always)]
     fn looks(&self, tick: u64) -> bool {
         self.dump.looks(tick)
     }
 
-    #[inline(always)]
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.dump.sample(now)
     }

@@ -98,7 +98,6 @@ impl<const P: usize, const M: usize, const H: usize, const X: usize> Circuit
     type Reg<L: Logic> = Reg<L, P, M, H, X>;
     type Net<L: Logic> = Net<L, X>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, M, H, X>, i: &In<L, P, M>) -> Net<L, X> {
         const {
             assert!(
@@ -118,7 +117,6 @@ impl<const P: usize, const M: usize, const H: usize, const X: usize> Circuit
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, P, M, H, X>,
@@ -146,15 +144,5 @@ impl<const P: usize, const M: usize, const H: usize, const X: usize> Circuit
             angle,
             done: w.complete,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, P, M, H, X>,
-        _: &Self::Net<L>,
-        i: &In<L, P, M>,
-    ) -> Option<L::Bit> {
-        Some(!(i.start | q.done) & q.state.is_zero())
     }
 }

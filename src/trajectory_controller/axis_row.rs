@@ -97,7 +97,6 @@ impl<const P: usize, const R: usize, const C: usize, const S: usize, const D: us
     type Reg<L: Logic> = Reg<L, P, C, S>;
     type Net<L: Logic> = Net<L, P, S>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, C, S>, i: &In<L, R, D>) -> Net<L, P, S> {
         const { assert!(R > P && S == R + 2, "two words of R bits, doubled") };
         let term =
@@ -116,7 +115,6 @@ impl<const P: usize, const R: usize, const C: usize, const S: usize, const D: us
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, P, C, S>,
@@ -141,15 +139,5 @@ impl<const P: usize, const R: usize, const C: usize, const S: usize, const D: us
             ),
             point: i.commit.mux(q.base + w.nearest, q.point),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, P, C, S>,
-        _: &Self::Net<L>,
-        i: &In<L, R, D>,
-    ) -> Option<L::Bit> {
-        Some(!(i.load | i.copy | i.fraction | i.commit) & (q.bits_along | q.bits_across).is_zero())
     }
 }

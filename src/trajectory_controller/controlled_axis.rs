@@ -163,7 +163,6 @@ impl<
     type Reg<L: Logic> = Reg<L, W, P, K, M, G, Q, T>;
     type Net<L: Logic> = Net<L, W, P, K, M, G, Q, T>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
         let response = Instance::settle(
             &self.response,
@@ -220,26 +219,11 @@ impl<
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
         Reg {
             response: w.response.next(&self.response, q.response),
             corrector: w.corrector.next(&self.corrector, q.corrector),
             servo: w.servo.next(&self.servo, q.servo),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Self::Reg<L>,
-        w: &Self::Net<L>,
-        _: &Self::In<L>,
-    ) -> Option<L::Bit> {
-        Some(
-            w.response.gated(&self.response, &q.response)
-                & w.corrector.gated(&self.corrector, &q.corrector)
-                & w.servo.gated(&self.servo, &q.servo),
-        )
     }
 }

@@ -18,8 +18,8 @@ use crate::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
     enable_counter, record_memory, record_sequencer,
 };
-use crate::kernel::{Circuit, FastForward, FreeRunning, Instance, Nothing, least};
-use crate::logic::{Bit, Logic, Sim};
+use crate::kernel::{Circuit, Instance, Nothing};
+use crate::logic::{Bit, Logic};
 use crate::signals;
 use std::array::from_fn;
 
@@ -362,30 +362,6 @@ impl<
     const Q: usize,
     const T: usize,
     const U: usize,
-> FastForward for TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>
-{
-}
-
-impl<
-    const AXES: usize,
-    const A: usize,
-    const W: usize,
-    const P: usize,
-    const R: usize,
-    const C: usize,
-    const S: usize,
-    const H: usize,
-    const X: usize,
-    const D: usize,
-    const E: usize,
-    const F: usize,
-    const N: usize,
-    const K: usize,
-    const M: usize,
-    const G: usize,
-    const Q: usize,
-    const T: usize,
-    const U: usize,
 > Circuit for TrajectoryController<AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>
 {
     const NAME: &'static str = "trajectory_controller";
@@ -393,9 +369,7 @@ impl<
     type In<L: Logic> = In<L, AXES, A, P, D, E, K, G, T, U>;
     type Reg<L: Logic> = Reg<L, AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>;
     type Net<L: Logic> = Net<L, AXES, A, W, P, R, C, S, H, X, D, E, F, N, K, M, G, Q, T, U>;
-    const FREE_RUNNING: FreeRunning = FreeRunning::Parts;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
         let period_counter = Instance::settle(
             &self.period_counter,
@@ -551,7 +525,6 @@ impl<
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
         Reg {
             period_counter: w
@@ -568,35 +541,6 @@ impl<
                 .next(&self.reference_point, q.reference_point),
             gather: w.gather.next(&self.gather, q.gather),
             axes: Instance::next_each(&w.axes, &self.axes, q.axes),
-        }
-    }
-
-    #[inline(always)]
-    fn coasts_for(&self, q: &Self::Reg<Sim>, w: &Self::Net<Sim>, _: &Self::In<Sim>) -> u64 {
-        let axes = w.axes.iter().zip(&self.axes).zip(&q.axes);
-        let axes = axes.map(|((w, axis), q)| w.coasts_for(axis, q));
-        least([
-            w.period_counter
-                .coasts_for(&self.period_counter, &q.period_counter),
-            w.memory.coasts_for(&self.memory, &q.memory),
-            w.sequencer.coasts_for(&self.sequencer, &q.sequencer),
-            w.profile.coasts_for(&self.profile, &q.profile),
-            w.progress.coasts_for(&self.progress, &q.progress),
-            w.tangential.coasts_for(&self.tangential, &q.tangential),
-            w.distribution
-                .coasts_for(&self.distribution, &q.distribution),
-            w.reference_point
-                .coasts_for(&self.reference_point, &q.reference_point),
-            w.gather.coasts_for(&self.gather, &q.gather),
-        ])
-        .min(axes.fold(u64::MAX, u64::min))
-    }
-
-    #[inline(always)]
-    fn coasted(&self, q: Self::Reg<Sim>, ticks: u64) -> Self::Reg<Sim> {
-        Reg {
-            period_counter: self.period_counter.coasted(q.period_counter, ticks),
-            ..q
         }
     }
 }

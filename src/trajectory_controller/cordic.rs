@@ -77,7 +77,6 @@ impl<const R: usize, const H: usize> Circuit for Cordic<R, H> {
     type Reg<L: Logic> = Reg<L, R, H>;
     type Net<L: Logic> = Net<L, R, H>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> Net<L, R, H> {
         let shift = |word| {
             let by = q.turning.iteration;
@@ -106,20 +105,9 @@ impl<const R: usize, const H: usize> Circuit for Cordic<R, H> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, R, H>, w: &Net<L, R, H>, _: &In<L, R, H>) -> Reg<L, R, H> {
         Reg {
             turning: w.turning.next(&self.turning, q.turning),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, R, H>,
-        w: &Self::Net<L>,
-        _: &In<L, R, H>,
-    ) -> Option<L::Bit> {
-        Some(w.turning.gated(&self.turning, &q.turning))
     }
 }

@@ -109,7 +109,6 @@ impl<const R: usize, const H: usize> Circuit for CordicState<R, H> {
     type Reg<L: Logic> = Reg<L, R, H>;
     type Net<L: Logic> = Net<L, R, H>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, R, H>, i: &In<L, R, H>) -> Net<L, R, H> {
         let raised = i.angle + (1u64 << (H - 3));
         let (upright, half) = (raised.bit(H - 2), raised.bit(H - 1));
@@ -130,7 +129,6 @@ impl<const R: usize, const H: usize> Circuit for CordicState<R, H> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, R, H>, w: &Net<L, R, H>, i: &In<L, R, H>) -> Reg<L, R, H> {
         let begin_along = w.upright.mux(0.into(), w.beginning);
         let begin_across = w.upright.mux(w.beginning, 0.into());
@@ -151,15 +149,5 @@ impl<const R: usize, const H: usize> Circuit for CordicState<R, H> {
             left: w.take.mux(w.rest, q.busy.mux(turned, q.left)),
             done: q.busy & w.last,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, R, H>,
-        _: &Self::Net<L>,
-        i: &In<L, R, H>,
-    ) -> Option<L::Bit> {
-        Some(!(i.start | q.busy | q.done))
     }
 }

@@ -91,8 +91,6 @@ struct Seen<const AXES: usize> {
     driven: Option<([i64; AXES], [bool; AXES])>,
 }
 
-// A call would have all registers and nets in memory, in every tick.
-#[inline(always)]
 fn see<const AXES: usize, const A: usize, const E: usize>(
     now: &Sample<'_, Controller<AXES, A, E>>,
 ) -> Seen<AXES> {

@@ -47,7 +47,6 @@ impl<const P: usize> Circuit for LengthClamp<P> {
     type Reg<L: Logic> = Nothing<L>;
     type Net<L: Logic> = Net<L, P>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L, P>) -> Net<L, P> {
         let beyond = i.path_end.below(i.length);
         let on = beyond.mux(i.path_end.unsigned(), i.length.unsigned());
@@ -57,7 +56,6 @@ impl<const P: usize> Circuit for LengthClamp<P> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Nothing<L>, _: &Net<L, P>, _: &In<L, P>) -> Nothing<L> {
         q
     }

@@ -108,7 +108,6 @@ pub struct ModelState<const P: usize, const K: usize, const Q: usize> {
 }
 
 /// `word`, or its negative.
-#[inline(always)]
 fn signed_by<L: Logic, const N: usize>(negative: L::Bit, word: L::I<N>) -> L::I<N> {
     negative.mux(-word, word)
 }
@@ -120,7 +119,6 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ModelState<P, K
     type Reg<L: Logic> = Reg<L, P>;
     type Net<L: Logic> = Net<L, P, K, Q>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P, K, Q>) -> Net<L, P, K, Q> {
         const {
             assert!(
@@ -163,7 +161,6 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ModelState<P, K
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L, P, K, Q>, i: &In<L, P, K, Q>) -> Reg<L, P> {
         let to = |state: u64| -> L::U<2> { state.into() };
         let state = w.take.mux(to(FIRST), q.state);
@@ -181,15 +178,5 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ModelState<P, K
             acceleration: i.preset.mux(0.into(), acceleration),
             fresh: w.complete | i.preset,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, P>,
-        _: &Self::Net<L>,
-        i: &In<L, P, K, Q>,
-    ) -> Option<L::Bit> {
-        Some(!(i.step | i.preset | i.done | q.fresh))
     }
 }

@@ -71,14 +71,12 @@ impl<const P: usize> Circuit for PathLength<P> {
     type Reg<L: Logic> = Reg<L, P>;
     type Net<L: Logic> = Net<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P>, i: &In<L, P>) -> Net<L> {
         Net {
             none: i.restart | (q.waiting & !i.present),
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L>, i: &In<L, P>) -> Reg<L, P> {
         Reg {
             length: (i.present & !i.restart).mux(i.profile, q.length),
@@ -88,12 +86,6 @@ impl<const P: usize> Circuit for PathLength<P> {
             fresh: q.begun & !w.none,
             held: q.begun & w.none,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, _: &Self::Net<L>, i: &In<L, P>) -> Option<L::Bit> {
-        let pulses = q.begun | q.preset | q.fresh | q.held;
-        Some(!(i.sample | i.present | i.restart | pulses))
     }
 }
 

@@ -239,7 +239,6 @@ impl<
     type Reg<L: Logic> = Reg<L, AXES, A, P, R, C, S, M, H, X, D, K>;
     type Net<L: Logic> = Net<L, AXES, A, P, R, C, S, M, H, X, D, K>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
         const { assert!(AXES >= 1 && AXES <= 3, "a segment has words for three axes") };
         let search = Instance::settle(
@@ -341,7 +340,6 @@ impl<
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
         Reg {
             search: w.search.next(&self.search, q.search),
@@ -352,17 +350,5 @@ impl<
             control: w.control.next(&self.control, q.control),
             axes: Instance::next_each(&w.axes, &self.axes, q.axes),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Self::Reg<L>,
-        w: &Self::Net<L>,
-        i: &Self::In<L>,
-    ) -> Option<L::Bit> {
-        // From `start` to its `done` the sequencer is under way, and nothing computes without it.
-        let writes = i.write | i.write_begin;
-        Some(w.sequencer.gated(&self.sequencer, &q.sequencer) & !writes)
     }
 }

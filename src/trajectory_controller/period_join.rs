@@ -95,7 +95,6 @@ impl Circuit for PeriodJoin {
     type Reg<L: Logic> = Reg<L>;
     type Net<L: Logic> = Net<L>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Net<L> {
         let due = q.count.equals(self.wait.into());
         let refers = q.refers & !i.referred;
@@ -107,7 +106,6 @@ impl Circuit for PeriodJoin {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L>, w: &Net<L>, i: &In<L>) -> Reg<L> {
         let at_once: L::Bit = (self.wait == 0).into();
         let begins = i.begins | (i.held & !at_once);
@@ -123,13 +121,6 @@ impl Circuit for PeriodJoin {
             correct: (w.complete & !w.period) | (i.held & at_once),
             late: (q.late & !i.clear) | (w.period & q.busy),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L>, _: &Self::Net<L>, i: &In<L>) -> Option<L::Bit> {
-        let waits = i.referred | i.answered | i.driven | q.pending;
-        let strobes = i.begins | i.held | i.placed | i.clear | q.preset | q.step | q.correct;
-        Some(!(waits | strobes) & q.count.equals(self.wait.into()))
     }
 }
 

@@ -143,7 +143,6 @@ impl<const P: usize, const R: usize, const M: usize, const D: usize> Circuit
     type Reg<L: Logic> = Reg<L, M, R>;
     type Net<L: Logic> = Net<L, R>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, M, R>, i: &In<L, P, R, D>) -> Net<L, R> {
         const {
             assert!(
@@ -171,7 +170,6 @@ impl<const P: usize, const R: usize, const M: usize, const D: usize> Circuit
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, M, R>, w: &Net<L, R>, i: &In<L, P, R, D>) -> Reg<L, M, R> {
         let to = |state: u64| -> L::U<3> { state.into() };
         let word = |number: u64| i.load & i.word.equals(number.into());
@@ -193,15 +191,5 @@ impl<const P: usize, const R: usize, const M: usize, const D: usize> Circuit
             project: w.placed,
             done: w.reached,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, M, R>,
-        _: &Self::Net<L>,
-        i: &In<L, P, R, D>,
-    ) -> Option<L::Bit> {
-        Some(!(i.start | i.load | q.done) & q.state.is_zero())
     }
 }

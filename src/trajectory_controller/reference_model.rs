@@ -91,7 +91,6 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ReferenceModel<
     type Reg<L: Logic> = Reg<L, P, K, Q>;
     type Net<L: Logic> = Net<L, P, K, Q>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, P, K, Q>, i: &In<L, P, K>) -> Net<L, P, K, Q> {
         let integrators = Instance::settle(
             &self.integrators,
@@ -127,7 +126,6 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ReferenceModel<
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, P, K, Q>,
@@ -138,16 +136,5 @@ impl<const P: usize, const K: usize, const Q: usize> Circuit for ReferenceModel<
             integrators: w.integrators.next(&self.integrators, q.integrators),
             scaler: w.scaler.next(&self.scaler, q.scaler),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, P, K, Q>,
-        w: &Self::Net<L>,
-        i: &In<L, P, K>,
-    ) -> Option<L::Bit> {
-        // The scaler works for the integrators, while they are under way.
-        Some(!(w.busy | i.step | i.preset | q.integrators.fresh))
     }
 }

@@ -82,7 +82,6 @@ impl<const K: usize, const Q: usize> Circuit for Scaler<K, Q> {
     type Reg<L: Logic> = Reg<L, K, Q>;
     type Net<L: Logic> = Net<L, Q>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, K, Q>, i: &In<L, K, Q>) -> Net<L, Q> {
         const {
             assert!(
@@ -99,7 +98,6 @@ impl<const K: usize, const Q: usize> Circuit for Scaler<K, Q> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, K, Q>, w: &Net<L, Q>, i: &In<L, K, Q>) -> Reg<L, K, Q> {
         // After a bit behind the point the product is halved.
         let product = w.last.mux(w.total, w.total.shift_right(1));
@@ -113,16 +111,6 @@ impl<const K: usize, const Q: usize> Circuit for Scaler<K, Q> {
             scaled: w.take.mux(0.into(), q.busy.mux(product, q.scaled)),
             done: q.busy & w.last & !i.clear,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, K, Q>,
-        _: &Self::Net<L>,
-        i: &In<L, K, Q>,
-    ) -> Option<L::Bit> {
-        Some(!(i.start | q.busy | q.done))
     }
 }
 

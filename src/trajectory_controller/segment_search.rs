@@ -96,7 +96,6 @@ impl<const A: usize, const Q: usize> Circuit for SegmentSearch<A, Q> {
     type Reg<L: Logic> = Reg<L, A, Q>;
     type Net<L: Logic> = Net<L, A>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, A, Q>, i: &In<L, A, Q>) -> Net<L, A> {
         let is = |state: u64| q.state.equals(state.into());
         let tried = q.segment | q.weight;
@@ -110,7 +109,6 @@ impl<const A: usize, const Q: usize> Circuit for SegmentSearch<A, Q> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, A, Q>, w: &Net<L, A>, i: &In<L, A, Q>) -> Reg<L, A, Q> {
         let is = |state: u64| q.state.equals(state.into());
         let to = |state: u64| -> L::U<2> { state.into() };
@@ -133,15 +131,5 @@ impl<const A: usize, const Q: usize> Circuit for SegmentSearch<A, Q> {
             wanted,
             done: w.over,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, A, Q>,
-        _: &Self::Net<L>,
-        i: &In<L, A, Q>,
-    ) -> Option<L::Bit> {
-        Some(!(i.start | i.write | q.done) & q.state.is_zero())
     }
 }

@@ -82,7 +82,6 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for SegmentStore<A,
     type Reg<L: Logic> = Reg<L, K, D>;
     type Net<L: Logic> = Net<L, K>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, K, D>, i: &In<L, A, K, D>) -> Net<L, K> {
         const { assert!(K == A + 4, "a segment has 16 words") };
         Net {
@@ -91,7 +90,6 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for SegmentStore<A,
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, K, D>, w: &Net<L, K>, i: &In<L, A, K, D>) -> Reg<L, K, D> {
         Reg {
             data: q.segments.read_when(q.reading, w.read_address, q.data),
@@ -102,15 +100,5 @@ impl<const A: usize, const K: usize, const D: usize> Circuit for SegmentStore<A,
             word: q.reading.mux(q.read_word, q.word),
             loaded: q.load & q.word.equals((WORDS as u64 - 1).into()),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, K, D>,
-        _: &Self::Net<L>,
-        i: &In<L, A, K, D>,
-    ) -> Option<L::Bit> {
-        Some(!(i.write | i.fetch | q.reading | q.load | q.loaded))
     }
 }

@@ -165,7 +165,6 @@ impl<
     type Reg<L: Logic> = Reg<L, W, P, K, M, G, Q, T>;
     type Net<L: Logic> = Net<L, W, P, K, M, G, Q, T>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
         let model = Instance::settle(
             &self.model,
@@ -229,7 +228,6 @@ impl<
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, _: &Self::In<L>) -> Self::Reg<L> {
         Reg {
             model: w.model.next(&self.model, q.model),
@@ -237,20 +235,5 @@ impl<
             arithmetic: w.arithmetic.next(&self.arithmetic, q.arithmetic),
             scaler: w.scaler.next(&self.scaler, q.scaler),
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Self::Reg<L>,
-        w: &Self::Net<L>,
-        _: &Self::In<L>,
-    ) -> Option<L::Bit> {
-        // The arithmetic begins with the model's step, and the scaler works for it.
-        Some(
-            w.model.gated(&self.model, &q.model)
-                & w.detector.gated(&self.detector, &q.detector)
-                & !(w.arithmetic.w.busy | q.arithmetic.fresh),
-        )
     }
 }

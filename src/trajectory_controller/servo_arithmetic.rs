@@ -193,7 +193,6 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
     type Reg<L: Logic> = Reg<L, W, Q, T>;
     type Net<L: Logic> = Net<L, G, Q>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, q: &Reg<L, W, Q, T>, i: &In<L, W, P, G, Q, T>) -> Net<L, G, Q> {
         const {
             assert!(
@@ -269,7 +268,6 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(
         &self,
         q: Reg<L, W, Q, T>,
@@ -305,15 +303,5 @@ impl<const W: usize, const P: usize, const G: usize, const Q: usize, const T: us
             saturated: w.ends.mux(w.above | w.below_least, q.saturated) & !i.clear,
             fresh: w.ends,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(
-        &self,
-        q: &Reg<L, W, Q, T>,
-        _: &Self::Net<L>,
-        i: &In<L, W, P, G, Q, T>,
-    ) -> Option<L::Bit> {
-        Some(!(i.step | i.clear | i.done | q.fresh) & !q.state.equals(LIMIT.into()))
     }
 }

@@ -51,7 +51,6 @@ impl<const R: usize> Circuit for Shifter<R> {
     type Reg<L: Logic> = Nothing<L>;
     type Net<L: Logic> = Net<L, R>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L, R>) -> Net<L, R> {
         let stage = |word: L::I<R>, bit: usize| -> L::I<R> {
             i.by.bit(bit).mux(word.shift_right(1 << bit), word)
@@ -71,7 +70,6 @@ impl<const R: usize> Circuit for Shifter<R> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Nothing<L>, _: &Net<L, R>, _: &In<L, R>) -> Nothing<L> {
         q
     }

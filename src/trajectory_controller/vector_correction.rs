@@ -90,7 +90,6 @@ impl<const P: usize> Circuit for VectorCorrection<P> {
     type Reg<L: Logic> = Reg<L, P>;
     type Net<L: Logic> = Net<L, P>;
 
-    #[inline(always)]
     fn comb<L: Logic>(&self, _: &Reg<L, P>, i: &In<L, P>) -> Net<L, P> {
         Net {
             vector: match self.correction {
@@ -101,18 +100,12 @@ impl<const P: usize> Circuit for VectorCorrection<P> {
         }
     }
 
-    #[inline(always)]
     fn next<L: Logic>(&self, q: Reg<L, P>, w: &Net<L, P>, i: &In<L, P>) -> Reg<L, P> {
         Reg {
             correction: i.correct.mux(w.vector, q.correction),
             corrected: i.correct.mux(i.command + w.vector, q.corrected),
             fresh: i.correct,
         }
-    }
-
-    #[inline(always)]
-    fn gated<L: Logic>(&self, q: &Reg<L, P>, _: &Self::Net<L>, i: &In<L, P>) -> Option<L::Bit> {
-        Some(!(i.correct | q.fresh))
     }
 }
 

@@ -2,7 +2,6 @@
 
 mod circuits;
 mod composite;
-mod gates;
 mod lockstep;
 mod monitor;
 mod reach;

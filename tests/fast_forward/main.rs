@@ -1,4 +1,4 @@
-//! Runs that go over idle ticks in one, against the same runs tick by tick.
+//! Runs that go over idle ticks, against the same runs tick by tick.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -13,7 +13,6 @@ mod ours;
 #[path = "../../benches/verilator/stimulus.rs"]
 #[allow(dead_code)]
 mod stimulus;
-mod waves;
 /// What [`ours`] asks for of the Verilated model.
 mod theirs {
     pub const ROTATION: u32 = 7;

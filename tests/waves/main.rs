@@ -10,7 +10,6 @@ mod names;
 mod reader;
 mod replay;
 mod reset;
-mod rest;
 mod text;
 mod watched;
 mod zoo;

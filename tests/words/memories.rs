@@ -55,15 +55,8 @@ fn ram<const A: usize, const D: usize>() {
     let mut oracle: Vec<_> = words.iter().map(|word| cut::<D>(*word)).collect();
     let mut ram = SimRam::<A, D>::from(Image::new(words));
     let (mut mark, mut written) = (0, Vec::new());
-    assert_eq!(ram.words().changed(&mut mark), Changed::None);
-    assert_eq!(
-        (
-            ram.words().width(),
-            ram.words().len(),
-            ram.words().is_empty()
-        ),
-        (D, len, false)
-    );
+    assert_eq!(ram.changed(&mut mark), Changed::None);
+    assert_eq!((ram.width(), ram.len(), ram.is_empty()), (D, len, false));
     let mut out = UInt::<D>::default();
     for _ in 0..500 {
         let (address, data, held): (UInt<A>, UInt<D>, UInt<D>) =
@@ -97,17 +90,17 @@ fn ram<const A: usize, const D: usize>() {
                 [place] => Changed::One(place),
                 _ => Changed::All,
             };
-            assert_eq!(ram.words().changed(&mut mark), expected);
+            assert_eq!(ram.changed(&mut mark), expected);
             written.clear();
         }
 
-        let words: Vec<_> = (0..len).map(|index| ram.words().word(index)).collect();
+        let words: Vec<_> = (0..len).map(|index| ram.word(index)).collect();
         assert_eq!(words, oracle);
     }
     let packed = pack(&ram);
     assert_eq!(packed.len(), len * D);
     let again: SimRam<A, D> = unpack(&packed);
-    assert!((0..len).all(|index| again.words().word(index) == oracle[index]));
+    assert!((0..len).all(|index| again.word(index) == oracle[index]));
 }
 
 #[test]
@@ -125,19 +118,15 @@ fn shift_register<const K: usize, const D: usize>() {
     let mut oracle: VecDeque<_> = words[..K].iter().map(|word| cut::<D>(*word)).collect();
     let mut register = SimShiftRegister::<K, D>::new(words);
     let (mut mark, mut shifted) = (0, false);
-    assert_eq!(register.words().changed(&mut mark), Changed::None);
+    assert_eq!(register.changed(&mut mark), Changed::None);
     assert_eq!(
-        (
-            register.words().width(),
-            register.words().len(),
-            register.words().is_empty()
-        ),
+        (register.width(), register.len(), register.is_empty()),
         (D, K, K == 0)
     );
     for _ in 0..500 {
         for (index, word) in oracle.iter().enumerate() {
             assert_eq!(register.stage(index).get(), *word);
-            assert_eq!(register.words().word(index), *word);
+            assert_eq!(register.word(index), *word);
             assert_eq!(register.tap(UInt::<5>::from(index as u64)).get(), *word);
         }
         for past in [K, K + 1, 2 * K + 1, 31] {
@@ -150,7 +139,7 @@ fn shift_register<const K: usize, const D: usize>() {
         let packed = pack(&register);
         assert_eq!(packed.len(), K * D);
         let again: SimShiftRegister<K, D> = unpack(&packed);
-        assert!((0..K).all(|index| again.words().word(index) == oracle[index]));
+        assert!((0..K).all(|index| again.word(index) == oracle[index]));
 
         let input: UInt<D> = random.signals();
         let shift = !random.word().is_multiple_of(3);
@@ -165,7 +154,7 @@ fn shift_register<const K: usize, const D: usize>() {
                 true => Changed::All,
                 false => Changed::None,
             };
-            assert_eq!(register.words().changed(&mut mark), expected);
+            assert_eq!(register.changed(&mut mark), expected);
             shifted = false;
         }
     }
@@ -183,7 +172,7 @@ fn shift_registers() {
 #[test]
 fn a_short_list_leaves_zeros_in_a_shift_register() {
     let register = SimShiftRegister::<3, 4>::new([17]);
-    let stages: Vec<_> = (0..3).map(|index| register.words().word(index)).collect();
+    let stages: Vec<_> = (0..3).map(|index| register.word(index)).collect();
     assert_eq!(stages, [1, 0, 0]);
 }
 

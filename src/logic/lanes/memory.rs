@@ -1,5 +1,5 @@
 use super::{Element, LaneBit, LaneUInt, Lanes};
-use crate::kernel::{Extent, Field, Make, Signals, Visit};
+use crate::kernel::{Field, Make, Signals, Visit};
 use crate::logic::{Bit, Image, Ram, ShiftRegister};
 
 /// A RAM in every lane, the lanes of a word side by side.
@@ -68,8 +68,6 @@ impl<const K: usize, E: Element, const A: usize, const D: usize> Ram<Lanes<K, E>
 impl<const K: usize, E: Element, const A: usize, const D: usize> Signals<Lanes<K, E>>
     for LaneRam<K, E, A, D>
 {
-    const EXTENT: Extent = Extent::words(Image::<A, D>::WORDS);
-
     fn visit<V: Visit<Lanes<K, E>>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.ram(field, self);
     }
@@ -124,8 +122,6 @@ impl<const K: usize, E: Element, const S: usize, const D: usize> ShiftRegister<L
 impl<const K: usize, E: Element, const S: usize, const D: usize> Signals<Lanes<K, E>>
     for LaneShiftRegister<K, E, S, D>
 {
-    const EXTENT: Extent = Extent::words(S);
-
     fn visit<V: Visit<Lanes<K, E>>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.shift_register(field, self);
     }

@@ -1,5 +1,5 @@
 use super::{Element, Lanes};
-use crate::kernel::{Extent, Field, Make, Signals, Visit};
+use crate::kernel::{Field, Make, Signals, Visit};
 use crate::logic::{Bit, Select, Signed, Unsigned};
 use std::array::from_fn;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
@@ -34,16 +34,6 @@ impl<const K: usize, E: Element> LaneBit<K, E> {
     #[inline(always)]
     pub fn get(self, k: usize) -> bool {
         self.0[k] != E::low(0)
-    }
-
-    /// Whether it is high in every lane.
-    #[inline(always)]
-    pub fn all(self) -> bool {
-        let all = self
-            .0
-            .into_iter()
-            .fold(E::low(u64::MAX), |all, lane| all & lane);
-        all != E::low(0)
     }
 
     /// A wire from the value in each lane.
@@ -144,8 +134,6 @@ macro_rules! word {
         impl<const K: usize, E: Element $(, const $n: usize)?> Signals<Lanes<K, E>>
             for $word<K, E $(, $n)?>
         {
-            const EXTENT: Extent = Extent::LEAF;
-
             #[inline(always)]
             fn visit<V: Visit<Lanes<K, E>>>(&self, field: &'static Field, visitor: &mut V) {
                 visitor.$walk(field, *self);

@@ -2,7 +2,7 @@ use super::Netlist;
 use super::build::{node, read_after_write, rom};
 use super::node::{Id, Node, unsigned};
 use super::words::{NetBit, NetUInt};
-use crate::kernel::{Extent, Field, Make, Signals, Visit};
+use crate::kernel::{Field, Make, Signals, Visit};
 use crate::logic::{Bit, Image, Ram, ShiftRegister, Unsigned};
 
 /// Where a memory of a netlist stands.
@@ -94,8 +94,6 @@ impl<const K: usize, const D: usize> ShiftRegister<Netlist, K, D> for NetShiftRe
 macro_rules! leaf {
     ($memory:ident, $walk:ident, $words:expr) => {
         impl<const K: usize, const D: usize> Signals<Netlist> for $memory<K, D> {
-            const EXTENT: Extent = Extent::words($words);
-
             fn visit<V: Visit<Netlist>>(&self, field: &'static Field, visitor: &mut V) {
                 visitor.$walk(field, self);
             }

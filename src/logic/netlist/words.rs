@@ -1,7 +1,7 @@
 use super::Netlist;
 use super::build::{constant, node, shape};
 use super::node::{BIT, Id, Node, Operator, signed, unsigned};
-use crate::kernel::{Extent, Field, Make, Shape, Signals, Visit};
+use crate::kernel::{Field, Make, Shape, Signals, Visit};
 use crate::logic::{Bit, Select, Signed, Unsigned};
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 
@@ -148,8 +148,6 @@ macro_rules! leaf {
         }
 
         impl$(<const $n: usize>)? Signals<Netlist> for $word {
-            const EXTENT: Extent = Extent::LEAF;
-
             fn visit<V: Visit<Netlist>>(&self, field: &'static Field, visitor: &mut V) {
                 visitor.$walk(field, *self);
             }

@@ -1,5 +1,5 @@
 use super::{Sim, UInt, Wire};
-use crate::kernel::{Changed, Extent, Field, Make, STAGE, Signals, Visit, WORD, Words};
+use crate::kernel::{Changed, Field, Make, STAGE, Signals, Visit, WORD, Words};
 use crate::logic::{Image, Ram, ShiftRegister};
 use std::any::Any;
 
@@ -58,34 +58,7 @@ impl<const A: usize, const D: usize> Ram<Sim, A, D> for SimRam<A, D> {
     }
 }
 
-impl<const A: usize, const D: usize> SimRam<A, D> {
-    /// How often it has been written since power-on.
-    #[inline(always)]
-    pub fn mark(&self) -> u64 {
-        self.writes
-    }
-
-    /// Its words.
-    #[inline(always)]
-    pub fn words(&self) -> RamWords<'_, A, D> {
-        RamWords {
-            raw: self.image.raw(),
-            writes: self.writes,
-            written: self.written,
-        }
-    }
-}
-
-/// The words of a RAM, without a reference to what stands beside its storage: that is a register
-/// like others, and a walk must not take its address, or all registers would stand in memory.
-#[derive(Debug, Clone, Copy)]
-pub struct RamWords<'a, const A: usize, const D: usize> {
-    raw: &'a [u64],
-    writes: u64,
-    written: usize,
-}
-
-impl<const A: usize, const D: usize> Words for RamWords<'_, A, D> {
+impl<const A: usize, const D: usize> Words for SimRam<A, D> {
     fn width(&self) -> usize {
         D
     }
@@ -93,7 +66,7 @@ impl<const A: usize, const D: usize> Words for RamWords<'_, A, D> {
         Image::<A, D>::WORDS
     }
     fn word(&self, index: usize) -> u64 {
-        Image::<A, D>::word(self.raw, index)
+        self.image.get(index)
     }
     #[inline(always)]
     fn changed(&self, mark: &mut u64) -> Changed {
@@ -110,17 +83,11 @@ impl<const A: usize, const D: usize> Words for RamWords<'_, A, D> {
         &WORD
     }
     fn whole(&self) -> Box<dyn Any> {
-        Box::new(SimRam::<A, D> {
-            image: Image::of_raw(self.raw),
-            writes: self.writes,
-            written: self.written,
-        })
+        Box::new(self.clone())
     }
 }
 
 impl<const A: usize, const D: usize> Signals<Sim> for SimRam<A, D> {
-    const EXTENT: Extent = Extent::words(Image::<A, D>::WORDS);
-
     #[inline(always)]
     fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.ram(field, self);
@@ -131,12 +98,6 @@ impl<const A: usize, const D: usize> Signals<Sim> for SimRam<A, D> {
 }
 
 impl<const K: usize, const D: usize> SimShiftRegister<K, D> {
-    /// How often it has been shifted since power-on.
-    #[inline(always)]
-    pub fn mark(&self) -> u64 {
-        self.shifts
-    }
-
     /// A register that holds the given words, stage 0 first, zeros where they end.
     pub fn new(stages: impl IntoIterator<Item = u64>) -> Self {
         let mut ring = vec![UInt::default(); K].into_boxed_slice();
@@ -175,27 +136,7 @@ impl<const K: usize, const D: usize> ShiftRegister<Sim, K, D> for SimShiftRegist
     }
 }
 
-impl<const K: usize, const D: usize> SimShiftRegister<K, D> {
-    /// Its stages.
-    #[inline(always)]
-    pub fn words(&self) -> Stages<'_, K, D> {
-        Stages {
-            ring: &self.ring,
-            head: self.head,
-            shifts: self.shifts,
-        }
-    }
-}
-
-/// The stages of a shift register, as [`RamWords`].
-#[derive(Debug, Clone, Copy)]
-pub struct Stages<'a, const K: usize, const D: usize> {
-    ring: &'a [UInt<D>],
-    head: usize,
-    shifts: u64,
-}
-
-impl<const K: usize, const D: usize> Words for Stages<'_, K, D> {
+impl<const K: usize, const D: usize> Words for SimShiftRegister<K, D> {
     fn width(&self) -> usize {
         D
     }
@@ -203,7 +144,7 @@ impl<const K: usize, const D: usize> Words for Stages<'_, K, D> {
         K
     }
     fn word(&self, index: usize) -> u64 {
-        stage(self.ring, self.head, index).get()
+        stage(&self.ring, self.head, index).get()
     }
     #[inline(always)]
     fn changed(&self, mark: &mut u64) -> Changed {
@@ -216,11 +157,7 @@ impl<const K: usize, const D: usize> Words for Stages<'_, K, D> {
         &STAGE
     }
     fn whole(&self) -> Box<dyn Any> {
-        Box::new(SimShiftRegister::<K, D> {
-            ring: self.ring.into(),
-            head: self.head,
-            shifts: self.shifts,
-        })
+        Box::new(self.clone())
     }
 }
 
@@ -237,13 +174,10 @@ fn stage<const D: usize>(ring: &[UInt<D>], head: usize, index: usize) -> UInt<D>
     } else {
         place - stages
     };
-    // Without a panic, as in `Image`.
     ring.get(place).copied().unwrap_or_default()
 }
 
 impl<const K: usize, const D: usize> Signals<Sim> for SimShiftRegister<K, D> {
-    const EXTENT: Extent = Extent::words(K);
-
     #[inline(always)]
     fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.shift_register(field, self);

@@ -1,5 +1,5 @@
 use super::Sim;
-use crate::kernel::{Extent, Field, Make, Signals, Visit};
+use crate::kernel::{Field, Make, Signals, Visit};
 use crate::logic::{Bit, Select, Signed, Unsigned};
 use std::fmt;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
@@ -178,8 +178,6 @@ select!(UInt<N>, N);
 select!(Int<N>, N);
 
 impl Signals<Sim> for Wire {
-    const EXTENT: Extent = Extent::LEAF;
-
     #[inline(always)]
     fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.bit(field, *self);
@@ -191,8 +189,6 @@ impl Signals<Sim> for Wire {
 }
 
 impl<const N: usize> Signals<Sim> for UInt<N> {
-    const EXTENT: Extent = Extent::LEAF;
-
     #[inline(always)]
     fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.unsigned(field, *self);
@@ -204,8 +200,6 @@ impl<const N: usize> Signals<Sim> for UInt<N> {
 }
 
 impl<const N: usize> Signals<Sim> for Int<N> {
-    const EXTENT: Extent = Extent::LEAF;
-
     #[inline(always)]
     fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.signed(field, *self);
