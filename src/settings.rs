@@ -1,6 +1,7 @@
 //! Settings of circuits and plants: the checks that they have in common, and what is said of one
 //! that is refused.
 
+use crate::engine::EngineError;
 use crate::kernel::RunError;
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
@@ -101,6 +102,9 @@ pub enum JobError {
     /// What an observer objects to.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// The circuit cannot be run.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
 }
 
 /// Refuses a value that is out of range or not a number.

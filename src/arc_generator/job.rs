@@ -109,7 +109,7 @@ pub fn play(
         started: false,
     };
     let mut played = Played::default();
-    let mut simulator = Simulator::new(circuit);
+    let mut simulator = Simulator::new(circuit)?;
     let (mut over, mut stopped) = (records.is_empty(), false);
     while !over && !stopped {
         let i = host.ports();

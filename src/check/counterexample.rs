@@ -1,5 +1,6 @@
 use super::Fault;
-use crate::kernel::{Circuit, Declaration, Declarations, Machine, Role, RunError, Running, Values};
+use crate::engine::Watch;
+use crate::kernel::{Circuit, Declaration, Model, Role, RunError, words};
 use crate::logic::Sim;
 use crate::trace::value::show;
 use crate::trace::{self, Clock};
@@ -31,7 +32,7 @@ pub struct Counterexample<C: Circuit> {
 
 impl<C: Circuit> Counterexample<C> {
     pub(super) fn new(
-        circuit: &C,
+        model: &Model,
         inputs: Vec<C::In<Sim>>,
         invariant: String,
         fault: Fault,
@@ -40,8 +41,8 @@ impl<C: Circuit> Counterexample<C> {
         Counterexample {
             tick: (inputs.len() as u64).saturating_sub(1),
             table: table(
-                &mut Machine::new(circuit),
-                &inputs.iter().map(Values::of).collect::<Vec<_>>(),
+                model,
+                &inputs.iter().map(words).collect::<Vec<_>>(),
                 &signals,
             ),
             inputs,
@@ -96,22 +97,20 @@ fn report(tick: u64, invariant: &str, message: &str, signals: &[String]) -> Stri
 
 /// The last ticks, a signal a row, those at fault first and marked; in the last column the
 /// registers after the edge.
-fn table(running: &mut dyn Running, inputs: &[Values], at_fault: &[String]) -> String {
-    let leaves = Declarations::walked(running).leaves;
+fn table(model: &Model, inputs: &[Vec<u64>], at_fault: &[String]) -> String {
+    let leaves = &model.declarations().leaves;
+    let mut engine = model.engine(Watch::All);
     let first = inputs.len().saturating_sub(TICKS);
     let mut columns = Vec::new();
     for (tick, i) in inputs.iter().enumerate() {
-        running.settle(&mut i.source());
+        engine.inputs(i);
+        engine.settle();
         if tick >= first {
-            let mut values = Values::default();
-            running.show(&mut values);
-            columns.push(values.0);
+            let values = (0..leaves.len()).map(|leaf| engine.leaf(leaf));
+            columns.push(values.collect::<Vec<_>>());
         }
-        running.clock(false);
+        engine.edge();
     }
-    let mut after = Values::default();
-    running.part(Role::Register, &mut after);
-    let mut after = after.0.into_iter();
 
     let text = |leaf: &Declaration, bits| show(leaf.shape, leaf.field.format, bits);
     let mut head = vec!["tick".to_owned()];
@@ -121,15 +120,15 @@ fn table(running: &mut dyn Running, inputs: &[Values], at_fault: &[String]) -> S
         let path = leaf.path();
         let marked = at_fault.iter().any(|name| names(name, &path));
         let path = path
-            .strip_prefix(running.name())
+            .strip_prefix(model.name())
             .and_then(|path| path.strip_prefix('.'))
             .unwrap_or(&path);
         let mut row = vec![format!("{} {path}", if marked { '*' } else { ' ' })];
         row.extend(columns.iter().map(|values| text(leaf, values[index])));
-        let after = (leaf.role == Role::Register)
-            .then(|| after.next())
-            .flatten();
-        row.push(after.map_or_else(String::new, |bits| text(leaf, bits)));
+        row.push(match leaf.role {
+            Role::Register => text(leaf, engine.leaf(index)),
+            Role::Input | Role::Net => String::new(),
+        });
         rows.push((!marked, row));
     }
     rows.sort_by_key(|(unmarked, _)| *unmarked);

@@ -1,9 +1,7 @@
-use crate::kernel::{
-    Changed, Circuit, Field, Machine, Observer, Path, Probe, Role, RunError, Running, Sample,
-    Shape, Words,
-};
+use crate::engine::Engine;
+use crate::kernel::{Circuit, Declarations, Observer, Role, RunError, Sample};
 use std::fmt;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 /// Which bits a run has seen both low and high: what the run is worth as evidence.
 ///
@@ -12,7 +10,11 @@ use std::ops::ControlFlow;
 #[derive(Debug)]
 pub struct Coverage {
     signals: Vec<Signal>,
-    walk: Walk,
+    seen: Vec<Seen>,
+    /// The signal of each leaf.
+    of_leaf: Vec<usize>,
+    /// The tick seen last.
+    last: Option<u64>,
 }
 
 /// Bits of a signal that a run has seen at one level only.
@@ -38,32 +40,80 @@ impl fmt::Display for Untoggled {
 }
 
 impl Coverage {
-    /// Nothing seen yet of this circuit.
-    pub fn new<C: Circuit>(circuit: &C) -> Self {
-        Self::of(&Machine::new(circuit))
+    /// Nothing seen yet of a circuit of this kind.
+    pub fn new<C: Circuit>() -> Self {
+        Self::of(&Declarations::of::<C>())
     }
 
     /// The same of a circuit whose type is forgotten.
-    pub(super) fn of(running: &dyn Running) -> Self {
-        let mut names = Names::default();
-        running.show(&mut names);
-        let signals = names.signals.len();
+    pub(super) fn of(declarations: &Declarations) -> Self {
+        let mut memories = declarations.memories.iter().peekable();
+        let mut signals = Vec::new();
+        let mut leaf = 0;
+        while let Some(declared) = declarations.leaves.get(leaf) {
+            let memory = memories.next_if(|memory| memory.first == leaf);
+            let (path, width, words) = match memory {
+                Some(memory) => {
+                    let name = [memory.name.clone()];
+                    let path = memory
+                        .scopes
+                        .iter()
+                        .chain(&name)
+                        .cloned()
+                        .collect::<Vec<_>>();
+                    (path.join("."), memory.width, memory.words)
+                }
+                None => (declared.path(), declared.shape.width, 1),
+            };
+            signals.push(Signal {
+                path,
+                role: declared.role,
+                width,
+                leaves: leaf..leaf + words,
+            });
+            leaf += words;
+        }
+        let places = signals.iter().enumerate();
+        let of_leaf = places.flat_map(|(place, signal)| signal.leaves.clone().map(move |_| place));
         Coverage {
-            signals: names.signals,
-            walk: Walk {
-                seen: vec![Seen::default(); signals],
-                marks: vec![0; signals],
-                cursor: 0,
-                first: true,
-            },
+            seen: vec![Seen::default(); signals.len()],
+            of_leaf: of_leaf.collect(),
+            signals,
+            last: None,
         }
     }
 
-    /// Begins a tick; the probe is to see all of its signals.
-    pub(super) fn tick(&mut self) -> &mut dyn Probe {
-        self.walk.first = self.walk.first && self.walk.cursor == 0;
-        self.walk.cursor = 0;
-        &mut self.walk
+    /// Sees a settled tick.
+    pub(super) fn tick(&mut self, tick: u64, engine: &Engine) {
+        let follows = self.last.replace(tick).is_some_and(|last| last + 1 == tick);
+        if !(follows && engine.program().watches_all()) {
+            for (signal, seen) in self.signals.iter().zip(&mut self.seen) {
+                for leaf in signal.leaves.clone() {
+                    seen.see(engine.leaf(leaf));
+                }
+            }
+            return;
+        }
+        // What has not changed was seen before.
+        let plan = engine.program().plan();
+        engine.changed(|place| {
+            let watched = &plan.layout.watched[place];
+            let mut see = |leaf: u32| {
+                let signal = self.of_leaf[leaf as usize];
+                self.seen[signal].see(engine.leaf(leaf as usize));
+            };
+            match watched.memory.map(|memory| memory as usize) {
+                // A stage that is shifted was seen where it came in.
+                Some(memory) => match plan.memories[memory].head {
+                    Some(_) => watched.leaves.first().copied().into_iter().for_each(see),
+                    None => {
+                        let (_, word) = engine.written(memory);
+                        see(watched.leaves[word as usize]);
+                    }
+                },
+                None => watched.leaves.iter().copied().for_each(see),
+            }
+        });
     }
 
     /// The bits seen at both levels, and all bits there are.
@@ -75,7 +125,7 @@ impl Coverage {
 
     /// The signals with bits that were always low or always high, in the order of the walk.
     pub fn untoggled(&self) -> impl Iterator<Item = Untoggled> {
-        let seen = self.signals.iter().zip(&self.walk.seen);
+        let seen = self.signals.iter().zip(&self.seen);
         seen.filter_map(|(signal, seen)| {
             let bits = u64::MAX >> (64 - signal.width) & !(seen.low & seen.high);
             (bits != 0).then(|| Untoggled {
@@ -90,7 +140,7 @@ impl Coverage {
 
 impl<C: Circuit> Observer<C> for Coverage {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        now.show(self.tick());
+        self.tick(now.tick, now.engine());
         Ok(ControlFlow::Continue(()))
     }
 }
@@ -100,43 +150,7 @@ struct Signal {
     path: String,
     role: Role,
     width: usize,
-}
-
-/// The walk that lists the signals.
-#[derive(Default)]
-struct Names {
-    path: Path,
-    signals: Vec<Signal>,
-}
-
-impl Names {
-    fn add(&mut self, field: &'static Field, width: usize) {
-        let name = self.path.name(field);
-        let scopes = self.path.scopes().iter().map(String::as_str);
-        self.signals.push(Signal {
-            path: scopes.chain([&*name]).collect::<Vec<_>>().join("."),
-            role: self.path.role(),
-            width,
-        });
-    }
-}
-
-impl Probe for Names {
-    fn enter(&mut self, field: &'static Field) {
-        self.path.enter(field);
-    }
-    fn leave(&mut self) {
-        self.path.leave();
-    }
-    fn element(&mut self, index: usize) {
-        self.path.element(index);
-    }
-    fn leaf(&mut self, field: &'static Field, shape: Shape, _: u64) {
-        self.add(field, shape.width);
-    }
-    fn memory(&mut self, field: &'static Field, words: &dyn Words) {
-        self.add(field, words.width());
-    }
+    leaves: Range<usize>,
 }
 
 /// The bits that were low once, and those that were high once.
@@ -150,45 +164,5 @@ impl Seen {
     fn see(&mut self, bits: u64) {
         self.low |= !bits;
         self.high |= bits;
-    }
-}
-
-/// The walk that looks.
-#[derive(Debug)]
-struct Walk {
-    seen: Vec<Seen>,
-    /// Where a memory stood in the tick before.
-    marks: Vec<u64>,
-    cursor: usize,
-    first: bool,
-}
-
-impl Walk {
-    fn next(&mut self) -> Option<&mut Seen> {
-        self.cursor += 1;
-        self.seen.get_mut(self.cursor - 1)
-    }
-}
-
-impl Probe for Walk {
-    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
-        if let Some(seen) = self.next() {
-            seen.see(bits);
-        }
-    }
-
-    fn memory(&mut self, _: &'static Field, words: &dyn Words) {
-        let first = self.first;
-        let Some(mark) = self.marks.get_mut(self.cursor) else {
-            return;
-        };
-        let changed = words.changed(mark);
-        let Some(seen) = self.next() else { return };
-        match changed {
-            _ if first => (0..words.len()).for_each(|index| seen.see(words.word(index))),
-            Changed::None => {}
-            Changed::One(index) => seen.see(words.word(index)),
-            Changed::All => (0..words.len()).for_each(|index| seen.see(words.word(index))),
-        }
     }
 }

@@ -1,5 +1,6 @@
 use super::{Coverage, Stimulus};
-use crate::kernel::{Circuit, Machine, RunError, Running};
+use crate::engine::Watch;
+use crate::kernel::{Circuit, Model, RunError};
 use crate::trace::{Clock, Dump, Layout, Lines, Options, VcdFile};
 use std::io::{self, Write};
 
@@ -37,32 +38,45 @@ pub fn drive<C: Circuit>(
     mut waves: impl Write,
     mut stimulus: impl Write,
 ) -> Result<Driven, RunError> {
-    drive.run(&mut Machine::new(circuit), &mut waves, &mut stimulus)
+    drive.run(&Model::of(circuit)?, &mut waves, &mut stimulus)
 }
 
 impl Drive {
-    /// [`drive`] of a circuit whose type is forgotten, which stands at power-on.
-    fn run(
+    /// [`drive`] of a circuit whose type is forgotten.
+    ///
+    /// # Errors
+    /// As [`drive`].
+    pub fn run(
         &self,
-        running: &mut dyn Running,
+        model: &Model,
         waves: &mut dyn Write,
         stimulus: &mut dyn Write,
     ) -> Result<Driven, RunError> {
-        let layout = Layout::of(running, None).map_err(io::Error::from)?;
+        let leaves = model.declarations().leaves.clone();
+        let layout = Layout::new(model.name(), leaves, None).map_err(io::Error::from)?;
         let file = VcdFile::new(waves, &layout, self.clock);
         let mut dump = Dump::new(&layout, self.clock, &Options::default(), file);
-        let mut lines = Lines::of(running);
-        let mut coverage = Coverage::of(running);
+        let widths = model.flat().inputs.iter().map(|&width| width.into());
+        let mut lines = Lines::new(widths.collect());
+        let mut coverage = Coverage::of(model.declarations());
+        let mut engine = model.engine(Watch::All);
         let mut random = Stimulus::new(self.seed);
         let mut resets = 0;
         for tick in 0..self.ticks {
             let rst = self.resets && random.reset();
             resets += u64::from(rst);
-            running.settle(&mut random.ports());
-            lines.tick(running, rst, stimulus)?;
-            dump.tick(tick, running)?;
-            running.show(coverage.tick());
-            running.clock(rst);
+            let mut ports = random.ports();
+            for (port, &width) in model.flat().inputs.iter().enumerate() {
+                engine.input(port, ports.port(width.into()));
+            }
+            engine.settle();
+            lines.tick(&engine, rst, stimulus)?;
+            dump.tick(tick, &engine)?;
+            coverage.tick(tick, &engine);
+            match rst {
+                true => engine.reset(),
+                false => engine.edge(),
+            }
         }
         dump.finish()?;
         lines.finish(stimulus)?;

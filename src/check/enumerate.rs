@@ -1,3 +1,4 @@
+use crate::engine::EngineError;
 use crate::kernel::{Field, Probe, Shape, Signals, Source, width};
 use crate::logic::Sim;
 
@@ -11,6 +12,17 @@ pub struct TooWide {
     pub bits: usize,
     /// How wide it may be.
     pub most: usize,
+}
+
+/// Why a circuit cannot be checked.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum CheckError {
+    /// There is too much to enumerate.
+    #[error(transparent)]
+    TooWide(#[from] TooWide),
+    /// The circuit cannot be run.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
 }
 
 impl TooWide {

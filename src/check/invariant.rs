@@ -1,4 +1,4 @@
-use crate::kernel::{Circuit, Moment, Observer, Property, RunError, Sample};
+use crate::kernel::{Circuit, Model, Observer, RunError, Sample};
 use crate::logic::Sim;
 use std::fmt;
 use std::ops::ControlFlow;
@@ -33,16 +33,6 @@ pub fn require<const N: usize>(
     })
 }
 
-/// The properties of a circuit in a tick.
-fn properties<C: Circuit>(
-    circuit: &C,
-    now: &Sample<'_, C>,
-    next: &C::Reg<Sim>,
-) -> Vec<Property<Sim>> {
-    let (i, q, w) = (now.i, now.q, now.w);
-    circuit.properties(&Moment { i, q, w }, next)
-}
-
 type Always<'f, C> = dyn Fn(&Sample<'_, C>) -> Verdict + 'f;
 type Step<'f, C> = dyn Fn(&Sample<'_, C>, &<C as Circuit>::Reg<Sim>) -> Verdict + 'f;
 
@@ -67,24 +57,26 @@ impl<'f, C: Circuit> Invariants<'f, C> {
     }
 
     /// The circuit's [properties](Circuit::properties).
-    pub fn of(circuit: &'f C) -> Self {
-        let known = Sample::at_power_on(circuit, |now| properties(circuit, now, now.q));
+    ///
+    /// Of what is no netlist there are none: neither is there a proof of it, nor a run.
+    pub fn of(circuit: &C) -> Self {
         let mut invariants = Invariants::new();
-        for (index, known) in known.into_iter().enumerate() {
-            let holds = move |now: &Sample<'_, C>, next: &C::Reg<Sim>| {
-                let property = properties(circuit, now, next).into_iter().nth(index);
-                match property.filter(|property| !property.holds.get()) {
-                    None => Ok(()),
-                    Some(property) => Err(Fault {
-                        signals: property.signals.iter().map(|&name| name.into()).collect(),
-                        message: "does not hold".to_owned(),
-                    }),
-                }
+        let Ok(model) = Model::of(circuit) else {
+            return invariants;
+        };
+        let known = model.design().modules.last();
+        let known = known.map_or(&[][..], |module| &module.assertions);
+        for (index, known) in known.iter().enumerate() {
+            let signals = known.signals;
+            let holds = move |now: &Sample<'_, C>| match now.engine().property(index) {
+                true => Ok(()),
+                false => Err(Fault {
+                    signals: signals.iter().map(|&name| name.into()).collect(),
+                    message: "does not hold".to_owned(),
+                }),
             };
-            invariants = match known.step {
-                true => invariants.step(known.name, holds),
-                false => invariants.always(known.name, move |now| holds(now, now.q)),
-            };
+            // A step property is one of what this edge is about to do.
+            invariants = invariants.always(known.name, holds);
         }
         invariants
     }
@@ -119,7 +111,7 @@ impl<'f, C: Circuit> Invariants<'f, C> {
     }
 
     /// Whether one of them looks at the registers after the edge.
-    fn look_ahead(&self) -> bool {
+    pub(super) fn look_ahead(&self) -> bool {
         let step = |(_, property): &(_, Holds<'_, C>)| matches!(property, Holds::Step(_));
         self.named.iter().any(step)
     }
@@ -158,18 +150,16 @@ impl<C: Circuit> fmt::Debug for Invariants<'_, C> {
 /// Watches invariants during a simulated run and ends it at the first violation.
 #[derive(Debug)]
 pub struct Monitor<'a, C: Circuit> {
-    circuit: &'a C,
     invariants: &'a Invariants<'a, C>,
     look_ahead: bool,
 }
 
 impl<'a, C: Circuit> Monitor<'a, C> {
-    /// A monitor for runs of `circuit`.
+    /// A monitor for runs of a circuit.
     ///
     /// A step property costs a copy of all registers per tick, with the memories among them.
-    pub fn new(circuit: &'a C, invariants: &'a Invariants<'a, C>) -> Self {
+    pub fn new(invariants: &'a Invariants<'a, C>) -> Self {
         Monitor {
-            circuit,
             invariants,
             look_ahead: invariants.look_ahead(),
         }
@@ -178,9 +168,7 @@ impl<'a, C: Circuit> Monitor<'a, C> {
 
 impl<C: Circuit> Observer<C> for Monitor<'_, C> {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        let next = self
-            .look_ahead
-            .then(|| self.circuit.next(now.q.clone(), now.w, now.i));
+        let next = self.look_ahead.then(|| now.next());
         match self.invariants.check(now, next.as_ref()) {
             Ok(()) => Ok(ControlFlow::Continue(())),
             Err((name, fault)) => Err(RunError::Violation {

@@ -1,8 +1,7 @@
 use super::{Fault, Pair, SamePorts, Verdict};
-use crate::kernel::{
-    Circuit, Field, Observer, Path, Probe, Role, RunError, Sample, Shape, Signals, Words,
-};
-use crate::logic::Sim;
+use crate::engine::Engine;
+use crate::kernel::{Circuit, Field, Kind, Observer, Outline, Path, Role, RunError, Sample, Shape};
+use crate::logic::netlist::parts;
 use crate::trace::value::number;
 use std::fmt;
 use std::ops::ControlFlow;
@@ -51,8 +50,8 @@ pub struct Lockstep {
 /// Two signals that shall be equal: their places in the walk of each circuit, and their paths.
 #[derive(Debug, Clone)]
 struct Compared {
-    left: usize,
-    right: usize,
+    left: (usize, Shape),
+    right: (usize, Shape),
     paths: [String; 2],
 }
 
@@ -61,16 +60,16 @@ impl Lockstep {
     ///
     /// # Errors
     /// There are ports out without partner, or no ports out at all.
-    pub fn by_name<A: Circuit, B: Circuit>(pair: &Pair<A, B>) -> Result<Self, LockstepError> {
-        let names: Vec<_> = ports_out(&pair.left);
+    pub fn by_name<A: Circuit, B: Circuit>(_: &Pair<A, B>) -> Result<Self, LockstepError> {
+        let names: Vec<_> = ports_out::<A>();
         let names: Vec<_> = names
             .iter()
             .map(|name| (name.as_str(), name.as_str()))
             .collect();
-        let right = ports_out(&pair.right);
+        let right = ports_out::<B>();
         let shared = |(name, _): &(&str, &str)| right.iter().any(|other| other == name);
         let shared: Vec<_> = names.into_iter().filter(shared).collect();
-        let lockstep = Lockstep::pairing(pair, &shared)?;
+        let lockstep = Lockstep::pairing::<A, B>(&shared)?;
         match (lockstep.unpaired.is_empty(), lockstep.compared.is_empty()) {
             (true, false) => Ok(lockstep),
             (true, true) => Err(LockstepError::Nothing),
@@ -83,26 +82,33 @@ impl Lockstep {
     /// # Errors
     /// One of them does not exist, or the list is empty.
     pub fn of<A: Circuit, B: Circuit>(
-        pair: &Pair<A, B>,
+        _: &Pair<A, B>,
         signals: &[(&str, &str)],
     ) -> Result<Self, LockstepError> {
         if signals.is_empty() {
             return Err(LockstepError::Nothing);
         }
-        Lockstep::pairing(pair, signals)
+        Lockstep::pairing::<A, B>(signals)
     }
 
-    fn pairing<A: Circuit, B: Circuit>(
-        pair: &Pair<A, B>,
-        signals: &[(&str, &str)],
-    ) -> Result<Self, LockstepError> {
-        let (left, right) = (Leaves::of(&pair.left), Leaves::of(&pair.right));
+    fn pairing<A: Circuit, B: Circuit>(signals: &[(&str, &str)]) -> Result<Self, LockstepError> {
+        let (left, right) = (Leaves::of::<A>(), Leaves::of::<B>());
+        // The registers of both come before the nets of both, those of the left one first.
+        let of_left = |place: usize| match place.checked_sub(left.registers) {
+            None => place,
+            Some(net) => left.registers + right.registers + net,
+        };
+        let of_right = |place: usize| match place.checked_sub(right.registers) {
+            None => left.registers + place,
+            Some(net) => left.leaves.len() + right.registers + net,
+        };
         let compared: Vec<_> = signals
             .iter()
             .map(|&(a, b)| {
+                let (l, r) = (left.place::<A>(a)?, right.place::<B>(b)?);
                 Ok(Compared {
-                    left: left.place::<A>(a)?,
-                    right: right.place::<B>(b)?,
+                    left: (of_left(l), left.leaves[l].shape),
+                    right: (of_right(r), right.leaves[r].shape),
                     paths: [
                         format!("{}.{a}", Pair::<A, B>::LEFT),
                         format!("{}.{b}", Pair::<A, B>::RIGHT),
@@ -137,15 +143,14 @@ impl Lockstep {
         A: Circuit,
         B: SamePorts<A>,
     {
-        let left = Numbers::of(&now.q.left, &now.w.left);
-        let right = Numbers::of(&now.q.right, &now.w.right);
+        let engine = now.engine();
         for Compared {
             left: l,
             right: r,
             paths,
         } in &self.compared
         {
-            let (a, b) = (left.0[*l], right.0[*r]);
+            let (a, b) = (value(engine, *l), value(engine, *r));
             if a != b {
                 let [left, right] = paths;
                 return Err(Fault {
@@ -188,33 +193,50 @@ where
     }
 }
 
-fn ports_out<C: Circuit>(circuit: &C) -> Vec<String> {
-    Leaves::of(circuit).public().map(str::to_owned).collect()
+/// A leaf of the pair behind its ports in, as a number.
+fn value(engine: &Engine, (leaf, shape): (usize, Shape)) -> i128 {
+    let first = engine.flat().part(Role::Register).start;
+    number(shape, engine.leaf(first + leaf))
 }
 
-/// The leaves of the registers and nets of one circuit: name, and whether it is a port out.
+fn ports_out<C: Circuit>() -> Vec<String> {
+    Leaves::of::<C>().public().map(str::to_owned).collect()
+}
+
+/// The leaves of the registers and nets of one circuit.
 #[derive(Default)]
 struct Leaves {
-    leaves: Vec<(String, bool)>,
+    leaves: Vec<Leaf>,
+    /// How many are registers, the first ones.
+    registers: usize,
     path: Path,
     /// For every struct entered, whether it and all around it are public.
     public: Vec<bool>,
 }
 
+struct Leaf {
+    name: String,
+    /// Whether it is a port out.
+    public: bool,
+    shape: Shape,
+}
+
 impl Leaves {
-    fn of<C: Circuit>(circuit: &C) -> Self {
+    fn of<C: Circuit>() -> Self {
         let mut leaves = Leaves::default();
-        Sample::at_power_on(circuit, |now| walk(now.q, now.w, &mut leaves));
+        parts::<C>(&[Role::Register], &mut leaves);
+        leaves.registers = leaves.leaves.len();
+        parts::<C>(&[Role::Net], &mut leaves);
         leaves
     }
 
     fn public(&self) -> impl Iterator<Item = &str> {
-        let ports = self.leaves.iter().filter(|(_, public)| *public);
-        ports.map(|(name, _)| name.as_str())
+        let ports = self.leaves.iter().filter(|leaf| leaf.public);
+        ports.map(|leaf| leaf.name.as_str())
     }
 
     fn place<C: Circuit>(&self, signal: &str) -> Result<usize, LockstepError> {
-        let mut places = (0..self.leaves.len()).filter(|&place| self.leaves[place].0 == signal);
+        let mut places = (0..self.leaves.len()).filter(|&place| self.leaves[place].name == signal);
         match (places.next(), places.next()) {
             (Some(place), None) => Ok(place),
             _ => Err(LockstepError::NoSuchSignal {
@@ -228,18 +250,22 @@ impl Leaves {
         self.public.last().copied().unwrap_or(true)
     }
 
-    fn push(&mut self, field: &'static Field, public: bool) {
+    fn push(&mut self, field: &'static Field, shape: Shape, public: bool) {
         let mut name = self.path.scopes().join(".");
         if !name.is_empty() {
             name.push('.');
         }
         name += &self.path.name(field);
         let public = public && self.is_open() && self.path.role() != Role::Input;
-        self.leaves.push((name, public));
+        self.leaves.push(Leaf {
+            name,
+            public,
+            shape,
+        });
     }
 }
 
-impl Probe for Leaves {
+impl Outline for Leaves {
     fn enter(&mut self, field: &'static Field) {
         // A part of a circuit has no name and hides nothing.
         let public = self.is_open() && (field.public || field.name.is_empty());
@@ -253,41 +279,17 @@ impl Probe for Leaves {
     fn element(&mut self, index: usize) {
         self.path.element(index);
     }
-    fn leaf(&mut self, field: &'static Field, _: Shape, _: u64) {
-        self.push(field, field.public);
+    fn leaf(&mut self, field: &'static Field, shape: Shape) {
+        self.push(field, shape, field.public);
     }
-    fn memory(&mut self, field: &'static Field, words: &dyn Words) {
+    fn memory(&mut self, field: &'static Field, label: &'static Field, words: usize, width: usize) {
         // The words of a memory are as visible as the memory.
-        Probe::enter(self, field);
-        for index in 0..words.len() {
-            Probe::element(self, index);
-            self.push(words.label(), true);
+        self.enter(field);
+        for index in 0..words {
+            self.element(index);
+            let kind = Kind::Unsigned;
+            self.push(label, Shape { kind, width }, true);
         }
-        Probe::leave(self);
+        self.leave();
     }
-}
-
-/// The values of the registers and nets of one circuit, in the order of [`Leaves`].
-struct Numbers(Vec<i128>);
-
-impl Numbers {
-    #[inline]
-    fn of<Q: Signals<Sim>, W: Signals<Sim>>(q: &Q, w: &W) -> Self {
-        let mut numbers = Numbers(Vec::new());
-        walk(q, w, &mut numbers);
-        numbers
-    }
-}
-
-impl Probe for Numbers {
-    #[inline]
-    fn leaf(&mut self, _: &'static Field, shape: Shape, bits: u64) {
-        self.0.push(number(shape, bits));
-    }
-}
-
-#[inline]
-fn walk<Q: Signals<Sim>, W: Signals<Sim>, P: Probe>(q: &Q, w: &W, probe: &mut P) {
-    q.visit(const { &Field::part(Role::Register) }, probe);
-    w.visit(const { &Field::part(Role::Net) }, probe);
 }

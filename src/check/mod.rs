@@ -78,7 +78,7 @@
 //!     .assume(|_, i| i.period.get() >= 2)
 //!     .run()?;
 //! assert!(matches!(outcome, Outcome::Proof(_)), "{outcome}");
-//! # Ok::<(), motion_rtl::check::TooWide>(())
+//! # Ok::<(), motion_rtl::check::CheckError>(())
 //! ```
 
 mod counterexample;
@@ -98,7 +98,7 @@ mod visited;
 pub use counterexample::Counterexample;
 pub use coverage::{Coverage, Untoggled};
 pub use drive::{Drive, Driven, drive};
-pub use enumerate::{Random, TooWide, all};
+pub use enumerate::{CheckError, Random, TooWide, all};
 pub use invariant::{Fault, Invariants, Monitor, Verdict, require};
 pub use lockstep::{Lockstep, LockstepError};
 pub use pair::{Pair, SamePorts, Sides};

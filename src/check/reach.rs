@@ -1,8 +1,9 @@
-use super::enumerate::{all, from_word, to_word};
+use super::enumerate::{all, from_word};
 use super::search::{Report, Search};
 use super::visited::Visited;
-use super::{Counterexample, Fault, Invariants, TooWide};
-use crate::kernel::{Circuit, Sample};
+use super::{CheckError, Counterexample, Invariants, TooWide};
+use crate::engine::{Engine, Watch};
+use crate::kernel::{Circuit, Model, Role, Sample, record, words};
 use crate::logic::Sim;
 use std::fmt;
 
@@ -169,42 +170,57 @@ impl<'a, C: Circuit> Reach<'a, C> {
     /// Searches.
     ///
     /// # Errors
-    /// The registers have more than 64 bits or the inputs more than 20.
-    pub fn run(mut self) -> Result<Outcome<C>, TooWide> {
+    /// The registers have more than 64 bits or the inputs more than 20; the circuit is no netlist.
+    pub fn run(mut self) -> Result<Outcome<C>, CheckError> {
         TooWide::check::<C::In<Sim>>("the inputs", INPUT_BITS)?;
         let bits = TooWide::check::<C::Reg<Sim>>("the registers", STATE_BITS)?;
-        let mut inputs: Vec<C::In<Sim>> = Vec::new();
-        for i in all()? {
-            if self.only.as_ref().is_none_or(|possible| possible(&i)) {
-                inputs.push(i);
-            }
-        }
+        let model = Model::of(self.circuit)?;
+        let inputs: Vec<C::In<Sim>> = all()?
+            .filter(|i| self.only.as_ref().is_none_or(|possible| possible(i)))
+            .collect();
+        let words: Vec<Vec<u64>> = inputs.iter().map(words).collect();
 
-        let power_on = to_word(&self.circuit.power_on());
+        let mut engine = Engine::straight(model.program(Watch::All));
+        let mut after = engine.clone();
+        let states = Packing::of(&model);
         let visited = Visited::new(bits, self.bitmap_bits);
+        let power_on = states.pack(&engine);
         let mut search = Search::new(power_on, visited, self.limit, self.progress.take());
+        let looks_ahead = self.invariants.look_ahead();
         while let Some(state) = search.state() {
-            let q: C::Reg<Sim> = from_word(state);
+            let q: Option<C::Reg<Sim>> = (!self.assume.is_empty()).then(|| from_word(state));
             let before = search.transitions;
-            for (index, i) in inputs.iter().enumerate() {
-                if !self.assume.iter().all(|possible| possible(&q, i)) {
+            for (index, (i, words)) in inputs.iter().zip(&words).enumerate() {
+                let possible = |possible: &Assume<'_, C>| q.as_ref().is_none_or(|q| possible(q, i));
+                if !self.assume.iter().all(|assumption| possible(assumption)) {
                     continue;
                 }
                 search.transitions += 1;
-                let w = self.circuit.comb(&q, i);
-                let next = self.circuit.next(q.clone(), &w, i);
-                let now = Sample {
-                    tick: search.depth,
-                    i,
-                    q: &q,
-                    w: &w,
-                };
-                if let Err((name, fault)) = self.invariants.check(&now, Some(&next)) {
+                states.unpack(state, &mut engine);
+                engine.inputs(words);
+                engine.settle();
+                let next = looks_ahead.then(|| {
+                    after.restore(engine.slab());
+                    after.edge();
+                    record(Role::Register, &after)
+                });
+                let checked = Sample::show(search.depth, &engine, |now| {
+                    self.invariants.check(now, next.as_ref())
+                });
+                if let Err((name, fault)) = checked {
                     let way = search.way(index);
                     let way = way.into_iter().map(|index| inputs[index].clone());
-                    return Ok(self.violated(name, fault, way.collect()));
+                    let found = Counterexample::new(&model, way.collect(), name.to_owned(), fault);
+                    return Ok(Outcome::Counterexample(Box::new(found)));
                 }
-                if !search.found(to_word(&next), index) {
+                let next = match looks_ahead {
+                    true => states.pack(&after),
+                    false => {
+                        engine.edge();
+                        states.pack(&engine)
+                    }
+                };
+                if !search.found(next, index) {
                     return Ok(Outcome::Limit(search.progress()));
                 }
             }
@@ -212,10 +228,32 @@ impl<'a, C: Circuit> Reach<'a, C> {
         }
         Ok(Outcome::Proof(search.proof()))
     }
+}
 
-    fn violated(&self, name: &str, fault: Fault, inputs: Vec<C::In<Sim>>) -> Outcome<C> {
-        let found = Counterexample::new(self.circuit, inputs, name.to_owned(), fault);
-        Outcome::Counterexample(Box::new(found))
+/// How the registers of a circuit are packed into one word, the first in the lowest bits.
+struct Packing(Vec<(usize, usize)>);
+
+impl Packing {
+    fn of(model: &Model) -> Self {
+        let mut bit = 0;
+        let leaves = model.leaves(Role::Register).map(|leaf| {
+            bit += usize::from(model.flat().width(leaf));
+            (leaf, bit - usize::from(model.flat().width(leaf)))
+        });
+        Packing(leaves.collect())
+    }
+
+    fn pack(&self, engine: &Engine) -> u64 {
+        let words = self.0.iter().map(|&(leaf, bit)| engine.leaf(leaf) << bit);
+        words.fold(0, |state, word| state | word)
+    }
+
+    fn unpack(&self, state: u64, engine: &mut Engine) {
+        for &(leaf, bit) in &self.0 {
+            let width = engine.flat().width(leaf);
+            engine.set_leaf(leaf, state >> bit & (u64::MAX >> (64 - u32::from(width))));
+        }
+        engine.wake();
     }
 }
 

@@ -91,17 +91,24 @@ pub(super) struct Ports<'a> {
     next: usize,
 }
 
-impl Source for Ports<'_> {
-    fn leaf(&mut self, _: &'static Field, shape: Shape) -> u64 {
+impl Ports<'_> {
+    /// The next port, of so many bits.
+    pub(super) fn port(&mut self, width: usize) -> u64 {
         let Stimulus {
             random, courses, ..
         } = &mut *self.stimulus;
         if self.next == courses.len() {
             courses.push(Course::default());
         }
-        let value = courses[self.next].tick(random, shape.width);
+        let value = courses[self.next].tick(random, width);
         self.next += 1;
         value
+    }
+}
+
+impl Source for Ports<'_> {
+    fn leaf(&mut self, _: &'static Field, shape: Shape) -> u64 {
+        self.port(shape.width)
     }
 }
 

@@ -1,6 +1,6 @@
 use super::enumerate::{from_word, to_word};
-use super::{Counterexample, Fault, TooWide};
-use crate::kernel::{Circuit, Field, Moment, Path, Probe, Role, Shape, Signals, part, zero};
+use super::{CheckError, Counterexample, Fault, TooWide};
+use crate::kernel::{Circuit, Field, Model, Moment, Path, Probe, Role, Shape, Signals, part, zero};
 use crate::logic::lanes::{Element, pack, spread, unpack};
 use crate::logic::{Lanes, Logic, Sim};
 use crate::trace::value::show;
@@ -105,7 +105,7 @@ pub fn sweep<W: Law>(law: &W) -> Sweep<'_, W> {
 ///
 /// # Errors
 /// A case has more than 63 bits, or what is seen more than 64.
-pub fn cases<W: Law>() -> Result<u64, TooWide> {
+pub fn cases<W: Law>() -> Result<u64, CheckError> {
     TooWide::check::<W::Seen<Sim>>("the signals seen", 64)?;
     Ok(1 << TooWide::check::<W::Case<Sim>>("the cases", 63)?)
 }
@@ -128,7 +128,7 @@ impl<'a, W: Law> Sweep<'a, W> {
     ///
     /// # Errors
     /// A case has more than 63 bits, or what is seen more than 64.
-    pub fn run<const K: usize, E: Element>(self) -> Result<Swept<W::Circuit>, TooWide> {
+    pub fn run<const K: usize, E: Element>(self) -> Result<Swept<W::Circuit>, CheckError> {
         const { assert!(K > 0, "a sweep needs a lane") };
         let law = self.law;
         let held = AtomicU64::new(0);
@@ -137,14 +137,14 @@ impl<'a, W: Law> Sweep<'a, W> {
             held.fetch_add(meant, Ordering::Relaxed);
             first
         })?;
-        Ok(self.outcome(first, held.into_inner()))
+        self.outcome(first, held.into_inner())
     }
 
     /// Runs it case by case in the meaning [`Sim`], for words wider than any lane.
     ///
     /// # Errors
     /// A case has more than 63 bits, or what is seen more than 64.
-    pub fn run_simulated(self) -> Result<Swept<W::Circuit>, TooWide> {
+    pub fn run_simulated(self) -> Result<Swept<W::Circuit>, CheckError> {
         let law = self.law;
         let held = AtomicU64::new(0);
         let first = self.first(|chunk| {
@@ -152,14 +152,14 @@ impl<'a, W: Law> Sweep<'a, W> {
             held.fetch_add(meant, Ordering::Relaxed);
             first
         })?;
-        Ok(self.outcome(first, held.into_inner()))
+        self.outcome(first, held.into_inner())
     }
 
     /// The lowest index that `check` finds wrong, chunk by chunk on all threads.
     fn first(
         &self,
         check: impl Fn(Range<u64>) -> Option<u64> + Sync,
-    ) -> Result<Option<u64>, TooWide> {
+    ) -> Result<Option<u64>, CheckError> {
         let all = cases::<W>()?;
         let range = self.range.clone().unwrap_or(0..all);
         let (from, to) = (range.start, range.end.min(all));
@@ -176,11 +176,11 @@ impl<'a, W: Law> Sweep<'a, W> {
         }))
     }
 
-    fn outcome(&self, first: Option<u64>, held: u64) -> Swept<W::Circuit> {
-        match first {
+    fn outcome(&self, first: Option<u64>, held: u64) -> Result<Swept<W::Circuit>, CheckError> {
+        Ok(match first {
             None => Swept::Held(held),
-            Some(index) => Swept::Counterexample(Box::new(replayed(self.law, index))),
-        }
+            Some(index) => Swept::Counterexample(Box::new(replayed(self.law, index)?)),
+        })
     }
 }
 
@@ -259,7 +259,7 @@ fn one_by_one<W: Law>(law: &W, chunk: Range<u64>) -> (u64, Option<u64>) {
 }
 
 /// A case that is wrong, played in simulation.
-fn replayed<W: Law>(law: &W, index: u64) -> Counterexample<W::Circuit> {
+fn replayed<W: Law>(law: &W, index: u64) -> Result<Counterexample<W::Circuit>, CheckError> {
     let case: W::Case<Sim> = from_word(index);
     let inputs = (0..law.ticks())
         .map(|tick| law.input(&case, tick))
@@ -282,7 +282,13 @@ fn replayed<W: Law>(law: &W, index: u64) -> Counterexample<W::Circuit> {
     let case = case.collect::<Vec<_>>().join(", ");
     let message = format!("{} with {case} (case {index})", found.join(", "));
     let fault = Fault { signals, message };
-    Counterexample::new(law.circuit(), inputs, law.name().to_owned(), fault)
+    let model = Model::of(law.circuit())?;
+    Ok(Counterexample::new(
+        &model,
+        inputs,
+        law.name().to_owned(),
+        fault,
+    ))
 }
 
 /// The leaves of a bundle by name, as numbers.

@@ -18,6 +18,8 @@ pub struct Flat {
     pub memories: Vec<Memory>,
     /// Where the leaves of a walk over the circuit stand, in its order.
     pub leaves: Vec<Place>,
+    /// How many leaves are ports in, and how many are those or registers and memories.
+    pub parts: [usize; 2],
     /// What holds of it, each a bit; step properties with the registers after the edge.
     pub properties: Vec<Id>,
     /// The circuits, the outermost first.
@@ -295,7 +297,7 @@ pub enum EngineError {
 
 fn texts(errors: &[crate::logic::netlist::NetlistError]) -> String {
     let texts: Vec<_> = errors.iter().map(ToString::to_string).collect();
-    texts.join("; ")
+    texts.join("\n")
 }
 
 /// All bits of a word of so many.
@@ -308,6 +310,26 @@ impl Flat {
     /// Kind and width of a node.
     pub fn node(&self, id: Id) -> Node {
         self.nodes[id as usize]
+    }
+
+    /// Width of a leaf in bits.
+    pub fn width(&self, leaf: usize) -> u8 {
+        match self.leaves[leaf] {
+            Place::Input(input) => self.inputs[input as usize],
+            Place::Register(register) => self.registers[register as usize].width,
+            Place::Word(memory, _) => self.memories[memory as usize].width,
+            Place::Node(id) => self.node(id).width,
+        }
+    }
+
+    /// The leaves of a part of the circuit.
+    pub fn part(&self, role: crate::kernel::Role) -> std::ops::Range<usize> {
+        let [inputs, registers] = self.parts;
+        match role {
+            crate::kernel::Role::Input => 0..inputs,
+            crate::kernel::Role::Register => inputs..registers,
+            crate::kernel::Role::Net => registers..self.leaves.len(),
+        }
     }
 
     /// The nodes that registers, memories, leaves and properties take.
@@ -344,6 +366,7 @@ impl Flat {
             registers: self.registers.clone(),
             memories: self.memories.clone(),
             leaves: self.leaves.clone(),
+            parts: self.parts,
             properties: self.properties.iter().map(|&id| to(id)).collect(),
             instances: self.instances.clone(),
         };

@@ -431,6 +431,7 @@ impl<'d> Flattening<'d> {
         let module = self.parts[whole].module;
         let inputs = (0..self.flat.inputs.len() as u32).map(Place::Input);
         self.flat.leaves = inputs.collect();
+        self.flat.parts[0] = self.flat.leaves.len();
         for register in module.register_leaves() {
             match register {
                 netlist::Register::Signal(signal) => {
@@ -447,6 +448,7 @@ impl<'d> Flattening<'d> {
                 }
             }
         }
+        self.flat.parts[1] = self.flat.leaves.len();
         for leaf in 0..module.net_leaves() {
             let node = self.net(whole, leaf)?;
             self.flat.leaves.push(Place::Node(node));

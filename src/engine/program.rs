@@ -2,12 +2,13 @@ use super::flat::{EngineError, Flat};
 use super::passes;
 use super::plan::Plan;
 use crate::logic::netlist::Design;
+use std::sync::Arc;
 
 /// A circuit that is ready to run, for as many engines as are wanted.
 #[derive(Debug)]
 pub struct Program {
     /// The netlist as it was written: leaves that are not watched are computed from it.
-    flat: Flat,
+    flat: Arc<Flat>,
     /// What runs.
     pub(super) plan: Plan,
     /// Registers at power-on.
@@ -15,6 +16,7 @@ pub struct Program {
     /// The leaves that end a run over idle ticks when they change, as slots; see
     /// [`Engine::forward`](super::Engine::forward).
     pub(super) held: Vec<bool>,
+    all: bool,
 }
 
 /// What of a circuit can be looked at in every tick.
@@ -32,13 +34,12 @@ impl Program {
     /// # Errors
     /// The design is not what [`elaborate`](crate::logic::netlist::elaborate) makes.
     pub fn of(design: &Design, watch: Watch<'_>) -> Result<Program, EngineError> {
-        let flat = Flat::of(design)?;
-        let ports = design.modules.last().map(ports_out).unwrap_or_default();
-        Ok(Program::planned(flat, watch, &ports))
+        let flat = Arc::new(Flat::of(design)?);
+        Ok(Program::planned(&flat, watch, &ports_out(design)))
     }
 
     /// Plans a netlist; `held` are leaves that idle ticks leave as they are.
-    pub(crate) fn planned(flat: Flat, watch: Watch<'_>, held: &[usize]) -> Program {
+    pub(crate) fn planned(flat: &Arc<Flat>, watch: Watch<'_>, held: &[usize]) -> Program {
         let mut wanted = vec![watch == Watch::All; flat.leaves.len() + flat.properties.len()];
         if let Watch::Leaves(leaves) = watch {
             for &leaf in leaves {
@@ -47,7 +48,7 @@ impl Program {
                 }
             }
         }
-        let passed = passes::all(&flat, &wanted);
+        let passed = passes::all(flat, &wanted);
         let plan = Plan::of(&passed, &wanted);
         let mut slots = vec![false; plan.layout.words as usize];
         for &leaf in held {
@@ -56,11 +57,21 @@ impl Program {
             }
         }
         Program {
-            power_on: flat.registers.iter().map(|register| register.power_on).collect(),
+            power_on: flat
+                .registers
+                .iter()
+                .map(|register| register.power_on)
+                .collect(),
             plan,
-            flat,
+            flat: flat.clone(),
             held: slots,
+            all: watch == Watch::All,
         }
+    }
+
+    /// Whether all leaves are watched.
+    pub fn watches_all(&self) -> bool {
+        self.all
     }
 
     /// How it runs.
@@ -74,9 +85,12 @@ impl Program {
     }
 }
 
-/// The leaves that are ports out of a module: its own public nets and registers.
-fn ports_out(module: &crate::logic::netlist::Module) -> Vec<usize> {
+/// The leaves that are ports out of a design: its outermost module's own public nets and registers.
+pub(crate) fn ports_out(design: &Design) -> Vec<usize> {
     use crate::logic::netlist::Register;
+    let Some(module) = design.modules.last() else {
+        return Vec::new();
+    };
     let inputs = module.inputs().count();
     let mut leaf = inputs;
     let mut ports = Vec::new();

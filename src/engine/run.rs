@@ -1,6 +1,6 @@
 use super::flat::{Flat, Op, Place};
 use super::interpreter::{self, Counts};
-use super::layout::{Slot, Spot};
+use super::layout::Spot;
 use super::lines::Lines;
 use super::program::Program;
 use super::tier::Tier;
@@ -20,8 +20,12 @@ pub struct Engine {
     lines: Option<Box<Lines>>,
     /// Ticks to come before idle ticks are looked for again, and after the next failure.
     pause: (u64, u64),
+    /// All blocks run in every tick.
+    straight: bool,
     /// All leaves of this tick, where one was asked for that is not watched.
     whole: RefCell<Option<Vec<u64>>>,
+    /// The words of memories that were asked for, and how often they had been written then.
+    memories: RefCell<Vec<Option<(u64, Arc<[u64]>)>>>,
 }
 
 impl Clone for Engine {
@@ -32,7 +36,9 @@ impl Clone for Engine {
             tier: self.tier.clone(),
             lines: None,
             pause: self.pause,
-            whole: RefCell::new(None),
+            straight: self.straight,
+            whole: RefCell::default(),
+            memories: RefCell::default(),
         }
     }
 }
@@ -49,14 +55,16 @@ impl Engine {
             program,
             lines: None,
             pause: (0, 0),
-            whole: RefCell::new(None),
+            straight: false,
+            whole: RefCell::default(),
+            memories: RefCell::default(),
         }
     }
 
     /// The same that compiles at once, with all blocks in line: where each tick is another state.
     pub(crate) fn straight(program: Arc<Program>) -> Self {
         let mut engine = Engine::new(program);
-        engine.tier.straight(&engine.program.plan);
+        engine.straight = engine.tier.straight(&engine.program.plan);
         engine
     }
 
@@ -75,6 +83,13 @@ impl Engine {
         if self.slab[slot as usize] != word {
             interpreter::put(layout, &mut self.slab, slot, word);
             self.whole.take();
+        }
+    }
+
+    /// Sets all ports in.
+    pub fn inputs(&mut self, words: &[u64]) {
+        for (port, &word) in words.iter().enumerate() {
+            self.input(port, word);
         }
     }
 
@@ -122,35 +137,47 @@ impl Engine {
         let event = self.program.plan.layout.event as usize;
         let mut done = 0;
         while done < ticks && self.slab[event] == 0 {
-            done += self.tier.advance(&self.program.plan, &mut self.slab, ticks - done);
+            done += self
+                .tier
+                .advance(&self.program.plan, &mut self.slab, ticks - done);
         }
+        self.pause.0 = self.pause.0.saturating_sub(done);
         done
     }
 
-    /// Goes over idle ticks: of a settled tick and at most `most` in all, ports in as they are.
-    /// Returns how many were gone over, at least 1; the next one is yet to settle. In none of them,
-    /// the first aside, has a port out changed.
+    /// Whether something watched has changed since the tick before.
+    pub fn has_changed(&self) -> bool {
+        self.slab[self.program.plan.layout.event as usize] != 0
+    }
+
+    /// Goes over idle ticks, of this settled one and at most `most` in all, ports in as they are.
+    /// Returns how many, 0 where it is not idle or none are looked for yet; the one behind them is
+    /// yet to settle. In none of them, the first aside, has a port out changed.
     pub fn forward(&mut self, most: u64) -> u64 {
-        if self.pause.0 == 0 && most > 1 {
-            let program = &self.program;
-            let lines = self
-                .lines
-                .get_or_insert_with(|| Box::new(Lines::new(&program.plan, &program.held)));
-            let ticks = lines.horizon(&program.plan, self.tier.hot(), &self.slab, most);
-            if ticks > 1 {
-                self.pause.1 = 0;
-                self.begin();
-                if let Some(lines) = &mut self.lines {
-                    lines.jump(&self.program.plan, &mut self.slab, ticks);
-                }
-                return ticks;
-            }
+        if self.pause.0 > 0 || most < 2 {
+            return 0;
+        }
+        let program = &self.program;
+        let lines = self
+            .lines
+            .get_or_insert_with(|| Box::new(Lines::new(&program.plan, &program.held)));
+        let ticks = lines.horizon(&program.plan, self.tier.hot(), &self.slab, most);
+        if ticks < 2 {
             self.pause.1 = (2 * self.pause.1).clamp(1, LONGEST_PAUSE);
             self.pause.0 = self.pause.1;
+            return 0;
         }
-        self.pause.0 = self.pause.0.saturating_sub(1);
-        self.edge();
-        1
+        self.pause.1 = 0;
+        self.begin();
+        if let Some(lines) = &mut self.lines {
+            lines.jump(&self.program.plan, &mut self.slab, ticks);
+        }
+        ticks
+    }
+
+    /// For how many ticks it is not asked again whether they are idle.
+    pub fn pause(&self) -> u64 {
+        self.pause.0.max(1)
     }
 
     /// How many leaves there are.
@@ -210,10 +237,14 @@ impl Engine {
             };
             words.push(word);
         }
-        let leaves = flat.leaves.iter().enumerate().map(|(leaf, place)| match *place {
-            Place::Node(id) => words[id as usize],
-            _ => self.leaf_in_slab(leaf),
-        });
+        let leaves = flat
+            .leaves
+            .iter()
+            .enumerate()
+            .map(|(leaf, place)| match *place {
+                Place::Node(id) => words[id as usize],
+                _ => self.leaf_in_slab(leaf),
+            });
         let properties = flat.properties.iter().map(|&id| words[id as usize]);
         leaves.chain(properties).collect()
     }
@@ -239,30 +270,35 @@ impl Engine {
         }
     }
 
-    /// A word of the slab.
-    #[inline]
-    pub(crate) fn word(&self, slot: Slot) -> u64 {
-        self.slab[slot as usize]
-    }
-
-    /// Words of a memory in their order, stages of a shift register.
-    pub(crate) fn memory(&self, memory: usize) -> Vec<u64> {
-        let Some(memory) = self.program.plan.memories.get(memory) else {
-            return Vec::new();
+    /// The words of the memory whose first word is a leaf, in their order.
+    pub(crate) fn memory_at(&self, leaf: usize) -> Option<Arc<[u64]>> {
+        let Some(Place::Word(number, 0)) = self.program.flat().leaves.get(leaf) else {
+            return None;
         };
-        let words = 0..u64::from(memory.words);
-        words.map(|word| interpreter::read(memory, &self.slab, word)).collect()
+        let number = *number as usize;
+        let memory = &self.program.plan.memories[number];
+        let mark = self.slab[memory.mark as usize];
+        let mut cache = self.memories.borrow_mut();
+        cache.resize(self.program.plan.memories.len(), None);
+        match &cache[number] {
+            Some((known, words)) if *known == mark => Some(words.clone()),
+            _ => {
+                let words = 0..u64::from(memory.words);
+                let words = words.map(|word| interpreter::read(memory, &self.slab, word));
+                let words: Arc<[u64]> = words.collect();
+                cache[number] = Some((mark, words.clone()));
+                Some(words)
+            }
+        }
     }
 
-    /// Which memory a leaf is the first word of, and how often that was written.
-    pub(crate) fn memory_at(&self, leaf: usize) -> Option<(usize, u64)> {
-        match self.program.flat().leaves.get(leaf) {
-            Some(Place::Word(memory, 0)) => {
-                let mark = self.program.plan.memories[*memory as usize].mark;
-                Some((*memory as usize, self.slab[mark as usize]))
-            }
-            _ => None,
-        }
+    /// How often a memory was written, and where last.
+    pub(crate) fn written(&self, memory: usize) -> (u64, u64) {
+        let memory = &self.program.plan.memories[memory];
+        (
+            self.slab[memory.mark as usize],
+            self.slab[memory.written as usize],
+        )
     }
 
     /// The whole state: registers, memories and what has been settled.
@@ -274,6 +310,7 @@ impl Engine {
     pub(crate) fn restore(&mut self, slab: &[u64]) {
         self.slab.copy_from_slice(slab);
         self.whole.take();
+        self.memories.take();
     }
 
     /// Sets a register or a word of a memory, by its leaf, and wakes everything.
@@ -294,8 +331,15 @@ impl Engine {
 
     /// Every block is to run: what [`set_leaf`](Self::set_leaf) has set is new.
     pub(crate) fn wake(&mut self) {
-        self.program.plan.layout.wake(&mut self.slab);
+        if !self.straight {
+            self.wake_all();
+        }
         self.whole.take();
+        self.memories.take();
+    }
+
+    fn wake_all(&mut self) {
+        self.program.plan.layout.wake(&mut self.slab);
     }
 
     /// How often each block has run, as far as it was counted.

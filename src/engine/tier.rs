@@ -1,10 +1,10 @@
 //! Which backend runs: the interpreter at first, which counts how often each block runs, and
 //! compiled code once it has run for long enough to pay.
 
-use super::interpreter::{self, Counts};
-use super::plan::Plan;
 #[cfg(feature = "jit")]
 use super::compiler::Code;
+use super::interpreter::{self, Counts};
+use super::plan::Plan;
 use std::sync::Arc;
 
 /// How often all of a circuit's steps, on average, are interpreted before it is compiled: compiling
@@ -24,8 +24,6 @@ pub(super) struct Tier {
     due: u64,
     /// The blocks compiled in line.
     hot: Arc<[bool]>,
-    /// Whether blocks in line have left their bits as they were.
-    stale: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -43,9 +41,12 @@ impl Tier {
             counts: vec![0; plan.blocks.len()],
             ticks: 0,
             work: 0,
-            due: if cfg!(feature = "jit") { steps as u64 * PAYS } else { u64::MAX },
+            due: if cfg!(feature = "jit") {
+                steps as u64 * PAYS
+            } else {
+                u64::MAX
+            },
             hot: vec![false; plan.blocks.len()].into(),
-            stale: false,
         }
     }
 
@@ -55,9 +56,10 @@ impl Tier {
         self.due = u64::MAX;
     }
 
-    /// Compiles at once, all blocks in line.
-    pub fn straight(&mut self, plan: &Plan) {
+    /// Compiles at once, all blocks in line; whether it could.
+    pub fn straight(&mut self, plan: &Plan) -> bool {
         self.compile(plan, vec![true; plan.blocks.len()]);
+        !matches!(self.backend, Backend::Interpreter)
     }
 
     pub fn hot(&self) -> &[bool] {
@@ -109,7 +111,12 @@ impl Tier {
             return;
         }
         let steps = plan.blocks.iter().map(|block| block.steps.len() as u64 + 8);
-        self.work = self.counts.iter().zip(steps).map(|(count, steps)| count * steps).sum();
+        self.work = self
+            .counts
+            .iter()
+            .zip(steps)
+            .map(|(count, steps)| count * steps)
+            .sum();
         if self.work >= self.due {
             let often = |count: &u64| 2 * count > self.ticks;
             self.compile(plan, self.counts.iter().map(often).collect());
@@ -122,7 +129,6 @@ impl Tier {
             Ok(code) => {
                 self.backend = Backend::Code(Arc::new(code));
                 self.hot = hot.into();
-                self.stale = true;
             }
             Err(error) => {
                 self.due = u64::MAX;

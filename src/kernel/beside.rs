@@ -134,12 +134,12 @@ impl<C: Circuit, B: Beside, O: Observer<C>> Observer<With<C, B>> for Without<O> 
         self.0.looks(tick)
     }
 
+    fn needs_all(&self) -> bool {
+        self.0.needs_all()
+    }
+
     fn sample(&mut self, now: &Sample<'_, With<C, B>>) -> Result<ControlFlow<()>, RunError> {
-        self.0.sample(&Sample {
-            tick: now.tick,
-            i: &now.i.i,
-            q: now.q,
-            w: now.w,
-        })
+        // Its ports in come first, and what stands beside it is among the ports in.
+        Sample::show(now.tick, now.engine(), |now| self.0.sample(now))
     }
 }

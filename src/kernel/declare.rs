@@ -1,12 +1,11 @@
 use super::Circuit;
-use super::probe::{Probe, Words};
-use super::running::{Machine, Running};
 use super::signals::{Field, Kind, Role, Shape};
+use crate::logic::netlist::outline;
 use std::sync::Arc;
 
 /// Where a walk is: the scopes around the next leaf and the part of the circuit it belongs to.
 ///
-/// Keep one in a [`Probe`] or [`Source`](super::Source) and pass it every `enter`, `leave` and
+/// Keep one in a [`Probe`](super::Probe) or [`Source`](super::Source) and pass it every `enter`, `leave` and
 /// `element`.
 #[derive(Debug, Clone, Default)]
 pub struct Path {
@@ -62,6 +61,12 @@ impl Path {
     pub fn role(&self) -> Role {
         self.role.unwrap_or(Role::Net)
     }
+
+    /// The part of the outermost circuit that it is among.
+    fn outermost_role(&self) -> Role {
+        let around = self.entered.iter().find_map(|(_, role)| *role);
+        around.unwrap_or(self.role())
+    }
 }
 
 /// One leaf of a walk, without its value.
@@ -79,6 +84,8 @@ pub struct Declaration {
     pub power_on: u64,
     /// What `signals!` says of it.
     pub field: &'static Field,
+    /// The part of the whole circuit that it is among.
+    pub(crate) part: Role,
 }
 
 impl Declaration {
@@ -120,16 +127,29 @@ pub struct Declarations {
 }
 
 impl Declarations {
-    /// The signals of a circuit, in the order in which a [`Sample`](super::Sample) of it is walked.
-    pub fn of<C: Circuit>(circuit: &C) -> Self {
-        Self::walked(&Machine::new(circuit))
+    /// The signals of a circuit, in the order of its leaves in a [`Sample`](super::Sample). What they
+    /// are at power-on is left at 0; a [`Model`](super::Model) knows it.
+    pub fn of<C: Circuit>() -> Self {
+        let mut declarations = Declarations::default();
+        outline::<C>(&mut declarations);
+        declarations
     }
 
-    /// The signals of a circuit as it stands.
-    pub(crate) fn walked(running: &dyn Running) -> Self {
-        let mut declarations = Declarations::default();
-        running.show(&mut declarations);
-        declarations
+    /// How many of the leaves are ports in, the first ones.
+    pub fn inputs(&self) -> usize {
+        self.before(Role::Register)
+    }
+
+    /// How many are ports in or registers.
+    pub(crate) fn before(&self, role: Role) -> usize {
+        let order = |role| match role {
+            Role::Input => 0,
+            Role::Register => 1,
+            Role::Net => 2,
+        };
+        // Parts within have ports in of their own among the nets.
+        let outer = |place: &Declaration| order(place.part) < order(role);
+        self.leaves.iter().take_while(|leaf| outer(leaf)).count()
     }
 
     /// The circuit's own leaves, those of its blocks and the words of its memories left out: their
@@ -161,7 +181,21 @@ impl Declarations {
     }
 }
 
-impl Probe for Declarations {
+/// Sees what the signals of a circuit are, without their values.
+pub(crate) trait Outline {
+    /// A struct begins.
+    fn enter(&mut self, field: &'static Field);
+    /// The struct entered last ends.
+    fn leave(&mut self);
+    /// What comes next is element `index` of an array.
+    fn element(&mut self, index: usize);
+    /// A leaf.
+    fn leaf(&mut self, field: &'static Field, shape: Shape);
+    /// A memory of so many words, each of which is called `label`.
+    fn memory(&mut self, field: &'static Field, label: &'static Field, words: usize, width: usize);
+}
+
+impl Outline for Declarations {
     fn enter(&mut self, field: &'static Field) {
         self.path.enter(field);
     }
@@ -171,7 +205,7 @@ impl Probe for Declarations {
     fn element(&mut self, index: usize) {
         self.path.element(index);
     }
-    fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64) {
+    fn leaf(&mut self, field: &'static Field, shape: Shape) {
         let name = self.path.name(field);
         let scopes = match self.leaves.last() {
             Some(last) if *last.scopes == *self.path.scopes() => last.scopes.clone(),
@@ -182,27 +216,27 @@ impl Probe for Declarations {
             name,
             role: self.path.role(),
             shape,
-            power_on: bits,
+            power_on: 0,
             field,
+            part: self.path.outermost_role(),
         });
     }
-    fn memory(&mut self, field: &'static Field, words: &dyn Words) {
+    fn memory(&mut self, field: &'static Field, label: &'static Field, words: usize, width: usize) {
         let scopes = self.path.scopes().to_vec();
         let first = self.leaves.len();
-        Probe::enter(self, field);
+        self.enter(field);
         let name = self.path.scopes().last().cloned().unwrap_or_default();
-        let (kind, width) = (Kind::Unsigned, words.width());
-        for index in 0..words.len() {
-            Probe::element(self, index);
-            let bits = words.word(index);
-            Probe::leaf(self, words.label(), Shape { kind, width }, bits);
+        let kind = Kind::Unsigned;
+        for index in 0..words {
+            self.element(index);
+            self.leaf(label, Shape { kind, width });
         }
-        Probe::leave(self);
+        self.leave();
         self.memories.push(MemoryDeclaration {
             scopes,
             name,
             first,
-            words: words.len(),
+            words,
             width,
             field,
         });

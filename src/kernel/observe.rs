@@ -1,56 +1,14 @@
-use super::Circuit;
-use super::probe::{Probe, Shown};
-use super::signals::{Field, Role, Signals, Visit};
-use crate::logic::Sim;
+use super::{Circuit, Sample};
+use crate::engine::EngineError;
 use std::io;
 use std::ops::ControlFlow;
-
-/// All signals of a circuit at one tick, settled: what stands in the waves while `clk` is high.
-#[derive(Debug)]
-pub struct Sample<'a, C: Circuit> {
-    /// The tick, from 0.
-    pub tick: u64,
-    /// Ports in.
-    pub i: &'a C::In<Sim>,
-    /// Registers.
-    pub q: &'a C::Reg<Sim>,
-    /// Nets.
-    pub w: &'a C::Net<Sim>,
-}
-
-impl<C: Circuit> Sample<'_, C> {
-    /// Walks all signals: a scope with the circuit's name, in it ports in, registers and nets.
-    pub fn visit<V: Visit<Sim>>(&self, visitor: &mut V) {
-        visitor.enter(const { &Field::named(C::NAME) });
-        self.i.visit(const { &Field::part(Role::Input) }, visitor);
-        self.q
-            .visit(const { &Field::part(Role::Register) }, visitor);
-        self.w.visit(const { &Field::part(Role::Net) }, visitor);
-        visitor.leave();
-    }
-
-    /// The same walk, compiled once for all probes.
-    pub fn show(&self, probe: &mut dyn Probe) {
-        self.visit(&mut Shown(probe));
-    }
-
-    /// Shows the circuit as it is at power-on with every port in at zero.
-    pub fn at_power_on<T>(circuit: &C, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
-        let i = super::zero();
-        let q = circuit.power_on();
-        let w = circuit.comb(&q, &i);
-        show(&Sample {
-            tick: 0,
-            i: &i,
-            q: &q,
-            w: &w,
-        })
-    }
-}
 
 /// Why a run ended before its time.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
+    /// The circuit cannot be run.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
     /// The waves could not be written.
     #[error("the waves could not be written: {0}")]
     Waves(#[from] io::Error),
@@ -78,6 +36,11 @@ pub trait Observer<C: Circuit> {
         true
     }
 
+    /// Whether it looks at signals that nobody chose to [watch](super::Simulator::watching).
+    fn needs_all(&self) -> bool {
+        true
+    }
+
     /// Sees one tick; `Break` ends the run after this tick's edge.
     ///
     /// # Errors
@@ -87,6 +50,10 @@ pub trait Observer<C: Circuit> {
 
 impl<C: Circuit> Observer<C> for () {
     fn looks(&self, _: u64) -> bool {
+        false
+    }
+
+    fn needs_all(&self) -> bool {
         false
     }
 
@@ -100,6 +67,10 @@ impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
         (**self).looks(tick)
     }
 
+    fn needs_all(&self) -> bool {
+        (**self).needs_all()
+    }
+
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         (**self).sample(now)
     }
@@ -108,6 +79,10 @@ impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
 impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
     fn looks(&self, tick: u64) -> bool {
         self.as_ref().is_some_and(|observer| observer.looks(tick))
+    }
+
+    fn needs_all(&self) -> bool {
+        self.as_ref().is_some_and(Observer::needs_all)
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
@@ -123,6 +98,10 @@ macro_rules! together {
         impl<C: Circuit, $($part: Observer<C>),+> Observer<C> for ($($part,)+) {
             fn looks(&self, tick: u64) -> bool {
                 $(self.$place.looks(tick))||+
+            }
+
+            fn needs_all(&self) -> bool {
+                $(self.$place.needs_all())||+
             }
 
             fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

@@ -1,4 +1,4 @@
-use super::probe::{Probe, Source, part, supply};
+use super::probe::{Probe, Source, part, show, supply};
 use super::signals::{Field, Role, Shape, Signals};
 use crate::logic::Sim;
 use bitvec::prelude::*;
@@ -35,14 +35,32 @@ pub fn unpack<S: Signals<Sim>>(bits: &BitSlice<u64, Lsb0>) -> S {
 
 /// The number of bits of a bundle.
 pub fn width<S: Signals<Sim>>() -> usize {
-    struct Counter(usize);
+    widths::<S>().iter().sum()
+}
+
+/// The words of a bundle's leaves, in their order.
+pub fn words<S: Signals<Sim>>(signals: &S) -> Vec<u64> {
+    struct Words(Vec<u64>);
+    impl Probe for Words {
+        fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
+            self.0.push(bits);
+        }
+    }
+    let mut words = Words(Vec::new());
+    show(signals, Role::Input, &mut words);
+    words.0
+}
+
+/// The number of bits of each leaf of a bundle.
+pub fn widths<S: Signals<Sim>>() -> Vec<usize> {
+    struct Counter(Vec<usize>);
     impl Source for Counter {
         fn leaf(&mut self, _: &'static Field, shape: Shape) -> u64 {
-            self.0 += shape.width;
+            self.0.push(shape.width);
             0
         }
     }
-    let mut counter = Counter(0);
+    let mut counter = Counter(Vec::new());
     supply::<S>(Role::Input, &mut counter);
     counter.0
 }

@@ -1,17 +1,6 @@
 use super::signals::{Field, Kind, Make, Role, Shape, Signals, Visit};
 use crate::logic::{Bit, Image, Signed, Sim, sim::*};
-use std::any::Any;
-
-/// What has changed in a memory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Changed {
-    /// Nothing.
-    None,
-    /// The word at this index.
-    One(usize),
-    /// Possibly every word.
-    All,
-}
+use std::sync::Arc;
 
 /// The words of a memory or shift register, for a [`Probe`].
 pub trait Words {
@@ -25,12 +14,8 @@ pub trait Words {
     }
     /// The word at `index`.
     fn word(&self, index: usize) -> u64;
-    /// What has changed since `mark`, which is 0 at power-on; it is now in `mark` for the next time.
-    fn changed(&self, mark: &mut u64) -> Changed;
     /// What a word is called.
     fn label(&self) -> &'static Field;
-    /// A copy of the memory.
-    fn whole(&self) -> Box<dyn Any>;
 }
 
 /// A word of a RAM.
@@ -98,7 +83,7 @@ impl<P: Probe> Visit<Sim> for P {
 }
 
 /// Shows a part of a circuit: the same walk as any other, compiled once for all probes.
-pub(super) fn show<S: Signals<Sim>>(signals: &S, role: Role, probe: &mut dyn Probe) {
+pub(crate) fn show<S: Signals<Sim>>(signals: &S, role: Role, probe: &mut dyn Probe) {
     signals.visit(part(role), &mut Shown(probe));
 }
 
@@ -147,18 +132,16 @@ pub trait Source {
     fn element(&mut self, _index: usize) {}
     /// The bits of a leaf; those above `shape.width` are ignored.
     fn leaf(&mut self, field: &'static Field, shape: Shape) -> u64;
-    /// The memory that comes next, taken [`whole`](Words::whole) from the same walk; none where
-    /// its words come one by one.
-    fn memory(&mut self) -> Option<Box<dyn Any>> {
+    /// All of the so many words of the memory that comes next; none where they come one by one.
+    fn memory(&mut self, words: usize) -> Option<Arc<[u64]>> {
+        let _ = words;
         None
     }
 }
 
-/// A memory that is taken whole; of another type than it has it could only be asked for in another
-/// walk.
-fn whole<S: Source, T: 'static>(source: &mut S) -> Option<T> {
-    let memory = source.memory()?.downcast().ok()?;
-    Some(*memory)
+/// The words of a memory that are taken at once, if there are as many.
+fn whole<S: Source>(source: &mut S, len: usize) -> Option<Arc<[u64]>> {
+    source.memory(len).filter(|words| words.len() == len)
 }
 
 /// The words of a memory, one leaf each.
@@ -204,8 +187,8 @@ impl<S: Source> Make<Sim> for S {
         (self.leaf(field, Shape { kind, width: N }) as i64).into()
     }
     fn ram<const A: usize, const D: usize>(&mut self, field: &'static Field) -> SimRam<A, D> {
-        match whole(self) {
-            Some(ram) => ram,
+        match whole(self, Image::<A, D>::WORDS) {
+            Some(words) => SimRam::of_words(words),
             None => Image::new(words(self, field, &WORD, Image::<A, D>::WORDS, D)).into(),
         }
     }
@@ -213,8 +196,8 @@ impl<S: Source> Make<Sim> for S {
         &mut self,
         field: &'static Field,
     ) -> SimShiftRegister<K, D> {
-        match whole(self) {
-            Some(register) => register,
+        match whole(self, K) {
+            Some(words) => SimShiftRegister::of_words(words),
             None => SimShiftRegister::new(words(self, field, &STAGE, K, D)),
         }
     }
@@ -236,7 +219,7 @@ impl Source for Supplied<'_> {
     fn leaf(&mut self, field: &'static Field, shape: Shape) -> u64 {
         self.0.leaf(field, shape)
     }
-    fn memory(&mut self) -> Option<Box<dyn Any>> {
-        self.0.memory()
+    fn memory(&mut self, words: usize) -> Option<Arc<[u64]>> {
+        self.0.memory(words)
     }
 }

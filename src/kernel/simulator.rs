@@ -1,49 +1,143 @@
-use super::reset::reset;
-use super::{Circuit, Observer, RunError, Sample};
+use super::probe::Probe;
+use super::sample::{At, Part, Place, Word};
+use super::{Circuit, Field, Model, Observer, Role, RunError, Sample, Shape, Signals, part};
+use crate::engine::{Engine, EngineError, Watch};
 use crate::logic::Sim;
+use crate::logic::netlist::{Netlist, places};
+use std::cell::RefCell;
+use std::marker::PhantomData;
 use std::ops::ControlFlow;
 
-/// A circuit in the meaning [`Sim`], clocked tick by tick.
+/// The registers of a circuit between two ticks.
+pub type Registers<'a, C> = Part<'a, <C as Circuit>::Reg<Sim>>;
+
+/// A circuit that is clocked tick by tick.
 ///
 /// At tick n inputs are applied, nets settle, everything is sampled; then the edge makes the
 /// registers of tick n + 1. So a register shows at n + 1 what was decided at n.
 #[derive(Debug)]
-pub struct Simulator<'c, C: Circuit> {
-    circuit: &'c C,
-    q: C::Reg<Sim>,
+pub struct Simulator<C: Circuit> {
+    engine: Engine,
     tick: u64,
+    circuit: PhantomData<fn(&C)>,
 }
 
 /// Two runs that go on from the same tick, each with inputs of its own.
 // Written out because a derive would ask the circuit itself to be `Clone`.
-impl<C: Circuit> Clone for Simulator<'_, C> {
+impl<C: Circuit> Clone for Simulator<C> {
     fn clone(&self) -> Self {
-        Simulator {
-            circuit: self.circuit,
-            q: self.q.clone(),
-            tick: self.tick,
-        }
+        Simulator::of(self.engine.clone(), self.tick)
     }
 }
 
-impl<'c, C: Circuit> Simulator<'c, C> {
+/// Chooses what is watched; see [`Simulator::watching`].
+pub struct Watcher<C: Circuit> {
+    /// The ports in.
+    pub i: C::In<Netlist>,
+    /// The registers.
+    pub q: C::Reg<Netlist>,
+    /// The nets.
+    pub w: C::Net<Netlist>,
+    watched: RefCell<Vec<usize>>,
+}
+
+impl<C: Circuit> Watcher<C> {
+    /// A wire or word of the records is watched.
+    pub fn at<P: Place>(&self, place: P) -> At<P::Word> {
+        let leaf = place.leaf();
+        self.watched.borrow_mut().push(leaf);
+        At::new(leaf, P::WIDTH)
+    }
+}
+
+impl<C: Circuit> Simulator<C> {
     /// The circuit at power-on, before tick 0.
-    pub fn new(circuit: &'c C) -> Self {
+    ///
+    /// # Errors
+    /// The circuit is no netlist.
+    pub fn new(circuit: &C) -> Result<Self, EngineError> {
+        let model = Model::of(circuit)?;
+        Ok(Simulator::of(model.engine(Watch::All), 0))
+    }
+
+    /// The same where only some signals are looked at, which takes less time: what `choose` gives
+    /// of the places that it watches comes with it. With `all` every signal is watched besides. What
+    /// is not watched can be seen all the same, at the cost of all nets.
+    ///
+    /// ```
+    /// use motion_rtl::kernel::Simulator;
+    /// use motion_rtl::pulse_interpolator::{UnitTimeCounter, unit_time_counter::In};
+    ///
+    /// let choose = |watch: &motion_rtl::kernel::Watcher<_>| watch.at(watch.w.unit_rst);
+    /// let (mut simulator, unit_rst) = Simulator::watching(&UnitTimeCounter::<8>, false, choose)?;
+    /// let mut pulses = 0;
+    /// for _ in 0..100 {
+    ///     let (next, pulse) = simulator.step(In { period: 4.into() }, |now| now.get(unit_rst));
+    ///     simulator = next;
+    ///     pulses += u32::from(pulse);
+    /// }
+    /// assert_eq!(pulses, 25);
+    /// # Ok::<(), motion_rtl::engine::EngineError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The circuit is no netlist.
+    pub fn watching<T>(
+        circuit: &C,
+        all: bool,
+        choose: impl FnOnce(&Watcher<C>) -> T,
+    ) -> Result<(Self, T), EngineError> {
+        let (i, q, w) = places::<C>();
+        let watcher = Watcher {
+            i,
+            q,
+            w,
+            watched: RefCell::default(),
+        };
+        let chosen = choose(&watcher);
+        let model = Model::of(circuit)?;
+        let watched = watcher.watched.into_inner();
+        let watch = match all {
+            true => Watch::All,
+            false => Watch::Leaves(&watched),
+        };
+        Ok((Simulator::of(model.engine(watch), 0), chosen))
+    }
+
+    fn of(engine: Engine, tick: u64) -> Self {
         Simulator {
-            q: circuit.power_on(),
-            circuit,
-            tick: 0,
+            engine,
+            tick,
+            circuit: PhantomData,
         }
     }
 
     /// The registers of the tick to come.
-    pub fn registers(&self) -> &C::Reg<Sim> {
-        &self.q
+    pub fn registers(&self) -> Registers<'_, C> {
+        Part::new(Role::Register, &self.engine)
+    }
+
+    /// A register of the tick to come.
+    pub fn get<T: Word>(&self, at: At<T>) -> T {
+        at.of(&self.engine)
     }
 
     /// The tick to come.
     pub fn tick(&self) -> u64 {
         self.tick
+    }
+
+    /// What runs.
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    fn apply(&mut self, i: &C::In<Sim>) {
+        let mut apply = Apply {
+            engine: &mut self.engine,
+            port: 0,
+        };
+        i.visit(part(Role::Input), &mut apply);
     }
 
     /// Runs `ticks` ticks, or until an observer stops.
@@ -55,14 +149,16 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     pub fn run(
         mut self,
         ticks: u64,
-        mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> C::In<Sim>,
+        mut stimulus: impl FnMut(u64, &Registers<'_, C>) -> C::In<Sim>,
         mut observer: impl Observer<C>,
     ) -> Result<Self, RunError> {
         let end = self.tick.saturating_add(ticks);
         while self.tick < end {
-            let i = stimulus(self.tick, &self.q);
-            let (next, flow) = self.step(i, |now| observer.sample(now));
-            self = next;
+            let i = stimulus(self.tick, &self.registers());
+            self.apply(&i);
+            self.engine.settle();
+            let flow = Sample::show(self.tick, &self.engine, |now| observer.sample(now));
+            self.edge();
             if flow?.is_break() {
                 break;
             }
@@ -70,32 +166,58 @@ impl<'c, C: Circuit> Simulator<'c, C> {
         Ok(self)
     }
 
-    /// Runs like [`run`](Simulator::run), but goes over idle ticks.
+    fn edge(&mut self) {
+        self.engine.edge();
+        self.tick += 1;
+    }
+
+    /// Runs like [`run`](Simulator::run), but shows only ticks in which something watched may have
+    /// changed: in those between, everything that is watched is as in the tick shown last.
     ///
-    /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it would
-    /// give the same if they were idle. `observer` sees every tick that is not idle and the one
-    /// after it, so every change of a port out in its tick. It does not see every value of a
-    /// counter: waves, stimulus files and monitors are for [`run`](Simulator::run).
+    /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it gives
+    /// the same.
+    ///
+    /// # Errors
+    /// The first error of an observer; the run is over then.
+    pub fn run_changes(
+        self,
+        ticks: u64,
+        stimulus: impl FnMut(u64, &Registers<'_, C>) -> (C::In<Sim>, u64),
+        observer: impl Observer<C>,
+    ) -> Result<Self, RunError> {
+        self.run_held(ticks, stimulus, observer, false)
+    }
+
+    /// Runs like [`run`](Simulator::run), but goes over idle ticks in one.
+    ///
+    /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it gives
+    /// the same. `observer` sees every tick in which a port out may have changed. It does not see
+    /// every value of a counter: waves, stimulus files and monitors are for
+    /// [`run`](Simulator::run).
+    ///
+    /// Idle are ticks in which registers do nothing but count: everything is on straight lines, and
+    /// no decision comes out otherwise than before. No circuit needs to know of it.
     ///
     /// ```
     /// use motion_rtl::kernel::{RunError, Sample, Simulator, StopWhen, zero};
     /// use motion_rtl::pulse_interpolator::{Group, Pattern, Variant};
     ///
     /// # fn main() -> Result<(), RunError> {
-    /// // A tenth of a second at 10 MHz: a pulse a millisecond, unit times of 10 ms.
-    /// let pattern = Pattern { base: 0, last: 0, cyclic: true, period: 100_000 };
+    /// // A second at 10 MHz: a pulse a millisecond, unit times of a tenth of a second.
+    /// let pattern = Pattern { base: 0, last: 0, cyclic: true, period: 1_000_000 };
     /// let mut group = Group::<1>::free_running(Variant::Safe, pattern);
     /// group.axes[0].memory.half_periods.set(0, 5_000);
     ///
-    /// let (mut pulses, mut before) = (0, false);
+    /// let (mut ticks, mut pulses, mut before) = (0, 0, false);
     /// let count = StopWhen(|now: &Sample<'_, Group<1>>| {
+    ///     ticks += 1;
     ///     pulses += u32::from(now.w.step[0].get() && !before);
     ///     before = now.w.step[0].get();
     ///     false
     /// });
-    /// let quiet = |_, _: &_| (zero(), u64::MAX);
-    /// Simulator::new(&group).fast_forward(1_000_000, quiet, count)?;
-    /// assert_eq!(pulses, 90);
+    /// Simulator::new(&group)?.fast_forward(10_000_000, |_, _| (zero(), u64::MAX), count)?;
+    /// assert_eq!(pulses, 900);
+    /// assert!(ticks < 20_000);
     /// # Ok(()) }
     /// ```
     ///
@@ -104,10 +226,66 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     pub fn fast_forward(
         self,
         ticks: u64,
-        mut stimulus: impl FnMut(u64, &C::Reg<Sim>) -> (C::In<Sim>, u64),
+        stimulus: impl FnMut(u64, &Registers<'_, C>) -> (C::In<Sim>, u64),
         observer: impl Observer<C>,
     ) -> Result<Self, RunError> {
-        self.run(ticks, |tick, q| stimulus(tick, q).0, observer)
+        self.run_held(ticks, stimulus, observer, true)
+    }
+
+    fn run_held(
+        mut self,
+        ticks: u64,
+        mut stimulus: impl FnMut(u64, &Registers<'_, C>) -> (C::In<Sim>, u64),
+        mut observer: impl Observer<C>,
+        jumps: bool,
+    ) -> Result<Self, RunError> {
+        let end = self.tick.saturating_add(ticks);
+        while self.tick < end {
+            let (i, held) = stimulus(self.tick, &self.registers());
+            self.apply(&i);
+            self.engine.settle();
+            // Until then ports in are as they are.
+            let until = self.tick.saturating_add(held.max(1)).min(end);
+            loop {
+                let flow = Sample::show(self.tick, &self.engine, |now| observer.sample(now));
+                if flow?.is_break() {
+                    self.edge();
+                    return Ok(self);
+                }
+                if !self.to_change(until, jumps) {
+                    break;
+                }
+            }
+        }
+        Ok(self)
+    }
+
+    /// Goes on to a tick in which something watched has changed; whether there is one before
+    /// `until`, at which the registers are there and nothing is settled.
+    fn to_change(&mut self, until: u64, jumps: bool) -> bool {
+        loop {
+            let left = until - self.tick;
+            if jumps {
+                let gone = self.engine.forward(left);
+                self.tick += gone;
+                if gone > 0 {
+                    if gone == left {
+                        return false;
+                    }
+                    self.engine.settle();
+                    return true;
+                }
+            }
+            if left == 1 {
+                self.edge();
+                return false;
+            }
+            let most = if jumps { self.engine.pause() } else { u64::MAX };
+            self.tick += self.engine.advance(most.min(left - 1));
+            if self.engine.has_changed() {
+                return true;
+            }
+        }
     }
 
     /// Runs one tick and shows its sample.
@@ -144,24 +322,33 @@ impl<'c, C: Circuit> Simulator<'c, C> {
     /// have no reset, as block RAM has none: they take the edge as always, and what is written in
     /// the tick of reset is written.
     pub fn step_with_reset<T>(
-        self,
+        mut self,
         rst: bool,
         i: C::In<Sim>,
         show: impl FnOnce(&Sample<'_, C>) -> T,
     ) -> (Self, T) {
-        let Simulator { circuit, q, tick } = self;
-        let w = circuit.comb(&q, &i);
-        let shown = show(&Sample {
-            tick,
-            i: &i,
-            q: &q,
-            w: &w,
-        });
-        let mut q = circuit.next(q, &w, &i);
-        if rst {
-            q = reset(circuit, &q);
+        self.apply(&i);
+        self.engine.settle();
+        let shown = Sample::show(self.tick, &self.engine, show);
+        match rst {
+            true => self.engine.reset(),
+            false => self.engine.edge(),
         }
-        let tick = tick + 1;
-        (Simulator { circuit, q, tick }, shown)
+        self.tick += 1;
+        (self, shown)
+    }
+}
+
+/// Applies ports in, one after the other.
+struct Apply<'a> {
+    engine: &'a mut Engine,
+    port: usize,
+}
+
+impl Probe for Apply<'_> {
+    #[inline]
+    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
+        self.engine.input(self.port, bits);
+        self.port += 1;
     }
 }

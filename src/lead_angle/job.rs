@@ -308,7 +308,7 @@ pub fn play<P: JobLead>(
     };
     let computer = ControlComputer::new(settings);
     let mut loaded = false;
-    let mut simulator = Simulator::new(circuit);
+    let mut simulator = Simulator::new(circuit)?;
     loop {
         if settings.load_change_after == Some(bench.completed) && !loaded {
             body.set_load(settings.load)?;

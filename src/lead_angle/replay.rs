@@ -171,7 +171,7 @@ pub fn replay<P: JobLead>(
     sums.parts = vec![[f64::NAN; 2]; PARTS];
     let computer = ControlComputer::new(settings);
     let mut before = 0.0;
-    let mut simulator = Simulator::new(circuit);
+    let mut simulator = Simulator::new(circuit)?;
     for tick in 0..=ticks {
         let seconds = tick as f64 * tick_s;
         let position = at(seconds);

@@ -195,7 +195,7 @@ pub fn play<C: CommandSource<P, T>>(
         fresh: None,
         idle: 0,
     };
-    let mut simulator = Simulator::new(circuit);
+    let mut simulator = Simulator::new(circuit)?;
     loop {
         let q = simulator.registers();
         let references = [&q.loop_x, &q.loop_y].map(|axis| axis.control.speed_ref.get());

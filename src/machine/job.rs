@@ -263,12 +263,15 @@ pub fn play(
         begun: false,
     };
     let patience = patience(&program.path);
-    let mut simulator = Simulator::new(circuit);
+    let mut simulator = Simulator::new(circuit)?;
     loop {
-        let q = simulator.registers();
         let before = host.stage;
-        let mut i = host.ports(q);
-        around.step(q, &mut i);
+        let i = {
+            let q = simulator.registers();
+            let mut i = host.ports(&q);
+            around.step(&q, &mut i);
+            i
+        };
         let beside = Signals::of(&around.servos, &around.lift, &around.drivers);
         let i = WithIn { i, beside };
         let (next, seen) = simulator.step(i, |now| {

@@ -110,7 +110,7 @@ pub fn play<const AXES: usize>(
     observer: impl Observer<JobGroup<AXES>>,
 ) -> Result<Played, JobError> {
     played(table, |computer, bench| {
-        let simulator = Simulator::new(group);
+        let simulator = Simulator::new(group)?;
         simulator.run(u64::MAX, |_, q| computer.drive(q), (bench, observer))
     })
 }
@@ -127,8 +127,11 @@ pub fn fast_forward<const AXES: usize>(
 ) -> Result<Played, JobError> {
     played(table, |computer, bench| {
         // All that the computer looks at is whether a command waits: no counter.
-        let drive = |_, q: &_| (computer.drive(q), u64::MAX);
-        Simulator::new(group).fast_forward(u64::MAX, drive, (bench, observer))
+        Simulator::new(group)?.fast_forward(
+            u64::MAX,
+            |_, q| (computer.drive(q), u64::MAX),
+            (bench, observer),
+        )
     })
 }
 
@@ -143,12 +146,12 @@ fn fits<const AXES: usize>(table: &Table) -> Result<(), SettingError> {
 }
 
 /// What the drivers see of a group that is run to the end of `table`.
-fn played<'g, const AXES: usize>(
+fn played<const AXES: usize>(
     table: &Table,
     run: impl FnOnce(
         &mut ControlComputer<'_, A>,
         &mut Bench<AXES>,
-    ) -> Result<Simulator<'g, JobGroup<AXES>>, RunError>,
+    ) -> Result<Simulator<JobGroup<AXES>>, RunError>,
 ) -> Result<Played, JobError> {
     fits::<AXES>(table)?;
     let mut computer = ControlComputer::<A>::new(table);

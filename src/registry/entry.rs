@@ -1,4 +1,5 @@
 use super::{AnyCircuit, AnyModel};
+use crate::engine::EngineError;
 use crate::kernel::Declarations;
 
 /// Widths that circuits are made with for proofs and charts.
@@ -37,8 +38,11 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// Its signals at the default widths.
-    pub fn declarations(&self) -> Declarations {
+    /// Its signals at the default widths, with what they are at power-on.
+    ///
+    /// # Errors
+    /// It is no netlist.
+    pub fn declarations(&self) -> Result<Declarations, EngineError> {
         (self.full)().declarations()
     }
 }

@@ -1,7 +1,8 @@
 //! Circuits whose types are forgotten.
 
-use crate::check::{Drive, Driven, Outcome, Progress, Proof, Specified, TooWide, drive, reach};
-use crate::kernel::{Circuit, Declarations, Machine, RunError};
+use crate::check::{CheckError, Drive, Driven, Outcome, Progress, Proof, Specified, reach};
+use crate::engine::EngineError;
+use crate::kernel::{Circuit, Declarations, Model, RunError};
 use crate::trace::atomic::Directory;
 use crate::trace::chart::{Chart, ChartFailure};
 use crate::trace::{Clock, Layout, LayoutError};
@@ -9,39 +10,19 @@ use crate::verilog::{Verilog, VerilogError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// What any circuit can do, its type forgotten.
+/// A circuit, its type forgotten.
 pub trait AnyModel {
     /// Its name.
     fn name(&self) -> &'static str;
     /// What it does, in one line.
     fn about(&self) -> &'static str;
+    /// It elaborated.
+    ///
+    /// # Errors
+    /// It is no netlist.
+    fn model(&self) -> Result<Model, EngineError>;
     /// Its signals, in the order of its waves.
-    fn declarations(&self) -> Declarations;
-    /// Lays its signals out for waves.
-    ///
-    /// # Errors
-    /// A name that is used twice in a scope, or that waveform files cannot carry.
-    fn layout(&self) -> Result<(), LayoutError>;
-    /// Runs a timing chart.
-    ///
-    /// # Errors
-    /// The circuit does something else than the chart says, or the chart cannot be run on it.
-    fn chart(&self, chart: &Chart) -> Result<(), ChartFailure>;
-    /// It as Verilog.
-    ///
-    /// # Errors
-    /// It cannot be printed.
-    fn verilog(&self) -> Result<Verilog, VerilogError>;
-    /// Drives it with random inputs, see [`drive`].
-    ///
-    /// # Errors
-    /// A writer failed; a name that is used twice in a scope or that waves cannot carry.
-    fn drive(
-        &self,
-        run: &Drive,
-        waves: &mut dyn Write,
-        stimulus: &mut dyn Write,
-    ) -> Result<Driven, RunError>;
+    fn outline(&self) -> Declarations;
 }
 
 impl<C: Circuit> AnyModel for C {
@@ -53,29 +34,60 @@ impl<C: Circuit> AnyModel for C {
         C::ABOUT
     }
 
-    fn declarations(&self) -> Declarations {
-        Declarations::of(self)
+    fn model(&self) -> Result<Model, EngineError> {
+        Model::of(self)
     }
 
-    fn layout(&self) -> Result<(), LayoutError> {
-        Layout::check(&Machine::new(self))
+    fn outline(&self) -> Declarations {
+        Declarations::of::<C>()
+    }
+}
+
+impl dyn AnyModel + '_ {
+    /// Its signals, in the order of its waves, with what they are at power-on.
+    ///
+    /// # Errors
+    /// It is no netlist.
+    pub fn declarations(&self) -> Result<Declarations, EngineError> {
+        Ok(self.model()?.declarations().clone())
     }
 
-    fn chart(&self, chart: &Chart) -> Result<(), ChartFailure> {
-        chart.run(self)
+    /// Lays its signals out for waves.
+    ///
+    /// # Errors
+    /// A name that is used twice in a scope, or that waveform files cannot carry.
+    pub fn layout(&self) -> Result<(), LayoutError> {
+        Layout::new(self.name(), self.outline().leaves, None).map(drop)
     }
 
-    fn verilog(&self) -> Result<Verilog, VerilogError> {
-        Verilog::of(self)
+    /// Runs a timing chart.
+    ///
+    /// # Errors
+    /// The circuit does something else than the chart says, or the chart cannot be run on it.
+    pub fn chart(&self, chart: &Chart) -> Result<(), ChartFailure> {
+        chart.run_on(&self.model()?)
     }
 
-    fn drive(
+    /// It as Verilog.
+    ///
+    /// # Errors
+    /// It cannot be printed.
+    pub fn verilog(&self) -> Result<Verilog, VerilogError> {
+        Verilog::of_model(self.model())
+    }
+
+    /// Drives it with random inputs, see [`drive`](crate::check::drive()).
+    ///
+    /// # Errors
+    /// A writer failed; a name that is used twice in a scope or that waves cannot carry; it is no
+    /// netlist.
+    pub fn drive(
         &self,
         run: &Drive,
         waves: &mut dyn Write,
         stimulus: &mut dyn Write,
     ) -> Result<Driven, RunError> {
-        drive(self, run, waves, stimulus)
+        run.run(&self.model()?, waves, stimulus)
     }
 }
 
@@ -93,7 +105,7 @@ pub trait AnyCircuit: AnyModel {
         limit: u32,
         waves: Option<&Path>,
         progress: &mut dyn FnMut(&Progress),
-    ) -> Result<Verdict, TooWide>;
+    ) -> Result<Verdict, CheckError>;
 }
 
 /// How a proof or a sweep ended.
@@ -124,7 +136,7 @@ impl<C: Specified> AnyCircuit for C {
         limit: u32,
         waves: Option<&Path>,
         progress: &mut dyn FnMut(&Progress),
-    ) -> Result<Verdict, TooWide> {
+    ) -> Result<Verdict, CheckError> {
         let invariants = Specified::invariants(self);
         let outcome = reach(self, &invariants)
             .inputs(|i| self.applies(i))

@@ -2,7 +2,7 @@
 
 use super::Verdict;
 use super::circuits::make::{RULES, one_of};
-use crate::check::{Law, Swept, TooWide, cases, sweep};
+use crate::check::{CheckError, Law, Swept, cases, sweep};
 use crate::linear_interpolator::{Integrator, LineSweep, Rule};
 use crate::logic::lanes::Element;
 use crate::trace::Clock;
@@ -62,7 +62,7 @@ pub trait AnySweep: Sync {
     ///
     /// # Errors
     /// They are too wide to be counted.
-    fn cases(&self) -> Result<u64, TooWide>;
+    fn cases(&self) -> Result<u64, CheckError>;
     /// Checks the cases with these indices; `waves` is where the first that is wrong is written as
     /// VCD and save file.
     ///
@@ -73,7 +73,7 @@ pub trait AnySweep: Sync {
         range: Range<u64>,
         waves: Option<&Path>,
         progress: &(dyn Fn(u64) + Sync),
-    ) -> Result<Verdict<u64>, TooWide>;
+    ) -> Result<Verdict<u64>, CheckError>;
 }
 
 struct InLanes<W, const K: usize, E> {
@@ -86,7 +86,7 @@ impl<W: Law, const K: usize, E: Element> AnySweep for InLanes<W, K, E> {
         self.law.name()
     }
 
-    fn cases(&self) -> Result<u64, TooWide> {
+    fn cases(&self) -> Result<u64, CheckError> {
         cases::<W>()
     }
 
@@ -95,7 +95,7 @@ impl<W: Law, const K: usize, E: Element> AnySweep for InLanes<W, K, E> {
         range: Range<u64>,
         waves: Option<&Path>,
         progress: &(dyn Fn(u64) + Sync),
-    ) -> Result<Verdict<u64>, TooWide> {
+    ) -> Result<Verdict<u64>, CheckError> {
         let swept = sweep(&self.law).range(range).progress(progress);
         Ok(match swept.run::<K, E>()? {
             Swept::Held(cases) => Verdict::Proved(cases),

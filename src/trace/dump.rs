@@ -3,7 +3,8 @@
 use super::layout::Layout;
 use super::walk::{Change, Walk};
 use super::{Clock, Options};
-use crate::kernel::{Circuit, RunError, Running, Sample};
+use crate::engine::Engine;
+use crate::kernel::{Circuit, RunError, Sample};
 use std::io;
 use std::ops::{ControlFlow, Range};
 
@@ -42,15 +43,14 @@ impl<F: Format> Dump<F> {
     /// Sees a tick, if it is one of those that are asked for.
     pub fn sample<C: Circuit>(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         if self.looks(now.tick) {
-            let (rise, fall) = self.walk.sample(now)?;
-            self.format.tick(rise, fall, self.walk.changes())?;
+            self.tick(now.tick, now.engine())?;
         }
         Ok(ControlFlow::Continue(()))
     }
 
     /// The same of a circuit whose type is forgotten.
-    pub fn tick(&mut self, tick: u64, running: &dyn Running) -> io::Result<()> {
-        let (rise, fall) = self.walk.tick(tick, running)?;
+    pub fn tick(&mut self, tick: u64, engine: &Engine) -> io::Result<()> {
+        let (rise, fall) = self.walk.tick(tick, engine)?;
         self.format.tick(rise, fall, self.walk.changes())
     }
 

@@ -11,7 +11,7 @@ use super::behind::Behind;
 use super::dump::Dump;
 use super::layout::Layout;
 use super::{Clock, Options};
-use crate::kernel::{Circuit, Machine, Observer, RunError, Sample};
+use crate::kernel::{Circuit, Observer, RunError, Sample};
 use std::io::{self, Seek, Write};
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
@@ -37,8 +37,8 @@ impl<C: Circuit, W: Write + Seek + Send + 'static> Fst<C, W> {
     /// # Errors
     /// A name that is used twice in a scope or cannot be written or a selected path that does not
     /// exist, as a [`LayoutError`](super::LayoutError) within; the writer failed.
-    pub fn new(out: W, circuit: &C, clock: Clock, options: &Options) -> io::Result<Self> {
-        let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
+    pub fn new(out: W, _: &C, clock: Clock, options: &Options) -> io::Result<Self> {
+        let layout = Layout::of::<C>(options.only.as_deref())?;
         let file = Behind::new(Encoder::new(out, &layout, clock)?)?;
         Ok(Fst {
             dump: Dump::new(&layout, clock, options, file),

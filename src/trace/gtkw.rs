@@ -2,7 +2,7 @@
 
 use super::layout::{CLK, Layout, Scope, companion, is_stage, is_word};
 use super::{Clock, LayoutError, Options};
-use crate::kernel::{Circuit, Declaration, Format, Kind, Machine, Role};
+use crate::kernel::{Circuit, Declaration, Format, Kind, Role};
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -64,14 +64,14 @@ pub fn save_file<C: Circuit>(
 /// # Errors
 /// What [`Vcd::new`](super::Vcd::new) refuses.
 pub fn save_file_with<C: Circuit>(
-    circuit: &C,
+    _: &C,
     clock: Clock,
     options: &Options,
     dump: &str,
     focus: Range<u64>,
     overview: &[&str],
 ) -> Result<String, LayoutError> {
-    let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
+    let layout = Layout::of::<C>(options.only.as_deref())?;
     Ok(save(&layout, clock, dump, focus, overview))
 }
 

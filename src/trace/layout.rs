@@ -1,4 +1,4 @@
-use crate::kernel::{Declaration, Declarations, Format, Running, STAGE, WORD};
+use crate::kernel::{Circuit, Declaration, Declarations, Format, STAGE, WORD};
 use std::borrow::Cow;
 use std::collections::HashSet;
 use std::io;
@@ -83,19 +83,23 @@ pub(crate) struct Scope {
 }
 
 impl Layout {
-    /// Whether the signals of a circuit can be laid out.
-    pub fn check(circuit: &dyn Running) -> Result<(), LayoutError> {
-        Layout::of(circuit, None).map(drop)
+    /// The signals of a circuit.
+    pub fn of<C: Circuit>(only: Option<&[String]>) -> Result<Self, LayoutError> {
+        Layout::new(C::NAME, Declarations::of::<C>().leaves, only)
     }
 
-    pub fn of(circuit: &dyn Running, only: Option<&[String]>) -> Result<Self, LayoutError> {
-        let leaves = Declarations::walked(circuit).leaves;
-        check(circuit.name(), &leaves)?;
-        let mut top = Scope::tree(circuit.name(), &leaves, |_| true);
+    /// Those of a circuit of that name.
+    pub fn new(
+        name: &str,
+        leaves: Vec<Declaration>,
+        only: Option<&[String]>,
+    ) -> Result<Self, LayoutError> {
+        check(name, &leaves)?;
+        let mut top = Scope::tree(name, &leaves, |_| true);
         top.check(&leaves, Some(CLK))?;
         let selected = select(&leaves, only)?;
         if only.is_some() {
-            top = Scope::tree(circuit.name(), &leaves, |index| selected[index]);
+            top = Scope::tree(name, &leaves, |index| selected[index]);
         }
         Ok(Layout {
             leaves,

@@ -33,7 +33,8 @@ pub(crate) use vcd::VcdFile;
 pub use vcd::{Vcd, VcdBehind};
 pub use wave_file::{WaveFile, WaveFormat};
 
-use crate::kernel::{Circuit, Machine, RunError, Running, Values};
+use crate::engine::Watch;
+use crate::kernel::{Circuit, Model, RunError, words};
 use crate::logic::Sim;
 use atomic::{AtomicFile, commit_all};
 use std::io::{self, Write};
@@ -56,28 +57,32 @@ pub fn replay<C: Circuit>(
     dir: &Path,
     stem: &str,
 ) -> Result<Vec<PathBuf>, RunError> {
-    let mut inputs = inputs.into_iter().map(|i| Values::of(&i));
-    replay_values(&mut Machine::new(circuit), &mut inputs, clock, dir, stem)
+    let model = Model::of(circuit)?;
+    let mut inputs = inputs.into_iter().map(|i| words(&i));
+    replay_words(&model, &mut inputs, clock, dir, stem)
 }
 
-/// The same of a circuit whose type is forgotten, which stands at power-on.
-fn replay_values(
-    running: &mut dyn Running,
-    inputs: &mut dyn Iterator<Item = Values>,
+/// The same of a circuit whose type is forgotten.
+fn replay_words(
+    model: &Model,
+    inputs: &mut dyn Iterator<Item = Vec<u64>>,
     clock: Clock,
     dir: &Path,
     stem: &str,
 ) -> Result<Vec<PathBuf>, RunError> {
     let name = format!("{stem}.vcd");
     let mut dump = AtomicFile::create(dir.join(&name))?;
-    let layout = Layout::of(running, None).map_err(io::Error::from)?;
+    let leaves = model.declarations().leaves.clone();
+    let layout = Layout::new(model.name(), leaves, None).map_err(io::Error::from)?;
     let file = VcdFile::new(&mut dump, &layout, clock);
     let mut waves = Dump::new(&layout, clock, &Options::default(), file);
+    let mut engine = model.engine(Watch::All);
     let mut ticks = 0;
     for i in inputs {
-        running.settle(&mut i.source());
-        waves.tick(ticks, running)?;
-        running.clock(false);
+        engine.inputs(&i);
+        engine.settle();
+        waves.tick(ticks, &engine)?;
+        engine.edge();
         ticks += 1;
     }
     waves.finish()?;

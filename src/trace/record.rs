@@ -1,9 +1,7 @@
 use super::layout::select;
 use super::{LayoutError, Options};
-use crate::kernel::{
-    Circuit, Declaration, Declarations, Field, Machine, Observer, Probe, RunError, Running, Sample,
-    Shape,
-};
+use crate::engine::Engine;
+use crate::kernel::{Circuit, Declaration, Declarations, Observer, RunError, Sample};
 use std::collections::HashMap;
 use std::io;
 use std::marker::PhantomData;
@@ -45,9 +43,9 @@ impl<C: Circuit> Recorder<C> {
     ///
     /// # Errors
     /// A chosen path that does not exist.
-    pub fn new(circuit: &C, options: &Options) -> Result<Self, LayoutError> {
+    pub fn new(_: &C, options: &Options) -> Result<Self, LayoutError> {
         Ok(Recorder {
-            record: Record::new(&Machine::new(circuit), options)?,
+            record: Record::new(Declarations::of::<C>().leaves, options)?,
             circuit: PhantomData,
         })
     }
@@ -97,9 +95,7 @@ impl<C> Recorder<C> {
 
 impl<C: Circuit> Observer<C> for Recorder<C> {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if let Some(columns) = self.record.tick(now.tick)? {
-            now.show(columns);
-        }
+        self.record.tick(now.tick, now.engine())?;
         Ok(ControlFlow::Continue(()))
     }
 }
@@ -110,24 +106,23 @@ pub(super) struct Record {
     options: Range<u64>,
     leaves: Vec<Declaration>,
     by_path: HashMap<String, usize>,
-    columns: Columns,
+    /// For every one of them its place in the walk.
+    places: Vec<usize>,
+    columns: Vec<Vec<u64>>,
     /// The ticks recorded.
     ticks: Range<u64>,
 }
 
 impl Record {
-    pub(super) fn new(circuit: &dyn Running, options: &Options) -> Result<Self, LayoutError> {
-        let leaves = Declarations::walked(circuit).leaves;
+    pub(super) fn new(leaves: Vec<Declaration>, options: &Options) -> Result<Self, LayoutError> {
         let selected = select(&leaves, options.only.as_deref())?;
-        let mut columns = Columns::default();
-        let mut kept = Vec::new();
-        for (leaf, selected) in leaves.into_iter().zip(selected) {
-            columns.place.push(selected.then_some(kept.len()));
+        let (mut places, mut kept) = (Vec::new(), Vec::new());
+        for ((place, leaf), selected) in leaves.into_iter().enumerate().zip(selected) {
             if selected {
+                places.push(place);
                 kept.push(leaf);
             }
         }
-        columns.values = vec![Vec::new(); kept.len()];
         Ok(Record {
             options: options.ticks.clone(),
             by_path: kept
@@ -135,16 +130,17 @@ impl Record {
                 .enumerate()
                 .map(|(index, leaf)| (leaf.path(), index))
                 .collect(),
+            columns: vec![Vec::new(); kept.len()],
             leaves: kept,
-            columns,
+            places,
             ticks: 0..0,
         })
     }
 
-    /// Begins a tick, if it is one of the chosen: the columns are to see all of its signals.
-    pub(super) fn tick(&mut self, tick: u64) -> io::Result<Option<&mut Columns>> {
+    /// Keeps a tick, if it is one of the chosen.
+    pub(super) fn tick(&mut self, tick: u64, engine: &Engine) -> io::Result<()> {
         if !self.options.contains(&tick) {
-            return Ok(None);
+            return Ok(());
         }
         if self.ticks.is_empty() {
             self.ticks = tick..tick;
@@ -154,8 +150,10 @@ impl Record {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         }
         self.ticks.end += 1;
-        self.columns.cursor = 0;
-        Ok(Some(&mut self.columns))
+        for (column, &place) in self.columns.iter_mut().zip(&self.places) {
+            column.push(engine.leaf(place));
+        }
+        Ok(())
     }
 
     fn index(&self, path: &str) -> Result<usize, RecordError> {
@@ -173,7 +171,7 @@ impl Record {
     }
 
     fn column_at(&self, index: usize) -> &[u64] {
-        self.columns.values.get(index).map_or(&[], Vec::as_slice)
+        self.columns.get(index).map_or(&[], Vec::as_slice)
     }
 
     fn at(&self, tick: u64, path: &str) -> Result<u64, RecordError> {
@@ -186,23 +184,6 @@ impl Record {
                 tick,
                 recorded: self.ticks.clone(),
             })
-    }
-}
-
-#[derive(Debug, Default)]
-pub(super) struct Columns {
-    /// For every leaf of the walk, its column.
-    place: Vec<Option<usize>>,
-    values: Vec<Vec<u64>>,
-    cursor: usize,
-}
-
-impl Probe for Columns {
-    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
-        if let Some(column) = self.place[self.cursor] {
-            self.values[column].push(bits);
-        }
-        self.cursor += 1;
     }
 }
 

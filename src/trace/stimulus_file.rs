@@ -1,5 +1,6 @@
+use crate::engine::Engine;
 use crate::kernel::{
-    Circuit, Field, Observer, Probe, Role, RunError, Running, Sample, Shape, Signals, width,
+    Circuit, Field, Observer, Probe, RunError, Sample, Shape, Signals, width, widths,
 };
 use crate::logic::Sim;
 use std::io::{self, Write};
@@ -34,7 +35,7 @@ impl<C: Circuit, W: Write> StimulusFile<C, W> {
     pub fn new(out: W) -> Self {
         StimulusFile {
             out,
-            lines: Lines::new(Self::bits()),
+            lines: Lines::new(widths::<C::In<Sim>>()),
             last: None,
             circuit: PhantomData,
         }
@@ -72,7 +73,7 @@ impl<C: Circuit, W: Write> Observer<C> for StimulusFile<C, W> {
             let problem = format!("tick {} does not follow tick {last}", now.tick);
             return Err(io::Error::new(io::ErrorKind::InvalidInput, problem).into());
         }
-        self.line(now.i, false)?;
+        self.lines.tick(now.engine(), false, &mut self.out)?;
         Ok(ControlFlow::Continue(()))
     }
 }
@@ -81,15 +82,19 @@ impl<C: Circuit, W: Write> Observer<C> for StimulusFile<C, W> {
 #[derive(Debug)]
 pub(crate) struct Lines {
     word: Word,
+    /// The ports that are written: those beside the circuit are not.
+    widths: Vec<usize>,
     digits: usize,
     buffer: Vec<u8>,
 }
 
 impl Lines {
-    /// None yet; a word has this many bits.
-    fn new(bits: usize) -> Self {
+    /// None yet, of ports of these widths.
+    pub(crate) fn new(widths: Vec<usize>) -> Self {
+        let bits = widths.iter().sum::<usize>() + 1;
         Lines {
             word: Word::default(),
+            widths,
             digits: bits.div_ceil(4),
             buffer: Vec::with_capacity(BUFFER + BUFFER / 8),
         }
@@ -114,21 +119,17 @@ impl Lines {
         Ok(())
     }
 
-    /// None yet, of this circuit.
-    pub(crate) fn of(running: &dyn Running) -> Self {
-        let mut word = Word::default();
-        running.part(Role::Input, &mut word);
-        Lines::new(word.filled + 1)
-    }
-
     /// Writes a tick.
     pub(crate) fn tick(
         &mut self,
-        running: &dyn Running,
+        engine: &Engine,
         rst: bool,
         out: &mut dyn Write,
     ) -> io::Result<()> {
-        running.part(Role::Input, self.begin());
+        self.word.clear();
+        for (port, &width) in self.widths.iter().enumerate() {
+            self.word.push(engine.port(port), width);
+        }
         self.end(rst, out)
     }
 

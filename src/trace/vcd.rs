@@ -7,7 +7,7 @@ use super::behind::Behind;
 use super::dump::Dump;
 use super::layout::Layout;
 use super::{Clock, LayoutError, Options};
-use crate::kernel::{Circuit, Machine, Observer, RunError, Sample};
+use crate::kernel::{Circuit, Observer, RunError, Sample};
 use std::io::{self, Write};
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
@@ -39,8 +39,8 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
     /// # Errors
     /// A name that is used twice in a scope or cannot be written, a selected path that does not
     /// exist. Nothing is written to `out` before the run.
-    pub fn new(out: W, circuit: &C, clock: Clock, options: &Options) -> Result<Self, LayoutError> {
-        let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
+    pub fn new(out: W, _: &C, clock: Clock, options: &Options) -> Result<Self, LayoutError> {
+        let layout = Layout::of::<C>(options.only.as_deref())?;
         let file = VcdFile::new(out, &layout, clock);
         Ok(Vcd {
             dump: Dump::new(&layout, clock, options, file),
@@ -87,8 +87,8 @@ impl<C: Circuit, W: Write + Send + 'static> VcdBehind<C, W> {
     /// A name that is used twice in a scope or cannot be written or a selected path that does not
     /// exist, as a [`LayoutError`] within; there is no thread to be had. Nothing is written to
     /// `out` before the run.
-    pub fn new(out: W, circuit: &C, clock: Clock, options: &Options) -> io::Result<Self> {
-        let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
+    pub fn new(out: W, _: &C, clock: Clock, options: &Options) -> io::Result<Self> {
+        let layout = Layout::of::<C>(options.only.as_deref())?;
         let file = Behind::new(VcdFile::new(out, &layout, clock))?;
         Ok(VcdBehind {
             dump: Dump::new(&layout, clock, options, file),

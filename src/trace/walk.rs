@@ -1,8 +1,8 @@
-//! The walk over all signals that finds out which have changed.
+//! Finds out which signals have changed.
 
 use super::Clock;
 use super::layout::Layout;
-use crate::kernel::{Changed, Circuit, Field, Probe, Running, Sample, Shape, Words};
+use crate::engine::Engine;
 use std::io;
 
 /// What stands for the tick before the first: all but words of 64 bits differ from it.
@@ -19,21 +19,21 @@ pub(crate) struct Change {
 
 /// Finds out which of the selected signals are not as in the tick before.
 ///
-/// Of a memory only what was written since the tick before is looked at.
+/// Where it saw that tick, it looks only at what the engine says has changed.
 #[derive(Debug)]
 pub(super) struct Walk {
     clock: Clock,
     last: Option<u64>,
     /// The values of the tick before, in the order of the walk.
     before: Vec<u64>,
-    /// How often every memory had changed in the tick before, at the place of its first word.
+    /// How often every memory had changed in the tick before.
     marks: Vec<u64>,
+    /// A bit for each leaf that may have changed.
+    touched: Vec<u64>,
     /// Which leaves are wanted, unless all are.
     selected: Option<Vec<bool>>,
     /// What has changed in the tick.
     changes: Vec<Change>,
-    /// The leaf that comes next.
-    cursor: usize,
 }
 
 impl Walk {
@@ -43,56 +43,84 @@ impl Walk {
             clock,
             last: None,
             before: vec![UNKNOWN; leaves],
-            marks: vec![UNKNOWN; leaves],
+            marks: Vec::new(),
+            touched: vec![0; leaves.div_ceil(64)],
             selected: layout
                 .selected
                 .contains(&false)
                 .then(|| layout.selected.clone()),
             changes: Vec::new(),
-            cursor: 0,
         }
     }
 
-    /// Looks at a tick. Returns when `clk` rises and when it falls.
-    pub fn sample<C: Circuit>(&mut self, now: &Sample<'_, C>) -> io::Result<(u64, u64)> {
-        let times = self.begin(now.tick)?;
-        now.visit(self);
-        self.seen(now.tick);
-        Ok(times)
-    }
-
-    /// The same of a circuit whose type is forgotten.
-    pub fn tick(&mut self, tick: u64, running: &dyn Running) -> io::Result<(u64, u64)> {
-        let times = self.begin(tick)?;
-        running.show(self);
-        self.seen(tick);
-        Ok(times)
-    }
-
-    fn begin(&mut self, tick: u64) -> io::Result<(u64, u64)> {
+    /// Looks at a settled tick. Returns when `clk` rises and when it falls.
+    pub fn tick(&mut self, tick: u64, engine: &Engine) -> io::Result<(u64, u64)> {
         if self.last.is_some_and(|last| last >= tick) {
             return Err(io::Error::new(
                 io::ErrorKind::InvalidInput,
                 format!("tick {tick} comes twice"),
             ));
         }
-        self.changes.clear();
-        self.cursor = 0;
         let times = (self.clock.rise(tick), self.clock.fall(tick));
-        times.0.zip(times.1).ok_or_else(too_late)
-    }
-
-    /// A tick was looked at. At the first one the words that do not differ from [`UNKNOWN`] are new
-    /// too.
-    fn seen(&mut self, tick: u64) {
-        if self.last.replace(tick).is_none() {
-            let unknown = self.before.iter().zip(0..);
-            let unknown = unknown.filter(|(bits, _)| **bits == UNKNOWN);
-            let new = unknown.map(|(&bits, leaf)| Change { leaf, bits });
-            self.changes.extend(new);
+        let times = times.0.zip(times.1).ok_or_else(too_late)?;
+        self.changes.clear();
+        let follows = self.last.is_some_and(|last| last + 1 == tick);
+        match follows && engine.program().watches_all() {
+            true => self.look_at_changes(engine),
+            false => self.look_at_all(engine),
         }
+        self.last = Some(tick);
         if let Some(selected) = &self.selected {
             self.changes.retain(|change| selected[change.leaf as usize]);
+        }
+        Ok(times)
+    }
+
+    fn look_at_all(&mut self, engine: &Engine) {
+        let memories = engine.program().plan().memories.len();
+        self.marks = (0..memories)
+            .map(|memory| engine.written(memory).0)
+            .collect();
+        let first = self.last.is_none();
+        for (leaf, before) in self.before.iter_mut().enumerate() {
+            let bits = engine.leaf(leaf);
+            if bits != *before || (first && bits == UNKNOWN) {
+                *before = bits;
+                let leaf = leaf as u32;
+                self.changes.push(Change { leaf, bits });
+            }
+        }
+    }
+
+    fn look_at_changes(&mut self, engine: &Engine) {
+        let Walk { touched, marks, .. } = self;
+        let mut touch = |leaf: u32| touched[leaf as usize / 64] |= 1 << (leaf % 64);
+        let plan = engine.program().plan();
+        engine.changed(|place| {
+            let watched = &plan.layout.watched[place];
+            let Some(memory) = watched.memory.map(|memory| memory as usize) else {
+                watched.leaves.iter().copied().for_each(&mut touch);
+                return;
+            };
+            let (mark, word) = engine.written(memory);
+            let writes = mark.wrapping_sub(std::mem::replace(&mut marks[memory], mark));
+            let shifts = plan.memories[memory].head.is_some();
+            match watched.leaves.get(word as usize) {
+                Some(&leaf) if writes == 1 && !shifts => touch(leaf),
+                _ => watched.leaves.iter().copied().for_each(&mut touch),
+            }
+        });
+        for (word, bits) in touched.iter_mut().enumerate() {
+            while *bits != 0 {
+                let leaf = word * 64 + bits.trailing_zeros() as usize;
+                *bits &= *bits - 1;
+                let now = engine.leaf(leaf);
+                if now != self.before[leaf] {
+                    self.before[leaf] = now;
+                    let leaf = leaf as u32;
+                    self.changes.push(Change { leaf, bits: now });
+                }
+            }
         }
     }
 
@@ -105,41 +133,6 @@ impl Walk {
     pub fn end(&self) -> io::Result<Option<u64>> {
         let end = |last: u64| self.clock.rise(last + 1).ok_or_else(too_late);
         self.last.map(end).transpose()
-    }
-}
-
-impl Walk {
-    fn look(&mut self, leaf: usize, bits: u64) {
-        if bits != self.before[leaf] {
-            self.before[leaf] = bits;
-            let leaf = leaf as u32;
-            self.changes.push(Change { leaf, bits });
-        }
-    }
-}
-
-impl Probe for Walk {
-    fn leaf(&mut self, _: &'static Field, _: Shape, bits: u64) {
-        self.look(self.cursor, bits);
-        self.cursor += 1;
-    }
-
-    fn memory(&mut self, _: &'static Field, words: &dyn Words) {
-        let start = self.cursor;
-        self.cursor += words.len();
-        let Some(mark) = self.marks[start..self.cursor].first_mut() else {
-            return;
-        };
-        let first = *mark == UNKNOWN;
-        let changed = words.changed(mark);
-        let indices = match if first { Changed::All } else { changed } {
-            Changed::None => 0..0,
-            Changed::One(index) => index..index + 1,
-            Changed::All => 0..words.len(),
-        };
-        for index in indices {
-            self.look(start + index, words.word(index));
-        }
     }
 }
 

@@ -6,7 +6,7 @@ use super::layout::Layout;
 use super::vcd::VcdFile;
 use super::walk::Change;
 use super::{Clock, Options};
-use crate::kernel::{Circuit, Machine, Observer, RunError, Sample};
+use crate::kernel::{Circuit, Observer, RunError, Sample};
 use std::io;
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
@@ -42,11 +42,11 @@ impl<C: Circuit> WaveFile<C> {
     pub fn new(
         file: AtomicFile,
         format: WaveFormat,
-        circuit: &C,
+        _: &C,
         clock: Clock,
         options: &Options,
     ) -> io::Result<Self> {
-        let layout = Layout::of(&Machine::new(circuit), options.only.as_deref())?;
+        let layout = Layout::of::<C>(options.only.as_deref())?;
         let file = match format {
             WaveFormat::Vcd => Either::Vcd(Behind::new(VcdFile::new(file, &layout, clock))?),
             WaveFormat::Fst => Either::Fst(Behind::new(Encoder::new(file, &layout, clock)?)?),

@@ -154,7 +154,7 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
     }
     let mut host = Host::new(program);
     let mut played = Played::default();
-    let mut simulator = Simulator::new(circuit);
+    let mut simulator = Simulator::new(circuit)?;
     let mut compared = None;
     let (mut rests, mut calm, patience) = (0, 0, patience(program));
     let unit = f64::from(Widths::FULL.guard()).exp2();

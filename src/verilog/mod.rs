@@ -29,8 +29,9 @@ mod testbench;
 mod text;
 mod unused;
 
-use crate::kernel::Circuit;
-use crate::logic::netlist::{Design, NetlistError, Value, elaborate};
+use crate::engine::EngineError;
+use crate::kernel::{Circuit, Model};
+use crate::logic::netlist::{Design, Value};
 use design::Modules;
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -54,8 +55,8 @@ pub struct SourceFile {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum VerilogError {
     /// It is no netlist.
-    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
-    Netlist(Vec<NetlistError>),
+    #[error(transparent)]
+    Engine(EngineError),
     /// A name that has another meaning.
     #[error("{module}: {name} is a word of Verilog or kept for the clock and the reset")]
     Reserved {
@@ -80,11 +81,12 @@ impl Verilog {
     /// # Errors
     /// The circuit is no netlist, or has names that Verilog does not take.
     pub fn of<C: Circuit>(circuit: &C) -> Result<Self, VerilogError> {
-        Self::from_design(elaborate(circuit))
+        Self::of_model(Model::of(circuit))
     }
 
-    fn from_design(design: Result<Design, Vec<NetlistError>>) -> Result<Self, VerilogError> {
-        let design = design.map_err(VerilogError::Netlist)?;
+    /// Those of a circuit that was elaborated, if it could be.
+    pub(crate) fn of_model(model: Result<Model, EngineError>) -> Result<Self, VerilogError> {
+        let design = model.map_err(VerilogError::Engine)?.design().clone();
         check_names(&design)?;
         Ok(Verilog { design })
     }

@@ -1,7 +1,7 @@
 //! Bundles of lanes and packed words: the layout of [`pack`](crate::kernel::pack), a word a lane.
 
 use super::{Element, LaneBit, LaneInt, LaneRam, LaneShiftRegister, LaneUInt, Lanes};
-use crate::kernel::{Field, Make, Signals, Values, Visit};
+use crate::kernel::{Field, Make, Signals, Visit, words};
 use crate::logic::{Image, Sim};
 use std::array::from_fn;
 
@@ -27,7 +27,7 @@ pub fn unpack<const K: usize, E: Element, S: Signals<Lanes<K, E>>>(words: [u64; 
 pub fn spread<const K: usize, E: Element, S: Signals<Sim>, T: Signals<Lanes<K, E>>>(
     signals: &S,
 ) -> T {
-    let mut values = Values::of(signals).0.into_iter();
+    let mut values = words(signals).into_iter();
     T::make(const { &Field::named("") }, &mut Spreader(&mut values))
 }
 

@@ -7,7 +7,7 @@ use super::nets::{Leaf, Nets};
 use super::node::Node;
 use super::properties::note_properties;
 use super::walk::{look, make};
-use crate::kernel::{Circuit, Field, Probe, Role, Shape, Words, show_power_on};
+use crate::kernel::{Circuit, Field, Probe, Role, Shape, Words, show};
 use std::mem;
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ use std::ops::Range;
 /// replaces that circuit's registers, or uses a memory after its edge.
 pub fn elaborate<C: Circuit>(circuit: &C) -> Result<Design, Vec<NetlistError>> {
     let mut whole = Whole::begin();
-    show_power_on(circuit, &mut whole);
+    show(&circuit.power_on(), Role::Register, &mut whole);
     let (_, settings) = module(circuit, mem::take(&mut whole.power_on));
     whole.end(settings)
 }

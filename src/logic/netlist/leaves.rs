@@ -43,7 +43,13 @@ impl Give for Leaves {
         })
     }
 
-    fn memory(&mut self, field: &'static Field, words: usize, width: usize) -> (usize, State) {
+    fn memory(
+        &mut self,
+        field: &'static Field,
+        _: &'static Field,
+        words: usize,
+        width: usize,
+    ) -> (usize, State) {
         let name = self.path.name(field);
         let scopes = self.path.scopes().to_vec();
         builder(|builder| {
@@ -88,7 +94,13 @@ impl Give for Ports {
         self.leaf += 1;
         node(port, shape)
     }
-    fn memory(&mut self, _: &'static Field, _: usize, _: usize) -> (usize, State) {
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        _: usize,
+        _: usize,
+    ) -> (usize, State) {
         (0, State::Next)
     }
 }
@@ -98,7 +110,13 @@ impl Give for NextRegisters {
         self.place += 1;
         node(Node::Next(self.place - 1), shape)
     }
-    fn memory(&mut self, _: &'static Field, _: usize, _: usize) -> (usize, State) {
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        _: usize,
+        _: usize,
+    ) -> (usize, State) {
         self.place += 1;
         let place = self.place - 1;
         let memory = builder(|builder| match builder.registers.get(place) {

@@ -11,6 +11,7 @@ mod memory;
 mod module;
 mod nets;
 mod node;
+mod outline;
 mod properties;
 mod walk;
 mod words;
@@ -22,6 +23,7 @@ pub use module::{
     Assertion, Child, Design, Memory, Module, NetlistError, Parameter, Port, Setting, Signal, Value,
 };
 pub use node::{Id, Node, Operator};
+pub(crate) use outline::{outline, parts, places};
 pub use words::{NetBit, NetInt, NetUInt};
 
 use super::{Image, Logic};

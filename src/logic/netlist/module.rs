@@ -52,6 +52,14 @@ pub struct Signal {
     pub owner: Option<(usize, usize)>,
 }
 
+impl Module {
+    /// Its ports in, in their order.
+    pub fn inputs(&self) -> impl Iterator<Item = &Signal> {
+        let inputs = self.signals.iter();
+        inputs.filter(|signal| signal.role == Role::Input && signal.owner.is_none())
+    }
+}
+
 impl Signal {
     /// Whether it is a port.
     pub fn is_port(&self) -> bool {
@@ -92,6 +100,8 @@ pub struct Memory {
 pub struct Assertion {
     /// What holds.
     pub name: &'static str,
+    /// The signals at fault where it does not.
+    pub signals: &'static [&'static str],
     /// Whether it looks at the tick before: at the registers that an edge made, and by
     /// [`Node::Past`] at everything before that edge.
     pub step: bool,

@@ -44,6 +44,7 @@ fn add(always: Vec<Property<Netlist>>, steps: Vec<Property<Netlist>>) {
         builder(|builder| {
             builder.assertions.push(Assertion {
                 name: property.name,
+                signals: property.signals,
                 step: property.step,
                 holds: property.holds.0,
             });
@@ -72,7 +73,13 @@ impl Give for Past {
             _ => 0,
         }
     }
-    fn memory(&mut self, _: &'static Field, _: usize, _: usize) -> (usize, State) {
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        _: usize,
+        _: usize,
+    ) -> (usize, State) {
         match self.0.pop_front() {
             Some(Leaf::Memory(memory, state)) => (memory, state),
             _ => (0, State::Next),

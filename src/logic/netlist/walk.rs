@@ -4,7 +4,7 @@ use super::Netlist;
 use super::memory::{NetRam, NetShiftRegister, State};
 use super::node::{BIT, Id, signed, unsigned};
 use super::words::{NetBit, NetInt, NetUInt};
-use crate::kernel::{Field, Make, Role, Shape, Signals, Visit, part};
+use crate::kernel::{Field, Make, Role, STAGE, Shape, Signals, Visit, WORD, part};
 
 /// What is done with the leaves of a bundle.
 pub(super) trait Look {
@@ -30,8 +30,14 @@ pub(super) trait Give {
     fn element(&mut self, _index: usize) {}
     /// A word.
     fn word(&mut self, field: &'static Field, shape: Shape) -> Id;
-    /// A memory or shift register of so many words.
-    fn memory(&mut self, field: &'static Field, words: usize, width: usize) -> (usize, State);
+    /// A memory or shift register of so many words, each of which is called `label`.
+    fn memory(
+        &mut self,
+        field: &'static Field,
+        label: &'static Field,
+        words: usize,
+        width: usize,
+    ) -> (usize, State);
 }
 
 /// Shows a part of a circuit.
@@ -101,14 +107,14 @@ impl Make<Netlist> for Giving<'_> {
         NetInt(self.0.word(field, signed(N)))
     }
     fn ram<const A: usize, const D: usize>(&mut self, field: &'static Field) -> NetRam<A, D> {
-        let (memory, state) = self.0.memory(field, 1 << A, D);
+        let (memory, state) = self.0.memory(field, &WORD, 1 << A, D);
         NetRam { memory, state }
     }
     fn shift_register<const K: usize, const D: usize>(
         &mut self,
         field: &'static Field,
     ) -> NetShiftRegister<K, D> {
-        let (memory, state) = self.0.memory(field, K, D);
+        let (memory, state) = self.0.memory(field, &STAGE, K, D);
         NetShiftRegister { memory, state }
     }
 }

@@ -17,6 +17,27 @@ pub struct NetUInt<const N: usize>(pub(super) Id);
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NetInt<const N: usize>(pub(super) Id);
 
+impl NetBit {
+    /// The node, or the leaf of a record of places.
+    pub(crate) fn id(self) -> Id {
+        self.0
+    }
+}
+
+impl<const N: usize> NetUInt<N> {
+    /// The node, or the leaf of a record of places.
+    pub(crate) fn id(self) -> Id {
+        self.0
+    }
+}
+
+impl<const N: usize> NetInt<N> {
+    /// The node, or the leaf of a record of places.
+    pub(crate) fn id(self) -> Id {
+        self.0
+    }
+}
+
 // A circuit's code is little else than calls of these: they are not copied into it.
 
 #[inline(never)]

@@ -1,44 +1,43 @@
 use super::{Sim, UInt, Wire};
-use crate::kernel::{Changed, Field, Make, STAGE, Signals, Visit, WORD, Words};
+use crate::kernel::{Field, Make, STAGE, Signals, Visit, WORD, Words};
 use crate::logic::{Image, Ram, ShiftRegister};
-use std::any::Any;
+use std::sync::Arc;
 
-/// A RAM whose bits lie in a `bitvec`.
-#[derive(Debug, Clone)]
+/// The words of a RAM.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SimRam<const A: usize, const D: usize> {
-    image: Image<A, D>,
-    /// Words written since power-on.
-    writes: u64,
-    /// Where the last one was.
-    written: usize,
+    words: Arc<[u64]>,
 }
 
-/// A shift register as a ring: the head moves, the words stay; its stages are presented in order.
-#[derive(Debug, Clone)]
+/// The stages of a shift register, the newest first.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SimShiftRegister<const K: usize, const D: usize> {
-    ring: Box<[UInt<D>]>,
-    head: usize,
-    /// Shifts since power-on.
-    shifts: u64,
+    stages: Arc<[u64]>,
 }
 
 impl<const A: usize, const D: usize> From<Image<A, D>> for SimRam<A, D> {
     fn from(image: Image<A, D>) -> Self {
+        let words = 0..Image::<A, D>::WORDS;
         SimRam {
-            image,
-            writes: 0,
-            written: 0,
+            words: words.map(|address| image.get(address)).collect(),
         }
     }
 }
 
+impl<const A: usize, const D: usize> SimRam<A, D> {
+    /// It with these words, of which there are as many as it has.
+    pub(crate) fn of_words(words: Arc<[u64]>) -> Self {
+        SimRam { words }
+    }
+}
+
 impl<const A: usize, const D: usize> Ram<Sim, A, D> for SimRam<A, D> {
-    #[inline(always)]
     fn read(&self, address: UInt<A>) -> UInt<D> {
-        self.image.get(address.get() as usize).into()
+        let word = usize::try_from(address.get()).ok();
+        let word = word.and_then(|address| self.words.get(address));
+        word.copied().unwrap_or(0).into()
     }
 
-    #[inline(always)]
     fn read_when(&self, enable: Wire, address: UInt<A>, held: UInt<D>) -> UInt<D> {
         if enable.get() {
             self.read(address)
@@ -47,12 +46,12 @@ impl<const A: usize, const D: usize> Ram<Sim, A, D> for SimRam<A, D> {
         }
     }
 
-    #[inline(always)]
     fn write(mut self, enable: Wire, address: UInt<A>, data: UInt<D>) -> Self {
-        if enable.get() {
-            self.written = address.get() as usize;
-            self.writes = self.writes.wrapping_add(1);
-            self.image.set(self.written, data.get());
+        let address = usize::try_from(address.get()).ok().filter(|_| enable.get());
+        if let Some(address) = address
+            && let Some(word) = Arc::make_mut(&mut self.words).get_mut(address)
+        {
+            *word = data.get();
         }
         self
     }
@@ -63,32 +62,17 @@ impl<const A: usize, const D: usize> Words for SimRam<A, D> {
         D
     }
     fn len(&self) -> usize {
-        Image::<A, D>::WORDS
+        self.words.len()
     }
     fn word(&self, index: usize) -> u64 {
-        self.image.get(index)
-    }
-    #[inline(always)]
-    fn changed(&self, mark: &mut u64) -> Changed {
-        let writes = self
-            .writes
-            .wrapping_sub(std::mem::replace(mark, self.writes));
-        match writes {
-            0 => Changed::None,
-            1 => Changed::One(self.written),
-            _ => Changed::All,
-        }
+        self.words.get(index).copied().unwrap_or(0)
     }
     fn label(&self) -> &'static Field {
         &WORD
     }
-    fn whole(&self) -> Box<dyn Any> {
-        Box::new(self.clone())
-    }
 }
 
 impl<const A: usize, const D: usize> Signals<Sim> for SimRam<A, D> {
-    #[inline(always)]
     fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.ram(field, self);
     }
@@ -100,37 +84,34 @@ impl<const A: usize, const D: usize> Signals<Sim> for SimRam<A, D> {
 impl<const K: usize, const D: usize> SimShiftRegister<K, D> {
     /// A register that holds the given words, stage 0 first, zeros where they end.
     pub fn new(stages: impl IntoIterator<Item = u64>) -> Self {
-        let mut ring = vec![UInt::default(); K].into_boxed_slice();
-        for (stage, word) in ring.iter_mut().zip(stages) {
-            *stage = word.into();
-        }
+        let words = stages.into_iter().map(|word| UInt::<D>::from(word).get());
         SimShiftRegister {
-            ring,
-            head: 0,
-            shifts: 0,
+            stages: words.chain(std::iter::repeat(0)).take(K).collect(),
         }
+    }
+
+    /// It with these stages, of which there are as many as it has.
+    pub(crate) fn of_words(stages: Arc<[u64]>) -> Self {
+        SimShiftRegister { stages }
     }
 }
 
 impl<const K: usize, const D: usize> ShiftRegister<Sim, K, D> for SimShiftRegister<K, D> {
-    #[inline(always)]
     fn stage(&self, index: usize) -> UInt<D> {
-        stage(&self.ring, self.head, index)
+        self.stages.get(index).copied().unwrap_or(0).into()
     }
 
-    #[inline(always)]
     fn tap<const T: usize>(&self, tap: UInt<T>) -> UInt<D> {
         self.stage(usize::try_from(tap.get()).unwrap_or(usize::MAX))
     }
 
-    #[inline(always)]
     fn shift(mut self, enable: Wire, input: UInt<D>) -> Self {
         if enable.get() && K > 0 {
-            self.head = if self.head == 0 { K - 1 } else { self.head - 1 };
-            if let Some(stage) = self.ring.get_mut(self.head) {
-                *stage = input;
+            let stages = Arc::make_mut(&mut self.stages);
+            stages.rotate_right(1);
+            if let Some(first) = stages.first_mut() {
+                *first = input.get();
             }
-            self.shifts = self.shifts.wrapping_add(1);
         }
         self
     }
@@ -141,44 +122,17 @@ impl<const K: usize, const D: usize> Words for SimShiftRegister<K, D> {
         D
     }
     fn len(&self) -> usize {
-        K
+        self.stages.len()
     }
     fn word(&self, index: usize) -> u64 {
-        stage(&self.ring, self.head, index).get()
-    }
-    #[inline(always)]
-    fn changed(&self, mark: &mut u64) -> Changed {
-        match std::mem::replace(mark, self.shifts) == self.shifts {
-            true => Changed::None,
-            false => Changed::All,
-        }
+        self.stages.get(index).copied().unwrap_or(0)
     }
     fn label(&self) -> &'static Field {
         &STAGE
     }
-    fn whole(&self) -> Box<dyn Any> {
-        Box::new(self.clone())
-    }
-}
-
-/// Stage `index` of a ring.
-#[inline(always)]
-fn stage<const D: usize>(ring: &[UInt<D>], head: usize, index: usize) -> UInt<D> {
-    let stages = ring.len();
-    if index >= stages {
-        return UInt::default();
-    }
-    let place = head + index;
-    let place = if place < stages {
-        place
-    } else {
-        place - stages
-    };
-    ring.get(place).copied().unwrap_or_default()
 }
 
 impl<const K: usize, const D: usize> Signals<Sim> for SimShiftRegister<K, D> {
-    #[inline(always)]
     fn visit<V: Visit<Sim>>(&self, field: &'static Field, visitor: &mut V) {
         visitor.shift_register(field, self);
     }

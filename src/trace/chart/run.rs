@@ -1,8 +1,6 @@
 use super::{Cell, Chart, ChartError, Problem, Row};
-use crate::kernel::{
-    Circuit, Declaration, Declarations, Field, Format, Machine, Role, RunError, Running, Shape,
-    Source, Values,
-};
+use crate::engine::{EngineError, Watch};
+use crate::kernel::{Circuit, Declaration, Format, Model, RunError};
 use crate::trace::Options;
 use crate::trace::record::{Record, near};
 use crate::trace::value::{mask, read, show};
@@ -17,6 +15,9 @@ pub enum ChartFailure {
     /// The circuit does something else.
     #[error(transparent)]
     Mismatch(#[from] Box<Mismatch>),
+    /// The circuit cannot be run.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
 }
 
 /// The first cell, by tick, in which a circuit does not do what its chart says.
@@ -61,10 +62,14 @@ impl Chart {
     /// # Errors
     /// The chart does not fit the circuit, or the circuit does something else.
     pub fn run<C: Circuit>(&self, circuit: &C) -> Result<(), ChartFailure> {
-        self.run_on(&mut Machine::new(circuit))
+        self.run_on(&Model::of(circuit)?)
     }
 
-    fn run_on(&self, circuit: &mut dyn Running) -> Result<(), ChartFailure> {
+    /// The same of a circuit whose type is forgotten.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn run_on(&self, circuit: &Model) -> Result<(), ChartFailure> {
         if self.circuit != circuit.name() {
             let problem = Problem::Circuit {
                 chart: self.circuit.clone(),
@@ -72,10 +77,11 @@ impl Chart {
             };
             return Err(problem.at(self.line).into());
         }
-        let leaves = Declarations::walked(circuit).leaves;
-        let ports = &leaves[..port_count(circuit).min(leaves.len())];
+        let declarations = circuit.declarations();
+        let leaves = &declarations.leaves;
+        let ports = &leaves[..declarations.inputs()];
         let inputs = resolve(&self.inputs, ports, "port in")?;
-        let expected = resolve(&self.expected, &leaves, "signal")?;
+        let expected = resolve(&self.expected, leaves, "signal")?;
 
         let record = self.record(circuit, ports, &inputs)?;
         let actual: Vec<&[u64]> = expected
@@ -104,7 +110,7 @@ impl Chart {
 
     fn record(
         &self,
-        circuit: &mut dyn Running,
+        circuit: &Model,
         ports: &[Declaration],
         inputs: &[Resolved<'_>],
     ) -> Result<Record, ChartError> {
@@ -122,17 +128,18 @@ impl Chart {
             ..Options::default()
         };
         let failed = |problem: String| Problem::Run(problem).at(self.line);
-        let mut record = Record::new(circuit, &options).map_err(|e| failed(e.to_string()))?;
+        let leaves = circuit.declarations().leaves.clone();
+        let mut record = Record::new(leaves, &options).map_err(|e| failed(e.to_string()))?;
+        let mut engine = circuit.engine(Watch::All);
         for tick in 0..self.ticks {
-            circuit.settle(&mut Given {
-                lines: lines.iter(),
-                tick,
-            });
-            let columns = record.tick(tick as u64);
-            if let Some(columns) = columns.map_err(|e| failed(RunError::from(e).to_string()))? {
-                circuit.show(columns);
+            for (port, line) in lines.iter().enumerate() {
+                let value = line.and_then(|line| line.values.get(tick).copied());
+                engine.input(port, value.flatten().unwrap_or(0));
             }
-            circuit.clock(false);
+            engine.settle();
+            let kept = record.tick(tick as u64, &engine);
+            kept.map_err(|error| failed(RunError::from(error).to_string()))?;
+            engine.edge();
         }
         Ok(record)
     }
@@ -290,26 +297,4 @@ fn texts(leaf: &Declaration, values: impl Iterator<Item = Option<u64>>) -> Vec<S
             }
         })
         .collect()
-}
-
-/// The number of leaves of a circuit's ports in, which a walk visits first.
-fn port_count(circuit: &dyn Running) -> usize {
-    let mut values = Values::default();
-    circuit.part(Role::Input, &mut values);
-    values.0.len()
-}
-
-/// The inputs of one tick.
-struct Given<'a> {
-    /// The line of every port that is still to come.
-    lines: std::slice::Iter<'a, Option<&'a Resolved<'a>>>,
-    tick: usize,
-}
-
-impl Source for Given<'_> {
-    fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
-        let line = self.lines.next().copied().flatten();
-        let value = line.and_then(|line| line.values.get(self.tick).copied());
-        value.flatten().unwrap_or(0)
-    }
 }

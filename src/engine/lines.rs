@@ -1,0 +1,182 @@
+//! Idle ticks: as long as every register goes on along a straight line, there is nothing to see.
+//!
+//! In a settled tick each register is taken to move by the same step in every tick. Sums of such
+//! lines are lines; a comparison, a choice or the upper bits of a word are what they are until some
+//! tick that arithmetic gives. If the registers after the edge are on the same lines, a run goes
+//! over all ticks up to the first of these in one.
+
+mod graph;
+mod pair;
+mod tree;
+mod walk;
+
+#[cfg(test)]
+mod tests;
+
+use super::flat::mask;
+use super::interpreter::put;
+use super::plan::Plan;
+use graph::{Graph, has, insert};
+use pair::Line;
+use walk::{Known, Moving, Pairs, Words};
+
+/// How far the registers of a plan go along straight lines.
+#[derive(Debug, Clone)]
+pub struct Lines {
+    graph: Graph,
+    stamp: u64,
+    words: Vec<Known<u64>>,
+    lines: Vec<Known<Line>>,
+    /// What the last try found.
+    moving: Vec<Moving>,
+    /// By slot, of registers.
+    slopes: Vec<u64>,
+    /// What these move.
+    touched: Vec<u64>,
+    /// Edge blocks that always run, as they were said to, and as bits.
+    hot: Vec<bool>,
+    hot_bits: Vec<u64>,
+    due: Vec<u64>,
+    /// The edge block that ended a line last.
+    bent: usize,
+}
+
+impl Lines {
+    /// Room for a plan.
+    pub fn new(plan: &Plan) -> Lines {
+        let graph = Graph::new(plan);
+        let edges = plan.blocks.len() - plan.settling;
+        Lines {
+            stamp: 0,
+            words: vec![Known::nothing(0); graph.nodes.len()],
+            lines: vec![Known::nothing(Line::still(0)); graph.nodes.len()],
+            moving: Vec::with_capacity(plan.registers.len()),
+            slopes: vec![0; graph.slots],
+            touched: vec![0; graph.stride],
+            hot: vec![false; edges],
+            hot_bits: vec![0; edges.div_ceil(64)],
+            due: vec![0; edges.div_ceil(64)],
+            bent: 0,
+            graph,
+        }
+    }
+
+    /// For how many ticks from this one on, at most so many, all edges leave every register on a
+    /// straight line and everything watched as it is.
+    ///
+    /// The slab is settled, before its edge. What is watched may be another word after so many
+    /// ticks, not before. 0 where the edge does more, or where nothing better is known. Blocks
+    /// that are `hot` run though nothing wakes them.
+    pub fn horizon(&mut self, plan: &Plan, hot: &[bool], slab: &[u64], most: u64) -> u64 {
+        for moving in self.moving.drain(..) {
+            self.slopes[plan.registers[moving.register as usize].slot as usize] = 0;
+        }
+        if most == 0 {
+            return 0;
+        }
+        self.stamp += 1;
+        self.heat(&hot[plan.settling..]);
+        let first = plan.settling.next_multiple_of(64) / 64;
+        let mut words = Words {
+            plan,
+            graph: &self.graph,
+            slab,
+            known: &mut self.words,
+            stamp: self.stamp,
+        };
+        for (word, hot) in self.hot_bits.iter().enumerate() {
+            let mut due = hot | slab[plan.layout.dirty as usize + first + word];
+            while due != 0 {
+                let edge = word * 64 + due.trailing_zeros() as usize;
+                due &= due - 1;
+                if words.edge(edge, &mut self.moving).is_err() {
+                    self.moving.clear();
+                    return 0;
+                }
+            }
+        }
+        if self.moving.is_empty() {
+            return most;
+        }
+        self.touched.fill(0);
+        let stride = self.graph.stride;
+        for moving in &self.moving {
+            let register = moving.register as usize;
+            self.slopes[plan.registers[register].slot as usize] = moving.slope;
+            let touches = &self.graph.touches[register * stride..][..stride];
+            for (to, from) in self.touched.iter_mut().zip(touches) {
+                *to |= from;
+            }
+        }
+        self.follow(plan, slab, most)
+    }
+
+    fn follow(&mut self, plan: &Plan, slab: &[u64], most: u64) -> u64 {
+        let graph = &self.graph;
+        let mut pairs = Pairs {
+            plan,
+            graph,
+            slab,
+            known: &mut self.lines,
+            stamp: self.stamp,
+            slopes: &self.slopes,
+            touched: &self.touched,
+        };
+        let mut until = most;
+        let edges = &self.touched[graph.edge_word..graph.sight_word];
+        self.due.copy_from_slice(edges);
+        if has(&self.due, self.bent) {
+            // What bent a line is likely to do so again.
+            self.due[self.bent / 64] &= !(1 << (self.bent % 64));
+            until = until.min(pairs.edge(self.bent));
+            if until <= 1 {
+                return until;
+            }
+        }
+        for word in 0..self.due.len() {
+            let mut due = self.due[word];
+            while due != 0 {
+                let edge = word * 64 + due.trailing_zeros() as usize;
+                due &= due - 1;
+                until = until.min(pairs.edge(edge));
+                if until <= 1 {
+                    self.bent = edge;
+                    return until;
+                }
+            }
+        }
+        for (word, &seen) in self.touched[graph.sight_word..].iter().enumerate() {
+            let mut seen = seen;
+            while seen != 0 {
+                let sight = word * 64 + seen.trailing_zeros() as usize;
+                seen &= seen - 1;
+                until = until.min(pairs.net(graph.sights[sight].net));
+            }
+        }
+        until
+    }
+
+    /// Takes over which edge blocks are hot.
+    fn heat(&mut self, hot: &[bool]) {
+        if hot == self.hot {
+            return;
+        }
+        self.hot.copy_from_slice(hot);
+        self.hot_bits.fill(0);
+        for (edge, _) in hot.iter().enumerate().filter(|(_, hot)| **hot) {
+            insert(&mut self.hot_bits, edge);
+        }
+    }
+
+    /// Goes over so many ticks, at most as many as the last horizon.
+    ///
+    /// The slab is then as after so many edges with a settling before each.
+    pub fn jump(&mut self, plan: &Plan, slab: &mut [u64], ticks: u64) {
+        for moving in &self.moving {
+            let register = plan.registers[moving.register as usize];
+            let way = moving.slope.wrapping_mul(ticks);
+            let value = slab[register.slot as usize].wrapping_add(way) & mask(register.width);
+            put(&plan.layout, slab, register.slot, value);
+        }
+    }
+}

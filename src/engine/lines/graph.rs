@@ -1,0 +1,379 @@
+//! The nodes of a plan by whom they are made of, so that only what matters is looked at.
+
+use super::tree::{Item, Root, tree};
+use crate::engine::layout::{Slot, Spot};
+use crate::engine::plan::{Block, Code, Plan, Step};
+use std::collections::HashMap;
+
+/// What a node is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum From {
+    /// A register.
+    Register(Slot),
+    /// A port in or a number.
+    Fixed(Slot),
+    /// A net: its number.
+    Net(u32),
+    /// A node.
+    Node(u32),
+}
+
+/// A node.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Node {
+    pub code: Code,
+    pub width: u8,
+    pub from: u8,
+    pub by: u8,
+    /// Whether several take it.
+    pub shared: bool,
+    pub a: From,
+    pub b: From,
+    pub c: From,
+    pub memory: u32,
+}
+
+/// A net.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Net {
+    pub slot: Slot,
+    pub made: From,
+}
+
+/// A watched word that a node drives.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sight {
+    pub net: u32,
+}
+
+#[derive(Debug, Clone, Default)]
+pub(super) struct Graph {
+    pub nodes: Vec<Node>,
+    pub nets: Vec<Net>,
+    /// What each edge block does: its first item.
+    pub starts: Vec<u32>,
+    pub items: Vec<Item>,
+    /// Nets that are watched.
+    pub sights: Vec<Sight>,
+    /// The bits of what a register moves: its nets, from word 0 on.
+    pub edge_word: usize,
+    /// Where the edge blocks begin.
+    pub sight_word: usize,
+    /// The words of a register.
+    pub stride: usize,
+    pub touches: Vec<u64>,
+    /// By register: whether it is watched.
+    pub watched: Vec<bool>,
+    /// One above the last slot of a register.
+    pub slots: usize,
+}
+
+/// Registers, a bit each.
+type Set = Vec<u64>;
+
+pub(super) fn has(set: &[u64], bit: usize) -> bool {
+    set[bit / 64] >> (bit % 64) & 1 != 0
+}
+
+pub(super) fn insert(set: &mut [u64], bit: usize) {
+    set[bit / 64] |= 1 << (bit % 64);
+}
+
+fn unite(set: &mut [u64], other: &[u64]) {
+    set.iter_mut().zip(other).for_each(|(to, from)| *to |= from);
+}
+
+impl Graph {
+    pub fn new(plan: &Plan) -> Graph {
+        let mut making = Making::new(plan);
+        let mut trees = Vec::new();
+        let mut edges = Vec::new();
+        for (place, block) in plan.blocks.iter().enumerate() {
+            let known = making.block(block);
+            if place < plan.settling {
+                for &(from, to) in &block.outputs {
+                    making.net(known[&from], to);
+                }
+                continue;
+            }
+            let mut roots = Vec::new();
+            let mut set = vec![0; making.words];
+            for &(number, slot) in &block.registers {
+                let register = plan.registers[number as usize];
+                let next = making.at(slot, &known);
+                let next = making.fit(next, register.width);
+                insert(&mut set, number as usize);
+                unite(&mut set, &making.set(next));
+                roots.push(Root::Register {
+                    register: number,
+                    next,
+                });
+            }
+            for write in &block.writes {
+                let enable = making.at(write.enable, &known);
+                unite(&mut set, &making.set(enable));
+                // What is written does not matter while nothing is.
+                roots.push(Root::Write { enable });
+            }
+            edges.push(set);
+            trees.push(roots);
+        }
+        making.finish(&trees, &edges)
+    }
+}
+
+struct Making<'p> {
+    plan: &'p Plan,
+    graph: Graph,
+    /// The words of a set.
+    words: usize,
+    /// The registers that each node, each net, is made of.
+    nodes: Vec<Set>,
+    nets: Vec<Set>,
+    registers: HashMap<Slot, u32>,
+    numbers: HashMap<Slot, u32>,
+}
+
+impl<'p> Making<'p> {
+    fn new(plan: &'p Plan) -> Self {
+        let registers = plan.registers.iter().enumerate();
+        Making {
+            plan,
+            graph: Graph::default(),
+            words: plan.registers.len().div_ceil(64),
+            nodes: Vec::new(),
+            nets: Vec::new(),
+            registers: registers
+                .map(|(number, register)| (register.slot, number as u32))
+                .collect(),
+            numbers: HashMap::new(),
+        }
+    }
+
+    fn at(&self, slot: Slot, known: &HashMap<Slot, From>) -> From {
+        if let Some(&from) = known.get(&slot) {
+            from
+        } else if let Some(&net) = self.numbers.get(&slot) {
+            From::Net(net)
+        } else if self.registers.contains_key(&slot) {
+            From::Register(slot)
+        } else {
+            From::Fixed(slot)
+        }
+    }
+
+    fn set(&self, from: From) -> Set {
+        match from {
+            From::Fixed(_) => vec![0; self.words],
+            From::Register(slot) => {
+                let mut set = vec![0; self.words];
+                insert(&mut set, self.registers[&slot] as usize);
+                set
+            }
+            From::Net(net) => self.nets[net as usize].clone(),
+            From::Node(node) => self.nodes[node as usize].clone(),
+        }
+    }
+
+    /// Its width, if it can move.
+    fn width(&self, from: From) -> Option<u8> {
+        match from {
+            From::Fixed(_) => None,
+            From::Register(slot) => {
+                Some(self.plan.registers[self.registers[&slot] as usize].width)
+            }
+            From::Net(net) => self.width(self.graph.nets[net as usize].made),
+            From::Node(node) => Some(self.graph.nodes[node as usize].width),
+        }
+    }
+
+    /// The same in so many bits.
+    fn fit(&mut self, from: From, width: u8) -> From {
+        match self.width(from) {
+            Some(known) if known != width => {
+                let node = Node {
+                    code: Code::Extend,
+                    width,
+                    from: known,
+                    by: 0,
+                    shared: false,
+                    a: from,
+                    b: from,
+                    c: from,
+                    memory: 0,
+                };
+                let set = self.set(from);
+                self.node(node, set)
+            }
+            _ => from,
+        }
+    }
+
+    fn node(&mut self, node: Node, set: Set) -> From {
+        self.graph.nodes.push(node);
+        self.nodes.push(set);
+        From::Node(self.graph.nodes.len() as u32 - 1)
+    }
+
+    fn net(&mut self, made: From, slot: Slot) {
+        let number = self.graph.nets.len() as u32;
+        self.graph.nets.push(Net { slot, made });
+        self.nets.push(self.set(made));
+        self.numbers.insert(slot, number);
+    }
+
+    /// The nodes of a block, by where they stand while it runs.
+    fn block(&mut self, block: &Block) -> HashMap<Slot, From> {
+        let mut known = HashMap::new();
+        for step in &block.steps {
+            let from = self.step(step, &known);
+            known.insert(step.to, from);
+        }
+        known
+    }
+
+    fn step(&mut self, step: &Step, known: &HashMap<Slot, From>) -> From {
+        let Step { code, width, .. } = *step;
+        let a = self.at(step.a, known);
+        if code == Code::Extend && self.width(a) == Some(width) {
+            return a;
+        }
+        let mut node = Node {
+            code,
+            width,
+            from: step.from,
+            by: step.by,
+            shared: false,
+            a,
+            b: a,
+            c: a,
+            memory: 0,
+        };
+        match code {
+            Code::Not | Code::Negate | Code::ShiftLeft => node.a = self.fit(a, width),
+            Code::Add | Code::Subtract | Code::Multiply | Code::And | Code::Or | Code::Xor => {
+                node.a = self.fit(a, width);
+                node.b = self.at(step.b, known);
+                node.b = self.fit(node.b, width);
+            }
+            Code::Equal | Code::Below | Code::BelowSigned => {
+                // Equality and order do not ask for more bits than there are, the sign does.
+                let b = self.at(step.b, known);
+                let wide = match code {
+                    Code::BelowSigned => step.from,
+                    _ => step.from.max(step.by),
+                };
+                node.from = wide;
+                node.a = self.fit(a, wide);
+                node.b = self.fit(b, wide);
+            }
+            Code::Mux => {
+                node.b = self.at(step.b, known);
+                node.b = self.fit(node.b, width);
+                node.c = self.at(step.c, known);
+                node.c = self.fit(node.c, width);
+            }
+            Code::Join => node.b = self.at(step.b, known),
+            Code::Read => node.memory = step.c,
+            Code::ShiftRight
+            | Code::ShiftRightSigned
+            | Code::Slice
+            | Code::Extend
+            | Code::ExtendSigned => {}
+        }
+        if code == Code::Join {
+            node.a = self.fit(a, width);
+        }
+        let mut set = self.set(node.a);
+        unite(&mut set, &self.set(node.b));
+        unite(&mut set, &self.set(node.c));
+        self.node(node, set)
+    }
+
+    fn finish(mut self, trees: &[Vec<Root>], edges: &[Set]) -> Graph {
+        for roots in trees {
+            self.graph.starts.push(self.graph.items.len() as u32);
+            tree(self.plan, &self.graph.nodes, roots, &mut self.graph.items);
+        }
+        self.sights();
+        self.share();
+        let graph = &mut self.graph;
+        graph.edge_word = graph.nets.len().div_ceil(64);
+        graph.sight_word = graph.edge_word + edges.len().div_ceil(64);
+        graph.stride = graph.sight_word + graph.sights.len().div_ceil(64);
+        graph.touches = vec![0; graph.stride * self.plan.registers.len()];
+        let sights = graph.sights.iter().map(|sight| &self.nets[sight.net as usize]);
+        for (word, sets) in [
+            (0, self.nets.iter().collect::<Vec<_>>()),
+            (graph.edge_word, edges.iter().collect()),
+            (graph.sight_word, sights.collect()),
+        ] {
+            for (bit, set) in sets.into_iter().enumerate() {
+                for register in 0..self.plan.registers.len() {
+                    if has(set, register) {
+                        let start = register * graph.stride + word;
+                        insert(&mut graph.touches[start..], bit);
+                    }
+                }
+            }
+        }
+        let last = self.registers.keys().max();
+        graph.slots = last.map_or(0, |&slot| slot as usize + 1);
+        self.graph
+    }
+
+    /// What is watched.
+    fn sights(&mut self) {
+        let layout = &self.plan.layout;
+        self.graph.watched = vec![false; self.plan.registers.len()];
+        let watched = layout.watched.iter().map(|watched| watched.slot);
+        let properties = layout.properties.iter().filter_map(|spot| match spot {
+            Spot::Slot(slot) => Some(*slot),
+            _ => None,
+        });
+        for slot in watched.chain(properties) {
+            if let Some(&register) = self.registers.get(&slot) {
+                self.graph.watched[register as usize] = true;
+            } else if let Some(&net) = self.numbers.get(&slot) {
+                self.graph.sights.push(Sight { net });
+            }
+        }
+    }
+
+    /// Which nodes several take.
+    fn share(&mut self) {
+        let mut uses = vec![0u32; self.graph.nodes.len()];
+        let mut take = |from: From| {
+            if let From::Node(node) = from {
+                uses[node as usize] += 1;
+            }
+        };
+        for node in &self.graph.nodes {
+            take(node.a);
+            match node.code {
+                Code::Mux => {
+                    take(node.b);
+                    take(node.c);
+                }
+                _ if node.b != node.a => take(node.b),
+                _ => {}
+            }
+        }
+        for net in &self.graph.nets {
+            // Whoever reads it takes it.
+            take(net.made);
+            take(net.made);
+        }
+        for item in &self.graph.items {
+            match *item {
+                Item::Choose { on, .. } => take(on),
+                Item::Register { next, .. } => take(next),
+                Item::Write { enable } => take(enable),
+                Item::Goto { .. } | Item::End => {}
+            }
+        }
+        for (node, uses) in self.graph.nodes.iter_mut().zip(uses) {
+            node.shared = uses > 1;
+        }
+    }
+}

@@ -1,0 +1,84 @@
+use super::{Circuit, Declarations, Role};
+use crate::engine::{Engine, EngineError, Flat, Program, Watch, ports_out};
+use crate::logic::netlist::{Design, elaborate};
+use std::sync::{Arc, OnceLock};
+
+/// A circuit that is elaborated, its type forgotten: what waves, charts, Verilog and random runs
+/// are made of.
+#[derive(Debug, Clone)]
+pub struct Model {
+    name: &'static str,
+    about: &'static str,
+    design: Arc<Design>,
+    flat: Arc<Flat>,
+    outline: fn() -> Declarations,
+    declarations: OnceLock<Arc<Declarations>>,
+}
+
+impl Model {
+    /// Elaborates a circuit.
+    ///
+    /// # Errors
+    /// The circuit is no netlist.
+    pub fn of<C: Circuit>(circuit: &C) -> Result<Model, EngineError> {
+        let design = elaborate(circuit).map_err(EngineError::Netlist)?;
+        Ok(Model {
+            name: C::NAME,
+            about: C::ABOUT,
+            flat: Arc::new(Flat::of(&design)?),
+            design: Arc::new(design),
+            outline: Declarations::of::<C>,
+            declarations: OnceLock::new(),
+        })
+    }
+
+    /// The circuit's name.
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// What it does, in one line.
+    pub fn about(&self) -> &'static str {
+        self.about
+    }
+
+    /// Its modules.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// It as one netlist.
+    pub fn flat(&self) -> &Flat {
+        &self.flat
+    }
+
+    /// Its signals, in the order of the leaves of its [`engine`](Self::engine), with what they are
+    /// at power-on.
+    pub fn declarations(&self) -> &Declarations {
+        self.declarations.get_or_init(|| {
+            let mut declarations = (self.outline)();
+            let mut engine = self.engine(Watch::All);
+            engine.settle();
+            for (leaf, declaration) in declarations.leaves.iter_mut().enumerate() {
+                declaration.power_on = engine.leaf(leaf);
+            }
+            Arc::new(declarations)
+        })
+    }
+
+    /// It ready to run, at power-on with all ports in low.
+    pub fn engine(&self, watch: Watch<'_>) -> Engine {
+        Engine::new(self.program(watch))
+    }
+
+    /// It planned.
+    pub fn program(&self, watch: Watch<'_>) -> Arc<Program> {
+        let held = ports_out(&self.design);
+        Arc::new(Program::planned(&self.flat, watch, &held))
+    }
+
+    /// The leaves of a part of the whole.
+    pub(crate) fn leaves(&self, role: Role) -> std::ops::Range<usize> {
+        self.flat.part(role)
+    }
+}

@@ -1,0 +1,226 @@
+use super::probe::{Source, supply};
+use super::{Circuit, Field, Role, Shape, Signals};
+use crate::engine::Engine;
+use crate::logic::Sim;
+use crate::logic::netlist::{NetBit, NetInt, NetUInt};
+use std::cell::OnceCell;
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Deref;
+use std::sync::Arc;
+
+/// All signals of a circuit at one tick, settled: what stands in the waves while `clk` is high.
+pub struct Sample<'a, C: Circuit> {
+    /// The tick, from 0.
+    pub tick: u64,
+    /// Ports in.
+    pub i: &'a Part<'a, C::In<Sim>>,
+    /// Registers.
+    pub q: &'a Part<'a, C::Reg<Sim>>,
+    /// Nets.
+    pub w: &'a Part<'a, C::Net<Sim>>,
+    engine: &'a Engine,
+}
+
+impl<C: Circuit> Sample<'_, C> {
+    /// Shows a settled tick.
+    pub(crate) fn show<T>(tick: u64, engine: &Engine, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
+        show(&Sample {
+            tick,
+            i: &Part::new(Role::Input, engine),
+            q: &Part::new(Role::Register, engine),
+            w: &Part::new(Role::Net, engine),
+            engine,
+        })
+    }
+
+    /// What is watched at a place.
+    pub fn get<T: Word>(&self, at: At<T>) -> T {
+        at.of(self.engine)
+    }
+
+    /// What runs.
+    pub fn engine(&self) -> &Engine {
+        self.engine
+    }
+
+    /// The registers of the next tick, if no reset comes.
+    pub fn next(&self) -> C::Reg<Sim> {
+        let mut engine = self.engine.clone();
+        engine.edge();
+        record(Role::Register, &engine)
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Sample<'_, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Sample")
+            .field("tick", &self.tick)
+            .field("i", self.i)
+            .field("q", self.q)
+            .field("w", self.w)
+            .finish()
+    }
+}
+
+/// Ports in, registers or nets of a circuit as a record of numbers, which is made when it is first
+/// looked at.
+pub struct Part<'a, S> {
+    made: OnceCell<S>,
+    role: Role,
+    engine: &'a Engine,
+}
+
+impl<'a, S> Part<'a, S> {
+    pub(super) fn new(role: Role, engine: &'a Engine) -> Self {
+        Part {
+            made: OnceCell::new(),
+            role,
+            engine,
+        }
+    }
+}
+
+impl<S: Signals<Sim>> Deref for Part<'_, S> {
+    type Target = S;
+
+    fn deref(&self) -> &S {
+        self.made.get_or_init(|| record(self.role, self.engine))
+    }
+}
+
+impl<S: Signals<Sim>> fmt::Debug for Part<'_, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        (**self).fmt(f)
+    }
+}
+
+/// A part of a circuit as a record.
+pub(crate) fn record<S: Signals<Sim>>(role: Role, engine: &Engine) -> S {
+    let first = engine.flat().part(role).start;
+    supply(
+        role,
+        &mut Leaves {
+            engine,
+            leaf: first,
+        },
+    )
+}
+
+struct Leaves<'a> {
+    engine: &'a Engine,
+    leaf: usize,
+}
+
+impl Source for Leaves<'_> {
+    fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
+        self.leaf += 1;
+        self.engine.leaf(self.leaf - 1)
+    }
+
+    fn memory(&mut self, words: usize) -> Option<Arc<[u64]>> {
+        let memory = self.engine.memory_at(self.leaf)?;
+        self.leaf += words;
+        Some(memory)
+    }
+}
+
+/// Where a signal is that is watched; see [`Simulator::watching`](super::Simulator::watching).
+pub struct At<T> {
+    leaf: usize,
+    /// Bits of 64 that are above it.
+    spare: u32,
+    word: PhantomData<fn() -> T>,
+}
+
+impl<T: Word> At<T> {
+    pub(super) fn new(leaf: usize, width: usize) -> Self {
+        At {
+            leaf,
+            spare: 64 - width as u32,
+            word: PhantomData,
+        }
+    }
+
+    /// The leaf of the walk.
+    pub fn leaf(self) -> usize {
+        self.leaf
+    }
+
+    pub(super) fn of(self, engine: &Engine) -> T {
+        T::of(engine.leaf(self.leaf), self.spare)
+    }
+}
+
+// Written out because a derive would ask the word itself to be `Copy`.
+impl<T> Clone for At<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for At<T> {}
+
+impl<T> fmt::Debug for At<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "At({})", self.leaf)
+    }
+}
+
+/// What is seen at a place.
+pub trait Word {
+    /// From the word that stands there, and the number of bits above it.
+    fn of(word: u64, spare: u32) -> Self;
+}
+
+impl Word for bool {
+    fn of(word: u64, _: u32) -> bool {
+        word != 0
+    }
+}
+
+impl Word for u64 {
+    fn of(word: u64, _: u32) -> u64 {
+        word
+    }
+}
+
+impl Word for i64 {
+    fn of(word: u64, spare: u32) -> i64 {
+        (word << spare) as i64 >> spare
+    }
+}
+
+/// A wire or word of the records of places.
+pub trait Place: Copy {
+    /// What is seen there.
+    type Word: Word;
+    /// Its width in bits.
+    const WIDTH: usize;
+    /// The leaf that it is.
+    fn leaf(self) -> usize;
+}
+
+impl Place for NetBit {
+    type Word = bool;
+    const WIDTH: usize = 1;
+    fn leaf(self) -> usize {
+        self.id()
+    }
+}
+
+impl<const N: usize> Place for NetUInt<N> {
+    type Word = u64;
+    const WIDTH: usize = N;
+    fn leaf(self) -> usize {
+        self.id()
+    }
+}
+
+impl<const N: usize> Place for NetInt<N> {
+    type Word = i64;
+    const WIDTH: usize = N;
+    fn leaf(self) -> usize {
+        self.id()
+    }
+}
