@@ -64,6 +64,7 @@ impl From<JobError> for Failure {
             // Settings have been checked; this is for what a check may yet let through.
             JobError::Setting(error) => Failure::Check(error.to_string()),
             JobError::Run(error) => Failure::Run(error),
+            JobError::Engine(error) => Failure::Run(error.into()),
         }
     }
 }

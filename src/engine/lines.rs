@@ -42,9 +42,9 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// Room for a plan.
-    pub fn new(plan: &Plan) -> Lines {
-        let graph = Graph::new(plan);
+    /// Room for a plan. By slot: which nets and registers are to stay as they are.
+    pub fn new(plan: &Plan, held: &[bool]) -> Lines {
+        let graph = Graph::new(plan, held);
         let edges = plan.blocks.len() - plan.settling;
         Lines {
             stamp: 0,
@@ -150,7 +150,7 @@ impl Lines {
             while seen != 0 {
                 let sight = word * 64 + seen.trailing_zeros() as usize;
                 seen &= seen - 1;
-                until = until.min(pairs.net(graph.sights[sight].net));
+                until = until.min(pairs.net(graph.sights[sight]));
             }
         }
         until

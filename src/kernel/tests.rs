@@ -37,6 +37,7 @@ fn a_register_shows_a_tick_later_what_was_decided() {
     let circuit = Counter::<3>;
     let mut seen = Vec::new();
     Simulator::new(&circuit)
+        .unwrap()
         .run(
             6,
             |_, _| In { period: 3.into() },
@@ -60,7 +61,7 @@ fn a_register_shows_a_tick_later_what_was_decided() {
 
 #[test]
 fn declarations_name_every_leaf_once() {
-    let paths: Vec<_> = Declarations::of(&Counter::<3>)
+    let paths: Vec<_> = Declarations::of::<Counter<3>>()
         .leaves
         .iter()
         .map(|leaf| (leaf.path(), leaf.role, leaf.shape.width))

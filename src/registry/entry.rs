@@ -1,5 +1,4 @@
 use super::{AnyCircuit, AnyModel};
-use crate::engine::EngineError;
 use crate::kernel::Declarations;
 
 /// Widths that circuits are made with for proofs and charts.
@@ -38,12 +37,9 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// Its signals at the default widths, with what they are at power-on.
-    ///
-    /// # Errors
-    /// It is no netlist.
-    pub fn declarations(&self) -> Result<Declarations, EngineError> {
-        (self.full)().declarations()
+    /// Its signals at the default widths.
+    pub fn declarations(&self) -> Declarations {
+        (self.full)().outline()
     }
 }
 

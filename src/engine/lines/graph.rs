@@ -1,7 +1,7 @@
 //! The nodes of a plan by whom they are made of, so that only what matters is looked at.
 
 use super::tree::{Item, Root, tree};
-use crate::engine::layout::{Slot, Spot};
+use crate::engine::layout::Slot;
 use crate::engine::plan::{Block, Code, Plan, Step};
 use std::collections::HashMap;
 
@@ -40,12 +40,6 @@ pub(super) struct Net {
     pub made: From,
 }
 
-/// A watched word that a node drives.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Sight {
-    pub net: u32,
-}
-
 #[derive(Debug, Clone, Default)]
 pub(super) struct Graph {
     pub nodes: Vec<Node>,
@@ -53,17 +47,16 @@ pub(super) struct Graph {
     /// What each edge block does: its first item.
     pub starts: Vec<u32>,
     pub items: Vec<Item>,
-    /// Nets that are watched.
-    pub sights: Vec<Sight>,
-    /// The bits of what a register moves: its nets, from word 0 on.
-    pub edge_word: usize,
-    /// Where the edge blocks begin.
-    pub sight_word: usize,
-    /// The words of a register.
-    pub stride: usize,
+    /// Nets that are to stay as they are.
+    pub sights: Vec<u32>,
+    /// Of each register so many words: a bit for each net that it moves, from `edge_word` on for
+    /// each edge block, from `sight_word` on for each of the nets in `sights`.
     pub touches: Vec<u64>,
-    /// By register: whether it is watched.
-    pub watched: Vec<bool>,
+    pub stride: usize,
+    pub edge_word: usize,
+    pub sight_word: usize,
+    /// By register: whether it is to stay as it is.
+    pub held: Vec<bool>,
     /// One above the last slot of a register.
     pub slots: usize,
 }
@@ -84,7 +77,7 @@ fn unite(set: &mut [u64], other: &[u64]) {
 }
 
 impl Graph {
-    pub fn new(plan: &Plan) -> Graph {
+    pub fn new(plan: &Plan, held: &[bool]) -> Graph {
         let mut making = Making::new(plan);
         let mut trees = Vec::new();
         let mut edges = Vec::new();
@@ -118,7 +111,7 @@ impl Graph {
             edges.push(set);
             trees.push(roots);
         }
-        making.finish(&trees, &edges)
+        making.finish(&trees, &edges, held)
     }
 }
 
@@ -179,9 +172,7 @@ impl<'p> Making<'p> {
     fn width(&self, from: From) -> Option<u8> {
         match from {
             From::Fixed(_) => None,
-            From::Register(slot) => {
-                Some(self.plan.registers[self.registers[&slot] as usize].width)
-            }
+            From::Register(slot) => Some(self.plan.registers[self.registers[&slot] as usize].width),
             From::Net(net) => self.width(self.graph.nets[net as usize].made),
             From::Node(node) => Some(self.graph.nodes[node as usize].width),
         }
@@ -290,19 +281,19 @@ impl<'p> Making<'p> {
         self.node(node, set)
     }
 
-    fn finish(mut self, trees: &[Vec<Root>], edges: &[Set]) -> Graph {
+    fn finish(mut self, trees: &[Vec<Root>], edges: &[Set], held: &[bool]) -> Graph {
         for roots in trees {
             self.graph.starts.push(self.graph.items.len() as u32);
             tree(self.plan, &self.graph.nodes, roots, &mut self.graph.items);
         }
-        self.sights();
+        self.sights(held);
         self.share();
         let graph = &mut self.graph;
         graph.edge_word = graph.nets.len().div_ceil(64);
         graph.sight_word = graph.edge_word + edges.len().div_ceil(64);
         graph.stride = graph.sight_word + graph.sights.len().div_ceil(64);
         graph.touches = vec![0; graph.stride * self.plan.registers.len()];
-        let sights = graph.sights.iter().map(|sight| &self.nets[sight.net as usize]);
+        let sights = graph.sights.iter().map(|sight| &self.nets[*sight as usize]);
         for (word, sets) in [
             (0, self.nets.iter().collect::<Vec<_>>()),
             (graph.edge_word, edges.iter().collect()),
@@ -322,20 +313,14 @@ impl<'p> Making<'p> {
         self.graph
     }
 
-    /// What is watched.
-    fn sights(&mut self) {
-        let layout = &self.plan.layout;
-        self.graph.watched = vec![false; self.plan.registers.len()];
-        let watched = layout.watched.iter().map(|watched| watched.slot);
-        let properties = layout.properties.iter().filter_map(|spot| match spot {
-            Spot::Slot(slot) => Some(*slot),
-            _ => None,
-        });
-        for slot in watched.chain(properties) {
-            if let Some(&register) = self.registers.get(&slot) {
-                self.graph.watched[register as usize] = true;
-            } else if let Some(&net) = self.numbers.get(&slot) {
-                self.graph.sights.push(Sight { net });
+    /// What is to stay as it is.
+    fn sights(&mut self, held: &[bool]) {
+        let held = |slot: Slot| held.get(slot as usize).copied().unwrap_or(false);
+        let registers = self.plan.registers.iter();
+        self.graph.held = registers.map(|register| held(register.slot)).collect();
+        for (number, net) in self.graph.nets.iter().enumerate() {
+            if held(net.slot) {
+                self.graph.sights.push(number as u32);
             }
         }
     }

@@ -86,7 +86,9 @@ impl Growing<'_> {
         let mut groups: Vec<Group> = Vec::new();
         for root in roots {
             let Root::Register { register, mut next } = root else {
-                let Root::Write { enable } = root else { continue };
+                let Root::Write { enable } = root else {
+                    continue;
+                };
                 self.items.push(Item::Write { enable });
                 continue;
             };

@@ -62,7 +62,7 @@ impl Words<'_> {
                     let next = self.word(next);
                     if next != now {
                         // A bit that turns over is hardly ever on a line that anything follows.
-                        if planned.1 == 1 || graph.watched[register as usize] {
+                        if planned.1 == 1 || graph.held[register as usize] {
                             return Err(Ends);
                         }
                         let slope = next.wrapping_sub(now) & mask(planned.1);
