@@ -327,8 +327,8 @@ fn parts_that_do_not_belong_together_are_refused() {
 }
 
 /// The passage of the README, on this machine.
-#[cfg(feature = "cosim")]
 #[test]
+#[ignore = "needs GNU parallel"]
 fn gnu_parallel_does_the_parts() {
     let bench = Bench::new();
     let whole = timeless(&bench.succeed(&WORK));
