@@ -131,7 +131,8 @@ fn every_circuit_is_made_at_its_widths_and_no_other() {
             .filter(|&width| (entry.model)(&[width]).is_some())
             .collect();
         assert_eq!(made, entry.offered, "{name}");
-        assert!(made.contains(&4) && made.contains(&8), "{name}");
+        let narrow = made.contains(&3) || made.contains(&4);
+        assert!(narrow && made.contains(&8), "{name}");
         for &width in entry.offered {
             let model = (entry.model)(&[width]).expect("it was made");
             assert_eq!(model.name(), name);
