@@ -2,7 +2,7 @@
 //! 4,096 words; formatted alone, and into a file as VCD, as VCD with a thread that formats and writes,
 //! as FST.
 
-#[path = "../tests/waves/zoo.rs"]
+#[path = "../tests/files/waves/zoo.rs"]
 #[expect(dead_code, reason = "only its part is measured here")]
 mod zoo;
 

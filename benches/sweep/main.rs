@@ -1,8 +1,7 @@
 //! Cases a second of exhaustive checks: the integrator of the linear interpolator at 8 bits, case by
-//! case and in lanes, on one thread and on two. With the feature cosim the same cases as a loop around
-//! the Verilated circuit, in turn with ours, before that.
+//! case and in lanes, on one thread and on two. Before that, where Verilator is installed, the same
+//! cases as a loop around the Verilated circuit, in turn with ours.
 
-#[cfg(feature = "cosim")]
 mod verilated;
 
 use divan::counter::ItemsCount;
@@ -57,7 +56,12 @@ fn lanes<const K: usize>(bencher: divan::Bencher<'_, '_>, threads: usize) {
 }
 
 fn main() {
-    #[cfg(feature = "cosim")]
-    verilated::beside();
+    // What tests the benches has no use for a comparison that takes minutes.
+    if std::env::args().any(|argument| argument == "--bench") {
+        match verilated::is_installed() {
+            true => verilated::beside(),
+            false => println!("no verilator on PATH: without the Verilated circuit"),
+        }
+    }
     divan::main();
 }

@@ -19,6 +19,12 @@ const OURS: u64 = 1 << 18;
 /// `verilated.mk` has `-Os` of its own behind what `-CFLAGS` says.
 const LEVELS: [&str; 3] = ["OPT_FAST=-O3", "OPT_SLOW=-O3", "OPT_GLOBAL=-O3"];
 
+/// Whether `verilator` is found and starts.
+pub fn is_installed() -> bool {
+    let version = Command::new("verilator").arg("--version").output();
+    version.is_ok_and(|version| version.status.success())
+}
+
 fn run(directory: &Path, program: &str, arguments: &[&str]) -> String {
     let output = Command::new(program)
         .args(arguments)

@@ -11,7 +11,7 @@
 //! inputs on both sides, so neither folds them. Waves are those of every signal and of `clk`; words
 //! of memories with more than 256 are in ours only.
 //!
-//! `--quick` runs each once over few ticks; a word is looked for in the names of the circuits.
+//! It needs Verilator, a C++ compiler and make. `--quick` runs each once over few ticks; a word is looked for in the names of the circuits.
 
 mod jobs;
 mod ours;
@@ -157,6 +157,10 @@ fn main() {
         }
     }
     let asked = &asked;
+    if !theirs::is_installed() {
+        eprintln!("error: no verilator on PATH; this bench needs it, a C++ compiler and make");
+        std::process::exit(1);
+    }
     println!(
         "{:<36} {:<28} {:>9} {:>9} {:>6} {:>7}",
         "nanoseconds a tick", "", "Verilator", "ours", "ratio", "fastest"

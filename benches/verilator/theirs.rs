@@ -10,6 +10,12 @@ use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Duration;
 
+/// Whether `verilator` is found and starts.
+pub fn is_installed() -> bool {
+    let version = Command::new("verilator").arg("--version").output();
+    version.is_ok_and(|version| version.status.success())
+}
+
 /// What Verilator builds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Build {

@@ -4,9 +4,6 @@ use crate::kernel::Declarations;
 /// Widths that circuits are made with for proofs and charts.
 pub const WIDTHS: std::ops::RangeInclusive<u64> = 2..=4;
 
-/// Widths that most circuits are made with where their proofs are not wanted.
-pub const MODEL_WIDTHS: &[u64] = &[2, 3, 4, 8, 16, 32];
-
 /// One circuit of the catalogue.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
@@ -57,20 +54,6 @@ macro_rules! at_width {
     };
 }
 
-/// The two functions of an [`Entry`] for a circuit that can have any width.
-macro_rules! any_width {
-    (|$width:ident| $circuit:expr) => {
-        any_width!(|given, $width| $crate::registry::entry::alone(given, $circuit)?)
-    };
-    (|$given:ident, $width:ident| $circuit:expr) => {
-        Made {
-            make: |$given| at_width!([2 3 4], $given, $width => $circuit),
-            model: |$given| at_width!([2 3 4 8 16 32], $given, $width => $circuit),
-            offered: $crate::registry::MODEL_WIDTHS,
-        }
-    };
-}
-
 /// The functions of an [`Entry`] for a circuit without proofs by exhaustion, at some widths.
 macro_rules! some_widths {
     ([$($bits:literal)*], |$width:ident| $circuit:expr) => {
@@ -85,15 +68,18 @@ macro_rules! some_widths {
     };
 }
 
-/// The functions of an [`Entry`] for a circuit that is proved at one width and offered at some: what
-/// each width costs in building time, a large circuit does not need.
+/// The functions of an [`Entry`] for a circuit that is proved at some widths and offered at some:
+/// those that proofs, charts and tests ask for, since each costs time to build.
 macro_rules! proved_at {
-    ($proof:literal; [$($bits:literal)*], |$width:ident| $circuit:expr) => {
-        proved_at!($proof; [$($bits)*], |given, $width| $crate::registry::entry::alone(given, $circuit)?)
+    ([$($proof:literal)*]; [$($bits:literal)*], |$width:ident| $circuit:expr) => {
+        proved_at!(
+            [$($proof)*]; [$($bits)*],
+            |given, $width| $crate::registry::entry::alone(given, $circuit)?
+        )
     };
-    ($proof:literal; [$($bits:literal)*], |$given:ident, $width:ident| $circuit:expr) => {
+    ([$($proof:literal)*]; [$($bits:literal)*], |$given:ident, $width:ident| $circuit:expr) => {
         Made {
-            make: |$given| at_width!([$proof], $given, $width => $circuit),
+            make: |$given| at_width!([$($proof)*], $given, $width => $circuit),
             model: |$given| at_width!([$($bits)*], $given, $width => $circuit),
             offered: &[$($bits),*],
         }
@@ -136,4 +122,4 @@ macro_rules! entry {
     };
 }
 
-pub(super) use {any_width, at_width, entry, proved_at, some_widths};
+pub(super) use {at_width, entry, proved_at, some_widths};

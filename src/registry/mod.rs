@@ -6,7 +6,7 @@ mod model;
 mod sweep;
 
 pub use circuits::CATALOGUE;
-pub use entry::{Entry, MODEL_WIDTHS, WIDTHS};
+pub use entry::{Entry, WIDTHS};
 pub use model::{AnyCircuit, AnyModel, Verdict};
 pub use sweep::{AnySweep, SWEEPS, SweepEntry};
 

@@ -30,15 +30,13 @@ pub static SWEEPS: &[SweepEntry] = &[SweepEntry {
     make: |given| {
         let rule = one_of(given, RULES)?;
         Some(match given.first()? {
-            2 => line::<2, 4>(rule),
             3 => line::<3, 6>(rule),
-            4 => line::<4, 8>(rule),
             6 => line::<6, 12>(rule),
             8 => line::<8, 16>(rule),
             _ => return None,
         })
     },
-    widths: &[2, 3, 4, 6, 8],
+    widths: &[3, 6, 8],
     width: 6,
 }];
 

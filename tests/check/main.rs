@@ -1,10 +1,13 @@
-//! Reachability, lockstep and monitors on circuits whose answers are known by hand.
+//! Reachability, lockstep and monitors on circuits whose answers are known by hand, and what they
+//! stand on: words and memories.
 
 mod circuits;
 mod composite;
 mod lockstep;
 mod monitor;
+mod proofs;
 mod reach;
 mod report;
 mod search;
 mod sweep;
+mod words;

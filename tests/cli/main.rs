@@ -1,4 +1,5 @@
-//! The command line: what it prints, writes, refuses and exits with.
+//! The command line: what it prints, writes, refuses and exits with; what the notes and the README
+//! say.
 
 mod arc;
 mod arc_refusals;
@@ -16,6 +17,8 @@ mod linear_refusals;
 mod machine;
 #[cfg(target_os = "linux")]
 mod memory;
+mod notes;
+mod readme;
 mod refusals;
 mod runs;
 mod scenarios;

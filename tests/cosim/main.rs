@@ -1,5 +1,4 @@
 //! Every circuit's Verilog against the model, in simulators and in synthesis.
-#![cfg(feature = "cosim")]
 
 mod golden_model;
 mod plotter;

@@ -56,6 +56,7 @@ fn hold<C: CommandSource<32, 12>>(
 }
 
 #[test]
+#[ignore = "needs Verilator"]
 fn the_whole_job_is_the_same_in_verilator() {
     hold(
         &plotter(Rule::Floor),
@@ -66,6 +67,7 @@ fn the_whole_job_is_the_same_in_verilator() {
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog"]
 fn some_cycles_of_the_other_rules_are_the_same_in_icarus() {
     for rule in [Rule::Truncating, Rule::Centred] {
         hold(&plotter(rule), rule, 20..24, Simulator::Icarus);
@@ -73,6 +75,7 @@ fn some_cycles_of_the_other_rules_are_the_same_in_icarus() {
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog"]
 fn some_cycles_of_the_conventional_system_are_the_same_in_icarus() {
     hold(&conventional(), Rule::Floor, 26..30, Simulator::Icarus);
 }

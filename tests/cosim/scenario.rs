@@ -38,11 +38,13 @@ fn hold(scenario: &str, simulator: Simulator) {
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog"]
 fn the_bracket_is_the_same_in_icarus() {
     hold("bracket", Simulator::Icarus);
 }
 
 #[test]
+#[ignore = "needs Verilator"]
 fn the_rosette_is_the_same_in_verilator() {
     hold("rosette", Simulator::Verilator);
 }

@@ -51,6 +51,7 @@ fn by_halves(work: impl Fn(&Entry) + Sync) {
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog"]
 fn every_circuit_equals_its_verilog_in_icarus() {
     by_halves(|entry| {
         for circuit in widths(entry) {
@@ -60,6 +61,7 @@ fn every_circuit_equals_its_verilog_in_icarus() {
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog"]
 fn the_other_variants_equal_their_verilog_too() {
     for name in ["pulse_generator", "axis", "unit_law"] {
         let entry = motion_rtl::registry::find(name).unwrap();
@@ -74,6 +76,7 @@ fn the_other_variants_equal_their_verilog_too() {
 }
 
 #[test]
+#[ignore = "needs Verilator"]
 fn the_top_circuits_equal_their_verilog_in_verilator() {
     for name in ["unit_law", "axis", "pulse_interpolator", "controller"] {
         let entry = motion_rtl::registry::find(name).unwrap();
@@ -82,6 +85,7 @@ fn the_top_circuits_equal_their_verilog_in_verilator() {
 }
 
 #[test]
+#[ignore = "needs Verilator"]
 fn verilator_finds_nothing_to_warn_of() {
     by_halves(|entry| {
         for circuit in widths(entry) {

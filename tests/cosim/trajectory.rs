@@ -85,11 +85,13 @@ fn hold<const AXES: usize>(correction: Correction, rounding: Rounding, simulator
 }
 
 #[test]
+#[ignore = "needs Verilator"]
 fn a_corrected_path_in_space_is_the_same_in_verilator() {
     hold::<3>(Correction::Vector, Rounding::Nearest, Simulator::Verilator);
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog"]
 fn the_prior_art_that_rounds_down_is_the_same_in_icarus() {
     hold::<2>(Correction::Steady, Rounding::Floor, Simulator::Icarus);
 }

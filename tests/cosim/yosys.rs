@@ -120,17 +120,19 @@ fn measured(what: &str, fresh: &str) {
     } else {
         assert_eq!(
             old, fresh,
-            "UPDATE_NOTES=1 cargo test --features cosim --test cosim"
+            "UPDATE_NOTES=1 cargo test --release --test cosim -- --ignored"
         );
     }
 }
 
 #[test]
+#[ignore = "needs Yosys"]
 fn every_circuit_goes_through_synthesis_and_the_note_has_its_cells() {
     measured("synthesis", &synthesis());
 }
 
 #[test]
+#[ignore = "needs Yosys"]
 fn assertions_are_proved_by_induction_at_full_width() {
     let table = induction();
     assert_eq!(table.lines().count(), 2 + 3 + 6 + 2 + 4, "{table}");
@@ -156,9 +158,10 @@ fn refute(circuit: &dyn AnyModel, [from, to]: [&str; 2]) {
 }
 
 #[test]
+#[ignore = "needs Yosys"]
 fn what_does_not_hold_is_refuted() {
     let make = |name, given: &[u64]| (motion_rtl::registry::find(name).unwrap().model)(given);
-    let counter = make("unit_time_counter", &[32]).unwrap();
+    let counter = make("unit_time_counter", &[8]).unwrap();
     refute(&*counter, ["next >= period", "next > period"]);
     refute(&*counter, ["count <= next", "count <= period"]);
     let generator = make("pulse_generator", &[16, 0]).unwrap();

@@ -35,7 +35,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0743606B2 [4]",
         ["W" = 24, "P" = 40, "D" = 42],
         "width of commands; as many guard bits",
-        proved_at!(2; [4 8], |W| {
+        proved_at!([2]; [4 8], |W| {
             PositionCommand::<W, { 2 * W }, { 2 * W }>::default()
         })
     ),

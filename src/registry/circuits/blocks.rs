@@ -3,7 +3,7 @@ use crate::blocks::{
     QuadratureCounter, RecordMemory, RecordSequencer,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{Made, alone, any_width, at_width, entry, proved_at, some_widths};
+use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
 
 /// A first difference of x.
 fn column<const P: usize, const F: usize, const D: usize>() -> DifferenceColumn<P, F, D> {
@@ -19,11 +19,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: sequential arithmetic",
         ["M" = 25, "Q" = 58],
         "width of the words; the multiplier has one bit less",
-        Made {
-            make: |given| at_width!([2 3 4], given, W => alone(given, MulDiv::<{ W - 1 }, W>)?),
-            model: |given| at_width!([2 3 4 8 32], given, W => alone(given, MulDiv::<{ W - 1 }, W>)?),
-            offered: &[2, 3, 4, 8, 32],
-        }
+        proved_at!([3]; [4 8], |W| MulDiv::<{ W - 1 }, W>)
     ),
     entry!(
         EnableCounter<24>,
@@ -32,7 +28,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: scan and sample enables",
         ["W" = 24],
         "width",
-        any_width!(|W| EnableCounter::<W>)
+        proved_at!([3]; [3 8], |W| EnableCounter::<W>)
     ),
     entry!(
         QuadratureCounter<32>,
@@ -41,7 +37,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: 13 of JP3608587B2 and others",
         ["W" = 32],
         "width",
-        any_width!(|W| QuadratureCounter::<W>)
+        proved_at!([3]; [2 4 8], |W| QuadratureCounter::<W>)
     ),
     entry!(
         DifferenceColumn<40, 41, 42>,
@@ -50,7 +46,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: a difference of JPH0743606B2 [5], [10]",
         ["P" = 40, "F" = 41, "D" = 42],
         "width of wholes and parts",
-        proved_at!(3; [4 8], |W| column::<W, W, W>())
+        proved_at!([3]; [4 8], |W| column::<W, W, W>())
     ),
     entry!(
         DifferenceEngine<40, 41, 42>,
@@ -68,7 +64,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: which bit of a sequential product",
         ["C" = 42],
         "width of a coefficient",
-        proved_at!(4; [4 8], |W| CoefficientControl::<W>)
+        proved_at!([4]; [4 8], |W| CoefficientControl::<W>)
     ),
     entry!(
         RecordMemory<4, 9, 42>,
@@ -86,6 +82,6 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "block: record after record",
         ["F" = 41, "N" = 20, "D" = 42],
         "width of moduli; a word has three bits more",
-        proved_at!(2; [4 8], |W| RecordSequencer::<W, W, { W + 3 }>)
+        proved_at!([2]; [4 8], |W| RecordSequencer::<W, W, { W + 3 }>)
     ),
 ];

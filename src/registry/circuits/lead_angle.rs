@@ -86,7 +86,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 13",
         ["K" = 199, "T" = 8, "C" = 11],
         "4 for 3 stages, 8 for 15",
-        proved_at!(4; [4 8], |W| RatioLogic::<{ stages(W) }, { tap_bits(W) }, { time_bits(W) }>)
+        proved_at!([4]; [4 8], |W| RatioLogic::<{ stages(W) }, { tap_bits(W) }, { time_bits(W) }>)
     ),
     entry!(
         PositionHistory<199, 8, 24>,
@@ -95,7 +95,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 11 + 14",
         ["K" = 199, "T" = 8, "W" = 24],
         "width: 2 stages for 2, 3 for 4, 15 for 8",
-        proved_at!(2; [2 4 8], |W| PositionHistory::<{ stages(W) }, { tap_bits(W) }, W>)
+        proved_at!([2]; [2 4 8], |W| PositionHistory::<{ stages(W) }, { tap_bits(W) }, W>)
     ),
     entry!(
         RamHistory<199, 8, 24>,
@@ -104,7 +104,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 11 + 14, as a RAM",
         ["K" = 199, "T" = 8, "W" = 24],
         "width: 2 stages for 2, 3 for 4, 15 for 8",
-        proved_at!(2; [2 4 8], |W| RamHistory::<{ stages(W) }, { tap_bits(W) }, W>)
+        proved_at!([2]; [4 8], |W| RamHistory::<{ stages(W) }, { tap_bits(W) }, W>)
     ),
     entry!(
         Lead<24>,
@@ -113,7 +113,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 15 + 16",
         ["W" = 24],
         "width",
-        proved_at!(4; [4 8], |W| Lead::<W>)
+        proved_at!([4]; [4 8], |W| Lead::<W>)
     ),
     entry!(
         TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>,
@@ -140,7 +140,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 1 + 2 of Fig. 7",
         ["W" = 24, "N" = 16],
         "width",
-        proved_at!(2; [2 4 8], |W| SpeedLead::<W, W>)
+        proved_at!([2]; [4 8], |W| SpeedLead::<W, W>)
     ),
     entry!(
         LeadPlacement<24>,
@@ -149,7 +149,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 17, 20",
         ["W" = 24],
         "width, 0 for the position, 1 for the target or 2 for halves",
-        proved_at!(4; [4 8], |given, W| LeadPlacement::<W> {
+        proved_at!([4]; [4 8], |given, W| LeadPlacement::<W> {
             placement: one_of(given, PLACEMENTS)?
         })
     ),
@@ -160,7 +160,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 19",
         ["W" = 24],
         "width, 0 for crossing or 1 for equal",
-        proved_at!(4; [4 8], |given, W| Comparator::<W> {
+        proved_at!([4]; [4 8], |given, W| Comparator::<W> {
             comparing: one_of(given, COMPARINGS)?
         })
     ),
@@ -171,7 +171,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 18",
         ["A" = 4, "W" = 24, "D" = 16],
         "width of positions and speeds (steps have two bits)",
-        proved_at!(2; [2 4 8], |W| TargetSetter::<2, W, W>)
+        proved_at!([2]; [4 8], |W| TargetSetter::<2, W, W>)
     ),
     entry!(
         TimeData<4, 11>,
@@ -180,7 +180,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 21 = 24 + 25, 29",
         ["A" = 4, "C" = 11],
         "width (steps have two bits), and the times of the ROM",
-        proved_at!(2; [2 4 8], |given, W| TimeData::<2, W> { rom: rom(given, 1)? })
+        proved_at!([2]; [4 8], |given, W| TimeData::<2, W> { rom: rom(given, 1)? })
     ),
     entry!(
         CompletionDetector<24, 16>,
@@ -189,7 +189,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 26",
         ["W" = 24, "N" = 16],
         "width",
-        proved_at!(2; [2 4 8], |W| CompletionDetector::<W, W>)
+        proved_at!([2]; [4 8], |W| CompletionDetector::<W, W>)
     ),
     entry!(
         StopError<24>,
@@ -198,7 +198,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2 27, 30, 31",
         ["W" = 24],
         "width, 0 for the converging sign or 1 for the literal one",
-        proved_at!(4; [4 8], |given, W| StopError::<W> {
+        proved_at!([4]; [4 8], |given, W| StopError::<W> {
             sign: one_of(given, SIGNS)?
         })
     ),
@@ -239,7 +239,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JPH0646367B2, step numbers",
         ["A" = 4, "W" = 24, "N" = 16],
         "width of positions and times (steps have two bits)",
-        proved_at!(2; [2 4 8], |W| StepSequencer::<2, W, W>)
+        proved_at!([2]; [4 8], |W| StepSequencer::<2, W, W>)
     ),
     entry!(
         Compensator<TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>>,

@@ -12,7 +12,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         TargetData<6, 32, 12>, TargetData, Some(2), "JP3608587B2 20", ["A" = 6, "P" = 32, "T" = 12],
         "width of positions and times (addresses have two bits)",
-        proved_at!(2; [3 4 8], |W| TargetData::<2, W, W>)
+        proved_at!([2]; [3 8], |W| TargetData::<2, W, W>)
     ),
     entry!(
         Sequencer<32>,
@@ -21,7 +21,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 ¶0005, ¶0014",
         ["P" = 32],
         "width",
-        proved_at!(2; [3 4 8], |W| Sequencer::<W>)
+        proved_at!([2]; [4 8], |W| Sequencer::<W>)
     ),
     entry!(
         Trapezoid<32, 12, 25, 58>,
@@ -50,7 +50,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 21 = 22 + 23",
         ["P" = 32],
         "width",
-        proved_at!(3; [4 8], |W| Differentiator::<W>)
+        proved_at!([3]; [4 8], |W| Differentiator::<W>)
     ),
     entry!(
         Accumulator<32, 64>,
@@ -59,7 +59,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 24, registers",
         ["P" = 32, "R" = 64],
         "width, 0 for floor, 1 for truncating or 2 for centred",
-        some_widths!([3 4 8], |given, W| Accumulator::<W, { 2 * W }> {
+        some_widths!([3 8], |given, W| Accumulator::<W, { 2 * W }> {
             rule: one_of(given, RULES)?
         })
     ),
@@ -70,7 +70,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 24",
         ["P" = 32, "R" = 64],
         "width, 0 for floor, 1 for truncating or 2 for centred",
-        some_widths!([3 4 8], |given, W| Integrator::<W, { 2 * W }>::new(one_of(given, RULES)?))
+        some_widths!([3 8], |given, W| Integrator::<W, { 2 * W }>::new(one_of(given, RULES)?))
     ),
     entry!(
         LineLaw<32, 64>,
@@ -79,11 +79,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 24, with ghosts",
         ["P" = 32, "R" = 64],
         "width, 0 for floor, 1 for truncating or 2 for centred",
-        Made {
-            make: |given| at_width!([3], given, W => LineLaw::<W, { 2 * W }>::new(one_of(given, RULES)?)),
-            model: |given| at_width!([3 4 8], given, W => LineLaw::<W, { 2 * W }>::new(one_of(given, RULES)?)),
-            offered: &[3, 4, 8],
-        }
+        proved_at!([3]; [3 8], |given, W| LineLaw::<W, { 2 * W }>::new(one_of(given, RULES)?))
     ),
     entry!(
         AxisSwitch<32>,
@@ -92,7 +88,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 25, Figs 5 and 6",
         ["P" = 32],
         "width",
-        proved_at!(2; [4 8], |W| AxisSwitch::<W>)
+        proved_at!([2]; [4 8], |W| AxisSwitch::<W>)
     ),
     entry!(
         CycleGate,
@@ -131,7 +127,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 10 + 11 + 12",
         ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
         "width of positions, gain and D/A converter; half of the gain is its fraction",
-        proved_at!(3; [4 8], |W| PositionControl::<W, W, { W / 2 }, W, { 2 * W }>)
+        proved_at!([3]; [4 8], |W| PositionControl::<W, W, { W / 2 }, W, { 2 * W }>)
     ),
     entry!(
         PositionLoop,
@@ -140,7 +136,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "JP3608587B2 10–13",
         ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
         "width of positions, gain and D/A converter; half of the gain is its fraction",
-        proved_at!(2; [4 8], |W| PositionLoop::<W, W, { W / 2 }, W, { 2 * W }>::default())
+        proved_at!([2]; [4 8], |W| PositionLoop::<W, W, { W / 2 }, W, { 2 * W }>::default())
     ),
     entry!(
         Conventional<6>,

@@ -13,7 +13,7 @@ pub const CIRCUITS: &[Entry] = &[
         "system, rates",
         ["W" = 24],
         "width of the counters",
-        proved_at!(2; [2 4 8], |W| Enables::<W>::default())
+        proved_at!([2]; [4 8], |W| Enables::<W>::default())
     ),
     entry!(
         CommandJoin<32, 24>,
@@ -22,7 +22,7 @@ pub const CIRCUITS: &[Entry] = &[
         "system, commands",
         ["W" = 32, "V" = 24],
         "width of the lines' way; that of the arcs is a bit less",
-        proved_at!(3; [3 4 8], |W| CommandJoin::<W, { W - 1 }>)
+        proved_at!([3]; [4 8], |W| CommandJoin::<W, { W - 1 }>)
     ),
     entry!(
         Machine,

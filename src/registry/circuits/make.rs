@@ -104,18 +104,16 @@ fn group_of_two<const W: usize>(given: &[u64]) -> Option<Group<2, W, W, 3>> {
     Some(group)
 }
 
-/// A group as small as a proof needs, or, where more than width and T is given, one for charts.
+/// A group as small as a proof needs.
 pub fn group(given: &[u64]) -> Option<Box<dyn AnyCircuit>> {
-    match given.len() {
-        0..=2 => at_width!([2 3 4], given, W => small_group::<W>(given)?),
-        _ => at_width!([2 3 4], given, W => group_of_two::<W>(given)?),
-    }
+    at_width!([2 4], given, W => small_group::<W>(given)?)
 }
 
-/// The same; the wide ones have two axes and wait for a command unless told otherwise.
+/// The same, or, where more than width and T is given, one for charts. The wide one has two axes and
+/// waits for a command unless told otherwise.
 pub fn group_model(given: &[u64]) -> Option<Box<dyn AnyModel>> {
-    if let Some(small) = group(given) {
-        return Some(small);
+    match given {
+        [4] | [4, _] => Some(Box::new(small_group::<4>(given)?)),
+        _ => at_width!([4 8], given, W => group_of_two::<W>(given)?),
     }
-    at_width!([8 16], given, W => group_of_two::<W>(given)?)
 }

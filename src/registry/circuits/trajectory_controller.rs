@@ -23,7 +23,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Scaler<24, 58>, Scaler, Some(3), "CN104204977 21, 23, 27, 29, 30: a gain",
         ["K" = 24, "Q" = 58], "width of a gain; a value has as many bits",
-        proved_at!(3; [4 8], |W| Scaler::<W, { W + 1 }>)
+        proved_at!([3]; [4 8], |W| Scaler::<W, { W + 1 }>)
     ),
     entry!(
         ModelState<47, 16, 64>, ModelState::default(), None, "CN104204977 20, 22, 24, 25",
@@ -61,7 +61,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "CN104204977 2, 3: arc",
         ["R" = 55],
         "width",
-        proved_at!(4; [4 8], |W| Shifter::<W>)
+        proved_at!([4]; [4 8], |W| Shifter::<W>)
     ),
     entry!(
         CordicState<55, 44>, CordicState::default(), None, "CN104204977 2, 3: arc",
@@ -103,7 +103,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "CN104204977 2, ends",
         ["P" = 47],
         "width",
-        proved_at!(4; [4 8], |W| LengthClamp::<W>)
+        proved_at!([4]; [4 8], |W| LengthClamp::<W>)
     ),
     entry!(
         PathLength<47>,
@@ -112,7 +112,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "CN104204977 1, qc",
         ["P" = 47],
         "width",
-        proved_at!(4; [4 8], |W| PathLength::<W>)
+        proved_at!([4]; [4 8], |W| PathLength::<W>)
     ),
     entry!(
         VectorCorrection<47>,
@@ -121,7 +121,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         "CN104204977 4",
         ["P" = 47],
         "width, 1 for no correction, 2 for the steady one",
-        proved_at!(3; [4 8], |given, W| VectorCorrection::<W> {
+        proved_at!([3]; [4 8], |given, W| VectorCorrection::<W> {
             correction: one_of(given, CORRECTIONS)?,
         })
     ),

@@ -30,6 +30,7 @@ macro_rules! at_widths {
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog and Verilator"]
 fn signed_words() {
     at_widths!(SignedWords:
         (1, 1, 2) (1, 3, 3) (2, 3, 5) (3, 2, 4) (31, 32, 63) (32, 31, 33)
@@ -37,6 +38,7 @@ fn signed_words() {
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog and Verilator"]
 fn unsigned_words() {
     at_widths!(UnsignedWords:
         (1, 1, 2) (1, 3, 3) (2, 3, 5) (3, 2, 4) (31, 32, 63) (32, 31, 33)
@@ -44,22 +46,26 @@ fn unsigned_words() {
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog and Verilator"]
 fn memories_of_every_kind() {
     assert!(check(&Memories::new(3), 1) > 0);
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog and Verilator"]
 fn a_circuit_without_inputs() {
     assert!(check(&Free, 1) > 0);
 }
 
 #[test]
+#[ignore = "needs Icarus Verilog and Verilator"]
 fn circuits_in_circuits() {
     assert!(check(&Tree::new(), 1) > 0);
     assert!(hold(&Tree::new(), Simulator::Verilator, 1, TICKS) > 0);
 }
 
 #[test]
+#[ignore = "needs Verilator"]
 fn wide_words_in_verilator() {
     hold(&SignedWords::<33, 31, 64>, Simulator::Verilator, 3, TICKS);
     hold(&UnsignedWords::<33, 31, 64>, Simulator::Verilator, 3, TICKS);

@@ -1,0 +1,151 @@
+//! The difference engine against the polynomial of the text.
+
+use super::program::differences;
+use motion_rtl::blocks::DifferenceEngine;
+use motion_rtl::blocks::difference_engine::{In, Reg};
+use motion_rtl::kernel::Simulator;
+use motion_rtl::logic::Sim;
+use proptest::prelude::*;
+
+/// x·M⁴ after `sample` of M samples, as [5] and [10] have it: h = sample / M.
+pub fn quartic([before, at, behind]: [i128; 3], samples: i128, sample: i128) -> i128 {
+    let (m, i) = (samples, sample);
+    let (m3, i3) = (m * m * m, i * i * i);
+    before * m3 * m + 2 * (at - before) * i * m3 + (before - 2 * at + behind) * (2 * m - i) * i3
+}
+
+/// What the engine shows after its loads and after each of `steps` steps: value as whole and part,
+/// and the nearest.
+fn run<const P: usize, const F: usize, const D: usize>(
+    coordinate: u64,
+    modulus: i128,
+    words: [i128; 5],
+    steps: i128,
+) -> Vec<(i128, i128, i128)> {
+    let circuit = DifferenceEngine::<P, F, D>::new(coordinate);
+    let mut simulator = Simulator::new(&circuit);
+    let mut loads = vec![(2 + coordinate, words[0])];
+    for (order, difference) in words[1..].iter().enumerate() {
+        let first = 8 + 8 * coordinate + 2 * order as u64;
+        loads.push((first, difference.div_euclid(modulus)));
+        loads.push((first + 1, difference.rem_euclid(modulus)));
+    }
+    let idle = In::<Sim, F, D> {
+        load: false.into(),
+        word: 0.into(),
+        data: 0.into(),
+        modulus: (modulus as u64).into(),
+        step: false.into(),
+    };
+    for (word, data) in loads {
+        let i = In {
+            load: true.into(),
+            word: word.into(),
+            data: (data as u64).into(),
+            ..idle.clone()
+        };
+        simulator = simulator.step(i, |_| ()).0;
+    }
+    let shown = |q: &Reg<Sim, P, F>| (q.value.whole.get().into(), q.value.part.get().into());
+    let mut seen = Vec::new();
+    for sample in 0..=steps {
+        // Without a step it stays.
+        simulator = simulator.step(idle.clone(), |_| ()).0;
+        let (whole, part) = shown(simulator.registers());
+        let i = In {
+            step: (sample < steps).into(),
+            ..idle.clone()
+        };
+        let (next, nearest) = simulator.step(i, |now| now.w.nearest.get());
+        seen.push((whole, part, nearest.into()));
+        simulator = next;
+    }
+    seen
+}
+
+/// Runs a blend and compares every sample.
+fn blends<const P: usize, const F: usize, const D: usize>(
+    coordinate: u64,
+    points: [i128; 3],
+    samples: i128,
+) {
+    let modulus = samples.pow(4);
+    let [start, ..] = points;
+    let differences = differences(|sample| quartic(points, samples, sample));
+    let [_, d1, d2, d3, d4] = differences;
+    let seen = run::<P, F, D>(coordinate, modulus, [start, d1, d2, d3, d4], samples);
+    for (sample, &(whole, part, nearest)) in seen.iter().enumerate() {
+        let exact = quartic(points, samples, sample as i128);
+        assert_eq!(
+            whole * modulus + part,
+            exact,
+            "{points:?}, {sample} of {samples}"
+        );
+        assert_eq!(nearest, (2 * exact + modulus).div_euclid(2 * modulus));
+    }
+    let &(end, rest, _) = seen.last().expect("samples");
+    assert_eq!((end, rest), (points[2], 0), "{points:?} in {samples}");
+    let mut ordered = points;
+    ordered.sort_unstable();
+    if points == ordered {
+        assert!(
+            seen.is_sorted_by_key(|sample| sample.2),
+            "{points:?}, {seen:?}"
+        );
+    }
+    ordered.reverse();
+    if points == ordered {
+        let falls = seen.windows(2).all(|pair| pair[0].2 >= pair[1].2);
+        assert!(falls, "{points:?}, {seen:?}");
+    }
+}
+
+/// Everything from −4 to 4.
+fn points() -> impl Iterator<Item = [i128; 3]> {
+    let all = || -4..=4i128;
+    all().flat_map(move |a| all().flat_map(move |b| all().map(move |c| [a, b, c])))
+}
+
+#[test]
+fn every_small_blend_is_the_polynomial() {
+    for (index, points) in points().enumerate() {
+        for samples in [2, 4, 8, 16] {
+            blends::<5, 18, 18>(index as u64 % 3, points, samples);
+        }
+        // Samples that are no power of two divide as well.
+        for samples in [6, 10] {
+            blends::<5, 18, 18>(index as u64 % 3, points, samples);
+        }
+    }
+}
+
+#[test]
+fn every_small_line_ends_on_its_end() {
+    for start in -4..=4i128 {
+        for end in -4..=4i128 {
+            for samples in 1..=17 {
+                let words = [start, end - start, 0, 0, 0];
+                let seen = run::<5, 18, 18>(1, samples, words, samples);
+                for (sample, &(whole, part, _)) in seen.iter().enumerate() {
+                    let exact = start * samples + (end - start) * sample as i128;
+                    assert_eq!(whole * samples + part, exact, "{start} to {end}");
+                }
+                assert_eq!(seen[samples as usize].0, end);
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn a_blend_of_any_size_is_the_polynomial(
+        points in prop::array::uniform3(-(1i128 << 38)..1i128 << 38),
+        half in 1..=512i128,
+        coordinate in 0..3u64,
+    ) {
+        // A blend may overshoot its points; what fits into the word is exact.
+        blends::<40, 41, 42>(coordinate, points.map(|point| point / 4), 2 * half);
+    }
+}

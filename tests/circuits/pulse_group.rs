@@ -1,0 +1,386 @@
+//! The group at cycle level: start-up, patterns, commands, unit times.
+
+use super::common::{idle, player, rises, steps, unit_wave};
+use motion_rtl::kernel::{Circuit, Sample, Simulator, StopWhen};
+use motion_rtl::logic::Sim;
+use motion_rtl::pulse_interpolator::Pattern;
+use motion_rtl::pulse_interpolator::Variant::Safe;
+use motion_rtl::pulse_interpolator::group::{Group, In};
+
+type Small = Group<1, 4, 4, 3>;
+type Port = In<Sim, 4, 4, 3>;
+
+/// What one tick shows of the group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Seen {
+    unit_rst: bool,
+    busy: bool,
+    ready: bool,
+    address: u64,
+    period: u64,
+    step: bool,
+    dir: bool,
+}
+
+/// Runs the group under a stimulus and shows every tick.
+fn run(group: &Small, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Vec<Seen> {
+    let mut seen = Vec::new();
+    let look = |now: &Sample<Small>| {
+        seen.push(Seen {
+            unit_rst: now.w.unit_rst.get(),
+            busy: now.w.busy.get(),
+            ready: now.w.ready.get(),
+            address: now.q.sequencer.address.get(),
+            period: now.q.unit_time.active.get(),
+            step: now.w.step[0].get(),
+            dir: now.w.dir[0].get(),
+        });
+        false
+    };
+    Simulator::new(group)
+        .run(ticks, |tick, _| stimulus(tick), StopWhen(look))
+        .expect("no observer fails");
+    seen
+}
+
+/// A command that starts the pattern `base..=last`.
+fn start(base: u64, last: u64, cyclic: bool, now: bool, period: u64) -> Port {
+    Port {
+        command: true.into(),
+        base: base.into(),
+        last: last.into(),
+        cyclic: cyclic.into(),
+        run: true.into(),
+        now: now.into(),
+        period: period.into(),
+        ..idle()
+    }
+}
+
+/// A group whose memory holds half-period 1 at every address, and which waits for commands.
+fn waiting(period: u64) -> Small {
+    let mut group = Small::new(Safe, period);
+    for address in 0..8 {
+        group.axes[0].memory.half_periods.set(address, 1);
+    }
+    group
+}
+
+/// The addresses of the unit times while the group is busy, one for each unit time.
+fn units(seen: &[Seen]) -> Vec<u64> {
+    let mut begins = true;
+    let mut units = Vec::new();
+    for tick in seen {
+        if begins && tick.busy {
+            units.push(tick.address);
+        }
+        begins = tick.unit_rst;
+    }
+    units
+}
+
+/// The ticks in which RST is high.
+fn resets(seen: &[Seen]) -> Vec<u64> {
+    (0..)
+        .zip(seen)
+        .filter(|(_, tick)| tick.unit_rst)
+        .map(|(n, _)| n)
+        .collect()
+}
+
+#[test]
+fn the_first_unit_time_after_power_on_is_silent() {
+    for period in 1..=15u64 {
+        for half_period in 1..=15u64 {
+            let group = player::<4, 4, 3>(Safe, &[half_period], period, true);
+            let first = (period + half_period) as usize;
+            let wave = steps(&group, 3 * period);
+            for (tick, level) in wave.iter().enumerate().take(first) {
+                assert!(!level, "T = {period}, n = {half_period}: high at {tick}");
+            }
+            if half_period < period {
+                assert!(
+                    wave[first],
+                    "T = {period}, n = {half_period}: low at {first}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_looping_pattern_skips_no_address() {
+    for last in 0..8u64 {
+        let half_periods = vec![0; last as usize + 1];
+        let group = player::<4, 4, 3>(Safe, &half_periods, 3, true);
+        let seen = run(&group, 3 + 3 * 40, |_| idle());
+        let expected: Vec<_> = (0..40).map(|unit| unit % (last + 1)).collect();
+        assert_eq!(units(&seen), expected);
+        assert!(seen[3..].iter().all(|tick| tick.busy));
+    }
+}
+
+#[test]
+fn a_pattern_that_stops_holds_its_last_address_without_pulses() {
+    for last in 0..8u64 {
+        let half_periods = vec![1; last as usize + 1];
+        let group = player::<4, 4, 3>(Safe, &half_periods, 3, false);
+        let seen = run(&group, 3 * 40, |_| idle());
+        assert_eq!(units(&seen), (0..=last).collect::<Vec<_>>());
+        let end = 3 + 3 * (last as usize + 1);
+        for tick in &seen[end..] {
+            assert!(!tick.busy && !tick.step && tick.address == last);
+        }
+        assert_eq!(
+            seen.iter().filter(|tick| tick.step).count() as u64,
+            last + 1
+        );
+    }
+}
+
+#[test]
+fn a_pattern_may_run_across_the_top_of_the_memory() {
+    let seen = run(&waiting(3), 30, |tick| match tick {
+        0 => start(6, 1, false, false, 3),
+        _ => idle(),
+    });
+    assert_eq!(units(&seen), [6, 7, 0, 1]);
+}
+
+#[test]
+fn a_new_unit_time_is_in_force_only_from_the_next_reset_on() {
+    for old in 1..=7u64 {
+        for new in 1..=15u64 {
+            for write in 0..3 * old {
+                let group = player::<4, 4, 3>(Safe, &[2], old, true);
+                let seen = run(&group, 80, |tick| Port {
+                    write_period: (tick == write).into(),
+                    period: new.into(),
+                    ..idle()
+                });
+                // The pattern loads its own unit time at tick `old`; a write in the tick before
+                // waits in the shadow register for the reset after it.
+                let in_force = match write {
+                    write if write + 1 < old => 0,
+                    write => (write + 2).next_multiple_of(old).max(2 * old),
+                };
+                let mut expected = vec![];
+                let mut next = 0;
+                while next < 80 {
+                    let long = if in_force > 0 && next >= in_force {
+                        new
+                    } else {
+                        old
+                    };
+                    next += long;
+                    expected.push(next - 1);
+                }
+                expected.retain(|tick| *tick < 80);
+                assert_eq!(resets(&seen), expected, "{old} -> {new} written at {write}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_command_brings_its_unit_time_along_and_waits_for_the_end_of_the_pattern() {
+    let seen = run(&waiting(2), 40, |tick| match tick {
+        0 => start(0, 1, false, false, 5),
+        3 => start(4, 5, false, false, 7),
+        _ => idle(),
+    });
+    assert_eq!(resets(&seen)[..6], [1, 6, 11, 18, 25, 32]);
+    assert_eq!(units(&seen), [0, 1, 4, 5]);
+    let periods: Vec<_> = [0, 2, 7, 12, 19].map(|tick| seen[tick].period).to_vec();
+    assert_eq!(periods, [2, 5, 5, 7, 7]);
+    // One command waits from the tick after it was given to the tick it is taken in.
+    let waits: Vec<_> = (0..40).filter(|tick| !seen[*tick].ready).collect();
+    assert_eq!(waits, (1..=1).chain(4..=11).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_command_is_for_the_first_reset_after_the_tick_it_was_given_in() {
+    for given in 8..16u64 {
+        let seen = run(&waiting(4), 60, |tick| match tick {
+            0 => start(0, 7, true, false, 4),
+            tick if tick == given => start(3, 3, false, true, 4),
+            _ => idle(),
+        });
+        // Resets are at 3, 7, 11, …; a command given at 11 itself waits for 15.
+        let taken = (given + 2).next_multiple_of(4);
+        let before = (taken - 4) / 4;
+        let expected: Vec<_> = (0..before).chain([3]).collect();
+        assert_eq!(units(&seen), expected, "given at {given}");
+    }
+}
+
+#[test]
+fn a_restart_in_mid_unit_leaves_the_unit_whole() {
+    let mut group = waiting(5);
+    for address in 0..8 {
+        group.axes[0].memory.half_periods.set(address, 2);
+    }
+    for given in 10..15u64 {
+        let seen = run(&group, 30, |tick| match tick {
+            0 => start(0, 7, true, false, 5),
+            tick if tick == given => start(0, 7, true, true, 5),
+            _ => idle(),
+        });
+        let wave: Vec<_> = seen.iter().map(|tick| tick.step).collect();
+        for unit in wave[5..].chunks(5) {
+            assert_eq!(unit, unit_wave(2, 5));
+        }
+    }
+}
+
+#[test]
+fn a_stop_command_ends_the_pattern_at_the_next_reset() {
+    let stop = Port {
+        run: false.into(),
+        ..start(0, 0, false, true, 4)
+    };
+    let seen = run(&waiting(4), 40, |tick| match tick {
+        0 => start(0, 7, true, false, 4),
+        9 => stop.clone(),
+        _ => idle(),
+    });
+    assert_eq!(units(&seen), [0, 1]);
+    assert!(seen[12..].iter().all(|tick| !tick.busy && !tick.step));
+}
+
+#[test]
+fn a_command_with_now_replaces_the_one_that_waits() {
+    let seen = run(&waiting(4), 40, |tick| match tick {
+        0 => start(0, 1, true, false, 4),
+        5 => start(2, 2, false, false, 4),
+        6 => start(7, 7, false, true, 4),
+        _ => idle(),
+    });
+    assert_eq!(units(&seen), [0, 7]);
+}
+
+#[test]
+fn a_command_without_now_does_not_disturb_the_one_that_waits() {
+    let seen = run(&waiting(4), 40, |tick| match tick {
+        0 => start(0, 1, false, false, 4),
+        5 => start(2, 2, false, false, 4),
+        6 => start(7, 7, false, false, 4),
+        _ => idle(),
+    });
+    assert_eq!(units(&seen), [0, 1, 2]);
+}
+
+#[test]
+fn a_word_written_while_it_is_read_is_read_as_it_was() {
+    for write in 0..8u64 {
+        let mut group = waiting(4);
+        group.axes[0].memory.half_periods.set(1, 0);
+        let seen = run(&group, 40, |tick| Port {
+            write: (tick == write).into(),
+            write_address: 1.into(),
+            write_half_period: 2.into(),
+            write_direction: true.into(),
+            ..match tick {
+                0 => start(0, 1, false, false, 4),
+                _ => idle(),
+            }
+        });
+        // Address 1 is read in tick 7, the RST before its unit time.
+        let wave: Vec<_> = seen[8..12].iter().map(|tick| tick.step).collect();
+        let half_period = if write < 7 { 2 } else { 0 };
+        assert_eq!(wave, unit_wave(half_period, 4), "written at {write}");
+        assert!(seen[8..].iter().all(|tick| tick.dir == (write < 7)));
+        assert!(seen[..8].iter().all(|tick| !tick.dir));
+    }
+}
+
+#[test]
+fn a_write_goes_to_the_axis_it_names() {
+    type Two = Group<2, 3, 3, 1>;
+    for axis in 0..8u64 {
+        let group = Two::new(Safe, 4);
+        let mut rose = [0; 2];
+        let mut before = [false; 2];
+        let look = |now: &Sample<Two>| {
+            for (line, level) in now.w.step.map(|step| step.get()).into_iter().enumerate() {
+                rose[line] += u32::from(level && !before[line]);
+                before[line] = level;
+            }
+            false
+        };
+        let drive = |tick| In {
+            write: (tick == 0).into(),
+            write_axis: axis.into(),
+            write_half_period: 1.into(),
+            command: (tick == 1).into(),
+            run: true.into(),
+            period: 4.into(),
+            ..idle::<3, 3, 1>()
+        };
+        Simulator::new(&group)
+            .run(20, |tick, _| drive(tick), StopWhen(look))
+            .expect("no observer fails");
+        assert_eq!(rose, [0, 1].map(|line| if line == axis { 2 } else { 0 }));
+    }
+}
+
+#[test]
+fn half_periods_at_the_edges() {
+    // n = 1 toggles every tick, n = T - 1 rises in the last tick, n = T and beyond never.
+    for period in 2..=15u64 {
+        for (half_period, count) in [(1, period / 2), (period - 1, 1), (period, 0), (15, 0)] {
+            let group = player::<4, 4, 3>(Safe, &[half_period], period, false);
+            assert_eq!(
+                rises(&steps(&group, 3 * period)),
+                count,
+                "T = {period}, n = {half_period}"
+            );
+        }
+    }
+}
+
+#[test]
+fn default_word_lengths() {
+    let group = Group::<2>::new(Safe, 1000);
+    let registers = group.power_on();
+    assert_eq!(motion_rtl::kernel::pack(&registers.unit_time).len(), 2 * 24);
+    let memory = motion_rtl::kernel::pack(&registers.axes).len() / 2;
+    // Words with direction, their output register, then count, toggle and step.
+    assert_eq!(memory, 4096 * 17 + 17 + 16 + 1 + 1);
+}
+
+#[test]
+fn eight_axes_under_one_unit_time_counter() {
+    type Eight = Group<8>;
+    let half_periods = [1, 2, 3, 5, 40, 99, 100, 0];
+    let pattern = Pattern {
+        base: 4090,
+        last: 4091,
+        cyclic: true,
+        period: 100,
+    };
+    let mut group = Eight::free_running(Safe, pattern);
+    for (axis, half_period) in group.axes.iter_mut().zip(half_periods) {
+        axis.memory.half_periods.set(4090, half_period);
+        axis.memory.half_periods.set(4091, 100 - half_period);
+    }
+    let mut waves = vec![Vec::new(); 8];
+    let look = |now: &Sample<Eight>| {
+        for (wave, step) in waves.iter_mut().zip(now.w.step) {
+            wave.push(step.get());
+        }
+        false
+    };
+    Simulator::new(&group)
+        .run(500, |_, _| idle(), StopWhen(look))
+        .expect("no observer fails");
+    for (wave, half_period) in waves.iter().zip(half_periods) {
+        assert_eq!(wave[..100], [false; 100], "before the first unit time");
+        let (first, second) = (
+            unit_wave(half_period, 100),
+            unit_wave(100 - half_period, 100),
+        );
+        let expected = [first.clone(), second.clone(), first, second].concat();
+        assert_eq!(wave[100..], expected, "n = {half_period}");
+    }
+}

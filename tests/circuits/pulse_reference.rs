@@ -1,0 +1,183 @@
+//! The group against a second model of it, written as a program, under random control computers.
+
+use super::common::idle;
+use motion_rtl::kernel::{Sample, Simulator, StopWhen};
+use motion_rtl::logic::Sim;
+use motion_rtl::pulse_interpolator::Variant::Safe;
+use motion_rtl::pulse_interpolator::group::{Group, In};
+use proptest::prelude::*;
+
+const WORDS: u64 = 4;
+type Circuit = Group<2, 3, 3, 2>;
+type Port = In<Sim, 3, 3, 2>;
+
+#[derive(Debug, Clone, Copy)]
+struct Command {
+    base: u64,
+    last: u64,
+    cyclic: bool,
+    run: bool,
+    now: bool,
+    period: u64,
+}
+
+/// The group as a program: unit times of so many ticks, each with a waveform.
+#[derive(Debug)]
+struct Program {
+    memory: [[(u64, bool); WORDS as usize]; 2],
+    playing: Option<Command>,
+    waiting: Option<Command>,
+    address: u64,
+    period: u64,
+    next_period: u64,
+    /// Ticks of the unit time that are over.
+    elapsed: u64,
+    words: [(u64, bool); 2],
+}
+
+impl Program {
+    fn new(period: u64) -> Self {
+        Program {
+            memory: [[(0, false); WORDS as usize]; 2],
+            playing: None,
+            waiting: None,
+            address: 0,
+            period,
+            next_period: period,
+            elapsed: 0,
+            words: [(0, false); 2],
+        }
+    }
+
+    fn is_last_tick(&self, i: &Port) -> bool {
+        i.unit_end.get() || self.elapsed + 1 >= self.period
+    }
+
+    /// Step, direction; then unit_rst, ready, busy.
+    fn outputs(&self, i: &Port) -> ([(bool, bool); 2], [bool; 3]) {
+        let lines = self
+            .words
+            .map(|(n, dir)| (n > 0 && self.elapsed / n % 2 == 1, dir));
+        let flags = [
+            self.is_last_tick(i),
+            self.waiting.is_none(),
+            self.playing.is_some(),
+        ];
+        (lines, flags)
+    }
+
+    fn begin_unit(&mut self) {
+        self.elapsed = 0;
+        self.period = self.next_period;
+        let ended = match self.playing {
+            None => true,
+            Some(command) => self.address == command.last,
+        };
+        match self.waiting {
+            Some(command) if ended || command.now => {
+                self.waiting = None;
+                self.period = command.period;
+                self.next_period = command.period;
+                self.playing = command.run.then_some(command);
+                if command.run {
+                    self.address = command.base;
+                }
+            }
+            _ => match self.playing {
+                Some(command) if ended && command.cyclic => self.address = command.base,
+                Some(_) if ended => self.playing = None,
+                Some(_) => self.address = (self.address + 1) % WORDS,
+                None => {}
+            },
+        }
+        for (word, memory) in self.words.iter_mut().zip(&self.memory) {
+            match self.playing {
+                Some(_) => *word = memory[self.address as usize],
+                None => word.0 = 0,
+            }
+        }
+    }
+
+    fn tick(&mut self, i: &Port) {
+        let was_waiting = self.waiting.is_some();
+        if self.is_last_tick(i) {
+            self.begin_unit();
+        } else {
+            self.elapsed += 1;
+        }
+        if i.write_period.get() {
+            self.next_period = i.period.get();
+        }
+        if i.command.get() && (!was_waiting || i.now.get()) {
+            self.waiting = Some(Command {
+                base: i.base.get(),
+                last: i.last.get(),
+                cyclic: i.cyclic.get(),
+                run: i.run.get(),
+                now: i.now.get(),
+                period: i.period.get(),
+            });
+        }
+        if i.write.get() && i.write_axis.get() < 2 {
+            self.memory[i.write_axis.get() as usize][i.write_address.get() as usize] =
+                (i.write_half_period.get(), i.write_direction.get());
+        }
+    }
+}
+
+/// A control computer that is busy now and then.
+fn port() -> impl Strategy<Value = Port> {
+    let flags = any::<[bool; 6]>();
+    let words = [0..4u64, 0..4, 0..8, 0..4, 0..8, 0..3];
+    (0..8u8, flags, words).prop_map(|(act, flags, words)| {
+        let [cyclic, run, now, halt, dir, set] = flags;
+        let [base, last, period, address, half_period, axis] = words;
+        Port {
+            command: (act == 0).into(),
+            base: base.into(),
+            last: last.into(),
+            cyclic: cyclic.into(),
+            run: (run || !halt).into(),
+            now: now.into(),
+            period: period.into(),
+            write_period: (act == 1 && set).into(),
+            unit_end: (act == 2 && set && dir).into(),
+            write: (act >= 5).into(),
+            write_axis: axis.into(),
+            write_address: address.into(),
+            write_half_period: half_period.into(),
+            write_direction: dir.into(),
+        }
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn the_circuit_does_what_the_program_does(
+        period in 0..8u64,
+        ports in prop::collection::vec(port(), 1..600),
+    ) {
+        let circuit = Circuit::new(Safe, period);
+        let mut program = Program::new(period);
+        let mut expected = Vec::new();
+        for port in &ports {
+            expected.push(program.outputs(port));
+            program.tick(port);
+        }
+        let mut seen = Vec::new();
+        let look = |now: &Sample<Circuit>| {
+            let lines = [0, 1].map(|axis| (now.w.step[axis].get(), now.w.dir[axis].get()));
+            seen.push((lines, [now.w.unit_rst, now.w.ready, now.w.busy].map(|bit| bit.get())));
+            false
+        };
+        let drive = |tick: u64, _: &_| ports.get(tick as usize).cloned().unwrap_or_else(idle);
+        Simulator::new(&circuit)
+            .run(ports.len() as u64, drive, StopWhen(look))
+            .map_err(|error| TestCaseError::fail(error.to_string()))?;
+        for (tick, (expected, seen)) in expected.iter().zip(&seen).enumerate() {
+            prop_assert_eq!(expected, seen, "tick {}", tick);
+        }
+    }
+}

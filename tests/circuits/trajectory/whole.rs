@@ -1,0 +1,352 @@
+//! The whole at small widths, in three axes, and at the edges of its timing.
+
+use super::bench::{Path, Period, Record, plane, small, space};
+use super::point::Segment;
+use motion_rtl::kernel::Simulator;
+use motion_rtl::trajectory_controller::vector_correction::Correction;
+use motion_rtl::trajectory_controller::{Rounding, cordic_state};
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// A profile that goes to lengths, one a period, and rests at the last.
+fn steps(lengths: &[u64]) -> Vec<Record> {
+    let mut from = 0u64;
+    let mut records = Vec::new();
+    for (index, &to) in lengths.iter().enumerate() {
+        let mut record = [0; 32];
+        record[0] = 1 | u64::from(index + 1 == lengths.len()) << 2 | 1 << 3;
+        record[1] = 1;
+        record[2] = from;
+        record[8] = to - from;
+        records.push(record);
+        from = to;
+    }
+    records
+}
+
+/// Words of a line along an axis, at the small widths.
+fn small_line(axis: usize, base: i64, sign: i64) -> [u64; 16] {
+    const D: u64 = 12;
+    const ONE: i64 = 1 << 4;
+    let word = |value: i64| value as u64 & ((1 << D) - 1);
+    let mut words = [0; 16];
+    words[3 + axis] = word(base);
+    words[6 + axis] = word(sign * ONE);
+    words
+}
+
+/// Widths: points of 6 bits with 2 of them guard bits, gains of 4. Every start and every end within
+/// the counts, both axes, in a step and in several: no correction in any period, and the end is
+/// reached, for every pair of gains that does not overshoot and has a product of 2^−2 at least.
+#[test]
+fn every_small_move_along_an_axis_is_never_corrected() {
+    for axis in 0..2 {
+        for begin in -15..=15i64 {
+            for end in -15..=15i64 {
+                let length = begin.abs_diff(end);
+                let Some(sign) = [-1, 1]
+                    .into_iter()
+                    .find(|sign| begin + sign * length as i64 == end)
+                else {
+                    unreachable!("one of both")
+                };
+                if length == 0 {
+                    continue;
+                }
+                let path: Path = vec![(length, small_line(axis, begin, sign))];
+                let gains = [[2, 8], [2, 15], [3, 12]][(begin + end).rem_euclid(3) as usize];
+                let third = length / 3;
+                let profile = match end % 2 == 0 {
+                    true => steps(&[length]),
+                    false => steps(&[third, 2 * third, length]),
+                };
+                let seen = small::run(&path, &profile, gains, Correction::Vector, (110, 30));
+                for period in &seen {
+                    assert_eq!(period.correction, [0, 0], "{begin} to {end}: {period:?}");
+                    let mut command = [0, 0];
+                    command[axis] = begin + sign * period.length;
+                    assert_eq!(period.command, command);
+                    let mut response = [0, 0];
+                    response[axis] = begin + sign * period.answered;
+                    assert_eq!(period.response, response);
+                }
+                let last = seen.last().expect("periods");
+                // To the count: within half of its 4 guard units.
+                assert!(
+                    (last.response[axis] - end).abs() <= 2,
+                    "{begin} to {end}: {last:?}"
+                );
+            }
+        }
+    }
+}
+
+/// A line of the plane, or an arc.
+fn segment(length: u64, base: [f64; 2], along: [f64; 2], radius: Option<f64>) -> Segment {
+    Segment {
+        length,
+        base: [base[0].round() as i64, base[1].round() as i64, 0],
+        along: [along[0], along[1], 0.0],
+        across: match radius {
+            Some(_) => [-along[1], along[0], 0.0],
+            None => [0.0; 3],
+        },
+        radius,
+    }
+}
+
+fn words(segments: &[Segment]) -> Path {
+    let words = |segment: &Segment| (segment.length, segment.words());
+    segments.iter().map(words).collect()
+}
+
+/// 0.05 and 0.2 a period.
+const GAINS: [u64; 2] = [1638, 6554];
+const PERIOD: u64 = 480;
+
+/// Lines and arcs one after the other, in any directions.
+fn polyline() -> impl Strategy<Value = Vec<Segment>> {
+    let piece = (0.0..TAU, 4.0..24.0f64, prop::option::of(8.0..22.0f64));
+    prop::collection::vec(piece, 1..12).prop_map(|pieces| {
+        let mut at = [0.0, 0.0];
+        let mut segments = Vec::new();
+        for (direction, size, radius) in pieces {
+            let (sin, cos) = direction.sin_cos();
+            let length = size.exp2().round();
+            match radius.map(f64::exp2) {
+                None => {
+                    segments.push(segment(length as u64, at, [cos, sin], None));
+                    at = [at[0] + cos * length, at[1] + sin * length];
+                }
+                Some(radius) => {
+                    let length = length.min((6.0 * radius).floor()).max(1.0);
+                    let centre = [at[0] - cos * radius, at[1] - sin * radius];
+                    segments.push(segment(length as u64, centre, [cos, sin], Some(radius)));
+                    let (sin, cos) = (direction + length / radius).sin_cos();
+                    at = [centre[0] + cos * radius, centre[1] + sin * radius];
+                }
+            }
+        }
+        segments
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// Whatever the path, the lengths that are looked up are on it, and the segments that are found
+    /// contain them; with gains that overshoot too.
+    #[test]
+    fn lengths_stay_on_the_path_and_in_their_segments(
+        segments in polyline(),
+        parts in prop::collection::vec(0.0..=1.0f64, 0..10),
+        overshoots in any::<bool>(),
+    ) {
+        let path = words(&segments);
+        let end: u64 = path.iter().map(|segment| segment.0).sum();
+        let mut lengths: Vec<u64> = parts.iter().map(|part| (part * end as f64) as u64).collect();
+        lengths.push(end);
+        lengths.sort_unstable();
+        let gains = if overshoots { [6000, 14_000] } else { [4000, 20_000] };
+        let seen = plane::run(&path, &steps(&lengths), gains, Correction::Vector, (PERIOD, 60));
+        let mut begins = vec![0];
+        for segment in &path {
+            begins.push(begins[begins.len() - 1] + segment.0);
+        }
+        for period in &seen {
+            for (length, found) in period.looked_up.into_iter().zip(period.segments) {
+                prop_assert!(length <= end);
+                let last = found + 1 == path.len();
+                prop_assert!(begins[found] <= length);
+                prop_assert!(length < begins[found + 1] || (last && length == end));
+            }
+            let expected = [period.length, period.answered].map(|length| length.clamp(0, end as i64) as u64);
+            prop_assert_eq!(period.looked_up, expected);
+            for k in 0..2 {
+                prop_assert_eq!(period.correction[k], period.reference[k] - period.response[k]);
+                prop_assert_eq!(period.corrected[k], period.command[k] + period.correction[k]);
+            }
+        }
+        prop_assert_eq!(seen.last().expect("periods").length, end as i64);
+    }
+
+    /// The axes are alike: with x, y and z exchanged in the path they are in all that comes of it.
+    #[test]
+    fn axes_are_alike(segments in polyline(), exchange in 0..6usize) {
+        const ORDERS: [[usize; 3]; 6] =
+            [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+        let order = ORDERS[exchange];
+        let turned: Vec<Segment> = segments.iter().map(|segment| {
+            let mut turned = segment.clone();
+            for (from, &to) in order.iter().enumerate() {
+                turned.base[to] = segment.base[from];
+                turned.along[to] = segment.along[from];
+                turned.across[to] = segment.across[from];
+            }
+            turned
+        }).collect();
+        let end: u64 = segments.iter().map(|segment| segment.length).sum();
+        let profile = steps(&[end / 5, end / 3, end / 2, end]);
+        let run = |segments: &[Segment]| {
+            space::run(&words(segments), &profile, GAINS, Correction::Vector, (PERIOD, 40))
+        };
+        for (one, other) in run(&segments).iter().zip(&run(&turned)) {
+            for (from, &to) in order.iter().enumerate() {
+                let all = |p: &Period<3>, k: usize| {
+                    [p.command[k], p.response[k], p.reference[k], p.corrected[k], p.model[k]]
+                };
+                prop_assert_eq!(all(one, from), all(other, to));
+            }
+        }
+    }
+}
+
+/// Without a correction the responses of all axes and the servos' own models are the same filter as
+/// the tangential one: on a line along an axis they go through the same numbers.
+#[test]
+fn all_models_are_the_same_to_the_bit() {
+    for axis in 0..3 {
+        let mut line = segment(40_000_000, [0.0; 2], [0.0; 2], None);
+        line.along[axis] = 1.0;
+        let profile = steps(&[1_234_567, 20_000_001, 20_000_002, 40_000_000]);
+        let seen = space::run(
+            &words(&[line]),
+            &profile,
+            GAINS,
+            Correction::None,
+            (PERIOD, 200),
+        );
+        for period in &seen {
+            assert_eq!(period.response[axis], period.answered);
+            assert_eq!(period.model[axis], period.answered);
+        }
+        let last = seen.last().expect("periods").answered;
+        assert!((last - 40_000_000).abs() <= 50, "{last}");
+    }
+}
+
+/// The steady correction is that of the wider arc at the command's length; on a line there is none.
+#[test]
+fn the_steady_correction_is_a_wider_radius() {
+    let (radius, wider) = (30_000_000.0, 30_040_000.0);
+    let line = segment(20_000_000, [0.0, -radius], [1.0, 0.0], None);
+    let arc = segment(60_000_000, [20_000_000.0, 0.0], [0.0, -1.0], Some(radius));
+    let mut path = words(&[line, arc]);
+    path[1].1[12] = (wider / cordic_state::GAIN * 256.0).round() as u64;
+    let lengths: Vec<u64> = (1..=16).map(|n| 5_000_000 * n).collect();
+    let seen = plane::run(
+        &path,
+        &steps(&lengths),
+        GAINS,
+        Correction::Steady,
+        (PERIOD, 20),
+    );
+    for period in &seen {
+        assert_eq!(period.looked_up[0], period.length as u64);
+        let turned = (period.length as f64 - 20_000_000.0) / radius;
+        let expected = match turned < 0.0 {
+            true => [0.0, 0.0],
+            false => [turned.sin(), -turned.cos()].map(|part| part * (wider - radius)),
+        };
+        for (k, expected) in expected.into_iter().enumerate() {
+            let off = period.correction[k] as f64 - expected;
+            assert!(off.abs() <= 2.5, "{off}: {period:?}");
+            assert_eq!(
+                period.corrected[k],
+                period.command[k] + period.correction[k]
+            );
+        }
+    }
+    assert!(seen.iter().any(|period| period.length == 80_000_000));
+}
+
+/// The smallest arc takes the most shifts. A period of `LEAST_PERIOD` is never late on it, with one
+/// tick less it is.
+#[test]
+fn the_least_period_is_enough_and_one_tick_less_is_not() {
+    // A turn is just below a guard unit, the length of its segment; the search takes the same time for any path.
+    let radius = 0.99 / TAU;
+    let path = words(&[segment(1, [0.0; 2], [1.0, 0.0], Some(radius))]);
+    let least = plane::Controller::LEAST_PERIOD;
+    for period in [least - 1, least] {
+        let circuit = plane::Controller::new(Correction::Vector, Rounding::Nearest);
+        let mut simulator = Simulator::new(&circuit);
+        let writes = plane::writes(&path, &steps(&[1]), GAINS, period);
+        let idle = (0..8 * period).map(|_| plane::idle(&path, GAINS, period));
+        for i in writes.into_iter().chain(idle) {
+            simulator = simulator.step(i, |_| ()).0;
+        }
+        let late = simulator.registers().gather.late.get();
+        assert_eq!(late, period < least, "{period} ticks");
+    }
+}
+
+/// A second path begins where the first has ended, while the servo controls go on; what rounding
+/// left of the first is not corrected in it.
+#[test]
+fn a_second_path_begins_where_the_first_has_ended() {
+    let circuit = plane::Controller::new(Correction::Vector, Rounding::Nearest);
+    let mut simulator = Simulator::new(&circuit);
+    let (sin, cos) = 0.7f64.sin_cos();
+    let first = segment(10_000_001, [0.0; 2], [cos, sin], None);
+    let end = [cos, sin].map(|part| part * 10_000_001.0);
+    let second = segment(20_000_000, end, [-1.0, 0.0], None);
+    let paths = [first, second].map(|segment| words(&[segment]));
+    let (mut ticks, mut driven) = (0, 0);
+    for (number, path) in paths.iter().enumerate() {
+        let idle = || plane::idle(path, GAINS, PERIOD);
+        let writes = plane::writes(path, &steps(&[path[0].0]), GAINS, PERIOD);
+        let restart = plane::Ports {
+            restart: true.into(),
+            ..plane::idle(&paths[0], GAINS, PERIOD)
+        };
+        let wait = (0..2 * PERIOD).map(|_| plane::idle(&paths[0], GAINS, PERIOD));
+        let before = [restart].into_iter().chain(wait).filter(|_| number == 1);
+        let after = (0..400 * PERIOD).map(|_| idle());
+        let mut corrected = None;
+        for i in before.chain(writes).chain(after) {
+            let (next, seen) = simulator.step(i, |now| {
+                let driven = now.w.axes[0].w.driven.get();
+                let corrected = [0, 1].map(|k| now.q.axes[k].corrector.corrected.get());
+                let correction = [0, 1].map(|k| now.q.axes[k].corrector.correction.get());
+                (driven, now.q.progress.waiting.get(), corrected, correction)
+            });
+            simulator = next;
+            driven += u64::from(seen.0);
+            ticks += 1;
+            if number == 1 && seen.1 {
+                // The commands stand while there is no path, but for what rounding left.
+                let before = *corrected.get_or_insert(seen.2);
+                assert!(
+                    (0..2).all(|k| (seen.2[k] - before[k]).abs() <= 50),
+                    "{seen:?}"
+                );
+            }
+            if number == 1 && !seen.1 && seen.0 {
+                // Along the axis nothing is corrected: not the first path's rest either. Beyond
+                // the end the response is held by its rounding.
+                assert!(
+                    (0..=50).contains(&seen.3[0]) && seen.3[1] == 0,
+                    "{:?}",
+                    seen.3
+                );
+            }
+        }
+        let q = simulator.registers();
+        assert!(!q.gather.late.get());
+    }
+    let q = simulator.registers();
+    let position = [0, 1].map(|k| q.axes[k].response.integrators.position.get());
+    let expected = [end[0] - 20_000_000.0, end[1]];
+    for k in 0..2 {
+        assert!(
+            (position[k] as f64 - expected[k]).abs() <= 52.0,
+            "{position:?}"
+        );
+    }
+    // Every period has its torque, with a path and without one.
+    assert!(
+        driven == ticks / PERIOD || driven + 1 == ticks / PERIOD,
+        "{driven} torques in {ticks} ticks"
+    );
+}

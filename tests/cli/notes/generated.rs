@@ -1,0 +1,279 @@
+//! The generated parts of the notes: what stands between
+//! `<!-- begin generated: KIND NAME -->` and `<!-- end generated -->`.
+//!
+//! `UPDATE_NOTES=1 cargo test --release --test cli notes` writes them anew.
+
+use super::{expect_none, miscounts, notes, rotations};
+use motion_rtl::kernel::{Declaration, Format, Kind, MemoryDeclaration, Role};
+use motion_rtl::pulse_interpolator::counts;
+use motion_rtl::registry::{CATALOGUE, Entry, Verdict, find};
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::fmt::Write as _;
+use std::fs;
+
+const BEGIN: &str = "<!-- begin generated: ";
+const END: &str = "<!-- end generated -->";
+/// More states than any circuit has at its proof width.
+const LIMIT: u32 = 1 << 26;
+
+/// The text between the markers for what the first of them names.
+fn make(what: &str) -> Result<String, String> {
+    let (kind, name) = what.split_once(' ').unwrap_or((what, ""));
+    match (kind, find(name)) {
+        ("signals", Some(entry)) => Ok(signals(entry)),
+        ("blocks", None) => Ok(blocks(name)),
+        ("proofs", None) => Ok(proofs(name)),
+        ("literal", None) => Ok(literal()),
+        ("miscounts", None) => Ok(miscounts::table()),
+        ("vectors", None) => Ok(vectors()),
+        ("counts", None) => Ok(offers()),
+        ("rotation_errors", None) => Ok(rotations::errors()),
+        ("operations", None) => Ok(rotations::operations()),
+        _ => Err(format!("nothing is called `{what}`")),
+    }
+}
+
+/// The note with its generated parts made anew. A mark is a line of its own, outside code blocks.
+fn regenerate(text: &str) -> Result<String, String> {
+    let mut fresh = String::new();
+    let mut fence: Option<usize> = None;
+    let mut lines = text.lines().zip(1..);
+    while let Some((line, number)) = lines.next() {
+        fresh += line;
+        fresh.push('\n');
+        let marks = line.len() - line.trim_start_matches('`').len();
+        match fence {
+            Some(open) if marks >= open && marks == line.len() => fence = None,
+            None if marks >= 3 => fence = Some(marks),
+            _ => {}
+        }
+        let what = line.strip_prefix(BEGIN).filter(|_| fence.is_none());
+        if let Some(what) = what.and_then(|what| what.strip_suffix(" -->")) {
+            fresh += &make(what).map_err(|error| format!("{number}: {error}"))?;
+            fresh += END;
+            fresh.push('\n');
+            if !lines.any(|(line, _)| line == END) {
+                return Err(format!("{number}: `{what}` has no `{END}`"));
+            }
+        }
+    }
+    Ok(fresh)
+}
+
+#[test]
+fn generated_parts_are_those_of_the_code() {
+    let update = std::env::var_os("UPDATE_NOTES").is_some_and(|value| value == "1");
+    let wrong = notes()
+        .into_par_iter()
+        .filter_map(|note| match regenerate(&note.text) {
+            Err(error) => Some(format!("{}:{error}", note.name)),
+            Ok(fresh) if fresh == note.text => None,
+            Ok(fresh) if update => {
+                fs::write(&note.path, fresh).expect("a note can be written");
+                None
+            }
+            Ok(fresh) => {
+                let mut lines = fresh.lines().zip(note.text.lines()).zip(1..);
+                let other = lines.find(|((fresh, old), _)| fresh != old);
+                let (expected, line) = other.map_or(("", 0), |((fresh, _), line)| (fresh, line));
+                Some(format!(
+                    "{}:{line}: not what the code says:\n  {expected}\n  \
+                     UPDATE_NOTES=1 cargo test --release --test cli notes writes it anew",
+                    note.name
+                ))
+            }
+        });
+    expect_none(&wrong.collect::<Vec<_>>());
+}
+
+/// The circuits of a patent.
+fn of(patent: &str) -> impl Iterator<Item = &'static Entry> {
+    CATALOGUE
+        .iter()
+        .filter(move |entry| entry.source.starts_with(patent))
+}
+
+/// The circuits of a patent, with what they do.
+fn blocks(patent: &str) -> String {
+    let mut text =
+        String::from("| circuit | source | what it does | widths |\n|---|---|---|---|\n");
+    for entry in of(patent) {
+        let (name, source, about) = (entry.name, entry.source, entry.about);
+        let widths = widths(entry);
+        let _ = writeln!(text, "| `{name}` | {source} | {about} | {widths} |");
+    }
+    text
+}
+
+/// The widths of a circuit by name; numbers of axes and of stages are no widths.
+fn widths(entry: &Entry) -> String {
+    let widths = entry.widths.iter().map(|(name, width)| match *name {
+        "AXES" => format!("{name} = {width}"),
+        "K" if entry.source.starts_with("JPH0646367B2") => format!("{name} = {width} stages"),
+        _ => format!("{name} = {width} bits"),
+    });
+    widths.collect::<Vec<_>>().join(", ")
+}
+
+/// What a register holds in tick 0; other signals have no such value.
+fn power_on(leaf: &Declaration) -> String {
+    let shape = leaf.shape;
+    match (leaf.role, leaf.field.format) {
+        (Role::Input | Role::Net, _) => "–".to_owned(),
+        (Role::Register, Format::States(names)) => names[leaf.power_on as usize].to_owned(),
+        (Role::Register, _) if shape.kind == Kind::Signed => {
+            let unused = 64 - shape.width;
+            ((leaf.power_on << unused) as i64 >> unused).to_string()
+        }
+        (Role::Register, _) => leaf.power_on.to_string(),
+    }
+}
+
+/// A circuit's own signals, those of its blocks left out.
+fn signals(entry: &Entry) -> String {
+    let mut text = match entry.widths.is_empty() {
+        true => String::new(),
+        false => format!("Widths: {}.\n\n", widths(entry)),
+    };
+    text += "| signal | bits | role | power-on | meaning |\n|---|---|---|---|---|\n";
+    let declarations = entry.declarations();
+    let names: HashMap<_, _> = declarations.own().into_iter().collect();
+    let mut memories = declarations
+        .memories
+        .iter()
+        .filter(|memory| memory.scopes.len() == 1)
+        .peekable();
+    for (index, leaf) in declarations.leaves.iter().enumerate() {
+        if let Some(memory) = memories.next_if(|memory| memory.first == index) {
+            text += &memory_row(memory);
+        }
+        let Some(name) = names.get(&index) else {
+            continue;
+        };
+        let field = leaf.field;
+        let bits = match leaf.shape.kind {
+            Kind::Signed => format!("{}, signed", leaf.shape.width),
+            Kind::Bit | Kind::Unsigned => leaf.shape.width.to_string(),
+        };
+        let role = match (leaf.role, field.public) {
+            (Role::Input, _) => "in",
+            (Role::Register, true) => "register, out",
+            (Role::Register, false) => "register",
+            (Role::Net, true) => "net, out",
+            (Role::Net, false) => "net",
+        };
+        let states = match field.format {
+            Format::States(names) => format!(" States: {}.", names.join(", ")),
+            _ => String::new(),
+        };
+        let doc = cell(field.doc);
+        let power_on = power_on(leaf);
+        let _ = writeln!(
+            text,
+            "| `{name}` | {bits} | {role} | {power_on} | {doc}{states} |"
+        );
+    }
+    text
+}
+
+/// A doc comment as a cell of a table.
+fn cell(doc: &str) -> String {
+    let words: Vec<_> = doc.split_whitespace().collect();
+    words.join(" ").replace('|', "\\|")
+}
+
+fn memory_row(memory: &MemoryDeclaration) -> String {
+    let MemoryDeclaration {
+        name, words, width, ..
+    } = memory;
+    let doc = cell(memory.field.doc);
+    format!("| `{name}` | {words} × {width} | memory | contents | {doc} |\n")
+}
+
+/// The proof of every circuit of a patent, at its proof width.
+fn proofs(patent: &str) -> String {
+    let mut text = String::from(
+        "| circuit | width | states | transitions | depth | holds |\n|---|---|---|---|---|---|\n",
+    );
+    let entries: Vec<_> = of(patent)
+        .filter_map(|entry| Some((entry, entry.proof_width?)))
+        .collect();
+    let rows = entries.into_par_iter().map(|(entry, width)| {
+        let circuit = (entry.make)(&[width]).expect("it is made for its proof");
+        let verdict = circuit.prove(LIMIT, None, &mut |_| {});
+        let Ok(Verdict::Proved(proof)) = verdict else {
+            panic!("{} is not proved: {verdict:?}", entry.name);
+        };
+        format!(
+            "| `{}` | {width} | {} | {} | {} | {} |\n",
+            entry.name,
+            thousands(proof.states),
+            thousands(proof.transitions),
+            proof.depth,
+            circuit.invariants().join("; ")
+        )
+    });
+    text.extend(rows.collect::<Vec<_>>());
+    text
+}
+
+/// What breaks first in the literal variant.
+fn literal() -> String {
+    let mut text = String::from("| circuit | width | what breaks first |\n|---|---|---|\n");
+    for name in ["pulse_generator", "axis", "unit_law"] {
+        let entry = find(name).expect("it is in the catalogue");
+        let width = entry.proof_width.expect("it is proved");
+        let circuit = (entry.make)(&[width, 1]).expect("it has a literal variant");
+        let verdict = circuit.prove(LIMIT, None, &mut |_| {});
+        let Ok(Verdict::Broken { report, .. }) = verdict else {
+            panic!("the literal {name} is not broken: {verdict:?}");
+        };
+        let first = report.lines().next().unwrap_or_default().trim();
+        let _ = writeln!(text, "| `{name}` | {width} | {first} |");
+    }
+    text
+}
+
+/// Counts of a unit time of 1000 ticks.
+fn vectors() -> String {
+    let mut text = String::from("| n | pulses in T = 1000 |\n|---|---|\n");
+    for n in [0, 1, 2, 3, 10, 20, 100, 333, 334, 999, 1000, 65_535] {
+        let _ = writeln!(text, "| {n} | {} |", counts::pulses(n, 1000));
+    }
+    text
+}
+
+/// How many counts a unit time offers, and up to which the recipe is exact.
+fn offers() -> String {
+    let mut text = String::from(
+        "| T | different counts, 0 among them | 1.4·√T | first impossible | most pulses | recipe \
+         exact up to |\n|---|---|---|---|---|---|\n",
+    );
+    for period in [16, 64, 256, 1000, 4096, 10_000, 100_000] {
+        let first = (0..).find(|&count| !counts::attainable(count, period));
+        let exact = (1..).take_while(|&count| counts::recipe_is_exact(count, period));
+        let _ = writeln!(
+            text,
+            "| {period} | {} | {:.1} | {} | {} | {} |",
+            counts::attainable_count(period),
+            1.4 * f64::from(period).sqrt(),
+            first.unwrap_or_default(),
+            counts::pulses(1, period),
+            exact.last().unwrap_or_default(),
+        );
+    }
+    text
+}
+
+fn thousands(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}

@@ -1,0 +1,6 @@
+//! Files that are read and written: waves and their comparison, drawings and programs, Verilog.
+
+mod compare;
+mod input;
+mod verilog;
+mod waves;

@@ -1,0 +1,198 @@
+//! A dump that a thread of its own formats and writes.
+
+use super::zoo::{Zoo, inputs};
+use super::{SEED, clock, dump, run_zoo};
+use motion_rtl::kernel::{Circuit, RunError, Simulator};
+use motion_rtl::logic::{Logic, Ram, Sim};
+use motion_rtl::signals;
+use motion_rtl::trace::{Options, VcdBehind, atomic::AtomicFile};
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex};
+
+/// Ticks of several sections of the zoo.
+const TICKS: u64 = 20_000;
+
+fn behind<W: Write + Send + 'static>(out: W) -> VcdBehind<Zoo, W> {
+    VcdBehind::new(out, &Zoo, clock(), &Options::default()).unwrap()
+}
+
+fn run<W: Write + Send + 'static>(ticks: u64, vcd: &mut VcdBehind<Zoo, W>) -> Result<(), RunError> {
+    let mut inputs = inputs(SEED);
+    let run = Simulator::new(&Zoo).run(ticks, |_, _| inputs.next().unwrap(), vcd);
+    run.map(drop)
+}
+
+#[test]
+fn a_thread_writes_the_same_bytes() {
+    for ticks in [0, 1, 100, TICKS] {
+        let (wanted, _) = run_zoo(ticks, &Options::default());
+        let mut vcd = behind(Vec::new());
+        run(ticks, &mut vcd).unwrap();
+        assert!(vcd.finish().unwrap() == wanted, "{ticks} ticks");
+    }
+}
+
+signals! { struct WideIn<L> { address: L::U<15>, word: L::U<8> } }
+signals! { struct WideReg<L> { first: L::Ram<15, 8>, second: L::Ram<15, 8> } }
+signals! { struct WideNet<L> { read: L::U<8> } }
+
+/// Two memories, whose words are more than the changes of a section.
+struct Wide;
+
+impl Circuit for Wide {
+    const NAME: &'static str = "wide";
+    const ABOUT: &'static str = "has many words";
+    type In<L: Logic> = WideIn<L>;
+    type Reg<L: Logic> = WideReg<L>;
+    type Net<L: Logic> = WideNet<L>;
+
+    fn comb<L: Logic>(&self, q: &WideReg<L>, i: &WideIn<L>) -> WideNet<L> {
+        WideNet {
+            read: q.first.read(i.address),
+        }
+    }
+
+    fn next<L: Logic>(&self, q: WideReg<L>, w: &WideNet<L>, i: &WideIn<L>) -> WideReg<L> {
+        WideReg {
+            first: q.first.write(true.into(), i.address, i.word),
+            second: q.second.write(true.into(), i.address, w.read),
+        }
+    }
+}
+
+#[test]
+fn a_tick_with_more_changes_than_a_section() {
+    let i = || WideIn::<Sim> {
+        address: 5.into(),
+        word: 7.into(),
+    };
+    let wanted = dump(&Wide, 3, clock(), i()).unwrap();
+    let mut vcd = VcdBehind::new(Vec::new(), &Wide, clock(), &Options::default()).unwrap();
+    Simulator::new(&Wide).run(3, |_, _| i(), &mut vcd).unwrap();
+    assert!(vcd.finish().unwrap() == wanted);
+}
+
+/// A file on a disk that becomes full.
+#[derive(Debug)]
+struct Full<W>(usize, W);
+
+impl<W: Write> Write for Full<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0 = self
+            .0
+            .checked_sub(bytes.len())
+            .ok_or(io::ErrorKind::StorageFull)?;
+        self.1.write(bytes)
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        self.1.flush()
+    }
+}
+
+fn assert_full(run: Result<(), RunError>) {
+    assert!(
+        matches!(run, Err(RunError::Waves(error)) if error.kind() == io::ErrorKind::StorageFull)
+    );
+}
+
+#[test]
+fn a_full_disk_is_an_error_at_the_latest_at_the_end() {
+    let mut short = behind(Full(0, io::sink()));
+    run(1, &mut short).unwrap();
+    assert_eq!(
+        short.finish().map(drop).unwrap_err().kind(),
+        io::ErrorKind::StorageFull
+    );
+
+    let mut long = behind(Full(0, io::sink()));
+    assert_full(run(1_000_000, &mut long));
+    assert!(long.finish().is_err());
+}
+
+fn files(directory: &Path) -> usize {
+    fs::read_dir(directory).unwrap().count()
+}
+
+#[test]
+fn a_disk_that_becomes_full_leaves_no_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = AtomicFile::create(directory.path().join("a.vcd")).unwrap();
+    let mut vcd = behind(Full(1_000_000, file));
+    assert_full(run(1_000_000, &mut vcd));
+    vcd.finish().unwrap_err();
+    assert_eq!(files(directory.path()), 0);
+}
+
+/// Counts what it is given, and waits to be told before it takes the first of it.
+struct Slow {
+    open: Arc<(Mutex<bool>, Condvar)>,
+    taken: Arc<AtomicUsize>,
+}
+
+impl Write for Slow {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let (open, told) = &*self.open;
+        drop(
+            told.wait_while(open.lock().unwrap(), |open| !*open)
+                .unwrap(),
+        );
+        self.taken.fetch_add(bytes.len(), Ordering::SeqCst);
+        Ok(bytes.len())
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A file that is slower than the run holds the run up: memory is bounded.
+#[test]
+fn the_run_waits_for_a_slow_file() {
+    const LONG: u64 = 100_000;
+    let slow = Slow {
+        open: Arc::default(),
+        taken: Arc::default(),
+    };
+    let (gate, taken) = (slow.open.clone(), slow.taken.clone());
+    let ticks = Arc::new(AtomicU64::new(0));
+    let mut vcd = behind(slow);
+    let runs = std::thread::spawn({
+        let ticks = ticks.clone();
+        move || {
+            let mut inputs = inputs(SEED);
+            let i = |tick, _: &_| {
+                ticks.store(tick, Ordering::SeqCst);
+                inputs.next().unwrap()
+            };
+            Simulator::new(&Zoo).run(LONG, i, &mut vcd).unwrap();
+            vcd.finish().map(drop)
+        }
+    });
+    // It gets as far as the sections reach, and no further.
+    let bytes = |ticks: u64| run_zoo(ticks, &Options::default()).0.len();
+    while ticks.load(Ordering::SeqCst) < 1_000 {
+        std::thread::yield_now();
+    }
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    assert_eq!(taken.load(Ordering::SeqCst), 0);
+    let reached = ticks.load(Ordering::SeqCst);
+    assert!(bytes(reached) <= 2 << 20, "{reached} ticks");
+    *gate.0.lock().unwrap() = true;
+    gate.1.notify_all();
+    runs.join().unwrap().unwrap();
+    assert_eq!(taken.load(Ordering::SeqCst), bytes(LONG));
+}
+
+#[test]
+fn dropped_it_leaves_nothing() {
+    for ticks in [0, 10, TICKS] {
+        let directory = tempfile::tempdir().unwrap();
+        let file = AtomicFile::create(directory.path().join("a.vcd")).unwrap();
+        let mut vcd = behind(file);
+        run(ticks, &mut vcd).unwrap();
+        drop(vcd);
+        assert_eq!(files(directory.path()), 0);
+    }
+}

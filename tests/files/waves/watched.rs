@@ -1,0 +1,84 @@
+//! Runs that are stepped and watched: an observer is shown the ticks that it looks at, no others.
+
+use super::zoo::{Zoo, inputs};
+use super::{SEED, clock, options, run_zoo};
+use motion_rtl::kernel::{Bits, Observer, RunError, Sample, Simulator, pack};
+use motion_rtl::trace::Vcd;
+use std::ops::ControlFlow;
+
+const TICKS: u64 = 700;
+
+/// Looks at every seventh tick, writes down all that it is shown, and stops in tick 350.
+#[derive(Default)]
+struct Seventh(Vec<u64>);
+
+impl Observer<Zoo> for Seventh {
+    fn looks(&self, tick: u64) -> bool {
+        tick.is_multiple_of(7)
+    }
+
+    fn sample(&mut self, now: &Sample<'_, Zoo>) -> Result<ControlFlow<()>, RunError> {
+        self.0.push(now.tick);
+        Ok(match now.tick {
+            350 => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        })
+    }
+}
+
+/// Steps to the end, or until the observer stops; the registers, and the ticks that were stepped.
+fn step(mut observer: impl Observer<Zoo>) -> (Bits, Vec<u64>) {
+    let mut inputs = inputs(SEED);
+    let mut simulator = Simulator::new(&Zoo);
+    let mut stepped = Vec::new();
+    for _ in 0..TICKS {
+        let i = inputs.next().unwrap();
+        let (next, tick, flow) = simulator
+            .step_watched(i, &mut observer, |now| now.tick)
+            .unwrap();
+        simulator = next;
+        stepped.push(tick);
+        if flow.is_break() {
+            break;
+        }
+    }
+    (pack(simulator.registers()), stepped)
+}
+
+fn sevenths(and: &[u64]) -> Vec<u64> {
+    let mut ticks = Vec::from_iter((0..=350).step_by(7));
+    ticks.extend(and);
+    ticks.sort_unstable();
+    ticks
+}
+
+#[test]
+fn a_window_is_that_of_a_run() {
+    let options = options(100..151, &[]);
+    let mut vcd = Vcd::new(Vec::new(), &Zoo, clock(), &options).unwrap();
+    let (registers, stepped) = step(&mut vcd);
+    assert_eq!(stepped, Vec::from_iter(0..TICKS));
+    assert!(vcd.finish().unwrap() == run_zoo(TICKS, &options).0);
+    // Watched or not, the edges are the same.
+    assert_eq!(registers, step(()).0);
+    let mut inputs = inputs(SEED);
+    let ran = Simulator::new(&Zoo).run(TICKS, |_, _| inputs.next().unwrap(), ());
+    assert_eq!(registers, pack(ran.unwrap().registers()));
+}
+
+#[test]
+fn it_is_shown_what_it_looks_at_and_ends_the_run() {
+    let mut seventh = Seventh::default();
+    let (_, stepped) = step((None::<Seventh>, (), Some(&mut seventh)));
+    assert_eq!(seventh.0, sevenths(&[]));
+    assert_eq!(stepped, Vec::from_iter(0..=350));
+}
+
+#[test]
+fn what_one_of_them_looks_at_is_shown_to_all() {
+    let options = options(10..13, &[]);
+    let mut vcd = Vcd::new(Vec::new(), &Zoo, clock(), &options).unwrap();
+    let mut seventh = Seventh::default();
+    step((&mut vcd, &mut seventh));
+    assert_eq!(seventh.0, sevenths(&[10, 11, 12]));
+}
