@@ -38,7 +38,7 @@
 //!     }
 //!     false
 //! });
-//! Simulator::new(&group).run(11_000, |_, _| zero(), look)?;
+//! Simulator::new(&group)?.run(11_000, |_, _| zero(), look)?;
 //! assert_eq!(rises, [100, 60]);
 //! # Ok::<(), motion_rtl::kernel::RunError>(())
 //! ```
@@ -153,7 +153,7 @@
 //! }
 //!
 //! // A count every four ticks, in gates of 100 ticks.
-//! let mut meter = Simulator::new(&SpeedMeter);
+//! let mut meter = Simulator::new(&SpeedMeter)?;
 //! let mut ways = Vec::new();
 //! for tick in 0..400u64 {
 //!     let (a, b) = ((tick + 4) / 8 % 2 == 1, tick / 8 % 2 == 1);

@@ -82,7 +82,7 @@ impl<C: Outputs, const EVERY: u64> Observer<C> for Checksum<EVERY> {
 pub fn run<C: Outputs, const EVERY: u64>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
     let mut replay = Replay::<C>::new(stimulus);
     let mut sum = Checksum::<EVERY>(0);
-    let simulator = Simulator::new(circuit);
+    let simulator = Simulator::new(circuit).unwrap();
     let begun = Instant::now();
     let run = simulator.run(stimulus.ticks, |tick, _| replay.tick(tick), &mut sum);
     let taken = begun.elapsed();
@@ -122,7 +122,7 @@ impl Held {
 pub fn forward<C: Outputs>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
     let mut replay = Replay::<C>::new(stimulus);
     let mut held = Held::default();
-    let simulator = Simulator::new(circuit);
+    let simulator = Simulator::new(circuit).unwrap();
     let begun = Instant::now();
     let run = simulator.fast_forward(stimulus.ticks, |tick, _| replay.held(tick), &mut held);
     held.until(stimulus.ticks);
@@ -188,7 +188,7 @@ fn seen<C: Outputs>(
 ) -> (Instant, u64) {
     let mut replay = Replay::<C>::new(stimulus);
     let mut sum = Checksum::<1>(0);
-    let simulator = Simulator::new(circuit);
+    let simulator = Simulator::new(circuit).unwrap();
     let before = simulator.run(from, |tick, _| replay.tick(tick), &mut sum);
     let before = before.expect("no observer objects");
     let observers = (observer, &mut sum);

@@ -94,7 +94,7 @@ impl Probe for Recorder {
 
 impl<C: Circuit> Observer<C> for Recorder {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        self.tick(now.i);
+        self.tick(&**now.i);
         Ok(match self.stimulus.ticks < self.most {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),

@@ -10,11 +10,15 @@ pub fn write(folder: &Path) -> Result<(), Box<dyn Error>> {
     let clock = Clock::from_hz(100_000_000)?;
     let mut vcd = Vcd::new(waves, &circuit, clock, &Options::default())?;
     let mut stimulus = StimulusFile::new(File::create(folder.join("unit_law.stimulus"))?);
-    let ramp = |tick: u64, _: &_| In {
-        half_period: (50 - tick / 100).into(),
-        period: 100.into(),
-    };
-    Simulator::new(&circuit).run(4000, ramp, (&mut vcd, &mut stimulus))?;
+    let run = Simulator::new(&circuit)?.run(
+        4000,
+        |tick, _| In {
+            half_period: (50 - tick / 100).into(),
+            period: 100.into(),
+        },
+        (&mut vcd, &mut stimulus),
+    );
+    run?;
     vcd.finish()?;
     stimulus.finish()?;
     Ok(())

@@ -117,7 +117,7 @@ mod tests {
     fn enable_comes_every_period_ticks() {
         for period in 0..40u64 {
             let counter = EnableCounter::<6>;
-            let mut simulator = Simulator::new(&counter);
+            let mut simulator = Simulator::new(&counter).unwrap();
             for tick in 1..=200 {
                 let i = In {
                     period: period.into(),

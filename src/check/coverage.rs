@@ -41,8 +41,8 @@ impl fmt::Display for Untoggled {
 
 impl Coverage {
     /// Nothing seen yet of a circuit of this kind.
-    pub fn new<C: Circuit>() -> Self {
-        Self::of(&Declarations::of::<C>())
+    pub fn new<C: Circuit>(circuit: &C) -> Self {
+        Self::of(&Declarations::of(circuit))
     }
 
     /// The same of a circuit whose type is forgotten.

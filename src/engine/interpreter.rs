@@ -132,7 +132,11 @@ fn write(plan: &Plan, place: usize, write: &Write, slab: &mut [u64]) {
         (None, None) => return,
     };
     if word < u64::from(memory.words) {
-        slab[memory.first as usize + word as usize] = data;
+        let old = std::mem::replace(&mut slab[memory.first as usize + word as usize], data);
+        // A stage that stays as it is still moves all others.
+        if old == data && memory.head.is_none() {
+            return;
+        }
         slab[memory.written as usize] = word;
         slab[memory.mark as usize] = slab[memory.mark as usize].wrapping_add(1);
         tell(&plan.layout, slab, memory.mark);

@@ -36,6 +36,8 @@ pub struct Layout {
     pub changes: Vec<Option<Change>>,
     /// What stands in it at power-on, where that is not 0.
     pub initial: Vec<(Slot, u64)>,
+    /// What stands in it all the time: these too are in `initial`.
+    pub constants: Vec<(Slot, u64)>,
 }
 
 /// A watched word, or the mark of a memory.

@@ -481,6 +481,7 @@ impl<'f> Planning<'f> {
         *self.constants.entry(bits).or_insert_with(|| {
             let slot = layout.take(1);
             layout.initial.push((slot, bits));
+            layout.constants.push((slot, bits));
             slot
         })
     }

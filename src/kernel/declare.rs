@@ -129,7 +129,12 @@ pub struct Declarations {
 impl Declarations {
     /// The signals of a circuit, in the order of its leaves in a [`Sample`](super::Sample). What they
     /// are at power-on is left at 0; a [`Model`](super::Model) knows it.
-    pub fn of<C: Circuit>() -> Self {
+    pub fn of<C: Circuit>(_: &C) -> Self {
+        Self::outline::<C>()
+    }
+
+    /// Those of any circuit of a kind.
+    pub(crate) fn outline<C: Circuit>() -> Self {
         let mut declarations = Declarations::default();
         outline::<C>(&mut declarations);
         declarations

@@ -27,7 +27,7 @@ impl Model {
             about: C::ABOUT,
             flat: Arc::new(Flat::of(&design)?),
             design: Arc::new(design),
-            outline: Declarations::of::<C>,
+            outline: Declarations::outline::<C>,
             declarations: OnceLock::new(),
         })
     }

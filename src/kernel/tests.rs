@@ -61,7 +61,7 @@ fn a_register_shows_a_tick_later_what_was_decided() {
 
 #[test]
 fn declarations_name_every_leaf_once() {
-    let paths: Vec<_> = Declarations::of::<Counter<3>>()
+    let paths: Vec<_> = Declarations::of(&Counter::<3>)
         .leaves
         .iter()
         .map(|leaf| (leaf.path(), leaf.role, leaf.shape.width))

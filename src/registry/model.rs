@@ -39,7 +39,7 @@ impl<C: Circuit> AnyModel for C {
     }
 
     fn outline(&self) -> Declarations {
-        Declarations::of::<C>()
+        Declarations::outline::<C>()
     }
 }
 

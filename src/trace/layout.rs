@@ -85,7 +85,7 @@ pub(crate) struct Scope {
 impl Layout {
     /// The signals of a circuit.
     pub fn of<C: Circuit>(only: Option<&[String]>) -> Result<Self, LayoutError> {
-        Layout::new(C::NAME, Declarations::of::<C>().leaves, only)
+        Layout::new(C::NAME, Declarations::outline::<C>().leaves, only)
     }
 
     /// Those of a circuit of that name.

@@ -45,7 +45,7 @@ impl<C: Circuit> Recorder<C> {
     /// A chosen path that does not exist.
     pub fn new(_: &C, options: &Options) -> Result<Self, LayoutError> {
         Ok(Recorder {
-            record: Record::new(Declarations::of::<C>().leaves, options)?,
+            record: Record::new(Declarations::outline::<C>().leaves, options)?,
             circuit: PhantomData,
         })
     }

@@ -2,7 +2,7 @@
 
 use crate::circuits::*;
 use motion_rtl::check::{Invariants, Lockstep, LockstepError, Pair, SamePorts, reach, require};
-use motion_rtl::kernel::{Circuit, Declarations, Instance, Role, Sample};
+use motion_rtl::kernel::{Circuit, Declarations, Instance, Role, Sample, Simulator, zero};
 use motion_rtl::logic::{Logic, Sim};
 use motion_rtl::signals;
 
@@ -139,9 +139,10 @@ fn ports_out_are_public_all_the_way_and_no_ports_in() {
 #[test]
 fn an_instance_prints_its_ports_and_nets() {
     let up = Up { n: 3 };
-    let instance = Sample::at_power_on(&up, |now| Instance::<Up, Sim> {
-        i: now.i.clone(),
-        w: now.w.clone(),
+    let simulator = Simulator::new(&up).unwrap();
+    let (_, instance) = simulator.step(zero(), |now| Instance::<Up, Sim> {
+        i: (**now.i).clone(),
+        w: (**now.w).clone(),
     });
     let text = format!("{instance:?}");
     assert!(

@@ -2,7 +2,7 @@
 
 use crate::circuits::*;
 use motion_rtl::check::{Invariants, Lockstep, LockstepError, Pair, Random, reach};
-use motion_rtl::kernel::{Declarations, RunError, Sample, Simulator};
+use motion_rtl::kernel::{Declarations, Part, RunError, Simulator, zero};
 
 fn counters(flaw: u64) -> Pair<Up, Down> {
     Pair {
@@ -41,8 +41,8 @@ fn the_first_difference_is_found() {
     assert!(found.to_string().contains("* left.count"), "{found}");
 
     let mut random = Random::new(3);
-    let stimulus = |_: u64, _: &_| random.signals();
-    let end = Simulator::new(&pair).run(1000, stimulus, lockstep.clone());
+    let stimulus = |_: u64, _: &Part<'_, _>| random.signals();
+    let end = Simulator::new(&pair).unwrap().run(1000, stimulus, lockstep.clone());
     let Err(RunError::Violation {
         tick,
         signals,
@@ -60,8 +60,8 @@ fn equal_circuits_agree_on_long_runs() {
     let pair = counters(0);
     let mut lockstep = Lockstep::by_name(&pair).unwrap();
     let mut random = Random::new(3);
-    let stimulus = |_: u64, _: &_| random.signals();
-    let end = Simulator::new(&pair)
+    let stimulus = |_: u64, _: &Part<'_, _>| random.signals();
+    let end = Simulator::new(&pair).unwrap()
         .run(10_000, stimulus, &mut lockstep)
         .unwrap();
     assert_eq!(end.tick(), 10_000);
@@ -174,7 +174,8 @@ fn a_pair_stands_in_two_scopes() {
         left: Toggle,
         right: Up { n: 3 },
     };
-    let shown = Sample::at_power_on(&pair, |now| now.w.left.parity.get());
+    let simulator = Simulator::new(&pair).unwrap();
+    let (_, shown) = simulator.step(zero(), |now| now.w.left.parity.get());
     assert!(!shown);
     assert_eq!(paths(Declarations::of(&pair))[1], "pair.toggle.last");
 }

@@ -2,9 +2,9 @@
 
 use crate::circuits::*;
 use motion_rtl::check::{Invariants, Monitor, Random, require};
-use motion_rtl::kernel::{RunError, Sample, Simulator};
+use motion_rtl::kernel::{Registers, RunError, Sample, Simulator};
 
-fn on(_: u64, _: &UpReg<motion_rtl::logic::Sim>) -> Enable<motion_rtl::logic::Sim> {
+fn on(_: u64, _: &Registers<'_, Up>) -> Enable<motion_rtl::logic::Sim> {
     Enable {
         enable: true.into(),
     }
@@ -16,7 +16,7 @@ fn a_violation_ends_the_run_and_names_everything() {
     let low = Invariants::new().always("at most 4", |now: &Sample<Up>| {
         require(now.q.count.get() <= 4, ["count"], || "it is 5".into())
     });
-    let run = |ticks| Simulator::new(&circuit).run(ticks, on, Monitor::new(&circuit, &low));
+    let run = |ticks| Simulator::new(&circuit).unwrap().run(ticks, on, Monitor::new(&low));
     assert_eq!(run(5).unwrap().tick(), 5);
     let error = run(6).unwrap_err();
     assert_eq!(
@@ -35,7 +35,7 @@ fn a_step_property_is_watched_too() {
             let back = next.count < now.q.count;
             require(!back, ["count"], || "back".into())
         });
-    let run = |ticks| Simulator::new(&circuit).run(ticks, on, Monitor::new(&circuit, &invariants));
+    let run = |ticks| Simulator::new(&circuit).unwrap().run(ticks, on, Monitor::new(&invariants));
     assert!(run(8).is_ok());
     assert!(matches!(run(9), Err(RunError::Violation { tick: 8, .. })));
 }
@@ -48,8 +48,8 @@ fn random_stimulus_finds_it_in_the_end() {
     });
     let run = |seed| {
         let mut random = Random::new(seed);
-        let stimulus = move |_: u64, _: &_| random.signals();
-        let end = Simulator::new(&circuit).run(10_000, stimulus, Monitor::new(&circuit, &shut));
+        let stimulus = move |_: u64, _: &motion_rtl::kernel::Part<'_, _>| random.signals();
+        let end = Simulator::new(&circuit).unwrap().run(10_000, stimulus, Monitor::new(&shut));
         match end {
             Err(RunError::Violation { tick, .. }) => tick,
             other => panic!("{other:?}"),

@@ -2,7 +2,7 @@
 
 use crate::circuits::*;
 use crate::reach::proof;
-use motion_rtl::check::{Invariants, Outcome, Progress, Proof, TooWide, all, reach, require};
+use motion_rtl::check::{Invariants, Outcome, Progress, Proof, CheckError, TooWide, all, reach, require};
 use motion_rtl::kernel::{Sample, pack};
 use motion_rtl::logic::Sim;
 use motion_rtl::logic::sim::UInt;
@@ -129,7 +129,7 @@ fn what_is_too_wide_is_refused() {
         bits: 77,
         most: 64,
     };
-    assert_eq!(found.unwrap_err(), expected);
+    assert_eq!(found.unwrap_err(), CheckError::TooWide(expected.clone()));
     assert_eq!(
         expected.to_string(),
         "the registers have 77 bits, at most 64 can be enumerated"
@@ -138,11 +138,11 @@ fn what_is_too_wide_is_refused() {
     let what = "the inputs";
     assert_eq!(
         found.unwrap_err(),
-        TooWide {
+        CheckError::TooWide(TooWide {
             what,
             bits: 21,
             most: 20
-        }
+        })
     );
 
     // 64 and 20 bits are still possible, with the highest bits in use.

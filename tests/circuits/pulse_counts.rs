@@ -94,7 +94,7 @@ fn the_literal_generator_takes_no_notice_of_rst() {
     for half_period in 1..16u64 {
         for rst_every in [1, 2, 3, 7, 100] {
             let generator = PulseGenerator::<4> { variant: Literal };
-            let mut simulator = Simulator::new(&generator);
+            let mut simulator = Simulator::new(&generator).unwrap();
             for tick in 0..100u64 {
                 let i = In {
                     half_period: half_period.into(),

@@ -172,8 +172,8 @@ proptest! {
             seen.push((lines, [now.w.unit_rst, now.w.ready, now.w.busy].map(|bit| bit.get())));
             false
         };
-        let drive = |tick: u64, _: &_| ports.get(tick as usize).cloned().unwrap_or_else(idle);
-        Simulator::new(&circuit)
+        let drive = |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| ports.get(tick as usize).cloned().unwrap_or_else(idle);
+        Simulator::new(&circuit).unwrap()
             .run(ports.len() as u64, drive, StopWhen(look))
             .map_err(|error| TestCaseError::fail(error.to_string()))?;
         for (tick, (expected, seen)) in expected.iter().zip(&seen).enumerate() {

@@ -26,24 +26,24 @@ struct Seen {
 }
 
 /// One axis: the circuit and its plant.
-struct Axis<'c> {
-    simulator: Option<Simulator<'c, PositionLoop>>,
+struct Axis {
+    simulator: Option<Simulator<PositionLoop>>,
     servo: ServoAxis,
     levels: (bool, bool),
     gain: u64,
     scan_ticks: u64,
 }
 
-impl<'c> Axis<'c> {
+impl Axis {
     fn new(
-        circuit: &'c PositionLoop,
+        circuit: &PositionLoop,
         parameters: &ServoParameters,
         gain: u64,
         scan_ticks: u64,
     ) -> Self {
         let servo = ServoAxis::new(parameters, TICK_S).expect("they are in range");
         Axis {
-            simulator: Some(Simulator::new(circuit)),
+            simulator: Some(Simulator::new(circuit).unwrap()),
             levels: servo.channels(),
             servo,
             gain,

@@ -48,7 +48,7 @@ fn repeats<C: Circuit>(circuit: &C) {
     let (waves, stimulus, driven) = files(circuit, &run(7, 5_000, true));
     let mut vcd =
         Vcd::new(Vec::new(), circuit, Clock::default(), &Options::default()).expect("waves");
-    let mut simulator = Simulator::new(circuit);
+    let mut simulator = Simulator::new(circuit).unwrap();
     let (mut ticks, mut resets) = (0, 0);
     for line in stimulus.lines() {
         let (i, rst) = parse::<C>(line);
@@ -91,9 +91,9 @@ fn without_resets_it_is_an_ordinary_run_with_its_observers() {
     let mut vcd =
         Vcd::new(Vec::new(), &circuit, Clock::default(), &Options::default()).expect("waves");
     let mut file = StimulusFile::new(Vec::new());
-    let i = |_, _: &_| parse::<Axis<6, 3>>(lines.next().expect("a line a tick")).0;
+    let i = |_, _: &motion_rtl::kernel::Part<'_, _>| parse::<Axis<6, 3>>(lines.next().expect("a line a tick")).0;
     let observers = (&mut vcd, &mut file);
-    Simulator::new(&circuit)
+    Simulator::new(&circuit).unwrap()
         .run(2_000, i, observers)
         .expect("waves");
     assert!(vcd.finish().expect("waves") == waves);
@@ -105,8 +105,8 @@ fn without_resets_it_is_an_ordinary_run_with_its_observers() {
 fn a_stimulus_file_refuses_a_run_that_goes_over_ticks() {
     let circuit = Group::<2, 8, 8, 3>::new(Variant::Safe, 10);
     let mut file = StimulusFile::new(Vec::new());
-    let quiet = |_, _: &_| (zero(), u64::MAX);
-    let error = Simulator::new(&circuit)
+    let quiet = |_, _: &motion_rtl::kernel::Part<'_, _>| (zero(), u64::MAX);
+    let error = Simulator::new(&circuit).unwrap()
         .fast_forward(2_000, quiet, &mut file)
         .expect_err("a gap");
     assert!(
@@ -139,7 +139,7 @@ fn every_circuit_is_made_at_its_widths_and_no_other() {
             model.layout().expect(name);
             if let Some(circuit) = (entry.make)(&[width]) {
                 let paths = |model: &dyn AnyModel| -> HashSet<_> {
-                    let leaves = model.declarations().leaves;
+                    let leaves = model.outline().leaves;
                     leaves
                         .iter()
                         .map(|leaf| (leaf.path(), leaf.shape))

@@ -28,7 +28,7 @@ pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64)
     let driven = circuit.drive(&drive, &mut create("vcd"), &mut create("stimulus"));
     let resets = driven.unwrap().resets;
     let report = simulator.hold(path, name, &modules);
-    complete(&report, ticks, circuit.declarations().leaves.len());
+    complete(&report, ticks, circuit.outline().leaves.len());
     resets
 }
 

@@ -34,7 +34,7 @@ struct Out {
 /// The ports out in every tick.
 fn run<const W: usize>(inputs: impl IntoIterator<Item = In<Sim>>) -> Vec<Out> {
     let counter = QuadratureCounter::<W>;
-    let mut simulator = Some(Simulator::new(&counter));
+    let mut simulator = Simulator::new(&counter).ok();
     let step = |i| {
         let (after, out) = simulator.take()?.step(i, |now| Out {
             position: now.q.position.get(),
@@ -118,7 +118,7 @@ fn the_first_sample_is_where_it_starts() {
 fn a_reset_begins_anew_whatever_the_level() {
     let counter = QuadratureCounter::<8>;
     for start in 0..4 {
-        let mut simulator = Simulator::new(&counter);
+        let mut simulator = Simulator::new(&counter).unwrap();
         for tick in 0..20 {
             let i = levels(channels(start + tick.min(7)), false);
             let rst = (10..13).contains(&tick);

@@ -1,7 +1,7 @@
 //! Memories against vectors.
 
 use motion_rtl::check::Random;
-use motion_rtl::kernel::{Bits, Changed, Words, pack, unpack};
+use motion_rtl::kernel::{Bits, Words, pack, unpack};
 use motion_rtl::logic::sim::{SimRam, SimShiftRegister, UInt};
 use motion_rtl::logic::{Image, Ram, ShiftRegister, Sim};
 use std::collections::VecDeque;
@@ -54,8 +54,6 @@ fn ram<const A: usize, const D: usize>() {
     let words: Vec<_> = (0..len).map(|_| random.word()).collect();
     let mut oracle: Vec<_> = words.iter().map(|word| cut::<D>(*word)).collect();
     let mut ram = SimRam::<A, D>::from(Image::new(words));
-    let (mut mark, mut written) = (0, Vec::new());
-    assert_eq!(ram.changed(&mut mark), Changed::None);
     assert_eq!((ram.width(), ram.len(), ram.is_empty()), (D, len, false));
     let mut out = UInt::<D>::default();
     for _ in 0..500 {
@@ -78,22 +76,10 @@ fn ram<const A: usize, const D: usize>() {
         if write {
             oracle[place] = data.get();
             assert_eq!(next_out.get(), before);
-            written.push(place);
         } else {
             assert_eq!(next_out, out);
         }
         out = next_out;
-        // Who looks now and then is told of all since then.
-        if random.word() & 1 == 1 {
-            let expected = match written[..] {
-                [] => Changed::None,
-                [place] => Changed::One(place),
-                _ => Changed::All,
-            };
-            assert_eq!(ram.changed(&mut mark), expected);
-            written.clear();
-        }
-
         let words: Vec<_> = (0..len).map(|index| ram.word(index)).collect();
         assert_eq!(words, oracle);
     }
@@ -117,8 +103,6 @@ fn shift_register<const K: usize, const D: usize>() {
     let words: Vec<_> = (0..K + 2).map(|_| random.word()).collect();
     let mut oracle: VecDeque<_> = words[..K].iter().map(|word| cut::<D>(*word)).collect();
     let mut register = SimShiftRegister::<K, D>::new(words);
-    let (mut mark, mut shifted) = (0, false);
-    assert_eq!(register.changed(&mut mark), Changed::None);
     assert_eq!(
         (register.width(), register.len(), register.is_empty()),
         (D, K, K == 0)
@@ -147,15 +131,6 @@ fn shift_register<const K: usize, const D: usize>() {
         if shift {
             oracle.push_front(input.get());
             oracle.truncate(K);
-        }
-        shifted |= shift && K > 0;
-        if random.word() & 1 == 1 {
-            let expected = match shifted {
-                true => Changed::All,
-                false => Changed::None,
-            };
-            assert_eq!(register.changed(&mut mark), expected);
-            shifted = false;
         }
     }
 }

@@ -23,7 +23,7 @@ fn run<const P: usize, const F: usize, const D: usize>(
     steps: i128,
 ) -> Vec<(i128, i128, i128)> {
     let circuit = DifferenceEngine::<P, F, D>::new(coordinate);
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let mut loads = vec![(2 + coordinate, words[0])];
     for (order, difference) in words[1..].iter().enumerate() {
         let first = 8 + 8 * coordinate + 2 * order as u64;
@@ -51,7 +51,7 @@ fn run<const P: usize, const F: usize, const D: usize>(
     for sample in 0..=steps {
         // Without a step it stays.
         simulator = simulator.step(idle.clone(), |_| ()).0;
-        let (whole, part) = shown(simulator.registers());
+        let (whole, part) = shown(&simulator.registers());
         let i = In {
             step: (sample < steps).into(),
             ..idle.clone()

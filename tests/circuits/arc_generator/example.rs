@@ -31,7 +31,7 @@ const COMMANDS: [i64; 11] = [0, 2, 12, 34, 64, 96, 128, 158, 180, 190, 192];
 #[test]
 fn the_path_of_the_note() {
     let circuit: ArcGenerator = ArcGenerator::default();
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let mut seen = Vec::new();
     for tick in 0..1300 {
         let (record, word) = (tick / 32, tick % 32);

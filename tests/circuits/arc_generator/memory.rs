@@ -55,7 +55,7 @@ impl Program {
 #[test]
 fn it_is_a_queue_of_records() {
     let circuit = RecordMemory::<1, 6, 8>;
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let mut random = Random::new(1);
     let mut program = Program::default();
     let (mut went, mut flushed) = (0, 0);
@@ -117,7 +117,7 @@ fn it_is_a_queue_of_records() {
 #[test]
 fn a_record_takes_its_latency() {
     let circuit = RecordMemory::<1, 6, 8>;
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     for tick in 0..200 {
         let i = In::<Sim, 8> {
             write: (tick < 32).into(),

@@ -31,7 +31,7 @@ impl Wires {
 }
 
 type Bench<'c, const P: usize, const C: usize, const S: usize, const D: usize> =
-    Simulator<'c, Rotation<P, C, S, D>>;
+    Simulator<Rotation<P, C, S, D>>;
 
 fn tick<'c, const P: usize, const C: usize, const S: usize, const D: usize>(
     simulator: Bench<'c, P, C, S, D>,
@@ -57,7 +57,7 @@ fn vector<const P: usize, const C: usize, const S: usize>(q: &Reg<Sim, P, C, S>)
 fn step<'c, const P: usize, const C: usize, const S: usize, const D: usize>(
     mut simulator: Bench<'c, P, C, S, D>,
 ) -> (Bench<'c, P, C, S, D>, [i128; 3]) {
-    let before = vector(simulator.registers());
+    let before = vector(&simulator.registers());
     let latency = Rotation::<P, C, S, D>::LATENCY;
     for ticks in 1..=latency {
         let step = ticks == 1;
@@ -69,10 +69,10 @@ fn step<'c, const P: usize, const C: usize, const S: usize, const D: usize>(
             "after {ticks} ticks"
         );
         if ticks < latency {
-            assert_eq!(vector(q), before, "after {ticks} ticks");
+            assert_eq!(vector(&q), before, "after {ticks} ticks");
         }
     }
-    let after = vector(simulator.registers());
+    let after = vector(&simulator.registers());
     (simulator, after)
 }
 
@@ -87,7 +87,7 @@ fn every_small_product_is_right_under_both_roundings() {
     const C: usize = 4;
     for rounding in [Rounding::Nearest, Rounding::Floor] {
         let circuit = Rotation::<P, C, 6, 4>::new(rounding);
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         // Three rows at a time: every triple of coefficients comes in some row.
         for first in (0..4096i128).step_by(3) {
             let triple = |index: i128| [0, 4, 8].map(|low| wrap(index >> low, C));
@@ -117,7 +117,7 @@ fn every_small_product_is_right_under_both_roundings() {
 #[test]
 fn words_of_other_blocks_and_steps_under_way_change_nothing() {
     let circuit = Rotation::<8, 8, 11, 8>::new(Rounding::Nearest);
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let matrix = [[40, -20, 7], [3, 64, -9], [-31, 5, 50]];
     for (word, data) in coefficients(&matrix).chain([(2, 100), (3, -60), (4, 33)]) {
         simulator = load(simulator, word, data);
@@ -131,14 +131,14 @@ fn words_of_other_blocks_and_steps_under_way_change_nothing() {
         let step = ticks == 1 || ticks == 5;
         simulator = tick(simulator, &Wires { step, ..IDLE() });
     }
-    assert_eq!(vector(simulator.registers()), expected);
+    assert_eq!(vector(&simulator.registers()), expected);
     // After a halt nothing comes, and the next step is right.
     for ticks in 1..=30 {
         let (step, halt) = (ticks == 1, ticks == 6);
         let load = None;
         simulator = tick(simulator, &Wires { load, step, halt });
         assert_eq!(
-            vector(simulator.registers()),
+            vector(&simulator.registers()),
             expected,
             "after {ticks} ticks"
         );
@@ -159,7 +159,7 @@ proptest! {
     ) {
         let rounding = if nearest { Rounding::Nearest } else { Rounding::Floor };
         let circuit = Rotation::<40, 42, 43, 42>::new(rounding);
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         for (word, data) in coefficients(&matrix).chain((2..).zip(from)) {
             simulator = load(simulator, word, data);
         }

@@ -177,7 +177,7 @@ struct Run {
 
 fn run(segments: &[Segment], rounding: Rounding, period: u64, start_with: usize) -> Run {
     let circuit = Full::new(rounding);
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let mut host = Host {
         segments,
         segment: 0,
@@ -312,7 +312,7 @@ fn halt_leaves_the_commands_where_they_are() {
     let segments = line_and_arc();
     for halted in 300..900 {
         let circuit = Full::default();
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         let mut host = Host {
             segments: &segments,
             segment: 0,
@@ -376,7 +376,7 @@ fn a_path_that_begins_right_after_a_halt_is_that_of_its_record() {
     let [_, behind] = &segments;
     for halted in 560..680 {
         let circuit = Full::default();
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         let mut host = Host {
             segments: &segments,
             segment: 0,

@@ -124,14 +124,14 @@ fn same<const AXES: usize>(
     most: usize,
 ) -> Result<(), TestCaseError> {
     let (mut stepped, mut jumped) = (Events::new(most), Events::new(most));
-    let run = Simulator::new(group).run(ticks, |tick, _| drive(acts, tick).0, &mut stepped);
+    let run = Simulator::new(group).unwrap().run(ticks, |tick, _| drive(acts, tick).0, &mut stepped);
     let forward =
-        Simulator::new(group).fast_forward(ticks, |tick, _| drive(acts, tick), &mut jumped);
+        Simulator::new(group).unwrap().fast_forward(ticks, |tick, _| drive(acts, tick), &mut jumped);
     let failed = |error: RunError| TestCaseError::fail(error.to_string());
     let (run, forward) = (run.map_err(failed)?, forward.map_err(failed)?);
     prop_assert_eq!(stepped.seen, jumped.seen);
     prop_assert_eq!(run.tick(), forward.tick());
-    prop_assert_eq!(pack(run.registers()), pack(forward.registers()));
+    prop_assert_eq!(pack(&*run.registers()), pack(&*forward.registers()));
     Ok(())
 }
 
@@ -170,10 +170,10 @@ fn a_run_cut_into_pieces_is_the_same_run() {
     };
     let mut group = Group::<1>::free_running(Variant::Safe, pattern);
     group.axes[0].memory.half_periods.set(0, 5);
-    let quiet = |_, _: &_| (common::idle(), u64::MAX);
+    let quiet = |_, _: &motion_rtl::kernel::Part<'_, _>| (common::idle(), u64::MAX);
     for piece in 1..50 {
         let mut events = Events::new(usize::MAX);
-        let mut simulator = Simulator::new(&group);
+        let mut simulator = Simulator::new(&group).unwrap();
         while simulator.tick() < 300 {
             let ticks = piece.min(300 - simulator.tick());
             simulator = simulator
@@ -181,11 +181,11 @@ fn a_run_cut_into_pieces_is_the_same_run() {
                 .expect("no objection");
         }
         let mut whole = Events::new(usize::MAX);
-        let stepped = Simulator::new(&group)
+        let stepped = Simulator::new(&group).unwrap()
             .run(300, |_, _| common::idle(), &mut whole)
             .expect("no objection");
         assert_eq!(events.seen, whole.seen, "pieces of {piece} ticks");
-        assert_eq!(pack(simulator.registers()), pack(stepped.registers()));
+        assert_eq!(pack(&*simulator.registers()), pack(&*stepped.registers()));
     }
 }
 

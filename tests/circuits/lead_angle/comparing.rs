@@ -36,7 +36,7 @@ fn a_crossing_is_counted_once_in_either_direction() {
                 *rest /= 7;
                 Some(step)
             });
-            let mut simulator = Simulator::new(&circuit);
+            let mut simulator = Simulator::new(&circuit).unwrap();
             let mut position = start;
             let target = walk % 5;
             simulator = simulator.step(look(position, target, true), |_| ()).0;
@@ -76,7 +76,7 @@ fn hits(comparing: Comparing, speed: i64) -> usize {
     let circuit = Comparator::<12> { comparing };
     let mut targets = 500..500 + speed;
     let hit = |target: &i64| {
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         for ck in 0..1000 / speed {
             let i = In::<Sim, 12> {
                 evaluate: true.into(),

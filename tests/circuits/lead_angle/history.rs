@@ -17,7 +17,7 @@ fn is_the_sample_k_old<H, const K: usize, const T: usize, const W: usize>(
     H: History<T, W> + Circuit<In<Sim> = In<Sim, T, W>>,
 {
     let circuit = H::default();
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let mut random = Random::new(tap * 1000 + start as u64);
     let mut taken: Vec<i64> = Vec::new();
     let mut restarted = 0;
@@ -36,7 +36,8 @@ fn is_the_sample_k_old<H, const K: usize, const T: usize, const W: usize>(
             };
             let (next, ()) = simulator.step(i, |_| ());
             simulator = next;
-            let pair = H::pair(simulator.registers());
+            let registers = simulator.registers();
+            let pair = H::pair(&registers);
             assert_eq!(pair.fresh.get(), ck && !restart);
             if restart {
                 restarted = taken.len() + 1;
@@ -83,7 +84,7 @@ fn so_it_is_with_199_stages() {
 #[test]
 fn pair_and_ratio_belong_together_when_the_tap_changes() {
     let circuit = PositionHistory::<15, 4, 8>;
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let mut taken = Vec::new();
     let mut random = Random::new(5);
     for tick in 0..20_000 {
@@ -137,12 +138,12 @@ fn both_forms_agree_at_full_width() {
     };
     let lockstep = Lockstep::by_name(&pair).unwrap();
     let mut random = Random::new(11);
-    let stimulus = |tick: u64, _: &_| {
+    let stimulus = |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| {
         let mut i: position_history::In<Sim, 8, 24> = random.signals();
         // Rarely, so that the history fills.
         i.restart = tick.is_multiple_of(2503).into();
         i
     };
-    let end = Simulator::new(&pair).run(100_000, stimulus, lockstep);
+    let end = Simulator::new(&pair).unwrap().run(100_000, stimulus, lockstep);
     end.unwrap();
 }

@@ -30,7 +30,7 @@ fn correct<const K: usize, const T: usize, const C: usize, const W: usize, const
         missed: false.into(),
         seed: seed.into(),
     };
-    let mut simulator = Simulator::new(circuit);
+    let mut simulator = Simulator::new(circuit).unwrap();
     simulator = simulator.step(input(true, false, -overrun), |_| ()).0;
     simulator = simulator.step(input(false, true, 0), |_| ()).0;
     for ticks in 1..=2 * Correction::<K, T, C, W, R>::LATENCY {

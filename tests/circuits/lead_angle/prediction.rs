@@ -66,7 +66,7 @@ type Full = TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>;
 /// them 0, when all are in its history; a CK every tick.
 fn predicted(time: u64, count: i64, position: impl Fn(i64) -> i64) -> i64 {
     let circuit = Full::default();
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     for ck in 1 - count..=0 {
         let i = time_lead::In {
             ck: true.into(),

@@ -98,8 +98,8 @@ fn the_ram_compensator_is_the_compensator_in_every_tick() {
     for seed in 0..4 {
         let lockstep = Lockstep::of(&pair, &outputs).unwrap();
         let mut bench = Bench::new(seed);
-        let stimulus = |_, _: &_| bench.tick(None);
-        let end = Simulator::new(&pair).run(100_000, stimulus, lockstep);
+        let stimulus = |_, _: &motion_rtl::kernel::Part<'_, _>| bench.tick(None);
+        let end = Simulator::new(&pair).unwrap().run(100_000, stimulus, lockstep);
         end.unwrap();
     }
 }
@@ -122,7 +122,7 @@ fn the_three_placements_fire_in_the_same_tick() {
         let lockstep = Lockstep::of(&pair, &outputs).unwrap();
         let mut bench = Bench::new(9);
         let mut fired = 0;
-        let mut simulator = Simulator::new(&pair);
+        let mut simulator = Simulator::new(&pair).unwrap();
         let mut observer = lockstep;
         for _ in 0..100_000 {
             let i = bench.tick(None);
@@ -142,7 +142,7 @@ fn never_fires_too_early<P: LeadSource<8, 8, 8>>(
 ) {
     let (mut samples, mut fired, mut early) = (0u64, 0u64, 0u64);
     let mut bench = Bench::new(21);
-    let mut simulator = Simulator::new(circuit);
+    let mut simulator = Simulator::new(circuit).unwrap();
     // Time and number of samples that the pair was made with which is looked at in this tick.
     let mut pair: Option<(u64, u64)> = None;
     for tick in 0..400_000 {

@@ -326,7 +326,7 @@ fn the_next_cycle_takes_a_scan_after_the_turnaround_and_not_before() {
         halt: false.into(),
         clear: false.into(),
     };
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     for x in [9, -5] {
         simulator = simulator.step(inputs(false, Some(x)), |_| ()).0;
     }
@@ -391,7 +391,7 @@ fn a_long_line_at_full_width() {
     type Full = LinearInterpolator;
     let circuit = Full::new(Rule::Floor);
     let (x, y) = (1_999_999_999i64, -1_234_567_891);
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let mut points = Vec::new();
     for tick in 0..120 * Full::LATENCY {
         let push = tick == 0;

@@ -275,7 +275,7 @@ fn a_start_that_comes_too_early_and_a_clear_in_mid_division_leave_nothing_behind
 #[test]
 fn a_master_that_does_not_move_divides_nothing() {
     let circuit = Small::new(Rule::Floor);
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     for tick in 0..3 * Small::LATENCY {
         let i = In {
             clear: (tick == 0).into(),

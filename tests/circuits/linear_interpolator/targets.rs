@@ -15,7 +15,7 @@ proptest! {
         ),
     ) {
         let mut queue = VecDeque::new();
-        let mut simulator = Simulator::new(&TargetData::<2, 32, 12>);
+        let mut simulator = Simulator::new(&TargetData::<2, 32, 12>).unwrap();
         let mut shown = ([0, 0], 0, [0, 0]);
         for (push, [x, y], speed, times, pop, flush) in ticks {
             let flush = flush == 0;

@@ -10,7 +10,7 @@ type Circuit<const P: usize, const T: usize, const M: usize, const Q: usize> =
 
 /// Both, fed with the same ports; they are compared in every tick.
 pub struct Bench<const P: usize, const T: usize, const M: usize, const Q: usize> {
-    simulator: Option<Simulator<'static, Circuit<P, T, M, Q>>>,
+    simulator: Option<Simulator<Circuit<P, T, M, Q>>>,
     program: Program,
     pub ticks: u64,
 }
@@ -27,7 +27,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Bench<P, T,
             }
         };
         Bench {
-            simulator: Some(Simulator::new(circuit)),
+            simulator: Some(Simulator::new(circuit).unwrap()),
             program: Program::new(P as u32, T as u32),
             ticks: 0,
         }

@@ -116,7 +116,7 @@ macro_rules! bench {
                 (period, periods): (u64, usize),
             ) -> Vec<Period<$axes>> {
                 let circuit = Controller::new(correction, Rounding::Nearest);
-                let mut simulator = Simulator::new(&circuit);
+                let mut simulator = Simulator::new(&circuit).unwrap();
                 let mut writes = writes(path, profile, gains, period).into_iter();
                 let mut seen = Vec::new();
                 while seen.len() < periods {

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 /// The point at an angle; nothing before its tick.
 fn point<const R: usize, const H: usize>(radius: i64, angle: u64) -> [i64; 2] {
     let circuit = Cordic::<R, H>::default();
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     for ticks in 1..=H as u64 + 1 {
         let i = In {
             start: (ticks == 1 || ticks == 3).into(),

@@ -7,7 +7,7 @@ use motion_rtl::trajectory_controller::{ReferenceModel, Rounding};
 use proptest::prelude::*;
 
 type Bench<'c, const P: usize, const K: usize, const Q: usize> =
-    Simulator<'c, ReferenceModel<P, K, Q>>;
+    Simulator<ReferenceModel<P, K, Q>>;
 
 /// p, v and a.
 type State = [i128; 3];
@@ -37,7 +37,7 @@ fn step<'c, const P: usize, const K: usize, const Q: usize>(
     target: i128,
     gains: [u64; 2],
 ) -> (Bench<'c, P, K, Q>, State) {
-    let before = state(simulator.registers());
+    let before = state(&simulator.registers());
     let latency = ReferenceModel::<P, K, Q>::LATENCY;
     for ticks in 1..=latency {
         let i = ports(target, gains, [ticks == 1, false]);
@@ -49,11 +49,11 @@ fn step<'c, const P: usize, const K: usize, const Q: usize>(
             "after {ticks} ticks"
         );
         assert!(
-            ticks == latency || state(q) == before,
+            ticks == latency || state(&q) == before,
             "after {ticks} ticks"
         );
     }
-    let after = state(simulator.registers());
+    let after = state(&simulator.registers());
     (simulator, after)
 }
 
@@ -91,7 +91,7 @@ proptest! {
     ) {
         let rounding = if nearest { Rounding::Nearest } else { Rounding::Floor };
         let circuit = ReferenceModel::<40, 16, 57>::new(rounding);
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         let mut expected = [0; 3];
         for &target in &targets {
             expected = model(expected, target, gains, 16, rounding);
@@ -118,7 +118,7 @@ fn power(a: u32) -> u64 {
 /// Positions on the way to `target` from rest at 0, until nothing changes any more.
 fn run(target: i128, gains: [u64; 2], rounding: Rounding) -> Vec<i128> {
     let circuit = ReferenceModel::<P, K, Q>::new(rounding);
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let mut positions = vec![0];
     let mut before = [0; 3];
     loop {
@@ -227,7 +227,7 @@ const FRACTION: u32 = 4;
 /// All stable positions that the model goes through at the end of its way to a target.
 fn ends(target: i128, gains: [u64; 2]) -> Vec<i128> {
     let circuit = ReferenceModel::<14, 5, 20>::new(Rounding::Nearest);
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let mut states: Vec<State> = Vec::new();
     loop {
         let (after, seen) = step(simulator, target, gains);
@@ -283,12 +283,12 @@ fn the_response_is_monotone_and_mirrored() {
 fn preset_gives_up_a_step_in_every_tick_of_it() {
     let circuit = ReferenceModel::<P, K, Q>::default();
     for given_up in 1..=ReferenceModel::<P, K, Q>::LATENCY + 2 {
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         for tick in 0..=given_up {
             let i = ports(500, [33, 50], [tick == 0, tick == given_up]);
             simulator = simulator.step(i, |_| ()).0;
         }
-        assert_eq!(state(simulator.registers()), [500, 0, 0]);
+        assert_eq!(state(&simulator.registers()), [500, 0, 0]);
         // And the next step is right, at once.
         let (_, seen) = step(simulator, -200, [33, 50]);
         let expected = model([500, 0, 0], -200, [33, 50], K, Rounding::Nearest);

@@ -148,7 +148,7 @@ proptest! {
         shares in prop::collection::vec((0.0..1.0f64, any::<prop::sample::Index>()), 20),
     ) {
         let circuit = Full::default();
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         let last = path.len() as u64 - 1;
         let mut begins = vec![0];
         for (index, segment) in (0u64..).zip(&path) {

@@ -32,7 +32,7 @@ fn every_length_is_found() {
         begins.dedup();
         let last = begins.len() as u64 - 1;
         let circuit = SegmentSearch::<A, Q>;
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         for segment in 0..1u64 << A {
             // Behind the last stands what is left of another path.
             let begin = begins.get(segment as usize).copied();

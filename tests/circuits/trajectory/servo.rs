@@ -116,7 +116,7 @@ macro_rules! against_equations {
     ($circuit:ty, $registers:ty, $settings:expr, $periods:expr, $widths:expr) => {{
         let circuit = <$circuit>::new(Rounding::Nearest);
         let settings: &Settings = $settings;
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         let mut expected = Loop::default();
         let mut count = 0i128;
         let output = |q: &$registers| {
@@ -142,7 +142,7 @@ macro_rules! against_equations {
             }
             let feedback = i128::from(simulator.registers().detector.position.get());
             assert_eq!(feedback.abs(), count.abs());
-            let before = output(simulator.registers());
+            let before = output(&simulator.registers());
             let next = expected.step(target, feedback, settings, $widths);
             for tick in 1..=<$circuit>::LATENCY {
                 let i = ports(target, settings, [tick == 1, false], channels(count));
@@ -154,12 +154,12 @@ macro_rules! against_equations {
                     "tick {tick}"
                 );
                 if tick < <$circuit>::LATENCY {
-                    assert_eq!(output(q), before, "tick {tick}");
+                    assert_eq!(output(&q), before, "tick {tick}");
                 }
             }
             expected = next;
             assert_eq!(
-                output(simulator.registers()),
+                output(&simulator.registers()),
                 (expected.torque, expected.saturated)
             );
         }
@@ -271,7 +271,7 @@ fn preset_begins_anew_in_every_tick() {
     };
     let circuit = Full::new(Rounding::Nearest);
     for given_up in 1..=Full::LATENCY + 2 {
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         // A first step whole, so that there is something to forget.
         for tick in 0..=Full::LATENCY {
             let i = ports(900_000, &settings, [tick == 0, false], [false; 2]);

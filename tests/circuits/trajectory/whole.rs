@@ -270,7 +270,7 @@ fn the_least_period_is_enough_and_one_tick_less_is_not() {
     let least = plane::Controller::LEAST_PERIOD;
     for period in [least - 1, least] {
         let circuit = plane::Controller::new(Correction::Vector, Rounding::Nearest);
-        let mut simulator = Simulator::new(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
         let writes = plane::writes(&path, &steps(&[1]), GAINS, period);
         let idle = (0..8 * period).map(|_| plane::idle(&path, GAINS, period));
         for i in writes.into_iter().chain(idle) {
@@ -286,7 +286,7 @@ fn the_least_period_is_enough_and_one_tick_less_is_not() {
 #[test]
 fn a_second_path_begins_where_the_first_has_ended() {
     let circuit = plane::Controller::new(Correction::Vector, Rounding::Nearest);
-    let mut simulator = Simulator::new(&circuit);
+    let mut simulator = Simulator::new(&circuit).unwrap();
     let (sin, cos) = 0.7f64.sin_cos();
     let first = segment(10_000_001, [0.0; 2], [cos, sin], None);
     let end = [cos, sin].map(|part| part * 10_000_001.0);

@@ -1,7 +1,7 @@
 //! What every circuit of the catalogue has to keep to.
 
 use super::expect_none;
-use motion_rtl::registry::{CATALOGUE, find};
+use motion_rtl::registry::{AnyModel, CATALOGUE, find};
 use std::collections::HashSet;
 
 #[test]
@@ -41,7 +41,8 @@ fn every_circuit_can_be_made_proved_and_dumped() {
             wrong.push(format!("{}: cannot be made for its proof", entry.name));
             continue;
         };
-        if let Err(error) = circuit.layout() {
+        let model: &dyn AnyModel = &*circuit;
+        if let Err(error) = model.layout() {
             wrong.push(format!("{}: {error}", entry.name));
         }
         let names = circuit.invariants();

@@ -1,5 +1,6 @@
 //! Circuits that are no netlist, or no Verilog.
 
+use motion_rtl::engine::EngineError;
 use motion_rtl::kernel::{Circuit, Instance, Nothing};
 use motion_rtl::logic::netlist::NetlistError;
 use motion_rtl::logic::{Logic, Ram, Sim, Unsigned};
@@ -93,7 +94,7 @@ impl Circuit for Around {
 
 fn refused<C: Circuit>(circuit: &C) -> Vec<NetlistError> {
     match Verilog::of(circuit) {
-        Err(VerilogError::Netlist(errors)) => errors,
+        Err(VerilogError::Engine(EngineError::Netlist(errors))) => errors,
         other => panic!("{other:?}"),
     }
 }

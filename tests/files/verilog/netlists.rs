@@ -67,7 +67,7 @@ fn hold(circuit: &dyn AnyModel, seed: u64) -> u64 {
     let mut variables = HashMap::new();
     names(&header.items, &[], &mut variables);
     let clock = format!("{}_clk", circuit.name());
-    let leaves = circuit.declarations().leaves.len();
+    let leaves = circuit.outline().leaves.len();
     let mut golden: HashMap<String, u64> = HashMap::new();
     let mut lines = stimulus.lines();
     let mut ticks = 0;
@@ -135,7 +135,7 @@ fn paths_are_joined_as_the_dump_joins_them() {
             .filter(|signal| signal.role == Role::Input);
         instance.settle(inputs.map(|_| 0).collect());
         instance.show(circuit.name(), &mut |name, _| names.push(name.to_owned()));
-        let mut declared: Vec<String> = circuit.declarations().leaves.iter().map(flat).collect();
+        let mut declared: Vec<String> = circuit.outline().leaves.iter().map(flat).collect();
         names.sort();
         declared.sort();
         assert_eq!(names, declared);

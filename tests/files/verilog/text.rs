@@ -90,7 +90,7 @@ fn every_signal_is_declared_in_the_module_of_its_scope() {
         let modules = modules(&circuit.verilog().unwrap());
         let mut names = HashMap::new();
         collect(&modules, circuit.name(), circuit.name(), &mut names);
-        let declarations = circuit.declarations();
+        let declarations = circuit.outline();
         let memories = declarations.memories.iter();
         let words: HashSet<usize> = memories
             .clone()

@@ -6,11 +6,11 @@ use motion_rtl::trace::{Options, RecordError, Recorder, text};
 
 fn part(ticks: u64) -> Recorder<Part> {
     let mut recorder = Recorder::new(&Part, &Options::default()).unwrap();
-    let stimulus = |tick: u64, _: &_| PartIn {
+    let stimulus = |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| PartIn {
         step: (tick / 3 + 1).into(),
         up: (tick % 4 == 3).into(),
     };
-    Simulator::new(&Part)
+    Simulator::new(&Part).unwrap()
         .run(ticks, stimulus, &mut recorder)
         .unwrap();
     recorder
@@ -63,11 +63,11 @@ fn words_of_memories_that_hold_still_are_left_out() {
 #[test]
 fn a_recorder_keeps_its_window_and_its_signals() {
     let mut recorder = Recorder::new(&Part, &options(5..9, &["part.level", "part.up"])).unwrap();
-    let stimulus = |_, _: &_| PartIn {
+    let stimulus = |_, _: &motion_rtl::kernel::Part<'_, _>| PartIn {
         step: 1.into(),
         up: true.into(),
     };
-    Simulator::new(&Part)
+    Simulator::new(&Part).unwrap()
         .run(20, stimulus, &mut recorder)
         .unwrap();
     assert_eq!(recorder.ticks(), 5..9);

@@ -29,7 +29,7 @@ impl Observer<Zoo> for Seventh {
 /// Steps to the end, or until the observer stops; the registers, and the ticks that were stepped.
 fn step(mut observer: impl Observer<Zoo>) -> (Bits, Vec<u64>) {
     let mut inputs = inputs(SEED);
-    let mut simulator = Simulator::new(&Zoo);
+    let mut simulator = Simulator::new(&Zoo).unwrap();
     let mut stepped = Vec::new();
     for _ in 0..TICKS {
         let i = inputs.next().unwrap();
@@ -42,7 +42,7 @@ fn step(mut observer: impl Observer<Zoo>) -> (Bits, Vec<u64>) {
             break;
         }
     }
-    (pack(simulator.registers()), stepped)
+    (pack(&*simulator.registers()), stepped)
 }
 
 fn sevenths(and: &[u64]) -> Vec<u64> {
@@ -62,8 +62,8 @@ fn a_window_is_that_of_a_run() {
     // Watched or not, the edges are the same.
     assert_eq!(registers, step(()).0);
     let mut inputs = inputs(SEED);
-    let ran = Simulator::new(&Zoo).run(TICKS, |_, _| inputs.next().unwrap(), ());
-    assert_eq!(registers, pack(ran.unwrap().registers()));
+    let ran = Simulator::new(&Zoo).unwrap().run(TICKS, |_, _| inputs.next().unwrap(), ());
+    assert_eq!(registers, pack(&*ran.unwrap().registers()));
 }
 
 #[test]

@@ -1,0 +1,352 @@
+//! What a block does, in line.
+
+use super::emit::{Changes, Emitter, Word};
+use crate::engine::flat::mask;
+use crate::engine::layout::Slot;
+use crate::engine::plan::{Block, Code, Plan, PlannedMemory, Step, Write};
+use cranelift_codegen::ir::condcodes::IntCC;
+use cranelift_codegen::ir::{self, InstBuilder, Type, Value, types};
+
+/// A block that settles nets.
+pub(super) fn settle(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
+    steps(emitter, plan, block);
+    let mut changes = Changes::new();
+    for &(from, to) in &block.outputs {
+        let word = clean(emitter, from, 64);
+        emitter.put(to, word, &mut changes);
+    }
+    emitter.tell(changes);
+}
+
+/// A block that makes the edge. Gives the registers whose shadows are to be taken over.
+pub(super) fn edge(emitter: &mut Emitter<'_>, plan: &Plan, place: usize) {
+    let block = &plan.blocks[place];
+    steps(emitter, plan, block);
+    let mut words = Vec::with_capacity(block.registers.len());
+    for &(register, from) in &block.registers {
+        let register = &plan.registers[register as usize];
+        words.push((register, clean(emitter, from, register.width)));
+    }
+    let ports: Vec<Port> = block
+        .writes
+        .iter()
+        .map(|write| Port::of(emitter, plan, write))
+        .collect();
+    let mut changes = Changes::new();
+    for (register, word) in words {
+        match register.shadow {
+            Some(shadow) => emitter.store(shadow, word.value),
+            None => emitter.put(register.slot, word, &mut changes),
+        }
+    }
+    emitter.tell(changes);
+    for port in ports {
+        port.emit(emitter, plan, place);
+    }
+}
+
+/// Takes over the shadows of a block.
+pub(super) fn commit(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
+    let mut changes = Changes::new();
+    for &(register, _) in &block.registers {
+        let register = &plan.registers[register as usize];
+        if let Some(shadow) = register.shadow {
+            let word = clean(emitter, shadow, register.width);
+            emitter.put(register.slot, word, &mut changes);
+        }
+    }
+    emitter.tell(changes);
+}
+
+fn clean(emitter: &mut Emitter<'_>, slot: Slot, width: u8) -> Word {
+    emitter.clean(slot, width);
+    emitter.word(slot, width)
+}
+
+/// A port of a memory, with the words that it takes.
+struct Port<'p> {
+    memory: &'p PlannedMemory,
+    enable: Value,
+    data: Value,
+    address: Option<Value>,
+}
+
+impl<'p> Port<'p> {
+    fn of(emitter: &mut Emitter<'_>, plan: &'p Plan, write: &Write) -> Self {
+        let memory = &plan.memories[write.memory as usize];
+        Port {
+            memory,
+            enable: emitter.clean(write.enable, 1),
+            data: emitter.clean(write.data, memory.width),
+            address: write.address.map(|address| emitter.clean(address, 64)),
+        }
+    }
+
+    fn emit(self, emitter: &mut Emitter<'_>, plan: &Plan, place: usize) {
+        let (write, done) = (emitter.block(), emitter.block());
+        emitter.branch(self.enable, write, done);
+        emitter.begin(write);
+        match (self.address, self.memory.head) {
+            (Some(address), _) => self.word(emitter, address, done),
+            (None, Some(head)) => self.shift(emitter, head, plan.bit(place) as u32),
+            (None, None) => {}
+        }
+        emitter.jump(done);
+        emitter.begin(done);
+    }
+
+    /// A word of a RAM, if it is another one and there is one.
+    fn word(&self, emitter: &mut Emitter<'_>, address: Value, done: ir::Block) {
+        let memory = self.memory;
+        let words = emitter.number(memory.words.into());
+        let within = emitter.ins().icmp(IntCC::UnsignedLessThan, address, words);
+        let (look, write) = (emitter.block(), emitter.block());
+        emitter.branch(within, look, done);
+        emitter.begin(look);
+        let old = emitter.load_of(memory.first, memory.words, address);
+        let other = emitter.ins().icmp(IntCC::NotEqual, old, self.data);
+        emitter.branch(other, write, done);
+        emitter.begin(write);
+        self.store(emitter, address);
+    }
+
+    /// All stages of a shift register.
+    fn shift(&self, emitter: &mut Emitter<'_>, head: Slot, bit: u32) {
+        let memory = self.memory;
+        let mut changes = Changes::new();
+        let own = emitter.wakes(&[bit]);
+        let one = one(emitter);
+        emitter.note(own, one, &mut changes);
+        emitter.tell(changes);
+        let before = emitter.load(head);
+        let last = emitter.number(u64::from(memory.words).saturating_sub(1));
+        let less = emitter.ins().iadd_imm_s(before, -1);
+        let first = emitter.ins().select(before, less, last);
+        let first = emitter.bounded(first, memory.words);
+        emitter.store(head, first);
+        if memory.words > 0 {
+            self.store(emitter, first);
+        }
+    }
+
+    fn store(&self, emitter: &mut Emitter<'_>, index: Value) {
+        let memory = self.memory;
+        emitter.store_of(memory.first, memory.words, index, self.data);
+        emitter.store(memory.written, index);
+        let mark = emitter.load(memory.mark);
+        let mark = emitter.ins().iadd_imm_s(mark, 1);
+        emitter.store(memory.mark, mark);
+        let mut changes = Changes::new();
+        let one = one(emitter);
+        emitter.changes(memory.mark, one, &mut changes);
+        let readers = emitter.wakes(&memory.readers);
+        emitter.note(readers, one, &mut changes);
+        emitter.tell(changes);
+    }
+}
+
+fn one(emitter: &mut Emitter<'_>) -> Word {
+    Word {
+        value: emitter.number(1),
+        bits: 1,
+        width: 1,
+    }
+}
+
+fn steps(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
+    for step in &block.steps {
+        let (value, bits) = value(emitter, plan, step);
+        let width = step.width;
+        emitter.know(step.to, Word { value, bits, width });
+    }
+}
+
+/// What a step makes of its operands, and how many of its bits may be high.
+fn value(emitter: &mut Emitter<'_>, plan: &Plan, step: &Step) -> (Value, u8) {
+    let Step {
+        code,
+        width,
+        from,
+        by,
+        a,
+        b,
+        c,
+        ..
+    } = *step;
+    match code {
+        Code::Not => {
+            let a = emitter.word(a, from);
+            let all = emitter.number(mask(width));
+            (emitter.ins().bxor(a.value, all), a.bits.max(width))
+        }
+        Code::Negate => {
+            let a = emitter.word(a, from);
+            (emitter.ins().ineg(a.value), 64)
+        }
+        Code::Add => {
+            let (a, b) = (emitter.word(a, from), emitter.word(b, by));
+            let bits = (a.bits.max(b.bits) + 1).min(64);
+            (emitter.ins().iadd(a.value, b.value), bits)
+        }
+        Code::Subtract => {
+            let (a, b) = (emitter.word(a, from), emitter.word(b, by));
+            (emitter.ins().isub(a.value, b.value), 64)
+        }
+        Code::Multiply => {
+            let (a, b) = (emitter.word(a, from), emitter.word(b, by));
+            let bits = (a.bits + b.bits).min(64);
+            (emitter.ins().imul(a.value, b.value), bits)
+        }
+        Code::And => {
+            let (a, b) = (emitter.word(a, from), emitter.word(b, by));
+            (emitter.ins().band(a.value, b.value), a.bits.min(b.bits))
+        }
+        Code::Or => {
+            let (a, b) = (emitter.word(a, from), emitter.word(b, by));
+            (emitter.ins().bor(a.value, b.value), a.bits.max(b.bits))
+        }
+        Code::Xor => {
+            let (a, b) = (emitter.word(a, from), emitter.word(b, by));
+            (emitter.ins().bxor(a.value, b.value), a.bits.max(b.bits))
+        }
+        Code::Equal => {
+            let (a, b) = (emitter.clean(a, from), emitter.clean(b, by));
+            compare(emitter, IntCC::Equal, a, b)
+        }
+        Code::Below => {
+            let (a, b) = (emitter.clean(a, from), emitter.clean(b, by));
+            compare(emitter, IntCC::UnsignedLessThan, a, b)
+        }
+        Code::BelowSigned => {
+            let (a, b) = (signed(emitter, a, from), signed(emitter, b, by));
+            compare(emitter, IntCC::SignedLessThan, a, b)
+        }
+        Code::Mux => {
+            let choose = emitter.clean(a, from);
+            let (then, other) = (emitter.word(b, width), emitter.word(c, width));
+            let value = emitter.ins().select(choose, then.value, other.value);
+            (value, then.bits.max(other.bits))
+        }
+        Code::ShiftLeft if by >= 64 => (emitter.number(0), 0),
+        Code::ShiftLeft => {
+            let a = emitter.word(a, from);
+            let value = emitter.ins().ishl_imm_u(a.value, i64::from(by));
+            (value, (a.bits + by).min(64))
+        }
+        Code::ShiftRight | Code::Slice if by >= 64 => (emitter.number(0), 0),
+        Code::ShiftRight | Code::Slice => {
+            // Bits above those of the operand are seen if they move down to it.
+            if u16::from(by) + u16::from(width) >= u16::from(from) {
+                emitter.clean(a, from);
+            }
+            let a = emitter.word(a, from);
+            let value = emitter.ins().ushr_imm_u(a.value, i64::from(by));
+            (value, a.bits.saturating_sub(by))
+        }
+        Code::ShiftRightSigned => {
+            let word = emitter.word(a, from);
+            let spare = 64 - from.min(64);
+            let top = emitter.ins().ishl_imm_u(word.value, i64::from(spare));
+            let by = i64::from((by.min(63) + spare).min(63));
+            (emitter.ins().sshr_imm_u(top, by), 64)
+        }
+        Code::Extend => {
+            emitter.clean(a, from);
+            let a = emitter.word(a, from);
+            (a.value, a.bits)
+        }
+        Code::ExtendSigned => {
+            let word = emitter.word(a, from);
+            match narrow(from) {
+                _ if word.bits < from => (word.value, word.bits),
+                _ if from == 64 => (word.value, 64),
+                Some(kind) => {
+                    let low = emitter.ins().ireduce(kind, word.value);
+                    (emitter.ins().sextend(types::I64, low), 64)
+                }
+                None => {
+                    let spare = i64::from(64 - from);
+                    let up = emitter.ins().ishl_imm_u(word.value, spare);
+                    (emitter.ins().sshr_imm_u(up, spare), 64)
+                }
+            }
+        }
+        Code::Join => {
+            let high = emitter.word(a, from);
+            emitter.clean(b, by);
+            let low = emitter.word(b, by);
+            let value = emitter.ins().ishl_imm_u(high.value, i64::from(by.min(63)));
+            let bits = (high.bits + by).min(64).max(low.bits);
+            (emitter.ins().bor(value, low.value), bits)
+        }
+        Code::Read => {
+            let address = emitter.clean(a, from);
+            read(emitter, &plan.memories[c as usize], address, from)
+        }
+    }
+}
+
+fn compare(emitter: &mut Emitter<'_>, how: IntCC, a: Value, b: Value) -> (Value, u8) {
+    let value = emitter.ins().icmp(how, a, b);
+    (emitter.ins().uextend(types::I64, value), 1)
+}
+
+/// The kind of words of so many bits, if the machine has one.
+fn narrow(width: u8) -> Option<Type> {
+    match width {
+        8 => Some(types::I8),
+        16 => Some(types::I16),
+        32 => Some(types::I32),
+        _ => None,
+    }
+}
+
+/// A word to compare as two's complement: its sign is the highest bit of its kind.
+fn signed(emitter: &mut Emitter<'_>, slot: Slot, width: u8) -> Value {
+    let word = emitter.word(slot, width);
+    match (narrow(width), emitter.constant(slot)) {
+        (Some(kind), _) => emitter.ins().ireduce(kind, word.value),
+        (None, Some(number)) => emitter.number(number << (64 - width)),
+        (None, None) => {
+            let spare = i64::from(64 - width);
+            emitter.ins().ishl_imm_u(word.value, spare)
+        }
+    }
+}
+
+/// The word of a memory, or the stage of a shift register; 0 past its end.
+fn read(
+    emitter: &mut Emitter<'_>,
+    memory: &PlannedMemory,
+    address: Value,
+    width: u8,
+) -> (Value, u8) {
+    let words = memory.words;
+    if words == 0 {
+        return (emitter.number(0), 0);
+    }
+    let place = match memory.head {
+        Some(head) => {
+            let head = emitter.load(head);
+            let place = emitter.ins().iadd(address, head);
+            match words.is_power_of_two() {
+                true => place,
+                false => {
+                    let count = emitter.number(words.into());
+                    let past = emitter.ins().isub(place, count);
+                    let within = emitter.ins().icmp(IntCC::UnsignedLessThan, place, count);
+                    emitter.ins().select(within, place, past)
+                }
+            }
+        }
+        None => address,
+    };
+    let place = emitter.bounded(place, words);
+    let word = emitter.load_of(memory.first, words, place);
+    if u64::from(words) > mask(width) {
+        return (word, memory.width);
+    }
+    let (count, none) = (emitter.number(words.into()), emitter.number(0));
+    let within = emitter.ins().icmp(IntCC::UnsignedLessThan, address, count);
+    (emitter.ins().select(within, word, none), memory.width)
+}

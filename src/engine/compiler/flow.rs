@@ -1,0 +1,237 @@
+//! The function: edges and settlings in a loop, and in each the blocks that are to run.
+
+use super::emit::Emitter;
+use super::runs::{Run, is_hot, runs};
+use super::{CompileError, block};
+use crate::engine::layout::Slot;
+use crate::engine::plan::Plan;
+use cranelift_codegen::ir::{Block, Function, InstBuilder, Value};
+use std::collections::BTreeMap;
+
+/// Writes the function of a plan; see [`super::Code`] for what it takes and gives.
+pub(super) fn emit(plan: &Plan, hot: &[bool], func: &mut Function) -> Result<(), CompileError> {
+    whole(plan)?;
+    let mut cold = vec![0u64; plan.layout.block_words as usize];
+    for place in 0..plan.blocks.len() {
+        if !is_hot(hot, place) {
+            let bit = plan.bit(place);
+            cold[bit / 64] |= 1 << (bit % 64);
+        }
+    }
+    let (emitter, parameters) = Emitter::new(func, &plan.layout, cold);
+    let mut flow = Flow { emitter, plan, hot };
+    flow.function(parameters[1], parameters[2]);
+    match flow.emitter.outside {
+        true => Err(CompileError::Plan),
+        false => Ok(()),
+    }
+}
+
+/// Whether every number in a plan is one of something. The slots are looked at where they are used.
+fn whole(plan: &Plan) -> Result<(), CompileError> {
+    let registers = plan.registers.len();
+    let memories = plan.memories.len();
+    let bits = plan.layout.block_words as usize * 64;
+    let blocks = plan.blocks.iter().enumerate().all(|(place, block)| {
+        let reads = block.steps.iter().filter(|step| step.code == super::super::plan::Code::Read);
+        plan.bit(place) < bits
+            && block.registers.iter().all(|&(register, _)| (register as usize) < registers)
+            && block.writes.iter().all(|write| (write.memory as usize) < memories)
+            && reads.clone().all(|step| (step.c as usize) < memories)
+            && block.steps.iter().all(|step| {
+                let widths = [step.width, step.from];
+                widths.iter().all(|width| (1..=64).contains(width))
+            })
+    });
+    match blocks && plan.settling <= plan.blocks.len() {
+        true => Ok(()),
+        false => Err(CompileError::Plan),
+    }
+}
+
+struct Flow<'f> {
+    emitter: Emitter<'f>,
+    plan: &'f Plan,
+    hot: &'f [bool],
+}
+
+impl Flow<'_> {
+    fn function(&mut self, phase: Value, ticks: Value) {
+        let (settle, settles) = self.emitter.block_with();
+        let (edge, edges) = self.emitter.block_with();
+        let (exit, left) = self.emitter.block_with();
+        let first = self.emitter.block();
+        let enter = self.emitter.block();
+        self.emitter.branch(phase, enter, first);
+        self.emitter.begin(first);
+        let one = self.emitter.number(1);
+        self.emitter.jump_with(settle, one);
+        self.emitter.begin(enter);
+        self.emitter.jump_with(edge, ticks);
+
+        self.emitter.begin(edge);
+        self.edge();
+        let (more, done) = (self.emitter.block(), self.emitter.block());
+        self.emitter.branch(edges, more, done);
+        self.emitter.begin(done);
+        self.emitter.jump_with(exit, edges);
+        self.emitter.begin(more);
+        self.emitter.jump_with(settle, edges);
+
+        self.emitter.begin(settle);
+        self.settle();
+        let left_now = self.emitter.ins().iadd_imm_s(settles, -1);
+        let event = self.emitter.load(self.plan.layout.event);
+        let (stop, on) = (self.emitter.block(), self.emitter.block());
+        self.emitter.branch(event, stop, on);
+        self.emitter.begin(stop);
+        self.emitter.jump_with(exit, left_now);
+        self.emitter.begin(on);
+        let again = self.emitter.block();
+        self.emitter.branch(left_now, again, stop);
+        self.emitter.begin(again);
+        self.emitter.jump_with(edge, left_now);
+
+        self.emitter.begin(exit);
+        self.emitter.ins().return_(&[left]);
+    }
+
+    fn settle(&mut self) {
+        for run in runs(self.plan, self.hot, 0..self.plan.settling) {
+            if run.hot {
+                for &place in &run.blocks {
+                    self.emitter.forget();
+                    block::settle(&mut self.emitter, self.plan, &self.plan.blocks[place]);
+                }
+                continue;
+            }
+            for (word, mask, places) in words(self.plan, &run.blocks) {
+                let slot = self.plan.layout.dirty + word;
+                self.scan(slot, mask, &places);
+            }
+        }
+    }
+
+    /// Runs blocks of a word of `dirty` as long as one of them has its bit.
+    fn scan(&mut self, slot: Slot, mask: u64, places: &[usize]) {
+        let (look, next) = (self.emitter.block(), self.emitter.block());
+        self.emitter.jump(look);
+        self.emitter.begin(look);
+        let all = self.emitter.load(slot);
+        let due = self.emitter.and(all, mask);
+        let go = self.emitter.block();
+        self.emitter.branch(due, go, next);
+        self.emitter.begin(go);
+        let less = self.emitter.ins().iadd_imm_s(due, -1);
+        let rest = self.emitter.ins().band(due, less);
+        let lowest = self.emitter.ins().bxor(due, rest);
+        let keep = self.emitter.ins().bxor(all, lowest);
+        self.emitter.store(slot, keep);
+        let targets = self.dispatch(due, places);
+        for (&place, target) in places.iter().zip(targets) {
+            self.emitter.begin(target);
+            self.emitter.forget();
+            block::settle(&mut self.emitter, self.plan, &self.plan.blocks[place]);
+            self.emitter.jump(look);
+        }
+        self.emitter.begin(next);
+    }
+
+    /// Goes to the block of the lowest bit.
+    fn dispatch(&mut self, due: Value, places: &[usize]) -> Vec<Block> {
+        let targets: Vec<Block> = places.iter().map(|_| self.emitter.block()).collect();
+        if let [only] = targets[..] {
+            self.emitter.jump(only);
+            return targets;
+        }
+        let bits: Vec<usize> = places.iter().map(|&place| self.plan.bit(place) % 64).collect();
+        let first = bits[0];
+        let number = self.emitter.ins().ctz(due);
+        let number = self.emitter.ins().iadd_imm_s(number, -(first as i64));
+        let last = *bits.last().unwrap_or(&first);
+        let mut table = vec![targets[0]; last - first + 1];
+        for (&bit, &target) in bits.iter().zip(&targets) {
+            table[bit - first] = target;
+        }
+        self.emitter.branch_to(number, &table);
+        targets
+    }
+
+    fn edge(&mut self) {
+        let plan = self.plan;
+        // Whom an edge wakes runs after it.
+        let mut due: BTreeMap<u32, Value> = BTreeMap::new();
+        let all: Vec<usize> = (plan.settling..plan.blocks.len()).collect();
+        for (word, mask, _) in words(plan, &all) {
+            let slot = plan.layout.dirty + word;
+            let cold = self.emitter.cold_of(word) & mask;
+            if cold != 0 {
+                let taken = self.emitter.load(slot);
+                let none = self.emitter.number(0);
+                self.emitter.store(slot, none);
+                due.insert(word, taken);
+            }
+        }
+        for run in runs(plan, self.hot, plan.settling..plan.blocks.len()) {
+            if run.hot {
+                for &place in &run.blocks {
+                    self.emitter.forget();
+                    block::edge(&mut self.emitter, plan, place);
+                }
+                continue;
+            }
+            for (word, mask, places) in words(plan, &run.blocks) {
+                if let Some(&due) = due.get(&word) {
+                    self.edges(due, mask, &places, |flow, place| block::edge(&mut flow.emitter, plan, place));
+                }
+            }
+        }
+        let commits: Vec<usize> = all.into_iter().filter(|&place| plan.blocks[place].commits).collect();
+        let (hot, cold): (Vec<usize>, Vec<usize>) = commits.into_iter().partition(|&place| is_hot(self.hot, place));
+        for place in hot {
+            self.emitter.forget();
+            block::commit(&mut self.emitter, plan, &plan.blocks[place]);
+        }
+        for (word, mask, places) in words(plan, &cold) {
+            if let Some(&due) = due.get(&word) {
+                self.edges(due, mask, &places, |flow, place| block::commit(&mut flow.emitter, plan, &plan.blocks[place]));
+            }
+        }
+    }
+
+    fn edges(&mut self, due: Value, mask: u64, places: &[usize], mut emit: impl FnMut(&mut Self, usize)) {
+        let (look, left) = self.emitter.block_with();
+        let next = self.emitter.block();
+        let due = self.emitter.and(due, mask);
+        self.emitter.jump_with(look, due);
+        self.emitter.begin(look);
+        let go = self.emitter.block();
+        self.emitter.branch(left, go, next);
+        self.emitter.begin(go);
+        let less = self.emitter.ins().iadd_imm_s(left, -1);
+        let rest = self.emitter.ins().band(left, less);
+        let targets = self.dispatch(left, places);
+        for (&place, target) in places.iter().zip(targets) {
+            self.emitter.begin(target);
+            self.emitter.forget();
+            emit(self, place);
+            self.emitter.jump_with(look, rest);
+        }
+        self.emitter.begin(next);
+    }
+}
+
+/// Blocks by the words of `dirty` in which their bits are: word, bits, blocks.
+fn words(plan: &Plan, blocks: &[usize]) -> Vec<(u32, u64, Vec<usize>)> {
+    let mut words: BTreeMap<u32, (u64, Vec<usize>)> = BTreeMap::new();
+    for &place in blocks {
+        let bit = plan.bit(place);
+        let (mask, places) = words.entry(bit as u32 / 64).or_default();
+        *mask |= 1 << (bit % 64);
+        places.push(place);
+    }
+    words
+        .into_iter()
+        .map(|(word, (mask, places))| (word, mask, places))
+        .collect()
+}

@@ -1,0 +1,87 @@
+//! In which order blocks run where some of them always do.
+
+use crate::engine::layout::Slot;
+use crate::engine::plan::{Code, Plan};
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// Blocks one after the other: all of them are hot, or none is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Run {
+    pub hot: bool,
+    pub blocks: Vec<usize>,
+}
+
+/// The blocks of a phase in as few runs as are found. A block that another waits for comes before
+/// it, and blocks of a run are in the order of the plan.
+pub(super) fn runs(plan: &Plan, hot: &[bool], phase: Range<usize>) -> Vec<Run> {
+    let before = before(plan, phase.clone());
+    let from = |first: bool| {
+        let mut runs: Vec<Run> = Vec::new();
+        let mut done = vec![false; phase.len()];
+        let mut kind = first;
+        let mut left = phase.len();
+        while left > 0 {
+            let mut blocks = Vec::new();
+            for place in phase.clone() {
+                let index = place - phase.start;
+                let ready = || before[index].iter().all(|other| done[other - phase.start]);
+                if !done[index] && is_hot(hot, place) == kind && ready() {
+                    done[index] = true;
+                    blocks.push(place);
+                }
+            }
+            left -= blocks.len();
+            if !blocks.is_empty() {
+                runs.push(Run { hot: kind, blocks });
+            }
+            kind = !kind;
+        }
+        runs
+    };
+    let (cold, hot) = (from(false), from(true));
+    match cold.len() <= hot.len() {
+        true => cold,
+        false => hot,
+    }
+}
+
+pub(super) fn is_hot(hot: &[bool], place: usize) -> bool {
+    hot.get(place).copied().unwrap_or(false)
+}
+
+/// For each block of a phase those that are to run before it: they drive a net that it reads, or
+/// still read a register or a memory that it makes.
+fn before(plan: &Plan, phase: Range<usize>) -> Vec<Vec<usize>> {
+    let mut before = vec![Vec::new(); phase.len()];
+    let mut drivers: HashMap<Slot, usize> = HashMap::new();
+    let mut readers: HashMap<Slot, Vec<usize>> = HashMap::new();
+    for place in phase.clone() {
+        let block = &plan.blocks[place];
+        for &slot in &block.reads {
+            if let Some(&driver) = drivers.get(&slot) {
+                before[place - phase.start].push(driver);
+            }
+            readers.entry(slot).or_default().push(place);
+        }
+        for step in &block.steps {
+            if step.code == Code::Read
+                && let Some(memory) = plan.memories.get(step.c as usize)
+            {
+                readers.entry(memory.mark).or_default().push(place);
+            }
+        }
+        for &(_, to) in &block.outputs {
+            drivers.insert(to, place);
+        }
+        let registers = block.registers.iter();
+        let made = registers.map(|&(register, _)| plan.registers[register as usize].slot);
+        let written = block.writes.iter();
+        let written = written.map(|write| plan.memories[write.memory as usize].mark);
+        for slot in made.chain(written) {
+            let readers = readers.get(&slot).into_iter().flatten();
+            before[place - phase.start].extend(readers.filter(|&&other| other != place));
+        }
+    }
+    before
+}
