@@ -195,7 +195,7 @@
 //!
 //! `rtl_notes/golden_model.md` does it with a design in Verilog;
 //! [`verilog::Verilog`] prints any circuit with a testbench.
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod arc_generator;

@@ -16,9 +16,9 @@ mod tests;
 use super::flat::mask;
 use super::interpreter::put;
 use super::plan::Plan;
-use graph::{Graph, has, insert};
+use graph::{Graph, bits, has, insert};
 use pair::Line;
-use walk::{Known, Moving, Pairs, Words};
+use walk::{Ends, Known, Moving, Pairs, Words};
 
 /// How far the registers of a plan go along straight lines.
 #[derive(Debug, Clone)]
@@ -26,7 +26,7 @@ pub struct Lines {
     graph: Graph,
     stamp: u64,
     words: Vec<Known<u64>>,
-    lines: Vec<Known<Line>>,
+    lines: Vec<Known<(Line, u64)>>,
     /// What the last try found.
     moving: Vec<Moving>,
     /// By slot, of registers.
@@ -36,8 +36,10 @@ pub struct Lines {
     /// Edge blocks that always run, as they were said to, and as bits.
     hot: Vec<bool>,
     hot_bits: Vec<u64>,
+    /// Edge blocks that this edge runs.
     due: Vec<u64>,
-    /// The edge block that ended a line last.
+    /// The edge block that did more than move registers last, and the one that left its lines.
+    busy: usize,
     bent: usize,
 }
 
@@ -49,13 +51,14 @@ impl Lines {
         Lines {
             stamp: 0,
             words: vec![Known::nothing(0); graph.nodes.len()],
-            lines: vec![Known::nothing(Line::still(0)); graph.nodes.len()],
+            lines: vec![Known::nothing((Line::still(0), 0)); graph.nodes.len()],
             moving: Vec::with_capacity(plan.registers.len()),
             slopes: vec![0; graph.slots],
             touched: vec![0; graph.stride],
             hot: vec![false; edges],
             hot_bits: vec![0; edges.div_ceil(64)],
             due: vec![0; edges.div_ceil(64)],
+            busy: 0,
             bent: 0,
             graph,
         }
@@ -69,14 +72,34 @@ impl Lines {
     /// that are `hot` run though nothing wakes them.
     pub fn horizon(&mut self, plan: &Plan, hot: &[bool], slab: &[u64], most: u64) -> u64 {
         for moving in self.moving.drain(..) {
-            self.slopes[plan.registers[moving.register as usize].slot as usize] = 0;
+            self.slopes[moving.slot as usize] = 0;
         }
         if most == 0 {
             return 0;
         }
         self.stamp += 1;
         self.heat(&hot[plan.settling..]);
-        let first = plan.settling.next_multiple_of(64) / 64;
+        if self.step(plan, slab).is_err() {
+            self.moving.clear();
+            return 0;
+        }
+        if self.moving.is_empty() || most == 1 {
+            return most;
+        }
+        self.touched.fill(0);
+        let stride = self.graph.stride;
+        for moving in &self.moving {
+            self.slopes[moving.slot as usize] = moving.slope;
+            let touches = &self.graph.touches[moving.register as usize * stride..][..stride];
+            for (to, from) in self.touched.iter_mut().zip(touches) {
+                *to |= from;
+            }
+        }
+        self.follow(plan, slab, most).unwrap_or(0)
+    }
+
+    /// Finds what this edge moves.
+    fn step(&mut self, plan: &Plan, slab: &[u64]) -> Result<(), Ends> {
         let mut words = Words {
             plan,
             graph: &self.graph,
@@ -84,34 +107,26 @@ impl Lines {
             known: &mut self.words,
             stamp: self.stamp,
         };
-        for (word, hot) in self.hot_bits.iter().enumerate() {
-            let mut due = hot | slab[plan.layout.dirty as usize + first + word];
-            while due != 0 {
-                let edge = word * 64 + due.trailing_zeros() as usize;
-                due &= due - 1;
-                if words.edge(edge, &mut self.moving).is_err() {
-                    self.moving.clear();
-                    return 0;
-                }
+        let first = plan.layout.dirty as usize + plan.settling.div_ceil(64);
+        for (word, (due, hot)) in self.due.iter_mut().zip(&self.hot_bits).enumerate() {
+            *due = slab[first + word] | hot;
+        }
+        // What did more last time is likely to do so again.
+        let busy = self.busy;
+        if has(&self.due, busy) {
+            words.edge(busy, &mut self.moving)?;
+        }
+        for edge in bits(&self.due).filter(|&edge| edge != busy) {
+            if let Err(ends) = words.edge(edge, &mut self.moving) {
+                self.busy = edge;
+                return Err(ends);
             }
         }
-        if self.moving.is_empty() {
-            return most;
-        }
-        self.touched.fill(0);
-        let stride = self.graph.stride;
-        for moving in &self.moving {
-            let register = moving.register as usize;
-            self.slopes[plan.registers[register].slot as usize] = moving.slope;
-            let touches = &self.graph.touches[register * stride..][..stride];
-            for (to, from) in self.touched.iter_mut().zip(touches) {
-                *to |= from;
-            }
-        }
-        self.follow(plan, slab, most)
+        Ok(())
     }
 
-    fn follow(&mut self, plan: &Plan, slab: &[u64], most: u64) -> u64 {
+    /// For how many ticks, at most so many, everything stays on the lines that were found.
+    fn follow(&mut self, plan: &Plan, slab: &[u64], most: u64) -> Result<u64, Ends> {
         let graph = &self.graph;
         let mut pairs = Pairs {
             plan,
@@ -121,39 +136,23 @@ impl Lines {
             stamp: self.stamp,
             slopes: &self.slopes,
             touched: &self.touched,
+            until: most,
         };
-        let mut until = most;
         let edges = &self.touched[graph.edge_word..graph.sight_word];
-        self.due.copy_from_slice(edges);
-        if has(&self.due, self.bent) {
-            // What bent a line is likely to do so again.
-            self.due[self.bent / 64] &= !(1 << (self.bent % 64));
-            until = until.min(pairs.edge(self.bent));
-            if until <= 1 {
-                return until;
+        let bent = self.bent;
+        if has(edges, bent) {
+            pairs.edge(bent)?;
+        }
+        for edge in bits(edges).filter(|&edge| edge != bent) {
+            if let Err(ends) = pairs.edge(edge) {
+                self.bent = edge;
+                return Err(ends);
             }
         }
-        for word in 0..self.due.len() {
-            let mut due = self.due[word];
-            while due != 0 {
-                let edge = word * 64 + due.trailing_zeros() as usize;
-                due &= due - 1;
-                until = until.min(pairs.edge(edge));
-                if until <= 1 {
-                    self.bent = edge;
-                    return until;
-                }
-            }
+        for sight in bits(&self.touched[graph.sight_word..]) {
+            pairs.net(graph.sights[sight])?;
         }
-        for (word, &seen) in self.touched[graph.sight_word..].iter().enumerate() {
-            let mut seen = seen;
-            while seen != 0 {
-                let sight = word * 64 + seen.trailing_zeros() as usize;
-                seen &= seen - 1;
-                until = until.min(pairs.net(graph.sights[sight]));
-            }
-        }
-        until
+        Ok(pairs.until)
     }
 
     /// Takes over which edge blocks are hot.
@@ -173,10 +172,9 @@ impl Lines {
     /// The slab is then as after so many edges with a settling before each.
     pub fn jump(&mut self, plan: &Plan, slab: &mut [u64], ticks: u64) {
         for moving in &self.moving {
-            let register = plan.registers[moving.register as usize];
             let way = moving.slope.wrapping_mul(ticks);
-            let value = slab[register.slot as usize].wrapping_add(way) & mask(register.width);
-            put(&plan.layout, slab, register.slot, value);
+            let value = slab[moving.slot as usize].wrapping_add(way);
+            put(&plan.layout, slab, moving.slot, value & mask(moving.width));
         }
     }
 }

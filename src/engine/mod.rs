@@ -1,27 +1,21 @@
 //! How a circuit runs: its netlist, made to run when it is to.
 
+#[cfg(feature = "jit")]
+#[allow(
+    unsafe_code,
+    reason = "machine code is made here and called; each block says why that is sound"
+)]
+mod compiler;
 mod flat;
 mod flatten;
 pub mod interpreter;
 mod layout;
-#[allow(missing_docs, dead_code)]
-mod lines {
-    use super::Plan;
-    #[derive(Debug)]
-    pub struct Lines;
-    impl Lines {
-        pub fn new(_: &Plan, _: &[bool]) -> Self {
-            Lines
-        }
-        pub fn horizon(&mut self, _: &Plan, _: &[bool], _: &[u64], _: u64) -> u64 {
-            0
-        }
-        pub fn jump(&mut self, _: &Plan, _: &mut [u64], _: u64) {}
-    }
-}
+mod lines;
 pub mod passes;
 mod plan;
 mod program;
+#[cfg(test)]
+mod random;
 mod run;
 mod tier;
 mod value;

@@ -257,9 +257,10 @@ impl<'f> Emitter<'f> {
     pub fn put(&mut self, slot: Slot, word: Word, changes: &mut Changes) {
         let marks = self.marks(slot);
         if !marks.is_empty() {
-            let old = self.word(slot, word.width).value;
-            let value = self.ins().bxor(old, word.value);
-            self.note(marks, Word { value, ..word }, changes);
+            let old = self.word(slot, word.width);
+            let value = self.ins().bxor(old.value, word.value);
+            let bits = old.bits.max(word.bits);
+            self.note(marks, Word { value, bits, ..word }, changes);
         }
         self.store(slot, word.value);
         self.know(slot, word);

@@ -7,12 +7,14 @@ mod block;
 mod emit;
 mod flow;
 mod runs;
+#[cfg(test)]
+mod tests;
 
 use super::plan::Plan;
 use cranelift_codegen::Context;
 use cranelift_codegen::control::ControlPlane;
 use cranelift_codegen::ir::{AbiParam, Signature, types};
-use cranelift_codegen::isa::{OwnedTargetIsa, TargetIsa};
+use cranelift_codegen::isa::OwnedTargetIsa;
 use cranelift_codegen::settings::{self, Configurable, Flags};
 use memmap2::{Mmap, MmapMut};
 use std::ffi::c_void;

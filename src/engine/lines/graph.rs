@@ -72,6 +72,20 @@ pub(super) fn insert(set: &mut [u64], bit: usize) {
     set[bit / 64] |= 1 << (bit % 64);
 }
 
+/// The bits that are set.
+pub(super) fn bits(set: &[u64]) -> impl Iterator<Item = usize> + '_ {
+    set.iter().enumerate().flat_map(|(word, &bits)| {
+        let mut bits = bits;
+        std::iter::from_fn(move || {
+            let bit = bits.trailing_zeros() as usize;
+            (bits != 0).then(|| {
+                bits &= bits - 1;
+                word * 64 + bit
+            })
+        })
+    })
+}
+
 fn unite(set: &mut [u64], other: &[u64]) {
     set.iter_mut().zip(other).for_each(|(to, from)| *to |= from);
 }

@@ -1,1 +1,303 @@
+mod pair;
+mod runs;
 
+use super::Lines;
+use crate::engine::flat::{Flat, Id, Instance, Memory, Node, Op, Place, Port, Register};
+use crate::engine::interpreter::{self, Counts};
+use crate::engine::plan::Plan;
+
+/// A circuit under way, of one instance.
+struct Making(Flat);
+
+impl Making {
+    fn new() -> Self {
+        Making(Flat {
+            instances: vec![Instance {
+                path: Vec::new(),
+                circuit: "made".to_owned(),
+            }],
+            ..Flat::default()
+        })
+    }
+
+    fn node(&mut self, op: Op, width: u8) -> Id {
+        let instance = 0;
+        self.0.nodes.push(Node {
+            op,
+            width,
+            instance,
+        });
+        self.0.nodes.len() as Id - 1
+    }
+
+    fn constant(&mut self, bits: u64, width: u8) -> Id {
+        self.node(Op::Constant(bits), width)
+    }
+
+    fn register(&mut self, width: u8, power_on: u64) -> Id {
+        let id = self.node(Op::Register(self.0.registers.len() as u32), width);
+        self.0.registers.push(Register {
+            width,
+            power_on,
+            next: id,
+            instance: 0,
+        });
+        id
+    }
+
+    fn next(&mut self, register: Id, next: Id) {
+        if let Op::Register(number) = self.0.node(register).op {
+            self.0.registers[number as usize].next = next;
+        }
+    }
+
+    /// A register that goes up by so much, modulo 2^width.
+    fn counter(&mut self, width: u8, power_on: u64, step: u64) -> Id {
+        let count = self.register(width, power_on);
+        let step = self.constant(step, width);
+        let next = self.node(Op::Add(count, step), width);
+        self.next(count, next);
+        count
+    }
+
+    fn watch(mut self, id: Id) -> Flat {
+        self.0.leaves.push(Place::Node(id));
+        self.0
+    }
+}
+
+/// What is watched of a plan, by slot.
+fn held(plan: &Plan) -> Vec<bool> {
+    let mut held = vec![false; plan.layout.words as usize];
+    for watched in &plan.layout.watched {
+        held[watched.slot as usize] = true;
+    }
+    held
+}
+
+/// The horizon of a circuit at power-on, of which all leaves are watched.
+fn horizon(flat: &Flat, most: u64) -> u64 {
+    let plan = Plan::of(flat, &vec![true; flat.leaves.len()]);
+    let mut slab = plan.layout.power_on();
+    interpreter::settle(
+        &plan,
+        &mut slab,
+        &mut Counts::from(vec![0; plan.blocks.len()]),
+    );
+    let cold = vec![false; plan.blocks.len()];
+    let mut lines = Lines::new(&plan, &held(&plan));
+    lines.horizon(&plan, &cold, &slab, most)
+}
+
+#[test]
+fn an_enable_counter_up_to_the_tick_of_its_pulse() {
+    let mut making = Making::new();
+    let count = making.register(8, 3);
+    let (one, zero, period) = (
+        making.constant(1, 8),
+        making.constant(0, 8),
+        making.constant(100, 8),
+    );
+    let sum = making.node(Op::Add(count, one), 8);
+    let below = making.node(Op::Below(sum, period), 1);
+    let next = making.node(Op::Mux(below, sum, zero), 8);
+    making.next(count, next);
+    let pulse = making.node(Op::Equal(count, zero), 1);
+    // 99 is followed by 0: the edges from 3 to 98 are on the line.
+    assert_eq!(horizon(&making.watch(pulse), 1000), 96);
+}
+
+#[test]
+fn a_down_counter_to_zero() {
+    let mut making = Making::new();
+    let count = making.register(8, 50);
+    let (one, zero, load) = (
+        making.constant(1, 8),
+        making.constant(0, 8),
+        making.constant(77, 8),
+    );
+    let less = making.node(Op::Subtract(count, one), 8);
+    let end = making.node(Op::Equal(count, zero), 1);
+    let next = making.node(Op::Mux(end, load, less), 8);
+    making.next(count, next);
+    assert_eq!(horizon(&making.watch(end), 1000), 50);
+}
+
+#[test]
+fn a_memory_that_is_to_be_written() {
+    let mut making = Making::new();
+    let count = making.counter(8, 0, 1);
+    let limit = making.constant(20, 8);
+    let enable = making.node(Op::Equal(count, limit), 1);
+    let address = making.constant(1, 2);
+    let mut flat = making.0;
+    flat.memories.push(Memory {
+        width: 8,
+        contents: vec![0; 4],
+        port: Port::Ram {
+            enable,
+            address,
+            data: count,
+        },
+        instance: 0,
+    });
+    assert_eq!(horizon(&flat, 1000), 20);
+    // In the tick itself there is nothing to go over, and of a shift register neither.
+    flat.registers[0].power_on = 20;
+    assert_eq!(horizon(&flat, 1000), 0);
+    flat.registers[0].power_on = 3;
+    flat.memories[0].port = Port::Shift {
+        enable,
+        data: count,
+    };
+    assert_eq!(horizon(&flat, 1000), 17);
+    flat.registers[0].power_on = 20;
+    assert_eq!(horizon(&flat, 1000), 0);
+}
+
+#[test]
+fn a_memory_read_at_a_moving_address() {
+    let mut making = Making::new();
+    making.0.memories.push(Memory {
+        width: 8,
+        contents: vec![7, 7, 7, 9],
+        port: Port::Rom,
+        instance: 0,
+    });
+    let count = making.counter(2, 0, 1);
+    let word = making.node(Op::Read(0, count), 8);
+    assert!(horizon(&making.watch(word), 1000) <= 3);
+}
+
+#[test]
+fn a_counter_that_wraps_around() {
+    let mut making = Making::new();
+    let count = making.counter(4, 13, 1);
+    let limit = making.constant(12, 4);
+    let below = making.node(Op::Below(count, limit), 1);
+    assert_eq!(horizon(&making.watch(below), 1000), 3);
+    // Zeros above: the word is not on the line where the counter has wrapped around.
+    let mut making = Making::new();
+    let count = making.counter(4, 13, 1);
+    let wide = making.node(Op::Extend(count), 8);
+    let limit = making.constant(100, 8);
+    let sum = making.node(Op::Add(wide, limit), 8);
+    let limit = making.constant(101, 8);
+    let below = making.node(Op::Below(sum, limit), 1);
+    assert_eq!(horizon(&making.watch(below), 1000), 3);
+}
+
+#[test]
+fn signed_words_across_the_sign() {
+    let below = |power_on: u64, step: u64, limit: u64| {
+        let mut making = Making::new();
+        let count = making.counter(8, power_on & 0xff, step & 0xff);
+        let limit = making.constant(limit & 0xff, 8);
+        let below = making.node(Op::BelowSigned(count, limit), 1);
+        horizon(&making.watch(below), 1000)
+    };
+    assert_eq!(below(-5i64 as u64, 1, 0), 5);
+    assert_eq!(below(5, -1i64 as u64, 0), 6);
+    // From 127 to -128.
+    assert_eq!(below(120, 1, 100), 8);
+    let mut making = Making::new();
+    let count = making.counter(8, 0xfb, 1);
+    let wide = making.node(Op::ExtendSigned(count), 16);
+    let zero = making.constant(0, 16);
+    let equal = making.node(Op::Equal(wide, zero), 1);
+    assert_eq!(horizon(&making.watch(equal), 1000), 5);
+}
+
+#[test]
+fn equality_met_exactly_or_passed_over() {
+    let meets = |power_on: u64, step: u64, with: u64| {
+        let mut making = Making::new();
+        let count = making.counter(8, power_on, step);
+        let with = making.constant(with, 8);
+        let equal = making.node(Op::Equal(count, with), 1);
+        horizon(&making.watch(equal), 1000)
+    };
+    assert_eq!(meets(1, 3, 10), 3);
+    // Only in its third round does it meet 11: 1 + 3 * 174 = 2 * 256 + 11.
+    assert_eq!(meets(1, 3, 11), 174);
+    assert_eq!(meets(1, 2, 10), 1000);
+    assert_eq!(meets(7, 2, 7), 0);
+    assert_eq!(meets(9, 255, 9 + 256 - 1 - 255), 256 - 255 + 254);
+}
+
+#[test]
+fn inputs_stay_for_so_many_ticks_at_most() {
+    let mut making = Making::new();
+    let count = making.counter(8, 0, 1);
+    let limit = making.constant(200, 8);
+    let below = making.node(Op::Below(count, limit), 1);
+    let flat = making.watch(below);
+    assert_eq!(horizon(&flat, 7), 7);
+    assert_eq!(horizon(&flat, 1), 1);
+    assert_eq!(horizon(&flat, 0), 0);
+    // Nothing moves at all.
+    let mut making = Making::new();
+    let still = making.register(8, 3);
+    assert_eq!(horizon(&making.watch(still), 9), 9);
+}
+
+#[test]
+fn what_is_watched_ends_a_line_where_it_moves() {
+    let mut making = Making::new();
+    let count = making.counter(8, 0, 1);
+    assert!(horizon(&making.watch(count), 1000) <= 1);
+    let mut making = Making::new();
+    let count = making.counter(8, 0, 1);
+    let one = making.constant(1, 8);
+    let net = making.node(Op::Add(count, one), 8);
+    assert!(horizon(&making.watch(net), 1000) <= 1);
+    // Its upper bits move only now and then.
+    let mut making = Making::new();
+    let count = making.counter(8, 5, 1);
+    let high = making.node(Op::Slice(count, 5), 3);
+    assert_eq!(horizon(&making.watch(high), 1000), 27);
+}
+
+#[test]
+fn two_counters_at_different_speeds() {
+    let mut making = Making::new();
+    let (one, other) = (making.counter(16, 0, 5), making.counter(16, 100, 2));
+    let below = making.node(Op::Below(one, other), 1);
+    // 5 * 34 is not below 100 + 2 * 34.
+    assert_eq!(horizon(&making.watch(below), 1000), 34);
+    let mut making = Making::new();
+    let (one, other) = (making.counter(16, 0, 5), making.counter(16, 100, 2));
+    let below = making.node(Op::Below(other, one), 1);
+    assert_eq!(horizon(&making.watch(below), 1000), 34);
+}
+
+#[test]
+fn a_multiplied_counter() {
+    let mut making = Making::new();
+    let count = making.counter(16, 0, 1);
+    let (three, limit) = (making.constant(3, 16), making.constant(100, 16));
+    let product = making.node(Op::Multiply(count, three), 16);
+    let below = making.node(Op::Below(product, limit), 1);
+    assert_eq!(horizon(&making.watch(below), 1000), 34);
+    let mut making = Making::new();
+    let count = making.counter(16, 1, 1);
+    let limit = making.constant(100, 16);
+    let square = making.node(Op::Multiply(count, count), 16);
+    let below = making.node(Op::Below(square, limit), 1);
+    assert!(horizon(&making.watch(below), 1000) <= 9);
+}
+
+#[test]
+fn an_arm_that_is_not_taken_ends_nothing() {
+    let mut making = Making::new();
+    let count = making.counter(8, 0, 1);
+    let taken = making.register(1, 0);
+    let limit = making.constant(20, 8);
+    let soon = making.node(Op::Below(count, limit), 1);
+    let (gated, chosen) = (
+        making.node(Op::And(soon, taken), 1),
+        making.node(Op::Mux(taken, soon, taken), 1),
+    );
+    let sum = making.node(Op::Xor(gated, chosen), 1);
+    assert_eq!(horizon(&making.watch(sum), 200), 200);
+}

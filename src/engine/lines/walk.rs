@@ -5,7 +5,8 @@ use super::pair::Line;
 use super::tree::Item;
 use crate::engine::flat::mask;
 use crate::engine::interpreter::read;
-use crate::engine::plan::{Code, Plan};
+use crate::engine::layout::Slot;
+use crate::engine::plan::{Code, Plan, PlannedRegister};
 use crate::engine::value::signed;
 
 /// What is known of a node since a walk.
@@ -25,6 +26,9 @@ impl<T> Known<T> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moving {
     pub register: u32,
+    pub slot: Slot,
+    pub width: u8,
+    /// Its step in a tick, modulo 2^width.
     pub slope: u64,
 }
 
@@ -57,16 +61,22 @@ impl Words<'_> {
                 }
                 Item::Choose { .. } => {}
                 Item::Register { register, next } => {
-                    let planned = plan_of(self.plan, register);
-                    let now = self.slab[planned.0 as usize];
+                    let PlannedRegister { slot, width, .. } =
+                        self.plan.registers[register as usize];
+                    let now = self.slab[slot as usize];
                     let next = self.word(next);
                     if next != now {
                         // A bit that turns over is hardly ever on a line that anything follows.
-                        if planned.1 == 1 || graph.held[register as usize] {
+                        if width == 1 || graph.held[register as usize] {
                             return Err(Ends);
                         }
-                        let slope = next.wrapping_sub(now) & mask(planned.1);
-                        moving.push(Moving { register, slope });
+                        let slope = next.wrapping_sub(now) & mask(width);
+                        moving.push(Moving {
+                            register,
+                            slot,
+                            width,
+                            slope,
+                        });
                     }
                 }
                 Item::Write { enable } => {
@@ -135,41 +145,31 @@ impl Words<'_> {
     }
 }
 
-/// Slot and width of a register.
-fn plan_of(plan: &Plan, register: u32) -> (u32, u8) {
-    let planned = &plan.registers[register as usize];
-    (planned.slot, planned.width)
-}
-
 /// Lines: nets are what their nodes make where something moves them.
 pub(super) struct Pairs<'w> {
     pub plan: &'w Plan,
     pub graph: &'w Graph,
     pub slab: &'w [u64],
-    pub known: &'w mut [Known<Line>],
+    pub known: &'w mut [Known<(Line, u64)>],
     pub stamp: u64,
     /// By slot.
     pub slopes: &'w [u64],
     /// What moves: see [`Graph::touches`].
     pub touched: &'w [u64],
+    /// For how many ticks all lines asked for since it was set are what they were said to be.
+    pub until: u64,
 }
 
 impl Pairs<'_> {
-    /// For how many ticks the registers of a block stay on their lines.
-    pub fn edge(&mut self, edge: usize) -> u64 {
+    /// Follows the registers of a block for as long as they stay on their lines.
+    pub fn edge(&mut self, edge: usize) -> Result<(), Ends> {
         let graph = self.graph;
         let mut place = graph.starts[edge] as usize;
-        let mut until = u64::MAX;
         loop {
             match graph.items[place] {
                 Item::Choose { on, low } => {
-                    let line = self.line(on);
-                    until = until.min(holds(line));
-                    if line.value == 0 {
+                    if !self.holds(on) {
                         place = low as usize;
-                        if until <= 1 {
-                            return until;
-                        }
                         continue;
                     }
                 }
@@ -178,41 +178,49 @@ impl Pairs<'_> {
                     continue;
                 }
                 Item::Register { register, next } => {
-                    let slot = plan_of(self.plan, register).0;
-                    let line = self.line(next);
-                    if line.slope != self.slopes[slot as usize] {
-                        return 1;
+                    let slot = self.plan.registers[register as usize].slot;
+                    if self.line(next).slope != self.slopes[slot as usize] {
+                        return Err(Ends);
                     }
-                    until = until.min(line.until);
                 }
+                // It may be high in a block that has nothing to do: the word is written already.
                 Item::Write { enable } => {
-                    let line = self.line(enable);
-                    // It may be high in a block that has nothing to do: the word is written already.
-                    if line.value != 0 {
-                        return 0;
+                    if self.holds(enable) {
+                        return Err(Ends);
                     }
-                    until = until.min(holds(line));
                 }
-                Item::End => return until,
+                Item::End => return Ok(()),
             }
-            if until <= 1 {
-                return until;
+            if self.until <= 1 {
+                return Err(Ends);
             }
             place += 1;
         }
     }
 
-    /// For how many ticks a watched net stays as it is.
-    pub fn net(&mut self, net: u32) -> u64 {
+    /// Follows a net for as long as it stays as it is.
+    pub fn net(&mut self, net: u32) -> Result<(), Ends> {
         let line = self.line(self.graph.nets[net as usize].made);
-        if line.is_still() { line.until } else { 1 }
+        match line.is_still() && self.until > 1 {
+            true => Ok(()),
+            false => Err(Ends),
+        }
+    }
+
+    /// Whether a condition is high, and for as long as it is.
+    fn holds(&mut self, on: From) -> bool {
+        let line = self.line(on);
+        if !line.is_still() {
+            self.until = 1;
+        }
+        line.value != 0
     }
 
     fn line(&mut self, from: From) -> Line {
         match from {
             From::Register(slot) => Line {
+                value: self.slab[slot as usize],
                 slope: self.slopes[slot as usize],
-                ..Line::still(self.slab[slot as usize])
             },
             From::Fixed(slot) => Line::still(self.slab[slot as usize]),
             From::Net(number) => {
@@ -230,61 +238,102 @@ impl Pairs<'_> {
                 }
                 let known = self.known[number as usize];
                 if known.stamp == self.stamp {
-                    return known.what;
+                    self.until = self.until.min(known.what.1);
+                    return known.what.0;
                 }
-                let what = self.make(node);
+                let before = std::mem::replace(&mut self.until, u64::MAX);
+                let line = self.make(node);
                 self.known[number as usize] = Known {
                     stamp: self.stamp,
-                    what,
+                    what: (line, self.until),
                 };
-                what
+                self.until = self.until.min(before);
+                line
             }
         }
     }
 
     fn make(&mut self, node: &Node) -> Line {
-        let a = self.line(node.a);
         let (width, from, by) = (node.width, node.from, node.by);
+        match node.code {
+            Code::And => return self.both(node.a, node.b, 0, width),
+            Code::Or => return self.both(node.a, node.b, mask(width), width),
+            _ => {}
+        }
+        let a = self.line(node.a);
+        let until = &mut self.until;
         match node.code {
             Code::Not => a.not(width),
             Code::Negate => a.negate(width),
-            Code::Add => a.add(self.line(node.b), width),
-            Code::Subtract => a.subtract(self.line(node.b), width),
-            Code::Multiply => a.multiply(self.line(node.b), width),
-            // What is zero for good asks for nothing else.
-            Code::And if a == Line::still(0) => a,
-            Code::And => a.and(self.line(node.b), width),
-            Code::Or if a == Line::still(mask(width)) => a,
-            Code::Or => a.or(self.line(node.b), width),
-            Code::Xor => a.xor(self.line(node.b), width),
-            Code::Equal => a.equal(self.line(node.b), from),
-            Code::Below => a.below(self.line(node.b), from),
-            Code::BelowSigned => a.below_signed(self.line(node.b), from),
-            Code::Mux => {
-                let chosen = self.line(if a.value == 0 { node.c } else { node.b });
-                Line {
-                    until: chosen.until.min(holds(a)),
-                    ..chosen.low(width)
-                }
-            }
             Code::ShiftLeft => a.shift_left(by, width),
-            Code::ShiftRight | Code::Slice => a.slice(by, from, width),
-            Code::ShiftRightSigned => a.shift_right_signed(by, from, width),
-            Code::Extend => a.extend(from, width),
-            Code::ExtendSigned => a.extend_signed(from, width),
-            Code::Join => a.join(self.line(node.b), by, width),
+            Code::ShiftRight | Code::Slice => a.slice(by, from, width, until),
+            Code::ShiftRightSigned => a.shift_right_signed(by, from, width, until),
+            Code::Extend => a.extend(from, width, until),
+            Code::ExtendSigned => a.extend_signed(from, width, until),
+            Code::Mux => {
+                if !a.is_still() {
+                    *until = 1;
+                }
+                let chosen = if a.value == 0 { node.c } else { node.b };
+                self.line(chosen).low(width)
+            }
             Code::Read => {
+                if !a.is_still() {
+                    *until = 1;
+                }
                 let memory = &self.plan.memories[node.memory as usize];
-                Line {
-                    until: if a.is_still() { a.until } else { 1 },
-                    ..Line::still(read(memory, self.slab, a.value) & mask(width))
+                Line::still(read(memory, self.slab, a.value) & mask(width))
+            }
+            _ => {
+                let b = self.line(node.b);
+                let until = &mut self.until;
+                match node.code {
+                    Code::Add => a.add(b, width),
+                    Code::Subtract => a.subtract(b, width),
+                    Code::Multiply => a.multiply(b, width, until),
+                    Code::Xor => a.xor(b, width, until),
+                    Code::Equal => a.equal(b, from, until),
+                    Code::Below => a.below(b, from, until),
+                    Code::BelowSigned => a.below_signed(b, from, until),
+                    Code::Join => a.join(b, by, width, until),
+                    _ => unreachable!("all others are above"),
                 }
             }
         }
     }
-}
 
-/// For how many ticks a condition stays low, or stays high.
-fn holds(line: Line) -> u64 {
-    if line.is_still() { line.until } else { 1 }
+    /// And, of which zero is the end, or or, of which all bits are.
+    fn both(&mut self, a: From, b: From, end: u64, width: u8) -> Line {
+        let end = Line::still(end);
+        let before = std::mem::replace(&mut self.until, u64::MAX);
+        let a = self.line(a);
+        let first = std::mem::replace(&mut self.until, u64::MAX);
+        if a == end && first == u64::MAX {
+            // It is so for good, whatever the other one is.
+            self.until = before;
+            return a;
+        }
+        let b = self.line(b);
+        let second = self.until;
+        let line = match (a == end, b == end) {
+            (true, true) => {
+                self.until = first.max(second);
+                end
+            }
+            (true, false) => {
+                self.until = first;
+                end
+            }
+            (false, true) => end,
+            _ => {
+                self.until = first.min(second);
+                match end.value {
+                    0 => a.and(b, width, &mut self.until),
+                    _ => a.or(b, width, &mut self.until),
+                }
+            }
+        };
+        self.until = self.until.min(before);
+        line
+    }
 }
