@@ -1,7 +1,7 @@
 //! The circuits at the widths of jobs, and what goes into them during the jobs that ship with the
 //! crate.
 
-use super::ours::{Mix, Outputs};
+use super::ours::{Outputs, Port};
 use super::stimulus::{Recorder, Stimulus};
 use motion_rtl::arc_generator::job::arc_generator;
 use motion_rtl::arc_generator::path::{Speeds, from_drawing, from_points};
@@ -10,7 +10,7 @@ use motion_rtl::arc_generator::record::records;
 use motion_rtl::arc_generator::{self, ArcGenerator};
 use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::input::{Drawing, read_path};
-use motion_rtl::kernel::{Sample, Without, zero};
+use motion_rtl::kernel::{Watcher, Without, zero};
 use motion_rtl::lead_angle::job::{ShiftLead, positioner};
 use motion_rtl::lead_angle::{self, Compensator};
 use motion_rtl::linear_interpolator::job::plotter;
@@ -84,8 +84,10 @@ fn drawing(scenario: &Scenario) -> Drawing {
 macro_rules! outputs {
     ([$($generic:tt)*] $circuit:ty: $($port:ident)*) => {
         impl<$($generic)*> Outputs for $circuit {
-            fn outputs(now: &Sample<'_, Self>) -> Mix {
-                Mix::default()$(.with(&now.w.$port))*
+            fn outputs(watch: &Watcher<Self>) -> Vec<usize> {
+                let mut leaves = Vec::new();
+                $(watch.w.$port.leaves(watch, &mut leaves);)*
+                leaves
             }
         }
     };

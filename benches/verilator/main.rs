@@ -19,7 +19,7 @@ mod stimulus;
 mod theirs;
 
 use jobs::{Clock, Job};
-use ours::{Outputs, Waves};
+use ours::{Ours, Outputs, Waves, Way};
 use std::time::Duration;
 use theirs::{Build, Verilated};
 
@@ -118,14 +118,21 @@ fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
     let build = |what, name| Verilated::new(circuit, stimulus, from, what, &path.join(name));
     {
         let mut theirs = build(Build::Untraced, "untraced");
-        let run = || ours::run::<C, 1>(circuit, stimulus);
-        let every = Times::measure(asked, stimulus.ticks, || theirs.run(1), run);
-        every.print(name, "every output at every tick");
-        let run = || ours::run::<C, SELDOM>(circuit, stimulus);
-        let seldom = Times::measure(asked, stimulus.ticks, || theirs.run(SELDOM), run);
+        let ticks = stimulus.ticks;
+        let compiled = Ours::new(circuit, stimulus, Way::Compiled);
+        let interpreted = Ours::new(circuit, stimulus, Way::Interpreted);
+        let forward = Ours::new(circuit, stimulus, Way::Forward);
+        let run = || compiled.run(stimulus, 1);
+        let every = Times::measure(asked, ticks, || theirs.run(1), run);
+        every.print(name, "every output, compiled");
+        let run = || interpreted.run(stimulus, 1);
+        let every = Times::measure(asked, ticks, || theirs.run(1), run);
+        every.print(name, "every output, interpreted");
+        let run = || compiled.run(stimulus, SELDOM);
+        let seldom = Times::measure(asked, ticks, || theirs.run(SELDOM), run);
         seldom.print(name, "outputs now and then");
-        let run = || ours::forward(circuit, stimulus);
-        let held = Times::measure(asked, stimulus.ticks, || theirs.run(1), run);
+        let run = || forward.run(stimulus, 1);
+        let held = Times::measure(asked, ticks, || theirs.run(1), run);
         held.print(name, "idle ticks gone over");
     }
     let (a, b) = (&path.join("a"), &path.join("b"));

@@ -2,9 +2,8 @@
 
 use super::stimulus::{Replay, Stimulus};
 use super::theirs::ROTATION;
-use motion_rtl::kernel::{Circuit, Observer, RunError, Sample, Simulator};
-use motion_rtl::logic::sim::{Int, UInt, Wire};
-use motion_rtl::logic::{Bit, Signed, Sim};
+use motion_rtl::kernel::{Circuit, Observer, Place, RunError, Sample, Simulator, Watcher};
+use motion_rtl::logic::netlist::{NetBit, NetInt, NetUInt};
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
 use std::fs::File;
 use std::ops::ControlFlow;
@@ -13,122 +12,155 @@ use std::time::{Duration, Instant};
 
 /// A circuit whose outputs can be read.
 pub trait Outputs: Circuit + Sized {
-    /// One word that all of them have a part in, in the order of the ports.
-    fn outputs(now: &Sample<'_, Self>) -> Mix;
-}
-
-/// What the outputs of a tick come to.
-#[derive(Default)]
-pub struct Mix {
-    pub word: u64,
-    place: u32,
-}
-
-impl Mix {
-    pub fn with<P: Port>(self, port: &P) -> Self {
-        port.mix(self)
-    }
-
-    fn word(self, word: u64) -> Self {
-        Mix {
-            word: self.word ^ word.rotate_left(self.place),
-            place: (self.place + ROTATION) % 64,
-        }
-    }
+    /// The leaves that they are, in the order of the ports, which are watched.
+    fn outputs(watch: &Watcher<Self>) -> Vec<usize>;
 }
 
 /// A port out, or some.
 pub trait Port {
-    fn mix(&self, mix: Mix) -> Mix;
+    fn leaves<C: Circuit>(&self, watch: &Watcher<C>, leaves: &mut Vec<usize>);
 }
 
-impl Port for Wire {
-    fn mix(&self, mix: Mix) -> Mix {
-        mix.word(Bit::<Sim>::word(*self).get())
+impl Port for NetBit {
+    fn leaves<C: Circuit>(&self, watch: &Watcher<C>, leaves: &mut Vec<usize>) {
+        watch.at(*self);
+        leaves.push(self.leaf());
     }
 }
 
-impl<const N: usize> Port for UInt<N> {
-    fn mix(&self, mix: Mix) -> Mix {
-        mix.word(self.get())
+impl<const N: usize> Port for NetUInt<N> {
+    fn leaves<C: Circuit>(&self, watch: &Watcher<C>, leaves: &mut Vec<usize>) {
+        watch.at(*self);
+        leaves.push(self.leaf());
     }
 }
 
-impl<const N: usize> Port for Int<N> {
-    fn mix(&self, mix: Mix) -> Mix {
-        mix.word(Signed::<Sim, N>::unsigned(*self).get())
+impl<const N: usize> Port for NetInt<N> {
+    fn leaves<C: Circuit>(&self, watch: &Watcher<C>, leaves: &mut Vec<usize>) {
+        watch.at(*self);
+        leaves.push(self.leaf());
     }
 }
 
 impl<P: Port, const K: usize> Port for [P; K] {
-    fn mix(&self, mix: Mix) -> Mix {
-        self.iter().fold(mix, Mix::with)
+    fn leaves<C: Circuit>(&self, watch: &Watcher<C>, leaves: &mut Vec<usize>) {
+        self.iter().for_each(|port| port.leaves(watch, leaves));
     }
 }
 
-/// Reads the outputs of every so many ticks.
-struct Checksum<const EVERY: u64>(u64);
-
-impl<C: Outputs, const EVERY: u64> Observer<C> for Checksum<EVERY> {
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if now.tick.is_multiple_of(EVERY) {
-            self.0 = self.0.rotate_left(1).wrapping_add(C::outputs(now).word);
-        }
-        Ok(ControlFlow::Continue(()))
-    }
+/// One word that all outputs have a part in.
+pub fn word<C: Circuit>(outputs: &[usize], now: &Sample<'_, C>) -> u64 {
+    let engine = now.engine();
+    let mut place = 0;
+    outputs.iter().fold(0, |word, &leaf| {
+        let turned = engine.leaf(leaf).rotate_left(place);
+        place = (place + ROTATION) % 64;
+        word ^ turned
+    })
 }
 
-/// A run, and the checksum over the outputs of every so many ticks.
-pub fn run<C: Outputs, const EVERY: u64>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
-    let mut replay = Replay::<C>::new(stimulus);
-    let mut sum = Checksum::<EVERY>(0);
-    let simulator = Simulator::new(circuit).unwrap();
-    let begun = Instant::now();
-    let run = simulator.run(stimulus.ticks, |tick, _| replay.tick(tick), &mut sum);
-    let taken = begun.elapsed();
-    drop(run.expect("no observer objects"));
-    (taken, sum.0)
-}
-
-/// Reads the outputs of every tick, of which it sees those that are not gone over: in the others
-/// the outputs are held.
-#[derive(Default)]
-struct Held {
+/// The checksum over the outputs of every so many ticks: where a tick is not seen they are held.
+struct Checksum<'o> {
+    outputs: &'o [usize],
+    every: u64,
     sum: u64,
     /// The outputs of the tick seen last.
     word: u64,
-    /// The first tick whose outputs are not in the sum.
+    /// The first tick that is not in the sum.
     tick: u64,
 }
 
-impl<C: Outputs> Observer<C> for Held {
+impl<'o> Checksum<'o> {
+    fn new(outputs: &'o [usize], every: u64) -> Self {
+        Checksum {
+            outputs,
+            every,
+            sum: 0,
+            word: 0,
+            tick: 0,
+        }
+    }
+
+    fn until(&mut self, tick: u64) {
+        if self.every == 1 {
+            for _ in self.tick..tick {
+                self.sum = self.sum.rotate_left(1).wrapping_add(self.word);
+            }
+            self.tick = tick;
+        }
+        while self.tick < tick {
+            self.sum = self.sum.rotate_left(1).wrapping_add(self.word);
+            self.tick += self.every;
+        }
+    }
+}
+
+impl<C: Outputs> Observer<C> for Checksum<'_> {
+    fn needs_all(&self) -> bool {
+        false
+    }
+
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.until(now.tick);
-        self.word = C::outputs(now).word;
+        self.word = word(self.outputs, now);
         Ok(ControlFlow::Continue(()))
     }
 }
 
-impl Held {
-    fn until(&mut self, tick: u64) {
-        for _ in self.tick..tick {
-            self.sum = self.sum.rotate_left(1).wrapping_add(self.word);
-        }
-        self.tick = tick;
-    }
+/// How a run is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// Tick by tick, in compiled code.
+    Compiled,
+    /// Tick by tick, by the interpreter.
+    Interpreted,
+    /// Compiled, idle ticks gone over.
+    Forward,
 }
 
-/// A run that goes over idle ticks, and the checksum over the outputs of every tick.
-pub fn forward<C: Outputs>(circuit: &C, stimulus: &Stimulus) -> (Duration, u64) {
-    let mut replay = Replay::<C>::new(stimulus);
-    let mut held = Held::default();
-    let simulator = Simulator::new(circuit).unwrap();
-    let begun = Instant::now();
-    let run = simulator.fast_forward(stimulus.ticks, |tick, _| replay.held(tick), &mut held);
-    held.until(stimulus.ticks);
-    let taken = begun.elapsed();
-    drop(run.expect("no observer objects"));
-    (taken, held.sum)
+/// A circuit that is ready to run.
+pub struct Ours<C: Outputs> {
+    simulator: Simulator<C>,
+    outputs: Vec<usize>,
+    way: Way,
+}
+
+impl<C: Outputs> Ours<C> {
+    /// Elaborates and plans it; a first run over the stimulus has it compiled.
+    pub fn new(circuit: &C, stimulus: &Stimulus, way: Way) -> Self {
+        let watched = Simulator::watching(circuit, false, C::outputs);
+        let (mut simulator, outputs) = watched.expect("a netlist");
+        if way == Way::Interpreted {
+            simulator = simulator.interpreted();
+        }
+        let ours = Ours {
+            simulator,
+            outputs,
+            way,
+        };
+        if way != Way::Interpreted {
+            ours.run(stimulus, 1);
+        }
+        ours
+    }
+
+    /// A run, and the checksum over the outputs of every so many ticks.
+    pub fn run(&self, stimulus: &Stimulus, every: u64) -> (Duration, u64) {
+        let mut replay = Replay::<C>::new(stimulus);
+        let mut sum = Checksum::new(&self.outputs, every);
+        let simulator = self.simulator.clone();
+        let begun = Instant::now();
+        let run = match self.way {
+            Way::Forward => {
+                simulator.fast_forward(stimulus.ticks, |tick, _| replay.held(tick), &mut sum)
+            }
+            _ => simulator.run_changes(stimulus.ticks, |tick, _| replay.held(tick), &mut sum),
+        };
+        sum.until(stimulus.ticks);
+        let taken = begun.elapsed();
+        drop(run.expect("no observer objects"));
+        (taken, sum.sum)
+    }
 }
 
 /// Waves of every signal.
@@ -187,8 +219,9 @@ fn seen<C: Outputs>(
     observer: impl Observer<C>,
 ) -> (Instant, u64) {
     let mut replay = Replay::<C>::new(stimulus);
-    let mut sum = Checksum::<1>(0);
-    let simulator = Simulator::new(circuit).unwrap();
+    let watched = Simulator::watching(circuit, true, C::outputs);
+    let (simulator, outputs) = watched.expect("a netlist");
+    let mut sum = Checksum::new(&outputs, 1);
     let before = simulator.run(from, |tick, _| replay.tick(tick), &mut sum);
     let before = before.expect("no observer objects");
     let observers = (observer, &mut sum);
@@ -198,6 +231,7 @@ fn seen<C: Outputs>(
         |tick, _| replay.tick(tick),
         observers,
     );
+    sum.until(stimulus.ticks);
     drop(run.expect("room"));
-    (begun, sum.0)
+    (begun, sum.sum)
 }

@@ -30,10 +30,12 @@ pub struct Engine {
 
 impl Clone for Engine {
     fn clone(&self) -> Self {
+        let mut tier = self.tier.clone();
+        tier.adopt();
         Engine {
             program: self.program.clone(),
             slab: self.slab.clone(),
-            tier: self.tier.clone(),
+            tier,
             lines: None,
             pause: self.pause,
             straight: self.straight,
@@ -347,9 +349,11 @@ impl Engine {
         self.tier.counts()
     }
 
-    /// Counts blocks for as long as it runs, and does not compile.
-    pub fn count_only(&mut self) {
+    /// Goes on by the interpreter, which counts blocks, and never compiles.
+    pub fn interpret(&mut self) {
         self.tier.interpret();
+        // Blocks in line of the code have left their bits as they were.
+        self.wake_all();
     }
 
     /// Netlist that it was made from.

@@ -5,7 +5,7 @@
 use super::compiler::Code;
 use super::interpreter::{self, Counts};
 use super::plan::Plan;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// How often all of a circuit's steps, on average, are interpreted before it is compiled: compiling
 /// takes so many times as long as interpreting.
@@ -24,7 +24,12 @@ pub(super) struct Tier {
     due: u64,
     /// The blocks compiled in line.
     hot: Arc<[bool]>,
+    /// What one of all clones has compiled.
+    shared: Arc<OnceLock<Compiled>>,
 }
+
+/// A backend with the blocks that are in line of it.
+type Compiled = (Backend, Arc<[bool]>);
 
 #[derive(Debug, Clone)]
 enum Backend {
@@ -47,6 +52,16 @@ impl Tier {
                 u64::MAX
             },
             hot: vec![false; plan.blocks.len()].into(),
+            shared: Arc::default(),
+        }
+    }
+
+    /// Takes over what a clone has compiled, if this one is to be compiled at all.
+    pub fn adopt(&mut self) {
+        if self.due != u64::MAX
+            && let Some((backend, hot)) = self.shared.get()
+        {
+            (self.backend, self.hot) = (backend.clone(), hot.clone());
         }
     }
 
@@ -129,6 +144,8 @@ impl Tier {
             Ok(code) => {
                 self.backend = Backend::Code(Arc::new(code));
                 self.hot = hot.into();
+                // The first one stays, if another was as fast.
+                let _ = self.shared.set((self.backend.clone(), self.hot.clone()));
             }
             Err(error) => {
                 self.due = u64::MAX;

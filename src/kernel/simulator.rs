@@ -112,6 +112,13 @@ impl<C: Circuit> Simulator<C> {
         }
     }
 
+    /// It on the interpreter, however long it runs.
+    #[must_use]
+    pub fn interpreted(mut self) -> Self {
+        self.engine.interpret();
+        self
+    }
+
     /// The registers of the tick to come.
     pub fn registers(&self) -> Registers<'_, C> {
         Part::new(Role::Register, &self.engine)

@@ -1,61 +1,91 @@
 //! The jobs of all circuits: the ports out of every tick, stepped one by one, run, and gone over.
 
 use super::jobs::{self, Clock, Job};
-use super::ours::Outputs;
+use super::ours::{Outputs, word};
 use super::stimulus::Replay;
 use motion_rtl::kernel::{Observer, RunError, Sample, Simulator, pack};
 use std::ops::ControlFlow;
 
 /// A word of the ports out for every tick; where a tick is not seen they are held.
-#[derive(Default)]
-struct Words {
+struct Words<'o> {
+    outputs: &'o [usize],
     words: Vec<u64>,
 }
 
-impl Words {
+impl<'o> Words<'o> {
+    fn new(outputs: &'o [usize]) -> Self {
+        Words {
+            outputs,
+            words: Vec::new(),
+        }
+    }
+
     fn hold(&mut self, ticks: u64) {
         let last = self.words.last().copied().unwrap_or_default();
         self.words.resize(ticks as usize, last);
     }
 }
 
-impl<C: Outputs> Observer<C> for Words {
+impl<C: Outputs> Observer<C> for Words<'_> {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.hold(now.tick);
-        self.words.push(C::outputs(now).word);
+        self.words.push(word(self.outputs, now));
         Ok(ControlFlow::Continue(()))
     }
 }
 
-/// Runs a job in all three ways.
+/// Runs a job tick by tick on the interpreter, where all nets are watched, and in all other ways.
 fn same<C: Outputs>(job: Job<C>) {
     let Job { circuit, stimulus } = job;
-    let (mut ran, mut jumped) = (Words::default(), Words::default());
     let ticks = stimulus.ticks;
+    let whole = Simulator::watching(&circuit, true, C::outputs);
+    let (whole, outputs) = whole.expect("a netlist");
+    let ports = Simulator::watching(&circuit, false, C::outputs);
+    let (ports, _) = ports.expect("a netlist");
+
     let mut replay = Replay::<C>::new(&stimulus);
-    let mut step = Simulator::new(&circuit).unwrap();
+    let mut step = whole.clone().interpreted();
     let mut words = Vec::new();
     for tick in 0..ticks {
-        let (next, word) = step.step(replay.tick(tick), |now| C::outputs(now).word);
+        let (next, word) = step.step(replay.tick(tick), |now| word(&outputs, now));
         step = next;
         words.push(word);
     }
-    let mut replay = Replay::<C>::new(&stimulus);
-    let run = Simulator::new(&circuit).unwrap().run(ticks, |tick, _| replay.tick(tick), &mut ran);
-    let mut replay = Replay::<C>::new(&stimulus);
-    let held = |tick, _: &motion_rtl::kernel::Part<'_, _>| replay.held(tick);
-    let forward = Simulator::new(&circuit).unwrap().fast_forward(ticks, held, &mut jumped);
-    let (run, forward) = (run.expect("no objection"), forward.expect("no objection"));
-    jumped.hold(ticks);
-    for (how, other) in [("run", &ran.words), ("gone over", &jumped.words)] {
-        let differs = words.iter().zip(other).position(|(a, b)| a != b);
-        assert_eq!(differs, None, "{how}: the first tick that differs");
-        assert_eq!(words.len(), other.len(), "{how}");
-    }
-    assert_eq!((run.tick(), forward.tick()), (ticks, ticks));
     let registers = pack(&*step.registers());
-    assert!(registers == pack(&*run.registers()), "run");
-    assert!(registers == pack(&*forward.registers()), "gone over");
+
+    let ways = [
+        ("run", &whole, Way::Run),
+        ("only ports out watched", &ports, Way::Run),
+        ("changes", &ports, Way::Changes),
+        ("changes, interpreted", &ports.clone().interpreted(), Way::Changes),
+        ("gone over", &ports, Way::Forward),
+        ("gone over, all watched", &whole, Way::Forward),
+        ("gone over, interpreted", &ports.clone().interpreted(), Way::Forward),
+    ];
+    for (how, simulator, way) in ways {
+        let simulator = simulator.clone();
+        let mut seen = Words::new(&outputs);
+        let mut replay = Replay::<C>::new(&stimulus);
+        let run = match way {
+            Way::Run => simulator.run(ticks, |tick, _| replay.tick(tick), &mut seen),
+            Way::Changes => simulator.run_changes(ticks, |tick, _| replay.held(tick), &mut seen),
+            Way::Forward => simulator.fast_forward(ticks, |tick, _| replay.held(tick), &mut seen),
+        };
+        let run = run.expect("no objection");
+        seen.hold(ticks);
+        let differs = words.iter().zip(&seen.words).position(|(a, b)| a != b);
+        assert_eq!(differs, None, "{how}: the first tick that differs");
+        assert_eq!(words.len(), seen.words.len(), "{how}");
+        assert_eq!(run.tick(), ticks, "{how}");
+        assert!(registers == pack(&*run.registers()), "{how}");
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Way {
+    Run,
+    Changes,
+    Forward,
 }
 
 /// At the clock of the scenario and at a fast one, in which most ticks are idle.
