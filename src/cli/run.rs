@@ -40,6 +40,9 @@ pub struct Arguments {
     /// Writes the circuit as Verilog too, with a testbench and the run's inputs as its stimulus.
     #[arg(long)]
     pub(super) verilog: bool,
+    /// Writes how the circuit was run, as `plan` shows it, with how often each block ran.
+    #[arg(long)]
+    pub(super) plan: bool,
     /// Prints every segment, arc, positioning or signal, not the worst or the last alone (not of
     /// the pulse interpolator).
     #[arg(long)]

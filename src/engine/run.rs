@@ -122,6 +122,8 @@ impl Engine {
         for (register, &word) in program.plan.registers.iter().zip(&program.power_on) {
             interpreter::put(&program.plan.layout, &mut self.slab, register.slot, word);
         }
+        // The edge that would make a register again what it was has nothing else to wake it.
+        self.wake_all();
     }
 
     fn begin(&mut self) {
@@ -347,6 +349,12 @@ impl Engine {
     /// How often each block has run, as far as it was counted.
     pub fn counts(&self) -> &Counts {
         self.tier.counts()
+    }
+
+    /// Compiles now, instead of when it pays: blocks that ran in more than half of the ticks so far
+    /// are in line. Whether the machine code is there.
+    pub fn compile(&mut self) -> bool {
+        self.tier.compile_now(&self.program.plan)
     }
 
     /// Goes on by the interpreter, which counts blocks, and never compiles.

@@ -1,6 +1,6 @@
-use super::probe::{Source, supply};
-use super::{Circuit, Field, Role, Shape, Signals};
-use crate::engine::Engine;
+use super::probe::Source;
+use super::{Circuit, Field, Role, Shape, Signals, part};
+use crate::engine::{Engine, Spot};
 use crate::logic::Sim;
 use crate::logic::netlist::{NetBit, NetInt, NetUInt};
 use std::cell::OnceCell;
@@ -98,24 +98,31 @@ impl<S: Signals<Sim>> fmt::Debug for Part<'_, S> {
 /// A part of a circuit as a record.
 pub(crate) fn record<S: Signals<Sim>>(role: Role, engine: &Engine) -> S {
     let first = engine.flat().part(role).start;
-    supply(
-        role,
-        &mut Leaves {
-            engine,
-            leaf: first,
-        },
-    )
+    let mut leaves = Leaves {
+        engine,
+        spots: &engine.program().plan().layout.leaves,
+        slab: engine.slab(),
+        leaf: first,
+    };
+    S::make(part(role), &mut leaves)
 }
 
 struct Leaves<'a> {
     engine: &'a Engine,
+    spots: &'a [Spot],
+    slab: &'a [u64],
     leaf: usize,
 }
 
 impl Source for Leaves<'_> {
+    #[inline]
     fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
+        let leaf = self.leaf;
         self.leaf += 1;
-        self.engine.leaf(self.leaf - 1)
+        match self.spots.get(leaf) {
+            Some(Spot::Slot(slot)) => self.slab[*slot as usize],
+            _ => self.engine.leaf(leaf),
+        }
     }
 
     fn memory(&mut self, words: usize) -> Option<Arc<[u64]>> {

@@ -148,7 +148,11 @@ fn machine() -> Result<OwnedTargetIsa, CompileError> {
         ("enable_verifier", "false"),
         ("unwind_info", "false"),
     ] {
-        let name = if name == "opt_level" || name == "regalloc_algorithm" { flags.set(name, &std::env::var(name).unwrap_or(value.to_string())) } else { flags.set(name, value) };
+        let name = if name == "opt_level" || name == "regalloc_algorithm" {
+            flags.set(name, &std::env::var(name).unwrap_or(value.to_string()))
+        } else {
+            flags.set(name, value)
+        };
         name.map_err(|error| unknown(&error))?;
     }
     cranelift_native::builder()
@@ -168,5 +172,11 @@ fn executable(bytes: &[u8]) -> Result<Mmap, CompileError> {
         .map_err(|error| CompileError::Cranelift(error.to_string()))?;
     Ok(memory)
 }
-#[allow(non_snake_case)] fn OPT() -> &'static str { "speed" }
-#[allow(non_snake_case)] fn RA() -> &'static str { "backtracking" }
+#[allow(non_snake_case)]
+fn OPT() -> &'static str {
+    "speed"
+}
+#[allow(non_snake_case)]
+fn RA() -> &'static str {
+    "backtracking"
+}

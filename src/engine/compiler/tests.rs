@@ -11,7 +11,11 @@ use proptest::prelude::*;
 fn leaf(plan: &Plan, slab: &[u64], index: usize) -> Option<u64> {
     let layout = &plan.layout;
     let leaves = layout.leaves.len();
-    match *layout.leaves.get(index).unwrap_or_else(|| &layout.properties[index - leaves]) {
+    match *layout
+        .leaves
+        .get(index)
+        .unwrap_or_else(|| &layout.properties[index - leaves])
+    {
         Spot::Slot(slot) => Some(slab[slot as usize]),
         Spot::Constant(bits) => Some(bits),
         Spot::Stage(memory, stage) => {
@@ -184,7 +188,13 @@ proptest! {
 
 #[test]
 fn a_slab_of_another_length_is_left_alone() {
-    let plan = Plan::of(&Flat { inputs: vec![4], ..Flat::default() }, &[]);
+    let plan = Plan::of(
+        &Flat {
+            inputs: vec![4],
+            ..Flat::default()
+        },
+        &[],
+    );
     let code = Code::compile(&plan, &[]).expect("it compiles");
     let mut slab = vec![3; plan.layout.words as usize + 1];
     code.settle(&mut slab);

@@ -124,9 +124,15 @@ fn same<const AXES: usize>(
     most: usize,
 ) -> Result<(), TestCaseError> {
     let (mut stepped, mut jumped) = (Events::new(most), Events::new(most));
-    let run = Simulator::new(group).unwrap().run(ticks, |tick, _| drive(acts, tick).0, &mut stepped);
-    let forward =
-        Simulator::new(group).unwrap().fast_forward(ticks, |tick, _| drive(acts, tick), &mut jumped);
+    let run =
+        Simulator::new(group)
+            .unwrap()
+            .run(ticks, |tick, _| drive(acts, tick).0, &mut stepped);
+    let forward = Simulator::new(group).unwrap().fast_forward(
+        ticks,
+        |tick, _| drive(acts, tick),
+        &mut jumped,
+    );
     let failed = |error: RunError| TestCaseError::fail(error.to_string());
     let (run, forward) = (run.map_err(failed)?, forward.map_err(failed)?);
     prop_assert_eq!(stepped.seen, jumped.seen);
@@ -181,7 +187,8 @@ fn a_run_cut_into_pieces_is_the_same_run() {
                 .expect("no objection");
         }
         let mut whole = Events::new(usize::MAX);
-        let stepped = Simulator::new(&group).unwrap()
+        let stepped = Simulator::new(&group)
+            .unwrap()
             .run(300, |_, _| common::idle(), &mut whole)
             .expect("no objection");
         assert_eq!(events.seen, whole.seen, "pieces of {piece} ticks");

@@ -62,7 +62,9 @@ fn a_window_is_that_of_a_run() {
     // Watched or not, the edges are the same.
     assert_eq!(registers, step(()).0);
     let mut inputs = inputs(SEED);
-    let ran = Simulator::new(&Zoo).unwrap().run(TICKS, |_, _| inputs.next().unwrap(), ());
+    let ran = Simulator::new(&Zoo)
+        .unwrap()
+        .run(TICKS, |_, _| inputs.next().unwrap(), ());
     assert_eq!(registers, pack(&*ran.unwrap().registers()));
 }
 
