@@ -158,6 +158,10 @@ impl<C: Circuit> Observer<C> for Progress {
         tick >= self.due
     }
 
+    fn needs_all(&self) -> bool {
+        false
+    }
+
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         if Observer::<C>::looks(self, now.tick) {
             self.bar.set_position(now.tick);

@@ -79,6 +79,11 @@ impl<'a, S> Part<'a, S> {
             engine,
         }
     }
+
+    /// What is watched at a place, whatever part it is of. A net needs a settled tick.
+    pub fn get<T: Word>(&self, at: At<T>) -> T {
+        at.of(self.engine)
+    }
 }
 
 impl<S: Signals<Sim>> Deref for Part<'_, S> {
