@@ -112,7 +112,7 @@ pub fn play(
     while !over && !stopped {
         let i = host.ports();
         let (started, pushed) = (i.start.get(), i.push.get());
-        let (next, busy, flow) = simulator.step_watched(i, &mut observer, |now| {
+        let (busy, flow) = simulator.step_watched(&i, &mut observer, |now| {
             host.records.free = now.get(see.ready) && !pushed;
             if now.get(see.sampled) {
                 let counts = see.command.map(|word| now.get(word));
@@ -123,7 +123,6 @@ pub fn play(
             }
             now.get(see.busy)
         })?;
-        simulator = next;
         played.ticks += 1;
         over = host.started && !started && !busy;
         stopped = flow.is_break();

@@ -1,6 +1,6 @@
 use super::flat::{Flat, Op, Place};
 use super::interpreter::{self, Counts};
-use super::layout::Spot;
+use super::layout::{Layout, Slot, Spot};
 use super::lines::Lines;
 use super::program::Program;
 use super::tier::Tier;
@@ -45,6 +45,33 @@ impl Clone for Engine {
     }
 }
 
+/// Ports in that are yet to be set; see [`Engine::ports`].
+pub(crate) struct Ports<'e> {
+    slots: std::slice::Iter<'e, Slot>,
+    layout: &'e Layout,
+    slab: &'e mut [u64],
+    whole: &'e mut Option<Vec<u64>>,
+}
+
+impl Ports<'_> {
+    /// Sets the next one.
+    #[inline(always)]
+    pub(crate) fn give(&mut self, word: u64) {
+        if let Some(&slot) = self.slots.next()
+            && self.slab[slot as usize] != word
+        {
+            self.change(slot, word);
+        }
+    }
+
+    /// Few ports change in a tick.
+    #[inline(never)]
+    fn change(&mut self, slot: Slot, word: u64) {
+        interpreter::put(self.layout, self.slab, slot, word);
+        self.whole.take();
+    }
+}
+
 /// Ticks after which it is asked again at the latest whether ticks are idle.
 const LONGEST_PAUSE: u64 = 64;
 
@@ -85,6 +112,18 @@ impl Engine {
         if self.slab[slot as usize] != word {
             interpreter::put(layout, &mut self.slab, slot, word);
             self.whole.take();
+        }
+    }
+
+    /// Sets ports in one after the other, from the first.
+    #[inline]
+    pub(crate) fn ports(&mut self) -> Ports<'_> {
+        let layout = &self.program.plan.layout;
+        Ports {
+            slots: layout.inputs.iter(),
+            layout,
+            slab: &mut self.slab,
+            whole: self.whole.get_mut(),
         }
     }
 

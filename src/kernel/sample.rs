@@ -35,6 +35,7 @@ impl<C: Circuit> Sample<'_, C> {
     }
 
     /// What is watched at a place.
+    #[inline]
     pub fn get<T: Word>(&self, at: At<T>) -> T {
         at.of(self.engine)
     }
@@ -81,6 +82,7 @@ impl<'a, S> Part<'a, S> {
     }
 
     /// What is watched at a place, whatever part it is of. A net needs a settled tick.
+    #[inline]
     pub fn get<T: Word>(&self, at: At<T>) -> T {
         at.of(self.engine)
     }
@@ -159,6 +161,7 @@ impl<T: Word> At<T> {
         self.leaf
     }
 
+    #[inline]
     pub(super) fn of(self, engine: &Engine) -> T {
         T::of(engine.leaf(self.leaf), self.spare)
     }
@@ -186,18 +189,21 @@ pub trait Word {
 }
 
 impl Word for bool {
+    #[inline]
     fn of(word: u64, _: u32) -> bool {
         word != 0
     }
 }
 
 impl Word for u64 {
+    #[inline]
     fn of(word: u64, _: u32) -> u64 {
         word
     }
 }
 
 impl Word for i64 {
+    #[inline]
     fn of(word: u64, spare: u32) -> i64 {
         (word << spare) as i64 >> spare
     }

@@ -3,7 +3,7 @@
 use super::compensator;
 use super::settings::{SPEED_UNIT_COUNTS_PER_S, Settings};
 use super::{Compensator, LeadSource, PositionHistory, RamHistory, SpeedLead, TimeLead, Variant};
-use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn};
+use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn, zero};
 use crate::logic::{Image, Sim};
 use crate::plant::{BrakedBody, waves};
 use crate::settings::JobError;
@@ -62,21 +62,21 @@ pub fn positioner<P: JobLead>(settings: &Settings) -> Positioner<P> {
 #[derive(Debug)]
 pub(super) struct ControlComputer<'a> {
     settings: &'a Settings,
-    /// What it gives in every tick.
-    standing: Ports,
 }
 
 impl<'a> ControlComputer<'a> {
     pub(super) fn new(settings: &'a Settings) -> Self {
+        ControlComputer { settings }
+    }
+
+    /// What it gives in every tick, with all else low.
+    pub(super) fn standing(&self) -> Ports {
+        let settings = self.settings;
         let cks = |ms: f64| u64::from(settings.cks(ms));
         // Lead time in gates, in 1/256.
         let parameter = 256.0 * settings.speed_lead_ms / settings.speed_gate_ms;
-        let standing = Ports {
-            a: false.into(),
-            b: false.into(),
-            clear: false.into(),
-            run: false.into(),
-            halt: false.into(),
+        // The times are in the ROM.
+        Ports {
             learn: settings.learn.into(),
             common: settings.common_time.into(),
             last_step: (settings.steps.len().saturating_sub(1) as u64).into(),
@@ -87,34 +87,21 @@ impl<'a> ControlComputer<'a> {
             seed: settings.code(settings.seed_ms).unwrap_or(0).into(),
             lead_parameter: (parameter.round() as u64).min((1 << 14) - 1).into(),
             gate: cks(settings.speed_gate_ms).into(),
-            write_target: false.into(),
-            // The times are in the ROM.
-            write_time: false.into(),
-            write_step: 0.into(),
-            step_target: 0.into(),
-            step_speed: 0.into(),
-            step_time: 0.into(),
-        };
-        ControlComputer { settings, standing }
+            ..zero()
+        }
     }
 
     /// What it gives in `tick`; steps run as soon as all are written.
-    pub(super) fn tick(&self, tick: u64, run: bool) -> Ports {
+    pub(super) fn tick(&self, i: &mut Ports, tick: u64, run: bool) {
         let steps = &self.settings.steps;
         let place = usize::try_from(tick).unwrap_or(usize::MAX);
-        match steps.get(place) {
-            Some(step) => Ports {
-                write_target: true.into(),
-                write_step: tick.into(),
-                step_target: step.target.into(),
-                step_speed: u64::from(step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S).into(),
-                ..self.standing.clone()
-            },
-            None => Ports {
-                run: run.into(),
-                ..self.standing.clone()
-            },
-        }
+        let step = steps.get(place);
+        let speed = step.map_or(0, |step| step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S);
+        i.write_target = step.is_some().into();
+        i.write_step = step.map_or(0, |_| tick).into();
+        i.step_target = step.map_or(0, |step| step.target).into();
+        i.step_speed = u64::from(speed).into();
+        i.run = (step.is_none() && run).into();
     }
 }
 
@@ -323,6 +310,10 @@ pub fn play<P: JobLead>(
         played: Played::default(),
     };
     let computer = ControlComputer::new(settings);
+    let mut i = WithIn::<Sim, Compensator<P>, waves::Body> {
+        i: computer.standing(),
+        beside: waves::BodySignals::of(&body),
+    };
     let mut loaded = false;
     let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
     loop {
@@ -333,19 +324,15 @@ pub fn play<P: JobLead>(
         let speed = simulator.get(see.speed) * u64::from(SPEED_UNIT_COUNTS_PER_S);
         let (drive, reverse) = (simulator.get(see.drive), simulator.get(see.reverse));
         let (a, b) = body.step(drive, reverse, speed as f64, simulator.get(see.control));
-        let i = Ports {
-            a: a.into(),
-            b: b.into(),
-            halt: (bench.past && drive).into(),
-            ..computer.tick(bench.played.ticks, bench.run())
-        };
-        let i = WithIn {
-            i,
-            beside: waves::BodySignals::of(&body),
-        };
+        computer.tick(&mut i.i, bench.played.ticks, bench.run());
+        i.i.a = a.into();
+        i.i.b = b.into();
+        i.i.halt = (bench.past && drive).into();
+        if observer.looks(bench.played.ticks) {
+            i.beside = waves::BodySignals::of(&body);
+        }
         let take = |now: &Sample<'_, _>| bench.take(now, &see, &body);
-        let (next, goes_on, flow) = simulator.step_watched(i, &mut observer, take)?;
-        simulator = next;
+        let (goes_on, flow) = simulator.step_watched(&i, &mut observer, take)?;
         if !goes_on || flow.is_break() {
             return Ok(bench.played);
         }

@@ -1,13 +1,14 @@
 //! A position log on a compensator: where it would have given its signals, and how good its
 //! predictions were.
 
-use super::job::{ControlComputer, JobLead, Ports, Positioner};
+use super::Compensator;
+use super::job::{ControlComputer, JobLead, Positioner};
 use super::settings::Settings;
 use crate::input::position_log::PositionLog;
 use crate::kernel::{At, Observer, Sample, Simulator, Watcher, WithIn};
 use crate::logic::Sim;
 use crate::plant::Encoder;
-use crate::plant::waves::BodySignals;
+use crate::plant::waves::{Body, BodySignals};
 use crate::settings::JobError;
 
 /// A control signal that the log gave rise to.
@@ -166,20 +167,24 @@ pub fn replay<P: JobLead>(
     let (mut replayed, mut sums) = (Replayed::default(), Sums::default());
     sums.parts = vec![[f64::NAN; 2]; PARTS];
     let computer = ControlComputer::new(settings);
+    let mut i = WithIn::<Sim, Compensator<P>, Body> {
+        i: computer.standing(),
+        beside: BodySignals::at(0.0, 0.0),
+    };
     let mut before = 0.0;
     let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
     for tick in 0..=ticks {
         let seconds = tick as f64 * tick_s;
         let position = at(seconds);
         let (a, b) = Encoder.channels(position);
-        let i = Ports {
-            a: a.into(),
-            b: b.into(),
-            ..computer.tick(tick, true)
-        };
+        computer.tick(&mut i.i, tick, true);
+        i.i.a = a.into();
+        i.i.b = b.into();
         let speed = (position - before) / tick_s;
         before = position;
-        let beside = BodySignals::<Sim>::at(position, speed);
+        if observer.looks(tick) {
+            i.beside = BodySignals::at(position, speed);
+        }
         let take = |now: &Sample<'_, _>| {
             let (fire, time) = (now.get(see.fire), now.get(see.time));
             let predicts = now.get(see.fresh) && now.get(see.enough) && time > 0;
@@ -210,9 +215,7 @@ pub fn replay<P: JobLead>(
             replayed.ticks = tick + 1;
             replayed.lost = now.get(see.lost);
         };
-        let i = WithIn { i, beside };
-        let (next, (), flow) = simulator.step_watched(i, &mut observer, take)?;
-        simulator = next;
+        let ((), flow) = simulator.step_watched(&i, &mut observer, take)?;
         if flow.is_break() {
             break;
         }

@@ -5,7 +5,7 @@ use super::measure::{Cycle, Played, ScanRecord};
 use super::settings::{AxisSettings, Settings};
 use super::targets::{TIME_BITS, Target};
 use super::{CommandSource, Controller, Conventional, LinearInterpolator, Rule, controller};
-use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn};
+use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn, zero};
 use crate::logic::Sim;
 use crate::plant::{ServoAxis, ServoParameters, waves};
 use crate::settings::JobError;
@@ -195,6 +195,17 @@ pub fn play<C: CommandSource<P, T>>(
         ServoAxis::new(&y.servo(), tick_s)?,
     ];
     let gains = [x, y].map(|axis| u64::from(axis.gain().to_bits()));
+    let mut i = WithIn::<Sim, Controller<C>, waves::Axes> {
+        i: controller::In::<Sim, P, T, 16, 24> {
+            exact_stop: settings.exact_stop.into(),
+            scan_period: u64::from(settings.scan_ticks).into(),
+            gain_x: gains[0].into(),
+            gain_y: gains[1].into(),
+            window: u64::from(settings.in_position_counts).into(),
+            ..zero()
+        },
+        beside: waves::Signals::of(&servos),
+    };
     let mut bench = Bench {
         targets,
         pushed: 0,
@@ -211,33 +222,21 @@ pub fn play<C: CommandSource<P, T>>(
         let [(a_x, b_x), (a_y, b_y)] =
             [0, 1].map(|axis: usize| servos[axis].step(references[axis], FULL_SCALE));
         let target = bench.push();
-        let i = controller::In::<Sim, P, T, 16, 24> {
-            push: target.is_some().into(),
-            target_x: target.map_or(0, |target| target.x).into(),
-            target_y: target.map_or(0, |target| target.y).into(),
-            speed: target.map_or(0, |target| target.speed).into(),
-            acceleration_time: target.map_or(0, |target| target.acceleration_scans).into(),
-            deceleration_time: target.map_or(0, |target| target.deceleration_scans).into(),
-            halt: false.into(),
-            clear: false.into(),
-            exact_stop: settings.exact_stop.into(),
-            scan_period: u64::from(settings.scan_ticks).into(),
-            gain_x: gains[0].into(),
-            gain_y: gains[1].into(),
-            window: u64::from(settings.in_position_counts).into(),
-            a_x: a_x.into(),
-            b_x: b_x.into(),
-            a_y: a_y.into(),
-            b_y: b_y.into(),
-        };
-        let i = WithIn {
-            i,
-            beside: waves::Signals::of(&servos),
-        };
+        let ports = &mut i.i;
+        ports.push = target.is_some().into();
+        ports.target_x = target.map_or(0, |target| target.x).into();
+        ports.target_y = target.map_or(0, |target| target.y).into();
+        ports.speed = target.map_or(0, |target| target.speed).into();
+        ports.acceleration_time = target.map_or(0, |target| target.acceleration_scans).into();
+        ports.deceleration_time = target.map_or(0, |target| target.deceleration_scans).into();
+        (ports.a_x, ports.b_x) = (a_x.into(), b_x.into());
+        (ports.a_y, ports.b_y) = (a_y.into(), b_y.into());
+        if observer.looks(simulator.tick()) {
+            i.beside = waves::Signals::of(&servos);
+        }
         let motor = [0, 1].map(|axis: usize| servos[axis].position_counts());
         let take = |now: &Sample<'_, _>| bench.take(now, &see, motor);
-        let (next, goes_on, flow) = simulator.step_watched(i, &mut observer, take)?;
-        simulator = next;
+        let (goes_on, flow) = simulator.step_watched(&i, &mut observer, take)?;
         if !goes_on || flow.is_break() {
             return Ok(bench.played);
         }

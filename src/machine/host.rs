@@ -93,8 +93,6 @@ pub(super) struct Host<'a> {
     /// Records of these that are ended in this tick.
     pushed: [bool; 2],
     lift_steps: Vec<lead_angle::Step>,
-    /// What the lift is given in every tick.
-    lift: ports::Lift<Sim>,
     /// Lift steps that are written.
     lift_words: usize,
     pub(super) stage: Stage,
@@ -107,7 +105,7 @@ pub(super) struct Host<'a> {
     calm: u32,
 }
 
-/// What the lift is given in every tick, while no step is written.
+/// What the lift is given in every tick.
 fn standing(lift: &lead_angle::Settings) -> ports::Lift<Sim> {
     let cks = |ms: f64| u64::from(lift.cks(ms)).into();
     ports::Lift {
@@ -127,7 +125,6 @@ impl<'a> Host<'a> {
         settings: &'a Settings,
         watch: &Watcher<Plant>,
     ) -> Self {
-        let lift = settings.lift();
         Host {
             see: See::of(watch),
             program,
@@ -137,8 +134,7 @@ impl<'a> Host<'a> {
             arcs: RecordWriter::new(&program.arcs),
             profile: RecordWriter::new(&program.profile),
             pushed: [false; 2],
-            lift: standing(&lift),
-            lift_steps: lift.steps,
+            lift_steps: settings.lift().steps,
             lift_words: 0,
             stage: Stage::Write,
             index: 0,
@@ -149,38 +145,56 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// What it gives in this tick, from the registers; the encoders are left low.
-    pub(super) fn ports(&mut self, now: &Simulator<Plant>) -> In<Sim> {
+    /// What it gives in every tick, with all else low.
+    pub(super) fn standing(&self) -> In<Sim> {
         let settings = self.settings;
         let period = |ticks: u32| u64::from(ticks).into();
-        let mut i = In {
-            halt: false.into(),
+        let program = &self.program.path;
+        let servo = &program.servo;
+        In {
             rates: enables::In {
                 unit_period: period(settings.unit_ticks),
                 scan_period: period(settings.scan_ticks),
                 ck_period: period(settings.ck_ticks),
                 sample_period: period(settings.sample_ticks),
             },
-            pulse: self.pulse(now.get(self.see.pending)),
-            lines: zero(),
-            arcs: self.arc_words(),
-            trajectory: self.trajectory(),
-            lift: self.lift(),
-        };
+            trajectory: ports::Trajectory {
+                last: (program.path.stretches.len().saturating_sub(1) as u64).into(),
+                path_end: (program.path.length as i64).into(),
+                gain_1: program.gains.k1.into(),
+                gain_2: program.gains.k2.into(),
+                position_gain: from_fn(|axis| servo[axis].position.into()),
+                speed_gain: from_fn(|axis| servo[axis].speed.into()),
+                integral_gain: from_fn(|axis| servo[axis].integral.into()),
+                inertia: from_fn(|axis| servo[axis].inertia.into()),
+                limit: from_fn(|axis| servo[axis].limit.into()),
+                ..zero()
+            },
+            lift: standing(&settings.lift()),
+            ..zero()
+        }
+    }
+
+    /// What it gives in this tick, from the registers; the encoders are left as they are.
+    pub(super) fn drive(&mut self, i: &mut In<Sim>, now: &Simulator<Plant>) {
+        i.pulse = self.pulse(now.get(self.see.pending));
+        i.lines = zero();
+        i.arcs = self.arc_words();
+        self.trajectory(&mut i.trajectory);
+        self.lift(&mut i.lift);
         self.pushed = [i.arcs.push.get(), i.trajectory.push.get()];
         match self.stage {
             Stage::Write if self.path.is_done() && self.lift_words > 2 => {
                 self.stage = self.turn_to(0);
             }
-            Stage::Ready => self.begin(now, &mut i),
+            Stage::Ready => self.begin(now, i),
             Stage::Lift(begun) => i.lift.run = (!begun).into(),
             Stage::Close(0) => {
                 let to = self.program.moves.last().map_or([0; 2], |step| step.to);
-                self.push_line(now, to, 1, &mut i);
+                self.push_line(now, to, 1, i);
             }
             _ => {}
         }
-        i
     }
 
     /// Begins the next move, or what must come before it.
@@ -254,52 +268,32 @@ impl<'a> Host<'a> {
         }
     }
 
-    fn trajectory(&mut self) -> ports::Trajectory<Sim> {
+    fn trajectory(&mut self, i: &mut ports::Trajectory<Sim>) {
         let written = self.profile.write_up_to(self.profile_due);
+        i.write = written.write.into();
+        i.write_word = written.word.into();
+        i.write_data = written.data.into();
+        i.push = written.push.into();
+        i.start = false.into();
         let path = self.path.write();
-        let program = &self.program.path;
-        let servo = &program.servo;
-        ports::Trajectory {
-            write: written.write.into(),
-            write_word: written.word.into(),
-            write_data: written.data.into(),
-            push: written.push.into(),
-            start: false.into(),
-            write_begin: path.write_begin.into(),
-            begin_segment: path.segment.into(),
-            begin_length: path.begin.into(),
-            write_path: path.write.into(),
-            path_address: (path.segment << 4 | path.word).into(),
-            path_data: path.data.into(),
-            last: (program.path.stretches.len().saturating_sub(1) as u64).into(),
-            path_end: (program.path.length as i64).into(),
-            gain_1: program.gains.k1.into(),
-            gain_2: program.gains.k2.into(),
-            position_gain: from_fn(|axis| servo[axis].position.into()),
-            speed_gain: from_fn(|axis| servo[axis].speed.into()),
-            integral_gain: from_fn(|axis| servo[axis].integral.into()),
-            inertia: from_fn(|axis| servo[axis].inertia.into()),
-            limit: from_fn(|axis| servo[axis].limit.into()),
-            a: [false.into(); 2],
-            b: [false.into(); 2],
-        }
+        i.write_begin = path.write_begin.into();
+        i.begin_segment = path.segment.into();
+        i.begin_length = path.begin.into();
+        i.write_path = path.write.into();
+        i.path_address = (path.segment << 4 | path.word).into();
+        i.path_data = path.data.into();
     }
 
-    fn lift(&mut self) -> ports::Lift<Sim> {
+    fn lift(&mut self, i: &mut ports::Lift<Sim>) {
         let steps = &self.lift_steps;
         let (place, step) = (self.lift_words, steps.get(self.lift_words));
         self.lift_words = (place + 1).min(steps.len() + 1);
-        ports::Lift {
-            write_target: step.is_some().into(),
-            write_step: (place as u64).into(),
-            step_target: step.map_or(0, |step| step.target).into(),
-            step_speed: step
-                .map_or(0, |step| {
-                    u64::from(step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S)
-                })
-                .into(),
-            ..self.lift.clone()
-        }
+        let speed = step.map_or(0, |step| step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S);
+        i.write_target = step.is_some().into();
+        i.write_step = (place as u64).into();
+        i.step_target = step.map_or(0, |step| step.target).into();
+        i.step_speed = u64::from(speed).into();
+        i.run = false.into();
     }
 
     /// Whether the steppers' table is given whole.

@@ -337,6 +337,10 @@ pub fn play(
             (Drives::of(watch), host, See::of(watch))
         })?;
     let mut around = Surroundings::new(settings, drives)?;
+    let mut i = WithIn {
+        i: host.standing(),
+        beside: Signals::of(&around.servos, &around.lift, &around.drivers),
+    };
     let mut bench = Bench {
         see,
         played: Played::default(),
@@ -347,18 +351,18 @@ pub fn play(
     let patience = patience(&program.path);
     loop {
         let before = host.stage;
-        let mut i = host.ports(&simulator);
-        around.step(&simulator, &mut i);
-        let beside = Signals::of(&around.servos, &around.lift, &around.drivers);
-        let i = WithIn { i, beside };
-        let (next, pulsing, flow) = simulator.step_watched(i, &mut *observer, |now| {
+        host.drive(&mut i.i, &simulator);
+        around.step(&simulator, &mut i.i);
+        if observer.looks(simulator.tick()) {
+            i.beside = Signals::of(&around.servos, &around.lift, &around.drivers);
+        }
+        let (pulsing, flow) = simulator.step_watched(&i, &mut *observer, |now| {
             bench.take(now, &mut around, &host);
             host.take(now);
             bench.played.command = bench.see.counts.map(|axis| now.get(axis));
             bench.played.motor = bench.see.motor.map(|axis| now.get(axis));
             now.get(bench.see.pulse_busy)
         })?;
-        simulator = next;
         let tick = bench.played.ticks;
         bench.played.ticks += 1;
         match (before, host.stage) {

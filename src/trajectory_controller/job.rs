@@ -194,6 +194,7 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
         return Err(SettingError::value("segments", segments, allowed).into());
     }
     let mut host = Host::new(program);
+    let mut i = host.standing();
     let mut played = Played::default();
     let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
     let mut compared = None;
@@ -201,7 +202,7 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
     let unit = f64::from(Widths::FULL.guard()).exp2();
     loop {
         let channels = from_fn(|axis| plants[axis].step(simulator.get(see.axes[axis].drive)));
-        let i = host.ports(channels);
+        host.drive(&mut i, channels);
         let (starts, pushed) = (i.start.get(), i.push.get());
         if starts {
             played.start = played.ticks;
@@ -227,8 +228,7 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
             }
             None
         };
-        let (next, over, flow) = simulator.step_watched(i, &mut observer, take)?;
-        simulator = next;
+        let (over, flow) = simulator.step_watched(&i, &mut observer, take)?;
         if let Some((period, busy)) = over
             && !starts
             && !busy

@@ -33,10 +33,9 @@ fn step(mut observer: impl Observer<Zoo>) -> (Bits, Vec<u64>) {
     let mut stepped = Vec::new();
     for _ in 0..TICKS {
         let i = inputs.next().unwrap();
-        let (next, tick, flow) = simulator
-            .step_watched(i, &mut observer, |now| now.tick)
+        let (tick, flow) = simulator
+            .step_watched(&i, &mut observer, |now| now.tick)
             .unwrap();
-        simulator = next;
         stepped.push(tick);
         if flow.is_break() {
             break;
