@@ -85,12 +85,6 @@ impl<'f> Emitter<'f> {
         self.cursor.goto_bottom(block);
     }
 
-    /// Goes on in a block that stands behind all others.
-    pub fn begin_apart(&mut self, block: Block) {
-        self.begin(block);
-        self.cursor.func.layout.set_cold(block);
-    }
-
     pub fn jump(&mut self, to: Block) {
         self.ins().jump(to, &[]);
     }

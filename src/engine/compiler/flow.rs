@@ -1,7 +1,7 @@
 //! The function: edges and settlings in a loop, and in each the blocks that are to run.
 
 use super::emit::Emitter;
-use super::runs::{Run, is_hot, runs};
+use super::runs::{is_hot, runs};
 use super::{CompileError, block};
 use crate::engine::layout::Slot;
 use crate::engine::plan::Plan;

@@ -110,11 +110,6 @@ impl Code {
         }
     }
 
-    /// Bytes of machine code.
-    pub fn size(&self) -> usize {
-        self.size
-    }
-
     /// Gives how many of the ticks are left.
     fn run(&self, slab: &mut [u64], phase: u64, ticks: u64) -> u64 {
         if slab.len() != self.words {

@@ -10,8 +10,10 @@ use std::collections::HashMap;
 pub(super) enum From {
     /// A register.
     Register(Slot),
-    /// A port in or a number.
-    Fixed(Slot),
+    /// A port in.
+    Port(Slot),
+    /// A number.
+    Number(Slot),
     /// A net: its number.
     Net(u32),
     /// A node.
@@ -47,6 +49,8 @@ pub(super) struct Graph {
     /// What each edge block does: its first item.
     pub starts: Vec<u32>,
     pub items: Vec<Item>,
+    /// By edge block: itself, and those of which it takes registers.
+    pub suppliers: Vec<Vec<u64>>,
     /// Nets that are to stay as they are.
     pub sights: Vec<u32>,
     /// Of each register so many words: a bit for each net that it moves, from `edge_word` on for
@@ -57,6 +61,10 @@ pub(super) struct Graph {
     pub sight_word: usize,
     /// By register: whether it is to stay as it is.
     pub held: Vec<bool>,
+    /// By register: what it takes at an edge.
+    pub nexts: Vec<From>,
+    /// By register: whether that depends on no other register, nor on a net.
+    pub alone: Vec<bool>,
     /// One above the last slot of a register.
     pub slots: usize,
 }
@@ -87,7 +95,7 @@ pub(super) fn bits(set: &[u64]) -> impl Iterator<Item = usize> + '_ {
     })
 }
 
-fn unite(set: &mut [u64], other: &[u64]) {
+pub(super) fn unite(set: &mut [u64], other: &[u64]) {
     set.iter_mut().zip(other).for_each(|(to, from)| *to |= from);
 }
 
@@ -110,8 +118,12 @@ impl Graph {
                 let register = plan.registers[number as usize];
                 let next = making.at(slot, &known);
                 let next = making.fit(next, register.width);
-                insert(&mut set, number as usize);
-                unite(&mut set, &making.set(next));
+                making.graph.nexts[number as usize] = next;
+                let mut takes = making.set(next);
+                insert(&mut takes, number as usize);
+                unite(&mut set, &takes);
+                let registers = takes.iter().map(|word| word.count_ones()).sum::<u32>();
+                making.graph.alone[number as usize] = registers == 1 && !making.crosses(next);
                 roots.push(Root::Register {
                     register: number,
                     next,
@@ -147,7 +159,11 @@ impl<'p> Making<'p> {
         let registers = plan.registers.iter().enumerate();
         Making {
             plan,
-            graph: Graph::default(),
+            graph: Graph {
+                nexts: vec![From::Number(0); plan.registers.len()],
+                alone: vec![false; plan.registers.len()],
+                ..Graph::default()
+            },
             words: plan.registers.len().div_ceil(64),
             nodes: Vec::new(),
             nets: Vec::new(),
@@ -165,14 +181,16 @@ impl<'p> Making<'p> {
             From::Net(net)
         } else if self.registers.contains_key(&slot) {
             From::Register(slot)
+        } else if self.plan.layout.inputs.contains(&slot) {
+            From::Port(slot)
         } else {
-            From::Fixed(slot)
+            From::Number(slot)
         }
     }
 
     fn set(&self, from: From) -> Set {
         match from {
-            From::Fixed(_) => vec![0; self.words],
+            From::Port(_) | From::Number(_) => vec![0; self.words],
             From::Register(slot) => {
                 let mut set = vec![0; self.words];
                 insert(&mut set, self.registers[&slot] as usize);
@@ -186,10 +204,25 @@ impl<'p> Making<'p> {
     /// Its width, if it can move.
     fn width(&self, from: From) -> Option<u8> {
         match from {
-            From::Fixed(_) => None,
+            From::Port(_) | From::Number(_) => None,
             From::Register(slot) => Some(self.plan.registers[self.registers[&slot] as usize].width),
             From::Net(net) => self.width(self.graph.nets[net as usize].made),
             From::Node(node) => Some(self.graph.nodes[node as usize].width),
+        }
+    }
+
+    /// Whether a net is among what it is made of.
+    fn crosses(&self, from: From) -> bool {
+        match from {
+            From::Net(_) => true,
+            From::Node(node) => {
+                let Node { a, b, c, .. } = self.graph.nodes[node as usize];
+                let others = [b, c].into_iter().filter(|&other| other != a);
+                std::iter::once(a)
+                    .chain(others)
+                    .any(|from| self.crosses(from))
+            }
+            _ => false,
         }
     }
 
@@ -308,6 +341,20 @@ impl<'p> Making<'p> {
         graph.sight_word = graph.edge_word + edges.len().div_ceil(64);
         graph.stride = graph.sight_word + graph.sights.len().div_ceil(64);
         graph.touches = vec![0; graph.stride * self.plan.registers.len()];
+        let owners = self.plan.blocks[self.plan.settling..].iter().enumerate();
+        for set in edges {
+            let mut suppliers = vec![0; edges.len().div_ceil(64)];
+            for (edge, block) in owners.clone() {
+                let mut registers = block.registers.iter();
+                if registers.any(|&(register, _)| has(set, register as usize)) {
+                    insert(&mut suppliers, edge);
+                }
+            }
+            graph.suppliers.push(suppliers);
+        }
+        for (edge, suppliers) in graph.suppliers.iter_mut().enumerate() {
+            insert(suppliers, edge);
+        }
         let sights = graph.sights.iter().map(|sight| &self.nets[*sight as usize]);
         for (word, sets) in [
             (0, self.nets.iter().collect::<Vec<_>>()),

@@ -13,7 +13,7 @@ pub(super) struct Line {
 }
 
 /// Ticks in which a word stays within so much room, if it moves by so much a tick.
-fn within(room: u64, speed: u64) -> u64 {
+pub(super) fn within(room: u64, speed: u64) -> u64 {
     let steps = if speed == 1 { room } else { room / speed };
     steps.saturating_add(1)
 }
@@ -112,7 +112,7 @@ impl Line {
     }
 
     /// Of a word of `from` bits those from `by` up, which is less than `from`.
-    fn high(self, by: u8, from: u8, until: &mut u64) -> Line {
+    pub fn high(self, by: u8, from: u8, until: &mut u64) -> Line {
         let rest = (1 << by) - 1;
         let value = self.value >> by;
         if self.slope & rest == 0 {
@@ -237,7 +237,7 @@ impl Line {
     }
 
     /// Ticks in which a word that moves stays zero, or stays something else.
-    fn meeting(self, width: u8) -> u64 {
+    pub fn meeting(self, width: u8) -> u64 {
         let Line { value, slope } = self;
         if value == 0 {
             return 1;
@@ -291,7 +291,7 @@ impl Line {
 }
 
 /// By how much the first goes up faster than the second; 0 where it does not.
-fn faster(first: i64, second: i64) -> u64 {
+pub(super) fn faster(first: i64, second: i64) -> u64 {
     if first > second {
         first.abs_diff(second)
     } else {

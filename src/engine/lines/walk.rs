@@ -1,5 +1,6 @@
 //! Goes through what edge blocks do: once for the words that registers take, once for their lines.
 
+use super::course::of;
 use super::graph::{From, Graph, Node, has};
 use super::pair::Line;
 use super::tree::Item;
@@ -7,7 +8,6 @@ use crate::engine::flat::mask;
 use crate::engine::interpreter::read;
 use crate::engine::layout::Slot;
 use crate::engine::plan::{Code, Plan, PlannedRegister};
-use crate::engine::value::signed;
 
 /// What is known of a node since a walk.
 #[derive(Debug, Clone, Copy)]
@@ -23,7 +23,7 @@ impl<T> Known<T> {
 }
 
 /// A register that moves.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Moving {
     pub register: u32,
     pub slot: Slot,
@@ -32,8 +32,8 @@ pub(super) struct Moving {
     pub slope: u64,
 }
 
-/// It cannot go on so.
-pub(super) struct Ends;
+/// It cannot go on so, if for nothing else because of this register.
+pub(super) struct Ends(pub Option<u32>);
 
 /// Words: nets are settled.
 pub(super) struct Words<'w> {
@@ -64,13 +64,12 @@ impl Words<'_> {
                     let PlannedRegister { slot, width, .. } =
                         self.plan.registers[register as usize];
                     let now = self.slab[slot as usize];
-                    let next = self.word(next);
-                    if next != now {
-                        // A bit that turns over is hardly ever on a line that anything follows.
-                        if width == 1 || graph.held[register as usize] {
-                            return Err(Ends);
+                    let word = self.word(next);
+                    if word != now {
+                        if self.ends(register, next) {
+                            return Err(Ends(Some(register)));
                         }
-                        let slope = next.wrapping_sub(now) & mask(width);
+                        let slope = word.wrapping_sub(now) & mask(width);
                         moving.push(Moving {
                             register,
                             slot,
@@ -81,7 +80,7 @@ impl Words<'_> {
                 }
                 Item::Write { enable } => {
                     if self.word(enable) != 0 {
-                        return Err(Ends);
+                        return Err(Ends(None));
                     }
                 }
                 Item::End => return Ok(()),
@@ -90,9 +89,20 @@ impl Words<'_> {
         }
     }
 
-    fn word(&mut self, from: From) -> u64 {
+    /// Whether it ends any line that this register moves.
+    pub fn ends(&self, register: u32, next: From) -> bool {
+        // A bit that turns over is hardly ever on a line that anything follows, and what is loaded
+        // stays.
+        let is_loaded = matches!(next, From::Number(_) | From::Port(_));
+        let register = register as usize;
+        self.plan.registers[register].width == 1 || is_loaded || self.graph.held[register]
+    }
+
+    pub fn word(&mut self, from: From) -> u64 {
         match from {
-            From::Register(slot) | From::Fixed(slot) => self.slab[slot as usize],
+            From::Register(slot) | From::Port(slot) | From::Number(slot) => {
+                self.slab[slot as usize]
+            }
             From::Net(net) => self.slab[self.graph.nets[net as usize].slot as usize],
             From::Node(number) => {
                 let node = &self.graph.nodes[number as usize];
@@ -115,33 +125,19 @@ impl Words<'_> {
 
     fn make(&mut self, node: &Node) -> u64 {
         let a = self.word(node.a);
-        let value = match node.code {
-            Code::Not => !a,
-            Code::Negate => a.wrapping_neg(),
-            Code::Add => a.wrapping_add(self.word(node.b)),
-            Code::Subtract => a.wrapping_sub(self.word(node.b)),
-            Code::Multiply => a.wrapping_mul(self.word(node.b)),
-            Code::And if a == 0 => 0,
-            Code::And => a & self.word(node.b),
-            Code::Or if a == mask(node.width) => a,
-            Code::Or => a | self.word(node.b),
-            Code::Xor => a ^ self.word(node.b),
-            Code::Equal => (a == self.word(node.b)).into(),
-            Code::Below => (a < self.word(node.b)).into(),
-            Code::BelowSigned => {
-                (signed(a, node.from) < signed(self.word(node.b), node.from)).into()
+        let b = match node.code {
+            Code::Mux if a == 0 => return self.word(node.c) & mask(node.width),
+            Code::Mux => return self.word(node.b) & mask(node.width),
+            Code::Read => {
+                let memory = &self.plan.memories[node.memory as usize];
+                return read(memory, self.slab, a) & mask(node.width);
             }
-            Code::Mux if a == 0 => self.word(node.c),
-            Code::Mux => self.word(node.b),
-            Code::ShiftLeft => a.checked_shl(node.by.into()).unwrap_or(0),
-            Code::ShiftRight | Code::Slice => a.checked_shr(node.by.into()).unwrap_or(0),
-            Code::ShiftRightSigned => (signed(a, node.from) >> node.by.min(63)) as u64,
-            Code::Extend => a,
-            Code::ExtendSigned => signed(a, node.from) as u64,
-            Code::Join => a.checked_shl(node.by.into()).unwrap_or(0) | self.word(node.b),
-            Code::Read => read(&self.plan.memories[node.memory as usize], self.slab, a),
+            Code::And if a == 0 => return 0,
+            Code::Or if a == mask(node.width) => return a,
+            _ if node.b == node.a => a,
+            _ => self.word(node.b),
         };
-        value & mask(node.width)
+        of(node.code, [node.width, node.from, node.by], a, b)
     }
 }
 
@@ -158,6 +154,8 @@ pub(super) struct Pairs<'w> {
     pub touched: &'w [u64],
     /// For how many ticks all lines asked for since it was set are what they were said to be.
     pub until: u64,
+    /// Keeps lines of nodes that one alone takes too.
+    pub all: bool,
 }
 
 impl Pairs<'_> {
@@ -179,20 +177,20 @@ impl Pairs<'_> {
                 }
                 Item::Register { register, next } => {
                     let slot = self.plan.registers[register as usize].slot;
-                    if self.line(next).slope != self.slopes[slot as usize] {
-                        return Err(Ends);
+                    if self.line(next).slope != self.slopes[slot as usize] || self.until <= 1 {
+                        return Err(Ends(Some(register)));
                     }
                 }
                 // It may be high in a block that has nothing to do: the word is written already.
                 Item::Write { enable } => {
                     if self.holds(enable) {
-                        return Err(Ends);
+                        return Err(Ends(None));
                     }
                 }
                 Item::End => return Ok(()),
             }
             if self.until <= 1 {
-                return Err(Ends);
+                return Err(Ends(None));
             }
             place += 1;
         }
@@ -203,8 +201,31 @@ impl Pairs<'_> {
         let line = self.line(self.graph.nets[net as usize].made);
         match line.is_still() && self.until > 1 {
             true => Ok(()),
-            false => Err(Ends),
+            false => Err(Ends(None)),
         }
+    }
+
+    /// Whether something that moves drives a net.
+    pub fn touches(&self, net: u32) -> bool {
+        has(self.touched, net as usize)
+    }
+
+    /// What stands in a slot.
+    pub fn at(&self, from: From, slot: Slot) -> Line {
+        Line {
+            value: self.slab[slot as usize],
+            slope: match from {
+                From::Register(_) => self.slopes[slot as usize],
+                _ => 0,
+            },
+        }
+    }
+
+    /// A line, and for how many ticks it is one.
+    pub fn ended(&mut self, from: From) -> (Line, u64) {
+        let before = std::mem::replace(&mut self.until, u64::MAX);
+        let line = self.line(from);
+        (line, std::mem::replace(&mut self.until, before))
     }
 
     /// Whether a condition is high, and for as long as it is.
@@ -216,16 +237,16 @@ impl Pairs<'_> {
         line.value != 0
     }
 
-    fn line(&mut self, from: From) -> Line {
+    pub fn line(&mut self, from: From) -> Line {
         match from {
             From::Register(slot) => Line {
                 value: self.slab[slot as usize],
                 slope: self.slopes[slot as usize],
             },
-            From::Fixed(slot) => Line::still(self.slab[slot as usize]),
+            From::Port(slot) | From::Number(slot) => Line::still(self.slab[slot as usize]),
             From::Net(number) => {
                 let net = self.graph.nets[number as usize];
-                if has(self.touched, number as usize) {
+                if self.touches(number) {
                     self.line(net.made)
                 } else {
                     Line::still(self.slab[net.slot as usize])
@@ -233,7 +254,7 @@ impl Pairs<'_> {
             }
             From::Node(number) => {
                 let node = &self.graph.nodes[number as usize];
-                if !node.shared {
+                if !node.shared && !self.all {
                     return self.make(node);
                 }
                 let known = self.known[number as usize];

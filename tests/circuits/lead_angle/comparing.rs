@@ -27,7 +27,7 @@ fn reaches(from: i64, to: i64, target: i64) -> bool {
 /// All walks of five steps of up to 3 counts on a ring of 16, from every start.
 #[test]
 fn a_crossing_is_counted_once_in_either_direction() {
-    let circuit = Comparator::<4>::default();
+    let ready = Simulator::new(&Comparator::<4>::default()).unwrap();
     let mut crossings = [0u64; 2];
     for start in 0..RANGE {
         for walk in 0..7i64.pow(5) {
@@ -36,7 +36,7 @@ fn a_crossing_is_counted_once_in_either_direction() {
                 *rest /= 7;
                 Some(step)
             });
-            let mut simulator = Simulator::new(&circuit).unwrap();
+            let mut simulator = ready.clone();
             let mut position = start;
             let target = walk % 5;
             simulator = simulator.step(look(position, target, true), |_| ()).0;
@@ -73,10 +73,10 @@ fn a_crossing_is_counted_once_in_either_direction() {
 
 /// How many of `speed` neighbouring targets are hit at that speed.
 fn hits(comparing: Comparing, speed: i64) -> usize {
-    let circuit = Comparator::<12> { comparing };
+    let ready = Simulator::new(&Comparator::<12> { comparing }).unwrap();
     let mut targets = 500..500 + speed;
     let hit = |target: &i64| {
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = ready.clone();
         for ck in 0..1000 / speed {
             let i = In::<Sim, 12> {
                 evaluate: true.into(),

@@ -16,7 +16,7 @@ struct Seen {
 
 /// One positioning: control signal at −`overrun`, standstill at 0, target at −`error`.
 fn correct<const K: usize, const T: usize, const C: usize, const W: usize, const R: usize>(
-    circuit: &Correction<K, T, C, W, R>,
+    ready: &Simulator<Correction<K, T, C, W, R>>,
     [time, seed]: [u64; 2],
     [overrun, error]: [i64; 2],
 ) -> Seen {
@@ -30,7 +30,7 @@ fn correct<const K: usize, const T: usize, const C: usize, const W: usize, const
         missed: false.into(),
         seed: seed.into(),
     };
-    let mut simulator = Simulator::new(circuit).unwrap();
+    let mut simulator = ready.clone();
     simulator = simulator.step(input(true, false, -overrun), |_| ()).0;
     simulator = simulator.step(input(false, true, 0), |_| ()).0;
     for ticks in 1..=2 * Correction::<K, T, C, W, R>::LATENCY {
@@ -89,7 +89,7 @@ fn every_correction<
     let codes = codes::grid(stages);
     let on_grid = |time: u64| codes.iter().any(|code| code.time == time);
     for sign in [Sign::Converging, Sign::Literal] {
-        let circuit = Correction::<K, T, C, W, R>::new(sign);
+        let ready = Simulator::new(&Correction::<K, T, C, W, R>::new(sign)).unwrap();
         let factor = if sign == Sign::Converging { 1 } else { -1 };
         for time in std::iter::once(0).chain(codes.iter().map(|code| code.time)) {
             for overrun in -half..half {
@@ -98,7 +98,7 @@ fn every_correction<
                     if -overrun == half || -error == half {
                         continue;
                     }
-                    let seen = correct(&circuit, [time, 2], [overrun, error]);
+                    let seen = correct(&ready, [time, 2], [overrun, error]);
                     let (learned, ticks) = match (time, overrun) {
                         (0, _) => ((error != 0).then_some(2), 1),
                         (_, 0) => (None, 1),
@@ -132,7 +132,8 @@ type Full = Correction<199, 8, 11, 24, 35>;
 /// per CK, where the control signal is right but for the lead time.
 fn next(circuit: &Full, time: u64, true_time: u64, speed: i64) -> u64 {
     let (overrun, lead) = (speed * true_time as i64, speed * time as i64);
-    let seen = correct(circuit, [time, 1], [overrun, overrun - lead]);
+    let ready = Simulator::new(circuit).unwrap();
+    let seen = correct(&ready, [time, 1], [overrun, overrun - lead]);
     seen.learned.expect("a time")
 }
 

@@ -116,14 +116,19 @@ macro_rules! bench {
                 (period, periods): (u64, usize),
             ) -> Vec<Period<$axes>> {
                 let circuit = Controller::new(correction, Rounding::Nearest);
-                let mut simulator = Simulator::new(&circuit).unwrap();
+                let watched = Simulator::watching(&circuit, false, |watch| {
+                    let driven = watch.at(watch.w.axes[0].w.driven);
+                    let waiting = watch.at(watch.q.progress.waiting);
+                    (driven, waiting, watch.at(watch.q.gather.late))
+                });
+                let (mut simulator, (driven, waiting, late)) = watched.unwrap();
                 let mut writes = writes(path, profile, gains, period).into_iter();
                 let mut seen = Vec::new();
                 while seen.len() < periods {
                     let i = writes.next().unwrap_or_else(|| idle(path, gains, period));
                     let (next, ended) = simulator.step(i, |now| {
                         let (q, w) = (now.q, now.w);
-                        let ended = w.axes[0].w.driven.get() && !q.progress.waiting.get();
+                        let ended = now.get(driven) && !now.get(waiting);
                         ended.then(|| Period {
                             command: from_fn(|k| q.distribution.axes[k].point.get()),
                             response: from_fn(|k| q.axes[k].response.integrators.position.get()),
@@ -142,7 +147,7 @@ macro_rules! bench {
                     });
                     simulator = next;
                     seen.extend(ended);
-                    assert!(!simulator.registers().gather.late.get());
+                    assert!(!simulator.get(late));
                 }
                 assert!(!simulator.registers().sequencer.late.get());
                 seen

@@ -82,6 +82,8 @@ fn run(case: &Case, short: &[u64], every: u64) -> Result<[u64; 2], TestCaseError
         .map(|block| case.hot[block % case.hot.len()])
         .collect();
     let mut lines = Lines::new(&plan, &held(&plan));
+    // Courses are worth writing down at once here.
+    lines.price = 0;
     let start = || Run {
         plan: &plan,
         slab: plan.layout.power_on(),
