@@ -25,7 +25,7 @@ pub fn settle(plan: &Plan, slab: &mut [u64], counts: &mut Counts) {
 
 /// Makes the edge: registers and memories of the next tick.
 pub fn edge(plan: &Plan, slab: &mut [u64], counts: &mut Counts) {
-    let first = plan.settling.next_multiple_of(64) / 64;
+    let first = plan.settling.div_ceil(64);
     let words = plan.layout.block_words as usize;
     // Whom an edge wakes runs after it.
     let mut due = Vec::with_capacity(words - first.min(words));

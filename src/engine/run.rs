@@ -25,7 +25,7 @@ pub struct Engine {
     /// All leaves of this tick, where one was asked for that is not watched.
     whole: RefCell<Option<Vec<u64>>>,
     /// The words of memories that were asked for, and how often they had been written then.
-    memories: RefCell<Vec<Option<(u64, Arc<[u64]>)>>>,
+    memories: RefCell<Vec<Option<Read>>>,
 }
 
 impl Clone for Engine {
@@ -71,6 +71,9 @@ impl Ports<'_> {
         self.whole.take();
     }
 }
+
+/// A memory's words, and how often it had been written.
+type Read = (u64, Arc<[u64]>);
 
 /// Ticks after which it is asked again at the latest whether ticks are idle.
 const LONGEST_PAUSE: u64 = 64;

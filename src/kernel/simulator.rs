@@ -256,7 +256,7 @@ impl<C: Circuit> Simulator<C> {
                     self.edge();
                     return Ok(self);
                 }
-                if !self.to_change(until, jumps) {
+                if !self.go_to_change(until, jumps) {
                     break;
                 }
             }
@@ -266,7 +266,7 @@ impl<C: Circuit> Simulator<C> {
 
     /// Goes on to a tick in which something watched has changed; whether there is one before
     /// `until`, at which the registers are there and nothing is settled.
-    fn to_change(&mut self, until: u64, jumps: bool) -> bool {
+    fn go_to_change(&mut self, until: u64, jumps: bool) -> bool {
         loop {
             let left = until - self.tick;
             if jumps {

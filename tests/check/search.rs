@@ -131,7 +131,7 @@ fn what_is_too_wide_is_refused() {
         bits: 77,
         most: 64,
     };
-    assert_eq!(found.unwrap_err(), CheckError::TooWide(expected.clone()));
+    assert_eq!(found.unwrap_err(), CheckError::TooWide(expected));
     assert_eq!(
         expected.to_string(),
         "the registers have 77 bits, at most 64 can be enumerated"

@@ -333,7 +333,7 @@ fn the_next_cycle_takes_a_scan_after_the_turnaround_and_not_before() {
     // The run after the last load before the second cycle begins.
     let (mut loaded, mut starts) = (simulator.clone(), 0);
     while starts < 2 {
-        let scan = simulator.tick() % SCAN == 0;
+        let scan = simulator.tick().is_multiple_of(SCAN);
         let (next, (load, start)) = simulator.step(inputs(scan, None), |now| {
             (now.w.load.get(), now.w.start.get())
         });
