@@ -17,6 +17,7 @@ mod program;
 #[cfg(test)]
 mod random;
 mod run;
+pub(crate) mod sliced;
 mod tier;
 mod value;
 
