@@ -52,7 +52,9 @@ impl<const AXES: usize> Observer<Group<AXES>> for Outputs {
 }
 
 fn run<const AXES: usize>(group: &Group<AXES>, ticks: u64, observer: impl Observer<Group<AXES>>) {
-    let run = Simulator::new(group).unwrap().run(ticks, |_, _| zero(), observer);
+    let run = Simulator::new(group)
+        .unwrap()
+        .run(ticks, |_, _| zero(), observer);
     divan::black_box(run.expect("no observer objects").registers());
 }
 

@@ -82,7 +82,9 @@ fn run<C: Circuit>(
     i: impl Fn(u64) -> C::In<Sim>,
     observer: impl Observer<C>,
 ) {
-    let run = Simulator::new(circuit).unwrap().run(ticks, |tick, _| i(tick), observer);
+    let run = Simulator::new(circuit)
+        .unwrap()
+        .run(ticks, |tick, _| i(tick), observer);
     divan::black_box(run.is_ok());
 }
 

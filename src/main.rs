@@ -29,6 +29,8 @@ enum Command {
     Verilog(cli::verilog::Arguments),
     /// Holds a waveform, such as a simulator's, against a golden one, tick by tick.
     Compare(cli::compare::Arguments),
+    /// Shows how a circuit is run: its blocks, what wakes them, how often each runs.
+    Plan(cli::plan::Arguments),
     /// Lists circuits with ports and widths, and scenarios.
     List(cli::list::Arguments),
 }
@@ -50,6 +52,7 @@ fn main() -> ExitCode {
         Some(Command::Check(arguments)) => cli::check::check(&arguments),
         Some(Command::Verilog(arguments)) => cli::verilog::verilog(&arguments),
         Some(Command::Compare(arguments)) => cli::compare::compare(&arguments),
+        Some(Command::Plan(arguments)) => cli::plan::plan(&arguments),
         Some(Command::List(arguments)) => cli::list::list(&arguments),
     };
     match done {

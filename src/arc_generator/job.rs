@@ -4,9 +4,8 @@ use super::record::Record;
 use super::record_writer::RecordWriter;
 use super::{ArcGenerator, Rounding, generator};
 use crate::input::COORDINATES;
-use crate::kernel::{Observer, RunError, Sample, Simulator};
+use crate::kernel::{At, Observer, RunError, Simulator};
 use crate::logic::Sim;
-use std::ops::ControlFlow;
 
 /// Width of a data word of the generator that plays a job.
 const D: usize = 42;
@@ -69,26 +68,14 @@ impl Host<'_> {
     }
 }
 
-/// What one tick shows.
-struct Seen {
-    flow: ControlFlow<()>,
-    ready: bool,
-    busy: bool,
-    command: Option<[i64; COORDINATES]>,
-}
-
-fn see(
-    now: &Sample<'_, ArcGenerator>,
-    observer: &mut impl Observer<ArcGenerator>,
-) -> Result<Seen, RunError> {
-    let w = now.w;
-    let counts = [w.x, w.y, w.z].map(|word| word.get());
-    Ok(Seen {
-        flow: observer.sample(now)?,
-        ready: w.ready.get(),
-        busy: w.busy.get(),
-        command: w.sampled.get().then_some(counts),
-    })
+/// What is looked at.
+struct See {
+    ready: At<bool>,
+    busy: At<bool>,
+    sampled: At<bool>,
+    command: [At<i64>; COORDINATES],
+    late: At<bool>,
+    starved: At<bool>,
 }
 
 /// Plays a path on `circuit`, a sample every `sample_ticks` ticks, seen by `observer` too. An empty
@@ -109,30 +96,38 @@ pub fn play(
         started: false,
     };
     let mut played = Played::default();
-    let mut simulator = Simulator::new(circuit)?;
+    let all = observer.needs_all();
+    let (mut simulator, see) = Simulator::watching(circuit, all, |watch| {
+        let (q, w) = (&watch.q.sequencer, &watch.w);
+        See {
+            ready: watch.at(w.ready),
+            busy: watch.at(w.busy),
+            sampled: watch.at(w.sampled),
+            command: [w.x, w.y, w.z].map(|word| watch.at(word)),
+            late: watch.at(q.late),
+            starved: watch.at(q.starved),
+        }
+    })?;
     let (mut over, mut stopped) = (records.is_empty(), false);
     while !over && !stopped {
         let i = host.ports();
         let (started, pushed) = (i.start.get(), i.push.get());
-        let (next, seen) = simulator.step(i, |now| see(now, &mut observer));
-        let Seen {
-            flow,
-            ready,
-            busy,
-            command,
-        } = seen?;
-        simulator = next;
-        host.records.free = ready && !pushed;
-        if let Some(counts) = command {
-            let tick = played.ticks;
-            played.commands.push(Command { tick, counts });
-        }
+        let (busy, flow) = simulator.step_watched(&i, &mut observer, |now| {
+            host.records.free = now.get(see.ready) && !pushed;
+            if now.get(see.sampled) {
+                let counts = see.command.map(|word| now.get(word));
+                played.commands.push(Command {
+                    tick: now.tick,
+                    counts,
+                });
+            }
+            now.get(see.busy)
+        })?;
         played.ticks += 1;
         over = host.started && !started && !busy;
         stopped = flow.is_break();
     }
-    let q = simulator.registers();
-    played.late = q.sequencer.late.get();
-    played.starved = q.sequencer.starved.get();
+    played.late = simulator.get(see.late);
+    played.starved = simulator.get(see.starved);
     Ok(played)
 }

@@ -65,10 +65,7 @@ impl Drive {
         for tick in 0..self.ticks {
             let rst = self.resets && random.reset();
             resets += u64::from(rst);
-            let mut ports = random.ports();
-            for (port, &width) in model.flat().inputs.iter().enumerate() {
-                engine.input(port, ports.port(width.into()));
-            }
+            random.apply(&mut engine);
             engine.settle();
             lines.tick(&engine, rst, stimulus)?;
             dump.tick(tick, &engine)?;

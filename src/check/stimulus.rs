@@ -1,4 +1,5 @@
 use super::Random;
+use crate::engine::Engine;
 use crate::kernel::{Field, Shape, Signals, Source};
 use crate::logic::Sim;
 
@@ -58,6 +59,15 @@ impl Stimulus {
     /// The inputs of the tick that comes next. Give them all to one circuit.
     pub fn inputs<S: Signals<Sim>>(&mut self) -> S {
         S::make(const { &Field::named("") }, &mut self.ports())
+    }
+
+    /// Sets the ports in of an engine for the tick that comes next.
+    pub fn apply(&mut self, engine: &mut Engine) {
+        let mut ports = self.ports();
+        for port in 0..engine.flat().inputs.len() {
+            let width = engine.flat().inputs[port];
+            engine.input(port, ports.port(width.into()));
+        }
     }
 
     /// The inputs of the tick that comes next, one after the other.

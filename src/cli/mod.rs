@@ -2,6 +2,7 @@
 
 mod arc;
 pub mod check;
+mod chosen;
 pub mod compare;
 mod files;
 mod lead_angle;
@@ -10,6 +11,7 @@ pub mod list;
 mod machine;
 mod magnification;
 mod pieces;
+pub mod plan;
 mod pulse;
 mod report;
 mod rows;

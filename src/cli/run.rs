@@ -40,6 +40,9 @@ pub struct Arguments {
     /// Writes the circuit as Verilog too, with a testbench and the run's inputs as its stimulus.
     #[arg(long)]
     pub(super) verilog: bool,
+    /// Writes how the circuit was run, as `plan` shows it, with how often each block ran.
+    #[arg(long)]
+    pub(super) plan: bool,
     /// Prints every segment, arc, positioning or signal, not the worst or the last alone (not of
     /// the pulse interpolator).
     #[arg(long)]
@@ -153,6 +156,10 @@ impl Progress {
 impl<C: Circuit> Observer<C> for Progress {
     fn looks(&self, tick: u64) -> bool {
         tick >= self.due
+    }
+
+    fn needs_all(&self) -> bool {
+        false
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

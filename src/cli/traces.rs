@@ -3,6 +3,7 @@
 
 use super::Failure;
 use super::files::Files;
+use super::plan::{Noted, of_job};
 use super::run::{Arguments, clock};
 use clap::ValueEnum;
 use motion_rtl::input::scenario::Loaded;
@@ -28,6 +29,8 @@ pub struct Traces<'a, C: Circuit, V: Circuit> {
     pub waves: Option<WaveFile<C>>,
     /// The inputs.
     pub stimulus: Option<StimulusFile<V, AtomicFile>>,
+    /// The inputs once more, for the plan.
+    pub noted: Option<Noted>,
     // Last, as their directory can go only when the files above are gone.
     files: Files,
 }
@@ -105,12 +108,13 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
             files,
             waves,
             stimulus,
+            noted: arguments.plan.then(Noted::default),
         })
     }
 
     /// Whether nothing of the run is written: it is compiled without a trace of the files then.
     pub fn is_empty(&self) -> bool {
-        self.waves.is_none() && self.stimulus.is_none()
+        self.waves.is_none() && self.stimulus.is_none() && self.noted.is_none()
     }
 
     /// Closes them after so many ticks, and writes the save file; refuses a window of which the run
@@ -119,6 +123,9 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
         no_such_tick(self.options, ticks)?;
         if let Some(stimulus) = self.stimulus {
             self.files.push(stimulus.finish()?);
+        }
+        if let Some(Noted(inputs)) = self.noted {
+            self.files.write("plan.txt", &of_job(circuit, &inputs)?)?;
         }
         if let Some(waves) = self.waves {
             let Range { start, end } = self.options.ticks;

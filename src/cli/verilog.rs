@@ -1,11 +1,11 @@
 //! `verilog`: a circuit as Verilog, with a testbench if one is asked for.
 
+use super::chosen::Chosen;
 use super::files::Files;
-use super::{Failure, check::entry, print};
+use super::{Failure, print};
 use clap::Args;
 use motion_rtl::check::Drive;
 use motion_rtl::kernel::Role;
-use motion_rtl::registry::AnyModel;
 use motion_rtl::trace::Clock;
 use motion_rtl::verilog::Verilog;
 use std::fmt::Write as _;
@@ -14,20 +14,8 @@ use std::path::PathBuf;
 /// What to print.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The circuit.
-    circuit: String,
-    /// Width of the words, in bits; without it the circuit's own widths, as `list` shows them.
-    #[arg(long, value_name = "BITS", allow_negative_numbers = true)]
-    width: Option<u64>,
-    /// What else the circuit is made with, as `list` tells.
-    #[arg(
-        long,
-        value_name = "NUMBERS",
-        allow_negative_numbers = true,
-        value_delimiter = ',',
-        requires = "width"
-    )]
-    with: Vec<u64>,
+    #[command(flatten)]
+    chosen: Chosen,
     /// Where the files go.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -55,7 +43,7 @@ pub struct Arguments {
 
 /// Prints.
 pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
-    let circuit = model(arguments)?;
+    let circuit = arguments.chosen.model()?;
     let verilog = circuit.verilog().map_err(|error| Failure::Argument {
         field: "CIRCUIT",
         problem: error.to_string(),
@@ -128,36 +116,4 @@ fn word(verilog: &Verilog) -> String {
     }
     parts.push(format!("rst [{low}]"));
     parts.join(", ")
-}
-
-/// The circuit that is asked for.
-fn model(arguments: &Arguments) -> Result<Box<dyn AnyModel>, Failure> {
-    let entry = entry(&arguments.circuit)?;
-    let Some(width) = arguments.width else {
-        return Ok((entry.full)());
-    };
-    if entry.offered.is_empty() {
-        return Err(Failure::Argument {
-            field: "--width",
-            problem: format!("{} has no widths to choose", entry.name),
-            allowed: "none".into(),
-        });
-    }
-    let mut given = vec![width];
-    given.extend(&arguments.with);
-    (entry.model)(&given).ok_or_else(|| {
-        let widths: Vec<String> = entry.offered.iter().map(u64::to_string).collect();
-        Failure::Argument {
-            field: match entry.offered.contains(&width) {
-                true => "--with",
-                false => "--width",
-            },
-            problem: format!("{} cannot be made with {given:?}", entry.name),
-            allowed: format!(
-                "{}, the first of them one of {}",
-                entry.arguments,
-                widths.join(", ")
-            ),
-        }
-    })
 }

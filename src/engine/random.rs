@@ -48,7 +48,12 @@ fn width() -> impl Strategy<Value = u8> {
 
 /// Words that are often small, or all ones.
 fn bits() -> impl Strategy<Value = u64> {
-    prop_oneof![0..4u64, any::<u64>(), Just(u64::MAX), (0..64u32).prop_map(|bit| 1 << bit)]
+    prop_oneof![
+        0..4u64,
+        any::<u64>(),
+        Just(u64::MAX),
+        (0..64u32).prop_map(|bit| 1 << bit)
+    ]
 }
 
 fn seed(kinds: u8) -> impl Strategy<Value = Seed> {
@@ -81,11 +86,7 @@ pub(crate) fn cases(all: bool) -> impl Strategy<Value = Case> {
     let change = (any::<u16>(), bits());
     let hold = (vec(change, 0..3), 0..6u64);
     let wanted = vec(prop::bool::weighted(if all { 1.0 } else { 0.3 }), 64);
-    let hot = prop_oneof![
-        Just(0.0),
-        Just(0.5),
-        Just(1.0),
-    ];
+    let hot = prop_oneof![Just(0.0), Just(0.5), Just(1.0),];
     let hot = hot.prop_flat_map(|share| vec(prop::bool::weighted(share), 96));
     (flat, wanted, hot, vec(hold, 1..8)).prop_map(|(flat, wanted, hot, holds)| {
         let stimulus = holds.into_iter().map(|(changes, ticks)| {

@@ -1,6 +1,6 @@
 use super::flat::{Flat, Op, Place};
 use super::interpreter::{self, Counts};
-use super::layout::Spot;
+use super::layout::{Layout, Slot, Spot};
 use super::lines::Lines;
 use super::program::Program;
 use super::tier::Tier;
@@ -42,6 +42,33 @@ impl Clone for Engine {
             whole: RefCell::default(),
             memories: RefCell::default(),
         }
+    }
+}
+
+/// Ports in that are yet to be set; see [`Engine::ports`].
+pub(crate) struct Ports<'e> {
+    slots: std::slice::Iter<'e, Slot>,
+    layout: &'e Layout,
+    slab: &'e mut [u64],
+    whole: &'e mut Option<Vec<u64>>,
+}
+
+impl Ports<'_> {
+    /// Sets the next one.
+    #[inline(always)]
+    pub(crate) fn give(&mut self, word: u64) {
+        if let Some(&slot) = self.slots.next()
+            && self.slab[slot as usize] != word
+        {
+            self.change(slot, word);
+        }
+    }
+
+    /// Few ports change in a tick.
+    #[inline(never)]
+    fn change(&mut self, slot: Slot, word: u64) {
+        interpreter::put(self.layout, self.slab, slot, word);
+        self.whole.take();
     }
 }
 
@@ -88,6 +115,18 @@ impl Engine {
         }
     }
 
+    /// Sets ports in one after the other, from the first.
+    #[inline]
+    pub(crate) fn ports(&mut self) -> Ports<'_> {
+        let layout = &self.program.plan.layout;
+        Ports {
+            slots: layout.inputs.iter(),
+            layout,
+            slab: &mut self.slab,
+            whole: self.whole.get_mut(),
+        }
+    }
+
     /// Sets all ports in.
     pub fn inputs(&mut self, words: &[u64]) {
         for (port, &word) in words.iter().enumerate() {
@@ -122,6 +161,8 @@ impl Engine {
         for (register, &word) in program.plan.registers.iter().zip(&program.power_on) {
             interpreter::put(&program.plan.layout, &mut self.slab, register.slot, word);
         }
+        // The edge that would make a register again what it was has nothing else to wake it.
+        self.wake_all();
     }
 
     fn begin(&mut self) {
@@ -347,6 +388,12 @@ impl Engine {
     /// How often each block has run, as far as it was counted.
     pub fn counts(&self) -> &Counts {
         self.tier.counts()
+    }
+
+    /// Compiles now, instead of when it pays: blocks that ran in more than half of the ticks so far
+    /// are in line. Whether the machine code is there.
+    pub fn compile(&mut self) -> bool {
+        self.tier.compile_now(&self.program.plan)
     }
 
     /// Goes on by the interpreter, which counts blocks, and never compiles.

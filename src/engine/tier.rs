@@ -133,9 +133,17 @@ impl Tier {
             .map(|(count, steps)| count * steps)
             .sum();
         if self.work >= self.due {
+            self.compile_now(plan);
+        }
+    }
+
+    /// Compiles with the blocks in line that have run in most ticks; whether there is code.
+    pub fn compile_now(&mut self, plan: &Plan) -> bool {
+        if matches!(self.backend, Backend::Interpreter) {
             let often = |count: &u64| 2 * count > self.ticks;
             self.compile(plan, self.counts.iter().map(often).collect());
         }
+        !matches!(self.backend, Backend::Interpreter)
     }
 
     #[cfg(feature = "jit")]

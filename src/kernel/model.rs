@@ -77,6 +77,11 @@ impl Model {
         Arc::new(Program::planned(&self.flat, watch, &held))
     }
 
+    /// The leaves that are ports out.
+    pub fn ports_out(&self) -> Vec<usize> {
+        ports_out(&self.design)
+    }
+
     /// The leaves of a part of the whole.
     pub(crate) fn leaves(&self, role: Role) -> std::ops::Range<usize> {
         self.flat.part(role)

@@ -49,23 +49,29 @@ pub trait Probe {
 }
 
 impl<P: Probe> Visit<Sim> for P {
+    #[inline]
     fn enter(&mut self, field: &'static Field) {
         Probe::enter(self, field);
     }
+    #[inline]
     fn leave(&mut self) {
         Probe::leave(self);
     }
+    #[inline]
     fn element(&mut self, index: usize) {
         Probe::element(self, index);
     }
+    #[inline]
     fn bit(&mut self, field: &'static Field, value: Wire) {
         let kind = Kind::Bit;
         self.leaf(field, Shape { kind, width: 1 }, value.word().get());
     }
+    #[inline]
     fn unsigned<const N: usize>(&mut self, field: &'static Field, value: UInt<N>) {
         let kind = Kind::Unsigned;
         self.leaf(field, Shape { kind, width: N }, value.get());
     }
+    #[inline]
     fn signed<const N: usize>(&mut self, field: &'static Field, value: Int<N>) {
         let kind = Kind::Signed;
         self.leaf(field, Shape { kind, width: N }, value.unsigned().get());

@@ -1,6 +1,6 @@
-use super::probe::{Source, supply};
-use super::{Circuit, Field, Role, Shape, Signals};
-use crate::engine::Engine;
+use super::probe::Source;
+use super::{Circuit, Field, Role, Shape, Signals, part};
+use crate::engine::{Engine, Spot};
 use crate::logic::Sim;
 use crate::logic::netlist::{NetBit, NetInt, NetUInt};
 use std::cell::OnceCell;
@@ -35,6 +35,7 @@ impl<C: Circuit> Sample<'_, C> {
     }
 
     /// What is watched at a place.
+    #[inline]
     pub fn get<T: Word>(&self, at: At<T>) -> T {
         at.of(self.engine)
     }
@@ -79,6 +80,12 @@ impl<'a, S> Part<'a, S> {
             engine,
         }
     }
+
+    /// What is watched at a place, whatever part it is of. A net needs a settled tick.
+    #[inline]
+    pub fn get<T: Word>(&self, at: At<T>) -> T {
+        at.of(self.engine)
+    }
 }
 
 impl<S: Signals<Sim>> Deref for Part<'_, S> {
@@ -98,24 +105,31 @@ impl<S: Signals<Sim>> fmt::Debug for Part<'_, S> {
 /// A part of a circuit as a record.
 pub(crate) fn record<S: Signals<Sim>>(role: Role, engine: &Engine) -> S {
     let first = engine.flat().part(role).start;
-    supply(
-        role,
-        &mut Leaves {
-            engine,
-            leaf: first,
-        },
-    )
+    let mut leaves = Leaves {
+        engine,
+        spots: &engine.program().plan().layout.leaves,
+        slab: engine.slab(),
+        leaf: first,
+    };
+    S::make(part(role), &mut leaves)
 }
 
 struct Leaves<'a> {
     engine: &'a Engine,
+    spots: &'a [Spot],
+    slab: &'a [u64],
     leaf: usize,
 }
 
 impl Source for Leaves<'_> {
+    #[inline]
     fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
+        let leaf = self.leaf;
         self.leaf += 1;
-        self.engine.leaf(self.leaf - 1)
+        match self.spots.get(leaf) {
+            Some(Spot::Slot(slot)) => self.slab[*slot as usize],
+            _ => self.engine.leaf(leaf),
+        }
     }
 
     fn memory(&mut self, words: usize) -> Option<Arc<[u64]>> {
@@ -147,6 +161,7 @@ impl<T: Word> At<T> {
         self.leaf
     }
 
+    #[inline]
     pub(super) fn of(self, engine: &Engine) -> T {
         T::of(engine.leaf(self.leaf), self.spare)
     }
@@ -174,18 +189,21 @@ pub trait Word {
 }
 
 impl Word for bool {
+    #[inline]
     fn of(word: u64, _: u32) -> bool {
         word != 0
     }
 }
 
 impl Word for u64 {
+    #[inline]
     fn of(word: u64, _: u32) -> u64 {
         word
     }
 }
 
 impl Word for i64 {
+    #[inline]
     fn of(word: u64, spare: u32) -> i64 {
         (word << spare) as i64 >> spare
     }

@@ -3,11 +3,10 @@
 use super::compensator;
 use super::settings::{SPEED_UNIT_COUNTS_PER_S, Settings};
 use super::{Compensator, LeadSource, PositionHistory, RamHistory, SpeedLead, TimeLead, Variant};
-use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
+use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn, zero};
 use crate::logic::{Image, Sim};
 use crate::plant::{BrakedBody, waves};
 use crate::settings::JobError;
-use std::ops::ControlFlow;
 
 /// Width of a lead time.
 pub(super) const C: usize = 11;
@@ -63,21 +62,21 @@ pub fn positioner<P: JobLead>(settings: &Settings) -> Positioner<P> {
 #[derive(Debug)]
 pub(super) struct ControlComputer<'a> {
     settings: &'a Settings,
-    /// What it gives in every tick.
-    standing: Ports,
 }
 
 impl<'a> ControlComputer<'a> {
     pub(super) fn new(settings: &'a Settings) -> Self {
+        ControlComputer { settings }
+    }
+
+    /// What it gives in every tick, with all else low.
+    pub(super) fn standing(&self) -> Ports {
+        let settings = self.settings;
         let cks = |ms: f64| u64::from(settings.cks(ms));
         // Lead time in gates, in 1/256.
         let parameter = 256.0 * settings.speed_lead_ms / settings.speed_gate_ms;
-        let standing = Ports {
-            a: false.into(),
-            b: false.into(),
-            clear: false.into(),
-            run: false.into(),
-            halt: false.into(),
+        // The times are in the ROM.
+        Ports {
             learn: settings.learn.into(),
             common: settings.common_time.into(),
             last_step: (settings.steps.len().saturating_sub(1) as u64).into(),
@@ -88,34 +87,21 @@ impl<'a> ControlComputer<'a> {
             seed: settings.code(settings.seed_ms).unwrap_or(0).into(),
             lead_parameter: (parameter.round() as u64).min((1 << 14) - 1).into(),
             gate: cks(settings.speed_gate_ms).into(),
-            write_target: false.into(),
-            // The times are in the ROM.
-            write_time: false.into(),
-            write_step: 0.into(),
-            step_target: 0.into(),
-            step_speed: 0.into(),
-            step_time: 0.into(),
-        };
-        ControlComputer { settings, standing }
+            ..zero()
+        }
     }
 
     /// What it gives in `tick`; steps run as soon as all are written.
-    pub(super) fn tick(&self, tick: u64, run: bool) -> Ports {
+    pub(super) fn tick(&self, i: &mut Ports, tick: u64, run: bool) {
         let steps = &self.settings.steps;
         let place = usize::try_from(tick).unwrap_or(usize::MAX);
-        match steps.get(place) {
-            Some(step) => Ports {
-                write_target: true.into(),
-                write_step: tick.into(),
-                step_target: step.target.into(),
-                step_speed: u64::from(step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S).into(),
-                ..self.standing.clone()
-            },
-            None => Ports {
-                run: run.into(),
-                ..self.standing.clone()
-            },
-        }
+        let step = steps.get(place);
+        let speed = step.map_or(0, |step| step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S);
+        i.write_target = step.is_some().into();
+        i.write_step = step.map_or(0, |_| tick).into();
+        i.step_target = step.map_or(0, |step| step.target).into();
+        i.step_speed = u64::from(speed).into();
+        i.run = (step.is_none() && run).into();
     }
 }
 
@@ -165,45 +151,52 @@ pub struct Played {
     pub unsettled: bool,
 }
 
-/// What one tick shows.
-struct Seen {
-    arm: bool,
-    fire: bool,
-    halting: bool,
-    complete: bool,
-    learned: Option<u64>,
-    busy: bool,
-    lost: bool,
-    timed_out: bool,
-    missed: bool,
-    step: u64,
-    position: i64,
-    target: i64,
-    time: u64,
-    flow: ControlFlow<()>,
+/// What is looked at.
+struct See {
+    speed: At<u64>,
+    drive: At<bool>,
+    reverse: At<bool>,
+    control: At<bool>,
+    arm: At<bool>,
+    fire: At<bool>,
+    halting: At<bool>,
+    complete: At<bool>,
+    learned: At<bool>,
+    learned_time: At<u64>,
+    busy: At<bool>,
+    lost: At<bool>,
+    timed_out: At<bool>,
+    missed: At<bool>,
+    step: At<u64>,
+    position: At<i64>,
+    target: At<i64>,
+    time: At<u64>,
 }
 
-fn see<P: JobLead>(
-    now: &Sample<'_, Positioner<P>>,
-    observer: &mut impl Observer<Positioner<P>>,
-) -> Result<Seen, RunError> {
-    let (q, w) = (now.q, now.w);
-    Ok(Seen {
-        flow: observer.sample(now)?,
-        arm: q.sequencer.arm.get(),
-        fire: w.fire.get(),
-        halting: q.sequencer.halting.get(),
-        complete: w.complete.get(),
-        learned: w.learned.get().then(|| w.learned_time.get()),
-        busy: w.busy.get(),
-        lost: w.lost.get(),
-        timed_out: w.timed_out.get(),
-        missed: q.sequencer.missed.get(),
-        step: w.step.get(),
-        position: w.position.get(),
-        target: w.target.get(),
-        time: w.lead_time.get(),
-    })
+impl See {
+    fn of<P: JobLead>(watch: &Watcher<Positioner<P>>) -> Self {
+        let (q, w) = (&watch.q, &watch.w);
+        See {
+            speed: watch.at(q.target_setter.speed),
+            drive: watch.at(q.sequencer.drive),
+            reverse: watch.at(q.sequencer.reverse),
+            control: watch.at(q.comparator.control),
+            arm: watch.at(q.sequencer.arm),
+            fire: watch.at(w.fire),
+            halting: watch.at(q.sequencer.halting),
+            complete: watch.at(w.complete),
+            learned: watch.at(w.learned),
+            learned_time: watch.at(w.learned_time),
+            busy: watch.at(w.busy),
+            lost: watch.at(w.lost),
+            timed_out: watch.at(w.timed_out),
+            missed: watch.at(q.sequencer.missed),
+            step: watch.at(w.step),
+            position: watch.at(w.position),
+            target: watch.at(w.target),
+            time: watch.at(w.lead_time),
+        }
+    }
 }
 
 /// Watches, stops by hand what missed its target, and writes down what comes of it.
@@ -227,60 +220,70 @@ impl Bench<'_> {
     }
 
     /// Takes the tick up; whether the run goes on.
-    fn take(&mut self, seen: &Seen, body: &BrakedBody) -> bool {
+    fn take<P: JobLead>(
+        &mut self,
+        now: &Sample<'_, Positioner<P>>,
+        see: &See,
+        body: &BrakedBody,
+    ) -> bool {
         let tick = self.played.ticks;
         self.played.ticks += 1;
         self.idle += 1;
-        if seen.arm {
+        let arm = now.get(see.arm);
+        if arm {
             if self.arming {
                 // The sample that ends it says where the body is.
                 self.played.positionings.pop();
             }
+            let (target, position) = (now.get(see.target), now.get(see.position));
             self.played.positionings.push(Positioning {
-                step: seen.step as usize,
+                step: now.get(see.step) as usize,
                 begun: tick,
-                target: seen.target,
-                upward: seen.target >= seen.position,
-                code: seen.time,
+                target,
+                upward: target >= position,
+                code: now.get(see.time),
                 fired: tick,
-                trigger_position: seen.position,
+                trigger_position: position,
                 speed_counts_per_s: 0.0,
                 completed: tick,
-                stopped: seen.position,
+                stopped: position,
                 error: 0,
                 timed_out: false,
                 missed: false,
                 learned: None,
             });
         }
-        self.arming = seen.arm;
+        self.arming = arm;
         if let Some(current) = self.played.positionings.last_mut() {
-            if seen.fire || seen.halting {
+            if now.get(see.fire) || now.get(see.halting) {
                 current.fired = tick;
-                current.trigger_position = seen.position;
+                current.trigger_position = now.get(see.position);
                 current.speed_counts_per_s = body.speed_counts_per_s();
             }
-            if seen.complete {
-                let way = seen.position - seen.target;
+            if now.get(see.complete) {
+                let position = now.get(see.position);
+                let way = position - now.get(see.target);
                 current.completed = tick;
-                current.stopped = seen.position;
+                current.stopped = position;
                 current.error = if current.upward { way } else { -way };
-                current.timed_out = seen.timed_out;
-                current.missed = seen.missed;
+                current.timed_out = now.get(see.timed_out);
+                current.missed = now.get(see.missed);
                 self.completed += 1;
                 self.idle = 0;
             }
-            current.learned = current.learned.or(seen.learned);
+            if current.learned.is_none() && now.get(see.learned) {
+                current.learned = Some(now.get(see.learned_time));
+            }
             let way = body.position_counts() - current.target as f64;
             let way = if current.upward { way } else { -way };
             let step = self.settings.steps.get(current.step);
             let speed = step.map_or(0, |step| step.speed_counts_per_s);
             self.past = way > f64::from(speed) * MISSED_S;
         }
-        self.played.lost = seen.lost;
+        self.played.lost = now.get(see.lost);
         self.played.unsettled = self.idle > self.patience;
-        let over = self.completed >= self.settings.positionings && !seen.busy;
-        !over && !self.played.unsettled && seen.flow.is_continue()
+        let over = self.completed >= self.settings.positionings && !now.get(see.busy);
+        !over && !self.played.unsettled
     }
 }
 
@@ -307,30 +310,30 @@ pub fn play<P: JobLead>(
         played: Played::default(),
     };
     let computer = ControlComputer::new(settings);
+    let mut i = WithIn::<Sim, Compensator<P>, waves::Body> {
+        i: computer.standing(),
+        beside: waves::BodySignals::of(&body),
+    };
     let mut loaded = false;
-    let mut simulator = Simulator::new(circuit)?;
+    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
     loop {
         if settings.load_change_after == Some(bench.completed) && !loaded {
             body.set_load(settings.load)?;
             loaded = true;
         }
-        let q = simulator.registers();
-        let speed = q.target_setter.speed.get() * u64::from(SPEED_UNIT_COUNTS_PER_S);
-        let (drive, reverse) = (q.sequencer.drive.get(), q.sequencer.reverse.get());
-        let (a, b) = body.step(drive, reverse, speed as f64, q.comparator.control.get());
-        let i = Ports {
-            a: a.into(),
-            b: b.into(),
-            halt: (bench.past && drive).into(),
-            ..computer.tick(bench.played.ticks, bench.run())
-        };
-        let i = WithIn {
-            i,
-            beside: waves::BodySignals::of(&body),
-        };
-        let (next, seen) = simulator.step(i, |now| see(now, &mut observer));
-        simulator = next;
-        if !bench.take(&seen?, &body) {
+        let speed = simulator.get(see.speed) * u64::from(SPEED_UNIT_COUNTS_PER_S);
+        let (drive, reverse) = (simulator.get(see.drive), simulator.get(see.reverse));
+        let (a, b) = body.step(drive, reverse, speed as f64, simulator.get(see.control));
+        computer.tick(&mut i.i, bench.played.ticks, bench.run());
+        i.i.a = a.into();
+        i.i.b = b.into();
+        i.i.halt = (bench.past && drive).into();
+        if observer.looks(bench.played.ticks) {
+            i.beside = waves::BodySignals::of(&body);
+        }
+        let take = |now: &Sample<'_, _>| bench.take(now, &see, &body);
+        let (goes_on, flow) = simulator.step_watched(&i, &mut observer, take)?;
+        if !goes_on || flow.is_break() {
             return Ok(bench.played);
         }
     }

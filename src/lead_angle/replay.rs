@@ -1,15 +1,15 @@
 //! A position log on a compensator: where it would have given its signals, and how good its
 //! predictions were.
 
-use super::job::{ControlComputer, JobLead, Ports, Positioner};
+use super::Compensator;
+use super::job::{ControlComputer, JobLead, Positioner};
 use super::settings::Settings;
 use crate::input::position_log::PositionLog;
-use crate::kernel::{Observer, RunError, Sample, Simulator, WithIn};
+use crate::kernel::{At, Observer, Sample, Simulator, Watcher, WithIn};
 use crate::logic::Sim;
 use crate::plant::Encoder;
-use crate::plant::waves::BodySignals;
+use crate::plant::waves::{Body, BodySignals};
 use crate::settings::JobError;
-use std::ops::ControlFlow;
 
 /// A control signal that the log gave rise to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,38 +84,35 @@ fn origin(log: &PositionLog) -> i64 {
     log.samples.first().map_or(0, |sample| sample.counts)
 }
 
-/// What one tick shows.
-struct Seen {
-    fire: bool,
-    fresh: bool,
-    enough: bool,
-    lost: bool,
-    step: u64,
-    time: u64,
-    position: i64,
-    target: i64,
-    lead: i64,
-    flow: ControlFlow<()>,
+/// What is looked at.
+struct See {
+    fire: At<bool>,
+    fresh: At<bool>,
+    enough: At<bool>,
+    lost: At<bool>,
+    step: At<u64>,
+    time: At<u64>,
+    position: At<i64>,
+    target: At<i64>,
+    lead: At<i64>,
 }
 
-fn see<P: JobLead>(
-    now: &Sample<'_, Positioner<P>>,
-    observer: &mut impl Observer<Positioner<P>>,
-) -> Result<Seen, RunError> {
-    let w = now.w;
-    let source = P::outputs(&now.q.lead_source, &w.lead_source.w);
-    Ok(Seen {
-        flow: observer.sample(now)?,
-        fire: w.fire.get(),
-        fresh: source.fresh.get(),
-        enough: source.enough.get(),
-        lost: w.lost.get(),
-        step: w.step.get(),
-        time: w.lead_time.get(),
-        position: w.position.get(),
-        target: w.target.get(),
-        lead: source.lead.get(),
-    })
+impl See {
+    fn of<P: JobLead>(watch: &Watcher<Positioner<P>>) -> Self {
+        let w = &watch.w;
+        let source = P::outputs(&watch.q.lead_source, &w.lead_source.w);
+        See {
+            fire: watch.at(w.fire),
+            fresh: watch.at(source.fresh),
+            enough: watch.at(source.enough),
+            lost: watch.at(w.lost),
+            step: watch.at(w.step),
+            time: watch.at(w.lead_time),
+            position: watch.at(w.position),
+            target: watch.at(w.target),
+            lead: watch.at(source.lead),
+        }
+    }
 }
 
 /// Sums of what is measured.
@@ -170,48 +167,56 @@ pub fn replay<P: JobLead>(
     let (mut replayed, mut sums) = (Replayed::default(), Sums::default());
     sums.parts = vec![[f64::NAN; 2]; PARTS];
     let computer = ControlComputer::new(settings);
+    let mut i = WithIn::<Sim, Compensator<P>, Body> {
+        i: computer.standing(),
+        beside: BodySignals::at(0.0, 0.0),
+    };
     let mut before = 0.0;
-    let mut simulator = Simulator::new(circuit)?;
+    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
     for tick in 0..=ticks {
         let seconds = tick as f64 * tick_s;
         let position = at(seconds);
         let (a, b) = Encoder.channels(position);
-        let i = Ports {
-            a: a.into(),
-            b: b.into(),
-            ..computer.tick(tick, true)
-        };
+        computer.tick(&mut i.i, tick, true);
+        i.i.a = a.into();
+        i.i.b = b.into();
         let speed = (position - before) / tick_s;
         before = position;
-        let beside = BodySignals::<Sim>::at(position, speed);
-        let (next, seen) = simulator.step(WithIn { i, beside }, |now| see(now, &mut observer));
-        simulator = next;
-        let seen = seen?;
-        // The sample of this pair was taken a tick ago.
-        let after = seconds - tick_s + seen.time as f64 * ck_s;
-        let known = (after <= log.seconds()).then(|| at(after));
-        if let Some(truth) = known
-            && seen.fresh
-            && seen.enough
-            && seen.time > 0
-        {
-            let now = seen.position as f64;
-            let part = u128::from(tick) * PARTS as u128 / (u128::from(ticks) + 1);
-            sums.add(part as usize, [now + seen.lead as f64 - truth, now - truth]);
+        if observer.looks(tick) {
+            i.beside = BodySignals::at(position, speed);
         }
-        if seen.fire {
-            replayed.signals.push(Signal {
-                step: seen.step as usize,
-                target: seen.target + origin,
-                tick,
-                code: seen.time,
-                position: seen.position + origin,
-                position_after: known.map(|position| position + origin as f64),
-            });
-        }
-        replayed.ticks = tick + 1;
-        replayed.lost = seen.lost;
-        if seen.flow.is_break() {
+        let take = |now: &Sample<'_, _>| {
+            let (fire, time) = (now.get(see.fire), now.get(see.time));
+            let predicts = now.get(see.fresh) && now.get(see.enough) && time > 0;
+            let known = if predicts || fire {
+                // The sample of this pair was taken a tick ago.
+                let after = seconds - tick_s + time as f64 * ck_s;
+                (after <= log.seconds()).then(|| at(after))
+            } else {
+                None
+            };
+            if let Some(truth) = known
+                && predicts
+            {
+                let (position, lead) = (now.get(see.position) as f64, now.get(see.lead) as f64);
+                let part = u128::from(tick) * PARTS as u128 / (u128::from(ticks) + 1);
+                sums.add(part as usize, [position + lead - truth, position - truth]);
+            }
+            if fire {
+                replayed.signals.push(Signal {
+                    step: now.get(see.step) as usize,
+                    target: now.get(see.target) + origin,
+                    tick,
+                    code: time,
+                    position: now.get(see.position) + origin,
+                    position_after: known.map(|position| position + origin as f64),
+                });
+            }
+            replayed.ticks = tick + 1;
+            replayed.lost = now.get(see.lost);
+        };
+        let ((), flow) = simulator.step_watched(&i, &mut observer, take)?;
+        if flow.is_break() {
             break;
         }
     }

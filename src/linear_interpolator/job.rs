@@ -5,7 +5,7 @@ use super::measure::{Cycle, Played, ScanRecord};
 use super::settings::{AxisSettings, Settings};
 use super::targets::{TIME_BITS, Target};
 use super::{CommandSource, Controller, Conventional, LinearInterpolator, Rule, controller};
-use crate::kernel::{Observer, Sample, Simulator, With, WithIn};
+use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn, zero};
 use crate::logic::Sim;
 use crate::plant::{ServoAxis, ServoParameters, waves};
 use crate::settings::JobError;
@@ -54,33 +54,37 @@ impl AxisSettings {
     }
 }
 
-/// What one tick shows.
-struct Seen {
-    scan: bool,
-    start: bool,
-    load: bool,
-    ready: bool,
-    busy: bool,
-    late: bool,
-    refused: bool,
-    lost: [bool; 2],
-    saturated: [bool; 2],
-    command: [i64; 2],
+/// What is looked at.
+struct See {
+    reference: [At<i64>; 2],
+    scan: At<bool>,
+    start: At<bool>,
+    load: At<bool>,
+    ready: At<bool>,
+    busy: At<bool>,
+    late: At<bool>,
+    refused: At<bool>,
+    lost: [At<bool>; 2],
+    saturated: [At<bool>; 2],
+    command: [At<i64>; 2],
 }
 
-fn see<C: CommandSource<P, T>>(now: &Sample<'_, Plotter<C>>) -> Seen {
-    let w = now.w;
-    Seen {
-        scan: w.scan.get(),
-        start: w.start.get(),
-        load: w.load.get(),
-        ready: w.ready.get(),
-        busy: w.busy.get(),
-        late: w.late.get(),
-        refused: w.refused.get(),
-        lost: [w.lost_x.get(), w.lost_y.get()],
-        saturated: [&w.loop_x, &w.loop_y].map(|axis| axis.w.saturated.get()),
-        command: [w.command_x.get(), w.command_y.get()],
+impl See {
+    fn of<C: CommandSource<P, T>>(watch: &Watcher<Plotter<C>>) -> Self {
+        let (q, w) = (&watch.q, &watch.w);
+        See {
+            reference: [&q.loop_x, &q.loop_y].map(|axis| watch.at(axis.control.speed_ref)),
+            scan: watch.at(w.scan),
+            start: watch.at(w.start),
+            load: watch.at(w.load),
+            ready: watch.at(w.ready),
+            busy: watch.at(w.busy),
+            late: watch.at(w.late),
+            refused: watch.at(w.refused),
+            lost: [w.lost_x, w.lost_y].map(|lost| watch.at(lost)),
+            saturated: [&w.loop_x, &w.loop_y].map(|axis| watch.at(axis.w.saturated)),
+            command: [w.command_x, w.command_y].map(|command| watch.at(command)),
+        }
     }
 }
 
@@ -111,21 +115,27 @@ impl Bench<'_> {
     }
 
     /// Whether the run goes on.
-    fn take(&mut self, seen: &Seen, motor: [f64; 2]) -> bool {
+    fn take<C: CommandSource<P, T>>(
+        &mut self,
+        now: &Sample<'_, Plotter<C>>,
+        see: &See,
+        motor: [f64; 2],
+    ) -> bool {
         let played = &mut self.played;
+        let command = || see.command.map(|command| now.get(command));
         played.ticks += 1;
-        self.ready = seen.ready;
+        self.ready = now.get(see.ready);
         if let Some(cycle) = self.loaded.take() {
-            played.cycles[cycle].end = seen.command;
+            played.cycles[cycle].end = command();
             self.fresh = Some(cycle);
             self.idle = 0;
         }
-        if seen.scan {
+        if now.get(see.scan) {
             self.idle += 1;
             let at = played.records.len();
             played.records.push(ScanRecord {
                 tick: played.ticks - 1,
-                command: seen.command,
+                command: command(),
                 motor,
             });
             if let Some(cycle) = self.fresh.take() {
@@ -136,31 +146,31 @@ impl Bench<'_> {
                 };
             }
             for axis in 0..2 {
-                played.saturated_scans[axis] += u64::from(seen.saturated[axis]);
+                played.saturated_scans[axis] += u64::from(now.get(see.saturated[axis]));
             }
         }
-        if seen.start
+        if now.get(see.start)
             && let Some(target) = self.targets.get(played.cycles.len())
         {
-            let to = [target.x, target.y];
-            let way = [0, 1].map(|axis| to[axis].abs_diff(seen.command[axis]));
+            let (from, to) = (command(), [target.x, target.y]);
+            let way = [0, 1].map(|axis| to[axis].abs_diff(from[axis]));
             played.cycles.push(Cycle {
-                from: seen.command,
+                from,
                 to,
                 master: usize::from(way[0] < way[1]),
                 scans: 0..0,
-                end: seen.command,
+                end: from,
             });
         }
-        if seen.load {
+        if now.get(see.load) {
             self.loaded = played.cycles.len().checked_sub(1);
         }
-        played.late |= seen.late;
-        played.lost = seen.lost;
+        played.late |= now.get(see.late);
+        played.lost = see.lost.map(|lost| now.get(lost));
         played.unsettled = self.idle > PATIENCE;
         let given = self.pushed == self.targets.len() && !self.pushing;
-        let over = given && !seen.busy && self.loaded.is_none() && self.fresh.is_none();
-        if over && seen.refused {
+        let over = given && !now.get(see.busy) && self.loaded.is_none() && self.fresh.is_none();
+        if over && now.get(see.refused) {
             played.refused = (self.targets.len() - played.cycles.len()) as u64;
         }
         !over && !played.unsettled
@@ -185,6 +195,17 @@ pub fn play<C: CommandSource<P, T>>(
         ServoAxis::new(&y.servo(), tick_s)?,
     ];
     let gains = [x, y].map(|axis| u64::from(axis.gain().to_bits()));
+    let mut i = WithIn::<Sim, Controller<C>, waves::Axes> {
+        i: controller::In::<Sim, P, T, 16, 24> {
+            exact_stop: settings.exact_stop.into(),
+            scan_period: u64::from(settings.scan_ticks).into(),
+            gain_x: gains[0].into(),
+            gain_y: gains[1].into(),
+            window: u64::from(settings.in_position_counts).into(),
+            ..zero()
+        },
+        beside: waves::Signals::of(&servos),
+    };
     let mut bench = Bench {
         targets,
         pushed: 0,
@@ -195,40 +216,28 @@ pub fn play<C: CommandSource<P, T>>(
         fresh: None,
         idle: 0,
     };
-    let mut simulator = Simulator::new(circuit)?;
+    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
     loop {
-        let q = simulator.registers();
-        let references = [&q.loop_x, &q.loop_y].map(|axis| axis.control.speed_ref.get());
+        let references = see.reference.map(|axis| simulator.get(axis));
         let [(a_x, b_x), (a_y, b_y)] =
             [0, 1].map(|axis: usize| servos[axis].step(references[axis], FULL_SCALE));
         let target = bench.push();
-        let i = controller::In::<Sim, P, T, 16, 24> {
-            push: target.is_some().into(),
-            target_x: target.map_or(0, |target| target.x).into(),
-            target_y: target.map_or(0, |target| target.y).into(),
-            speed: target.map_or(0, |target| target.speed).into(),
-            acceleration_time: target.map_or(0, |target| target.acceleration_scans).into(),
-            deceleration_time: target.map_or(0, |target| target.deceleration_scans).into(),
-            halt: false.into(),
-            clear: false.into(),
-            exact_stop: settings.exact_stop.into(),
-            scan_period: u64::from(settings.scan_ticks).into(),
-            gain_x: gains[0].into(),
-            gain_y: gains[1].into(),
-            window: u64::from(settings.in_position_counts).into(),
-            a_x: a_x.into(),
-            b_x: b_x.into(),
-            a_y: a_y.into(),
-            b_y: b_y.into(),
-        };
-        let i = WithIn {
-            i,
-            beside: waves::Signals::of(&servos),
-        };
+        let ports = &mut i.i;
+        ports.push = target.is_some().into();
+        ports.target_x = target.map_or(0, |target| target.x).into();
+        ports.target_y = target.map_or(0, |target| target.y).into();
+        ports.speed = target.map_or(0, |target| target.speed).into();
+        ports.acceleration_time = target.map_or(0, |target| target.acceleration_scans).into();
+        ports.deceleration_time = target.map_or(0, |target| target.deceleration_scans).into();
+        (ports.a_x, ports.b_x) = (a_x.into(), b_x.into());
+        (ports.a_y, ports.b_y) = (a_y.into(), b_y.into());
+        if observer.looks(simulator.tick()) {
+            i.beside = waves::Signals::of(&servos);
+        }
         let motor = [0, 1].map(|axis: usize| servos[axis].position_counts());
-        let (next, seen, flow) = simulator.step_watched(i, &mut observer, see)?;
-        simulator = next;
-        if !bench.take(&seen, motor) || flow.is_break() {
+        let take = |now: &Sample<'_, _>| bench.take(now, &see, motor);
+        let (goes_on, flow) = simulator.step_watched(&i, &mut observer, take)?;
+        if !goes_on || flow.is_break() {
             return Ok(bench.played);
         }
     }

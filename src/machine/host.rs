@@ -5,12 +5,13 @@
 //! in time. Between a rapid move and one with the pen down the lift has its step first. Records go
 //! to arc generator and trajectory controller as they find room.
 
-use super::circuit::{In, Net, Reg};
+use super::circuit::In;
+use super::job::Plant;
 use super::program::{Program, Way};
 use super::settings::Settings;
 use super::{enables, ports};
 use crate::arc_generator::record_writer::RecordWriter;
-use crate::kernel::zero;
+use crate::kernel::{At, Sample, Simulator, Watcher, zero};
 use crate::lead_angle::settings::{self as lead_angle, SPEED_UNIT_COUNTS_PER_S};
 use crate::logic::Sim;
 use crate::pulse_interpolator::ControlComputer;
@@ -45,18 +46,53 @@ pub(super) enum Stage {
     Done,
 }
 
+/// What is looked at.
+#[derive(Debug)]
+struct See {
+    pending: At<bool>,
+    /// Commands of the arc generator.
+    arcs: [At<i64>; 2],
+    arcs_ready: At<bool>,
+    profile_ready: At<bool>,
+    /// Lines, arcs, profile.
+    busy: [At<bool>; 3],
+    lift_busy: At<bool>,
+    sample: At<bool>,
+    counts: [At<i64>; 2],
+    position: [At<i64>; 2],
+}
+
+impl See {
+    fn of(watch: &Watcher<Plant>) -> Self {
+        let (q, w) = (&watch.q, &watch.w);
+        let arcs = [&q.arc_generator.command_x, &q.arc_generator.command_y];
+        See {
+            pending: watch.at(q.pulse_interpolator.port.pending),
+            arcs: arcs.map(|axis| watch.at(axis.command)),
+            arcs_ready: watch.at(w.arcs_ready),
+            profile_ready: watch.at(w.profile_ready),
+            busy: [w.lines_busy, w.arcs_busy, w.profile_busy].map(|busy| watch.at(busy)),
+            lift_busy: watch.at(w.lift_busy),
+            sample: watch.at(w.enables.w.sample),
+            counts: [w.counts_x, w.counts_y].map(|counts| watch.at(counts)),
+            position: [w.position_x, w.position_y].map(|position| watch.at(position)),
+        }
+    }
+}
+
 /// The control computer.
 #[derive(Debug)]
 pub(super) struct Host<'a> {
+    see: See,
     program: &'a Program,
     settings: &'a Settings,
     pulses: ControlComputer<'a, A>,
     path: PathWriter<'a>,
     arcs: RecordWriter<'a>,
     profile: RecordWriter<'a>,
+    /// Records of these that are ended in this tick.
+    pushed: [bool; 2],
     lift_steps: Vec<lead_angle::Step>,
-    /// What the lift is given in every tick.
-    lift: ports::Lift<Sim>,
     /// Lift steps that are written.
     lift_words: usize,
     pub(super) stage: Stage,
@@ -69,7 +105,7 @@ pub(super) struct Host<'a> {
     calm: u32,
 }
 
-/// What the lift is given in every tick, while no step is written.
+/// What the lift is given in every tick.
 fn standing(lift: &lead_angle::Settings) -> ports::Lift<Sim> {
     let cks = |ms: f64| u64::from(lift.cks(ms)).into();
     ports::Lift {
@@ -84,17 +120,21 @@ fn standing(lift: &lead_angle::Settings) -> ports::Lift<Sim> {
 }
 
 impl<'a> Host<'a> {
-    pub(super) fn new(program: &'a Program, settings: &'a Settings) -> Self {
-        let lift = settings.lift();
+    pub(super) fn new(
+        program: &'a Program,
+        settings: &'a Settings,
+        watch: &Watcher<Plant>,
+    ) -> Self {
         Host {
+            see: See::of(watch),
             program,
             settings,
             pulses: ControlComputer::new(&program.table),
             path: PathWriter::new(&program.path),
             arcs: RecordWriter::new(&program.arcs),
             profile: RecordWriter::new(&program.profile),
-            lift: standing(&lift),
-            lift_steps: lift.steps,
+            pushed: [false; 2],
+            lift_steps: settings.lift().steps,
             lift_words: 0,
             stage: Stage::Write,
             index: 0,
@@ -105,41 +145,60 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// What it gives in this tick, from the registers; the encoders are left low.
-    pub(super) fn ports(&mut self, q: &Reg<Sim>) -> In<Sim> {
+    /// What it gives in every tick, with all else low.
+    pub(super) fn standing(&self) -> In<Sim> {
         let settings = self.settings;
         let period = |ticks: u32| u64::from(ticks).into();
-        let mut i = In {
-            halt: false.into(),
+        let program = &self.program.path;
+        let servo = &program.servo;
+        In {
             rates: enables::In {
                 unit_period: period(settings.unit_ticks),
                 scan_period: period(settings.scan_ticks),
                 ck_period: period(settings.ck_ticks),
                 sample_period: period(settings.sample_ticks),
             },
-            pulse: self.pulse(q),
-            lines: zero(),
-            arcs: self.arc_words(),
-            trajectory: self.trajectory(),
-            lift: self.lift(),
-        };
+            trajectory: ports::Trajectory {
+                last: (program.path.stretches.len().saturating_sub(1) as u64).into(),
+                path_end: (program.path.length as i64).into(),
+                gain_1: program.gains.k1.into(),
+                gain_2: program.gains.k2.into(),
+                position_gain: from_fn(|axis| servo[axis].position.into()),
+                speed_gain: from_fn(|axis| servo[axis].speed.into()),
+                integral_gain: from_fn(|axis| servo[axis].integral.into()),
+                inertia: from_fn(|axis| servo[axis].inertia.into()),
+                limit: from_fn(|axis| servo[axis].limit.into()),
+                ..zero()
+            },
+            lift: standing(&settings.lift()),
+            ..zero()
+        }
+    }
+
+    /// What it gives in this tick, from the registers; the encoders are left as they are.
+    pub(super) fn drive(&mut self, i: &mut In<Sim>, now: &Simulator<Plant>) {
+        i.pulse = self.pulse(now.get(self.see.pending));
+        i.lines = zero();
+        i.arcs = self.arc_words();
+        self.trajectory(&mut i.trajectory);
+        self.lift(&mut i.lift);
+        self.pushed = [i.arcs.push.get(), i.trajectory.push.get()];
         match self.stage {
             Stage::Write if self.path.is_done() && self.lift_words > 2 => {
                 self.stage = self.turn_to(0);
             }
-            Stage::Ready => self.begin(q, &mut i),
+            Stage::Ready => self.begin(now, i),
             Stage::Lift(begun) => i.lift.run = (!begun).into(),
             Stage::Close(0) => {
                 let to = self.program.moves.last().map_or([0; 2], |step| step.to);
-                self.push_line(q, to, 1, &mut i);
+                self.push_line(now, to, 1, i);
             }
             _ => {}
         }
-        i
     }
 
     /// Begins the next move, or what must come before it.
-    fn begin(&mut self, q: &Reg<Sim>, i: &mut In<Sim>) {
+    fn begin(&mut self, now: &Simulator<Plant>, i: &mut In<Sim>) {
         let Some(step) = self.program.moves.get(self.index) else {
             return;
         };
@@ -160,7 +219,7 @@ impl<'a> Host<'a> {
             return;
         }
         match step.way {
-            Way::Line { speed } => self.push_line(q, step.to, speed, i),
+            Way::Line { speed } => self.push_line(now, step.to, speed, i),
             Way::Arc { .. } => i.arcs.start = true.into(),
         }
         i.trajectory.start = true.into();
@@ -168,20 +227,22 @@ impl<'a> Host<'a> {
     }
 
     /// Gives a target: what lines have to add to the arcs' way.
-    fn push_line(&self, q: &Reg<Sim>, to: [i64; 2], speed: u64, i: &mut In<Sim>) {
-        let arcs = &q.arc_generator;
+    fn push_line(&self, now: &Simulator<Plant>, to: [i64; 2], speed: u64, i: &mut In<Sim>) {
+        let arcs = self.see.arcs.map(|axis| now.get(axis));
         i.lines = ports::Lines {
             push: true.into(),
-            target_x: (to[0] - arcs.command_x.command.get()).into(),
-            target_y: (to[1] - arcs.command_y.command.get()).into(),
+            target_x: (to[0] - arcs[0]).into(),
+            target_y: (to[1] - arcs[1]).into(),
             speed: speed.into(),
             acceleration_time: self.program.ramp_scans.into(),
             deceleration_time: self.program.ramp_scans.into(),
         };
     }
 
-    fn pulse(&mut self, q: &Reg<Sim>) -> ports::Pulse<Sim> {
-        let given = self.pulses.drive(&q.pulse_interpolator);
+    fn pulse(&mut self, pending: bool) -> ports::Pulse<Sim> {
+        let Some(given) = self.pulses.drive::<16, 24>(pending) else {
+            return zero();
+        };
         ports::Pulse {
             command: given.command,
             base: given.base,
@@ -207,52 +268,32 @@ impl<'a> Host<'a> {
         }
     }
 
-    fn trajectory(&mut self) -> ports::Trajectory<Sim> {
+    fn trajectory(&mut self, i: &mut ports::Trajectory<Sim>) {
         let written = self.profile.write_up_to(self.profile_due);
+        i.write = written.write.into();
+        i.write_word = written.word.into();
+        i.write_data = written.data.into();
+        i.push = written.push.into();
+        i.start = false.into();
         let path = self.path.write();
-        let program = &self.program.path;
-        let servo = &program.servo;
-        ports::Trajectory {
-            write: written.write.into(),
-            write_word: written.word.into(),
-            write_data: written.data.into(),
-            push: written.push.into(),
-            start: false.into(),
-            write_begin: path.write_begin.into(),
-            begin_segment: path.segment.into(),
-            begin_length: path.begin.into(),
-            write_path: path.write.into(),
-            path_address: (path.segment << 4 | path.word).into(),
-            path_data: path.data.into(),
-            last: (program.path.stretches.len().saturating_sub(1) as u64).into(),
-            path_end: (program.path.length as i64).into(),
-            gain_1: program.gains.k1.into(),
-            gain_2: program.gains.k2.into(),
-            position_gain: from_fn(|axis| servo[axis].position.into()),
-            speed_gain: from_fn(|axis| servo[axis].speed.into()),
-            integral_gain: from_fn(|axis| servo[axis].integral.into()),
-            inertia: from_fn(|axis| servo[axis].inertia.into()),
-            limit: from_fn(|axis| servo[axis].limit.into()),
-            a: [false.into(); 2],
-            b: [false.into(); 2],
-        }
+        i.write_begin = path.write_begin.into();
+        i.begin_segment = path.segment.into();
+        i.begin_length = path.begin.into();
+        i.write_path = path.write.into();
+        i.path_address = (path.segment << 4 | path.word).into();
+        i.path_data = path.data.into();
     }
 
-    fn lift(&mut self) -> ports::Lift<Sim> {
+    fn lift(&mut self, i: &mut ports::Lift<Sim>) {
         let steps = &self.lift_steps;
         let (place, step) = (self.lift_words, steps.get(self.lift_words));
         self.lift_words = (place + 1).min(steps.len() + 1);
-        ports::Lift {
-            write_target: step.is_some().into(),
-            write_step: (place as u64).into(),
-            step_target: step.map_or(0, |step| step.target).into(),
-            step_speed: step
-                .map_or(0, |step| {
-                    u64::from(step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S)
-                })
-                .into(),
-            ..self.lift.clone()
-        }
+        let speed = step.map_or(0, |step| step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S);
+        i.write_target = step.is_some().into();
+        i.write_step = (place as u64).into();
+        i.step_target = step.map_or(0, |step| step.target).into();
+        i.step_speed = u64::from(speed).into();
+        i.run = false.into();
     }
 
     /// Whether the steppers' table is given whole.
@@ -271,28 +312,29 @@ impl<'a> Host<'a> {
     }
 
     /// Takes up what the tick shows.
-    pub(super) fn take(&mut self, i: &In<Sim>, w: &Net<Sim>) {
-        self.arcs.free = w.arcs_ready.get() && !i.arcs.push.get();
-        self.profile.free = w.profile_ready.get() && !i.trajectory.push.get();
-        let busy = w.lines_busy.get() || w.arcs_busy.get() || w.profile_busy.get();
+    pub(super) fn take(&mut self, now: &Sample<'_, Plant>) {
+        let see = &self.see;
+        self.arcs.free = now.get(see.arcs_ready) && !self.pushed[0];
+        self.profile.free = now.get(see.profile_ready) && !self.pushed[1];
+        let busy = || see.busy.iter().any(|busy| now.get(*busy));
         self.stage = match self.stage {
-            Stage::Lift(false) => Stage::Lift(w.lift_busy.get()),
-            Stage::Lift(true) if !w.lift_busy.get() => {
+            Stage::Lift(false) => Stage::Lift(now.get(see.lift_busy)),
+            Stage::Lift(true) if !now.get(see.lift_busy) => {
                 self.pen_down = !self.pen_down;
                 Stage::Ready
             }
             Stage::Move(age) if age < DEAF => Stage::Move(age + 1),
-            Stage::Move(_) if !busy => Stage::Settle,
+            Stage::Move(_) if !busy() => Stage::Settle,
             Stage::Close(age) if age < DEAF => Stage::Close(age + 1),
-            Stage::Close(_) if !busy => Stage::Settle,
-            Stage::Settle => self.settle(w),
+            Stage::Close(_) if !busy() => Stage::Settle,
+            Stage::Settle => self.settle(now),
             stage => stage,
         };
     }
 
     /// Both motors within the window for some sampling times: the move is over.
-    fn settle(&mut self, w: &Net<Sim>) -> Stage {
-        if !w.enables.w.sample.get() {
+    fn settle(&mut self, now: &Sample<'_, Plant>) -> Stage {
+        if !now.get(self.see.sample) {
             return Stage::Settle;
         }
         let last = self.index + 1 >= self.program.moves.len();
@@ -302,19 +344,18 @@ impl<'a> Host<'a> {
         } else {
             u64::from(self.settings.in_position_counts)
         };
-        let near = [
-            (w.counts_x.get(), w.position_x.get()),
-            (w.counts_y.get(), w.position_y.get()),
-        ]
-        .iter()
-        .all(|(command, motor)| command.abs_diff(*motor) <= window);
+        let counts = self.see.counts.map(|axis| now.get(axis));
+        let position = self.see.position.map(|axis| now.get(axis));
+        let near = [0, 1]
+            .iter()
+            .all(|&axis: &usize| counts[axis].abs_diff(position[axis]) <= window);
         self.calm = if near { self.calm + 1 } else { 0 };
         if self.calm < CALM {
             return Stage::Settle;
         }
         self.calm = 0;
         let to = self.program.moves.last().map_or([0; 2], |step| step.to);
-        if last && [w.counts_x.get(), w.counts_y.get()] != to {
+        if last && counts != to {
             return Stage::Close(0);
         }
         self.turn_to(self.index + 1)

@@ -1,11 +1,11 @@
 //! A job on the machine: steppers, servos and pen lift around it, and what came of it.
 
-use super::circuit::{In, Machine, Reg};
+use super::circuit::{In, Machine};
 use super::host::{Host, Stage};
 use super::program::Program;
 use super::settings::Settings;
 use super::waves::{Plants, Signals};
-use crate::kernel::{Observer, RunError, Sample, Simulator, With, WithIn};
+use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn};
 use crate::lead_angle::settings::SPEED_UNIT_COUNTS_PER_S;
 use crate::lead_angle::{Compensator, Variant};
 use crate::logic::{Image, Sim};
@@ -121,17 +121,41 @@ pub struct Played {
     pub fault: bool,
 }
 
+/// What the plants are driven by.
+struct Drives {
+    torque: [At<i64>; 2],
+    speed: At<u64>,
+    drive: At<bool>,
+    reverse: At<bool>,
+    brake: At<bool>,
+}
+
+impl Drives {
+    fn of(watch: &Watcher<Plant>) -> Self {
+        let (axes, lift) = (&watch.q.trajectory_controller.axes, &watch.q.lead_angle);
+        Drives {
+            torque: from_fn(|axis| watch.at(axes[axis].servo.arithmetic.torque)),
+            speed: watch.at(lift.target_setter.speed),
+            drive: watch.at(lift.sequencer.drive),
+            reverse: watch.at(lift.sequencer.reverse),
+            brake: watch.at(lift.comparator.control),
+        }
+    }
+}
+
 /// Everything around the circuit.
 struct Surroundings {
+    drives: Drives,
     servos: [TwoMassAxis; 2],
     lift: BrakedBody,
     drivers: [Driver; 2],
 }
 
 impl Surroundings {
-    fn new(settings: &Settings) -> Result<Self, SettingError> {
+    fn new(settings: &Settings, drives: Drives) -> Result<Self, SettingError> {
         let tick_s = 1.0 / settings.clock_hz as f64;
         Ok(Surroundings {
+            drives,
             servos: [
                 TwoMassAxis::new(&settings.axis, tick_s)?,
                 TwoMassAxis::new(&settings.axis, tick_s)?,
@@ -142,28 +166,86 @@ impl Surroundings {
     }
 
     /// Steps the plants by what the registers say, and gives the encoders' channels.
-    fn step(&mut self, q: &Reg<Sim>, i: &mut In<Sim>) {
+    fn step(&mut self, now: &Simulator<Plant>, i: &mut In<Sim>) {
         for (axis, servo) in self.servos.iter_mut().enumerate() {
-            let registers = &q.trajectory_controller.axes[axis];
-            let (a, b) = servo.step(registers.servo.arithmetic.torque.get());
+            let (a, b) = servo.step(now.get(self.drives.torque[axis]));
             i.trajectory.a[axis] = a.into();
             i.trajectory.b[axis] = b.into();
         }
-        let lift = &q.lead_angle;
-        let speed = lift.target_setter.speed.get() * u64::from(SPEED_UNIT_COUNTS_PER_S);
+        let drives = &self.drives;
+        let speed = now.get(drives.speed) * u64::from(SPEED_UNIT_COUNTS_PER_S);
         let (a, b) = self.lift.step(
-            lift.sequencer.drive.get(),
-            lift.sequencer.reverse.get(),
+            now.get(drives.drive),
+            now.get(drives.reverse),
             speed as f64,
-            lift.comparator.control.get(),
+            now.get(drives.brake),
         );
         i.lift.a = a.into();
         i.lift.b = b.into();
     }
 }
 
+/// What is looked at.
+struct See {
+    /// Step and direction of X and Y.
+    lines: [(At<bool>, At<bool>); 2],
+    pulse_busy: At<bool>,
+    unit: At<bool>,
+    fault: At<bool>,
+    lift: SeeLift,
+    lift_busy: At<bool>,
+    driven: At<bool>,
+    command: [At<i64>; 2],
+    corrected: [At<i64>; 2],
+    model: [At<i64>; 2],
+    counts: [At<i64>; 2],
+    motor: [At<i64>; 2],
+}
+
+/// What is looked at of the pen lift.
+struct SeeLift {
+    fire: At<bool>,
+    complete: At<bool>,
+    learned: At<bool>,
+    learned_time: At<u64>,
+    lead_time: At<u64>,
+    position: At<i64>,
+    target: At<i64>,
+}
+
+impl See {
+    fn of(watch: &Watcher<Plant>) -> Self {
+        let (q, w) = (&watch.q, &watch.w);
+        let (axes, lift) = (&q.trajectory_controller.axes, &w.lead_angle.w);
+        See {
+            lines: [(w.step_x, w.dir_x), (w.step_y, w.dir_y)]
+                .map(|(step, dir)| (watch.at(step), watch.at(dir))),
+            pulse_busy: watch.at(w.pulse_busy),
+            unit: watch.at(w.enables.w.unit),
+            fault: watch.at(w.fault),
+            lift: SeeLift {
+                fire: watch.at(lift.fire),
+                complete: watch.at(lift.complete),
+                learned: watch.at(lift.learned),
+                learned_time: watch.at(lift.learned_time),
+                lead_time: watch.at(lift.lead_time),
+                position: watch.at(lift.position),
+                target: watch.at(lift.target),
+            },
+            lift_busy: watch.at(w.lift_busy),
+            driven: watch.at(w.trajectory_controller.w.axes[0].w.driven),
+            command: [q.command_join.x, q.command_join.y].map(|axis| watch.at(axis)),
+            corrected: from_fn(|k| watch.at(axes[k].corrector.corrected)),
+            model: from_fn(|k| watch.at(axes[k].servo.model.integrators.position)),
+            counts: [w.counts_x, w.counts_y].map(|axis| watch.at(axis)),
+            motor: [w.position_x, w.position_y].map(|axis| watch.at(axis)),
+        }
+    }
+}
+
 /// Writes down what a tick shows.
 struct Bench {
+    see: See,
     played: Played,
     lifting: Option<Lifting>,
     /// Sampling times in which the motors have not come to rest.
@@ -174,66 +256,61 @@ struct Bench {
 
 impl Bench {
     fn take(&mut self, now: &Sample<'_, Plant>, around: &mut Surroundings, host: &Host<'_>) {
-        let (q, w) = (now.q, now.w);
-        let played = &mut self.played;
-        let lines = [
-            (w.step_x.get(), w.dir_x.get()),
-            (w.step_y.get(), w.dir_y.get()),
-        ];
-        for (driver, (step, dir)) in around.drivers.iter_mut().zip(lines) {
+        let (see, played) = (&self.see, &mut self.played);
+        for (driver, (step, dir)) in around.drivers.iter_mut().zip(see.lines) {
             // The drivers ask for nothing here; the table was compiled for what they need.
-            let _ = driver.sample(now.tick, step, dir);
+            let _ = driver.sample(now.tick, now.get(step), now.get(dir));
         }
-        self.begun |= w.pulse_busy.get();
-        if w.enables.w.unit.get() && self.begun && w.pulse_busy.get() {
+        let pulsing = now.get(see.pulse_busy);
+        self.begun |= pulsing;
+        if pulsing && now.get(see.unit) {
             played
                 .steps
                 .push(from_fn(|axis| around.drivers[axis].position()));
             played.step_ticks.push(now.tick);
         }
-        played.fault |= w.fault.get();
-        let lift = &w.lead_angle.w;
-        if lift.fire.get() {
+        played.fault |= now.get(see.fault);
+        let lift = &see.lift;
+        if now.get(lift.fire) {
             self.lifting = Some(Lifting {
                 index: host.index,
                 down: host.lowers(),
                 fired: now.tick,
                 completed: now.tick,
-                lead: lift.lead_time.get(),
+                lead: now.get(lift.lead_time),
                 error: 0,
                 learned: None,
             });
         }
         if let Some(lifting) = &mut self.lifting
-            && lift.complete.get()
+            && now.get(lift.complete)
         {
-            let past = lift.position.get() - lift.target.get();
+            let past = now.get(lift.position) - now.get(lift.target);
             let upward = lifting.down == (host.pen_down_counts() > 0);
             lifting.completed = now.tick;
             lifting.error = if upward { past } else { -past };
         }
-        if lift.learned.get()
-            && let Some(lifting) = &mut self.lifting
+        if let Some(lifting) = &mut self.lifting
+            && now.get(lift.learned)
         {
-            lifting.learned = Some(lift.learned_time.get());
+            lifting.learned = Some(now.get(lift.learned_time));
         }
-        if !w.lift_busy.get()
+        if !now.get(see.lift_busy)
             && let Some(lifting) = self.lifting.take()
         {
             played.liftings.push(lifting);
         }
-        let axes = &q.trajectory_controller.axes;
-        if w.trajectory_controller.w.axes[0].w.driven.get() {
+        if now.get(see.driven) {
             played.frames.push(Frame {
                 tick: now.tick,
                 index: host.index,
                 moving: matches!(host.stage, Stage::Move(_)),
-                command: [q.command_join.x.get(), q.command_join.y.get()],
-                corrected: from_fn(|k| axes[k].corrector.corrected.get()),
-                model: from_fn(|k| axes[k].servo.model.integrators.position.get()),
-                motor: [w.position_x.get(), w.position_y.get()],
+                command: see.command.map(|axis| now.get(axis)),
+                corrected: see.corrected.map(|axis| now.get(axis)),
+                model: see.model.map(|axis| now.get(axis)),
+                motor: see.motor.map(|axis| now.get(axis)),
                 load: from_fn(|k| around.servos[k].load_position_counts()),
-                lift: lift.position.get(),
+                lift: now.get(lift.position),
             });
             self.waiting = match host.stage {
                 Stage::Settle => self.waiting + 1,
@@ -254,37 +331,38 @@ pub fn play(
     settings: &Settings,
     observer: &mut dyn Observer<Plant>,
 ) -> Result<Played, JobError> {
-    let mut around = Surroundings::new(settings)?;
-    let mut host = Host::new(program, settings);
+    let (mut simulator, (drives, mut host, see)) =
+        Simulator::watching(circuit, observer.needs_all(), |watch| {
+            let host = Host::new(program, settings, watch);
+            (Drives::of(watch), host, See::of(watch))
+        })?;
+    let mut around = Surroundings::new(settings, drives)?;
+    let mut i = WithIn {
+        i: host.standing(),
+        beside: Signals::of(&around.servos, &around.lift, &around.drivers),
+    };
     let mut bench = Bench {
+        see,
         played: Played::default(),
         lifting: None,
         waiting: 0,
         begun: false,
     };
     let patience = patience(&program.path);
-    let mut simulator = Simulator::new(circuit)?;
     loop {
         let before = host.stage;
-        let i = {
-            let q = simulator.registers();
-            let mut i = host.ports(&q);
-            around.step(&q, &mut i);
-            i
-        };
-        let beside = Signals::of(&around.servos, &around.lift, &around.drivers);
-        let i = WithIn { i, beside };
-        let (next, seen) = simulator.step(i, |now| {
+        host.drive(&mut i.i, &simulator);
+        around.step(&simulator, &mut i.i);
+        if observer.looks(simulator.tick()) {
+            i.beside = Signals::of(&around.servos, &around.lift, &around.drivers);
+        }
+        let (pulsing, flow) = simulator.step_watched(&i, &mut *observer, |now| {
             bench.take(now, &mut around, &host);
-            host.take(&now.i.i, now.w);
-            let flow = observer.sample(now)?;
-            let w = now.w;
-            bench.played.command = [w.counts_x.get(), w.counts_y.get()];
-            bench.played.motor = [w.position_x.get(), w.position_y.get()];
-            Ok::<_, RunError>((flow, w.pulse_busy.get()))
-        });
-        simulator = next;
-        let (flow, pulsing) = seen?;
+            host.take(now);
+            bench.played.command = bench.see.counts.map(|axis| now.get(axis));
+            bench.played.motor = bench.see.motor.map(|axis| now.get(axis));
+            now.get(bench.see.pulse_busy)
+        })?;
         let tick = bench.played.ticks;
         bench.played.ticks += 1;
         match (before, host.stage) {

@@ -6,7 +6,7 @@
 //! time T begins a new pattern. Where the computer does not keep up, unit times without pulses
 //! stand between two patterns; no pulse is lost.
 
-use super::group::{In, Reg};
+use super::group::In;
 use super::table::{Table, Word};
 use crate::kernel::zero;
 use crate::logic::Sim;
@@ -60,54 +60,45 @@ impl<'t, const A: usize> ControlComputer<'t, A> {
         self.commands == self.chunks.len()
     }
 
-    /// Its outputs in one tick, from what it sees of the group's registers.
-    pub fn drive<const AXES: usize, const N: usize, const T: usize>(
+    /// Its outputs in one tick, in which the group's port holds a command or not; none where all
+    /// stay low until a command is taken, or for good.
+    pub fn drive<const N: usize, const T: usize>(
         &mut self,
-        q: &Reg<Sim, AXES, N, T, A>,
-    ) -> In<Sim, N, T, A> {
-        if self.has_given_all() {
-            return zero();
-        }
-        self.act(q.port.pending.get())
-    }
-
-    /// Its outputs while there is something to do; `waiting` where the port holds a command.
-    fn act<const N: usize, const T: usize>(&mut self, waiting: bool) -> In<Sim, N, T, A> {
-        let taken = self.commands - usize::from(waiting);
-        let Some(chunk) = self.chunks.get(self.chunk).copied() else {
-            return zero();
-        };
+        pending: bool,
+    ) -> Option<In<Sim, N, T, A>> {
+        let chunk = self.chunks.get(self.chunk).copied()?;
+        let taken = self.commands - usize::from(pending);
         let base = (self.chunk % 2 * Self::HALF) as u64;
         if self.written < chunk.length * self.axes {
             // The half is free when the pattern after the one it holds has begun.
             if self.chunk >= 2 && taken < self.chunk {
-                return zero();
+                return None;
             }
             let (unit, axis) = (self.written / self.axes, self.written % self.axes);
             let word = self.words[(chunk.first + unit) * self.axes + axis];
             self.written += 1;
-            return In {
+            return Some(In {
                 write: true.into(),
                 write_axis: (axis as u64).into(),
                 write_address: (base + unit as u64).into(),
                 write_half_period: u64::from(word.half_period()).into(),
                 write_direction: word.negative().into(),
                 ..zero()
-            };
+            });
         }
-        if waiting {
-            return zero();
+        if pending {
+            return None;
         }
         self.chunk += 1;
         self.written = 0;
         self.commands += 1;
-        In {
+        Some(In {
             command: true.into(),
             base: base.into(),
             last: (base + chunk.length as u64 - 1).into(),
             run: true.into(),
             period: u64::from(chunk.period).into(),
             ..zero()
-        }
+        })
     }
 }

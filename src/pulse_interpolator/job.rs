@@ -3,8 +3,9 @@
 
 use super::step_dir::{Driver, TimingMinima};
 use super::{ControlComputer, Group, StepTiming, Table, Variant};
-use crate::kernel::{Observer, RunError, Sample, Simulator};
+use crate::kernel::{At, Observer, Registers, RunError, Sample, Simulator, zero};
 use crate::settings::{JobError, SettingError, within};
+use std::array::from_fn;
 use std::ops::ControlFlow;
 
 /// Half-period width of the group that plays a job.
@@ -53,8 +54,23 @@ impl PlayedAxis {
     }
 }
 
+/// What is looked at.
+struct See<const AXES: usize> {
+    pending: At<bool>,
+    step: [At<bool>; AXES],
+    dir: [At<bool>; AXES],
+    unit_rst: At<bool>,
+    busy: At<bool>,
+}
+
 /// Drivers on all axes, and where they are when a unit time ends.
-struct Bench<const AXES: usize> {
+struct Bench<O, const AXES: usize> {
+    see: See<AXES>,
+    observer: O,
+    /// The run ends in pieces: with every tick in which a command can be taken.
+    pieces: bool,
+    /// The table is played, or the observer has stopped.
+    over: bool,
     drivers: [Driver; AXES],
     positions: Vec<i32>,
     units: usize,
@@ -64,24 +80,32 @@ struct Bench<const AXES: usize> {
     last_tick: u64,
 }
 
-impl<const AXES: usize> Observer<JobGroup<AXES>> for Bench<AXES> {
+impl<O: Observer<JobGroup<AXES>>, const AXES: usize> Observer<JobGroup<AXES>> for Bench<O, AXES> {
+    fn needs_all(&self) -> bool {
+        self.observer.needs_all()
+    }
+
     fn sample(&mut self, now: &Sample<'_, JobGroup<AXES>>) -> Result<ControlFlow<()>, RunError> {
+        let see = &self.see;
+        let (rst, busy) = (now.get(see.unit_rst), now.get(see.busy));
+        let taken = rst && self.pieces && now.get(see.pending);
         for (axis, driver) in self.drivers.iter_mut().enumerate() {
             // The drivers ask for nothing here, so they have nothing to complain of.
-            let _ = driver.sample(now.tick, now.w.step[axis].get(), now.w.dir[axis].get());
+            let _ = driver.sample(now.tick, now.get(see.step[axis]), now.get(see.dir[axis]));
         }
-        if now.w.unit_rst.get() {
-            self.unit_ends(now.w.busy.get());
-        }
-        if self.begun.is_none() && now.w.busy.get() {
-            self.begun = Some(now.tick);
-        }
-        if self.first_step.is_none() && now.w.step.iter().any(|step| step.get()) {
+        if self.first_step.is_none() && see.step.iter().any(|step| now.get(*step)) {
             self.first_step = Some(now.tick);
         }
+        if rst {
+            self.unit_ends(busy);
+        }
+        if self.begun.is_none() && busy {
+            self.begun = Some(now.tick);
+        }
         self.last_tick = now.tick;
-        let over = self.positions.len() == self.units * AXES && !now.w.busy.get();
-        Ok(if over {
+        self.over = self.positions.len() == self.units * AXES && !busy;
+        self.over |= self.observer.sample(now)?.is_break();
+        Ok(if self.over || taken {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
@@ -89,7 +113,7 @@ impl<const AXES: usize> Observer<JobGroup<AXES>> for Bench<AXES> {
     }
 }
 
-impl<const AXES: usize> Bench<AXES> {
+impl<O, const AXES: usize> Bench<O, AXES> {
     fn unit_ends(&mut self, busy: bool) {
         if busy {
             let positions = self.drivers.iter().map(|driver| driver.position() as i32);
@@ -109,9 +133,12 @@ pub fn play<const AXES: usize>(
     table: &Table,
     observer: impl Observer<JobGroup<AXES>>,
 ) -> Result<Played, JobError> {
-    played(table, |computer, bench| {
-        let simulator = Simulator::new(group)?;
-        simulator.run(u64::MAX, |_, q| computer.drive(q), (bench, observer))
+    played(group, table, observer, |simulator, computer, bench| {
+        let pending = bench.see.pending;
+        let drive = |_, q: &Registers<'_, JobGroup<AXES>>| {
+            computer.drive(q.get(pending)).unwrap_or_else(zero)
+        };
+        simulator.run(u64::MAX, drive, bench)
     })
 }
 
@@ -125,13 +152,19 @@ pub fn fast_forward<const AXES: usize>(
     table: &Table,
     observer: impl Observer<JobGroup<AXES>>,
 ) -> Result<Played, JobError> {
-    played(table, |computer, bench| {
-        // All that the computer looks at is whether a command waits: no counter.
-        Simulator::new(group)?.fast_forward(
-            u64::MAX,
-            |_, q| (computer.drive(q), u64::MAX),
-            (bench, observer),
-        )
+    played(group, table, observer, |mut simulator, computer, bench| {
+        let pending = bench.see.pending;
+        bench.pieces = true;
+        while !bench.over {
+            // All that the computer looks at is whether a command waits: no counter.
+            let drive = |_, q: &Registers<'_, JobGroup<AXES>>| match computer.drive(q.get(pending))
+            {
+                Some(i) => (i, 1),
+                None => (zero(), u64::MAX),
+            };
+            simulator = simulator.fast_forward(u64::MAX, drive, &mut *bench)?;
+        }
+        Ok(simulator)
     })
 }
 
@@ -146,17 +179,31 @@ fn fits<const AXES: usize>(table: &Table) -> Result<(), SettingError> {
 }
 
 /// What the drivers see of a group that is run to the end of `table`.
-fn played<const AXES: usize>(
+fn played<O: Observer<JobGroup<AXES>>, const AXES: usize>(
+    group: &JobGroup<AXES>,
     table: &Table,
+    observer: O,
     run: impl FnOnce(
+        Simulator<JobGroup<AXES>>,
         &mut ControlComputer<'_, A>,
-        &mut Bench<AXES>,
+        &mut Bench<O, AXES>,
     ) -> Result<Simulator<JobGroup<AXES>>, RunError>,
 ) -> Result<Played, JobError> {
     fits::<AXES>(table)?;
+    let (simulator, see) = Simulator::watching(group, observer.needs_all(), |watch| See {
+        pending: watch.at(watch.q.port.pending),
+        step: watch.w.step.map(|step| watch.at(step)),
+        dir: watch.w.dir.map(|dir| watch.at(dir)),
+        unit_rst: watch.at(watch.w.unit_rst),
+        busy: watch.at(watch.w.busy),
+    })?;
     let mut computer = ControlComputer::<A>::new(table);
     let mut bench = Bench {
-        drivers: std::array::from_fn(|_| Driver::new(StepTiming::default())),
+        see,
+        observer,
+        pieces: false,
+        over: false,
+        drivers: from_fn(|_| Driver::new(StepTiming::default())),
         positions: Vec::with_capacity(table.units() * AXES),
         units: table.units(),
         begun: None,
@@ -164,7 +211,7 @@ fn played<const AXES: usize>(
         idle_units: 0,
         last_tick: 0,
     };
-    let simulator = run(&mut computer, &mut bench)?;
+    let simulator = run(simulator, &mut computer, &mut bench)?;
     let axes = bench.drivers.iter().map(|driver| {
         let (pulses, position) = (driver.pulses() as i64, driver.position());
         PlayedAxis {

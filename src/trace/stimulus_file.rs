@@ -66,6 +66,10 @@ impl<C: Circuit, W: Write> StimulusFile<C, W> {
 }
 
 impl<C: Circuit, W: Write> Observer<C> for StimulusFile<C, W> {
+    fn needs_all(&self) -> bool {
+        false
+    }
+
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         if let Some(last) = self.last.replace(now.tick)
             && last.checked_add(1) != Some(now.tick)

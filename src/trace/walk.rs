@@ -28,8 +28,8 @@ pub(super) struct Walk {
     before: Vec<u64>,
     /// How often every memory had changed in the tick before.
     marks: Vec<u64>,
-    /// A bit for each leaf that may have changed.
-    touched: Vec<u64>,
+    /// The leaves that may have changed.
+    touched: Touched,
     /// Which leaves are wanted, unless all are.
     selected: Option<Vec<bool>>,
     /// What has changed in the tick.
@@ -44,7 +44,7 @@ impl Walk {
             last: None,
             before: vec![UNKNOWN; leaves],
             marks: Vec::new(),
-            touched: vec![0; leaves.div_ceil(64)],
+            touched: Touched::new(leaves),
             selected: layout
                 .selected
                 .contains(&false)
@@ -94,7 +94,7 @@ impl Walk {
 
     fn look_at_changes(&mut self, engine: &Engine) {
         let Walk { touched, marks, .. } = self;
-        let mut touch = |leaf: u32| touched[leaf as usize / 64] |= 1 << (leaf % 64);
+        let mut touch = |leaf: u32| touched.touch(leaf);
         let plan = engine.program().plan();
         engine.changed(|place| {
             let watched = &plan.layout.watched[place];
@@ -110,18 +110,14 @@ impl Walk {
                 _ => watched.leaves.iter().copied().for_each(&mut touch),
             }
         });
-        for (word, bits) in touched.iter_mut().enumerate() {
-            while *bits != 0 {
-                let leaf = word * 64 + bits.trailing_zeros() as usize;
-                *bits &= *bits - 1;
-                let now = engine.leaf(leaf);
-                if now != self.before[leaf] {
-                    self.before[leaf] = now;
-                    let leaf = leaf as u32;
-                    self.changes.push(Change { leaf, bits: now });
-                }
+        touched.take(|leaf| {
+            let now = engine.leaf(leaf);
+            if now != self.before[leaf] {
+                self.before[leaf] = now;
+                let leaf = leaf as u32;
+                self.changes.push(Change { leaf, bits: now });
             }
-        }
+        });
     }
 
     /// What has changed in the tick.
@@ -134,6 +130,54 @@ impl Walk {
         let end = |last: u64| self.clock.rise(last + 1).ok_or_else(too_late);
         self.last.map(end).transpose()
     }
+}
+
+/// Some of the leaves. The words of memories are leaves too, so there can be many, of which few are
+/// in it.
+#[derive(Debug)]
+struct Touched {
+    /// A bit for each leaf.
+    leaves: Vec<u64>,
+    /// A bit for each word of these that is not 0.
+    words: Vec<u64>,
+}
+
+impl Touched {
+    /// None of so many.
+    fn new(leaves: usize) -> Self {
+        let words = leaves.div_ceil(64);
+        Touched {
+            leaves: vec![0; words],
+            words: vec![0; words.div_ceil(64)],
+        }
+    }
+
+    fn touch(&mut self, leaf: u32) {
+        let word = leaf as usize / 64;
+        self.leaves[word] |= 1 << (leaf % 64);
+        self.words[word / 64] |= 1 << (word % 64);
+    }
+
+    /// Empties it, in the order of the walk.
+    fn take(&mut self, mut see: impl FnMut(usize)) {
+        for (place, words) in self.words.iter_mut().enumerate() {
+            for word in ones(std::mem::take(words)) {
+                let word = place * 64 + word;
+                for leaf in ones(std::mem::take(&mut self.leaves[word])) {
+                    see(word * 64 + leaf);
+                }
+            }
+        }
+    }
+}
+
+/// The places of the bits that are 1, from the lowest on.
+fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let place = bits.trailing_zeros();
+        bits &= bits.wrapping_sub(1);
+        (place < 64).then_some(place as usize)
+    })
 }
 
 fn too_late() -> io::Error {

@@ -4,6 +4,7 @@ use super::job::Ports;
 use super::path_writer::PathWriter;
 use super::program::Program;
 use crate::arc_generator::record_writer::RecordWriter;
+use crate::kernel::zero;
 use std::array::from_fn;
 
 /// Records of the profile that wait before the path begins, where there are so many.
@@ -28,31 +29,12 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// What it gives in this tick, with the encoders' channels.
-    pub(super) fn ports<const AXES: usize, const A: usize, const E: usize>(
-        &mut self,
-        channels: [(bool, bool); AXES],
+    /// What it gives in every tick, with all else low.
+    pub(super) fn standing<const AXES: usize, const A: usize, const E: usize>(
+        &self,
     ) -> Ports<AXES, A, E> {
         let program = self.program;
-        let waiting = program.records.len().min(HEAD_START);
-        let start = !self.started && self.path.is_done() && self.records.written() == waiting;
-        self.started |= start;
-        let record = self.records.write();
-        let path = self.path.write();
         Ports {
-            write: record.write.into(),
-            write_word: record.word.into(),
-            write_data: record.data.into(),
-            push: record.push.into(),
-            start: start.into(),
-            halt: false.into(),
-            restart: false.into(),
-            write_begin: path.write_begin.into(),
-            begin_segment: path.segment.into(),
-            begin_length: path.begin.into(),
-            write_path: path.write.into(),
-            path_address: (path.segment << 4 | path.word).into(),
-            path_data: path.data.into(),
             last: (program.path.stretches.len().saturating_sub(1) as u64).into(),
             path_end: (program.path.length as i64).into(),
             period: u64::from(program.period_ticks).into(),
@@ -63,10 +45,33 @@ impl<'a> Host<'a> {
             integral_gain: from_fn(|axis| program.servo[axis].integral.into()),
             inertia: from_fn(|axis| program.servo[axis].inertia.into()),
             limit: from_fn(|axis| program.servo[axis].limit.into()),
-            given: false.into(),
-            given_command: from_fn(|_| 0.into()),
-            a: channels.map(|(a, _)| a.into()),
-            b: channels.map(|(_, b)| b.into()),
+            ..zero()
         }
+    }
+
+    /// What it gives in this tick, with the encoders' channels.
+    pub(super) fn drive<const AXES: usize, const A: usize, const E: usize>(
+        &mut self,
+        i: &mut Ports<AXES, A, E>,
+        channels: [(bool, bool); AXES],
+    ) {
+        let waiting = self.program.records.len().min(HEAD_START);
+        let start = !self.started && self.path.is_done() && self.records.written() == waiting;
+        self.started |= start;
+        i.start = start.into();
+        let record = self.records.write();
+        i.write = record.write.into();
+        i.write_word = record.word.into();
+        i.write_data = record.data.into();
+        i.push = record.push.into();
+        let path = self.path.write();
+        i.write_begin = path.write_begin.into();
+        i.begin_segment = path.segment.into();
+        i.begin_length = path.begin.into();
+        i.write_path = path.write.into();
+        i.path_address = (path.segment << 4 | path.word).into();
+        i.path_data = path.data.into();
+        i.a = channels.map(|(a, _)| a.into());
+        i.b = channels.map(|(_, b)| b.into());
     }
 }

@@ -4,7 +4,7 @@
 use super::host::Host;
 pub use super::program::{Program, ProgramError};
 use super::{TrajectoryController, Widths, controller};
-use crate::kernel::{Observer, Sample, Simulator};
+use crate::kernel::{At, Observer, Sample, Simulator, Watcher};
 use crate::logic::Sim;
 use crate::plant::TwoMassAxis;
 use crate::settings::{JobError, SettingError};
@@ -78,50 +78,91 @@ pub struct Played<const AXES: usize> {
     pub settled: bool,
 }
 
-/// What one tick shows.
-struct Seen<const AXES: usize> {
-    ready: bool,
-    busy: bool,
-    late: bool,
-    lost: bool,
-    /// The motors are compared with their models: all of a period stands, but for the loads and the
-    /// torques.
-    period: Option<Period<AXES>>,
-    /// The torques stand, and whether they are limited.
-    driven: Option<([i64; AXES], [bool; AXES])>,
+/// What is looked at.
+struct See<const AXES: usize> {
+    ready: At<bool>,
+    busy: At<bool>,
+    late: [At<bool>; 2],
+    starved: At<bool>,
+    waiting: At<bool>,
+    fresh: At<bool>,
+    driven: At<bool>,
+    length: At<i64>,
+    answered: At<i64>,
+    axes: [SeeAxis; AXES],
 }
 
-fn see<const AXES: usize, const A: usize, const E: usize>(
-    now: &Sample<'_, Controller<AXES, A, E>>,
-) -> Seen<AXES> {
-    let (q, w) = (now.q, now.w);
-    let period = || Period {
-        tick: 0,
-        length: q.progress.length.get(),
-        answered: q.tangential.integrators.position.get(),
-        command: from_fn(|k| q.distribution.axes[k].point.get()),
-        reference: from_fn(|k| q.reference_point.axes[k].point.get()),
-        response: from_fn(|k| q.axes[k].response.integrators.position.get()),
-        corrected: from_fn(|k| q.axes[k].corrector.corrected.get()),
-        model: from_fn(|k| q.axes[k].servo.model.integrators.position.get()),
-        motor: from_fn(|k| w.axes[k].w.position.get()),
-        load: [0.0; AXES],
-        torque: [0; AXES],
-        saturated: [false; AXES],
-    };
-    let torques = || {
-        let torque = from_fn(|k| w.axes[k].w.torque.get());
-        (torque, from_fn(|k| w.axes[k].w.saturated.get()))
-    };
-    let axis = &w.axes[0].w;
-    Seen {
-        ready: w.ready.get(),
-        busy: w.busy.get(),
-        late: w.late.get() || w.profile_late.get(),
-        lost: w.axes.iter().any(|axis| axis.w.lost.get()),
+/// What is looked at of an axis.
+struct SeeAxis {
+    command: At<i64>,
+    reference: At<i64>,
+    response: At<i64>,
+    corrected: At<i64>,
+    model: At<i64>,
+    motor: At<i64>,
+    /// The torque that the motor has.
+    drive: At<i64>,
+    torque: At<i64>,
+    saturated: At<bool>,
+    lost: At<bool>,
+}
+
+impl<const AXES: usize> See<AXES> {
+    fn of<const A: usize, const E: usize>(watch: &Watcher<Controller<AXES, A, E>>) -> Self {
+        let (q, w) = (&watch.q, &watch.w);
+        See {
+            ready: watch.at(w.ready),
+            busy: watch.at(w.busy),
+            late: [w.late, w.profile_late].map(|late| watch.at(late)),
+            starved: watch.at(q.sequencer.starved),
+            waiting: watch.at(q.progress.waiting),
+            fresh: watch.at(w.axes[0].w.servo.w.model.w.fresh),
+            driven: watch.at(w.axes[0].w.driven),
+            length: watch.at(q.progress.length),
+            answered: watch.at(q.tangential.integrators.position),
+            axes: from_fn(|k| {
+                let (axis, nets) = (&q.axes[k], &w.axes[k].w);
+                SeeAxis {
+                    command: watch.at(q.distribution.axes[k].point),
+                    reference: watch.at(q.reference_point.axes[k].point),
+                    response: watch.at(axis.response.integrators.position),
+                    corrected: watch.at(axis.corrector.corrected),
+                    model: watch.at(axis.servo.model.integrators.position),
+                    motor: watch.at(nets.position),
+                    drive: watch.at(axis.servo.arithmetic.torque),
+                    torque: watch.at(nets.torque),
+                    saturated: watch.at(nets.saturated),
+                    lost: watch.at(nets.lost),
+                }
+            }),
+        }
+    }
+
+    /// The period in which the motors are compared with their models: all of it stands, but for the
+    /// loads and the torques.
+    fn period<const A: usize, const E: usize>(
+        &self,
+        now: &Sample<'_, Controller<AXES, A, E>>,
+    ) -> Option<Period<AXES>> {
         // Without a path the servo controls hold the machine: a period that began before the start.
-        period: (axis.servo.w.model.w.fresh.get() && !q.progress.waiting.get()).then(period),
-        driven: axis.driven.get().then(torques),
+        if !now.get(self.fresh) || now.get(self.waiting) {
+            return None;
+        }
+        let words = |of: fn(&SeeAxis) -> At<i64>| from_fn(|k| now.get(of(&self.axes[k])));
+        Some(Period {
+            tick: now.tick,
+            length: now.get(self.length),
+            answered: now.get(self.answered),
+            command: words(|axis| axis.command),
+            reference: words(|axis| axis.reference),
+            response: words(|axis| axis.response),
+            corrected: words(|axis| axis.corrected),
+            model: words(|axis| axis.model),
+            motor: words(|axis| axis.motor),
+            load: [0.0; AXES],
+            torque: [0; AXES],
+            saturated: [false; AXES],
+        })
     }
 }
 
@@ -153,53 +194,59 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
         return Err(SettingError::value("segments", segments, allowed).into());
     }
     let mut host = Host::new(program);
+    let mut i = host.standing();
     let mut played = Played::default();
-    let mut simulator = Simulator::new(circuit)?;
+    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
     let mut compared = None;
     let (mut rests, mut calm, patience) = (0, 0, patience(program));
     let unit = f64::from(Widths::FULL.guard()).exp2();
     loop {
-        let torques = &simulator.registers().axes;
-        let channels = from_fn(|axis| {
-            let torque = torques[axis].servo.arithmetic.torque.get();
-            plants[axis].step(torque)
-        });
-        let i = host.ports(channels);
+        let channels = from_fn(|axis| plants[axis].step(simulator.get(see.axes[axis].drive)));
+        host.drive(&mut i, channels);
         let (starts, pushed) = (i.start.get(), i.push.get());
-        let (next, seen, flow) = simulator.step_watched(i, &mut observer, see)?;
-        simulator = next;
-        host.records.free = seen.ready && !pushed;
         if starts {
             played.start = played.ticks;
         }
-        if let Some(mut period) = seen.period {
-            period.tick = played.ticks;
-            period.load = from_fn(|axis| plants[axis].load_position_counts());
-            compared = Some(period);
-        }
-        played.ticks += 1;
-        played.late |= seen.late;
-        played.lost |= seen.lost;
-        if let (Some(torques), Some(mut period)) = (seen.driven, compared) {
-            compared = None;
-            (period.torque, period.saturated) = torques;
-            played.periods.push(period);
-            if !starts && !seen.busy {
-                rests += 1;
-                let near = (0..AXES).all(|axis| {
-                    let model = period.model[axis] as f64 / unit;
-                    let target = period.corrected[axis] as f64 / unit;
-                    let motor = period.motor[axis] as f64;
-                    (model - target).abs() < 0.5 && (motor - model).abs() <= NEAR_COUNTS
+        let take = |now: &Sample<'_, _>| {
+            host.records.free = now.get(see.ready) && !pushed;
+            if let Some(period) = see.period(now) {
+                compared = Some(Period {
+                    load: from_fn(|axis| plants[axis].load_position_counts()),
+                    ..period
                 });
-                calm = if near { calm + 1 } else { 0 };
             }
+            played.ticks += 1;
+            played.late |= see.late.iter().any(|late| now.get(*late));
+            played.lost |= see.axes.iter().any(|axis| now.get(axis.lost));
+            if now.get(see.driven)
+                && let Some(mut period) = compared.take()
+            {
+                period.torque = from_fn(|k| now.get(see.axes[k].torque));
+                period.saturated = from_fn(|k| now.get(see.axes[k].saturated));
+                played.periods.push(period);
+                return Some((period, now.get(see.busy)));
+            }
+            None
+        };
+        let (over, flow) = simulator.step_watched(&i, &mut observer, take)?;
+        if let Some((period, busy)) = over
+            && !starts
+            && !busy
+        {
+            rests += 1;
+            let near = (0..AXES).all(|axis| {
+                let model = period.model[axis] as f64 / unit;
+                let target = period.corrected[axis] as f64 / unit;
+                let motor = period.motor[axis] as f64;
+                (model - target).abs() < 0.5 && (motor - model).abs() <= NEAR_COUNTS
+            });
+            calm = if near { calm + 1 } else { 0 };
         }
         played.settled = calm >= CALM;
         if played.settled || rests > patience || flow.is_break() {
             break;
         }
     }
-    played.starved = simulator.registers().sequencer.starved.get();
+    played.starved = simulator.get(see.starved);
     Ok(played)
 }

@@ -42,7 +42,9 @@ fn the_first_difference_is_found() {
 
     let mut random = Random::new(3);
     let stimulus = |_: u64, _: &Part<'_, _>| random.signals();
-    let end = Simulator::new(&pair).unwrap().run(1000, stimulus, lockstep.clone());
+    let end = Simulator::new(&pair)
+        .unwrap()
+        .run(1000, stimulus, lockstep.clone());
     let Err(RunError::Violation {
         tick,
         signals,
@@ -61,7 +63,8 @@ fn equal_circuits_agree_on_long_runs() {
     let mut lockstep = Lockstep::by_name(&pair).unwrap();
     let mut random = Random::new(3);
     let stimulus = |_: u64, _: &Part<'_, _>| random.signals();
-    let end = Simulator::new(&pair).unwrap()
+    let end = Simulator::new(&pair)
+        .unwrap()
         .run(10_000, stimulus, &mut lockstep)
         .unwrap();
     assert_eq!(end.tick(), 10_000);

@@ -1,6 +1,7 @@
 //! Reachability, lockstep and monitors on circuits whose answers are known by hand, and what they
 //! stand on: words and memories.
 
+mod backends;
 mod circuits;
 mod composite;
 mod lockstep;

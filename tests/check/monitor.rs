@@ -16,7 +16,11 @@ fn a_violation_ends_the_run_and_names_everything() {
     let low = Invariants::new().always("at most 4", |now: &Sample<Up>| {
         require(now.q.count.get() <= 4, ["count"], || "it is 5".into())
     });
-    let run = |ticks| Simulator::new(&circuit).unwrap().run(ticks, on, Monitor::new(&low));
+    let run = |ticks| {
+        Simulator::new(&circuit)
+            .unwrap()
+            .run(ticks, on, Monitor::new(&low))
+    };
     assert_eq!(run(5).unwrap().tick(), 5);
     let error = run(6).unwrap_err();
     assert_eq!(
@@ -35,7 +39,11 @@ fn a_step_property_is_watched_too() {
             let back = next.count < now.q.count;
             require(!back, ["count"], || "back".into())
         });
-    let run = |ticks| Simulator::new(&circuit).unwrap().run(ticks, on, Monitor::new(&invariants));
+    let run = |ticks| {
+        Simulator::new(&circuit)
+            .unwrap()
+            .run(ticks, on, Monitor::new(&invariants))
+    };
     assert!(run(8).is_ok());
     assert!(matches!(run(9), Err(RunError::Violation { tick: 8, .. })));
 }
@@ -49,7 +57,9 @@ fn random_stimulus_finds_it_in_the_end() {
     let run = |seed| {
         let mut random = Random::new(seed);
         let stimulus = move |_: u64, _: &motion_rtl::kernel::Part<'_, _>| random.signals();
-        let end = Simulator::new(&circuit).unwrap().run(10_000, stimulus, Monitor::new(&shut));
+        let end = Simulator::new(&circuit)
+            .unwrap()
+            .run(10_000, stimulus, Monitor::new(&shut));
         match end {
             Err(RunError::Violation { tick, .. }) => tick,
             other => panic!("{other:?}"),

@@ -195,7 +195,10 @@ fn by_brute_force(table: &Table, bad: u64, longest: usize) -> Option<usize> {
             let way = |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| Choice {
                 way: (choices >> tick & 1 == 1).into(),
             };
-            let end = Simulator::new(table).unwrap().run(length as u64, way, ()).unwrap();
+            let end = Simulator::new(table)
+                .unwrap()
+                .run(length as u64, way, ())
+                .unwrap();
             end.registers().state.get() == bad
         })
     })
@@ -217,8 +220,12 @@ fn no_counterexample_is_longer_than_need_be() {
             let expected = by_brute_force(&table, bad, 10);
             let length = found.counterexample().map(|found| {
                 let inputs = &found.inputs[..found.tick as usize];
-                let way = |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| inputs[tick as usize].clone();
-                let end = Simulator::new(&table).unwrap().run(found.tick, way, ()).unwrap();
+                let way =
+                    |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| inputs[tick as usize].clone();
+                let end = Simulator::new(&table)
+                    .unwrap()
+                    .run(found.tick, way, ())
+                    .unwrap();
                 assert_eq!(end.registers().state.get(), bad, "it replays");
                 found.tick as usize
             });

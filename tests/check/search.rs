@@ -2,7 +2,9 @@
 
 use crate::circuits::*;
 use crate::reach::proof;
-use motion_rtl::check::{Invariants, Outcome, Progress, Proof, CheckError, TooWide, all, reach, require};
+use motion_rtl::check::{
+    CheckError, Invariants, Outcome, Progress, Proof, TooWide, all, reach, require,
+};
 use motion_rtl::kernel::{Sample, pack};
 use motion_rtl::logic::Sim;
 use motion_rtl::logic::sim::UInt;

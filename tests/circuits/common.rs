@@ -58,7 +58,8 @@ pub fn steps<const N: usize, const T: usize, const A: usize>(
         wave.push(now.w.step[0].get());
         false
     };
-    Simulator::new(group).unwrap()
+    Simulator::new(group)
+        .unwrap()
         .run(ticks, |_, _| idle(), StopWhen(look))
         .expect("no observer fails");
     wave

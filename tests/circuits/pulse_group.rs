@@ -37,7 +37,8 @@ fn run(group: &Small, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Vec<Seen> {
         });
         false
     };
-    Simulator::new(group).unwrap()
+    Simulator::new(group)
+        .unwrap()
         .run(ticks, |tick, _| stimulus(tick), StopWhen(look))
         .expect("no observer fails");
     seen
@@ -317,7 +318,8 @@ fn a_write_goes_to_the_axis_it_names() {
             period: 4.into(),
             ..idle::<3, 3, 1>()
         };
-        Simulator::new(&group).unwrap()
+        Simulator::new(&group)
+            .unwrap()
             .run(20, |tick, _| drive(tick), StopWhen(look))
             .expect("no observer fails");
         assert_eq!(rose, [0, 1].map(|line| if line == axis { 2 } else { 0 }));
@@ -371,7 +373,8 @@ fn eight_axes_under_one_unit_time_counter() {
         }
         false
     };
-    Simulator::new(&group).unwrap()
+    Simulator::new(&group)
+        .unwrap()
         .run(500, |_, _| idle(), StopWhen(look))
         .expect("no observer fails");
     for (wave, half_period) in waves.iter().zip(half_periods) {

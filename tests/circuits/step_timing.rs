@@ -116,7 +116,9 @@ fn drivers_on_a_group_end_the_run_at_the_first_time_too_short() {
             min_high,
             ..StepTiming::default()
         });
-        let run = Simulator::new(&group).unwrap().run(60, |_, _| zero(), drivers);
+        let run = Simulator::new(&group)
+            .unwrap()
+            .run(60, |_, _| zero(), drivers);
         match (run, ends) {
             (Ok(simulator), None) => assert_eq!(simulator.tick(), 60),
             (Err(RunError::Violation { tick, signals, .. }), Some(end)) => {

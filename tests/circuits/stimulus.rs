@@ -91,9 +91,12 @@ fn without_resets_it_is_an_ordinary_run_with_its_observers() {
     let mut vcd =
         Vcd::new(Vec::new(), &circuit, Clock::default(), &Options::default()).expect("waves");
     let mut file = StimulusFile::new(Vec::new());
-    let i = |_, _: &motion_rtl::kernel::Part<'_, _>| parse::<Axis<6, 3>>(lines.next().expect("a line a tick")).0;
+    let i = |_, _: &motion_rtl::kernel::Part<'_, _>| {
+        parse::<Axis<6, 3>>(lines.next().expect("a line a tick")).0
+    };
     let observers = (&mut vcd, &mut file);
-    Simulator::new(&circuit).unwrap()
+    Simulator::new(&circuit)
+        .unwrap()
         .run(2_000, i, observers)
         .expect("waves");
     assert!(vcd.finish().expect("waves") == waves);
@@ -106,7 +109,8 @@ fn a_stimulus_file_refuses_a_run_that_goes_over_ticks() {
     let circuit = Group::<2, 8, 8, 3>::new(Variant::Safe, 10);
     let mut file = StimulusFile::new(Vec::new());
     let quiet = |_, _: &motion_rtl::kernel::Part<'_, _>| (zero(), u64::MAX);
-    let error = Simulator::new(&circuit).unwrap()
+    let error = Simulator::new(&circuit)
+        .unwrap()
         .fast_forward(2_000, quiet, &mut file)
         .expect_err("a gap");
     assert!(

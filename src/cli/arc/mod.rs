@@ -67,7 +67,11 @@ fn simulate(
     // Two calls, so that a run without waves is compiled without a trace of them.
     let played = match traces.is_empty() {
         false => {
-            let files = (traces.waves.as_mut(), traces.stimulus.as_mut());
+            let files = (
+                traces.waves.as_mut(),
+                traces.stimulus.as_mut(),
+                traces.noted.as_mut(),
+            );
             play(
                 &circuit,
                 &job.records,

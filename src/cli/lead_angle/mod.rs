@@ -94,7 +94,7 @@ fn simulate<P: JobLead>(
     let played = match traces.is_empty() {
         false => {
             let stimulus = traces.stimulus.as_mut().map(Without);
-            let files = (traces.waves.as_mut(), stimulus);
+            let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
             play(&circuit, settings, (files, &mut progress))?
         }
         true => play(&circuit, settings, &mut progress)?,

@@ -80,7 +80,8 @@ fn simulate(
     let printed = &circuit.circuit;
     let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
-    let files = (traces.waves.as_mut(), traces.stimulus.as_mut().map(Without));
+    let stimulus = traces.stimulus.as_mut().map(Without);
+    let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
     let played = play(&circuit, targets, settings, (files, &mut progress))?;
     drop(progress);
     let scan = u64::from(settings.scan_ticks);

@@ -82,7 +82,12 @@ fn simulate(
     let mut progress = Progress::new(ticks);
     let played = {
         let stimulus = traces.stimulus.as_mut().map(Without);
-        let mut observer = (traces.waves.as_mut(), stimulus, &mut progress);
+        let mut observer = (
+            traces.waves.as_mut(),
+            stimulus,
+            traces.noted.as_mut(),
+            &mut progress,
+        );
         play(&circuit, program, settings, &mut observer)?
     };
     drop(progress);

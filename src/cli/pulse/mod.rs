@@ -75,7 +75,11 @@ fn simulate<const AXES: usize>(
     // Two calls, so that a run without waves is compiled without a trace of them.
     let played = match traces.is_empty() {
         false => {
-            let files = (traces.waves.as_mut(), traces.stimulus.as_mut());
+            let files = (
+                traces.waves.as_mut(),
+                traces.stimulus.as_mut(),
+                traces.noted.as_mut(),
+            );
             play(&group, &job.table, (files, &mut progress))
         }
         true => fast_forward(&group, &job.table, &mut progress),

@@ -124,7 +124,11 @@ fn simulate<const AXES: usize>(
 ) -> Result<(Played<AXES>, Files), Failure> {
     let plants = plants(job)?;
     let mut progress = Progress::new(job.ticks_at_least());
-    let files = (traces.waves.as_mut(), traces.stimulus.as_mut());
+    let files = (
+        traces.waves.as_mut(),
+        traces.stimulus.as_mut(),
+        traces.noted.as_mut(),
+    );
     let played = play(circuit, &job.program, plants, (files, &mut progress))?;
     drop(progress);
     let shown = PERIODS_SHOWN * u64::from(job.program.period_ticks);

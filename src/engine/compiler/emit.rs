@@ -239,7 +239,14 @@ impl<'f> Emitter<'f> {
         }
         let value = self.masked(word.value, word.width);
         let bits = word.width;
-        self.know(slot, Word { value, bits, ..word });
+        self.know(
+            slot,
+            Word {
+                value,
+                bits,
+                ..word
+            },
+        );
         value
     }
 
@@ -260,7 +267,15 @@ impl<'f> Emitter<'f> {
             let old = self.word(slot, word.width);
             let value = self.ins().bxor(old.value, word.value);
             let bits = old.bits.max(word.bits);
-            self.note(marks, Word { value, bits, ..word }, changes);
+            self.note(
+                marks,
+                Word {
+                    value,
+                    bits,
+                    ..word
+                },
+                changes,
+            );
         }
         self.store(slot, word.value);
         self.know(slot, word);

@@ -33,10 +33,19 @@ fn whole(plan: &Plan) -> Result<(), CompileError> {
     let memories = plan.memories.len();
     let bits = plan.layout.block_words as usize * 64;
     let blocks = plan.blocks.iter().enumerate().all(|(place, block)| {
-        let reads = block.steps.iter().filter(|step| step.code == super::super::plan::Code::Read);
+        let reads = block
+            .steps
+            .iter()
+            .filter(|step| step.code == super::super::plan::Code::Read);
         plan.bit(place) < bits
-            && block.registers.iter().all(|&(register, _)| (register as usize) < registers)
-            && block.writes.iter().all(|write| (write.memory as usize) < memories)
+            && block
+                .registers
+                .iter()
+                .all(|&(register, _)| (register as usize) < registers)
+            && block
+                .writes
+                .iter()
+                .all(|write| (write.memory as usize) < memories)
             && reads.clone().all(|step| (step.c as usize) < memories)
             && block.steps.iter().all(|step| {
                 let widths = [step.width, step.from];
@@ -144,7 +153,10 @@ impl Flow<'_> {
             self.emitter.jump(only);
             return targets;
         }
-        let bits: Vec<usize> = places.iter().map(|&place| self.plan.bit(place) % 64).collect();
+        let bits: Vec<usize> = places
+            .iter()
+            .map(|&place| self.plan.bit(place) % 64)
+            .collect();
         let first = bits[0];
         let number = self.emitter.ins().ctz(due);
         let number = self.emitter.ins().iadd_imm_s(number, -(first as i64));
@@ -182,24 +194,39 @@ impl Flow<'_> {
             }
             for (word, mask, places) in words(plan, &run.blocks) {
                 if let Some(&due) = due.get(&word) {
-                    self.edges(due, mask, &places, |flow, place| block::edge(&mut flow.emitter, plan, place));
+                    self.edges(due, mask, &places, |flow, place| {
+                        block::edge(&mut flow.emitter, plan, place)
+                    });
                 }
             }
         }
-        let commits: Vec<usize> = all.into_iter().filter(|&place| plan.blocks[place].commits).collect();
-        let (hot, cold): (Vec<usize>, Vec<usize>) = commits.into_iter().partition(|&place| is_hot(self.hot, place));
+        let commits: Vec<usize> = all
+            .into_iter()
+            .filter(|&place| plan.blocks[place].commits)
+            .collect();
+        let (hot, cold): (Vec<usize>, Vec<usize>) = commits
+            .into_iter()
+            .partition(|&place| is_hot(self.hot, place));
         for place in hot {
             self.emitter.forget();
             block::commit(&mut self.emitter, plan, &plan.blocks[place]);
         }
         for (word, mask, places) in words(plan, &cold) {
             if let Some(&due) = due.get(&word) {
-                self.edges(due, mask, &places, |flow, place| block::commit(&mut flow.emitter, plan, &plan.blocks[place]));
+                self.edges(due, mask, &places, |flow, place| {
+                    block::commit(&mut flow.emitter, plan, &plan.blocks[place])
+                });
             }
         }
     }
 
-    fn edges(&mut self, due: Value, mask: u64, places: &[usize], mut emit: impl FnMut(&mut Self, usize)) {
+    fn edges(
+        &mut self,
+        due: Value,
+        mask: u64,
+        places: &[usize],
+        mut emit: impl FnMut(&mut Self, usize),
+    ) {
         let (look, left) = self.emitter.block_with();
         let next = self.emitter.block();
         let due = self.emitter.and(due, mask);

@@ -143,13 +143,11 @@ fn machine() -> Result<OwnedTargetIsa, CompileError> {
     let unknown = |error: &dyn fmt::Display| CompileError::Machine(error.to_string());
     let mut flags = settings::builder();
     for (name, value) in [
-        ("opt_level", OPT()),
-        ("regalloc_algorithm", RA()),
+        ("opt_level", "speed"),
         ("enable_verifier", "false"),
         ("unwind_info", "false"),
     ] {
-        let name = if name == "opt_level" || name == "regalloc_algorithm" { flags.set(name, &std::env::var(name).unwrap_or(value.to_string())) } else { flags.set(name, value) };
-        name.map_err(|error| unknown(&error))?;
+        flags.set(name, value).map_err(|error| unknown(&error))?;
     }
     cranelift_native::builder()
         .map_err(|error| unknown(&error))?
@@ -168,5 +166,3 @@ fn executable(bytes: &[u8]) -> Result<Mmap, CompileError> {
         .map_err(|error| CompileError::Cranelift(error.to_string()))?;
     Ok(memory)
 }
-#[allow(non_snake_case)] fn OPT() -> &'static str { "speed" }
-#[allow(non_snake_case)] fn RA() -> &'static str { "backtracking" }

@@ -11,7 +11,11 @@ use proptest::prelude::*;
 fn leaf(plan: &Plan, slab: &[u64], index: usize) -> Option<u64> {
     let layout = &plan.layout;
     let leaves = layout.leaves.len();
-    match *layout.leaves.get(index).unwrap_or_else(|| &layout.properties[index - leaves]) {
+    match *layout
+        .leaves
+        .get(index)
+        .unwrap_or_else(|| &layout.properties[index - leaves])
+    {
         Spot::Slot(slot) => Some(slab[slot as usize]),
         Spot::Constant(bits) => Some(bits),
         Spot::Stage(memory, stage) => {
@@ -90,7 +94,10 @@ fn interpreted(case: &Case) -> Result<(), TestCaseError> {
                     prop_assert_eq!(value, Some(plain.leaf(index)), "leaf {}", index);
                     let before = shown[index].replace(value);
                     let event = slab[plan.layout.event as usize] == 1;
-                    prop_assert!(before.is_none_or(|before| before == value) || event);
+                    // Nobody is told of properties.
+                    if index < flat.leaves.len() {
+                        prop_assert!(before.is_none_or(|before| before == value) || event);
+                    }
                 }
             }
         }
@@ -184,7 +191,13 @@ proptest! {
 
 #[test]
 fn a_slab_of_another_length_is_left_alone() {
-    let plan = Plan::of(&Flat { inputs: vec![4], ..Flat::default() }, &[]);
+    let plan = Plan::of(
+        &Flat {
+            inputs: vec![4],
+            ..Flat::default()
+        },
+        &[],
+    );
     let code = Code::compile(&plan, &[]).expect("it compiles");
     let mut slab = vec![3; plan.layout.words as usize + 1];
     code.settle(&mut slab);

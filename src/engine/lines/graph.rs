@@ -65,7 +65,8 @@ pub(super) struct Graph {
 type Set = Vec<u64>;
 
 pub(super) fn has(set: &[u64], bit: usize) -> bool {
-    set[bit / 64] >> (bit % 64) & 1 != 0
+    set.get(bit / 64)
+        .is_some_and(|word| word >> (bit % 64) & 1 != 0)
 }
 
 pub(super) fn insert(set: &mut [u64], bit: usize) {

@@ -39,7 +39,7 @@ impl Line {
     }
 
     /// The same words in two's complement, counted from the lowest on.
-    fn from_lowest(self, width: u8) -> Line {
+    fn lifted(self, width: u8) -> Line {
         Line {
             value: (self.value ^ (1 << (width - 1))) & mask(width),
             ..self
@@ -162,7 +162,7 @@ impl Line {
         if self.is_still() || width <= from {
             return Line { value, ..self }.low(width);
         }
-        *until = self.from_lowest(from).unsigned_end(from).min(*until);
+        *until = self.lifted(from).unsigned_end(from).min(*until);
         Line {
             value,
             slope: signed(self.slope, from) as u64,
@@ -285,7 +285,7 @@ impl Line {
 
     /// The same in two's complement.
     pub fn below_signed(self, other: Line, width: u8, until: &mut u64) -> Line {
-        let (mine, its) = (self.from_lowest(width), other.from_lowest(width));
+        let (mine, its) = (self.lifted(width), other.lifted(width));
         mine.below(its, width, until)
     }
 }

@@ -222,7 +222,7 @@ fn equality_met_exactly_or_passed_over() {
     assert_eq!(meets(1, 3, 11), 174);
     assert_eq!(meets(1, 2, 10), 1000);
     assert_eq!(meets(7, 2, 7), 0);
-    assert_eq!(meets(9, 255, 9 + 256 - 1 - 255), 256 - 255 + 254);
+    assert_eq!(meets(9, 255, 4), 5);
 }
 
 #[test]
@@ -300,4 +300,53 @@ fn an_arm_that_is_not_taken_ends_nothing() {
     );
     let sum = making.node(Op::Xor(gated, chosen), 1);
     assert_eq!(horizon(&making.watch(sum), 200), 200);
+}
+
+#[test]
+fn both_of_two_conditions_or_one() {
+    type Two = fn(Id, Id) -> Op;
+    let turned: [Two; 2] = [
+        |one, other| Op::And(other, one),
+        |one, other| Op::Or(other, one),
+    ];
+    for (ops, wanted) in [([Op::And, turned[0]], 30), ([Op::Or, turned[1]], 40)] {
+        for op in ops {
+            let mut making = Making::new();
+            let count = making.counter(8, 0, 1);
+            let (low, high) = (making.constant(30, 8), making.constant(40, 8));
+            let (one, other) = (
+                making.node(Op::Below(count, low), 1),
+                making.node(Op::Below(count, high), 1),
+            );
+            let both = making.node(op(one, other), 1);
+            assert_eq!(horizon(&making.watch(both), 200), wanted);
+        }
+    }
+}
+
+#[test]
+fn a_choice_that_moves() {
+    let mut making = Making::new();
+    let count = making.counter(8, 0, 1);
+    let odd = making.node(Op::Slice(count, 0), 1);
+    let (one, other) = (making.register(8, 3), making.register(8, 4));
+    let chosen = making.node(Op::Mux(odd, one, other), 8);
+    assert!(horizon(&making.watch(chosen), 1000) <= 1);
+}
+
+#[test]
+fn a_choice_in_the_same_choice() {
+    let mut making = Making::new();
+    let up = making.register(1, 1);
+    let count = making.register(8, 0);
+    let (one, limit) = (making.constant(1, 8), making.constant(20, 8));
+    let (more, less) = (
+        making.node(Op::Add(count, one), 8),
+        making.node(Op::Subtract(count, one), 8),
+    );
+    let inner = making.node(Op::Mux(up, more, less), 8);
+    let next = making.node(Op::Mux(up, inner, count), 8);
+    making.next(count, next);
+    let below = making.node(Op::Below(count, limit), 1);
+    assert_eq!(horizon(&making.watch(below), 1000), 20);
 }

@@ -35,7 +35,9 @@ fn scanned<const P: usize, const G: usize, const F: usize, const D: usize, const
         (w.deviation.get(), w.in_position.get())
     };
     let (after, (deviation, in_position)) =
-        Simulator::<PositionControl<P, G, F, D, R>>::new(&control).unwrap().step(i, nets);
+        Simulator::<PositionControl<P, G, F, D, R>>::new(&control)
+            .unwrap()
+            .step(i, nets);
     Out {
         deviation,
         in_position,

@@ -57,10 +57,18 @@ fn same<C: Outputs>(job: Job<C>) {
         ("run", &whole, Way::Run),
         ("only ports out watched", &ports, Way::Run),
         ("changes", &ports, Way::Changes),
-        ("changes, interpreted", &ports.clone().interpreted(), Way::Changes),
+        (
+            "changes, interpreted",
+            &ports.clone().interpreted(),
+            Way::Changes,
+        ),
         ("gone over", &ports, Way::Forward),
         ("gone over, all watched", &whole, Way::Forward),
-        ("gone over, interpreted", &ports.clone().interpreted(), Way::Forward),
+        (
+            "gone over, interpreted",
+            &ports.clone().interpreted(),
+            Way::Forward,
+        ),
     ];
     for (how, simulator, way) in ways {
         let simulator = simulator.clone();

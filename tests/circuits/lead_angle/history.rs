@@ -144,6 +144,8 @@ fn both_forms_agree_at_full_width() {
         i.restart = tick.is_multiple_of(2503).into();
         i
     };
-    let end = Simulator::new(&pair).unwrap().run(100_000, stimulus, lockstep);
+    let end = Simulator::new(&pair)
+        .unwrap()
+        .run(100_000, stimulus, lockstep);
     end.unwrap();
 }

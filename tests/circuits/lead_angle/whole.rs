@@ -99,7 +99,9 @@ fn the_ram_compensator_is_the_compensator_in_every_tick() {
         let lockstep = Lockstep::of(&pair, &outputs).unwrap();
         let mut bench = Bench::new(seed);
         let stimulus = |_, _: &motion_rtl::kernel::Part<'_, _>| bench.tick(None);
-        let end = Simulator::new(&pair).unwrap().run(100_000, stimulus, lockstep);
+        let end = Simulator::new(&pair)
+            .unwrap()
+            .run(100_000, stimulus, lockstep);
         end.unwrap();
     }
 }

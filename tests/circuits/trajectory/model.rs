@@ -6,8 +6,7 @@ use motion_rtl::trajectory_controller::reference_model::{In, Reg};
 use motion_rtl::trajectory_controller::{ReferenceModel, Rounding};
 use proptest::prelude::*;
 
-type Bench<'c, const P: usize, const K: usize, const Q: usize> =
-    Simulator<ReferenceModel<P, K, Q>>;
+type Bench<'c, const P: usize, const K: usize, const Q: usize> = Simulator<ReferenceModel<P, K, Q>>;
 
 /// p, v and a.
 type State = [i128; 3];

@@ -12,7 +12,8 @@ fn dump(ticks: Range<u64>) -> Vec<u8> {
     let options = Options { ticks, only: None };
     let mut vcd = Vcd::new(Vec::new(), &circuit, Clock::default(), &options).unwrap();
     let stimulus = |_, _: &motion_rtl::kernel::Part<'_, _>| In { period: 7.into() };
-    Simulator::new(&circuit).unwrap()
+    Simulator::new(&circuit)
+        .unwrap()
         .run(20, stimulus, &mut vcd)
         .unwrap();
     vcd.finish().unwrap()

@@ -21,7 +21,9 @@ fn behind<W: Write + Send + 'static>(out: W) -> VcdBehind<Zoo, W> {
 
 fn run<W: Write + Send + 'static>(ticks: u64, vcd: &mut VcdBehind<Zoo, W>) -> Result<(), RunError> {
     let mut inputs = inputs(SEED);
-    let run = Simulator::new(&Zoo).unwrap().run(ticks, |_, _| inputs.next().unwrap(), vcd);
+    let run = Simulator::new(&Zoo)
+        .unwrap()
+        .run(ticks, |_, _| inputs.next().unwrap(), vcd);
     run.map(drop)
 }
 
@@ -71,7 +73,10 @@ fn a_tick_with_more_changes_than_a_section() {
     };
     let wanted = dump(&Wide, 3, clock(), i()).unwrap();
     let mut vcd = VcdBehind::new(Vec::new(), &Wide, clock(), &Options::default()).unwrap();
-    Simulator::new(&Wide).unwrap().run(3, |_, _| i(), &mut vcd).unwrap();
+    Simulator::new(&Wide)
+        .unwrap()
+        .run(3, |_, _| i(), &mut vcd)
+        .unwrap();
     assert!(vcd.finish().unwrap() == wanted);
 }
 
@@ -166,7 +171,10 @@ fn the_run_waits_for_a_slow_file() {
                 ticks.store(tick, Ordering::SeqCst);
                 inputs.next().unwrap()
             };
-            Simulator::new(&Zoo).unwrap().run(LONG, i, &mut vcd).unwrap();
+            Simulator::new(&Zoo)
+                .unwrap()
+                .run(LONG, i, &mut vcd)
+                .unwrap();
             vcd.finish().map(drop)
         }
     });

@@ -24,7 +24,8 @@ fn the_pulse_interpolator_is_dumped_completely() {
     let mut vcd = Vcd::new(Vec::new(), &group, clock(), &Options::default()).unwrap();
     let mut recorder = Recorder::new(&group, &Options::default()).unwrap();
     let mut random = Random::new(SEED);
-    Simulator::new(&group).unwrap()
+    Simulator::new(&group)
+        .unwrap()
         .run(TICKS, |_, _| random.signals(), (&mut vcd, &mut recorder))
         .unwrap();
     complete(&group, &vcd.finish().unwrap(), &recorder);
@@ -301,10 +302,12 @@ fn the_short_way_through_memories_is_the_long_way() {
 #[test]
 fn a_tick_that_comes_twice_is_an_error() {
     let mut vcd = Vcd::new(Vec::new(), &Zoo, clock(), &Options::default()).unwrap();
-    let (_, twice) = Simulator::new(&Zoo).unwrap().step(inputs(SEED).next().unwrap(), |now| {
-        assert!(vcd.sample(now).unwrap().is_continue());
-        vcd.sample(now).unwrap_err().to_string()
-    });
+    let (_, twice) = Simulator::new(&Zoo)
+        .unwrap()
+        .step(inputs(SEED).next().unwrap(), |now| {
+            assert!(vcd.sample(now).unwrap().is_continue());
+            vcd.sample(now).unwrap_err().to_string()
+        });
     assert!(twice.contains("tick 0 comes twice"), "{twice}");
 }
 
@@ -332,7 +335,9 @@ fn a_full_disk_is_an_error_of_the_run_or_of_its_end() {
     let full = Full(1000, file);
     let mut vcd = Vcd::new(full, &Zoo, clock(), &Options::default()).unwrap();
     let mut inputs = inputs(SEED);
-    let run = Simulator::new(&Zoo).unwrap().run(1_000_000, |_, _| inputs.next().unwrap(), &mut vcd);
+    let run = Simulator::new(&Zoo)
+        .unwrap()
+        .run(1_000_000, |_, _| inputs.next().unwrap(), &mut vcd);
     assert!(
         matches!(run, Err(RunError::Waves(error)) if error.kind() == io::ErrorKind::StorageFull)
     );
@@ -344,7 +349,10 @@ fn a_full_disk_is_an_error_of_the_run_or_of_its_end() {
         step: 1.into(),
         up: true.into(),
     };
-    Simulator::new(&Part).unwrap().run(2, i, &mut short).unwrap();
+    Simulator::new(&Part)
+        .unwrap()
+        .run(2, i, &mut short)
+        .unwrap();
     let error = short.finish().map(|_| ()).unwrap_err();
     assert_eq!(error.kind(), io::ErrorKind::StorageFull);
 }

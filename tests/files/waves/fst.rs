@@ -16,7 +16,8 @@ pub fn both(ticks: u64, clock: Clock, options: &Options) -> [Vec<u8>; 2] {
     let mut vcd = Vcd::new(Vec::new(), &Zoo, clock, options).unwrap();
     let mut fst = Fst::new(Cursor::new(Vec::new()), &Zoo, clock, options).unwrap();
     let mut inputs = inputs(SEED);
-    Simulator::new(&Zoo).unwrap()
+    Simulator::new(&Zoo)
+        .unwrap()
         .run(ticks, |_, _| inputs.next().unwrap(), (&mut vcd, &mut fst))
         .unwrap();
     [vcd.finish().unwrap(), fst.finish().unwrap().into_inner()]
@@ -89,7 +90,8 @@ fn a_quiet_run_has_sections_of_its_own() {
     let options = Options::default();
     let mut fst = Fst::new(Cursor::new(Vec::new()), &Part, clock(), &options).unwrap();
     let ticks = 100_000;
-    Simulator::new(&Part).unwrap()
+    Simulator::new(&Part)
+        .unwrap()
         .run(ticks, |_, _| i(), &mut fst)
         .unwrap();
     let bytes = fst.finish().unwrap().into_inner();
@@ -123,7 +125,8 @@ fn dropped_it_leaves_nothing() {
     let file = AtomicFile::create(directory.path().join("zoo.fst")).unwrap();
     let mut fst = Fst::new(file, &Zoo, clock(), &Options::default()).unwrap();
     let mut inputs = inputs(SEED);
-    Simulator::new(&Zoo).unwrap()
+    Simulator::new(&Zoo)
+        .unwrap()
         .run(50, |_, _| inputs.next().unwrap(), &mut fst)
         .unwrap();
     drop(fst);

@@ -37,7 +37,8 @@ fn run_zoo(ticks: u64, options: &Options) -> (Vec<u8>, Recorder<Zoo>) {
     let mut vcd = Vcd::new(Vec::new(), &Zoo, clock(), options).unwrap();
     let mut recorder = Recorder::new(&Zoo, &Options::default()).unwrap();
     let mut inputs = inputs(SEED);
-    Simulator::new(&Zoo).unwrap()
+    Simulator::new(&Zoo)
+        .unwrap()
         .run(
             ticks,
             |_, _| inputs.next().unwrap(),
@@ -59,6 +60,8 @@ where
 {
     let mut vcd =
         Vcd::new(Vec::new(), circuit, clock, &Options::default()).map_err(std::io::Error::from)?;
-    Simulator::new(circuit).unwrap().run(ticks, |_, _| i.clone(), &mut vcd)?;
+    Simulator::new(circuit)
+        .unwrap()
+        .run(ticks, |_, _| i.clone(), &mut vcd)?;
     Ok(vcd.finish()?)
 }

@@ -43,9 +43,7 @@ fn flip_flops_show_power_on_and_memories_take_the_edge() {
     for tick in 0..TICKS {
         let i = inputs.next().unwrap();
         let before = pack(&*simulator.registers());
-        let (next, edge) = simulator.step_with_reset(rst(tick), i, |now| {
-            pack(&now.next())
-        });
+        let (next, edge) = simulator.step_with_reset(rst(tick), i, |now| pack(&now.next()));
         let mut expected = Bits::new();
         for (bits, is_word) in &layout {
             let from = match rst(tick) && !is_word {

@@ -10,7 +10,8 @@ fn part(ticks: u64) -> Recorder<Part> {
         step: (tick / 3 + 1).into(),
         up: (tick % 4 == 3).into(),
     };
-    Simulator::new(&Part).unwrap()
+    Simulator::new(&Part)
+        .unwrap()
         .run(ticks, stimulus, &mut recorder)
         .unwrap();
     recorder
@@ -67,7 +68,8 @@ fn a_recorder_keeps_its_window_and_its_signals() {
         step: 1.into(),
         up: true.into(),
     };
-    Simulator::new(&Part).unwrap()
+    Simulator::new(&Part)
+        .unwrap()
         .run(20, stimulus, &mut recorder)
         .unwrap();
     assert_eq!(recorder.ticks(), 5..9);

@@ -91,7 +91,7 @@ fn simulate<P: JobLead>(
     let replayed = match traces.is_empty() {
         false => {
             let stimulus = traces.stimulus.as_mut().map(Without);
-            let files = (traces.waves.as_mut(), stimulus);
+            let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
             replay(&circuit, settings, log, (files, &mut progress))?
         }
         true => replay(&circuit, settings, log, &mut progress)?,

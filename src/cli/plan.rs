@@ -1,0 +1,90 @@
+//! `plan`: how a circuit is run, under random inputs; and how that of a job is.
+
+use super::chosen::Chosen;
+use super::{Failure, print};
+use clap::Args;
+use motion_rtl::check::Stimulus;
+use motion_rtl::engine::{Engine, Inputs, Watch, report};
+use motion_rtl::kernel::{Circuit, Model, Observer, RunError, Sample};
+use std::ops::ControlFlow;
+
+/// What to plan.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    chosen: Chosen,
+    /// Random ticks in which blocks are counted; `run --plan` counts them in a job.
+    #[arg(
+        long,
+        value_name = "TICKS",
+        allow_negative_numbers = true,
+        default_value_t = 10_000
+    )]
+    ticks: u64,
+    /// What the inputs are drawn from.
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        allow_negative_numbers = true,
+        default_value_t = 1
+    )]
+    seed: u64,
+}
+
+/// Prints the plan.
+pub fn plan(arguments: &Arguments) -> Result<(), Failure> {
+    let circuit = arguments.chosen.model()?;
+    let model = circuit.model().map_err(RunError::from)?;
+    let mut engine = counting(&model);
+    let mut random = Stimulus::new(arguments.seed);
+    for _ in 0..arguments.ticks {
+        random.apply(&mut engine);
+        engine.settle();
+        engine.edge();
+    }
+    print(&text(&model, &engine, arguments.ticks))
+}
+
+/// The plan of a job's circuit, and what of it its inputs have woken.
+pub(super) fn of_job<C: Circuit>(circuit: &C, inputs: &Inputs) -> Result<String, Failure> {
+    let model = Model::of(circuit).map_err(RunError::from)?;
+    let mut engine = counting(&model);
+    inputs.play(&mut engine);
+    Ok(text(&model, &engine, inputs.ticks()))
+}
+
+/// An engine that only has the ports out looked at, and counts.
+fn counting(model: &Model) -> Engine {
+    let mut engine = model.engine(Watch::Leaves(&model.ports_out()));
+    engine.interpret();
+    engine
+}
+
+fn text(model: &Model, engine: &Engine, ticks: u64) -> String {
+    let leaves = &model.declarations().leaves;
+    let name = |leaf: usize| {
+        let path = leaves[leaf].path();
+        let below = path.split_once('.').map(|(_, below)| below.to_owned());
+        below.unwrap_or(path)
+    };
+    format!(
+        "{}, {ticks} ticks: {}",
+        model.name(),
+        report(engine, ticks, &name)
+    )
+}
+
+/// Notes the inputs of a run.
+#[derive(Debug, Default)]
+pub struct Noted(pub Inputs);
+
+impl<C: Circuit> Observer<C> for Noted {
+    fn needs_all(&self) -> bool {
+        false
+    }
+
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        self.0.note(now.tick, now.engine());
+        Ok(ControlFlow::Continue(()))
+    }
+}

@@ -1,0 +1,115 @@
+//! Every circuit of the catalogue on every backend, under random inputs with resets.
+
+use motion_rtl::check::Stimulus;
+use motion_rtl::engine::{Engine, Watch};
+use motion_rtl::kernel::Model;
+use motion_rtl::registry::CATALOGUE;
+
+/// Ticks before a compiled engine knows which blocks run often.
+const COUNTED: u64 = 200;
+const TICKS: u64 = 1_500;
+
+/// An engine that is held against the interpreter, and the leaves it is asked for.
+struct Held<'m> {
+    what: &'static str,
+    engine: Engine,
+    leaves: &'m [usize],
+    /// It is compiled at this tick.
+    compiles: Option<u64>,
+}
+
+/// Runs all of them on the same inputs.
+fn same(name: &str, model: &Model) {
+    let declared = model.declarations();
+    let is_word = |leaf: usize| {
+        let mut memories = declared.memories.iter();
+        memories.any(|memory| (memory.first..memory.first + memory.words).contains(&leaf))
+    };
+    let all: Vec<usize> = (0..declared.leaves.len()).collect();
+    let own: Vec<usize> = all.iter().copied().filter(|&leaf| !is_word(leaf)).collect();
+    let ports = model.ports_out();
+
+    let mut reference = model.engine(Watch::All);
+    reference.interpret();
+    let held = |what, watch, leaves, compiles| Held {
+        what,
+        engine: model.engine(watch),
+        leaves,
+        compiles,
+    };
+    let few = Watch::Leaves(&ports);
+    let mut others = [
+        held("compiled before it ran", Watch::All, &own[..], Some(0)),
+        held("compiled when counted", Watch::All, &own[..], Some(COUNTED)),
+        held("ports out alone, interpreted", few, &ports[..], None),
+        held("ports out alone, compiled", few, &ports[..], Some(COUNTED)),
+    ];
+    let mut random = Stimulus::new(7);
+    for tick in 0..TICKS {
+        let reset = random.reset();
+        random.apply(&mut reference);
+        reference.settle();
+        for other in &mut others {
+            match other.compiles {
+                Some(at) if at == tick => {
+                    let compiled = other.engine.compile();
+                    assert_eq!(compiled, cfg!(feature = "jit"), "{name}, {}", other.what);
+                }
+                None if tick == 0 => other.engine.interpret(),
+                _ => {}
+            }
+            for port in 0..model.flat().inputs.len() {
+                other.engine.input(port, reference.port(port));
+            }
+            other.engine.settle();
+            for &leaf in other.leaves {
+                assert_eq!(
+                    other.engine.leaf(leaf),
+                    reference.leaf(leaf),
+                    "{name}, {}, tick {tick}: {}",
+                    other.what,
+                    declared.leaves[leaf].path()
+                );
+            }
+        }
+        let engines = others.iter_mut().map(|other| &mut other.engine);
+        for engine in engines.chain([&mut reference]) {
+            match reset {
+                true => engine.reset(),
+                false => engine.edge(),
+            }
+        }
+    }
+    // Memories once, and what is watched by nobody.
+    reference.settle();
+    for other in &mut others {
+        other.engine.settle();
+        for &leaf in &all {
+            assert_eq!(
+                other.engine.leaf(leaf),
+                reference.leaf(leaf),
+                "{name}, {}, at the end: {}",
+                other.what,
+                declared.leaves[leaf].path()
+            );
+        }
+    }
+}
+
+#[test]
+fn every_circuit_at_its_own_widths() {
+    for entry in CATALOGUE {
+        same(entry.name, &(entry.full)().model().expect("a netlist"));
+    }
+}
+
+#[test]
+fn every_circuit_at_every_width_it_is_offered_at() {
+    for entry in CATALOGUE {
+        for &width in entry.offered {
+            let model = (entry.model)(&[width]).expect("it is offered");
+            let name = format!("{}[{width}]", entry.name);
+            same(&name, &model.model().expect("a netlist"));
+        }
+    }
+}
