@@ -1,15 +1,18 @@
+mod simulated;
+mod unrolled;
+
 use super::enumerate::{from_word, to_word};
 use super::{CheckError, Counterexample, Fault, TooWide};
-use crate::kernel::{Circuit, Field, Model, Moment, Path, Probe, Role, Shape, Signals, part, zero};
-use crate::logic::lanes::{Element, pack, spread, unpack};
-use crate::logic::{Lanes, Logic, Sim};
+use crate::kernel::{Circuit, Field, Model, Moment, Path, Probe, Role, Shape, Signals, part};
+use crate::logic::{Logic, Sim};
 use crate::trace::value::show;
 use rayon::prelude::*;
+use simulated::Simulated;
 use std::fmt;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The cases that a thread takes at a time.
+/// The cases that a thread takes at a time; a multiple of those that run side by side.
 const CHUNK: u64 = 1 << 14;
 
 /// What a circuit makes of a fixed number of ticks from power-on, for every case of a finite space:
@@ -17,7 +20,7 @@ const CHUNK: u64 = 1 << 14;
 ///
 /// A case is a bundle of words; its index is what they are packed. What goes in and what is seen is
 /// written in words of any meaning, as a circuit is. What is expected is plain arithmetic on
-/// numbers, by other means than the circuit's: a compiler deletes a check that it can prove.
+/// numbers, by other means than the circuit's.
 pub trait Law: Sync {
     /// The circuit.
     type Circuit: Circuit + Sync;
@@ -90,8 +93,8 @@ pub struct Sweep<'a, W: Law> {
     progress: Option<&'a (dyn Fn(u64) + Sync)>,
 }
 
-/// Checks a law on every case: [`Lanes`] of them at a time, on as many threads as rayon has. The
-/// counterexample is the case with the lowest index, however many threads and lanes there are.
+/// Checks a law on every case, many of them side by side, on as many threads as rayon has. The
+/// counterexample is the case with the lowest index, however many threads there are.
 #[must_use = "nothing is checked before it runs"]
 pub fn sweep<W: Law>(law: &W) -> Sweep<'_, W> {
     Sweep {
@@ -123,36 +126,51 @@ impl<'a, W: Law> Sweep<'a, W> {
         self
     }
 
-    /// Runs it with `K` lanes of elements `E`, in which every word of the circuit has to fit.
-    /// Without lanes it is not compiled.
+    /// Runs it: the law is unrolled once into gates from the bits of a case to those of what is seen,
+    /// which many cases run through side by side. A circuit with memories, and one of which there
+    /// would be too many gates, is run case by case as by [`run_simulated`](Self::run_simulated).
     ///
     /// # Errors
-    /// A case has more than 63 bits, or what is seen more than 64.
-    pub fn run<const K: usize, E: Element>(self) -> Result<Swept<W::Circuit>, CheckError> {
-        const { assert!(K > 0, "a sweep needs a lane") };
+    /// A case has more than 63 bits, or what is seen more than 64, or the circuit cannot be run.
+    pub fn run(self) -> Result<Swept<W::Circuit>, CheckError> {
+        cases::<W>()?;
         let law = self.law;
-        let held = AtomicU64::new(0);
-        let first = self.first(|chunk| {
-            let (meant, first) = by_lanes::<W, K, E>(law, chunk);
-            held.fetch_add(meant, Ordering::Relaxed);
-            first
-        })?;
-        self.outcome(first, held.into_inner())
+        let model = Model::of(law.circuit())?;
+        match unrolled::unrolled(law) {
+            Some(sliced) => self.checked(&model, |chunk| unrolled::check(law, &sliced, chunk)),
+            None => self.run_simulated(),
+        }
     }
 
-    /// Runs it case by case in the meaning [`Sim`], for words wider than any lane.
+    /// Runs it case by case, as a simulation runs.
     ///
     /// # Errors
-    /// A case has more than 63 bits, or what is seen more than 64.
+    /// A case has more than 63 bits, or what is seen more than 64, or the circuit cannot be run.
     pub fn run_simulated(self) -> Result<Swept<W::Circuit>, CheckError> {
+        cases::<W>()?;
         let law = self.law;
+        let model = Model::of(law.circuit())?;
+        let simulated = Simulated::new(&model);
+        self.checked(&model, |chunk| simulated.check(law, chunk))
+    }
+
+    /// Checks chunk by chunk on all threads; `check` says how many cases of one are meant, and which
+    /// is the first that is wrong.
+    fn checked(
+        self,
+        model: &Model,
+        check: impl Fn(Range<u64>) -> (u64, Option<u64>) + Sync,
+    ) -> Result<Swept<W::Circuit>, CheckError> {
         let held = AtomicU64::new(0);
         let first = self.first(|chunk| {
-            let (meant, first) = one_by_one(law, chunk);
+            let (meant, first) = check(chunk);
             held.fetch_add(meant, Ordering::Relaxed);
             first
         })?;
-        self.outcome(first, held.into_inner())
+        Ok(match first {
+            None => Swept::Held(held.into_inner()),
+            Some(index) => Swept::Counterexample(Box::new(replayed(self.law, model, index))),
+        })
     }
 
     /// The lowest index that `check` finds wrong, chunk by chunk on all threads.
@@ -163,24 +181,19 @@ impl<'a, W: Law> Sweep<'a, W> {
         let all = cases::<W>()?;
         let range = self.range.clone().unwrap_or(0..all);
         let (from, to) = (range.start, range.end.min(all));
-        let chunks = to.saturating_sub(from).div_ceil(CHUNK);
-        let chunks = (0..chunks).into_par_iter();
+        if from >= to {
+            return Ok(None);
+        }
+        let chunks = (from / CHUNK..to.div_ceil(CHUNK)).into_par_iter();
         Ok(chunks.find_map_first(|chunk| {
-            let begin = from + chunk * CHUNK;
-            let end = to.min(begin + CHUNK);
+            let begin = from.max(chunk * CHUNK);
+            let end = to.min((chunk + 1) * CHUNK);
             let first = check(begin..end);
             if let Some(report) = self.progress {
                 report(end - begin);
             }
             first
         }))
-    }
-
-    fn outcome(&self, first: Option<u64>, held: u64) -> Result<Swept<W::Circuit>, CheckError> {
-        Ok(match first {
-            None => Swept::Held(held),
-            Some(index) => Swept::Counterexample(Box::new(replayed(self.law, index)?)),
-        })
     }
 }
 
@@ -194,77 +207,13 @@ impl<W: Law> fmt::Debug for Sweep<'_, W> {
     }
 }
 
-/// What is seen of a case in the end.
-#[inline(always)]
-fn seen<W: Law, L: Logic>(
-    law: &W,
-    power_on: <W::Circuit as Circuit>::Reg<L>,
-    case: &W::Case<L>,
-    nothing: W::Seen<L>,
-) -> W::Seen<L> {
-    let circuit = law.circuit();
-    let (mut q, mut seen) = (power_on, nothing);
-    for tick in 0..law.ticks() {
-        let i = law.input(case, tick);
-        let w = circuit.comb(&q, &i);
-        let now = Moment {
-            i: &i,
-            q: &q,
-            w: &w,
-        };
-        seen = law.see(seen, tick, &now);
-        q = L::clock(circuit, q, &w, &i);
-    }
-    seen
-}
-
-/// How many cases are meant, and the first that is wrong.
-#[inline(never)]
-fn by_lanes<W: Law, const K: usize, E: Element>(law: &W, chunk: Range<u64>) -> (u64, Option<u64>) {
-    let power_on: <W::Circuit as Circuit>::Reg<Lanes<K, E>> = spread(&law.circuit().power_on());
-    let mut meant = 0;
-    for index in chunk.clone().step_by(K) {
-        let case = unpack(std::array::from_fn(|k| index + k as u64));
-        let seen = seen::<W, Lanes<K, E>>(law, power_on.clone(), &case, unpack([0; K]));
-        let seen = pack(&seen);
-        for (index, seen) in (index..chunk.end).zip(seen) {
-            if let Some(expected) = law.expected(&from_word(index)) {
-                meant += 1;
-                if to_word(&expected) != seen {
-                    return (meant, Some(index));
-                }
-            }
-        }
-    }
-    (meant, None)
-}
-
-/// The same case by case.
-#[inline(never)]
-fn one_by_one<W: Law>(law: &W, chunk: Range<u64>) -> (u64, Option<u64>) {
-    let power_on = law.circuit().power_on();
-    let mut meant = 0;
-    for index in chunk {
-        let case = from_word(index);
-        let Some(expected) = law.expected(&case) else {
-            continue;
-        };
-        meant += 1;
-        let seen = seen::<W, Sim>(law, power_on.clone(), &case, zero());
-        if to_word(&expected) != to_word(&seen) {
-            return (meant, Some(index));
-        }
-    }
-    (meant, None)
-}
-
 /// A case that is wrong, played in simulation.
-fn replayed<W: Law>(law: &W, index: u64) -> Result<Counterexample<W::Circuit>, CheckError> {
+fn replayed<W: Law>(law: &W, model: &Model, index: u64) -> Counterexample<W::Circuit> {
     let case: W::Case<Sim> = from_word(index);
     let inputs = (0..law.ticks())
         .map(|tick| law.input(&case, tick))
         .collect();
-    let seen = seen::<W, Sim>(law, law.circuit().power_on(), &case, zero());
+    let seen = Simulated::new(model).seen(law, &case);
     let seen = Named::of(&seen);
     let expected = law.expected(&case).map(|expected| Named::of(&expected));
     let differing: Vec<_> = expected.into_iter().flatten().zip(seen).collect();
@@ -275,20 +224,14 @@ fn replayed<W: Law>(law: &W, index: u64) -> Result<Counterexample<W::Circuit>, C
         found.push(format!("{name} is {seen}, not {expected}"));
     }
     if found.is_empty() {
-        // The lanes and the simulation disagree: a fault of the former, and no reason to be silent.
-        found.push("the lanes say so, simulation does not".to_owned());
+        // The gates and the simulation disagree: a fault of the former, and no reason to be silent.
+        found.push("the unrolled circuit says so, simulation does not".to_owned());
     }
     let case = Named::of(&case).map(|(name, value)| format!("{name} = {value}"));
     let case = case.collect::<Vec<_>>().join(", ");
     let message = format!("{} with {case} (case {index})", found.join(", "));
     let fault = Fault { signals, message };
-    let model = Model::of(law.circuit())?;
-    Ok(Counterexample::new(
-        &model,
-        inputs,
-        law.name().to_owned(),
-        fault,
-    ))
+    Counterexample::new(model, inputs, law.name().to_owned(), fault)
 }
 
 /// The leaves of a bundle by name, as numbers.

@@ -19,6 +19,7 @@ mod program;
 mod random;
 mod report;
 mod run;
+pub(crate) mod sliced;
 mod tier;
 mod value;
 

@@ -1,19 +1,17 @@
 //! The words a circuit is written in, and what they may mean.
 //!
 //! A circuit is generic over [`Logic`]: it says *which* words it adds, compares and stores, and
-//! whoever runs it says what a word *is*. [`Sim`] makes it a number, [`Lanes`] several numbers side by
-//! side, [`Netlist`] a node of a netlist. A circuit therefore never looks at a value: there is no `if` on a
+//! whoever runs it says what a word *is*. [`Sim`] makes it a number, [`Netlist`] a node of a
+//! netlist. A circuit therefore never looks at a value: there is no `if` on a
 //! [`Logic::Bit`], only [`Bit::mux`].
 //!
 //! Words wrap, as registers do. An operation whose result has another width than its operands
 //! takes that width as a const parameter ([`Unsigned::resize`], [`Unsigned::times`], …).
 
-pub mod lanes;
 mod memory;
 pub mod netlist;
 pub mod sim;
 
-pub use lanes::Lanes;
 pub use memory::{Image, Ram, ShiftRegister};
 pub use netlist::Netlist;
 pub use sim::Sim;

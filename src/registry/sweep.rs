@@ -4,7 +4,6 @@ use super::Verdict;
 use super::circuits::make::{RULES, one_of};
 use crate::check::{CheckError, Law, Swept, cases, sweep};
 use crate::linear_interpolator::{Integrator, LineSweep, Rule};
-use crate::logic::lanes::Element;
 use crate::trace::Clock;
 use crate::trace::atomic::Directory;
 use std::ops::Range;
@@ -41,15 +40,7 @@ pub static SWEEPS: &[SweepEntry] = &[SweepEntry {
 }];
 
 fn line<const P: usize, const R: usize>(rule: Rule) -> Box<dyn AnySweep> {
-    in_lanes::<_, 64, u16>(LineSweep::<P, R>::new(Integrator::new(rule)))
-}
-
-/// A law with the lanes that it is swept in.
-fn in_lanes<W: Law + 'static, const K: usize, E: Element>(law: W) -> Box<dyn AnySweep> {
-    Box::new(InLanes::<W, K, E> {
-        law,
-        element: std::marker::PhantomData,
-    })
+    Box::new(LineSweep::<P, R>::new(Integrator::new(rule)))
 }
 
 /// A law with its circuit, its type forgotten.
@@ -74,14 +65,9 @@ pub trait AnySweep: Sync {
     ) -> Result<Verdict<u64>, CheckError>;
 }
 
-struct InLanes<W, const K: usize, E> {
-    law: W,
-    element: std::marker::PhantomData<E>,
-}
-
-impl<W: Law, const K: usize, E: Element> AnySweep for InLanes<W, K, E> {
+impl<W: Law> AnySweep for W {
     fn law(&self) -> &str {
-        self.law.name()
+        self.name()
     }
 
     fn cases(&self) -> Result<u64, CheckError> {
@@ -94,14 +80,14 @@ impl<W: Law, const K: usize, E: Element> AnySweep for InLanes<W, K, E> {
         waves: Option<&Path>,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Verdict<u64>, CheckError> {
-        let swept = sweep(&self.law).range(range).progress(progress);
-        Ok(match swept.run::<K, E>()? {
+        let swept = sweep(self).range(range).progress(progress);
+        Ok(match swept.run()? {
             Swept::Held(cases) => Verdict::Proved(cases),
             Swept::Counterexample(found) => Verdict::Broken {
                 report: found.to_string(),
                 waves: waves.map_or(Ok(Vec::new()), |directory| {
                     let _directory = Directory::create(directory)?;
-                    found.save(self.law.circuit(), Clock::default(), directory)
+                    found.save(self.circuit(), Clock::default(), directory)
                 }),
             },
         })

@@ -13,7 +13,7 @@ use super::flat::Flat;
 /// All passes: what is left does the same for whoever looks at the wanted leaves and properties.
 ///
 /// A pass can make work for another, but two rounds leave next to nothing of it.
-pub(super) fn all(flat: &Flat, wanted: &[bool]) -> Flat {
+pub(crate) fn all(flat: &Flat, wanted: &[bool]) -> Flat {
     let once = equal(&constants(flat));
     dead(&equal(&constants(&once)), wanted)
 }

@@ -16,6 +16,8 @@ pub(super) struct Elaboration {
     pub(super) open: Vec<Builder>,
     pub(super) modules: Vec<Module>,
     pub(super) errors: Vec<NetlistError>,
+    /// Circuits inside the outermost are no modules: their nodes are among those around them.
+    pub(super) in_place: bool,
 }
 
 thread_local! {
@@ -66,6 +68,11 @@ pub(super) fn elaboration<R>(work: impl FnOnce(&mut Elaboration) -> R) -> R {
     ELABORATION.with(|elaboration| work(&mut elaboration.borrow_mut()))
 }
 
+/// Whether circuits inside are no modules.
+pub(super) fn in_place() -> bool {
+    elaboration(|elaboration| elaboration.in_place)
+}
+
 /// Works on the module being made. Words that are made outside of any circuit go to one that
 /// nobody asks for.
 pub(super) fn builder<R>(work: impl FnOnce(&mut Builder) -> R) -> R {
@@ -110,6 +117,10 @@ pub(super) fn read_after_write(memory: usize) {
 
 /// A parameter: the one of that name, or a new one.
 pub(super) fn parameter<const N: usize>(name: &'static str, value: u64) -> NetUInt<N> {
+    if in_place() {
+        // Those of circuits that are not told apart may have the same name.
+        return value.into();
+    }
     NetUInt(builder(|builder| {
         let same = |(known, _): &(Parameter, u64)| known.name == name && known.width == N;
         let known = builder.parameters.iter().position(same);

@@ -1,5 +1,5 @@
 use super::Netlist;
-use super::build::{Builder, Building, Elaboration, PowerOn, builder, elaboration};
+use super::build::{Builder, Building, Elaboration, PowerOn, builder, elaboration, in_place};
 use super::leaves::{Leaves, NextRegisters, Ports};
 use super::memory::State;
 use super::module::{Child, Design, Module, NetlistError, Register, Setting, Value};
@@ -24,21 +24,21 @@ pub fn elaborate<C: Circuit>(circuit: &C) -> Result<Design, Vec<NetlistError>> {
 }
 
 /// The elaboration of a whole circuit.
-struct Whole {
+pub(super) struct Whole {
     /// A thread may be in the middle of another one.
     outer: Elaboration,
     power_on: Vec<PowerOn>,
 }
 
 impl Whole {
-    fn begin() -> Self {
+    pub(super) fn begin() -> Self {
         Whole {
             outer: elaboration(mem::take),
             power_on: Vec::new(),
         }
     }
 
-    fn end(self, mut settings: Vec<Setting>) -> Result<Design, Vec<NetlistError>> {
+    pub(super) fn end(self, mut settings: Vec<Setting>) -> Result<Design, Vec<NetlistError>> {
         let made = elaboration(|elaboration| mem::replace(elaboration, self.outer));
         settings.retain(|setting| match setting.value {
             Value::Number(_) => true,
@@ -81,7 +81,7 @@ fn module<C: Circuit>(circuit: &C, power_on: Vec<PowerOn>) -> (usize, Vec<Settin
 }
 
 /// A module begins, inside the one that is being made.
-fn begin(name: &'static str, power_on: Vec<PowerOn>) {
+pub(super) fn begin(name: &'static str, power_on: Vec<PowerOn>) {
     elaboration(|elaboration| {
         elaboration.open.push(Builder {
             name,
@@ -92,7 +92,7 @@ fn begin(name: &'static str, power_on: Vec<PowerOn>) {
 }
 
 /// It ends; returns its number and its settings.
-fn end(about: &'static str, nets: Nets, edge: Vec<Leaf>) -> (usize, Vec<Setting>) {
+pub(super) fn end(about: &'static str, nets: Nets, edge: Vec<Leaf>) -> (usize, Vec<Setting>) {
     elaboration(|elaboration| {
         let builder = elaboration.open.pop().unwrap_or_default();
         let (module, settings) = builder.finish(
@@ -165,6 +165,9 @@ pub(super) fn settle<C: Circuit>(
     q: &C::Reg<Netlist>,
     i: &C::In<Netlist>,
 ) -> C::Net<Netlist> {
+    if in_place() {
+        return circuit.comb(q, i);
+    }
     let (mut registers, mut inputs) = (Vec::new(), Vec::new());
     look(q, Role::Register, &mut registers);
     look(i, Role::Input, &mut inputs);
@@ -209,9 +212,17 @@ fn instance(
 }
 
 /// What a circuit inside the one that is being made makes of its registers.
-pub(super) fn clock<C: Circuit>(q: &C::Reg<Netlist>) -> C::Reg<Netlist> {
+pub(super) fn clock<C: Circuit>(
+    circuit: &C,
+    q: C::Reg<Netlist>,
+    w: &C::Net<Netlist>,
+    i: &C::In<Netlist>,
+) -> C::Reg<Netlist> {
+    if in_place() {
+        return circuit.next(q, w, i);
+    }
     let mut registers = Vec::new();
-    look(q, Role::Register, &mut registers);
+    look(&q, Role::Register, &mut registers);
     let place = places(registers).start;
     make(Role::Register, &mut NextRegisters { place })
 }

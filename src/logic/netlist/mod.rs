@@ -13,6 +13,7 @@ mod nets;
 mod node;
 mod outline;
 mod properties;
+mod unroll;
 mod walk;
 mod words;
 
@@ -24,6 +25,7 @@ pub use module::{
 };
 pub use node::{Id, Node, Operator};
 pub(crate) use outline::{outline, parts, places};
+pub(crate) use unroll::{Constants, combinational, nodes};
 pub use words::{NetBit, NetInt, NetUInt};
 
 use super::{Image, Logic};
@@ -53,11 +55,11 @@ impl Logic for Netlist {
     }
 
     fn clock<C: Circuit>(
-        _: &C,
+        circuit: &C,
         q: C::Reg<Self>,
-        _: &C::Net<Self>,
-        _: &C::In<Self>,
+        w: &C::Net<Self>,
+        i: &C::In<Self>,
     ) -> C::Reg<Self> {
-        elaborate::clock::<C>(&q)
+        elaborate::clock(circuit, q, w, i)
     }
 }

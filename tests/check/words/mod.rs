@@ -1,8 +1,7 @@
 //! The words and memories of simulation against oracles that know nothing of them: `i128`
-//! arithmetic for words, vectors for memories. Lanes of them against one.
+//! arithmetic for words, vectors for memories.
 
 mod edges;
-mod lanes;
 mod memories;
 mod signed;
 mod unsigned;

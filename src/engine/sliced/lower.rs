@@ -1,0 +1,145 @@
+//! The wires of a netlist's nodes.
+
+use super::NotSliced;
+use super::gates::{Gates, HIGH, LOW, Wire};
+use crate::engine::flat::{Flat, Id, Op, Place, Port};
+
+/// More gates than this are not worth their while.
+const MOST: usize = 1 << 22;
+
+/// The wires of a combinational netlist, lowest bit first.
+struct Lowering<'f> {
+    flat: &'f Flat,
+    /// The first bit of each port in.
+    ports: Vec<u32>,
+    gates: Gates,
+    words: Vec<Vec<Wire>>,
+}
+
+/// The gates of a combinational netlist, and the wires of its leaves that are no ports in, one
+/// behind the other.
+pub fn lowered(flat: &Flat) -> Result<(Gates, Vec<Wire>), NotSliced> {
+    let mut bits = 0;
+    let ports = flat.inputs.iter().map(|&width| {
+        bits += u32::from(width);
+        bits - u32::from(width)
+    });
+    let mut lowering = Lowering {
+        ports: ports.collect(),
+        flat,
+        gates: Gates::new(),
+        words: Vec::with_capacity(flat.nodes.len()),
+    };
+    for id in 0..flat.nodes.len() as Id {
+        let word = lowering.node(id)?;
+        lowering.words.push(word);
+        if lowering.gates.gates.len() > MOST {
+            return Err(NotSliced);
+        }
+    }
+    let mut out = Vec::new();
+    for place in &flat.leaves[flat.parts[0]..] {
+        match *place {
+            Place::Node(id) => out.extend_from_slice(lowering.word(id)),
+            Place::Input(port) => out.extend(lowering.port(port)),
+            Place::Register(_) | Place::Word(..) => return Err(NotSliced),
+        }
+    }
+    Ok((lowering.gates, out))
+}
+
+/// A word of zeros with another from bit `low` on.
+fn moved(word: &[Wire], low: usize, width: usize) -> Vec<Wire> {
+    let zeros = std::iter::repeat_n(LOW, low);
+    let moved = zeros.chain(word.iter().copied());
+    let above = std::iter::repeat(LOW);
+    moved.chain(above).take(width).collect()
+}
+
+/// A word from bit `low` up, with `above` above it.
+fn from(word: &[Wire], low: usize, above: Wire, width: usize) -> Vec<Wire> {
+    let word = word.iter().copied().skip(low);
+    word.chain(std::iter::repeat(above)).take(width).collect()
+}
+
+fn inverse(word: &[Wire]) -> Vec<Wire> {
+    word.iter().map(|&wire| !wire).collect()
+}
+
+/// Where its sign is the other way round, a word is where it is in the order of unsigned ones.
+fn in_order(word: &[Wire]) -> Vec<Wire> {
+    let mut word = word.to_vec();
+    if let Some(sign) = word.last_mut() {
+        *sign = !*sign;
+    }
+    word
+}
+
+impl Lowering<'_> {
+    fn word(&self, id: Id) -> &[Wire] {
+        &self.words[id as usize]
+    }
+
+    fn port(&mut self, port: u32) -> Vec<Wire> {
+        let first = self.ports[port as usize];
+        let bits = first..first + u32::from(self.flat.inputs[port as usize]);
+        bits.map(|bit| self.gates.input(bit)).collect()
+    }
+
+    fn node(&mut self, id: Id) -> Result<Vec<Wire>, NotSliced> {
+        let node = self.flat.node(id);
+        let width = usize::from(node.width);
+        let words = &self.words;
+        let word = |id: Id| &words[id as usize][..];
+        let sign = |id: Id| word(id).last().copied().unwrap_or(LOW);
+        let gates = &mut self.gates;
+        let mut pairs = |a: Id, b: Id, gate: fn(&mut Gates, Wire, Wire) -> Wire| {
+            let pairs = word(a).iter().zip(word(b));
+            pairs.map(|(&a, &b)| gate(gates, a, b)).collect()
+        };
+        Ok(match node.op {
+            Op::Constant(bits) => (0..width)
+                .map(|bit| if bits >> bit & 1 == 1 { HIGH } else { LOW })
+                .collect(),
+            Op::Input(port) => self.port(port),
+            Op::Register(_) => return Err(NotSliced),
+            Op::Not(a) => inverse(word(a)),
+            Op::Negate(a) => gates.add(&inverse(word(a)), &vec![LOW; width], HIGH).0,
+            Op::Add(a, b) => gates.add(word(a), word(b), LOW).0,
+            Op::Subtract(a, b) => gates.add(word(a), &inverse(word(b)), HIGH).0,
+            Op::Multiply(a, b) => gates.multiply(word(a), word(b)),
+            Op::And(a, b) => pairs(a, b, Gates::and),
+            Op::Or(a, b) => pairs(a, b, Gates::or),
+            Op::Xor(a, b) => pairs(a, b, Gates::xor),
+            Op::Equal(a, b) => vec![gates.equal(word(a), word(b))],
+            Op::Below(a, b) => vec![gates.below(word(a), word(b))],
+            Op::BelowSigned(a, b) => {
+                let [a, b] = [a, b].map(|id| in_order(word(id)));
+                vec![gates.below(&a, &b)]
+            }
+            Op::Mux(choose, then, other) => {
+                let choose = word(choose)[0];
+                let pairs = word(then).iter().zip(word(other));
+                pairs
+                    .map(|(&then, &other)| gates.mux(choose, then, other))
+                    .collect()
+            }
+            Op::ShiftLeft(a, by) => moved(word(a), by.into(), width),
+            Op::ShiftRight(a, by) | Op::Slice(a, by) => from(word(a), by.into(), LOW, width),
+            Op::ShiftRightSigned(a, by) => from(word(a), by.into(), sign(a), width),
+            Op::Extend(a) => from(word(a), 0, LOW, width),
+            Op::ExtendSigned(a) => from(word(a), 0, sign(a), width),
+            Op::Join(high, low) => {
+                let joined = [word(low), word(high)].concat();
+                from(&joined, 0, LOW, width)
+            }
+            Op::Read(memory, address) => {
+                let memory = &self.flat.memories[memory as usize];
+                match memory.port {
+                    Port::Rom => gates.table(&memory.contents, word(address), memory.width),
+                    Port::Ram { .. } | Port::Shift { .. } => return Err(NotSliced),
+                }
+            }
+        })
+    }
+}

@@ -1,0 +1,215 @@
+//! Gates in an order, in which they run.
+
+use super::NotSliced;
+use super::gates::{Gate, Gates, Wire};
+use super::lower::lowered;
+use super::transpose;
+use crate::engine::Flat;
+
+/// Words of 64 cases in a slice.
+const WORDS: usize = 8;
+/// Cases side by side.
+pub const LANES: usize = 64 * WORDS;
+
+/// A bit of every case.
+type Slice = [u64; WORDS];
+
+/// Which gate a step is, and which of its operands are taken inverted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Code {
+    And,
+    /// The second inverted.
+    AndNot,
+    /// Both inverted.
+    Nor,
+    Xor,
+    Mux,
+    /// The second inverted.
+    MuxNot,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Step {
+    code: Code,
+    to: u32,
+    a: u32,
+    b: u32,
+    c: u32,
+}
+
+/// A combinational netlist of which many cases run side by side. A case is a number: the bits of the
+/// ports in, the first in the lowest, at most 64.
+#[derive(Debug)]
+pub struct Sliced {
+    steps: Vec<Step>,
+    /// The bits of a case that are used, and where they stand.
+    inputs: Vec<(u32, u32)>,
+    /// Where the bits of the leaves stand, and whether inverted.
+    out: Vec<(u32, bool)>,
+    slots: usize,
+}
+
+impl Sliced {
+    /// That of the leaves of a netlist that are no ports in.
+    ///
+    /// # Errors
+    /// It has registers or memories that are written, or too many gates.
+    pub fn of(flat: &Flat) -> Result<Sliced, NotSliced> {
+        let (gates, out) = lowered(flat)?;
+        Ok(ordered(&gates, &out))
+    }
+}
+
+/// Takes one slot for each gate, which another takes over behind its last use.
+fn ordered(gates: &Gates, out: &[Wire]) -> Sliced {
+    const NEVER: usize = usize::MAX;
+    let count = gates.gates.len();
+    let mut last: Vec<Option<usize>> = vec![None; count];
+    for wire in out {
+        last[wire.gate()] = Some(NEVER);
+    }
+    for (index, gate) in gates.gates.iter().enumerate().rev() {
+        if last[index].is_some() {
+            for wire in gate.operands() {
+                last[wire.gate()].get_or_insert(index);
+            }
+        }
+    }
+    let mut sliced = Sliced {
+        steps: Vec::new(),
+        inputs: Vec::new(),
+        out: Vec::new(),
+        slots: 1,
+    };
+    let mut slots: Vec<u32> = vec![0; count];
+    let mut free: Vec<u32> = Vec::new();
+    for (index, gate) in gates.gates.iter().enumerate().skip(1) {
+        if last[index].is_none() {
+            continue;
+        }
+        // What is used here last makes room for what is made here: a step reads before it writes.
+        for from in gate.operands().map(Wire::gate) {
+            if last[from] == Some(index) {
+                free.push(slots[from]);
+                last[from] = Some(NEVER);
+            }
+        }
+        if let Gate::Input(bit) = *gate {
+            // A slot of its own: it is set before the first step.
+            slots[index] = sliced.slots as u32;
+            sliced.slots += 1;
+            sliced.inputs.push((bit, slots[index]));
+            continue;
+        }
+        let to = free.pop().unwrap_or(sliced.slots as u32);
+        sliced.slots = sliced.slots.max(to as usize + 1);
+        sliced
+            .steps
+            .extend(step(*gate, to, |wire| slots[wire.gate()]));
+        slots[index] = to;
+    }
+    let out = out.iter();
+    sliced.out = out
+        .map(|wire| (slots[wire.gate()], wire.is_inverse()))
+        .collect();
+    sliced
+}
+
+/// The step that a gate is, which puts its wire `to` a slot; `at` gives those of its operands.
+fn step(gate: Gate, to: u32, at: impl Fn(Wire) -> u32) -> Option<Step> {
+    let (code, a, b, c) = match gate {
+        Gate::Low | Gate::Input(_) => return None,
+        Gate::And(a, b) => {
+            let (a, b) = if a.is_inverse() { (b, a) } else { (a, b) };
+            let code = match (a.is_inverse(), b.is_inverse()) {
+                (true, _) => Code::Nor,
+                (_, true) => Code::AndNot,
+                _ => Code::And,
+            };
+            (code, a, b, a)
+        }
+        Gate::Xor(a, b) => (Code::Xor, a, b, a),
+        Gate::Mux(a, b, c) if b.is_inverse() => (Code::MuxNot, a, b, c),
+        Gate::Mux(a, b, c) => (Code::Mux, a, b, c),
+    };
+    let [a, b, c] = [a, b, c].map(at);
+    Some(Step { code, to, a, b, c })
+}
+
+/// Slices of [`LANES`] cases.
+#[derive(Debug)]
+pub struct Run<'s> {
+    sliced: &'s Sliced,
+    slices: Vec<Slice>,
+}
+
+/// The bits that tell 64 cases in a row apart.
+const WITHIN: [u64; 6] = [
+    0xaaaa_aaaa_aaaa_aaaa,
+    0xcccc_cccc_cccc_cccc,
+    0xf0f0_f0f0_f0f0_f0f0,
+    0xff00_ff00_ff00_ff00,
+    0xffff_0000_ffff_0000,
+    0xffff_ffff_0000_0000,
+];
+
+impl<'s> Run<'s> {
+    /// None yet.
+    pub fn new(sliced: &'s Sliced) -> Self {
+        Run {
+            sliced,
+            slices: vec![[0; WORDS]; sliced.slots],
+        }
+    }
+
+    /// Runs the cases from `first` on, a multiple of [`LANES`].
+    pub fn run(&mut self, first: u64) {
+        for &(bit, slot) in &self.sliced.inputs {
+            self.slices[slot as usize] = std::array::from_fn(|word| {
+                let within = WITHIN.get(bit as usize).copied();
+                let cases = first + 64 * word as u64;
+                within.unwrap_or(if cases >> bit & 1 == 1 { u64::MAX } else { 0 })
+            });
+        }
+        let slices = &mut self.slices[..];
+        for step in &self.sliced.steps {
+            let a = &slices[step.a as usize];
+            let b = &slices[step.b as usize];
+            slices[step.to as usize] = match step.code {
+                Code::And => each(a, b, |a, b| a & b),
+                Code::AndNot => each(a, b, |a, b| a & !b),
+                Code::Nor => each(a, b, |a, b| !(a | b)),
+                Code::Xor => each(a, b, |a, b| a ^ b),
+                Code::Mux => {
+                    let c = &slices[step.c as usize];
+                    each3(a, b, c, |a, b, c| ((b ^ c) & a) ^ c)
+                }
+                Code::MuxNot => {
+                    let c = &slices[step.c as usize];
+                    each3(a, b, c, |a, b, c| ((!b ^ c) & a) ^ c)
+                }
+            };
+        }
+    }
+
+    /// The leaves of 64 cases in a row, each packed like its case; `word` says which 64.
+    pub fn seen(&self, word: usize) -> [u64; 64] {
+        let mut seen = [0; 64];
+        for (seen, &(slot, inverse)) in seen.iter_mut().zip(&self.sliced.out) {
+            let bits = self.slices[slot as usize][word];
+            *seen = if inverse { !bits } else { bits };
+        }
+        transpose(&mut seen);
+        seen
+    }
+}
+
+#[inline(always)]
+fn each(a: &Slice, b: &Slice, gate: impl Fn(u64, u64) -> u64) -> Slice {
+    std::array::from_fn(|word| gate(a[word], b[word]))
+}
+
+#[inline(always)]
+fn each3(a: &Slice, b: &Slice, c: &Slice, gate: impl Fn(u64, u64, u64) -> u64) -> Slice {
+    std::array::from_fn(|word| gate(a[word], b[word], c[word]))
+}

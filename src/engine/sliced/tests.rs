@@ -1,0 +1,189 @@
+//! Cases side by side against the meaning of the nodes, case by case.
+
+use super::{LANES, Run, Sliced, transpose};
+use crate::engine::flat::{Flat, Id, Node, Op, Place, Port, mask};
+use crate::engine::random::cases;
+use crate::engine::value;
+use proptest::prelude::*;
+
+/// The same without registers, with at most 63 bits of ports in, and with memories that stay as they
+/// are: what it would be in one tick of an unrolled run.
+fn combinational(mut flat: Flat) -> Flat {
+    let mut bits = 0;
+    let kept = flat.inputs.iter().take_while(|&&width| {
+        bits += usize::from(width);
+        bits < 64
+    });
+    let kept = kept.count();
+    for node in &mut flat.nodes {
+        node.op = match node.op {
+            Op::Register(register) => Op::Constant(flat.registers[register as usize].power_on),
+            Op::Input(port) if port as usize >= kept => {
+                Op::Constant(0x5a5a_1234_0ff0_9876 & mask(node.width))
+            }
+            op => op,
+        };
+    }
+    flat.inputs.truncate(kept);
+    flat.registers.clear();
+    flat.properties.clear();
+    for memory in &mut flat.memories {
+        memory.port = Port::Rom;
+    }
+    flat
+}
+
+/// Every node of a case, its ports in given packed.
+fn plain(flat: &Flat, case: u64) -> Vec<u64> {
+    let mut low = 0;
+    let ports = flat.inputs.iter().map(|&width| {
+        low += u32::from(width);
+        case >> (low - u32::from(width)) & mask(width)
+    });
+    let ports: Vec<u64> = ports.collect();
+    let mut words: Vec<u64> = Vec::new();
+    for node in &flat.nodes {
+        let word = match node.op {
+            Op::Input(port) => ports[port as usize],
+            Op::Read(memory, address) => {
+                let contents = &flat.memories[memory as usize].contents;
+                let word = contents.get(words[address as usize] as usize);
+                word.copied().unwrap_or(0)
+            }
+            _ => value::of(*node, |id| (words[id as usize], flat.node(id).width)),
+        };
+        words.push(word);
+    }
+    words
+}
+
+/// Holds what is seen of some nodes against what they are, in all cases from `first` on.
+fn check(flat: &Flat, seen: &[Id], first: u64) {
+    let places = seen.iter().map(|&id| Place::Node(id));
+    let flat = Flat {
+        leaves: places.collect(),
+        parts: [0; 2],
+        ..flat.clone()
+    };
+    let sliced = Sliced::of(&flat).expect("no registers");
+    let mut run = Run::new(&sliced);
+    // What an earlier run has left must not matter.
+    run.run(!first / 2 / LANES as u64 * LANES as u64);
+    run.run(first);
+    let cases = (0..LANES / 64).flat_map(|word| run.seen(word));
+    for (case, packed) in (first..).zip(cases) {
+        let words = plain(&flat, case);
+        let mut low = 0;
+        let mut expected = 0;
+        for &id in seen {
+            expected |= words[id as usize] << low;
+            low += u32::from(flat.node(id).width);
+        }
+        assert_eq!(packed, expected, "case {case} of nodes {seen:?}");
+    }
+}
+
+/// The last nodes of a netlist in groups of at most 64 bits.
+fn groups(flat: &Flat) -> Vec<Vec<Id>> {
+    let (mut groups, mut bits) = (vec![Vec::new()], 0);
+    for id in (0..flat.nodes.len() as Id).rev().take(24) {
+        bits += usize::from(flat.node(id).width);
+        if bits > 64 {
+            groups.push(Vec::new());
+            bits = flat.node(id).width.into();
+        }
+        groups.last_mut().expect("there is one").push(id);
+    }
+    groups
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_netlists_do_what_the_nodes_say(case in cases(true), first in any::<u64>()) {
+        let flat = combinational(case.flat);
+        let first = first / 2 / LANES as u64 * LANES as u64;
+        for group in groups(&flat) {
+            check(&flat, &group, first);
+        }
+    }
+}
+
+/// Every operation on words of `width` bits.
+fn operations(width: u8) -> Flat {
+    let mut flat = Flat {
+        inputs: vec![width, width, 1],
+        ..Flat::default()
+    };
+    let mut node = |op, width| {
+        flat.nodes.push(Node {
+            op,
+            width,
+            instance: 0,
+        });
+    };
+    node(Op::Input(0), width);
+    node(Op::Input(1), width);
+    node(Op::Input(2), 1);
+    node(Op::Constant(0x2d & mask(width)), width);
+    for (a, b) in [(0, 1), (0, 3), (3, 1), (0, 0)] {
+        for op in [
+            Op::Add(a, b),
+            Op::Subtract(a, b),
+            Op::Multiply(a, b),
+            Op::And(a, b),
+            Op::Or(a, b),
+            Op::Xor(a, b),
+            Op::Mux(2, a, b),
+        ] {
+            node(op, width);
+        }
+        for op in [Op::Equal(a, b), Op::Below(a, b), Op::BelowSigned(a, b)] {
+            node(op, 1);
+        }
+        node(Op::Join(a, b), 2 * width);
+    }
+    node(Op::Not(0), width);
+    node(Op::Negate(0), width);
+    for by in [0, 1, width - 1, width, 64] {
+        node(Op::ShiftLeft(0, by), width);
+        node(Op::ShiftRight(0, by), width);
+        node(Op::ShiftRightSigned(0, by), width);
+    }
+    node(Op::Slice(0, width - 1), 1);
+    node(Op::Slice(0, width / 2), width - width / 2);
+    node(Op::Extend(0), 2 * width);
+    node(Op::ExtendSigned(0), 2 * width);
+    flat
+}
+
+#[test]
+fn every_operation_at_every_narrow_width() {
+    for width in 1..=16 {
+        let flat = operations(width);
+        for id in 0..flat.nodes.len() as Id {
+            // All cases of narrow words, some of wide ones.
+            let all = (1u64 << (2 * width + 1)).div_ceil(LANES as u64);
+            let step = all.div_ceil(8);
+            for block in (0..all).step_by(step as usize) {
+                check(&flat, &[id], block * LANES as u64);
+            }
+        }
+    }
+}
+
+#[test]
+fn turned_over_twice_is_as_before() {
+    let word = |k: u64| (k + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let words: [u64; 64] = std::array::from_fn(|k| word(k as u64));
+    let mut turned = words;
+    transpose(&mut turned);
+    for (i, &word) in words.iter().enumerate() {
+        for (k, &column) in turned.iter().enumerate() {
+            assert_eq!(word >> k & 1, column >> i & 1);
+        }
+    }
+    transpose(&mut turned);
+    assert_eq!(turned, words);
+}
