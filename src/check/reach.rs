@@ -188,23 +188,21 @@ impl<'a, C: Circuit> Reach<'a, C> {
         let mut search = Search::new(power_on, visited, self.limit, self.progress.take());
         let looks_ahead = self.invariants.look_ahead();
         while let Some(state) = search.state() {
-            let q: Option<C::Reg<Sim>> = (!self.assume.is_empty()).then(|| from_word(state));
+            let q: C::Reg<Sim> = from_word(state);
+            states.unpack(state, &mut engine);
             let before = search.transitions;
             for (index, (i, words)) in inputs.iter().zip(&words).enumerate() {
-                let possible = |possible: &Assume<'_, C>| q.as_ref().is_none_or(|q| possible(q, i));
-                if !self.assume.iter().all(|assumption| possible(assumption)) {
+                if !self.assume.iter().all(|possible| possible(&q, i)) {
                     continue;
                 }
                 search.transitions += 1;
-                states.unpack(state, &mut engine);
                 engine.inputs(words);
                 engine.settle();
-                let next = looks_ahead.then(|| {
-                    after.restore(engine.slab());
-                    after.edge();
-                    record(Role::Register, &after)
-                });
-                let checked = Sample::show(search.depth, &engine, |now| {
+                // The edge is another engine's, so that the registers stay for the next inputs.
+                after.restore(engine.slab());
+                after.edge();
+                let next = looks_ahead.then(|| record(Role::Register, &after));
+                let checked = Sample::show_given(search.depth, &engine, (i, &q), |now| {
                     self.invariants.check(now, next.as_ref())
                 });
                 if let Err((name, fault)) = checked {
@@ -213,14 +211,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
                     let found = Counterexample::new(&model, way.collect(), name.to_owned(), fault);
                     return Ok(Outcome::Counterexample(Box::new(found)));
                 }
-                let next = match looks_ahead {
-                    true => states.pack(&after),
-                    false => {
-                        engine.edge();
-                        states.pack(&engine)
-                    }
-                };
-                if !search.found(next, index) {
+                if !search.found(states.pack(&after), index) {
                     return Ok(Outcome::Limit(search.progress()));
                 }
             }

@@ -38,7 +38,7 @@ pub fn report(engine: &Engine, ticks: u64, name: &dyn Fn(usize) -> String) -> St
     }
     let steps: usize = plan.blocks.iter().map(|block| block.steps.len()).sum();
     let mut text = format!(
-        "{} blocks with {steps} steps, {} of them make the edge; {} registers, {} memories, a state of {} words\n\n",
+        "blocks: {}, of which {} make the edge; steps: {steps}; registers: {}; memories: {}; words of state: {}\n\n",
         plan.blocks.len(),
         plan.blocks.len() - plan.settling,
         plan.registers.len(),

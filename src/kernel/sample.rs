@@ -40,6 +40,22 @@ impl<C: Circuit> Sample<'_, C> {
         at.of(self.engine)
     }
 
+    /// Shows a settled tick of which ports in and registers are at hand.
+    pub(crate) fn show_given<T>(
+        tick: u64,
+        engine: &Engine,
+        (i, q): (&C::In<Sim>, &C::Reg<Sim>),
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> T {
+        show(&Sample {
+            tick,
+            i: &Part::given(i, Role::Input, engine),
+            q: &Part::given(q, Role::Register, engine),
+            w: &Part::new(Role::Net, engine),
+            engine,
+        })
+    }
+
     /// What runs.
     pub fn engine(&self) -> &Engine {
         self.engine
@@ -67,6 +83,7 @@ impl<C: Circuit> fmt::Debug for Sample<'_, C> {
 /// Ports in, registers or nets of a circuit as a record of numbers, which is made when it is first
 /// looked at.
 pub struct Part<'a, S> {
+    given: Option<&'a S>,
     made: OnceCell<S>,
     role: Role,
     engine: &'a Engine,
@@ -75,9 +92,18 @@ pub struct Part<'a, S> {
 impl<'a, S> Part<'a, S> {
     pub(super) fn new(role: Role, engine: &'a Engine) -> Self {
         Part {
+            given: None,
             made: OnceCell::new(),
             role,
             engine,
+        }
+    }
+
+    /// The same where the record is at hand.
+    fn given(record: &'a S, role: Role, engine: &'a Engine) -> Self {
+        Part {
+            given: Some(record),
+            ..Part::new(role, engine)
         }
     }
 
@@ -92,7 +118,10 @@ impl<S: Signals<Sim>> Deref for Part<'_, S> {
     type Target = S;
 
     fn deref(&self) -> &S {
-        self.made.get_or_init(|| record(self.role, self.engine))
+        match self.given {
+            Some(record) => record,
+            None => self.made.get_or_init(|| record(self.role, self.engine)),
+        }
     }
 }
 

@@ -18,6 +18,7 @@ mod machine;
 #[cfg(target_os = "linux")]
 mod memory;
 mod notes;
+mod plan;
 mod readme;
 mod refusals;
 mod runs;

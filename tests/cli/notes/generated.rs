@@ -137,7 +137,7 @@ fn signals(entry: &Entry) -> String {
         false => format!("Widths: {}.\n\n", widths(entry)),
     };
     text += "| signal | bits | role | power-on | meaning |\n|---|---|---|---|---|\n";
-    let declarations = entry.declarations();
+    let declarations = (entry.full)().declarations().expect("a netlist");
     let names: HashMap<_, _> = declarations.own().into_iter().collect();
     let mut memories = declarations
         .memories
