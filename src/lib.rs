@@ -165,6 +165,7 @@
 //!     meter = next;
 //! }
 //! assert_eq!(ways[1..], [25, 25, 25]);
+//! # Ok::<(), motion_rtl::engine::EngineError>(())
 //! ```
 //!
 //! # A golden model for my HDL

@@ -11,7 +11,7 @@
 //! inputs on both sides, so neither folds them. Waves are those of every signal and of `clk`; words
 //! of memories with more than 256 are in ours only.
 //!
-//! It needs Verilator, a C++ compiler and make. `--quick` runs each once over few ticks; a word is looked for in the names of the circuits.
+//! It needs Verilator, a C++ compiler and make. `--alone` is without it: the model alone. `--quick` runs each once over few ticks; a word is looked for in the names of the circuits.
 
 mod jobs;
 mod ours;
@@ -19,8 +19,10 @@ mod stimulus;
 mod theirs;
 
 use jobs::{Clock, Job};
+use motion_rtl::kernel::Simulator;
 use ours::{Ours, Outputs, Waves, Way};
-use std::time::Duration;
+use std::time::{Duration, Instant};
+use stimulus::Stimulus;
 use theirs::{Build, Verilated};
 
 /// Outputs that are read now and then are read in every so many ticks.
@@ -37,6 +39,8 @@ const ROUNDS: usize = 15;
 struct Asked {
     /// Few ticks, to see that all of it works.
     quick: bool,
+    /// No Verilator: the model alone.
+    alone: bool,
     /// The circuits whose names contain this.
     only: Option<String>,
 }
@@ -111,6 +115,10 @@ fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
     }
     let Job { circuit, stimulus } = job(asked.ticks(UNTRACED));
     let (circuit, stimulus) = (&circuit, &stimulus);
+    if asked.alone {
+        alone(asked, name, circuit, stimulus);
+        return;
+    }
     let directory = tempfile::tempdir().expect("room");
     let path = directory.path();
     let traced = asked.ticks(TRACED).min(stimulus.ticks);
@@ -151,27 +159,56 @@ fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
     Times::measure(asked, traced, dump, run).print(name, "FST");
 }
 
+/// The model without Verilator: how long it takes to elaborate, plan and compile it, and medians of
+/// all ways to run it.
+fn alone<C: Outputs>(asked: &Asked, name: &str, circuit: &C, stimulus: &Stimulus) {
+    let begun = Instant::now();
+    let simulator = Simulator::watching(circuit, false, C::outputs).expect("a netlist");
+    let _compiled = simulator.0.compiled();
+    let ready = begun.elapsed().as_secs_f64() * 1e3;
+    let times = [Way::Compiled, Way::Interpreted, Way::Forward].map(|way| {
+        let ours = Ours::new(circuit, stimulus, way);
+        let each = |taken: Duration| taken.as_secs_f64() * 1e9 / stimulus.ticks as f64;
+        let rounds = 0..asked.rounds();
+        let times: Vec<_> = rounds.map(|_| each(ours.run(stimulus, 1).0)).collect();
+        median(&times)
+    });
+    let [compiled, interpreted, over] = times;
+    println!("{name:<36} {ready:>9.1} {compiled:>11.2} {interpreted:>11.1} {over:>11.2}");
+}
+
 fn main() {
     let mut asked = Asked {
         quick: false,
+        alone: false,
         only: None,
     };
     for argument in std::env::args().skip(1) {
         match argument.as_str() {
             "--quick" => asked.quick = true,
+            "--alone" => asked.alone = true,
             "--bench" => {}
             _ => asked.only = Some(argument),
         }
     }
     let asked = &asked;
-    if !theirs::is_installed() {
+    if asked.alone {
+        let columns = ["ready ms", "compiled", "interpreted", "gone over"];
+        let [a, b, c, d] = columns;
+        println!(
+            "{:<36} {a:>9} {b:>11} {c:>11} {d:>11}",
+            "nanoseconds a tick"
+        );
+    } else if !theirs::is_installed() {
         eprintln!("error: no verilator on PATH; this bench needs it, a C++ compiler and make");
         std::process::exit(1);
     }
-    println!(
-        "{:<36} {:<28} {:>9} {:>9} {:>6} {:>7}",
-        "nanoseconds a tick", "", "Verilator", "ours", "ratio", "fastest"
-    );
+    if !asked.alone {
+        println!(
+            "{:<36} {:<28} {:>9} {:>9} {:>6} {:>7}",
+            "nanoseconds a tick", "", "Verilator", "ours", "ratio", "fastest"
+        );
+    }
     circuit(asked, "pulse interpolator, 2 axes", jobs::bracket);
     measure(asked, "pulse interpolator, 8 axes", jobs::eight_axes);
     circuit(asked, "linear interpolator", jobs::plotting);

@@ -1,5 +1,4 @@
-use crate::engine::Engine;
-use crate::kernel::{Circuit, Declarations, Observer, Role, RunError, Sample};
+use crate::kernel::{Circuit, Declarations, Observer, Role, RunError, Sample, View};
 use std::fmt;
 use std::ops::{ControlFlow, Range};
 
@@ -84,12 +83,13 @@ impl Coverage {
     }
 
     /// Sees a settled tick.
-    pub(super) fn tick(&mut self, tick: u64, engine: &Engine) {
+    pub(super) fn tick(&mut self, tick: u64, view: View<'_>) {
         let follows = self.last.replace(tick).is_some_and(|last| last + 1 == tick);
+        let engine = view.engine;
         if !(follows && engine.program().watches_all()) {
             for (signal, seen) in self.signals.iter().zip(&mut self.seen) {
                 for leaf in signal.leaves.clone() {
-                    seen.see(engine.leaf(leaf));
+                    seen.see(view.leaf(leaf));
                 }
             }
             return;
@@ -99,8 +99,10 @@ impl Coverage {
         engine.changed(|place| {
             let watched = &plan.layout.watched[place];
             let mut see = |leaf: u32| {
-                let signal = self.of_leaf[leaf as usize];
-                self.seen[signal].see(engine.leaf(leaf as usize));
+                if let Some(shown) = view.shown(leaf) {
+                    let signal = self.of_leaf[shown as usize];
+                    self.seen[signal].see(engine.leaf(leaf as usize));
+                }
             };
             match watched.memory.map(|memory| memory as usize) {
                 // A stage that is shifted was seen where it came in.
@@ -140,7 +142,7 @@ impl Coverage {
 
 impl<C: Circuit> Observer<C> for Coverage {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        self.tick(now.tick, now.engine());
+        self.tick(now.tick, now.view());
         Ok(ControlFlow::Continue(()))
     }
 }

@@ -1,6 +1,6 @@
 use super::{Coverage, Stimulus};
 use crate::engine::Watch;
-use crate::kernel::{Circuit, Model, RunError};
+use crate::kernel::{Circuit, Model, RunError, View};
 use crate::trace::{Clock, Dump, Layout, Lines, Options, VcdFile};
 use std::io::{self, Write};
 
@@ -68,8 +68,8 @@ impl Drive {
             random.apply(&mut engine);
             engine.settle();
             lines.tick(&engine, rst, stimulus)?;
-            dump.tick(tick, &engine)?;
-            coverage.tick(tick, &engine);
+            dump.tick(tick, View::of(&engine))?;
+            coverage.tick(tick, View::of(&engine));
             match rst {
                 true => engine.reset(),
                 false => engine.edge(),

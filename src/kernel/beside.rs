@@ -140,6 +140,6 @@ impl<C: Circuit, B: Beside, O: Observer<C>> Observer<With<C, B>> for Without<O> 
 
     fn sample(&mut self, now: &Sample<'_, With<C, B>>) -> Result<ControlFlow<()>, RunError> {
         // Its ports in come first, and what stands beside it is among the ports in.
-        Sample::show(now.tick, now.engine(), |now| self.0.sample(now))
+        Sample::show_without(now.tick, now.engine(), |now| self.0.sample(now))
     }
 }

@@ -26,7 +26,7 @@ pub use pack::{Bits, pack, unpack, width, widths, words, zero};
 pub use probe::{Probe, Source, Words};
 pub(crate) use probe::{STAGE, WORD, part, show};
 pub use property::{Moment, Property};
-pub(crate) use sample::record;
 pub use sample::{At, Part, Place, Sample, Word};
+pub(crate) use sample::{View, record};
 pub use signals::{Field, Format, Kind, Make, Nothing, Role, Shape, Signals, Visit};
 pub use simulator::{Registers, Simulator, Watcher};

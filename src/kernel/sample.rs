@@ -1,5 +1,5 @@
 use super::probe::Source;
-use super::{Circuit, Field, Role, Shape, Signals, part};
+use super::{Circuit, Field, Role, Shape, Signals, part, widths};
 use crate::engine::{Engine, Spot};
 use crate::logic::Sim;
 use crate::logic::netlist::{NetBit, NetInt, NetUInt};
@@ -19,25 +19,40 @@ pub struct Sample<'a, C: Circuit> {
     pub q: &'a Part<'a, C::Reg<Sim>>,
     /// Nets.
     pub w: &'a Part<'a, C::Net<Sim>>,
-    engine: &'a Engine,
+    view: View<'a>,
 }
 
 impl<C: Circuit> Sample<'_, C> {
     /// Shows a settled tick.
     pub(crate) fn show<T>(tick: u64, engine: &Engine, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
+        Self::show_as(tick, View::of(engine), show)
+    }
+
+    /// The same of a circuit with signals beside it, without these.
+    pub(crate) fn show_without<T>(
+        tick: u64,
+        engine: &Engine,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> T {
+        let ports = widths::<C::In<Sim>>().len();
+        Self::show_as(tick, View::without(engine, ports), show)
+    }
+
+    fn show_as<T>(tick: u64, view: View<'_>, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
+        let engine = view.engine;
         show(&Sample {
             tick,
             i: &Part::new(Role::Input, engine),
             q: &Part::new(Role::Register, engine),
             w: &Part::new(Role::Net, engine),
-            engine,
+            view,
         })
     }
 
     /// What is watched at a place.
     #[inline]
     pub fn get<T: Word>(&self, at: At<T>) -> T {
-        at.of(self.engine)
+        at.of(self.view.engine)
     }
 
     /// Shows a settled tick of which ports in and registers are at hand.
@@ -52,18 +67,23 @@ impl<C: Circuit> Sample<'_, C> {
             i: &Part::given(i, Role::Input, engine),
             q: &Part::given(q, Role::Register, engine),
             w: &Part::new(Role::Net, engine),
-            engine,
+            view: View::of(engine),
         })
     }
 
     /// What runs.
     pub fn engine(&self) -> &Engine {
-        self.engine
+        self.view.engine
+    }
+
+    /// The leaves of the circuit.
+    pub(crate) fn view(&self) -> View<'_> {
+        self.view
     }
 
     /// The registers of the next tick, if no reset comes.
     pub fn next(&self) -> C::Reg<Sim> {
-        let mut engine = self.engine.clone();
+        let mut engine = self.view.engine.clone();
         engine.edge();
         record(Role::Register, &engine)
     }
@@ -77,6 +97,51 @@ impl<C: Circuit> fmt::Debug for Sample<'_, C> {
             .field("q", self.q)
             .field("w", self.w)
             .finish()
+    }
+}
+
+/// The leaves of an engine, without those of signals that stand beside the circuit: these come last
+/// among its ports in.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct View<'a> {
+    pub engine: &'a Engine,
+    first: usize,
+    count: usize,
+}
+
+impl<'a> View<'a> {
+    /// All of them.
+    pub fn of(engine: &'a Engine) -> Self {
+        View {
+            engine,
+            first: usize::MAX,
+            count: 0,
+        }
+    }
+
+    fn without(engine: &'a Engine, ports: usize) -> Self {
+        View {
+            engine,
+            first: ports,
+            count: engine.flat().inputs.len() - ports,
+        }
+    }
+
+    /// What a leaf of the circuit is.
+    pub fn leaf(self, leaf: usize) -> u64 {
+        match leaf < self.first {
+            true => self.engine.leaf(leaf),
+            false => self.engine.leaf(leaf + self.count),
+        }
+    }
+
+    /// The leaf of the circuit that one of the engine is.
+    pub fn shown(self, leaf: u32) -> Option<u32> {
+        match (leaf as usize).checked_sub(self.first) {
+            None => Some(leaf),
+            Some(behind) if behind < self.count => None,
+            Some(_) => Some(leaf - self.count as u32),
+        }
     }
 }
 

@@ -68,8 +68,9 @@ impl<C: Circuit> Simulator<C> {
     /// use motion_rtl::kernel::Simulator;
     /// use motion_rtl::pulse_interpolator::{UnitTimeCounter, unit_time_counter::In};
     ///
-    /// let choose = |watch: &motion_rtl::kernel::Watcher<_>| watch.at(watch.w.unit_rst);
-    /// let (mut simulator, unit_rst) = Simulator::watching(&UnitTimeCounter::<8>, false, choose)?;
+    /// let circuit = UnitTimeCounter::<8>;
+    /// let watched = Simulator::watching(&circuit, false, |watch| watch.at(watch.w.unit_rst));
+    /// let (mut simulator, unit_rst) = watched?;
     /// let mut pulses = 0;
     /// for _ in 0..100 {
     ///     let (next, pulse) = simulator.step(In { period: 4.into() }, |now| now.get(unit_rst));
@@ -110,6 +111,14 @@ impl<C: Circuit> Simulator<C> {
             tick,
             circuit: PhantomData,
         }
+    }
+
+    /// It compiled now, instead of when that pays; without the feature `jit`, and where there is no
+    /// compiler for the machine, as it was.
+    #[must_use]
+    pub fn compiled(mut self) -> Self {
+        self.engine.compile();
+        self
     }
 
     /// It on the interpreter, however long it runs.

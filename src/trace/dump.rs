@@ -3,8 +3,7 @@
 use super::layout::Layout;
 use super::walk::{Change, Walk};
 use super::{Clock, Options};
-use crate::engine::Engine;
-use crate::kernel::{Circuit, RunError, Sample};
+use crate::kernel::{Circuit, RunError, Sample, View};
 use std::io;
 use std::ops::{ControlFlow, Range};
 
@@ -43,14 +42,14 @@ impl<F: Format> Dump<F> {
     /// Sees a tick, if it is one of those that are asked for.
     pub fn sample<C: Circuit>(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         if self.looks(now.tick) {
-            self.tick(now.tick, now.engine())?;
+            self.tick(now.tick, now.view())?;
         }
         Ok(ControlFlow::Continue(()))
     }
 
     /// The same of a circuit whose type is forgotten.
-    pub fn tick(&mut self, tick: u64, engine: &Engine) -> io::Result<()> {
-        let (rise, fall) = self.walk.tick(tick, engine)?;
+    pub fn tick(&mut self, tick: u64, view: View<'_>) -> io::Result<()> {
+        let (rise, fall) = self.walk.tick(tick, view)?;
         self.format.tick(rise, fall, self.walk.changes())
     }
 

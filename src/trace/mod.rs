@@ -34,7 +34,7 @@ pub use vcd::{Vcd, VcdBehind};
 pub use wave_file::{WaveFile, WaveFormat};
 
 use crate::engine::Watch;
-use crate::kernel::{Circuit, Model, RunError, words};
+use crate::kernel::{Circuit, Model, RunError, View, words};
 use crate::logic::Sim;
 use atomic::{AtomicFile, commit_all};
 use std::io::{self, Write};
@@ -81,7 +81,7 @@ fn replay_words(
     for i in inputs {
         engine.inputs(&i);
         engine.settle();
-        waves.tick(ticks, &engine)?;
+        waves.tick(ticks, View::of(&engine))?;
         engine.edge();
         ticks += 1;
     }

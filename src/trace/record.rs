@@ -1,7 +1,6 @@
 use super::layout::select;
 use super::{LayoutError, Options};
-use crate::engine::Engine;
-use crate::kernel::{Circuit, Declaration, Declarations, Observer, RunError, Sample};
+use crate::kernel::{Circuit, Declaration, Declarations, Observer, RunError, Sample, View};
 use std::collections::HashMap;
 use std::io;
 use std::marker::PhantomData;
@@ -95,7 +94,7 @@ impl<C> Recorder<C> {
 
 impl<C: Circuit> Observer<C> for Recorder<C> {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        self.record.tick(now.tick, now.engine())?;
+        self.record.tick(now.tick, now.view())?;
         Ok(ControlFlow::Continue(()))
     }
 }
@@ -138,7 +137,7 @@ impl Record {
     }
 
     /// Keeps a tick, if it is one of the chosen.
-    pub(super) fn tick(&mut self, tick: u64, engine: &Engine) -> io::Result<()> {
+    pub(super) fn tick(&mut self, tick: u64, view: View<'_>) -> io::Result<()> {
         if !self.options.contains(&tick) {
             return Ok(());
         }
@@ -151,7 +150,7 @@ impl Record {
         }
         self.ticks.end += 1;
         for (column, &place) in self.columns.iter_mut().zip(&self.places) {
-            column.push(engine.leaf(place));
+            column.push(view.leaf(place));
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::Clock;
 use super::layout::Layout;
-use crate::engine::Engine;
+use crate::kernel::View;
 use std::io;
 
 /// What stands for the tick before the first: all but words of 64 bits differ from it.
@@ -54,7 +54,7 @@ impl Walk {
     }
 
     /// Looks at a settled tick. Returns when `clk` rises and when it falls.
-    pub fn tick(&mut self, tick: u64, engine: &Engine) -> io::Result<(u64, u64)> {
+    pub fn tick(&mut self, tick: u64, view: View<'_>) -> io::Result<(u64, u64)> {
         if self.last.is_some_and(|last| last >= tick) {
             return Err(io::Error::new(
                 io::ErrorKind::InvalidInput,
@@ -65,9 +65,9 @@ impl Walk {
         let times = times.0.zip(times.1).ok_or_else(too_late)?;
         self.changes.clear();
         let follows = self.last.is_some_and(|last| last + 1 == tick);
-        match follows && engine.program().watches_all() {
-            true => self.look_at_changes(engine),
-            false => self.look_at_all(engine),
+        match follows && view.engine.program().watches_all() {
+            true => self.look_at_changes(view),
+            false => self.look_at_all(view),
         }
         self.last = Some(tick);
         if let Some(selected) = &self.selected {
@@ -76,14 +76,15 @@ impl Walk {
         Ok(times)
     }
 
-    fn look_at_all(&mut self, engine: &Engine) {
+    fn look_at_all(&mut self, view: View<'_>) {
+        let engine = view.engine;
         let memories = engine.program().plan().memories.len();
         self.marks = (0..memories)
             .map(|memory| engine.written(memory).0)
             .collect();
         let first = self.last.is_none();
         for (leaf, before) in self.before.iter_mut().enumerate() {
-            let bits = engine.leaf(leaf);
+            let bits = view.leaf(leaf);
             if bits != *before || (first && bits == UNKNOWN) {
                 *before = bits;
                 let leaf = leaf as u32;
@@ -92,9 +93,14 @@ impl Walk {
         }
     }
 
-    fn look_at_changes(&mut self, engine: &Engine) {
+    fn look_at_changes(&mut self, view: View<'_>) {
         let Walk { touched, marks, .. } = self;
-        let mut touch = |leaf: u32| touched.touch(leaf);
+        let engine = view.engine;
+        let mut touch = |leaf: u32| {
+            view.shown(leaf)
+                .into_iter()
+                .for_each(|leaf| touched.touch(leaf))
+        };
         let plan = engine.program().plan();
         engine.changed(|place| {
             let watched = &plan.layout.watched[place];
@@ -111,7 +117,7 @@ impl Walk {
             }
         });
         touched.take(|leaf| {
-            let now = engine.leaf(leaf);
+            let now = view.leaf(leaf);
             if now != self.before[leaf] {
                 self.before[leaf] = now;
                 let leaf = leaf as u32;

@@ -1,6 +1,6 @@
 use super::{Cell, Chart, ChartError, Problem, Row};
 use crate::engine::{EngineError, Watch};
-use crate::kernel::{Circuit, Declaration, Format, Model, RunError};
+use crate::kernel::{Circuit, Declaration, Format, Model, RunError, View};
 use crate::trace::Options;
 use crate::trace::record::{Record, near};
 use crate::trace::value::{mask, read, show};
@@ -137,7 +137,7 @@ impl Chart {
                 engine.input(port, value.flatten().unwrap_or(0));
             }
             engine.settle();
-            let kept = record.tick(tick as u64, &engine);
+            let kept = record.tick(tick as u64, View::of(&engine));
             kept.map_err(|error| failed(RunError::from(error).to_string()))?;
             engine.edge();
         }

@@ -1,6 +1,7 @@
 //! Waves: every signal is in the dump, at the right time, in every reader.
 
 mod behind;
+mod beside;
 mod chart;
 mod dump;
 mod fst;
