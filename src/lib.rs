@@ -3,8 +3,8 @@
 //!
 //! A [circuit](kernel::Circuit) is two pure functions: `comb` settles the nets of a tick, `next`
 //! makes the registers of the next. It is written once, for any meaning of its
-//! [words](logic::Logic): numbers to run and to prove it, many numbers side by side to sweep it,
-//! nodes of a netlist to print it as Verilog. Every signal can be dumped.
+//! [words](logic::Logic). As nodes they are a netlist, which the [engine] runs, proves and sweeps, and
+//! which is printed as [Verilog](verilog). Every signal can be dumped.
 //!
 //! | patent | circuit | module |
 //! |---|---|---|

@@ -75,12 +75,17 @@ fn fits(section: &Section<'_>, handles: u64) -> Option<()> {
     let within = |value: u64, most: u64| (value <= most).then_some(());
     match section.kind {
         HEADER => within(320, bytes.len() as u64),
-        // Values: two times, memory, the first values, the changes, and last the times.
+        // Values: two times, memory, the first values, the changes and their places, and last the
+        // times.
         1 | 5 | 8 => {
             let times = bytes.len().checked_sub(24)?;
             let uncompressed = number(bytes, times)?;
             within(uncompressed, room)?;
-            within(number(bytes, times + 8)?, times as u64)?;
+            let compressed = number(bytes, times + 8)?;
+            within(compressed, times as u64)?;
+            // Before the times stands how long the list of places before it is.
+            let places = (times as u64).checked_sub(compressed.checked_add(8)?)?;
+            within(number(bytes, usize::try_from(places).ok()?)?, places)?;
             within(number(bytes, times + 16)?, uncompressed)?;
             let (uncompressed, rest) = varint(bytes.get(24..)?)?;
             within(uncompressed, room)?;
