@@ -112,7 +112,7 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
         })
     }
 
-    /// Whether nothing of the run is written: it is compiled without a trace of the files then.
+    /// Whether nothing of the run is written.
     pub fn is_empty(&self) -> bool {
         self.waves.is_none() && self.stimulus.is_none() && self.noted.is_none()
     }

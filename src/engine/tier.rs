@@ -19,8 +19,7 @@ pub(super) struct Tier {
     backend: Backend,
     counts: Counts,
     ticks: u64,
-    /// Steps interpreted, counted up to `due`.
-    work: u64,
+    /// Steps interpreted after which it is compiled.
     due: u64,
     /// The blocks compiled in line.
     hot: Arc<[bool]>,
@@ -45,7 +44,6 @@ impl Tier {
             backend: Backend::Interpreter,
             counts: vec![0; plan.blocks.len()],
             ticks: 0,
-            work: 0,
             due: if cfg!(feature = "jit") {
                 steps as u64 * PAYS
             } else {
@@ -126,13 +124,9 @@ impl Tier {
             return;
         }
         let steps = plan.blocks.iter().map(|block| block.steps.len() as u64 + 8);
-        self.work = self
-            .counts
-            .iter()
-            .zip(steps)
-            .map(|(count, steps)| count * steps)
-            .sum();
-        if self.work >= self.due {
+        let counted = self.counts.iter().zip(steps);
+        let work: u64 = counted.map(|(count, steps)| count * steps).sum();
+        if work >= self.due {
             self.compile_now(plan);
         }
     }

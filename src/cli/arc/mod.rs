@@ -64,23 +64,13 @@ fn simulate(
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     let mut traces = Traces::begin((&circuit, &circuit), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
-    // Two calls, so that a run without waves is compiled without a trace of them.
-    let played = match traces.is_empty() {
-        false => {
-            let files = (
-                traces.waves.as_mut(),
-                traces.stimulus.as_mut(),
-                traces.noted.as_mut(),
-            );
-            play(
-                &circuit,
-                &job.records,
-                job.sample_ticks,
-                (files, &mut progress),
-            )
-        }
-        true => play(&circuit, &job.records, job.sample_ticks, &mut progress),
-    }?;
+    let files = (
+        traces.waves.as_mut(),
+        traces.stimulus.as_mut(),
+        traces.noted.as_mut(),
+    );
+    let observers = (files, &mut progress);
+    let played = play(&circuit, &job.records, job.sample_ticks, observers)?;
     drop(progress);
     let shown = SAMPLES_SHOWN * u64::from(job.sample_ticks);
     // Where the first segment ends and the second begins.

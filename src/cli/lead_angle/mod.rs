@@ -90,15 +90,9 @@ fn simulate<P: JobLead>(
     let printed = &circuit.circuit;
     let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
-    // Two calls, so that a run without waves is compiled without a trace of them.
-    let played = match traces.is_empty() {
-        false => {
-            let stimulus = traces.stimulus.as_mut().map(Without);
-            let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-            play(&circuit, settings, (files, &mut progress))?
-        }
-        true => play(&circuit, settings, &mut progress)?,
-    };
+    let stimulus = traces.stimulus.as_mut().map(Without);
+    let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
+    let played = play(&circuit, settings, (files, &mut progress))?;
     drop(progress);
     let first = played.positionings.first();
     let focus = focus(settings, first.map_or(0, |positioning| positioning.fired));

@@ -72,7 +72,7 @@ fn simulate<const AXES: usize>(
     let scenario = (&job.loaded, job.stem.as_str());
     let mut traces = Traces::begin((&group, &group), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
-    // Two calls, so that a run without waves is compiled without a trace of them.
+    // Where nobody has to see every tick, idle ones are gone over.
     let played = match traces.is_empty() {
         false => {
             let files = (

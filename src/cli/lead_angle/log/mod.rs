@@ -87,15 +87,9 @@ fn simulate<P: JobLead>(
     let (printed, scenario) = (&circuit.circuit, (&job.loaded, job.stem.as_str()));
     let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
-    // Two calls, so that a run without waves is compiled without a trace of them.
-    let replayed = match traces.is_empty() {
-        false => {
-            let stimulus = traces.stimulus.as_mut().map(Without);
-            let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-            replay(&circuit, settings, log, (files, &mut progress))?
-        }
-        true => replay(&circuit, settings, log, &mut progress)?,
-    };
+    let stimulus = traces.stimulus.as_mut().map(Without);
+    let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
+    let replayed = replay(&circuit, settings, log, (files, &mut progress))?;
     drop(progress);
     let action = replayed.signals.first().map_or(0, |signal| signal.tick);
     let files = traces.finish(&circuit, &focus(settings, action), replayed.ticks)?;
