@@ -62,7 +62,15 @@ pub struct Lines {
     end: u64,
     /// A register that moved and where it came to, in a tick that is the end of its line.
     bend: Option<(Slot, u64)>,
+    /// How long the last try took, in compiled steps.
+    work: u64,
 }
+
+/// How many compiled steps take as long as to begin a try, and as one node that it looks at.
+const TRY: u64 = 200;
+const NODE: u64 = 24;
+/// How often a course could be gone through in the time that it takes to write it down.
+const NOTE: u64 = 64;
 
 /// Courses that are kept.
 const COURSES: usize = 16;
@@ -94,6 +102,7 @@ impl Lines {
             loose: vec![false; plan.layout.words as usize],
             end: u64::MAX,
             bend: None,
+            work: 0,
             wait: 0,
             price: PRICES[0],
             graph,
@@ -109,6 +118,7 @@ impl Lines {
     pub fn horizon(&mut self, plan: &Plan, hot: &[bool], slab: &[u64], most: u64) -> u64 {
         self.moving.clear();
         self.end = u64::MAX;
+        self.work = TRY;
         let bend = self.bend.take();
         if most == 0 || bend.is_some_and(|(slot, word)| slab[slot as usize] == word) {
             return 0;
@@ -118,6 +128,11 @@ impl Lines {
             self.end = until;
         }
         until
+    }
+
+    /// How long the last try took, in compiled steps.
+    pub fn work(&self) -> u64 {
+        self.work
     }
 
     fn find(&mut self, plan: &Plan, hot: &[bool], slab: &[u64], most: u64) -> u64 {
@@ -178,6 +193,7 @@ impl Lines {
             slab,
             known: &mut self.words,
             stamp: self.stamp,
+            work: &mut self.work,
         };
         let among = of.map(|edge| &graph.suppliers[edge]);
         for (word, left) in self.left.iter_mut().enumerate() {
@@ -219,6 +235,7 @@ impl Lines {
             stamp: self.pair_stamp,
             slopes: &self.slopes,
             touched: &self.touched,
+            work: &mut self.work,
             until: most,
             all: false,
         };
@@ -254,6 +271,7 @@ impl Lines {
             slab,
             known: &mut self.words,
             stamp: self.stamp,
+            work: &mut self.work,
         };
         let slope = words.word(next).wrapping_sub(slab[slot as usize]) & mask(width);
         if slope == 0 {
@@ -275,6 +293,7 @@ impl Lines {
             stamp: self.pair_stamp,
             slopes: &self.slopes,
             touched: &self.touched,
+            work: &mut self.work,
             until: u64::MAX,
             all: false,
         };
@@ -297,6 +316,7 @@ impl Lines {
         for place in 0..self.order.len() {
             let number = self.order[place];
             let course = &mut self.courses[number];
+            self.work += course.steps;
             if let Some(until) = course.run(slab, &self.due, most) {
                 self.moving.extend_from_slice(&course.moving);
                 self.order[..=place].rotate_right(1);
@@ -338,6 +358,7 @@ impl Lines {
             stamp: self.pair_stamp,
             slopes: &self.slopes,
             touched: &self.touched,
+            work: &mut self.work,
             until: u64::MAX,
             all: true,
         };
@@ -346,6 +367,8 @@ impl Lines {
             return;
         };
         course.moving.clone_from(&self.moving);
+        course.steps = 16 + (course.makings.len() + course.bounds.len()) as u64 * 8;
+        self.work += course.steps * NOTE;
         let number = match place {
             Some(place) => self.order.remove(place),
             None if self.courses.len() < COURSES => {

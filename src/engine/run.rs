@@ -18,8 +18,7 @@ pub struct Engine {
     slab: Vec<u64>,
     tier: Tier,
     lines: Option<Box<Lines>>,
-    /// Ticks to come before idle ticks are looked for again, and after the next failure.
-    pause: (u64, u64),
+    pause: Pause,
     /// All blocks run in every tick.
     straight: bool,
     /// All leaves of this tick, where one was asked for that is not watched.
@@ -75,8 +74,34 @@ impl Ports<'_> {
 /// A memory's words, and how often it had been written.
 type Read = (u64, Arc<[u64]>);
 
-/// Ticks after which it is asked again at the latest whether ticks are idle.
-const LONGEST_PAUSE: u64 = 64;
+/// When idle ticks are looked for again.
+#[derive(Debug, Clone, Copy, Default)]
+struct Pause {
+    /// Ticks to come until then.
+    left: u64,
+    /// Ticks the last one was of.
+    ticks: u64,
+    /// By how much more tries took of late than they saved, in compiled steps.
+    debt: i64,
+}
+
+impl Pause {
+    /// Ticks of a pause at most: where tries have paid of late, and where they have not.
+    const LONGEST: [u64; 2] = [64, 512];
+
+    fn after(&mut self, took: u64, saved: u64) {
+        let took = took as i64;
+        let saved = saved.min(u32::MAX.into()) as i64;
+        // What is long ago counts for less; one long jump does not pay for all that comes.
+        self.debt = (self.debt - self.debt / 8 + took - saved).max(-16 * took);
+        let pays = self.debt <= 0;
+        self.ticks = match saved > 0 && pays {
+            true => 0,
+            false => (2 * self.ticks).clamp(1, Self::LONGEST[usize::from(!pays)]),
+        };
+        self.left = self.ticks;
+    }
+}
 
 impl Engine {
     /// At power-on, all ports in low.
@@ -86,7 +111,7 @@ impl Engine {
             tier: Tier::new(&program.plan),
             program,
             lines: None,
-            pause: (0, 0),
+            pause: Pause::default(),
             straight: false,
             whole: RefCell::default(),
             memories: RefCell::default(),
@@ -187,7 +212,7 @@ impl Engine {
                 .tier
                 .advance(&self.program.plan, &mut self.slab, ticks - done);
         }
-        self.pause.0 = self.pause.0.saturating_sub(done);
+        self.pause.left = self.pause.left.saturating_sub(done);
         done
     }
 
@@ -200,7 +225,7 @@ impl Engine {
     /// Returns how many, 0 where it is not idle or none are looked for yet; the one behind them is
     /// yet to settle. In none of them, the first aside, has a port out changed.
     pub fn forward(&mut self, most: u64) -> u64 {
-        if self.pause.0 > 0 || most < 2 {
+        if self.pause.left > 0 || most < 2 {
             return 0;
         }
         let program = &self.program;
@@ -208,12 +233,15 @@ impl Engine {
             .lines
             .get_or_insert_with(|| Box::new(Lines::new(&program.plan, &program.held)));
         let ticks = lines.horizon(&program.plan, self.tier.hot(), &self.slab, most);
+        let saved = if ticks < 2 {
+            0
+        } else {
+            ticks.saturating_mul(self.tier.pace())
+        };
+        self.pause.after(lines.work(), saved);
         if ticks < 2 {
-            self.pause.1 = (2 * self.pause.1).clamp(1, LONGEST_PAUSE);
-            self.pause.0 = self.pause.1;
             return 0;
         }
-        self.pause.1 = 0;
         self.begin();
         if let Some(lines) = &mut self.lines {
             lines.jump(&self.program.plan, &mut self.slab, ticks);
@@ -223,7 +251,7 @@ impl Engine {
 
     /// For how many ticks it is not asked again whether they are idle.
     pub fn pause(&self) -> u64 {
-        self.pause.0.max(1)
+        self.pause.left.max(1)
     }
 
     /// How many leaves there are.

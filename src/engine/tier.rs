@@ -10,6 +10,8 @@ use std::sync::{Arc, OnceLock};
 /// How often all of a circuit's steps, on average, are interpreted before it is compiled: compiling
 /// takes so many times as long as interpreting.
 const PAYS: u64 = 600;
+/// How many compiled steps take as long as one that is interpreted.
+const INTERPRETED: u64 = 6;
 /// Ticks in which blocks are counted at least.
 const COUNTED: u64 = 256;
 
@@ -21,6 +23,8 @@ pub(super) struct Tier {
     ticks: u64,
     /// Steps interpreted after which it is compiled.
     due: u64,
+    /// Compiled steps that take as long as a tick.
+    pace: u64,
     /// The blocks compiled in line.
     hot: Arc<[bool]>,
     /// What one of all clones has compiled.
@@ -28,7 +32,7 @@ pub(super) struct Tier {
 }
 
 /// A backend with the blocks that are in line of it.
-type Compiled = (Backend, Arc<[bool]>);
+type Compiled = (Backend, Arc<[bool]>, u64);
 
 #[derive(Debug, Clone)]
 enum Backend {
@@ -44,6 +48,7 @@ impl Tier {
             backend: Backend::Interpreter,
             counts: vec![0; plan.blocks.len()],
             ticks: 0,
+            pace: INTERPRETED * steps as u64,
             due: if cfg!(feature = "jit") {
                 steps as u64 * PAYS
             } else {
@@ -57,9 +62,9 @@ impl Tier {
     /// Takes over what a clone has compiled, if this one is to be compiled at all.
     pub fn adopt(&mut self) {
         if self.due != u64::MAX
-            && let Some((backend, hot)) = self.shared.get()
+            && let Some((backend, hot, pace)) = self.shared.get()
         {
-            (self.backend, self.hot) = (backend.clone(), hot.clone());
+            (self.backend, self.hot, self.pace) = (backend.clone(), hot.clone(), *pace);
         }
     }
 
@@ -73,6 +78,11 @@ impl Tier {
     pub fn straight(&mut self, plan: &Plan) -> bool {
         self.compile(plan, vec![true; plan.blocks.len()]);
         !matches!(self.backend, Backend::Interpreter)
+    }
+
+    /// How long a tick takes, in compiled steps.
+    pub fn pace(&self) -> u64 {
+        self.pace
     }
 
     pub fn hot(&self) -> &[bool] {
@@ -126,6 +136,7 @@ impl Tier {
         let steps = plan.blocks.iter().map(|block| block.steps.len() as u64 + 8);
         let counted = self.counts.iter().zip(steps);
         let work: u64 = counted.map(|(count, steps)| count * steps).sum();
+        self.pace = INTERPRETED * work / self.ticks;
         if work >= self.due {
             self.compile_now(plan);
         }
@@ -146,8 +157,11 @@ impl Tier {
             Ok(code) => {
                 self.backend = Backend::Code(Arc::new(code));
                 self.hot = hot.into();
+                self.pace /= INTERPRETED;
                 // The first one stays, if another was as fast.
-                let _ = self.shared.set((self.backend.clone(), self.hot.clone()));
+                let _ = self
+                    .shared
+                    .set((self.backend.clone(), self.hot.clone(), self.pace));
             }
             Err(error) => {
                 self.due = u64::MAX;

@@ -68,6 +68,8 @@ pub(super) struct Course {
     pub loads: Vec<(Word, Slot)>,
     pub makings: Vec<Making>,
     pub bounds: Vec<Bound>,
+    /// Compiled steps that take as long as to look at it.
+    pub steps: u64,
 }
 
 impl Course {

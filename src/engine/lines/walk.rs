@@ -1,5 +1,6 @@
 //! Goes through what edge blocks do: once for the words that registers take, once for their lines.
 
+use super::NODE;
 use super::course::of;
 use super::graph::{From, Graph, Node, has};
 use super::pair::Line;
@@ -42,6 +43,7 @@ pub(super) struct Words<'w> {
     pub slab: &'w [u64],
     pub known: &'w mut [Known<u64>],
     pub stamp: u64,
+    pub work: &'w mut u64,
 }
 
 impl Words<'_> {
@@ -124,6 +126,7 @@ impl Words<'_> {
     }
 
     fn make(&mut self, node: &Node) -> u64 {
+        *self.work += NODE;
         let a = self.word(node.a);
         let b = match node.code {
             Code::Mux if a == 0 => return self.word(node.c) & mask(node.width),
@@ -152,6 +155,7 @@ pub(super) struct Pairs<'w> {
     pub slopes: &'w [u64],
     /// What moves: see [`Graph::touches`].
     pub touched: &'w [u64],
+    pub work: &'w mut u64,
     /// For how many ticks all lines asked for since it was set are what they were said to be.
     pub until: u64,
     /// Keeps lines of nodes that one alone takes too.
@@ -275,6 +279,7 @@ impl Pairs<'_> {
     }
 
     fn make(&mut self, node: &Node) -> Line {
+        *self.work += NODE;
         let (width, from, by) = (node.width, node.from, node.by);
         match node.code {
             Code::And => return self.both(node.a, node.b, 0, width),

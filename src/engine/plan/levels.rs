@@ -1,0 +1,203 @@
+//! Which nodes stand for themselves, in which level each is computed, and in which order blocks run.
+
+use crate::engine::flat::{Flat, Id, Op, Port};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+
+/// Whether a node is computed again by whoever reads it.
+fn is_cheap(op: Op) -> bool {
+    matches!(
+        op,
+        Op::Not(_)
+            | Op::Negate(_)
+            | Op::ShiftLeft(..)
+            | Op::ShiftRight(..)
+            | Op::Slice(..)
+            | Op::Extend(_)
+            | Op::ExtendSigned(_)
+    )
+}
+
+fn is_leaf(op: Op) -> bool {
+    matches!(op, Op::Constant(_) | Op::Input(_) | Op::Register(_))
+}
+
+/// In which level each node is computed.
+pub(super) struct Levels {
+    /// Whether a node stands for itself: others are leaves or computed where they are read.
+    pub own: Vec<bool>,
+    pub level: Vec<u32>,
+    /// The level of the edge.
+    pub end: u32,
+}
+
+impl Levels {
+    pub fn of(flat: &Flat, watched: &[bool]) -> Levels {
+        let count = flat.nodes.len();
+        let own: Vec<bool> = flat
+            .nodes
+            .iter()
+            .zip(watched)
+            .map(|(node, watched)| !is_leaf(node.op) && (*watched || !is_cheap(node.op)))
+            .collect();
+        let instance = |id: Id| flat.nodes[id as usize].instance;
+        // The earliest level.
+        let mut early = vec![0u32; count];
+        let mut end = 0;
+        let mut stack = Vec::new();
+        for id in 0..count as Id {
+            if !own[id as usize] {
+                continue;
+            }
+            let mut level = 0;
+            through(
+                flat,
+                &own,
+                flat.node(id).op.operands(),
+                &mut stack,
+                |other| {
+                    let crossing = u32::from(instance(other) != instance(id));
+                    level = level.max(early[other as usize] + crossing);
+                },
+            );
+            early[id as usize] = level;
+            end = end.max(level);
+        }
+        let end = end + 1;
+        // As late as possible; what is watched is settled before the edge.
+        let mut level: Vec<u32> = watched
+            .iter()
+            .map(|&watched| end - u32::from(watched))
+            .collect();
+        let roots = flat
+            .registers
+            .iter()
+            .map(|register| (register.next, register.instance));
+        let writes = flat
+            .memories
+            .iter()
+            .flat_map(|memory| memory.port.operands().map(|id| (id, memory.instance)));
+        for (root, owner) in roots.chain(writes) {
+            through(flat, &own, std::iter::once(root), &mut stack, |other| {
+                let at = end - u32::from(instance(other) != owner);
+                level[other as usize] = level[other as usize].min(at);
+            });
+        }
+        for id in (0..count as Id).rev() {
+            if !own[id as usize] {
+                continue;
+            }
+            let here = &mut level[id as usize];
+            // The edge that writes a memory reads it first, if both are of one block.
+            if let Op::Read(memory, _) = flat.node(id).op
+                && flat.memories[memory as usize].instance != instance(id)
+            {
+                *here = (*here).min(end - 1);
+            }
+            let here = *here;
+            through(
+                flat,
+                &own,
+                flat.node(id).op.operands(),
+                &mut stack,
+                |other| {
+                    let crossing = u32::from(instance(other) != instance(id));
+                    level[other as usize] = level[other as usize].min(here - crossing);
+                },
+            );
+        }
+        Levels { own, level, end }
+    }
+}
+
+/// Calls `see` for the nodes that stand for themselves and that these are made of.
+pub(super) fn through(
+    flat: &Flat,
+    own: &[bool],
+    from: impl Iterator<Item = Id>,
+    stack: &mut Vec<Id>,
+    mut see: impl FnMut(Id),
+) {
+    stack.extend(from);
+    while let Some(id) = stack.pop() {
+        let op = flat.node(id).op;
+        if own[id as usize] {
+            see(id);
+        } else {
+            stack.extend(op.operands());
+        }
+    }
+}
+
+/// The blocks in their order, each by level and instance.
+pub(super) fn order(flat: &Flat, levels: &Levels, reads: &EdgeReads) -> Vec<(u32, u32)> {
+    let mut keys = BTreeSet::new();
+    for (id, node) in flat.nodes.iter().enumerate() {
+        if levels.own[id] {
+            keys.insert((levels.level[id], node.instance));
+        }
+    }
+    let written = flat
+        .memories
+        .iter()
+        .filter(|memory| memory.port != Port::Rom);
+    let owners = flat.registers.iter().map(|register| register.instance);
+    for owner in owners.chain(written.map(|memory| memory.instance)) {
+        keys.insert((levels.end, owner));
+    }
+    let (mut edges, mut order): (Vec<_>, Vec<_>) = keys
+        .into_iter()
+        .partition(|(level, _)| *level == levels.end);
+    // Of the edges that one first of whose registers the fewest others still read.
+    let mut read: HashMap<(u32, u32), usize> = HashMap::new();
+    for (reader, registers) in reads {
+        for register in registers {
+            let writer = flat.registers[*register as usize].instance;
+            *read.entry((*reader, writer)).or_default() += 1;
+        }
+    }
+    while let Some(best) = (0..edges.len()).min_by_key(|&place| {
+        let writer = edges[place].1;
+        let others = edges.iter().filter(|(_, other)| *other != writer);
+        let counts = others.filter_map(|(_, reader)| read.get(&(*reader, writer)));
+        counts.sum::<usize>()
+    }) {
+        order.push(edges.remove(best));
+    }
+    order
+}
+
+/// The registers that the edge of each instance reads.
+pub(super) type EdgeReads = BTreeMap<u32, BTreeSet<u32>>;
+
+pub(super) fn edge_reads(flat: &Flat, levels: &Levels) -> EdgeReads {
+    let mut reads = EdgeReads::new();
+    let mut seen = HashSet::new();
+    let mut see = |owner: u32, from: Id| {
+        let registers = reads.entry(owner).or_default();
+        let mut stack = vec![from];
+        while let Some(id) = stack.pop() {
+            if !seen.insert((owner, id)) {
+                continue;
+            }
+            let node = flat.node(id);
+            let settled = levels.own[id as usize]
+                && (levels.level[id as usize] < levels.end || node.instance != owner);
+            match node.op {
+                Op::Register(register) => {
+                    registers.insert(register);
+                }
+                _ if settled => {}
+                op => stack.extend(op.operands()),
+            }
+        }
+    };
+    for register in &flat.registers {
+        see(register.instance, register.next);
+    }
+    for memory in &flat.memories {
+        for id in memory.port.operands() {
+            see(memory.instance, id);
+        }
+    }
+    reads
+}
