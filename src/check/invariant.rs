@@ -37,6 +37,9 @@ type Always<'f, C> = dyn Fn(&Sample<'_, C>) -> Verdict + 'f;
 type Step<'f, C> = dyn Fn(&Sample<'_, C>, &<C as Circuit>::Reg<Sim>) -> Verdict + 'f;
 
 enum Holds<'f, C: Circuit> {
+    /// One of the circuit's own, by its number, and the signals that it is about. A step property is
+    /// one of what this edge is about to do.
+    Own(usize, &'static [&'static str]),
     Always(Box<Always<'f, C>>),
     Step(Box<Step<'f, C>>),
 }
@@ -67,16 +70,8 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         let known = model.design().modules.last();
         let known = known.map_or(&[][..], |module| &module.assertions);
         for (index, known) in known.iter().enumerate() {
-            let signals = known.signals;
-            let holds = move |now: &Sample<'_, C>| match now.engine().property(index) {
-                true => Ok(()),
-                false => Err(Fault {
-                    signals: signals.iter().map(|&name| name.into()).collect(),
-                    message: "does not hold".to_owned(),
-                }),
-            };
-            // A step property is one of what this edge is about to do.
-            invariants = invariants.always(known.name, holds);
+            let own = Holds::Own(index, known.signals);
+            invariants.named.push((known.name.to_owned(), own));
         }
         invariants
     }
@@ -110,6 +105,15 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         self.named.iter().map(|(name, _)| name.as_str())
     }
 
+    /// The numbers of the circuit's own properties, if there are no others.
+    pub(super) fn own(&self) -> Option<Vec<usize>> {
+        let own = self.named.iter().map(|(_, property)| match property {
+            Holds::Own(index, _) => Some(*index),
+            _ => None,
+        });
+        own.collect()
+    }
+
     /// Whether one of them looks at the registers after the edge.
     pub(super) fn look_ahead(&self) -> bool {
         let step = |(_, property): &(_, Holds<'_, C>)| matches!(property, Holds::Step(_));
@@ -125,6 +129,13 @@ impl<'f, C: Circuit> Invariants<'f, C> {
     ) -> Result<(), (&str, Fault)> {
         for (name, property) in &self.named {
             match (property, next) {
+                (Holds::Own(index, signals), _) => match now.engine().property(*index) {
+                    true => Ok(()),
+                    false => Err(Fault {
+                        signals: signals.iter().map(|&name| name.into()).collect(),
+                        message: "does not hold".to_owned(),
+                    }),
+                },
                 (Holds::Always(holds), _) => holds(now),
                 (Holds::Step(holds), Some(next)) => holds(now, next),
                 (Holds::Step(_), None) => Ok(()),

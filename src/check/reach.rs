@@ -1,9 +1,10 @@
-use super::enumerate::{all, from_word};
+use super::enumerate::{all, from_word, scramble, to_word};
 use super::search::{Report, Search};
 use super::visited::Visited;
-use super::{CheckError, Counterexample, Invariants, TooWide};
+use super::{CheckError, Counterexample, Fault, Invariants, TooWide};
+use crate::engine::sliced::{LANES, Tick, Ticks};
 use crate::engine::{Engine, Watch};
-use crate::kernel::{Circuit, Model, Role, Sample, record, words};
+use crate::kernel::{Circuit, Model, Role, Sample, Signals, record, words};
 use crate::logic::Sim;
 use std::fmt;
 
@@ -167,57 +168,263 @@ impl<'a, C: Circuit> Reach<'a, C> {
         self
     }
 
-    /// Searches.
+    /// Searches: a tick of the circuit is made gates, which many transitions go through side by side.
     ///
     /// # Errors
     /// The registers have more than 64 bits or the inputs more than 20; the circuit is no netlist.
-    pub fn run(mut self) -> Result<Outcome<C>, CheckError> {
+    pub fn run(self) -> Result<Outcome<C>, CheckError> {
+        self.search(false)
+    }
+
+    /// Searches transition by transition, as a simulation runs; the outcome is the same.
+    ///
+    /// # Errors
+    /// The registers have more than 64 bits or the inputs more than 20; the circuit is no netlist.
+    pub fn run_simulated(self) -> Result<Outcome<C>, CheckError> {
+        self.search(true)
+    }
+
+    fn search(mut self, simulated: bool) -> Result<Outcome<C>, CheckError> {
         TooWide::check::<C::In<Sim>>("the inputs", INPUT_BITS)?;
         let bits = TooWide::check::<C::Reg<Sim>>("the registers", STATE_BITS)?;
         let model = Model::of(self.circuit)?;
         let inputs: Vec<C::In<Sim>> = all()?
             .filter(|i| self.only.as_ref().is_none_or(|possible| possible(i)))
             .collect();
-        let words: Vec<Vec<u64>> = inputs.iter().map(words).collect();
-
-        let mut engine = Engine::straight(model.program(Watch::All));
-        let mut after = engine.clone();
         let states = Packing::of(&model);
         let visited = Visited::new(bits, self.bitmap_bits);
-        let power_on = states.pack(&engine);
-        let mut search = Search::new(power_on, visited, self.limit, self.progress.take());
+        let power_on = states.pack(&model.engine(Watch::All));
+        let search = Search::new(power_on, visited, self.limit, self.progress.take());
+        let own = self.invariants.own();
+        let tick = match simulated {
+            true => None,
+            false => Tick::of(model.flat(), own.as_deref().unwrap_or(&[])).ok(),
+        };
+        let mut one = One {
+            invariants: self.invariants,
+            engine: Engine::straight(model.program(Watch::All)),
+            states,
+            state: None,
+        };
+        let ended = match &tick {
+            Some(tick) => self.side_by_side(search, &inputs, tick, own.is_some(), &mut one),
+            None => self.one_by_one(search, &inputs, &mut one),
+        };
+        Ok(match ended {
+            Ended::Proof(proof) => Outcome::Proof(proof),
+            Ended::Limit(progress) => Outcome::Limit(progress),
+            Ended::Fault(way, name, fault) => {
+                let way = way.into_iter().map(|index| inputs[index].clone());
+                let found = Counterexample::new(&model, way.collect(), name, fault);
+                Outcome::Counterexample(Box::new(found))
+            }
+        })
+    }
+
+    fn is_possible(&self, q: &C::Reg<Sim>, i: &C::In<Sim>) -> bool {
+        self.assume.iter().all(|possible| possible(q, i))
+    }
+
+    /// Transition by transition.
+    fn one_by_one(
+        &self,
+        mut search: Search<'_>,
+        inputs: &[C::In<Sim>],
+        one: &mut One<'_, C>,
+    ) -> Ended {
+        let words: Vec<Vec<u64>> = inputs.iter().map(words).collect();
+        let mut after = one.engine.clone();
         let looks_ahead = self.invariants.look_ahead();
         while let Some(state) = search.state() {
             let q: C::Reg<Sim> = from_word(state);
-            states.unpack(state, &mut engine);
+            one.states.unpack(state, &mut one.engine);
             let before = search.transitions;
             for (index, (i, words)) in inputs.iter().zip(&words).enumerate() {
-                if !self.assume.iter().all(|possible| possible(&q, i)) {
+                if !self.is_possible(&q, i) {
                     continue;
                 }
                 search.transitions += 1;
-                engine.inputs(words);
-                engine.settle();
+                one.engine.inputs(words);
+                one.engine.settle();
                 // The edge is another engine's, so that the registers stay for the next inputs.
-                after.restore(engine.slab());
+                after.restore(one.engine.slab());
                 after.edge();
                 let next = looks_ahead.then(|| record(Role::Register, &after));
-                let checked = Sample::show_given(search.depth, &engine, (i, &q), |now| {
-                    self.invariants.check(now, next.as_ref())
-                });
-                if let Err((name, fault)) = checked {
-                    let way = search.way(index);
-                    let way = way.into_iter().map(|index| inputs[index].clone());
-                    let found = Counterexample::new(&model, way.collect(), name.to_owned(), fault);
-                    return Ok(Outcome::Counterexample(Box::new(found)));
+                if let Err((name, fault)) = one.check(search.depth, (i, &q), next.as_ref()) {
+                    return Ended::Fault(search.way(index), name, fault);
                 }
-                if !search.found(states.pack(&after), index) {
-                    return Ok(Outcome::Limit(search.progress()));
+                if !search.found(one.states.pack(&after), index) {
+                    return Ended::Limit(search.progress());
                 }
             }
             search.tried(before);
         }
-        Ok(Outcome::Proof(search.proof()))
+        Ended::Proof(search.proof())
+    }
+
+    /// Many transitions at once, as gates: in the same order, with the same outcome.
+    fn side_by_side(
+        &self,
+        mut search: Search<'_>,
+        inputs: &[C::In<Sim>],
+        tick: &Tick,
+        own: bool,
+        one: &mut One<'_, C>,
+    ) -> Ended {
+        let looks_ahead = self.invariants.look_ahead();
+        let words: Vec<u64> = inputs.iter().map(to_word).collect();
+        let ports: Vec<Vec<u64>> = inputs.iter().map(self::words).collect();
+        let mut records = Records::new();
+        let mut ticks = Ticks::new(tick);
+        // The next case: a state by its number, and an input.
+        let (mut at, mut index) = (0, 0);
+        let mut cases: Vec<(usize, usize)> = Vec::with_capacity(LANES);
+        let (mut before, mut given) = (Vec::with_capacity(LANES), Vec::with_capacity(LANES));
+        let mut after = Vec::with_capacity(LANES);
+        let mut transitions = 0;
+        let mut state = search.state();
+        loop {
+            cases.clear();
+            before.clear();
+            given.clear();
+            while let Some(from) = search.nth(at)
+                && cases.len() < LANES
+            {
+                let q = (!self.assume.is_empty()).then(|| from_word::<C::Reg<Sim>>(from));
+                while index < inputs.len() && cases.len() < LANES {
+                    let possible = q
+                        .as_ref()
+                        .is_none_or(|q| self.is_possible(q, &inputs[index]));
+                    if possible {
+                        cases.push((at, index));
+                        before.push(from);
+                        given.push(words[index]);
+                    }
+                    index += 1;
+                }
+                if index == inputs.len() {
+                    (at, index) = (at + 1, 0);
+                }
+            }
+            after.clone_from(&before);
+            let mut broken = None;
+            ticks.run(&mut after, &given, |lane| broken = broken.or(Some(lane)));
+            for (lane, &(from, index)) in cases.iter().enumerate() {
+                while search.at() < from {
+                    search.tried(transitions);
+                    transitions = search.transitions;
+                    state = search.state();
+                }
+                search.transitions += 1;
+                if !own {
+                    let next = looks_ahead.then(|| records.of(after[lane]));
+                    let i = (&inputs[index], &ports[index][..]);
+                    let checked = one.at(search.depth, before[lane], i, next);
+                    if let Err((name, fault)) = checked {
+                        return Ended::Fault(search.way(index), name, fault);
+                    }
+                }
+                if broken == Some(lane) {
+                    let (name, fault) =
+                        one.fault(search.depth, before[lane], (&inputs[index], &ports[index]));
+                    return Ended::Fault(search.way(index), name, fault);
+                }
+                if !search.found(after[lane], index) {
+                    return Ended::Limit(search.progress());
+                }
+            }
+            if cases.is_empty() {
+                break;
+            }
+        }
+        while state.is_some() {
+            search.tried(transitions);
+            transitions = search.transitions;
+            state = search.state();
+        }
+        Ended::Proof(search.proof())
+    }
+}
+
+/// How a search ended, inputs by their numbers.
+enum Ended {
+    Proof(Proof),
+    Limit(Progress),
+    Fault(Vec<usize>, String, Fault),
+}
+
+/// What looks at one transition.
+struct One<'i, C: Circuit> {
+    invariants: &'i Invariants<'i, C>,
+    engine: Engine,
+    states: Packing,
+    /// The state that was looked at last.
+    state: Option<(u64, C::Reg<Sim>)>,
+}
+
+impl<C: Circuit> One<'_, C> {
+    /// Whether a settled tick is as it has to be.
+    fn check(
+        &self,
+        depth: u64,
+        (i, q): (&C::In<Sim>, &C::Reg<Sim>),
+        next: Option<&C::Reg<Sim>>,
+    ) -> Result<(), (String, Fault)> {
+        let checked = Sample::show_given(depth, &self.engine, (i, q), |now| {
+            let checked = self.invariants.check(now, next);
+            checked.map_err(|(name, fault)| (name.to_owned(), fault))
+        });
+        checked
+    }
+
+    /// Settles a tick and looks at it.
+    fn at(
+        &mut self,
+        depth: u64,
+        state: u64,
+        (i, ports): (&C::In<Sim>, &[u64]),
+        next: Option<&C::Reg<Sim>>,
+    ) -> Result<(), (String, Fault)> {
+        if self.state.as_ref().is_none_or(|(word, _)| *word != state) {
+            self.states.unpack(state, &mut self.engine);
+            self.state = Some((state, from_word(state)));
+        }
+        self.engine.inputs(ports);
+        self.engine.settle();
+        match &self.state {
+            Some((_, q)) => self.check(depth, (i, q), next),
+            None => Ok(()),
+        }
+    }
+
+    /// What is wrong with a transition of which one of the circuit's own properties does not hold.
+    fn fault(&mut self, depth: u64, state: u64, i: (&C::In<Sim>, &[u64])) -> (String, Fault) {
+        // Where the engine disagrees with the gates: a fault of these, and no reason to be silent.
+        let disagreed = || {
+            let message = "the gates of a tick say so, the engine does not".to_owned();
+            let signals = Vec::new();
+            (C::NAME.to_owned(), Fault { signals, message })
+        };
+        let fault = self.at(depth, state, i, None);
+        fault.err().unwrap_or_else(disagreed)
+    }
+}
+
+/// Records of states that were asked for of late: many transitions lead to the same one.
+struct Records<S>(Vec<Option<(u64, S)>>);
+
+impl<S: Signals<Sim>> Records<S> {
+    fn new() -> Self {
+        Records((0..1 << 10).map(|_| None).collect())
+    }
+
+    fn of(&mut self, state: u64) -> &S {
+        let place = scramble(state) as usize % self.0.len();
+        let slot = &mut self.0[place];
+        if slot.as_ref().is_some_and(|(known, _)| *known != state) {
+            *slot = None;
+        }
+        &slot.get_or_insert_with(|| (state, from_word(state))).1
     }
 }
 

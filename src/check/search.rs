@@ -48,6 +48,16 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// The state that was found as the nth.
+    pub(super) fn nth(&self, at: usize) -> Option<u64> {
+        self.states.get(at).copied()
+    }
+
+    /// Which one is tried.
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
     /// The state to be tried with every input.
     pub(super) fn state(&mut self) -> Option<u64> {
         let state = *self.states.get(self.at)?;

@@ -278,7 +278,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Specifie
                         && next.sequencer.address == q.sequencer.address
                         && next.sequencer.state == q.sequencer.state;
                     let signals = ["unit_time.active", "sequencer.address", "sequencer.state"];
-                    require(now.w.unit_rst.get() || kept && words, signals, || {
+                    require(kept && words || now.w.unit_rst.get(), signals, || {
                         "changed in mid-unit".into()
                     })
                 },
@@ -304,7 +304,7 @@ impl<const AXES: usize, const N: usize, const T: usize, const A: usize> Specifie
                     .axes
                     .iter()
                     .all(|axis| axis.memory.half_period.get() == 0 && !axis.sync.step.get());
-                require(now.w.busy.get() || quiet, ["busy", "step_x"], || {
+                require(quiet || now.w.busy.get(), ["busy", "step_x"], || {
                     "a pulse".into()
                 })
             })

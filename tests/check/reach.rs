@@ -2,9 +2,10 @@
 
 use crate::circuits::*;
 use motion_rtl::check::{Invariants, Proof, Random, all, reach, require};
-use motion_rtl::kernel::{Circuit, Sample, Simulator};
-use motion_rtl::logic::Image;
+use motion_rtl::kernel::{Circuit, Moment, Property, Sample, Simulator};
 use motion_rtl::logic::sim::UInt;
+use motion_rtl::logic::{Bit, Image, Logic, Unsigned};
+use motion_rtl::signals;
 use std::collections::{BTreeSet, HashSet};
 
 pub fn proof(states: u64, transitions: u64, depth: u64) -> Proof {
@@ -20,6 +21,75 @@ pub fn proof(states: u64, transitions: u64, depth: u64) -> Proof {
 fn space<C: Circuit>(circuit: &C) -> Proof {
     let none = Invariants::new();
     reach(circuit, &none).run().unwrap().proof().unwrap()
+}
+
+/// What a search finds as gates and as a simulation.
+fn both<C: Circuit>(circuit: &C, invariants: &Invariants<'_, C>, limit: u32) -> String {
+    let search = || reach(circuit, invariants).limit(limit);
+    let gates = search().run().unwrap().to_string();
+    let simulated = search().run_simulated().unwrap().to_string();
+    assert_eq!(gates, simulated);
+    gates
+}
+
+/// Counts up to a number and stays there; one of its properties is wrong about the number.
+#[derive(Debug)]
+struct Climb(u64);
+
+signals! { struct ClimbReg<L> { count: L::U<4> } }
+signals! { struct ClimbNet<L> { top: L::Bit } }
+
+impl Circuit for Climb {
+    const NAME: &'static str = "climb";
+    const ABOUT: &'static str = "counts up to 9 and stays there";
+    type In<L: Logic> = Enable<L>;
+    type Reg<L: Logic> = ClimbReg<L>;
+    type Net<L: Logic> = ClimbNet<L>;
+    fn comb<L: Logic>(&self, q: &ClimbReg<L>, _: &Enable<L>) -> ClimbNet<L> {
+        let top = q.count.equals(9.into());
+        ClimbNet { top }
+    }
+    fn next<L: Logic>(&self, q: ClimbReg<L>, w: &ClimbNet<L>, i: &Enable<L>) -> ClimbReg<L> {
+        let count = (i.enable & !w.top).mux(q.count + 1, q.count);
+        ClimbReg { count }
+    }
+    fn properties<L: Logic>(
+        &self,
+        now: &Moment<'_, Self, L>,
+        next: &ClimbReg<L>,
+    ) -> Vec<Property<L>> {
+        let most = next.count.below(self.0.into());
+        vec![
+            Property::always("it is a digit", &["count"], now.q.count.below(10.into())),
+            Property::step("it stays below", &["count", "top"], most),
+        ]
+    }
+}
+
+#[test]
+fn gates_and_simulation_find_the_same() {
+    for below in 0..12 {
+        let circuit = Climb(below);
+        let found = both(&circuit, &Invariants::of(&circuit), 100);
+        assert_eq!(found.contains("proved"), below >= 10, "{found}");
+        assert_eq!(found.contains("it stays below"), below < 10, "{found}");
+    }
+    for limit in 1..30 {
+        both(&Store, &Invariants::new(), limit);
+        both(&Climb(16), &Invariants::of(&Climb(16)), limit);
+    }
+    for code in [[0, 3, 0], [1, 1, 1]] {
+        let circuit = Lock { code };
+        let shut = Invariants::new()
+            .always("shut", |now: &Sample<Lock>| {
+                require(now.q.right.get() != 3, ["right"], || "open".into())
+            })
+            .step("never from two to open", |now, next| {
+                let opens = now.q.right.get() == 2 && next.right.get() == 3;
+                require(!opens, ["right"], || "opens".into())
+            });
+        assert!(both(&circuit, &shut, 100).contains("never from two to open"));
+    }
 }
 
 #[test]

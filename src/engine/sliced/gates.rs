@@ -192,6 +192,20 @@ impl Gates {
         same
     }
 
+    /// High where a word is a number.
+    pub fn is(&mut self, word: &[Wire], number: u64) -> Wire {
+        let mut is = HIGH;
+        for (bit, &wire) in word.iter().enumerate() {
+            let wire = wire.inverted(number.checked_shr(bit as u32).unwrap_or(0) & 1 == 0);
+            is = self.and(is, wire);
+        }
+        // A number that does not fit into the word is none that it can be.
+        match number.checked_shr(word.len() as u32).unwrap_or(0) {
+            0 => is,
+            _ => LOW,
+        }
+    }
+
     /// High where the first of two words of the same width is less: where their difference borrows.
     pub fn below(&mut self, a: &[Wire], b: &[Wire]) -> Wire {
         let b: Vec<Wire> = b.iter().map(|&wire| !wire).collect();
@@ -209,7 +223,8 @@ impl Gates {
             .collect()
     }
 
-    fn choose(&mut self, mut column: Vec<Wire>, address: &[Wire]) -> Wire {
+    /// The wire at an address of a column, low past its end.
+    pub fn choose(&mut self, mut column: Vec<Wire>, address: &[Wire]) -> Wire {
         for &bit in address {
             let pairs = column.chunks(2);
             column = pairs

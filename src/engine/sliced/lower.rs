@@ -2,41 +2,27 @@
 
 use super::NotSliced;
 use super::gates::{Gates, HIGH, LOW, Wire};
+use super::state::State;
 use crate::engine::flat::{Flat, Id, Op, Place, Port};
 
 /// More gates than this are not worth their while.
 const MOST: usize = 1 << 22;
 
-/// The wires of a combinational netlist, lowest bit first.
-struct Lowering<'f> {
+/// The wires of a netlist, lowest bit first.
+pub struct Lowering<'f> {
     flat: &'f Flat,
     /// The first bit of each port in.
     ports: Vec<u32>,
-    gates: Gates,
+    /// What it holds, if that is bits of a case too.
+    state: Option<State>,
+    pub gates: Gates,
     words: Vec<Vec<Wire>>,
 }
 
 /// The gates of a combinational netlist, and the wires of its leaves that are no ports in, one
 /// behind the other.
 pub fn lowered(flat: &Flat) -> Result<(Gates, Vec<Wire>), NotSliced> {
-    let mut bits = 0;
-    let ports = flat.inputs.iter().map(|&width| {
-        bits += u32::from(width);
-        bits - u32::from(width)
-    });
-    let mut lowering = Lowering {
-        ports: ports.collect(),
-        flat,
-        gates: Gates::new(),
-        words: Vec::with_capacity(flat.nodes.len()),
-    };
-    for id in 0..flat.nodes.len() as Id {
-        let word = lowering.node(id)?;
-        lowering.words.push(word);
-        if lowering.gates.gates.len() > MOST {
-            return Err(NotSliced);
-        }
-    }
+    let mut lowering = Lowering::of(flat, None, 0, Gates::new())?;
     let mut out = Vec::new();
     for place in &flat.leaves[flat.parts[0]..] {
         match *place {
@@ -75,8 +61,37 @@ fn in_order(word: &[Wire]) -> Vec<Wire> {
     word
 }
 
-impl Lowering<'_> {
-    fn word(&self, id: Id) -> &[Wire] {
+impl<'f> Lowering<'f> {
+    /// All nodes; ports in are the bits of a case from `first` on.
+    pub fn of(
+        flat: &'f Flat,
+        state: Option<State>,
+        first: u32,
+        gates: Gates,
+    ) -> Result<Self, NotSliced> {
+        let mut bits = first;
+        let ports = flat.inputs.iter().map(|&width| {
+            bits += u32::from(width);
+            bits - u32::from(width)
+        });
+        let mut lowering = Lowering {
+            ports: ports.collect(),
+            flat,
+            state,
+            gates,
+            words: Vec::with_capacity(flat.nodes.len()),
+        };
+        for id in 0..flat.nodes.len() as Id {
+            let word = lowering.node(id)?;
+            lowering.words.push(word);
+            if lowering.gates.gates.len() > MOST {
+                return Err(NotSliced);
+            }
+        }
+        Ok(lowering)
+    }
+
+    pub fn word(&self, id: Id) -> &[Wire] {
         &self.words[id as usize]
     }
 
@@ -102,7 +117,10 @@ impl Lowering<'_> {
                 .map(|bit| if bits >> bit & 1 == 1 { HIGH } else { LOW })
                 .collect(),
             Op::Input(port) => self.port(port),
-            Op::Register(_) => return Err(NotSliced),
+            Op::Register(register) => {
+                let state = self.state.as_ref().ok_or(NotSliced)?;
+                state.registers[register as usize].clone()
+            }
             Op::Not(a) => inverse(word(a)),
             Op::Negate(a) => gates.add(&inverse(word(a)), &vec![LOW; width], HIGH).0,
             Op::Add(a, b) => gates.add(word(a), word(b), LOW).0,
@@ -133,11 +151,18 @@ impl Lowering<'_> {
                 let joined = [word(low), word(high)].concat();
                 from(&joined, 0, LOW, width)
             }
-            Op::Read(memory, address) => {
-                let memory = &self.flat.memories[memory as usize];
-                match memory.port {
-                    Port::Rom => gates.table(&memory.contents, word(address), memory.width),
-                    Port::Ram { .. } | Port::Shift { .. } => return Err(NotSliced),
+            Op::Read(number, address) => {
+                let memory = &self.flat.memories[number as usize];
+                match (memory.port, &self.state) {
+                    (Port::Rom, _) => gates.table(&memory.contents, word(address), memory.width),
+                    (_, Some(state)) => {
+                        let words = &state.memories[number as usize];
+                        let column = |bit: usize| words.iter().map(|word| word[bit]).collect();
+                        (0..width)
+                            .map(|bit| gates.choose(column(bit), word(address)))
+                            .collect()
+                    }
+                    (_, None) => return Err(NotSliced),
                 }
             }
         })

@@ -3,6 +3,7 @@
 use super::NotSliced;
 use super::gates::{Gate, Gates, Wire};
 use super::lower::lowered;
+use super::state;
 use super::transpose;
 use crate::engine::Flat;
 
@@ -136,6 +137,92 @@ fn step(gate: Gate, to: u32, at: impl Fn(Wire) -> u32) -> Option<Step> {
     Some(Step { code, to, a, b, c })
 }
 
+/// A tick of a circuit of at most 64 bits that it holds and 64 of ports in, of which many cases run
+/// side by side.
+#[derive(Debug)]
+pub struct Tick {
+    sliced: Sliced,
+    /// How many bits it holds.
+    bits: usize,
+}
+
+impl Tick {
+    /// That of a netlist, with the properties of it that have these numbers.
+    ///
+    /// # Errors
+    /// It holds more, or has more ports in or too many gates, or there is no such property.
+    pub fn of(flat: &Flat, properties: &[usize]) -> Result<Tick, NotSliced> {
+        let ports = flat.inputs.iter().map(|&width| u32::from(width));
+        if ports.sum::<u32>() > 64 {
+            return Err(NotSliced);
+        }
+        let (gates, mut out, holds) = state::tick(flat, properties, 64)?;
+        let bits = out.len();
+        if bits > 64 {
+            return Err(NotSliced);
+        }
+        out.push(holds);
+        let sliced = ordered(&gates, &out);
+        Ok(Tick { sliced, bits })
+    }
+}
+
+/// [`LANES`] cases of a tick.
+#[derive(Debug)]
+pub struct Ticks<'t> {
+    tick: &'t Tick,
+    run: Run<'t>,
+}
+
+impl<'t> Ticks<'t> {
+    /// None yet.
+    pub fn new(tick: &'t Tick) -> Self {
+        Ticks {
+            run: Run::new(&tick.sliced),
+            tick,
+        }
+    }
+
+    /// Runs a tick from each state with each input, at most [`LANES`], both packed in the order of
+    /// their leaves; gives each state after it, and calls `broken` for those where a property does
+    /// not hold.
+    pub fn run(&mut self, states: &mut [u64], inputs: &[u64], mut broken: impl FnMut(usize)) {
+        let words = states.len().min(LANES).div_ceil(64);
+        for word in 0..words {
+            let turned = [&*states, inputs].map(|cases| {
+                let cases = &cases[word * 64..];
+                let mut turned = [0; 64];
+                let count = cases.len().min(64);
+                turned[..count].copy_from_slice(&cases[..count]);
+                transpose(&mut turned);
+                turned
+            });
+            for &(bit, slot) in &self.tick.sliced.inputs {
+                let bits = turned[bit as usize / 64][bit as usize % 64];
+                self.run.slices[slot as usize][word] = bits;
+            }
+        }
+        self.run.steps();
+        for (word, states) in states.chunks_mut(64).enumerate().take(words) {
+            let mut after = [0; 64];
+            let out = &self.tick.sliced.out;
+            for (after, &wire) in after.iter_mut().zip(&out[..self.tick.bits]) {
+                *after = self.run.slice(wire, word);
+            }
+            transpose(&mut after);
+            states.copy_from_slice(&after[..states.len()]);
+            let mut wrong = !self.run.slice(out[self.tick.bits], word);
+            while wrong != 0 {
+                let lane = wrong.trailing_zeros() as usize;
+                if lane < states.len() {
+                    broken(word * 64 + lane);
+                }
+                wrong &= wrong - 1;
+            }
+        }
+    }
+}
+
 /// Slices of [`LANES`] cases.
 #[derive(Debug)]
 pub struct Run<'s> {
@@ -171,6 +258,10 @@ impl<'s> Run<'s> {
                 within.unwrap_or(if cases >> bit & 1 == 1 { u64::MAX } else { 0 })
             });
         }
+        self.steps();
+    }
+
+    fn steps(&mut self) {
         let slices = &mut self.slices[..];
         for step in &self.sliced.steps {
             let a = &slices[step.a as usize];
@@ -195,12 +286,16 @@ impl<'s> Run<'s> {
     /// The leaves of 64 cases in a row, each packed like its case; `word` says which 64.
     pub fn seen(&self, word: usize) -> [u64; 64] {
         let mut seen = [0; 64];
-        for (seen, &(slot, inverse)) in seen.iter_mut().zip(&self.sliced.out) {
-            let bits = self.slices[slot as usize][word];
-            *seen = if inverse { !bits } else { bits };
+        for (seen, &wire) in seen.iter_mut().zip(&self.sliced.out) {
+            *seen = self.slice(wire, word);
         }
         transpose(&mut seen);
         seen
+    }
+
+    fn slice(&self, (slot, inverse): (u32, bool), word: usize) -> u64 {
+        let bits = self.slices[slot as usize][word];
+        if inverse { !bits } else { bits }
     }
 }
 
