@@ -370,11 +370,10 @@ impl<C: Circuit> One<'_, C> {
         (i, q): (&C::In<Sim>, &C::Reg<Sim>),
         next: Option<&C::Reg<Sim>>,
     ) -> Result<(), (String, Fault)> {
-        let checked = Sample::show_given(depth, &self.engine, (i, q), |now| {
+        Sample::show_given(depth, &self.engine, (i, q), |now| {
             let checked = self.invariants.check(now, next);
             checked.map_err(|(name, fault)| (name.to_owned(), fault))
-        });
-        checked
+        })
     }
 
     /// Settles a tick and looks at it.
