@@ -88,12 +88,13 @@ struct Pause {
 impl Pause {
     /// Ticks of a pause at most: where tries have paid of late, and where they have not.
     const LONGEST: [u64; 2] = [64, 512];
+    const CREDIT: i64 = 1 << 20;
 
     fn after(&mut self, took: u64, saved: u64) {
         let took = took as i64;
         let saved = saved.min(u32::MAX.into()) as i64;
-        // What is long ago counts for less; one long jump does not pay for all that comes.
-        self.debt = (self.debt - self.debt / 8 + took - saved).max(-16 * took);
+        // What is long ago counts for less, and what long jumps save not for ever.
+        self.debt = (self.debt - self.debt / 64 + took - saved).max(-Self::CREDIT);
         let pays = self.debt <= 0;
         self.ticks = match saved > 0 && pays {
             true => 0,
