@@ -1,7 +1,7 @@
 //! Positionings one after the other: a compensator, a body, and its brake.
 
 use super::compensator;
-use super::settings::{SPEED_UNIT_COUNTS_PER_S, Settings};
+use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings};
 use super::{Compensator, LeadSource, PositionHistory, RamHistory, SpeedLead, TimeLead, Variant};
 use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn, zero};
 use crate::logic::{Image, Sim};
@@ -75,13 +75,18 @@ impl<'a> ControlComputer<'a> {
         let cks = |ms: f64| u64::from(settings.cks(ms));
         // Lead time in gates, in 1/256.
         let parameter = 256.0 * settings.speed_lead_ms / settings.speed_gate_ms;
+        let standstill = match settings.completion {
+            Completion::Standstill => cks(settings.standstill_ms),
+            // No standstill is so long.
+            Completion::FixedTime => (1 << N) - 1,
+        };
         // The times are in the ROM.
         Ports {
             learn: settings.learn.into(),
             common: settings.common_time.into(),
             last_step: (settings.steps.len().saturating_sub(1) as u64).into(),
             ck_period: u64::from(settings.ck_ticks).into(),
-            standstill: cks(settings.standstill_ms).into(),
+            standstill: standstill.into(),
             time_out: cks(settings.time_out_ms).into(),
             rest: cks(settings.rest_ms).into(),
             seed: settings.code(settings.seed_ms).unwrap_or(0).into(),
@@ -128,10 +133,13 @@ pub struct Positioning {
     pub completed: u64,
     /// Dx then.
     pub stopped: i64,
-    /// Way past the target in the direction of the move; negative where it stopped short.
+    /// Way past the target in the direction of the move; negative where it stopped short. Where the
+    /// time was over, of where the body was then.
     pub error: i64,
     /// Its time was over before the body stood still.
     pub timed_out: bool,
+    /// True speed when it was complete, in counts a second.
+    pub end_speed_counts_per_s: f64,
     /// The target was missed, and the body stopped by hand.
     pub missed: bool,
     /// Δt2 in CKs, where something was learned.
@@ -249,6 +257,7 @@ impl Bench<'_> {
                 stopped: position,
                 error: 0,
                 timed_out: false,
+                end_speed_counts_per_s: 0.0,
                 missed: false,
                 learned: None,
             });
@@ -266,7 +275,11 @@ impl Bench<'_> {
                 current.completed = tick;
                 current.stopped = position;
                 current.error = if current.upward { way } else { -way };
-                current.timed_out = now.get(see.timed_out);
+                current.end_speed_counts_per_s = body.speed_counts_per_s();
+                current.timed_out = match self.settings.completion {
+                    Completion::Standstill => now.get(see.timed_out),
+                    Completion::FixedTime => current.end_speed_counts_per_s != 0.0,
+                };
                 current.missed = now.get(see.missed);
                 self.completed += 1;
                 self.idle = 0;

@@ -33,6 +33,17 @@ pub enum History {
     Ram,
 }
 
+/// When a positioning is complete (26).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Completion {
+    /// The body has stood still for `standstill_ms`, or its time is over.
+    #[default]
+    Standstill,
+    /// `time_out_ms` after the control signal, whether the body stands or turns.
+    FixedTime,
+}
+
 /// One step of the sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
@@ -67,6 +78,8 @@ pub struct Settings {
     pub common_time: bool,
     /// What a step without time data begins to learn with; 0 for nothing.
     pub seed_ms: f64,
+    /// When a positioning is complete.
+    pub completion: Completion,
     /// How long the position must stay for a positioning to be complete.
     pub standstill_ms: f64,
     /// How long a positioning may take after the control signal.
@@ -101,6 +114,7 @@ impl Default for Settings {
             steps: vec![step(15_000, 40_000), step(0, 40_000)],
             placement: Placement::default(),
             comparing: Comparing::default(),
+            completion: Completion::default(),
             sign: Sign::default(),
             history: History::default(),
             learn: true,

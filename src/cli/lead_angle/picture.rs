@@ -7,7 +7,10 @@ use super::systems::{LEARNING, LITERAL, System};
 use motion_rtl::lead_angle::job::{Played, Positioning};
 use motion_rtl::picture::{Curve, Panel, Picture};
 
-const COLOURS: [&str; 5] = ["#8c8c8c", "#cc79a7", "#009e73", "#0072b2", "#d55e00"];
+const COLOURS: [&str; 6] = [
+    "#8c8c8c", "#cc79a7", "#009e73", "#0072b2", "#d55e00", "#56b4e9",
+];
+const TIMED_OUT: &str = "#000000";
 const MARK: &str = "#b0b0b0";
 const AXIS: &str = "positioning";
 /// Errors in codes beyond this are drawn here: the first panel has them.
@@ -50,7 +53,25 @@ fn all_errors(job: &Job, played: &[(System, Played)]) -> Panel {
         let curve = Curve::new(system.name, points).colour(colour);
         panel = panel.curve(curve.width(width));
     }
+    for (_, run) in played.iter().filter(|(system, _)| system.own) {
+        let marks = timed_out(run, (range[1] - range[0]) / 25.0);
+        if !marks.is_empty() {
+            let marks = Curve::new("its time was over", marks);
+            panel = panel.curve(marks.colour(TIMED_OUT).width(2.4));
+        }
+    }
     load_change(panel, job, range)
+}
+
+/// A stroke through every error that is of no stop.
+fn timed_out(run: &Played, half: f64) -> Vec<(f64, f64)> {
+    let all = run.positionings.iter().enumerate();
+    let over = all.filter(|(_, one)| one.timed_out);
+    over.flat_map(|(number, one)| {
+        let (at, error) = (number as f64, one.error as f64);
+        [(at, error - half), (at, error + half), (f64::NAN, 0.0)]
+    })
+    .collect()
 }
 
 /// The stop errors of learning by what a code is worth, in which it is to end within one.

@@ -5,7 +5,7 @@ use super::systems::{LEARNING, LITERAL, System};
 use crate::cli::report::Outcome;
 use motion_rtl::lead_angle::codes::{STAGES, code};
 use motion_rtl::lead_angle::job::{Played, Positioning};
-use motion_rtl::lead_angle::settings::{Comparing, History, Placement, Settings, Sign};
+use motion_rtl::lead_angle::settings::{Comparing, Completion, History, Placement, Settings, Sign};
 use serde::Serialize;
 use std::ops::Range;
 
@@ -24,6 +24,8 @@ pub struct Summary {
     pub placement: Placement,
     /// When the target is reached.
     pub comparing: Comparing,
+    /// When a positioning is complete.
+    pub completion: Completion,
     /// Which way the error counts.
     pub sign: Sign,
     /// Whether times are learned.
@@ -54,6 +56,9 @@ pub struct SystemSummary {
     pub error_rms_counts: f64,
     /// Positionings that missed their target and were stopped by hand.
     pub missed: usize,
+    /// Positionings whose time was over before the body stood still: their errors are of where it
+    /// was then, still turning.
+    pub timed_out: usize,
 }
 
 /// The steps while the load stays the same.
@@ -82,6 +87,8 @@ pub struct StepSummary {
     pub positionings: usize,
     /// Stop error of its last positioning in the phase, for each system, in counts.
     pub last_error_counts: Vec<i64>,
+    /// Whether the time of that positioning was over before the body stood still, for each system.
+    pub last_timed_out: Vec<bool>,
     /// Lead time of its last positioning in the phase of `lead_times_of`, in milliseconds.
     pub lead_ms: f64,
     /// What one code is worth there, in counts.
@@ -102,6 +109,12 @@ pub struct Row {
     pub loaded: bool,
     /// Stop error of each system, in counts.
     pub error_counts: Vec<i64>,
+    /// Whether its time was over before the body stood still, for each system: the error is of where
+    /// it was then.
+    pub timed_out: Vec<bool>,
+    /// Speed at which the body still turned when it was complete, for each system, in counts a
+    /// second.
+    pub end_speed_counts_per_s: Vec<f64>,
     /// Lead time of `lead_times_of`, in milliseconds.
     pub lead_ms: f64,
     /// What one code is worth there, in counts.
@@ -114,9 +127,10 @@ pub fn code_travel(settings: &Settings, positioning: &Positioning) -> f64 {
     positioning.speed_counts_per_s.abs() * settings.ck_ms() / 1e3 * ratio as f64
 }
 
-/// Whether it stopped within a code's travel.
+/// Whether it stopped within a code's travel; where its time was over it has not stopped.
 fn settled(settings: &Settings, positioning: &Positioning) -> bool {
-    positioning.error.unsigned_abs() as f64 <= code_travel(settings, positioning) + 1e-6
+    !positioning.timed_out
+        && positioning.error.unsigned_abs() as f64 <= code_travel(settings, positioning) + 1e-6
 }
 
 /// The run of that name.
@@ -143,6 +157,7 @@ impl Summary {
             history: settings.history,
             placement: settings.placement,
             comparing: settings.comparing,
+            completion: settings.completion,
             sign: settings.sign,
             learn: settings.learn,
             ck_ticks: settings.ck_ticks,
@@ -169,6 +184,7 @@ fn system_summary((system, run): &(System, Played)) -> SystemSummary {
         error_max_counts: errors().map(i64::unsigned_abs).max().unwrap_or(0),
         error_rms_counts: (squares / run.positionings.len().max(1) as f64).sqrt(),
         missed: run.positionings.iter().filter(|one| one.missed).count(),
+        timed_out: run.positionings.iter().filter(|one| one.timed_out).count(),
     }
 }
 
@@ -177,9 +193,19 @@ fn loaded(settings: &Settings, positioning: usize) -> bool {
     after.is_some_and(|after| positioning >= after)
 }
 
-fn errors(played: &[(System, Played)], positioning: usize) -> Vec<i64> {
-    let error = |run: &Played| run.positionings.get(positioning).map_or(0, |one| one.error);
-    played.iter().map(|(_, run)| error(run)).collect()
+/// Something of a positioning, of every system.
+fn of_all<T: Default>(
+    played: &[(System, Played)],
+    positioning: usize,
+    what: impl Fn(&Positioning) -> T,
+) -> Vec<T> {
+    let one = |run: &Played| {
+        run.positionings
+            .get(positioning)
+            .map(&what)
+            .unwrap_or_default()
+    };
+    played.iter().map(|(_, run)| one(run)).collect()
 }
 
 fn rows(settings: &Settings, played: &[(System, Played)], learner: &Played) -> Vec<Row> {
@@ -189,7 +215,9 @@ fn rows(settings: &Settings, played: &[(System, Played)], learner: &Played) -> V
             positioning: number,
             step: one.step,
             loaded: loaded(settings, number),
-            error_counts: errors(played, number),
+            error_counts: of_all(played, number, |one| one.error),
+            timed_out: of_all(played, number, |one| one.timed_out),
+            end_speed_counts_per_s: of_all(played, number, |one| one.end_speed_counts_per_s),
             lead_ms: one.code as f64 * settings.ck_ms(),
             code_travel_counts: code_travel(settings, one),
         })
@@ -236,7 +264,8 @@ fn step_summary(
         target: all[last].target,
         speed_counts_per_s: settings.steps[step].speed_counts_per_s,
         positionings: numbers.len(),
-        last_error_counts: errors(played, last),
+        last_error_counts: of_all(played, last, |one| one.error),
+        last_timed_out: of_all(played, last, |one| one.timed_out),
         lead_ms: all[last].code as f64 * settings.ck_ms(),
         code_travel_counts: code_travel(settings, &all[last]),
         settled_after: Some(settled_after).filter(|after| *after < numbers.len()),
@@ -268,6 +297,15 @@ fn warnings(summary: &Summary) -> Vec<String> {
             all.push(format!(
                 "{} of {} positionings missed their target and were stopped by hand",
                 system.missed,
+                summary.positionings.len()
+            ));
+        }
+        if system.timed_out > 0 {
+            all.push(format!(
+                "{} of {} positionings ended by their time-out with the body still turning: their \
+                 errors are of where it was then, and nothing of them is a stop; a longer \
+                 time_out_ms lets it stop",
+                system.timed_out,
                 summary.positionings.len()
             ));
         }

@@ -1,12 +1,15 @@
 //! What a run is compared with: the same steps without a lead, by speed, with a fixed lead, with a
-//! lead that is learned, and learned with the text's sign.
+//! lead that is learned, and learned with the text's sign; where the scenario has positionings
+//! complete by a fixed time, learned at standstills too.
 
-use motion_rtl::lead_angle::settings::{Settings, Sign};
+use motion_rtl::lead_angle::settings::{Completion, Settings, Sign};
 
 /// Name of the system that learns with the sign that converges.
 pub const LEARNING: &str = "learning";
 /// Name of the system that learns with the text's sign.
 pub const LITERAL: &str = "literal sign";
+/// Name of the system that learns where the body has stopped, though the scenario has a fixed time.
+const STANDSTILL: &str = "at standstill";
 /// Name of the system that keeps its lead times.
 const FIXED: &str = "fixed lead";
 
@@ -49,11 +52,18 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         conventional,
         own: name == own,
     };
-    vec![
+    let mut all = vec![
         system("no lead", none, false),
         system("by speed", fixed.clone(), true),
         system(FIXED, fixed, false),
         system(LEARNING, learning(Sign::Converging), false),
         system(LITERAL, learning(Sign::Literal), false),
-    ]
+    ];
+    if settings.completion == Completion::FixedTime {
+        let mut stopped = learning(Sign::Converging);
+        stopped.completion = Completion::Standstill;
+        stopped.time_out_ms = stopped.time_out_ms.max(Settings::default().time_out_ms);
+        all.push(system(STANDSTILL, stopped, false));
+    }
+    all
 }

@@ -29,24 +29,29 @@ impl Report for Summary {
         )?;
         writeln!(
             text,
-            "history {}, lead on {}, comparing {}, {}\n",
+            "history {}, lead on {}, comparing {}, complete by {}, {}\n",
             name(self.history),
             name(self.placement),
             name(self.comparing),
+            name(self.completion).replace('_', " "),
             match self.learn {
                 true => format!("learning, sign {}", name(self.sign)),
                 false => "not learning".to_owned(),
             }
         )?;
-        writeln!(text, "stop error in counts   largest       rms  missed")?;
+        writeln!(
+            text,
+            "stop error in counts   largest       rms  missed  timed out"
+        )?;
         for system in &self.systems {
             writeln!(
                 text,
-                "{:<20}  {:>8}  {:>8.1}  {:>6}{}",
+                "{:<20}  {:>8}  {:>8.1}  {:>6}  {:>9}{}",
                 system.name,
                 system.error_max_counts,
                 system.error_rms_counts,
                 system.missed,
+                system.timed_out,
                 if system.own { "  in the waves" } else { "" },
             )?;
         }
@@ -56,6 +61,12 @@ impl Report for Summary {
         }
         if all {
             self.every_positioning(text)?;
+        }
+        if self.systems.iter().any(|system| system.timed_out > 0) {
+            writeln!(
+                text,
+                "* its time was over: where the body was then, not where it stopped\n"
+            )?;
         }
         Ok(())
     }
@@ -68,12 +79,13 @@ impl Summary {
         names.map(|name| format!("  {name:>SHORTEST$}")).collect()
     }
 
-    /// Stop errors below their heads.
-    fn errors(&self, errors: &[i64]) -> String {
-        let columns = self.systems.iter().zip(errors);
-        let cell = |(system, error): (&SystemSummary, &i64)| {
+    /// Stop errors below their heads, with a mark where the body had not stopped.
+    fn errors(&self, errors: &[i64], timed_out: &[bool]) -> String {
+        let columns = self.systems.iter().zip(errors).zip(timed_out);
+        let cell = |((system, error), timed_out): ((&SystemSummary, &i64), &bool)| {
             let width = system.name.len().max(SHORTEST);
-            format!("  {error:>width$}")
+            let mark = if *timed_out { "*" } else { "" };
+            format!("  {:>width$}", format!("{error}{mark}"))
         };
         columns.map(cell).collect()
     }
@@ -103,7 +115,7 @@ impl Summary {
                 step.step,
                 step.target,
                 step.speed_counts_per_s,
-                self.errors(&step.last_error_counts)
+                self.errors(&step.last_error_counts, &step.last_timed_out)
             )?;
             let settled = match step.settled_after {
                 Some(after) => after.to_string(),
@@ -131,7 +143,7 @@ impl Summary {
                 "{:>11}  {:>4}{}  {:>5.1} ms  {:>8.1}",
                 row.positioning,
                 row.step,
-                self.errors(&row.error_counts),
+                self.errors(&row.error_counts, &row.timed_out),
                 row.lead_ms,
                 row.code_travel_counts
             )?;

@@ -2,7 +2,9 @@
 
 use super::Runnable;
 use crate::input::position_log::Columns;
-use crate::lead_angle::settings::{Comparing, History, Placement, Settings, Sign, Step};
+use crate::lead_angle::settings::{
+    Comparing, Completion, History, Placement, Settings, Sign, Step,
+};
 use crate::plant::{BodyParameters, Load};
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -51,6 +53,9 @@ pub struct Scenario {
     /// What a step without time data begins to learn with.
     #[serde(default = "default::seed")]
     pub seed_ms: f64,
+    /// When a positioning is complete.
+    #[serde(default)]
+    pub completion: Completion,
     /// How long the position must stay for a positioning to be complete.
     #[serde(default = "default::standstill")]
     pub standstill_ms: f64,
@@ -134,6 +139,7 @@ impl Scenario {
             steps: self.step.iter().map(step).collect(),
             placement: self.placement,
             comparing: self.comparing,
+            completion: self.completion,
             sign: self.sign,
             history: self.history,
             learn: self.learn,
