@@ -9,11 +9,20 @@ const DEFLATE: u64 = 1032;
 const LZ4: u64 = 255;
 
 const HEADER: u8 = 0;
+/// With the eight bytes of the length itself.
+const HEADER_LENGTH: u64 = 329;
 const GEOMETRY: u8 = 3;
 
 struct Section<'a> {
     kind: u8,
     bytes: &'a [u8],
+}
+
+/// Whether it begins as an FST does: with a header, which has always the same length.
+///
+/// The reader looks for this too, but goes on for ever behind lengths that overflow.
+pub(super) fn begins(bytes: &[u8]) -> bool {
+    bytes.first() == Some(&HEADER) && number(bytes, 1) == Some(HEADER_LENGTH)
 }
 
 /// Refuses sections that claim more than they can hold.

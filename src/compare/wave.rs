@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::io::Cursor;
 use std::path::Path;
 use wellen::simple::Waveform;
-use wellen::{FileFormat, SignalRef, SignalValueRef, VarDirection, VarType, viewers};
+use wellen::{SignalRef, SignalValueRef, VarDirection, VarType};
 
 /// A variable that has bits.
 #[derive(Debug)]
@@ -76,8 +76,7 @@ impl Wave {
                 "VCD"
             }
             Some(_) => {
-                let format = catch(|| viewers::detect_file_format(&mut Cursor::new(&bytes)));
-                if format != Some(FileFormat::Fst) {
+                if !sections::begins(&bytes) {
                     return Err(fault("neither a VCD nor an FST", formats));
                 }
                 sections::check(file, &bytes)?;

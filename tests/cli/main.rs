@@ -8,6 +8,7 @@ mod checks;
 mod compare;
 mod compare_names;
 mod compare_refusals;
+mod damage;
 mod drawings;
 mod files;
 mod fst;

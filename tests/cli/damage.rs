@@ -1,0 +1,105 @@
+//! Damaged dumps: whatever byte is another one, a comparison ends soon, in little memory, and with a
+//! verdict or a refusal.
+
+use super::support::{Bench, LINE, PROGRAM, SHORT};
+use rayon::prelude::*;
+use std::fs;
+use std::os::unix::process::ExitStatusExt;
+use std::process::Command;
+use std::time::Instant;
+
+/// Address space in KiB: the program and its stack, and 256 MiB beyond them.
+const MEMORY: u64 = 400_000;
+
+/// Compares a dump with another one, of which it may have as much memory as is said.
+fn compare(bench: &Bench, name: &str, other: &str) -> (Option<i32>, f64) {
+    let script = format!("ulimit -c 0; ulimit -v {MEMORY}; exec \"$0\" \"$@\"");
+    let mut command = Command::new("sh");
+    command.args(["-c", &script, PROGRAM, "compare", name, other]);
+    command.current_dir(bench.path("."));
+    // One thread has one stack.
+    command.env("RAYON_NUM_THREADS", "1");
+    let begun = Instant::now();
+    let status = command.output().expect("it starts").status;
+    assert_eq!(status.signal(), None, "{name}: {status}");
+    (status.code(), begun.elapsed().as_secs_f64())
+}
+
+fn every_byte_of(format: &str, ends: &[i32]) {
+    let bench = Bench::with("l.hpgl", LINE);
+    let window = [
+        "--from",
+        "700",
+        "--to",
+        "720",
+        "--only",
+        "pulse_interpolator.x.sync",
+    ];
+    let run = ["run", "l.hpgl", "--out", "o", "--format", format];
+    bench.succeed(&[&run[..], &window, &SHORT[..]].concat());
+    let golden = format!("o/l.{format}");
+    let whole = fs::read(bench.path(&golden)).unwrap();
+    assert!((200..2000).contains(&whole.len()), "{}", whole.len());
+    let end = compare(&bench, &golden, &golden);
+    assert_eq!(end.0, Some(0));
+    let places: Vec<usize> = (0..whole.len()).collect();
+    let codes: Vec<i32> = places
+        .par_iter()
+        .map(|&place| {
+            let mut damaged = whole.clone();
+            // Another one in every place, over all of them every bit turns over.
+            damaged[place] ^= if place % 2 == 0 {
+                0xff
+            } else {
+                1 << (place / 2 % 8)
+            };
+            let name = format!("o/{place}.{format}");
+            bench.write(&name, &damaged);
+            let (code, seconds) = compare(&bench, &name, &golden);
+            assert!(seconds < 20.0, "byte {place}: {seconds} s");
+            let code = code.unwrap_or(-1);
+            assert!((0..=2).contains(&code), "byte {place}: {code}");
+            code
+        })
+        .collect();
+    // What is damaged is seen, and dates are not looked at.
+    for code in ends {
+        assert!(codes.contains(code), "no comparison ended with {code}");
+    }
+}
+
+#[test]
+fn any_byte_of_an_fst() {
+    every_byte_of("fst", &[0, 2]);
+}
+
+#[test]
+fn any_byte_of_a_vcd() {
+    every_byte_of("vcd", &[0, 1, 2]);
+}
+
+#[test]
+fn lengths_that_overflow_end_at_once() {
+    let bench = Bench::with("golden.vcd", "$enddefinitions $end\n");
+    bench.write("nine.vcd", [0xff; 9]);
+    let refused = "neither a VCD nor an FST; allowed: a VCD or an FST";
+    let arguments = ["compare", "nine.vcd", "golden.vcd"];
+    bench.refuse(&arguments, &format!("nine.vcd: file: {refused}"));
+    // A header of the right length, and behind it sections as long as a number can be, and longer.
+    for length in [1u64 << 63, u64::MAX, u64::MAX - 8, 0, 7] {
+        let header = [&[0][..], &329u64.to_be_bytes(), &[0; 321]].concat();
+        let section = [&[1][..], &length.to_be_bytes()].concat();
+        bench.write("long.fst", [header, section].concat());
+        let text = "long.fst: file: its sections do not fit together; allowed: a complete FST, from \
+                    a simulator that has ended";
+        bench.refuse(&["compare", "long.fst", "golden.vcd"], text);
+    }
+    for length in [0u64, 1 << 63, u64::MAX] {
+        bench.write(
+            "short.fst",
+            [&[0][..], &length.to_be_bytes(), &[0; 400]].concat(),
+        );
+        let arguments = ["compare", "short.fst", "golden.vcd"];
+        bench.refuse(&arguments, &format!("short.fst: file: {refused}"));
+    }
+}
