@@ -56,6 +56,10 @@ pub struct Arguments {
     /// A golden signal without partner, or with one and without a value to compare, is a difference.
     #[arg(long)]
     strict: bool,
+    /// Ports of golden's outermost scope may be without partner, and hardly anything may have one;
+    /// otherwise that is a difference.
+    #[arg(long, conflicts_with = "strict")]
+    allow_missing: bool,
     /// Cuts no list short, and lists the other file's signals without partner too.
     #[arg(long)]
     all: bool,
@@ -101,6 +105,19 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
     }
     if !report.is_equal() {
         return Err(Failure::Check("the files differ".into()));
+    }
+    let ports = report.ports_without_partner.len();
+    if !arguments.allow_missing && !arguments.strict {
+        let what = match ports {
+            0 if report.hardly_pairs() => "almost nothing pairs".to_owned(),
+            0 => String::new(),
+            _ => format!("ports of golden without partner: {ports}"),
+        };
+        if !what.is_empty() {
+            return Err(Failure::Check(format!(
+                "{what}; a map pairs them, --allow-missing takes the rest as equal"
+            )));
+        }
     }
     for (what, unheld) in [
         ("golden signals without partner", &report.without_partner),

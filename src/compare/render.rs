@@ -1,4 +1,4 @@
-use super::names::LISTED;
+use super::names::{LISTED, listed};
 use super::report::{Mismatch, Report, Side};
 use std::fmt::{self, Write as _};
 
@@ -36,7 +36,22 @@ impl Report {
             self.from_tick
         );
         let values = count(self.values, "value");
+        if self.hardly_pairs() {
+            let all = self.signals + self.without_partner.len();
+            write!(
+                out,
+                "almost nothing pairs, {} of {all} signals; ",
+                self.signals
+            )?;
+        }
+        let ports = &self.ports_without_partner;
+        if !ports.is_empty() {
+            write!(out, "ports of golden without partner: {}; ", listed(ports))?;
+        }
         match self.is_equal() {
+            true if !ports.is_empty() || self.hardly_pairs() => {
+                writeln!(out, "what pairs is equal: {ticks}, {signals}, {values}")?;
+            }
             true => writeln!(out, "equal: {ticks}, {signals}, {values}")?,
             false => writeln!(
                 out,

@@ -22,6 +22,9 @@ pub struct Report {
     pub values: u64,
     /// Values with an x or z in the golden file. They are not compared.
     pub unknown_values: u64,
+    /// Ports of golden's outermost scope without a partner, as far as the file tells which they are: a
+    /// VCD tells those in, an FST all.
+    pub ports_without_partner: Vec<String>,
     /// Golden signals without a partner.
     pub without_partner: Vec<String>,
     /// Signals of the other file that are no partner.
@@ -133,5 +136,13 @@ impl Report {
     /// compared stands in the lists.
     pub fn is_equal(&self) -> bool {
         self.differences.is_empty() && self.different_widths.is_empty()
+    }
+
+    /// Whether hardly any golden signal has a partner, so that two designs may have been compared
+    /// that have nothing to do with each other.
+    pub fn hardly_pairs(&self) -> bool {
+        let paired = self.signals + self.without_values.len() + self.different_widths.len();
+        let paired = paired + self.too_wide.len();
+        10 * paired < paired + self.without_partner.len()
     }
 }

@@ -117,6 +117,12 @@ impl Runs {
             tick,
             ticks,
         });
+        let is_port = |index: &usize| {
+            let variable = &golden.wave.variables[*index];
+            variable.path.matches('.').count() == 1 && (variable.input || variable.output)
+        };
+        let ports = pairing.without_partner.iter().copied().filter(is_port);
+        let ports: Vec<usize> = ports.collect();
         let window = i128::from(settings.ticks.start)..i128::from(settings.ticks.end);
         let alone = |start: i128, run: &Run| {
             let end = (start + i128::from(run.ticks.count)).min(window.end);
@@ -131,6 +137,7 @@ impl Runs {
             signals: pairing.pairs.len() - without_values.len(),
             values,
             unknown_values: unknown,
+            ports_without_partner: paths(&golden.wave, &ports),
             without_partner: paths(&golden.wave, &pairing.without_partner),
             other_without_partner: paths(&other.wave, &free),
             ignored: paths(&golden.wave, &pairing.ignored),

@@ -21,6 +21,8 @@ pub(super) struct Variable {
     /// An input: an FST tells. In a VCD of ours those of the outermost scope stand before its
     /// registers.
     pub input: bool,
+    /// An output of the outermost scope: an FST tells.
+    pub output: bool,
     /// Variables of the same signal are aliases.
     pub signal: SignalRef,
     /// Numbers of its first and last bit, where it has a range.
@@ -155,6 +157,7 @@ impl Wave {
                 width,
                 register,
                 input,
+                output: above && var.direction() == VarDirection::Output,
                 signal,
                 range: var.index().map(|index| (index.msb(), index.lsb())),
             });

@@ -113,24 +113,24 @@ fn all_lists_the_names_of_both_sides_and_a_template_has_them() {
     let bench = bench(&["tb", "dut"], "[signals]\n\"top.last\" = \"done\"\n");
     shows(
         &bench,
-        &["--map", "m.toml", "--all"],
+        &["--map", "m.toml", "--all", "--allow-missing"],
         0,
         &expect![[r#"
-        equal: 2 ticks (0 to 1), 1 signal, 2 values
-        golden g.vcd: clock top.clk, 2 ticks
-        other  o.vcd: clock tb.dut.clk, 2 ticks
+            ports of golden without partner: top.go; what pairs is equal: 2 ticks (0 to 1), 1 signal, 2 values
+            golden g.vcd: clock top.clk, 2 ticks
+            other  o.vcd: clock tb.dut.clk, 2 ticks
 
-        golden signals without partner: 2
-          top.go
-          top.count
+            golden signals without partner: 2
+              top.go
+              top.count
 
-        signals of the other file without partner: 3
-          tb.dut.run_n
-          tb.dut.cnt_q
-          tb.dut.spare
+            signals of the other file without partner: 3
+              tb.dut.run_n
+              tb.dut.cnt_q
+              tb.dut.spare
 
-        signals not compared: 2 without partner in golden, 3 without partner in other
-    "#]],
+            signals not compared: 2 without partner in golden, 3 without partner in other
+        "#]],
     );
     shows(
         &bench,
@@ -211,4 +211,86 @@ fn the_table_begins_where_it_is_asked_to_and_has_what_surrounds_the_mismatch() {
     let report = bench.run(&["compare", "g.vcd", "o.vcd", "--around", "9", "--json"]);
     let report = serde_json::from_str(&report.stdout).unwrap();
     assert_eq!(whole(&report, "/first/shown_ticks/0"), 0);
+}
+
+/// What is a scope deeper in the other design must not be equal because of what happens to pair.
+#[test]
+fn ports_without_partner_are_named_first_and_no_equality() {
+    let golden = ["wire 4 period [3:0]", "reg 1 u.x", "reg 1 u.y"];
+    let rows: [&[&str]; 2] = [&["11", "0", "1"], &["11", "1", "0"]];
+    let bench = Bench::with("g.vcd", dump(&["top"], &golden, &rows));
+    let other = ["wire 4 period [3:0]", "reg 1 g.u.x", "reg 1 g.u.y"];
+    bench.write("o.vcd", dump(&["tb", "dut"], &other, &rows));
+    shows(
+        &bench,
+        &[],
+        1,
+        &expect![[r#"
+        ports of golden without partner: top.period; what pairs is equal: 2 ticks (0 to 1), 2 signals, 4 values
+        golden g.vcd: clock top.clk, 2 ticks
+        other  o.vcd: clock tb.dut.clk, scope tb.dut.g, 2 ticks
+
+        golden signals without partner: 1
+          top.period
+
+        signals not compared: 1 without partner in golden, 1 without partner in other
+        error: ports of golden without partner: 1; a map pairs them, --allow-missing takes the rest as equal
+    "#]],
+    );
+    shows(
+        &bench,
+        &["--allow-missing"],
+        0,
+        &expect![[r#"
+        ports of golden without partner: top.period; what pairs is equal: 2 ticks (0 to 1), 2 signals, 4 values
+        golden g.vcd: clock top.clk, 2 ticks
+        other  o.vcd: clock tb.dut.clk, scope tb.dut.g, 2 ticks
+
+        golden signals without partner: 1
+          top.period
+
+        signals not compared: 1 without partner in golden, 1 without partner in other
+    "#]],
+    );
+    let report = bench.json(&["compare", "g.vcd", "o.vcd", "--allow-missing"]);
+    assert_eq!(report["ports_without_partner"][0], "top.period");
+    // Where the port pairs, nets may stay out.
+    let arguments = ["compare", "g.vcd", "o.vcd", "--scope", "tb.dut"];
+    let report = bench.json(&arguments);
+    assert_eq!(report["ports_without_partner"], serde_json::json!([]));
+    assert_eq!(whole(&report, "/signals"), 1);
+    // And where it is said to be another one.
+    bench.write("m.toml", "ignore = [\"top.period\"]\n");
+    bench.json(&["compare", "g.vcd", "o.vcd", "--map", "m.toml"]);
+}
+
+/// Dumps that have nothing to do with each other but a name or two.
+#[test]
+fn that_almost_nothing_pairs_is_said_first() {
+    let names: Vec<String> = (0..30).map(|at| format!("reg 1 r{at}")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let row = vec!["0"; 30];
+    let golden = dump(&["top"], &names, &[&row, &row]);
+    for (paired, code) in [(1, 1), (2, 1), (3, 0), (30, 0)] {
+        let bench = Bench::with("g.vcd", &golden);
+        bench.write(
+            "o.vcd",
+            dump(
+                &["top"],
+                &names[..paired],
+                &[&row[..paired], &row[..paired]],
+            ),
+        );
+        let done = bench.run(&["compare", "g.vcd", "o.vcd"]);
+        assert_eq!(done.code, code, "{paired}: {}{}", done.stdout, done.stderr);
+        let first = format!("almost nothing pairs, {paired} of 30 signals; what pairs is equal: ");
+        assert_eq!(
+            done.stdout.starts_with(&first),
+            code == 1,
+            "{}",
+            done.stdout
+        );
+        let allowed = ["compare", "g.vcd", "o.vcd", "--allow-missing"];
+        bench.succeed(&allowed);
+    }
 }
