@@ -73,7 +73,7 @@ pub struct Step {
     pub c: Slot,
 }
 
-/// What a step computes: see [`Op`].
+/// What a step computes: see [`Op`](super::flat::Op).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs, reason = "they are those of the netlist")]
 pub enum Code {
