@@ -37,12 +37,9 @@ impl Report {
         );
         let values = count(self.values, "value");
         if self.hardly_pairs() {
-            let all = self.signals + self.without_partner.len();
-            write!(
-                out,
-                "almost nothing pairs, {} of {all} signals; ",
-                self.signals
-            )?;
+            let paired = self.paired();
+            let all = paired + self.without_partner.len();
+            write!(out, "almost nothing pairs, {paired} of {all} signals; ")?;
         }
         let ports = &self.ports_without_partner;
         if !ports.is_empty() {

@@ -141,8 +141,16 @@ impl Report {
     /// Whether hardly any golden signal has a partner, so that two designs may have been compared
     /// that have nothing to do with each other.
     pub fn hardly_pairs(&self) -> bool {
-        let paired = self.signals + self.without_values.len() + self.different_widths.len();
-        let paired = paired + self.too_wide.len();
-        10 * paired < paired + self.without_partner.len()
+        10 * self.paired() < self.paired() + self.without_partner.len()
+    }
+
+    /// How many golden signals have a partner, compared or not.
+    pub(super) fn paired(&self) -> usize {
+        let not_compared = [
+            self.without_values.len(),
+            self.different_widths.len(),
+            self.too_wide.len(),
+        ];
+        self.signals + not_compared.iter().sum::<usize>()
     }
 }

@@ -243,8 +243,8 @@ fn a_ram_gives_the_same() {
     assert_eq!(summary("ram"), summary("shift_register"));
 }
 
-/// Largest amount of the errors that a summary has of its positionings, and how many are of none that
-/// has stopped.
+/// The greatest speed at which a system's body still turned when a positioning was complete, and of how
+/// many it did.
 fn turning(summary: &Value, name: &str) -> (f64, usize) {
     let number = system(summary, name);
     let mut largest = 0.0_f64;
@@ -321,7 +321,7 @@ fn a_fixed_time_completes_every_positioning_and_learning_at_standstill_stands_be
     for row in list(&summary, "positionings") {
         assert_eq!(row["error_counts"][fixed], row["error_counts"][stopped]);
     }
-    // Too short: it learns to be at the target in passing, and is past it when it has stopped.
+    // Too short: it learns to be at the target in passing.
     let summary = run("time_out_ms=40");
     assert_eq!(turning(&summary, "learning").1, 36);
     assert_eq!(turning(&summary, "at standstill").1, 0);

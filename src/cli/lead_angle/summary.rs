@@ -302,7 +302,7 @@ fn warnings(summary: &Summary) -> Vec<String> {
         }
         if system.timed_out > 0 {
             all.push(format!(
-                "{} of {} positionings ended by their time-out with the body still turning: their \
+                "{} of {} positionings ended by their time-out before the body stood still: their \
                  errors are of where it was then, and nothing of them is a stop; a longer \
                  time_out_ms lets it stop",
                 system.timed_out,

@@ -40,6 +40,7 @@ impl Levels {
             .map(|(node, watched)| !is_leaf(node.op) && (*watched || !is_cheap(node.op)))
             .collect();
         let instance = |id: Id| flat.nodes[id as usize].instance;
+        let crossing = |id: Id, other: Id| u32::from(instance(other) != instance(id));
         // The earliest level.
         let mut early = vec![0u32; count];
         let mut end = 0;
@@ -49,16 +50,10 @@ impl Levels {
                 continue;
             }
             let mut level = 0;
-            through(
-                flat,
-                &own,
-                flat.node(id).op.operands(),
-                &mut stack,
-                |other| {
-                    let crossing = u32::from(instance(other) != instance(id));
-                    level = level.max(early[other as usize] + crossing);
-                },
-            );
+            let operands = flat.node(id).op.operands();
+            through(flat, &own, operands, &mut stack, |other| {
+                level = level.max(early[other as usize] + crossing(id, other));
+            });
             early[id as usize] = level;
             end = end.max(level);
         }
@@ -94,16 +89,10 @@ impl Levels {
                 *here = (*here).min(end - 1);
             }
             let here = *here;
-            through(
-                flat,
-                &own,
-                flat.node(id).op.operands(),
-                &mut stack,
-                |other| {
-                    let crossing = u32::from(instance(other) != instance(id));
-                    level[other as usize] = level[other as usize].min(here - crossing);
-                },
-            );
+            let operands = flat.node(id).op.operands();
+            through(flat, &own, operands, &mut stack, |other| {
+                level[other as usize] = level[other as usize].min(here - crossing(id, other));
+            });
         }
         Levels { own, level, end }
     }
