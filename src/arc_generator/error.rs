@@ -89,8 +89,8 @@ pub enum Reason {
         /// The largest speed that fits.
         most: f64,
     },
-    /// The linear interpolator would go less than a count per scan.
-    #[error("at {speed} mm/s the axis with the longer way goes less than a count per scan")]
+    /// The speed is too slow for the fraction that the linear interpolator has of it.
+    #[error("at {speed} mm/s the axis with the longer way goes too few counts in a scan")]
     Slow {
         /// The wanted speed.
         speed: f64,

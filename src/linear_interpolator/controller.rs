@@ -12,24 +12,51 @@
 //!
 //! The same around the conventional system of Fig. 3: what makes the commands is a parameter.
 
+use super::target_data::{ACCELERATION_TIME, DECELERATION_TIME, SPEED};
 use super::{Conventional, CycleGate, LinearInterpolator, PositionLoop};
-use super::{cycle_gate, interpolator, position_loop};
+use super::{conventional, cycle_gate, interpolator, position_loop};
 use crate::blocks::{EnableCounter, enable_counter};
 use crate::kernel::{Circuit, Instance};
 use crate::logic::{Logic, Sim};
 use crate::signals;
 use std::fmt::Debug;
 
-/// What makes the position commands of a controller.
-pub trait CommandSource<const P: usize, const T: usize>: Circuit + Clone + Debug {
+/// What makes the position commands of a controller, from targets with `N` settings of speed and
+/// times: one for both axes, or one for each.
+pub trait CommandSource<const P: usize, const T: usize, const N: usize>:
+    Circuit + Clone + Debug
+{
     /// The name of a controller with it.
     const CONTROLLER: &'static str;
     /// What such a controller is, in one line.
     const CONTROLLER_ABOUT: &'static str;
     /// Its ports in.
-    fn ports<L: Logic>(i: interpolator::In<L, P, T>) -> Self::In<L>;
+    fn ports<L: Logic>(i: SourcePorts<L, P, T, N>) -> Self::In<L>;
     /// Its ports out.
     fn commands<L: Logic>(w: &Self::Net<L>) -> Commands<L, P>;
+}
+
+/// Ports in of a [`CommandSource`].
+#[derive(Debug, Clone)]
+pub struct SourcePorts<L: Logic, const P: usize, const T: usize, const N: usize> {
+    /// A scan begins.
+    pub scan: L::Bit,
+    /// No new cycle begins.
+    pub hold: L::Bit,
+    /// A target is given.
+    pub push: L::Bit,
+    /// Its X and Y.
+    pub target: [L::I<P>; 2],
+    /// Its speeds.
+    pub speed: [L::U<P>; N],
+    /// Its acceleration times.
+    pub acceleration_time: [L::U<T>; N],
+    /// Its deceleration times.
+    pub deceleration_time: [L::U<T>; N],
+    /// Ends the cycle.
+    pub halt: L::Bit,
+    /// The commands become 0.
+    pub clear: L::Bit,
 }
 
 /// Ports out of a [`CommandSource`].
@@ -56,13 +83,28 @@ pub struct Commands<L: Logic, const P: usize> {
 }
 
 macro_rules! command_source {
-    ([$($width:ident),*], $circuit:ident, $name:literal, $about:literal) => {
-        impl<$(const $width: usize),*> CommandSource<P, T> for $circuit<$($width),*> {
+    (
+        [$($width:ident),*], $circuit:ident, $settings:literal, $module:ident,
+        |$one:ident| $setting:expr, $name:literal, $about:literal
+    ) => {
+        impl<$(const $width: usize),*> CommandSource<P, T, $settings> for $circuit<$($width),*> {
             const CONTROLLER: &'static str = $name;
             const CONTROLLER_ABOUT: &'static str = $about;
 
-            fn ports<L: Logic>(i: interpolator::In<L, P, T>) -> Self::In<L> {
-                i
+            fn ports<L: Logic>(i: SourcePorts<L, P, T, $settings>) -> Self::In<L> {
+                let [target_x, target_y] = i.target;
+                $module::In {
+                    scan: i.scan,
+                    hold: i.hold,
+                    push: i.push,
+                    target_x,
+                    target_y,
+                    speed: { let $one = i.speed; $setting },
+                    acceleration_time: { let $one = i.acceleration_time; $setting },
+                    deceleration_time: { let $one = i.deceleration_time; $setting },
+                    halt: i.halt,
+                    clear: i.clear,
+                }
             }
 
             fn commands<L: Logic>(w: &Self::Net<L>) -> Commands<L, P> {
@@ -85,31 +127,45 @@ macro_rules! command_source {
 command_source!(
     [A, P, T, M, Q, R],
     LinearInterpolator,
+    1,
+    interpolator,
+    |settings| settings[0],
     "controller",
     "linear interpolator with the position loops of X and Y"
 );
 command_source!(
     [A, P, T, M, Q],
     Conventional,
+    2,
+    conventional,
+    |settings| settings,
     "conventional_controller",
     "a position pattern for each axis, with the position loops of X and Y"
 );
 
 signals! {
     /// Ports in: control computer, settings, encoders.
-    pub struct In<L, const P: usize, const T: usize, const G: usize, const S: usize> {
+    pub struct In<
+        L,
+        const P: usize,
+        const T: usize,
+        const G: usize,
+        const S: usize,
+        const N: usize,
+    > {
         /// A target is given; not taken unless `ready`, or with `halt`.
         pub push: L::Bit,
         /// Its X.
         pub target_x: L::I<P>,
         /// Its Y.
         pub target_y: L::I<P>,
-        /// Steady speed on the way there: counts of the master axis a scan.
-        pub speed: L::U<P>,
+        /// Steady speed on the way there: counts a scan, with `T` bits of fraction; one of the master
+        /// axis, or one of each axis.
+        pub speed: [L::U<P>; N] as Elements(SPEED),
         /// Acceleration time in scans.
-        pub acceleration_time: L::U<T>,
+        pub acceleration_time: [L::U<T>; N] as Elements(ACCELERATION_TIME),
         /// Deceleration time in scans.
-        pub deceleration_time: L::U<T>,
+        pub deceleration_time: [L::U<T>; N] as Elements(DECELERATION_TIME),
         /// Ends the cycle along the line and forgets the targets that wait; one that is pushed with
         /// it is kept, and is where the axes go next.
         pub halt: L::Bit,
@@ -209,7 +265,7 @@ signals! {
 
 /// Controller 1 around what makes its commands, with positions of `P` bits and times of `T`, gains
 /// of `G` bits of which `F` are a fraction, D/A converters of `D` bits, a scan of `S` bits; `K` is
-/// P + G, the width of the loops' products.
+/// P + G, the width of the loops' products, and `N` the settings of a target.
 #[derive(Debug, Clone, Default)]
 pub struct Controller<
     C,
@@ -220,6 +276,7 @@ pub struct Controller<
     const D: usize = 16,
     const K: usize = 48,
     const S: usize = 24,
+    const N: usize = 1,
 > {
     /// Scan counter.
     pub scan_counter: EnableCounter<S>,
@@ -232,7 +289,7 @@ pub struct Controller<
 }
 
 impl<
-    C: CommandSource<P, T>,
+    C: CommandSource<P, T, N>,
     const P: usize,
     const T: usize,
     const G: usize,
@@ -240,7 +297,8 @@ impl<
     const D: usize,
     const K: usize,
     const S: usize,
-> Controller<C, P, T, G, F, D, K, S>
+    const N: usize,
+> Controller<C, P, T, G, F, D, K, S, N>
 {
     /// The controller around `interpolator`.
     pub fn new(interpolator: C) -> Self {
@@ -254,7 +312,7 @@ impl<
 }
 
 impl<
-    C: CommandSource<P, T>,
+    C: CommandSource<P, T, N>,
     const P: usize,
     const T: usize,
     const G: usize,
@@ -262,11 +320,12 @@ impl<
     const D: usize,
     const K: usize,
     const S: usize,
-> Circuit for Controller<C, P, T, G, F, D, K, S>
+    const N: usize,
+> Circuit for Controller<C, P, T, G, F, D, K, S, N>
 {
     const NAME: &'static str = C::CONTROLLER;
     const ABOUT: &'static str = C::CONTROLLER_ABOUT;
-    type In<L: Logic> = In<L, P, T, G, S>;
+    type In<L: Logic> = In<L, P, T, G, S, N>;
     type Reg<L: Logic> = Reg<L, C, P, D, S>;
     type Net<L: Logic> = Net<L, C, P, G, F, D, K, S>;
 
@@ -282,12 +341,11 @@ impl<
         let interpolator: Instance<C, L> = Instance::settle(
             &self.interpolator,
             &q.interpolator,
-            C::ports(interpolator::In {
+            C::ports(SourcePorts {
                 scan,
                 hold: q.gate.hold,
                 push: i.push,
-                target_x: i.target_x,
-                target_y: i.target_y,
+                target: [i.target_x, i.target_y],
                 speed: i.speed,
                 acceleration_time: i.acceleration_time,
                 deceleration_time: i.deceleration_time,

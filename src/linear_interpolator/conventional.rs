@@ -1,5 +1,5 @@
 //! The conventional system of Fig. 3 (¶0004–0005), for comparison: a position pattern for each
-//! axis, with the same times and speed.
+//! axis, each with a speed and times of its own.
 //!
 //! ```text
 //!                       ┌────────────────────┐
@@ -9,10 +9,11 @@
 //!                       └────────────────────┘
 //! ```
 //!
-//! Ports as those of the linear interpolator. Both patterns begin together; the one with the
-//! shorter way is over earlier, so that the path bends.
+//! Ports as those of the linear interpolator, but that speed and times are those of X, and Y has
+//! its own. Both patterns begin together. Which settings they get makes the two ways of ¶0005:
+//! the same for both axes, or speeds in proportion to the distances with times inverse to them.
 
-use super::interpolator::In;
+use super::target_data::{ACCELERATION_TIME, DECELERATION_TIME, SPEED};
 use super::{
     AxisSwitch, PatternGenerator, Sequencer, TargetData, axis_switch, pattern_generator, sequencer,
     target_data,
@@ -20,6 +21,33 @@ use super::{
 use crate::kernel::{Circuit, Instance};
 use crate::logic::Logic;
 use crate::signals;
+
+signals! {
+    /// Ports in: scan and control computer.
+    pub struct In<L, const P: usize, const T: usize> {
+        /// A scan begins.
+        pub scan: L::Bit,
+        /// No new cycle begins.
+        pub hold: L::Bit,
+        /// A target is given; not taken unless `ready`, or with `halt`.
+        pub push: L::Bit,
+        /// Its X.
+        pub target_x: L::I<P>,
+        /// Its Y.
+        pub target_y: L::I<P>,
+        /// Steady speeds of X and of Y: counts a scan, with `T` bits of fraction.
+        pub speed: [L::U<P>; 2] as Elements(SPEED),
+        /// Acceleration times in scans, from rest to these speeds.
+        pub acceleration_time: [L::U<T>; 2] as Elements(ACCELERATION_TIME),
+        /// Deceleration times in scans.
+        pub deceleration_time: [L::U<T>; 2] as Elements(DECELERATION_TIME),
+        /// Ends the cycle, each axis by its own ramp, and forgets the targets that wait; one that is
+        /// pushed with it is kept, and is where the axes go next.
+        pub halt: L::Bit,
+        /// Between two cycles: the commands become 0, the flags go.
+        pub clear: L::Bit,
+    }
+}
 
 signals! {
     /// Registers of the blocks.
@@ -32,7 +60,7 @@ signals! {
         const Q: usize,
     > {
         /// Target data 20.
-        pub targets: target_data::Reg<L, A, P, T>,
+        pub targets: target_data::Reg<L, A, P, T, 2>,
         /// Sequencer.
         pub sequencer: sequencer::Reg<L, P>,
         /// Position pattern generator 14 of X.
@@ -55,7 +83,7 @@ signals! {
         const Q: usize,
     > {
         /// Target data 20.
-        pub targets: Instance<TargetData<A, P, T>, L>,
+        pub targets: Instance<TargetData<A, P, T, 2>, L>,
         /// Sequencer.
         pub sequencer: Instance<Sequencer<P>, L>,
         /// Position pattern generator 14 of X.
@@ -95,7 +123,7 @@ pub struct Conventional<
     const Q: usize = 58,
 > {
     /// Target data 20.
-    pub targets: TargetData<A, P, T>,
+    pub targets: TargetData<A, P, T, 2>,
     /// Sequencer.
     pub sequencer: Sequencer<P>,
     /// Position pattern generator 14, one for each axis.
@@ -128,7 +156,7 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
                 flush: i.halt,
             },
         );
-        let pattern = |q_pattern, from, distance| {
+        let pattern = |axis: usize, q_pattern, from, distance| {
             Instance::settle(
                 &self.pattern,
                 q_pattern,
@@ -136,16 +164,16 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
                     start: q.sequencer.start,
                     from,
                     distance,
-                    speed: q.targets.target_speed,
-                    acceleration_time: q.targets.target_acceleration,
-                    deceleration_time: q.targets.target_deceleration,
+                    speed: q.targets.target_speed[axis],
+                    acceleration_time: q.targets.target_acceleration[axis],
+                    deceleration_time: q.targets.target_deceleration[axis],
                     advance: q.sequencer.advance,
                     halt: i.halt,
                 },
             )
         };
-        let pattern_x = pattern(&q.pattern_x, q.commands.x, q.sequencer.delta_x);
-        let pattern_y = pattern(&q.pattern_y, q.commands.y, q.sequencer.delta_y);
+        let pattern_x = pattern(0, &q.pattern_x, q.commands.x, q.sequencer.delta_x);
+        let pattern_y = pattern(1, &q.pattern_y, q.commands.y, q.sequencer.delta_y);
         let (x, y) = (&pattern_x.w, &pattern_y.w);
         // Both take the same time for a scan; one of them may be at rest.
         let valid = x.valid | y.valid;

@@ -30,7 +30,8 @@ signals! {
         pub target_x: L::I<P>,
         /// Its Y.
         pub target_y: L::I<P>,
-        /// Steady speed on the way there: steps of the master axis a scan.
+        /// Steady speed on the way there: counts of the master axis a scan, with `T` bits of
+        /// fraction.
         pub speed: L::U<P>,
         /// Acceleration time in scans.
         pub acceleration_time: L::U<T>,
@@ -56,7 +57,7 @@ signals! {
         const R: usize,
     > {
         /// Target data 20.
-        pub targets: target_data::Reg<L, A, P, T>,
+        pub targets: target_data::Reg<L, A, P, T, 1>,
         /// Sequencer.
         pub sequencer: sequencer::Reg<L, P>,
         /// Position pattern generator 14.
@@ -181,9 +182,9 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
                 push: i.push,
                 x: i.target_x,
                 y: i.target_y,
-                speed: i.speed,
-                acceleration_time: i.acceleration_time,
-                deceleration_time: i.deceleration_time,
+                speed: [i.speed],
+                acceleration_time: [i.acceleration_time],
+                deceleration_time: [i.deceleration_time],
                 pop: q.sequencer.pop,
                 flush: i.halt,
             },
@@ -195,9 +196,9 @@ impl<const A: usize, const P: usize, const T: usize, const M: usize, const Q: us
                 start: q.sequencer.start,
                 from: q.sequencer.master_from,
                 distance: q.sequencer.master,
-                speed: q.targets.target_speed,
-                acceleration_time: q.targets.target_acceleration,
-                deceleration_time: q.targets.target_deceleration,
+                speed: q.targets.target_speed[0],
+                acceleration_time: q.targets.target_acceleration[0],
+                deceleration_time: q.targets.target_deceleration[0],
                 advance: q.sequencer.advance,
                 halt: i.halt,
             },

@@ -2,6 +2,7 @@
 //! and on the conventional system.
 
 use super::measure::{Cycle, Played, ScanRecord};
+use super::profile::Profile;
 use super::settings::{AxisSettings, Settings};
 use super::targets::{TIME_BITS, Target};
 use super::{CommandSource, Controller, Conventional, LinearInterpolator, Rule, controller};
@@ -10,6 +11,7 @@ use crate::logic::Sim;
 use crate::plant::{ServoAxis, ServoParameters, waves};
 use crate::settings::JobError;
 use fixed::types::U8F8;
+use std::array::from_fn;
 
 /// Position width of the controller that plays a job.
 const P: usize = 32;
@@ -21,15 +23,18 @@ const FULL_SCALE: i64 = (1 << 15) - 1;
 const PATIENCE: u64 = 20_000;
 
 /// A controller with the motors beside it in the waves.
-pub type Plotter<C> = With<Controller<C>, waves::Axes>;
+pub type Plotter<C, const N: usize> = With<Drive<C, N>, waves::Axes>;
+
+/// The controller of a job, for targets with `N` settings of speed and times.
+pub type Drive<C, const N: usize> = Controller<C, P, T, 16, 8, 16, 48, 24, N>;
 
 /// The plotter with the linear interpolator.
-pub fn plotter(rule: Rule) -> Plotter<LinearInterpolator> {
+pub fn plotter(rule: Rule) -> Plotter<LinearInterpolator, 1> {
     With::new(Controller::new(LinearInterpolator::new(rule)))
 }
 
 /// The plotter with the conventional system of Fig. 3.
-pub fn conventional() -> Plotter<Conventional> {
+pub fn conventional() -> Plotter<Conventional, 2> {
     With::new(Controller::new(Conventional::default()))
 }
 
@@ -70,7 +75,7 @@ struct See {
 }
 
 impl See {
-    fn of<C: CommandSource<P, T>>(watch: &Watcher<Plotter<C>>) -> Self {
+    fn of<C: CommandSource<P, T, N>, const N: usize>(watch: &Watcher<Plotter<C, N>>) -> Self {
         let (q, w) = (&watch.q, &watch.w);
         See {
             reference: [&q.loop_x, &q.loop_y].map(|axis| watch.at(axis.control.speed_ref)),
@@ -89,8 +94,8 @@ impl See {
 }
 
 /// The control computer: gives targets, and writes down what comes of them.
-struct Bench<'a> {
-    targets: &'a [Target],
+struct Bench<'a, const N: usize> {
+    targets: &'a [Target<N>],
     pushed: usize,
     /// A push stood in the tick before.
     pushing: bool,
@@ -103,9 +108,9 @@ struct Bench<'a> {
     idle: u64,
 }
 
-impl Bench<'_> {
+impl<const N: usize> Bench<'_, N> {
     /// The target that is given in this tick.
-    fn push(&mut self) -> Option<Target> {
+    fn push(&mut self) -> Option<Target<N>> {
         let target = self.targets.get(self.pushed).copied();
         // The flag is that of the tick before: full or not, it has not changed without a push.
         let target = target.filter(|_| self.ready && !self.pushing);
@@ -115,9 +120,9 @@ impl Bench<'_> {
     }
 
     /// Whether the run goes on.
-    fn take<C: CommandSource<P, T>>(
+    fn take<C: CommandSource<P, T, N>>(
         &mut self,
-        now: &Sample<'_, Plotter<C>>,
+        now: &Sample<'_, Plotter<C, N>>,
         see: &See,
         motor: [f64; 2],
     ) -> bool {
@@ -181,11 +186,11 @@ impl Bench<'_> {
 ///
 /// # Errors
 /// A setting is out of range, or what `observer` objects to.
-pub fn play<C: CommandSource<P, T>>(
-    circuit: &Plotter<C>,
-    targets: &[Target],
+pub fn play<C: CommandSource<P, T, N>, const N: usize>(
+    circuit: &Plotter<C, N>,
+    targets: &[Target<N>],
     settings: &Settings,
-    mut observer: impl Observer<Plotter<C>>,
+    mut observer: impl Observer<Plotter<C, N>>,
 ) -> Result<Played, JobError> {
     settings.validate()?;
     let tick_s = 1.0 / settings.clock_hz as f64;
@@ -195,8 +200,8 @@ pub fn play<C: CommandSource<P, T>>(
         ServoAxis::new(&y.servo(), tick_s)?,
     ];
     let gains = [x, y].map(|axis| u64::from(axis.gain().to_bits()));
-    let mut i = WithIn::<Sim, Controller<C>, waves::Axes> {
-        i: controller::In::<Sim, P, T, 16, 24> {
+    let mut i = WithIn::<Sim, Drive<C, N>, waves::Axes> {
+        i: controller::In::<Sim, P, T, 16, 24, N> {
             exact_stop: settings.exact_stop.into(),
             scan_period: u64::from(settings.scan_ticks).into(),
             gain_x: gains[0].into(),
@@ -226,9 +231,13 @@ pub fn play<C: CommandSource<P, T>>(
         ports.push = target.is_some().into();
         ports.target_x = target.map_or(0, |target| target.x).into();
         ports.target_y = target.map_or(0, |target| target.y).into();
-        ports.speed = target.map_or(0, |target| target.speed).into();
-        ports.acceleration_time = target.map_or(0, |target| target.acceleration_scans).into();
-        ports.deceleration_time = target.map_or(0, |target| target.deceleration_scans).into();
+        let setting =
+            |of: fn(&Profile) -> u64, n: usize| target.map_or(0, |target| of(&target.profiles[n]));
+        ports.speed = from_fn(|n| setting(|profile| profile.speed, n).into());
+        ports.acceleration_time =
+            from_fn(|n| setting(|profile| profile.acceleration_scans, n).into());
+        ports.deceleration_time =
+            from_fn(|n| setting(|profile| profile.deceleration_scans, n).into());
         (ports.a_x, ports.b_x) = (a_x.into(), b_x.into());
         (ports.a_y, ports.b_y) = (a_y.into(), b_y.into());
         if observer.looks(simulator.tick()) {

@@ -28,7 +28,7 @@ signals! {
         pub from: L::I<P>,
         /// Distance to go; with 0 there is no cycle.
         pub distance: L::I<P>,
-        /// Greatest step of a scan; 0 counts as 1.
+        /// V: greatest speed, in counts a scan with `T` bits of fraction; 0 counts as the least.
         pub speed: L::U<P>,
         /// Ta in scans; 0 counts as 1.
         pub acceleration_time: L::U<T>,
@@ -69,7 +69,7 @@ signals! {
     }
 }
 
-/// Position pattern generator 14 with positions of `P` bits and times of `T`, at most P;
+/// Position pattern generator 14 with positions of `P` bits and times of `T`, fewer than P;
 /// M = 2T + 1 and Q = P + 2T + 2, at most 64.
 #[derive(Debug, Clone, Default)]
 pub struct PatternGenerator<

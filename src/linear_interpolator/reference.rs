@@ -4,6 +4,7 @@
 //! the circuit's accumulators cannot stand here too. The motors are of first order.
 
 use super::measure::{Cycle, Played, ScanRecord};
+use super::profile::{Profile, SPEED_ONE};
 use super::settings::{AxisSettings, Rule, Settings};
 use super::targets::Target;
 
@@ -38,15 +39,18 @@ struct Stop {
 impl Pattern {
     /// A cycle of `distance` from `from`; a speed and times of 0 count as 1.
     #[must_use]
-    pub fn new(from: i64, distance: i64, speed: u64, times: [u64; 2]) -> Self {
+    pub fn new(from: i64, distance: i64, profile: &Profile) -> Self {
         let distance = i128::from(distance);
-        let speed = i128::from(speed.max(1));
-        let [acceleration, deceleration] = times.map(|time| i128::from(time.max(1)));
-        let rest = 2 * distance.abs() - speed * (acceleration + deceleration);
+        let speed = i128::from(profile.speed.max(1));
+        let acceleration = i128::from(profile.acceleration_scans.max(1));
+        let deceleration = i128::from(profile.deceleration_scans.max(1));
+        let twice = 2 * distance.abs() * i128::from(SPEED_ONE);
+        let rest = twice - speed * (acceleration + deceleration);
         let steady = match rest > 0 {
             true => (rest + 2 * speed - 1) / (2 * speed),
             false => 0,
         };
+        let steady = steady.min(i128::from(i32::MAX));
         Pattern {
             from,
             distance,
@@ -175,15 +179,6 @@ impl Integrator {
     }
 }
 
-/// Which commands the axes get.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum System {
-    /// The master axis has a pattern, the slave axis the integrator (Figs 5 and 6).
-    Interpolator,
-    /// Each axis has a pattern, with the same times and the same speed (Fig. 3, ¶0005).
-    Conventional,
-}
-
 /// The commands of one cycle.
 enum Commands {
     Interpolated {
@@ -195,20 +190,24 @@ enum Commands {
 }
 
 impl Commands {
-    fn new(system: System, settings: &Settings, from: [i64; 2], target: &Target) -> (Self, usize) {
+    /// With one setting the master axis has a pattern and the slave axis the integrator (Figs 5 and
+    /// 6), with two each axis has a pattern (Fig. 3, ¶0005).
+    fn new<const N: usize>(
+        settings: &Settings,
+        from: [i64; 2],
+        target: &Target<N>,
+    ) -> (Self, usize) {
         let delta = [target.x - from[0], target.y - from[1]];
         let longer = delta.map(i64::unsigned_abs);
         let master = usize::from(longer[0] < longer[1]);
-        let times = [target.acceleration_scans, target.deceleration_scans];
-        let commands = match system {
-            System::Interpolator => Commands::Interpolated {
-                pattern: Pattern::new(from[master], delta[master], target.speed, times),
+        let pattern = |axis: usize, profile| Pattern::new(from[axis], delta[axis], profile);
+        let commands = match target.profiles.as_slice() {
+            [x, y] => Commands::Separate([pattern(0, x), pattern(1, y)]),
+            profiles => Commands::Interpolated {
+                pattern: pattern(master, &profiles[0]),
                 integrator: Integrator::new(settings.rule, delta[master], delta[1 - master]),
                 master,
             },
-            System::Conventional => Commands::Separate(
-                [0, 1].map(|axis| Pattern::new(from[axis], delta[axis], target.speed, times)),
-            ),
         };
         (commands, master)
     }
@@ -271,11 +270,11 @@ impl Motor {
 /// Scans after which an axis that does not come into position is no more waited for.
 const PATIENCE: u64 = 100_000;
 
-/// Plays the cycles scan by scan. `each` sees the tick of every scan.
-pub fn play(
-    targets: &[Target],
+/// Plays the cycles scan by scan, on the interpolator where targets have one setting, on the
+/// conventional system where they have one for each axis. `each` sees the tick of every scan.
+pub fn play<const N: usize>(
+    targets: &[Target<N>],
     settings: &Settings,
-    system: System,
     each: &mut dyn FnMut(u64),
 ) -> Played {
     let mut played = Played::default();
@@ -298,7 +297,7 @@ pub fn play(
         (0..2).all(|axis| motors[axis].error(at[axis]).abs() <= most)
     };
     for (number, target) in targets.iter().enumerate() {
-        let (mut commands, master) = Commands::new(system, settings, at, target);
+        let (mut commands, master) = Commands::new(settings, at, target);
         let (from, start) = (at, played.records.len());
         let mut in_position = true;
         while let Some(to) = commands.advance(at) {

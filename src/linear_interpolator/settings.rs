@@ -1,5 +1,6 @@
 //! What the linear interpolator is run with: clock and scan, machine, motion, axes.
 
+use super::profile::speed_word;
 use super::targets::{LATENCY_TICKS, LONGEST_RAMP};
 use crate::plan::FEED_RANGE;
 use crate::settings::{
@@ -93,9 +94,12 @@ pub struct Settings {
     pub feed_mm_per_min: f64,
     /// Speed of rapid moves, in mm/min.
     pub rapid_mm_per_min: f64,
-    /// Time from rest to the speed of the move.
+    /// 100 % speed of each axis in mm/min, to which the times below are, and the fastest of a move;
+    /// without it the faster of the two above.
+    pub full_speed_mm_per_min: Option<f64>,
+    /// Time from rest to 100 % speed.
     pub acceleration_ms: f64,
-    /// Time from the speed of the move to rest.
+    /// Time from 100 % speed to rest.
     pub deceleration_ms: f64,
     /// What becomes of a move that is too short to reach its speed.
     pub short_moves: ShortMoves,
@@ -119,6 +123,7 @@ impl Default for Settings {
             counts_per_mm: [200.0; 2],
             feed_mm_per_min: 6000.0,
             rapid_mm_per_min: 18_000.0,
+            full_speed_mm_per_min: None,
             acceleration_ms: 100.0,
             deceleration_ms: 100.0,
             short_moves: ShortMoves::default(),
@@ -145,11 +150,30 @@ impl Settings {
         f64::from(self.scan_ticks) / self.clock_hz as f64
     }
 
-    /// Fastest feed in any direction, in mm/min: an encoder is counted at one count per tick.
+    /// Fastest speed that can be counted in any direction, in mm/min: one count per tick.
     #[must_use]
-    pub fn fastest_mm_per_min(&self) -> f64 {
+    pub fn countable_mm_per_min(&self) -> f64 {
         let [x, y] = self.counts_per_mm;
         (60.0 * self.clock_hz as f64 / x.max(y)).min(*FEED_RANGE.end())
+    }
+
+    /// 100 % speed in mm/min.
+    #[must_use]
+    pub fn fastest_mm_per_min(&self) -> f64 {
+        let faster = self.feed_mm_per_min.max(self.rapid_mm_per_min);
+        self.full_speed_mm_per_min.unwrap_or(faster)
+    }
+
+    /// 100 % speed of an axis (0 is X, 1 is Y) as a [`Profile`](super::profile::Profile) has its
+    /// speed.
+    pub(super) fn full_speed(&self, axis: usize) -> u64 {
+        let counts_per_s = self.fastest_mm_per_min() / 60.0 * self.counts_per_mm[axis];
+        speed_word(counts_per_s * self.scan_s()).unwrap_or(1)
+    }
+
+    /// Times of acceleration and deceleration in scans.
+    pub(super) fn ramp_scans(&self) -> [u64; 2] {
+        self.ramps().map(|ramp| ramp.periods)
     }
 
     /// Times of acceleration and deceleration as they are taken.
@@ -174,7 +198,11 @@ impl Settings {
             within("counts_per_mm", value, &COUNTS_PER_MM_RANGE)
                 .map_err(|error| error.at(Place::Element(name)))?;
         }
-        let feeds = *FEED_RANGE.start()..=self.fastest_mm_per_min();
+        let most = self.countable_mm_per_min();
+        if let Some(full) = self.full_speed_mm_per_min {
+            within("full_speed_mm_per_min", full, &(*FEED_RANGE.start()..=most))?;
+        }
+        let feeds = *FEED_RANGE.start()..=self.full_speed_mm_per_min.unwrap_or(most);
         within("feed_mm_per_min", self.feed_mm_per_min, &feeds)?;
         within("rapid_mm_per_min", self.rapid_mm_per_min, &feeds)?;
         let times = 0.0..=LONGEST_RAMP as f64 * 1e3 * self.scan_s();

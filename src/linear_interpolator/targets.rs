@@ -4,7 +4,8 @@
 //! points rounded to encoder counts one by one, so that no error adds up. A Z is ignored.
 
 use super::LinearInterpolator;
-use super::settings::{AXIS_NAMES, Settings, ShortMoves};
+use super::profile::{FASTEST_LOSS, Profile, SPEED_ONE, speed_word};
+use super::settings::{AXIS_NAMES, Settings};
 use crate::input::{Drawing, Point};
 use crate::plan::digits::round_up;
 use crate::plan::{PlanError, check, chords};
@@ -25,23 +26,21 @@ pub const REACH_COUNTS: i64 = 1 << 30;
 /// The most cycles that a drawing may become.
 pub const MOST_TARGETS: usize = 1 << 20;
 
-/// A speed this little below a whole number is that number: a rounding of floating point must not
-/// cost a count per scan.
-const ROUNDING: f64 = 1e-12;
+/// The most steady scans of a cycle.
+const MOST_STEADY: f64 = i32::MAX as f64;
 
-/// One positioning cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Target {
+/// One positioning cycle, with `N` settings of speed and times: that of the axis with the longer
+/// way, or those of X and Y.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target<const N: usize = 1> {
     /// X in counts.
     pub x: i64,
     /// Y in counts.
     pub y: i64,
-    /// Speed of the axis with the longer way, in counts per scan, 1 or more.
-    pub speed: u64,
-    /// Time from rest to that speed, in scans, 1 or more.
-    pub acceleration_scans: u64,
-    /// Time from that speed to rest, in scans, 1 or more.
-    pub deceleration_scans: u64,
+    /// Speeds and times.
+    pub profiles: [Profile; N],
+    /// The speed along the line that is asked for, in mm/min.
+    pub feed_mm_per_min: f64,
     /// Line of the input; 0 for the way to a start that is not the origin.
     pub line: usize,
     /// Whether the pen is up.
@@ -49,7 +48,7 @@ pub struct Target {
 }
 
 /// What a drawing became.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Targets {
     /// The cycles. They begin at the origin, where the command registers are at power-on.
     pub targets: Vec<Target>,
@@ -68,17 +67,18 @@ pub enum TargetError {
     /// The drawing has a value that cannot be computed with.
     #[error(transparent)]
     Drawing(#[from] PlanError),
-    /// A feed at which an encoder makes more than one count per tick.
+    /// A feed at which an encoder makes more than one count per tick, or above 100 % speed.
     #[error("line {line}: feed {value} mm/min: allowed are up to {most}")]
     Feed {
         /// Line of the input.
         line: usize,
         /// The feed in mm/min.
         value: f64,
-        /// The fastest that can be counted.
+        /// The fastest.
         most: f64,
     },
-    /// A feed at which the axis with the longer way goes less than a count per scan.
+    /// A feed at which the axis with the longer way goes so slowly that the fraction of its speed is
+    /// too coarse, or that the cycle has too many scans.
     #[error("line {line}: feed {value} mm/min: allowed are {least} and more in this direction")]
     Slow {
         /// Line of the input; 0 for the way to a start that is not the origin.
@@ -111,7 +111,7 @@ pub enum TargetError {
 /// # Errors
 ///
 /// A setting outside its range; a drawing with a coordinate, a feed or a radius that cannot be
-/// computed with; a feed that an encoder cannot be counted at, or of less than a count per scan; a
+/// computed with; a feed that an encoder cannot be counted at, above 100 % speed or too slow; a
 /// position out of reach; more than [`MOST_TARGETS`] cycles.
 pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<Targets, TargetError> {
     settings.validate()?;
@@ -182,53 +182,36 @@ impl Compiler<'_> {
         let settings = self.settings;
         let way = [0, 1].map(|axis| to[axis] - self.at[axis]);
         let [x_mm, y_mm] = [0, 1].map(|axis| way[axis] as f64 / settings.counts_per_mm[axis]);
-        let longer = way[0].unsigned_abs().max(way[1].unsigned_abs());
+        let longer = [0, 1].map(|axis| way[axis].unsigned_abs());
+        let master = usize::from(longer[0] < longer[1]);
+        let longer = longer[master];
         let scans = x_mm.hypot(y_mm) / (feed / 60.0) / settings.scan_s();
         let exact = longer as f64 / scans;
-        let Some(speed) = whole_speed(exact) else {
-            let least = round_up(feed / exact);
+        let slowest = FASTEST_LOSS.max(longer as f64 / MOST_STEADY);
+        let Some(speed) = speed_word(exact).filter(|_| exact >= slowest) else {
+            let least = round_up(feed * slowest / exact);
             let value = feed;
             return Err(TargetError::Slow { line, value, least });
         };
-        let speed = speed.min(u64::from(settings.scan_ticks));
-        let [acceleration_scans, deceleration_scans] = ramps(settings, longer, speed);
+        let speed = speed.min(u64::from(settings.scan_ticks) * SPEED_ONE);
+        let short = Some(settings.short_moves);
+        let profile = Profile::over(
+            settings,
+            master,
+            longer,
+            speed,
+            settings.ramp_scans(),
+            short,
+        );
         self.made.targets.push(Target {
             x: to[0],
             y: to[1],
-            speed,
-            acceleration_scans,
-            deceleration_scans,
+            profiles: [profile],
+            feed_mm_per_min: feed,
             line,
             rapid,
         });
         self.at = to;
         Ok(())
     }
-}
-
-/// A speed in whole counts per scan, never above the one given; none where that is below 1.
-pub(crate) fn whole_speed(exact: f64) -> Option<u64> {
-    let whole = (exact * (1.0 + ROUNDING)).floor() as u64;
-    (whole > 0).then_some(whole)
-}
-
-/// Times of acceleration and deceleration over `distance` counts at `speed`.
-///
-/// The two ramps take V·(Ta + Td)/2. Over a shorter distance Δ the same accelerations lead to the
-/// times k·Ta and k·Td and to the peak k·V with k² = 2·Δ/(V·(Ta + Td)). Rounded up, they never lead
-/// to a larger acceleration.
-fn ramps(settings: &Settings, distance: u64, speed: u64) -> [u64; 2] {
-    let times = settings.ramps().map(|ramp| ramp.periods);
-    let twice = 2 * u128::from(distance);
-    let ramps = u128::from(speed) * u128::from(times[0] + times[1]);
-    if settings.short_moves == ShortMoves::ConstantTime || twice >= ramps {
-        return times;
-    }
-    times.map(|time| {
-        let square = (u128::from(time).pow(2) * twice).div_ceil(ramps);
-        let root = square.isqrt();
-        let up = u128::from(root * root < square);
-        // No more than `time`, as 2·Δ is below V·(Ta + Td); at least 1, as Δ is.
-        (root + up) as u64
-    })
 }

@@ -14,9 +14,12 @@
 //! at its two ends, and makes that share of the distance of which all weights together are the
 //! whole; what the division leaves goes into the next scan, so that nothing is lost.
 //!
+//! The speed has a fraction, so that a slow one is not rounded to whole counts a scan.
+//!
 //! Departures: the text says nothing of the discrete form. Every cycle ends exactly at its target;
-//! a short one keeps its times and has a lower peak; times and speed of 0 count as 1; `halt`
-//! ramps down from the present level, along the same line.
+//! a short one keeps its times and has a lower peak; times of 0 count as 1, a speed of 0 as the
+//! least; `halt` ramps down from the present level, along the same line; a cycle has no more
+//! than 2^(P−1) − 1 steady scans, and goes faster than V where those are too few.
 
 use crate::kernel::Circuit;
 use crate::logic::{Bit, Logic, Signed, Unsigned};
@@ -48,7 +51,7 @@ signals! {
         pub from: L::I<P>,
         /// Distance to go; with 0 there is no cycle.
         pub distance: L::I<P>,
-        /// Greatest step of a scan; 0 counts as 1.
+        /// V: greatest speed, in counts a scan with `T` bits of fraction; 0 counts as the least.
         pub speed: L::U<P>,
         /// Ta in scans; 0 counts as 1.
         pub acceleration_time: L::U<T>,
@@ -82,7 +85,7 @@ signals! {
         length: L::U<P> = 0,
         /// The cycle goes down.
         backward: L::Bit = 0,
-        /// V: greatest step of a scan.
+        /// V: greatest speed, with `T` bits of fraction.
         speed_limit: L::U<P> = 0,
         /// Ta in scans.
         ramp_up: L::U<T> = 0,
@@ -134,10 +137,12 @@ signals! {
         pub divisor: L::U<Q>,
         /// Ta + Td.
         times: L::U<Q>,
-        /// 2|Δ|.
+        /// 2|Δ|, with the fraction of V.
         length_twice: L::U<Q>,
         /// 2V.
         speed_twice: L::U<Q>,
+        /// Tc would be 2^(P−1) or more.
+        endless: L::Bit,
         /// How far the scan moves.
         share: L::I<P>,
         /// The next step of the preparation is asked for.
@@ -179,10 +184,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
 
     fn comb<L: Logic>(&self, q: &Reg<L, P, T, M, Q>, i: &In<L, P, T, Q>) -> Net<L, P, M, Q> {
         const {
-            assert!(
-                T >= 1 && T <= P,
-                "times have at most as many bits as positions"
-            );
+            assert!(T >= 1 && T < P, "times have fewer bits than positions");
             assert!(M == 2 * T + 1 && Q == P + 2 * T + 2 && Q <= 64);
         }
         let [ramps, steady_scans, peak, total, scan] =
@@ -207,7 +209,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
 
         let times = q.ramp_up.resize::<Q>() + q.ramp_down.resize();
         let scans_twice = times + q.steady_scans.resize().shift_left(1);
-        let length_twice = q.length.resize::<Q>().shift_left(1);
+        let length_twice = q.length.resize::<Q>().shift_left(T + 1);
         let speed_twice = q.speed_limit.resize::<Q>().shift_left(1);
         let excess = length_twice - i.quotient + speed_twice - 1;
         let excess = i.quotient.below(length_twice).mux(excess, 0.into());
@@ -225,6 +227,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
             times,
             length_twice,
             speed_twice,
+            endless: !i.quotient.shift_right(P - 1).is_zero(),
             share: i.quotient.resize::<P>().signed(),
             prepares: begins | (result & !total & !scan),
             multiplicand: scan.mux(
@@ -272,6 +275,9 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
         let phase = weighs.mux(w.next_phase, q.phase);
         let phase = (i.halt & q.active).mux(DECELERATE.into(), phase);
         let steady_left = weighs.mux(w.left, q.steady_scans);
+        let none: L::U<P> = 0.into();
+        let most = (none - 1).shift_right(1);
+        let steady_all = w.endless.mux(most, i.quotient.resize());
         Reg {
             state: w.next_state,
             phase: w.begins.mux(0.into(), phase),
@@ -282,7 +288,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Circuit
             speed_limit: w.take.mux(speed, q.speed_limit),
             ramp_up: w.take.mux(up, q.ramp_up),
             ramp_down: w.take.mux(down, q.ramp_down),
-            steady_scans: (steady_scans & w.result).mux(i.quotient.resize(), steady_left),
+            steady_scans: (steady_scans & w.result).mux(steady_all, steady_left),
             peak: (peak & w.result).mux(i.quotient.resize(), q.peak),
             total: (total & w.result).mux(i.quotient, q.total),
             level: weighs.mux(w.next_level, q.level),

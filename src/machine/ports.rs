@@ -46,7 +46,7 @@ signals! {
         pub target_x: L::I<32>,
         /// Its Y.
         pub target_y: L::I<32>,
-        /// Steady speed there: counts of the master axis a scan.
+        /// Steady speed there: counts of the master axis a scan, with 12 bits of fraction.
         pub speed: L::U<32>,
         /// Acceleration time in scans.
         pub acceleration_time: L::U<12>,

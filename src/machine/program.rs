@@ -10,7 +10,7 @@ use crate::arc_generator::record::{Record, records as arc_records};
 use crate::arc_generator::vector::{add, sub};
 use crate::arc_generator::widths::Widths as ArcWidths;
 use crate::input::{Drawing, Point};
-use crate::linear_interpolator::targets::whole_speed;
+use crate::linear_interpolator::profile::{FASTEST_LOSS, SPEED_ONE, speed_word};
 use crate::pulse_interpolator::{Report, Table, TableError, compile};
 use crate::settings::SettingError;
 use crate::trajectory_controller::Widths;
@@ -26,7 +26,7 @@ use crate::trajectory_controller::speed_limits::{Span, spans};
 pub enum Way {
     /// A target for the linear interpolator.
     Line {
-        /// Steady speed: counts of the master axis a scan.
+        /// Steady speed: counts of the master axis a scan, times [`SPEED_ONE`].
         speed: u64,
     },
     /// Records for the arc generator.
@@ -230,7 +230,7 @@ impl Program {
 }
 
 /// The word for a speed in mm/s over a line's way in counts, and the speed that it is: the
-/// interpolator knows whole counts a scan of the master axis, and the profile is to go as fast.
+/// interpolator's has a fraction of so many bits, and the profile is to go as fast.
 fn line_speed(way: [f64; 2], speed: f64, settings: &Settings) -> Result<(u64, f64), Reason> {
     let (length, master) = (way[0].hypot(way[1]), way[0].abs().max(way[1].abs()));
     if master == 0.0 {
@@ -239,9 +239,10 @@ fn line_speed(way: [f64; 2], speed: f64, settings: &Settings) -> Result<(u64, f6
     }
     // Counts a scan, at a millimetre a second.
     let scale = settings.counts_per_mm * settings.scan_s() * master / length;
-    let least = 1.0 / scale;
-    let word = whole_speed(speed * scale).ok_or(Reason::Slow { speed, least })?;
-    Ok((word, word as f64 / scale))
+    let least = FASTEST_LOSS / scale;
+    let word = speed_word(speed * scale).filter(|_| speed >= least);
+    let word = word.ok_or(Reason::Slow { speed, least })?;
+    Ok((word, word as f64 / SPEED_ONE as f64 / scale))
 }
 
 /// An arc's piece, begun elsewhere.
@@ -286,24 +287,24 @@ mod tests {
 
     /// The speed that the profile is given is that of the interpolator's word, on any slope.
     #[test]
-    fn a_line_goes_in_whole_counts_a_scan() {
+    fn a_line_goes_as_fast_as_its_word_says() {
         // A thousand counts a millimetre, a scan of a millisecond: a count is a millimetre a second.
         let settings = Settings::default();
         let speed = |way, speed| line_speed(way, speed, &settings);
-        let (word, exact) = speed([4000.0, 0.0], 25.9).unwrap();
-        assert_eq!(word, 25);
-        assert!((exact - 25.0).abs() < 1e-9, "{exact}");
+        let (word, exact) = speed([4000.0, 0.0], 25.75).unwrap();
+        assert_eq!((word, exact), (103 * SPEED_ONE / 4, 25.75));
+        // Less than the last bit of the fraction is lost.
+        let (word, exact) = speed([4000.0, 0.0], 25.0 + 1.9 / 4096.0).unwrap();
+        assert_eq!(word, 25 * SPEED_ONE + 1);
+        assert!((exact - 25.0 - 1.0 / 4096.0).abs() < 1e-9, "{exact}");
         // Three, four, five: the master axis has four parts of five.
         let (word, exact) = speed([-3000.0, 4000.0], 25.0).unwrap();
-        assert_eq!(word, 20);
-        assert!((exact - 25.0).abs() < 1e-9, "{exact}");
-        let (word, exact) = speed([3000.0, 4000.0], 26.0).unwrap();
-        assert_eq!(word, 20);
+        assert_eq!(word, 20 * SPEED_ONE);
         assert!((exact - 25.0).abs() < 1e-9, "{exact}");
         assert_eq!(speed([0.0, 0.0], 0.3).unwrap(), (1, 0.3));
         assert!(matches!(
-            speed([3000.0, 4000.0], 1.2),
-            Err(Reason::Slow { least, .. }) if (least - 1.25).abs() < 1e-9
+            speed([3000.0, 4000.0], 0.03),
+            Err(Reason::Slow { least, .. }) if (least - 1.25 * 100.0 / 4096.0).abs() < 1e-9
         ));
     }
 }

@@ -44,14 +44,15 @@ fn a_ramp_that_is_no_whole_number_of_scans_is_told() {
 }
 
 #[test]
-fn ten_millimetres_are_two_hundred_scans() {
-    // 2000 counts at 20 a scan, and 100 scans each to get there and to rest: no steady scan.
+fn ten_millimetres_are_a_hundred_and_thirty_four_scans() {
+    // 2000 counts at 20 a scan, a third of 100 % speed: 34 scans each to get there and to rest.
     let summary = summary("line.hpgl", LINE, &[]);
     let expected = [
         "circuit",
         "clock_hz",
         "complaints",
         "conventional",
+        "conventional_in_proportion",
         "dropped_points",
         "exact",
         "files",
@@ -79,7 +80,7 @@ fn ten_millimetres_are_two_hundred_scans() {
     assert_eq!(whole(&summary, "/scan_ticks"), 1000);
     let (scans, ticks) = (whole(&summary, "/scans"), whole(&summary, "/ticks"));
     assert!(
-        ticks >= scans * 1000 && scans > 200,
+        ticks >= scans * 1000 && scans > 134,
         "{scans} scans, {ticks} ticks"
     );
     assert_eq!(summary["seconds"].as_f64().unwrap(), ticks as f64 / 1e6);
@@ -96,6 +97,7 @@ fn ten_millimetres_are_two_hundred_scans() {
     ];
     let row = [
         "conventional",
+        "conventional_in_proportion",
         "delta",
         "from",
         "interpolator",
@@ -103,7 +105,9 @@ fn ten_millimetres_are_two_hundred_scans() {
         "master",
         "rapid",
         "segment",
+        "speed_asked_mm_per_min",
         "speed_counts_per_scan",
+        "speed_reached_mm_per_min",
         "to",
     ];
     let figures = [
@@ -117,13 +121,13 @@ fn ten_millimetres_are_two_hundred_scans() {
     ];
     assert_eq!(list(&summary, "segments").len(), 1);
     assert_eq!(keys(&summary["segments"][0]), row);
-    for name in ["interpolator", "conventional"] {
+    for name in ["interpolator", "conventional", "conventional_in_proportion"] {
         assert_eq!(keys(&summary[name]), system);
         assert_eq!(summary[name]["end_position"], json!([2000, 0]));
         let played = of(&summary, 0, &format!("/{name}"));
         assert_eq!(keys(&played), figures);
-        assert_eq!(whole(&played, "/scans"), 200);
-        assert_eq!(played["seconds"], 0.2);
+        assert_eq!(whole(&played, "/scans"), 134);
+        assert_eq!(played["seconds"], 0.134);
         assert_eq!(played["end_error_counts"], json!([0, 0]));
         assert_eq!(played["deviation_lsb"], 0.0);
     }
@@ -131,21 +135,49 @@ fn ten_millimetres_are_two_hundred_scans() {
     assert_eq!(of(&summary, 0, "/master"), "x");
     assert_eq!(of(&summary, 0, "/line"), 1);
     assert_eq!(of(&summary, 0, "/rapid"), false);
-    assert_eq!(of(&summary, 0, "/speed_counts_per_scan"), 20);
+    assert_eq!(of(&summary, 0, "/speed_counts_per_scan"), 20.0);
+    assert_eq!(of(&summary, 0, "/speed_asked_mm_per_min"), 6000.0);
+    let reached = of(&summary, 0, "/speed_reached_mm_per_min");
+    assert!((reached.as_f64().unwrap() - 6000.0).abs() < 1e-6);
+}
+
+/// What whole counts a scan would have halved, in every direction.
+#[test]
+fn a_slow_feed_is_reached() {
+    for feed in [290, 590] {
+        for to in ["X20", "X20 Y11.547", "Y-20"] {
+            let summary = summary("s.ngc", &format!("G1 {to} F{feed}\n"), &[]);
+            let speed = |which: &str| {
+                let value = of(&summary, 0, &format!("/speed_{which}_mm_per_min"));
+                value.as_f64().unwrap()
+            };
+            assert_eq!(speed("asked"), f64::from(feed));
+            let part = speed("reached") / f64::from(feed);
+            assert!((0.99..=1.0 + 1e-9).contains(&part), "{to} F{feed}: {part}");
+            let length = if to == "X20 Y11.547" { 23.094 } else { 20.0 };
+            let seconds = summary["seconds"].as_f64().unwrap();
+            let asked = 60.0 * length / f64::from(feed);
+            // The ramps, and the motors' settling.
+            assert!((seconds - asked).abs() < 0.2, "{to} F{feed}: {seconds} s");
+        }
+    }
 }
 
 #[test]
 fn the_path_of_the_conventional_system_bends_and_ours_does_not() {
-    // 40 mm by 3: at 20 and 1.5 counts a scan, where the conventional system has 1.
+    // 40 mm by 3, where the conventional system with the same settings goes Y as fast as X.
     let summary = summary("flat.ngc", "G1 X40 Y3 F6018\nG0 X0 Y0\n", &[]);
     assert_eq!(summary["exact"], true);
     let lsb = |system: &str, segment| {
         let pointer = format!("/{system}/deviation_lsb");
         of(&summary, segment, &pointer).as_f64().unwrap()
     };
-    assert_eq!(of(&summary, 0, "/speed_counts_per_scan"), 20);
+    let speed = of(&summary, 0, "/speed_counts_per_scan");
+    assert!((speed.as_f64().unwrap() - 20.0037).abs() < 1e-3);
     assert!(lsb("interpolator", 0) < 1.0 && lsb("interpolator", 0) > 0.5);
     assert!(lsb("conventional", 0) > 100.0, "{}", lsb("conventional", 0));
+    let inverse = lsb("conventional_in_proportion", 0);
+    assert!(inverse < 20.0, "{inverse}");
     assert_eq!(of(&summary, 1, "/rapid"), true);
     assert_eq!(summary["interpolator"]["end_position"], json!([0, 0]));
 }
@@ -178,6 +210,7 @@ scan_ticks = 600
 counts_per_mm = [100, 250.0]
 feed_mm_per_min = 3000
 rapid_mm_per_min = 9000.5
+full_speed_mm_per_min = 12000
 acceleration_ms = 30
 deceleration_ms = 45.5
 short_moves = "constant_time"
@@ -211,9 +244,17 @@ vcd_ticks = 100
             "waves/all.vcd"
         ]
     );
-    // 30 and 45.5 ms are 25 and 38 scans of 1.2 ms, also for the chords, which are too short.
-    let mut rows = list(&summary, "segments").iter();
-    assert!(rows.all(|row| whole(row, "/interpolator/scans") >= 63));
+    // 30 and 45.5 ms are 25 and 38 scans of 1.2 ms to 100 % speed, and a quarter of them at most to
+    // the feed: 7 and 10, also for the chords, which are too short. The first line is longer.
+    let rows = list(&summary, "segments");
+    let scans: Vec<i64> = rows
+        .iter()
+        .map(|row| whole(row, "/interpolator/scans"))
+        .collect();
+    assert!(
+        scans[0] > 30 && scans[1..].iter().all(|scans| (17..25).contains(scans)),
+        "{scans:?}"
+    );
 }
 
 #[test]
@@ -336,7 +377,8 @@ fn the_picture_says_what_it_shows() {
     for text in [
         "z: linear interpolator",
         "linear interpolator: path, errors times ",
-        "conventional system: path",
+        "conventional, same settings: path",
+        "conventional, in proportion: path",
         "contour error",
         "path speed",
     ] {

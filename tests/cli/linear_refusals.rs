@@ -4,7 +4,7 @@ use super::linear::{LINEAR, run};
 use super::support::{Bench, LINE};
 
 const KEYS: &str = "one of `circuit`, `input`, `variant`, `clock_hz`, `scan_ticks`, \
-     `counts_per_mm`, `feed_mm_per_min`, `rapid_mm_per_min`, `acceleration_ms`, \
+     `counts_per_mm`, `feed_mm_per_min`, `rapid_mm_per_min`, `full_speed_mm_per_min`, `acceleration_ms`, \
      `deceleration_ms`, `short_moves`, `chord_tolerance_mm`, `exact_stop`, \
      `in_position_counts`, `position_gain_per_s`, `rated_speed_rev_per_min`, `counts_per_rev`, \
      `velocity_loop_ms`, `inertia_kg_m2`, `max_torque_nm`, `friction_nm`, `vcd_ticks`";
@@ -126,13 +126,13 @@ fn drawings_that_cannot_be_played_are_refused() {
         (
             "G1 X1 F1000\nG1 X2 F300001\n",
             &[][..],
-            "p.ngc:2: F: is 300001 mm/min; allowed: up to 300000 mm/min: one count per tick",
+            "p.ngc:2: F: is 300001 mm/min; allowed: up to 18000 mm/min: 100 % speed (full_speed_mm_per_min)",
         ),
         (
-            "G1 X1 F1000\nG1 X2 F299\n",
+            "G1 X1 F1000\nG1 X2 F7.3\n",
             &[][..],
-            "p.ngc:2: F: at 299 mm/min the axis with the longer way goes less than a count per \
-             scan; allowed: at least 300 mm/min in this direction, or a longer scan (scan_ticks)",
+            "p.ngc:2: F: at 7.3 mm/min the axis with the longer way goes too few counts in a \
+             scan; allowed: at least 7.32422 mm/min on this way, or a longer scan (scan_ticks)",
         ),
         (
             "G1 X1 F1000\nG1 Y-1000000\n",

@@ -259,16 +259,11 @@ fn motors_that_do_not_come_to_rest_are_complained_of() {
     let summary: Value = serde_json::from_str(&done.stdout).unwrap();
     assert_eq!(summary["exact"], false);
     let complaints = list(&summary, "complaints");
-    assert_eq!(
-        complaints[0],
-        "the servos did not come to rest in move 1 of 1, of piece 0 in line 1: at Ts = 2.500 ms the \
-         gains may be too high; lower position_gain_per_s = 100, speed_hz = 60 or sample_ticks = \
-         400"
-    );
-    assert!(
-        done.stderr
-            .starts_with("error: the servos did not come to rest")
-    );
+    let rest = "the servos did not come to rest in move 1 of 1, of piece 0 in line 1: at Ts = 2.500 ms \
+                the gains may be too high; lower position_gain_per_s = 100, speed_hz = 60 or \
+                sample_ticks = 400";
+    assert!(complaints.iter().any(|text| text == rest), "{complaints:?}");
+    assert!(done.stderr.contains(rest), "{}", done.stderr);
 }
 
 /// What the end of the run leaves undone is no fault of the steppers.
@@ -290,12 +285,12 @@ fn steppers_that_are_cut_off_are_not_complained_of() {
 
 #[test]
 fn what_the_circuits_cannot_agree_on_is_refused() {
-    let bench = with("", "G1 X1 F1500\nG1 X2 Y1 F30\n");
+    let bench = with("", "G1 X1 F1500\nG1 X2 Y1 F1.5\n");
     // 1000 counts/mm, scans of 1.25 ms, 45 degrees.
     bench.refuse(
         &["run", "s.toml"],
-        "p.ngc:2: F: at 0.5 mm/s the axis with the longer way goes less than a count per scan; \
-         allowed: at least 1.13138 mm/s (F67.8828) in this direction, or a longer scan",
+        "p.ngc:2: F: at 0.025 mm/s the axis with the longer way goes too few counts in a scan; \
+         allowed: at least 0.0276214 mm/s (F1.65729) in this direction, or a longer scan",
     );
     bench.refuse(
         &["run", "s.toml", "--set", "sample_ticks=409501"],

@@ -3,27 +3,17 @@
 
 use super::tools::{Simulator, complete, write};
 use motion_rtl::input::read_text;
-use motion_rtl::kernel::{Declarations, Without};
-use motion_rtl::linear_interpolator::job::{Plotter, conventional, play, plotter};
+use motion_rtl::kernel::{Circuit, Declarations, Without};
+use motion_rtl::linear_interpolator::CommandSource;
+use motion_rtl::linear_interpolator::job::{Drive, Plotter, conventional, play, plotter};
 use motion_rtl::linear_interpolator::settings::{Rule, Settings};
-use motion_rtl::linear_interpolator::targets::{LATENCY_TICKS, compile};
-use motion_rtl::linear_interpolator::{CommandSource, Controller};
+use motion_rtl::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
+use motion_rtl::linear_interpolator::ways::Way;
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;
-use std::ops::Range;
 
-/// Plays some cycles of the shipped drawing, and drives the Verilog with the same inputs.
-fn hold<C: CommandSource<32, 12>>(
-    circuit: &Plotter<C>,
-    rule: Rule,
-    cycles: Range<usize>,
-    simulator: Simulator,
-) where
-    Controller<C>: motion_rtl::kernel::Circuit,
-{
-    let text = include_bytes!("../../waves/plotter.hpgl");
-    let drawing = read_text("plotter.hpgl", text).unwrap();
+fn settings(rule: Rule) -> Settings {
     let mut settings = Settings {
         rule,
         clock_hz: 100_000,
@@ -35,18 +25,34 @@ fn hold<C: CommandSource<32, 12>>(
         axis.rated_speed_rev_per_min = 1400.0;
         axis.position_gain_per_s = gain;
     }
-    let targets = &compile(&drawing, &settings).unwrap().targets[cycles];
+    settings
+}
+
+/// The cycles of the shipped drawing.
+fn cycles(settings: &Settings) -> Vec<Target> {
+    let text = include_bytes!("../../waves/plotter.hpgl");
+    let drawing = read_text("plotter.hpgl", text).unwrap();
+    compile(&drawing, settings).unwrap().targets
+}
+
+/// Plays some cycles, and drives the Verilog with the same inputs.
+fn hold<C: CommandSource<32, 12, N>, const N: usize>(
+    circuit: &Plotter<C, N>,
+    targets: &[Target<N>],
+    settings: &Settings,
+    simulator: Simulator,
+) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
     let inner = &circuit.circuit;
     let verilog = Verilog::of(inner).unwrap();
     let modules = write(path, &verilog);
-    let name = <Controller<C> as motion_rtl::kernel::Circuit>::NAME;
+    let name = <Drive<C, N> as Circuit>::NAME;
     let create = |extension: &str| File::create(path.join(format!("{name}.{extension}"))).unwrap();
     let mut vcd = Vcd::new(create("vcd"), inner, Clock::default(), &Options::default()).unwrap();
     let mut stimulus = StimulusFile::new(create("stimulus"));
     let observers = (Without(&mut vcd), Without(&mut stimulus));
-    let played = play(circuit, targets, &settings, observers).unwrap();
+    let played = play(circuit, targets, settings, observers).unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
     assert_eq!(played.cycles.len(), targets.len());
@@ -58,24 +64,32 @@ fn hold<C: CommandSource<32, 12>>(
 #[test]
 #[ignore = "needs Verilator"]
 fn the_whole_job_is_the_same_in_verilator() {
-    hold(
-        &plotter(Rule::Floor),
-        Rule::Floor,
-        0..65,
-        Simulator::Verilator,
-    );
+    let settings = settings(Rule::Floor);
+    let targets = cycles(&settings);
+    assert_eq!(targets.len(), 65);
+    let circuit = plotter(Rule::Floor);
+    hold(&circuit, &targets, &settings, Simulator::Verilator);
 }
 
 #[test]
 #[ignore = "needs Icarus Verilog"]
 fn some_cycles_of_the_other_rules_are_the_same_in_icarus() {
     for rule in [Rule::Truncating, Rule::Centred] {
-        hold(&plotter(rule), rule, 20..24, Simulator::Icarus);
+        let settings = settings(rule);
+        let targets = &cycles(&settings)[20..24];
+        hold(&plotter(rule), targets, &settings, Simulator::Icarus);
     }
 }
 
 #[test]
 #[ignore = "needs Icarus Verilog"]
 fn some_cycles_of_the_conventional_system_are_the_same_in_icarus() {
-    hold(&conventional(), Rule::Floor, 26..30, Simulator::Icarus);
+    let settings = settings(Rule::Floor);
+    let targets = Way::InProportion.targets(&cycles(&settings), &settings);
+    hold(
+        &conventional(),
+        &targets[26..30],
+        &settings,
+        Simulator::Icarus,
+    );
 }

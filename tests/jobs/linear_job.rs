@@ -3,21 +3,25 @@
 use motion_rtl::input::read_text;
 use motion_rtl::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::linear_interpolator::measure::{Cycle, Deviation, Played, ScanRecord, Segment};
-use motion_rtl::linear_interpolator::reference::{self, Integrator, Pattern, System};
+use motion_rtl::linear_interpolator::profile::{Profile, SPEED_ONE};
+use motion_rtl::linear_interpolator::reference::{self, Integrator, Pattern};
 use motion_rtl::linear_interpolator::settings::{Rule, Settings};
 use motion_rtl::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
+use motion_rtl::linear_interpolator::ways::Way;
 use proptest::prelude::*;
 
 const RULES: [Rule; 3] = [Rule::Floor, Rule::Truncating, Rule::Centred];
 
+const ONE: i128 = SPEED_ONE as i128;
+
 /// A pattern as the circuit makes it: the weight of each scan, accumulated with its remainder. An
-/// abort comes after so many scans.
+/// abort comes after so many scans. The speed has its fraction.
 fn positions(distance: i64, speed: i128, times: [i128; 2], abort: Option<usize>) -> Vec<i64> {
     let [ta, td] = times;
     let way = i128::from(distance.abs());
     // Tc by its definition: the fewest steady scans in which the speed suffices.
     let tc = (0..)
-        .find(|tc| speed * (ta + td) + 2 * tc * speed >= 2 * way)
+        .find(|tc| speed * (ta + td) + 2 * tc * speed >= 2 * way * ONE)
         .unwrap();
     let whole = ta * td * (ta + 2 * tc + td);
     let (mut level, mut remainder, mut at) = (0, 0, 0);
@@ -48,8 +52,17 @@ fn positions(distance: i64, speed: i128, times: [i128; 2], abort: Option<usize>)
     }
 }
 
+fn profile(speed: u64, times: [u64; 2]) -> Profile {
+    Profile {
+        speed,
+        acceleration_scans: times[0],
+        deceleration_scans: times[1],
+    }
+}
+
 fn reference(distance: i64, speed: u64, times: [u64; 2], abort: Option<usize>) -> Vec<i64> {
-    let mut pattern = Pattern::new(0, distance, speed, times);
+    let profile = profile(speed, times);
+    let mut pattern = Pattern::new(0, distance, &profile);
     let mut made = Vec::new();
     loop {
         if abort == Some(made.len()) {
@@ -64,8 +77,10 @@ fn reference(distance: i64, speed: u64, times: [u64; 2], abort: Option<usize>) -
 
 #[test]
 fn small_patterns_are_those_of_the_weights() {
+    // 0.4, 1, 1.5, 2 and 3 counts a scan.
+    let speeds = [1638, 4096, 6144, 8192, 12_288];
     for (ta, td, speed) in
-        (1..5).flat_map(|a| (1..5).flat_map(move |d| (1..4).map(move |v| (a, d, v))))
+        (1..5).flat_map(|a| (1..5).flat_map(move |d| speeds.map(move |v| (a, d, v))))
     {
         for distance in -12..=12 {
             for abort in (0..12).map(Some).chain([None]) {
@@ -80,11 +95,15 @@ fn small_patterns_are_those_of_the_weights() {
 #[test]
 fn a_pattern_written_out() {
     // Δ = 20, V = 5, Ta = 2, Td = 2: Tc = (40 − 20)/10 = 2, W = 4·8 = 32, weights 2 6 8 8 6 2.
-    assert_eq!(reference(20, 5, [2, 2], None), [1, 5, 10, 15, 18, 20]);
+    let five = 5 * SPEED_ONE;
+    assert_eq!(reference(20, five, [2, 2], None), [1, 5, 10, 15, 18, 20]);
     // Aborted after the second scan the speed of 8 goes down by 4 in each scan: weights 6 2.
-    assert_eq!(reference(20, 5, [2, 2], Some(2)), [1, 5, 8, 10]);
-    assert_eq!(reference(20, 5, [2, 2], Some(0)), [0; 0]);
-    assert_eq!(reference(0, 5, [2, 2], None), [0; 0]);
+    assert_eq!(reference(20, five, [2, 2], Some(2)), [1, 5, 8, 10]);
+    assert_eq!(reference(20, five, [2, 2], Some(0)), [0; 0]);
+    assert_eq!(reference(0, five, [2, 2], None), [0; 0]);
+    // Half a count a scan, ramps of one: Tc = (10 - 1)/1 = 9, W = 20, weights 1, 2 nine times, 1.
+    let made = reference(5, SPEED_ONE / 2, [1, 1], None);
+    assert_eq!(made, [0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5]);
 }
 
 proptest! {
@@ -96,14 +115,15 @@ proptest! {
         slowness in 1..3000u64,
         times in [1..1500u64, 1..1500],
     ) {
-        let speed = (distance.unsigned_abs() / slowness).max(1);
+        let speed = (distance.unsigned_abs() * SPEED_ONE / slowness).max(100);
+        let greatest = speed.div_ceil(SPEED_ONE);
         let made = reference(distance, speed, times, None);
         prop_assert_eq!(made.last().copied().unwrap_or(0), distance);
         let mut at = 0;
         let steps: Vec<i64> = made.iter().map(|p| { let step = (p - at) * distance.signum(); at = *p; step }).collect();
-        prop_assert!(steps.iter().all(|step| (0..=speed as i64).contains(step)));
+        prop_assert!(steps.iter().all(|step| (0..=greatest as i64).contains(step)));
         // The mean speed of a scan changes by V/Ta or V/Td at most; rounding adds a count twice.
-        let most = (speed as f64 / times[0].min(times[1]) as f64) + 2.0;
+        let most = (greatest as f64 / times[0].min(times[1]) as f64) + 2.0;
         let jerky = steps.windows(2).all(|pair| ((pair[1] - pair[0]) as f64).abs() <= most);
         prop_assert!(jerky);
     }
@@ -115,7 +135,7 @@ proptest! {
         times in [1..300u64, 1..300],
         abort in prop::option::of(0..500usize),
     ) {
-        let speed = (distance.unsigned_abs() / slowness).max(1);
+        let speed = (distance.unsigned_abs() * SPEED_ONE / slowness).max(100);
         let expected = positions(distance, speed.into(), times.map(i128::from), abort);
         prop_assert_eq!(reference(distance, speed, times, abort), expected);
     }
@@ -348,9 +368,8 @@ fn target(x: i64, y: i64, speed: u64, times: [u64; 2]) -> Target {
     Target {
         x,
         y,
-        speed,
-        acceleration_scans: times[0],
-        deceleration_scans: times[1],
+        profiles: [profile(speed * SPEED_ONE, times)],
+        feed_mm_per_min: 1.0,
         line: 1,
         rapid: false,
     }
@@ -375,6 +394,71 @@ fn commands(played: &Played, cycle: &Cycle) -> Vec<[i64; 2]> {
     records.iter().map(|record| record.command).collect()
 }
 
+/// The commands of a run against the formulas, scan by scan.
+fn as_the_formulas_say<const N: usize>(
+    played: &Played,
+    targets: &[Target<N>],
+    settings: &Settings,
+) {
+    assert!(!played.late && !played.unsettled && played.refused == 0);
+    assert_eq!(played.lost, [false; 2]);
+    assert_eq!(played.cycles.len(), targets.len());
+    let ideal = reference::play(targets, settings, &mut |_| ());
+    for (cycle, expected) in played.cycles.iter().zip(&ideal.cycles) {
+        let ends = |cycle: &Cycle| (cycle.from, cycle.to, cycle.end, cycle.master);
+        assert_eq!(ends(cycle), ends(expected));
+        let (found, wanted) = (commands(played, cycle), commands(&ideal, expected));
+        assert!(found == wanted, "{N} {cycle:?}: {found:?}, not {wanted:?}");
+    }
+}
+
+/// 0 to 100 % speed, 300 counts a scan, in 15 and 20 scans; a master that goes 40 counts a scan.
+#[test]
+fn the_conventional_ways_are_given_what_the_text_says() {
+    let settings = Settings {
+        scan_ticks: 2000,
+        rapid_mm_per_min: 45_000.0,
+        acceleration_ms: 30.0,
+        deceleration_ms: 40.0,
+        ..Settings::default()
+    };
+    let of = |way: Way, x, y| {
+        let targets = [target(x, y, 40, [2, 3])];
+        let [made] = &way.targets(&targets, &settings)[..] else {
+            panic!("one cycle")
+        };
+        made.profiles.map(|profile| {
+            let times = [profile.acceleration_scans, profile.deceleration_scans];
+            (profile.counts_per_scan(), times)
+        })
+    };
+    // Both get speed and slope; one that is too short has a triangle of that slope: 60 counts in
+    // 2·60/(40·5) of the square.
+    let same = Way::SameSettings;
+    assert_eq!(of(same, 4000, -1000), [(40.0, [2, 3]); 2]);
+    assert_eq!(of(same, 50, 4000), [(40.0, [2, 3]), (40.0, [2, 3])]);
+    assert_eq!(of(same, 4000, 20), [(40.0, [2, 3]), (40.0, [1, 2])]);
+    assert_eq!(of(same, 0, 4000)[1], (40.0, [2, 3]));
+    // A third of the speed, three times the times: 45 and 60 scans to 100 %, of which 40/900.
+    let inverse = Way::InProportion;
+    let [x, y] = of(inverse, -4200, 1400);
+    assert_eq!(x, (40.0, [2, 3]));
+    assert_eq!(y.1, [2, 3]);
+    assert!((y.0 - 40.0 / 3.0).abs() < 1.0 / 4096.0);
+    // Five sevenths: 21 and 28 scans to 100 %, exactly.
+    assert_eq!(of(inverse, 2000, 2800)[0].1, [2, 3]);
+    // Axes with other counts get the same in millimetres.
+    let fine = Settings {
+        counts_per_mm: [200.0, 400.0],
+        ..settings.clone()
+    };
+    let [made] = &same.targets(&[target(1000, 4000, 40, [2, 3])], &fine)[..] else {
+        panic!("one cycle")
+    };
+    assert_eq!(made.profiles[0].counts_per_scan(), 20.0);
+    assert_eq!(made.profiles[1].counts_per_scan(), 40.0);
+}
+
 #[test]
 fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
     let text = include_bytes!("../../waves/plotter.hpgl");
@@ -391,25 +475,27 @@ fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
         };
         let targets = compile(&drawing, &settings).unwrap().targets;
         let ours = play(&plotter(rule), &targets, &settings, ()).unwrap();
-        let others = play(&conventional(), &targets, &settings, ()).unwrap();
-        for (played, system) in [
-            (&ours, System::Interpolator),
-            (&others, System::Conventional),
-        ] {
-            assert!(!played.late && !played.unsettled && played.refused == 0);
-            assert_eq!(played.lost, [false; 2]);
-            assert_eq!(played.cycles.len(), targets.len());
-            let ideal = reference::play(&targets, &settings, system, &mut |_| ());
-            for (cycle, expected) in played.cycles.iter().zip(&ideal.cycles) {
-                let ends = |cycle: &Cycle| (cycle.from, cycle.to, cycle.end, cycle.master);
-                assert_eq!(ends(cycle), ends(expected));
-                let (found, wanted) = (commands(played, cycle), commands(&ideal, expected));
-                assert!(
-                    found == wanted,
-                    "{rule:?} {system:?} {cycle:?}: {found:?}, not {wanted:?}"
-                );
-            }
+        as_the_formulas_say(&ours, &targets, &settings);
+        let mut bent = Vec::new();
+        for way in Way::ALL {
+            let targets = way.targets(&targets, &settings);
+            let played = play(&conventional(), &targets, &settings, ()).unwrap();
+            as_the_formulas_say(&played, &targets, &settings);
+            let segments = played.segments(settings.counts_per_mm);
+            let sloped = segments
+                .iter()
+                .filter(|s| s.delta[0].abs() != s.delta[1].abs() && !s.delta.contains(&0));
+            let off: Vec<f64> = sloped.map(|s| s.deviation.lsb()).collect();
+            bent.push(off);
         }
+        let [same, inverse] = &bent[..] else {
+            panic!("two ways")
+        };
+        // Ends of acceleration that differ bend every slope; what is left of times that are rounded
+        // is little, most ramps being as many scans on both axes.
+        assert!(same.iter().all(|lsb| *lsb >= 5.0), "{same:?}");
+        assert!(same.iter().any(|lsb| *lsb > 400.0), "{same:?}");
+        assert!(inverse.iter().all(|lsb| *lsb < 50.0), "{inverse:?}");
         // Where the motors are in the scan that begins a cycle: at its start, if it waits for them.
         let astray = |cycle: &Cycle| {
             let record = &ours.records[cycle.scans.start - 1];
@@ -421,8 +507,6 @@ fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
         let segments = ours.segments(settings.counts_per_mm);
         let off = |segment: &&Segment| !segment.deviation.is_within(rule);
         assert_eq!(segments.iter().find(off), None, "{rule:?}");
-        let bent = others.segments(settings.counts_per_mm);
-        assert!(bent.iter().any(|segment| segment.deviation.lsb() > 10.0));
         // At the end both motors are where they should be, to the count.
         let last = ours.records.last().unwrap();
         // The feedback is that of three ticks ago.
@@ -481,7 +565,6 @@ fn the_contour_error_of_unequal_gains_is_that_of_theory() {
     let played = reference::play(
         &[target(60_000, 80_000, 40, [100, 100])],
         &settings,
-        System::Interpolator,
         &mut |_| (),
     );
     let error = played.segments(settings.counts_per_mm)[0].contour_um;
@@ -500,7 +583,7 @@ fn without_an_exact_stop_cycles_follow_each_other_at_once() {
             exact_stop,
             ..Settings::default()
         };
-        let played = reference::play(&targets, &settings, System::Interpolator, &mut |_| ());
+        let played = reference::play(&targets, &settings, &mut |_| ());
         let [first, second] = &played.cycles[..] else {
             panic!("two cycles")
         };
@@ -517,7 +600,7 @@ fn a_motor_that_is_too_slow_is_counted_as_saturated() {
     // 200 counts/s are less than the 1000 asked for.
     settings.axes[1].rated_speed_rev_per_min = 3.0;
     let targets = [target(1000, 1000, 1, [10, 10])];
-    let played = reference::play(&targets, &settings, System::Interpolator, &mut |_| ());
+    let played = reference::play(&targets, &settings, &mut |_| ());
     assert_eq!(played.saturated_scans[0], 0);
     assert!(played.saturated_scans[1] > 1000);
 }

@@ -47,8 +47,10 @@ impl Job {
         let (mut at, mut scans) = ([0, 0], 0u64);
         for target in &self.compiled.targets {
             let way = target.x.abs_diff(at[0]).max(target.y.abs_diff(at[1]));
-            let ramps = (target.acceleration_scans + target.deceleration_scans) / 2;
-            scans = scans.saturating_add(way / target.speed + ramps);
+            let [profile] = target.profiles;
+            let ramps = (profile.acceleration_scans + profile.deceleration_scans) / 2;
+            let steady = (way as f64 / profile.counts_per_scan()) as u64;
+            scans = scans.saturating_add(steady.saturating_add(ramps));
             at = [target.x, target.y];
         }
         scans.saturating_mul(self.settings.scan_ticks.into())
@@ -62,7 +64,7 @@ fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TargetE
         TargetError::Drawing(error) => plan_fault(loaded, drawing, error),
         TargetError::Feed { line, value, most } => {
             let problem = format!("is {value} mm/min");
-            let allowed = format!("up to {most} mm/min: one count per tick");
+            let allowed = format!("up to {most} mm/min: 100 % speed (full_speed_mm_per_min)");
             drawing_fault(drawing, line, "F", problem, allowed)
         }
         TargetError::Slow { line, value, least } => {
@@ -74,10 +76,10 @@ fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TargetE
                 _ => "rapid_mm_per_min",
             };
             let problem = format!(
-                "at {value} mm/min the axis with the longer way goes less than a count per scan"
+                "at {value} mm/min the axis with the longer way goes too few counts in a scan"
             );
             let allowed =
-                format!("at least {least} mm/min in this direction, or a longer scan (scan_ticks)");
+                format!("at least {least} mm/min on this way, or a longer scan (scan_ticks)");
             drawing_fault(drawing, line, field, problem, allowed)
         }
         TargetError::Position { line, axis, counts } => {

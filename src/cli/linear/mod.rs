@@ -17,6 +17,7 @@ use super::traces::{Focus, Traces};
 use motion_rtl::kernel::Without;
 use motion_rtl::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::linear_interpolator::measure::Played;
+use motion_rtl::linear_interpolator::ways::Way;
 use motion_rtl::trace::Options;
 use picture::draw;
 use summary::Summary;
@@ -39,26 +40,26 @@ const OVERVIEW: [&str; 11] = [
     "reference_y",
 ];
 
-/// The two systems that play a job.
+/// The systems that play a job.
 #[derive(Debug)]
 pub struct Runs {
     /// The linear interpolator.
     pub interpolator: Played,
-    /// The conventional system of Fig. 3.
-    pub conventional: Played,
+    /// The conventional system of Fig. 3, in each of its ways.
+    pub conventional: [Played; 2],
 }
 
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (interpolator, mut files) = simulate(arguments, job, &options)?;
-    let progress = Progress::new(interpolator.ticks);
-    let conventional = play(
-        &conventional(),
-        &job.compiled.targets,
-        &job.settings,
-        progress,
-    )?;
+    let conventional = |way: Way| {
+        let targets = way.targets(&job.compiled.targets, &job.settings);
+        let progress = Progress::new(interpolator.ticks);
+        play(&conventional(), &targets, &job.settings, progress)
+    };
+    let [same, inverse] = Way::ALL;
+    let conventional = [conventional(same)?, conventional(inverse)?];
     let runs = Runs {
         interpolator,
         conventional,

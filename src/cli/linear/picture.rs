@@ -1,4 +1,4 @@
-//! The picture of a run: the paths of both systems with their errors magnified, the contour error
+//! The picture of a run: the paths of all systems with their errors magnified, the contour error
 //! and the speed over time.
 
 use super::{Job, Runs};
@@ -12,13 +12,16 @@ const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 const IDEAL: &str = "#d8d8d8";
 const COMMANDED: &str = "#0072b2";
 const MOTORS: &str = "#d55e00";
+const OTHER: &str = "#009e73";
 
 /// The picture as SVG.
 pub fn draw(job: &Job, runs: &Runs) -> String {
     let settings = &job.settings;
+    let [same, inverse] = &runs.conventional;
     let systems = [
         ("linear interpolator", &runs.interpolator),
-        ("conventional system", &runs.conventional),
+        ("conventional, same settings", same),
+        ("conventional, in proportion", inverse),
     ];
     let mut picture = Picture::new(format!("{}: linear interpolator", job.stem));
     for (name, played) in systems {
@@ -29,7 +32,7 @@ pub fn draw(job: &Job, runs: &Runs) -> String {
     let mut error = Panel::new("contour error", "time in s", "error in um");
     let mut speed = Panel::new("path speed", "time in s", "speed in mm/s");
     // The interpolator's curves lie on top.
-    for ((name, played), colour) in systems.into_iter().zip([COMMANDED, MOTORS]).rev() {
+    for ((name, played), colour) in systems.into_iter().zip([COMMANDED, MOTORS, OTHER]).rev() {
         let curve = Curve::thinned(name, errors(played, settings));
         error = error.curve(curve.colour(colour).width(0.8));
         let curve = Curve::thinned(name, speeds(played, settings));

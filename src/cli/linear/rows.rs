@@ -3,9 +3,10 @@
 use super::{Job, Runs};
 use motion_rtl::linear_interpolator::measure::Segment;
 use motion_rtl::linear_interpolator::settings::AXIS_NAMES;
+use motion_rtl::linear_interpolator::targets::Target;
 use serde::Serialize;
 
-/// One cycle, played by both systems.
+/// One cycle, played by all systems.
 #[derive(Debug, Clone, Serialize)]
 pub struct Row {
     /// Its number, from 0.
@@ -23,11 +24,17 @@ pub struct Row {
     /// The axis with the longer way.
     pub master: &'static str,
     /// Speed of that axis, in counts per scan.
-    pub speed_counts_per_scan: u64,
+    pub speed_counts_per_scan: f64,
+    /// The speed along the line that is asked for.
+    pub speed_asked_mm_per_min: f64,
+    /// The highest that the linear interpolator reaches: less on a line that is too short for it.
+    pub speed_reached_mm_per_min: f64,
     /// The linear interpolator.
     pub interpolator: Figures,
-    /// The conventional system.
+    /// The conventional system, both axes with the same settings.
     pub conventional: Figures,
+    /// The conventional system, speeds in proportion to the distances, times inverse to them.
+    pub conventional_in_proportion: Figures,
 }
 
 /// What one system made of a cycle.
@@ -63,27 +70,44 @@ impl Figures {
     }
 }
 
-/// Every cycle that both systems have played.
-pub fn rows(job: &Job, runs: &Runs, segments: [&[Segment]; 2]) -> Vec<Row> {
+/// Every cycle that all systems have played.
+pub fn rows(job: &Job, runs: &Runs, segments: &[Vec<Segment>; 3]) -> Vec<Row> {
     let scan_s = job.settings.scan_s();
     let targets = job.compiled.targets.iter();
     let cycles = runs.interpolator.cycles.iter();
-    let segments = segments[0].iter().zip(segments[1]);
+    let [ours, same, inverse] = segments;
+    let segments = ours.iter().zip(same).zip(inverse);
     targets
         .zip(cycles)
         .zip(segments)
         .enumerate()
-        .map(|(segment, ((target, cycle), (ours, other)))| Row {
-            segment,
-            line: target.line,
-            rapid: target.rapid,
-            from: cycle.from,
-            to: cycle.to,
-            delta: ours.delta,
-            master: AXIS_NAMES[ours.master],
-            speed_counts_per_scan: target.speed,
-            interpolator: Figures::new(ours, scan_s),
-            conventional: Figures::new(other, scan_s),
-        })
+        .map(
+            |(segment, ((target, cycle), ((ours, same), inverse)))| Row {
+                segment,
+                line: target.line,
+                rapid: target.rapid,
+                from: cycle.from,
+                to: cycle.to,
+                delta: ours.delta,
+                master: AXIS_NAMES[ours.master],
+                speed_counts_per_scan: target.profiles[0].counts_per_scan(),
+                speed_asked_mm_per_min: target.feed_mm_per_min,
+                speed_reached_mm_per_min: reached(job, target, ours),
+                interpolator: Figures::new(ours, scan_s),
+                conventional: Figures::new(same, scan_s),
+                conventional_in_proportion: Figures::new(inverse, scan_s),
+            },
+        )
         .collect()
+}
+
+/// The speed along the line in the steady scans, or at the peak where there are none: two ramps
+/// and what is steady between them make the length in the scans that were seen.
+fn reached(job: &Job, target: &Target, segment: &Segment) -> f64 {
+    let per_mm = job.settings.counts_per_mm;
+    let [x, y] = [0, 1].map(|axis| segment.delta[axis] as f64 / per_mm[axis]);
+    let [profile] = target.profiles;
+    let ramps = (profile.acceleration_scans + profile.deceleration_scans) as f64;
+    let scans = segment.scans as f64 - ramps / 2.0;
+    60.0 * x.hypot(y) / (scans * job.settings.scan_s())
 }

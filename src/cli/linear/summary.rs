@@ -28,8 +28,10 @@ pub struct Summary {
     pub dropped_points: usize,
     /// The linear interpolator.
     pub interpolator: SystemSummary,
-    /// The conventional system of Fig. 3.
+    /// The conventional system of Fig. 3, both axes with the same settings.
     pub conventional: SystemSummary,
+    /// The same, speeds in proportion to the distances, times inverse to them.
+    pub conventional_in_proportion: SystemSummary,
     /// Every cycle.
     pub segments: Vec<Row>,
 }
@@ -84,16 +86,14 @@ impl Summary {
     /// The summary of a job that was played.
     pub fn new(job: &Job, runs: &Runs) -> Self {
         let per_mm = job.settings.counts_per_mm;
-        let (ours, others) = (
-            runs.interpolator.segments(per_mm),
-            runs.conventional.segments(per_mm),
-        );
-        let complaints = complaints(job, runs, [&ours, &others]);
-        let segments = rows(job, runs, [&ours, &others]);
-        let interpolator =
-            SystemSummary::new(job, &runs.interpolator, &segments, |row| row.interpolator);
-        let conventional =
-            SystemSummary::new(job, &runs.conventional, &segments, |row| row.conventional);
+        let [same, inverse] = &runs.conventional;
+        let all = [&runs.interpolator, same, inverse].map(|played| played.segments(per_mm));
+        let complaints = complaints(job, runs, &all);
+        let rows = rows(job, runs, &all);
+        let system = |played, of: fn(&Row) -> Figures| SystemSummary::new(job, played, &rows, of);
+        let interpolator = system(&runs.interpolator, |row| row.interpolator);
+        let conventional = system(same, |row| row.conventional);
+        let conventional_in_proportion = system(inverse, |row| row.conventional_in_proportion);
         Summary {
             exact: complaints.is_empty(),
             outcome: Outcome {
@@ -112,7 +112,8 @@ impl Summary {
             dropped_points: job.compiled.dropped,
             interpolator,
             conventional,
-            segments,
+            conventional_in_proportion,
+            segments: rows,
         }
     }
 }

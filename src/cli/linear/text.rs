@@ -3,6 +3,7 @@
 use super::rows::{Figures, Row};
 use super::summary::{Summary, SystemSummary};
 use crate::cli::report::{Outcome, Report};
+use motion_rtl::linear_interpolator::ways::Way;
 use std::fmt::Write;
 
 /// Cycles in the table, unless all are asked for.
@@ -24,11 +25,16 @@ impl Report for Summary {
         )?;
         writeln!(
             text,
-            "system          scans  seconds       end position  deviation  contour error  \
-             of rapid moves"
+            "{:35}  scans  seconds       end position    deviation  contour error  of rapid moves",
+            "system"
         )?;
         totals(text, "interpolator", &self.interpolator)?;
-        totals(text, "conventional", &self.conventional)?;
+        for (way, system) in Way::ALL
+            .iter()
+            .zip([&self.conventional, &self.conventional_in_proportion])
+        {
+            totals(text, &format!("conventional, {}", way.name()), system)?;
+        }
         text.push('\n');
         if !self.segments.is_empty() {
             self.table(text, all)?;
@@ -41,13 +47,14 @@ impl Summary {
     fn table(&self, text: &mut String, all: bool) -> std::fmt::Result {
         writeln!(
             text,
-            "{:44}  {:^33}  {:^33}",
-            "", "interpolator", "conventional"
+            "{:44}  {:^17}  {:^35}  {:^36}  {:^36}",
+            "", "speed in mm/min", "interpolator", "conventional, same settings", "in proportion"
         )?;
-        let figures = "scans  deviation  contour error";
+        let figures = "scans    deviation  contour error";
         writeln!(
             text,
-            "segment  line   pen      dx       dy  master    {figures}    {figures}"
+            "segment  line   pen      dx       dy  master     asked   reached    {figures}     \
+             {figures}     {figures}"
         )?;
         let mut rows: Vec<&Row> = self.segments.iter().collect();
         if !all {
@@ -61,15 +68,18 @@ impl Summary {
         for row in &rows {
             writeln!(
                 text,
-                "{:>7}  {:>4}  {:>4}  {:>6}  {:>7}  {:>6}  {}  {}",
+                "{:>7}  {:>4}  {:>4}  {:>6}  {:>7}  {:>6}  {:>8.1}  {:>8.1}  {}  {}  {}",
                 row.segment,
                 row.line,
                 if row.rapid { "up" } else { "down" },
                 row.delta[0],
                 row.delta[1],
                 row.master,
+                row.speed_asked_mm_per_min,
+                row.speed_reached_mm_per_min,
                 columns(&row.interpolator),
                 columns(&row.conventional),
+                columns(&row.conventional_in_proportion),
             )?;
         }
         let more = self.segments.len() - rows.len();
@@ -87,7 +97,7 @@ fn totals(text: &mut String, name: &str, system: &SystemSummary) -> std::fmt::Re
     let [x, y] = system.end_position;
     writeln!(
         text,
-        "{name:<13} {:>7} {:>8.3}  {:>17}  {:>5.3} LSB  {:>10.1} um  {:>11.1} um",
+        "{name:<33} {:>7} {:>8.3}  {:>17}  {:>7.3} LSB  {:>10.1} um  {:>11.1} um",
         system.scans,
         system.seconds,
         format!("{x}, {y}"),
@@ -99,7 +109,7 @@ fn totals(text: &mut String, name: &str, system: &SystemSummary) -> std::fmt::Re
 
 fn columns(figures: &Figures) -> String {
     format!(
-        "{:>7}  {:>5.3} LSB  {:>10.1} um",
+        "{:>7}  {:>7.3} LSB  {:>10.1} um",
         figures.scans,
         rounded_down(figures.deviation_lsb),
         figures.contour_error_um

@@ -5,19 +5,24 @@ use crate::cli::report::first;
 use motion_rtl::linear_interpolator::measure::{Played, Segment};
 use motion_rtl::linear_interpolator::settings::{AXIS_NAMES, Rule};
 use motion_rtl::linear_interpolator::targets::Target;
+use motion_rtl::linear_interpolator::ways::Way;
 
 /// What is wrong with a run; empty where nothing is.
-pub fn complaints(job: &Job, runs: &Runs, segments: [&[Segment]; 2]) -> Vec<String> {
+pub fn complaints(job: &Job, runs: &Runs, segments: &[Vec<Segment>; 3]) -> Vec<String> {
     let targets = &job.compiled.targets;
     let rule = Some(job.settings.rule);
-    let mut all = of_system(&runs.interpolator, segments[0], targets, rule);
+    let [ours, others @ ..] = segments;
+    let mut all = of_system(&runs.interpolator, ours, targets, rule);
     // That its path bends is what the conventional system is there to show.
-    let others = of_system(&runs.conventional, segments[1], targets, None);
-    all.extend(
-        others
-            .into_iter()
-            .map(|text| format!("conventional: {text}")),
-    );
+    for ((way, played), segments) in Way::ALL.iter().zip(&runs.conventional).zip(others) {
+        let texts = of_system(played, segments, targets, None);
+        let name = way.name();
+        all.extend(
+            texts
+                .into_iter()
+                .map(|text| format!("conventional, {name}: {text}")),
+        );
+    }
     all
 }
 
@@ -78,14 +83,18 @@ fn of_system(
 mod tests {
     use super::*;
     use motion_rtl::linear_interpolator::measure::{Cycle, ScanRecord};
+    use motion_rtl::linear_interpolator::profile::Profile;
 
     fn target(x: i64, y: i64) -> Target {
         Target {
             x,
             y,
-            speed: 1,
-            acceleration_scans: 1,
-            deceleration_scans: 1,
+            profiles: [Profile {
+                speed: 1,
+                acceleration_scans: 1,
+                deceleration_scans: 1,
+            }],
+            feed_mm_per_min: 1.0,
             line: 1,
             rapid: false,
         }

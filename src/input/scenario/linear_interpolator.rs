@@ -33,10 +33,12 @@ pub struct Scenario {
     /// Speed of pen-up and G0 moves, in mm/min.
     #[serde(default = "default::rapid")]
     pub rapid_mm_per_min: f64,
-    /// Time from rest to the speed of the move.
+    /// 100 % speed of the axes in mm/min; without it the faster of the two above.
+    pub full_speed_mm_per_min: Option<f64>,
+    /// Time from rest to 100 % speed.
     #[serde(default = "default::acceleration")]
     pub acceleration_ms: f64,
-    /// Time from the speed of the move to rest.
+    /// Time from 100 % speed to rest.
     #[serde(default = "default::deceleration")]
     pub deceleration_ms: f64,
     /// What becomes of a move that is too short to reach its speed.
@@ -88,6 +90,7 @@ impl Scenario {
             counts_per_mm: self.counts_per_mm,
             feed_mm_per_min: self.feed_mm_per_min,
             rapid_mm_per_min: self.rapid_mm_per_min,
+            full_speed_mm_per_min: self.full_speed_mm_per_min,
             acceleration_ms: self.acceleration_ms,
             deceleration_ms: self.deceleration_ms,
             short_moves: self.short_moves,

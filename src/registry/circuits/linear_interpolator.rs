@@ -181,7 +181,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         >::new(LinearInterpolator::new(one_of(given, RULES)?)))
     ),
     entry!(
-        Controller<Conventional>,
+        Controller<Conventional, 32, 12, 16, 8, 16, 48, 24, 2>,
         Controller::new(Conventional::default()),
         None,
         "JP3608587B2 1, Fig. 3",
@@ -205,6 +205,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             W,
             { 2 * W },
             W,
+            2,
         >::new(Conventional::default()))
     ),
 ];

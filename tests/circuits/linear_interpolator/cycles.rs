@@ -12,7 +12,7 @@ type SmallNet = Net<Sim, 2, 5, 2, 5, 11, 10>;
 const WORDS: std::ops::Range<i64> = -16..16;
 const SCAN: u64 = Small::LATENCY;
 
-/// Where to, how fast, and with which times.
+/// Where to, how fast in quarters of a count a scan, and with which times.
 #[derive(Debug, Clone, Copy)]
 struct Target {
     x: i64,
@@ -110,7 +110,7 @@ impl<'a> Run<'a> {
 
 fn shapes() -> impl Iterator<Item = (u64, [u64; 2])> {
     let times = [[1, 1], [2, 3], [3, 1]];
-    [1, 3, 16, 31]
+    [3, 4, 12, 31]
         .into_iter()
         .flat_map(move |speed| times.map(|times| (speed, times)))
 }
@@ -152,7 +152,7 @@ fn every_cycle_runs_on_its_line_and_ends_exactly() {
                         let longest = x.abs().max(y.abs());
                         for (moved, delta) in moved.into_iter().zip([x, y]) {
                             assert!(moved.signum() * delta.signum() >= 0, "{case}");
-                            assert!(moved.unsigned_abs() <= speed, "{case}");
+                            assert!(moved.unsigned_abs() <= speed.div_ceil(4), "{case}");
                         }
                         let master = usize::from(x.abs() < y.abs());
                         assert!(moved[1 - master].abs() <= moved[master].abs(), "{case}");
@@ -171,7 +171,7 @@ fn every_cycle_runs_on_its_line_and_ends_exactly() {
 fn x_and_y_exchanged_give_the_path_exchanged() {
     for rule in [Rule::Floor, Rule::Truncating, Rule::Centred] {
         let circuit = Small::new(rule);
-        let (speed, times) = (3, [2, 3]);
+        let (speed, times) = (12, [2, 3]);
         for x in WORDS {
             for y in WORDS {
                 let go = |x, y| Run::new(&circuit, SCAN).go(Target { x, y, speed, times });
@@ -214,7 +214,7 @@ fn an_abort_stops_on_the_line_and_leaves_nothing_behind() {
     let next = Target {
         x: -1,
         y: -1,
-        speed: 4,
+        speed: 16,
         times: [2, 2],
     };
     let circuit = Small::new(Rule::Floor);
@@ -267,7 +267,7 @@ fn an_abort_stops_on_the_line_and_leaves_nothing_behind() {
         }
         true
     };
-    for (speed, times) in [(3, [2, 3]), (31, [3, 1])] {
+    for (speed, times) in [(12, [2, 3]), (31, [3, 1])] {
         for x in (WORDS.start..WORDS.end).step_by(3) {
             for y in (WORDS.start..WORDS.end).step_by(2) {
                 for scan in 1.. {
@@ -279,7 +279,7 @@ fn an_abort_stops_on_the_line_and_leaves_nothing_behind() {
         }
     }
     for at in 0.. {
-        if !check(13, -6, 5, [2, 1], at, at % 2 == 1) {
+        if !check(13, -6, 20, [2, 1], at, at % 2 == 1) {
             break;
         }
     }
@@ -296,7 +296,7 @@ fn a_scan_that_is_a_tick_too_short_is_late_and_the_line_still_holds() {
             Some(Target {
                 x: 13,
                 y: 5,
-                speed: 4,
+                speed: 16,
                 times: [2, 2],
             }),
             false,
@@ -320,7 +320,7 @@ fn the_next_cycle_takes_a_scan_after_the_turnaround_and_not_before() {
         push: x.is_some().into(),
         target_x: x.unwrap_or(0).into(),
         target_y: 2.into(),
-        speed: 3.into(),
+        speed: 12.into(),
         acceleration_time: 1.into(),
         deceleration_time: 1.into(),
         halt: false.into(),
@@ -364,13 +364,13 @@ fn a_target_out_of_reach_is_refused_and_the_next_one_taken() {
         run.go(Target {
             x: 14,
             y: 14,
-            speed: 9,
+            speed: 31,
             times: [1, 1],
         });
         let points = run.go(Target {
             x,
             y,
-            speed: 9,
+            speed: 31,
             times: [1, 1],
         });
         let far = 14 - x > 16 || 14 - y > 16;
@@ -378,7 +378,7 @@ fn a_target_out_of_reach_is_refused_and_the_next_one_taken() {
         run.go(Target {
             x: 3,
             y: 4,
-            speed: 9,
+            speed: 31,
             times: [1, 1],
         });
         assert_eq!(run.command(), [3, 4]);
@@ -393,7 +393,7 @@ fn a_long_line_at_full_width() {
     let (x, y) = (1_999_999_999i64, -1_234_567_891);
     let mut simulator = Simulator::new(&circuit).unwrap();
     let mut points = Vec::new();
-    for tick in 0..120 * Full::LATENCY {
+    for tick in 0..2100 * Full::LATENCY {
         let push = tick == 0;
         let i = In {
             scan: (tick % Full::LATENCY == 0).into(),
@@ -401,7 +401,8 @@ fn a_long_line_at_full_width() {
             push: push.into(),
             target_x: x.into(),
             target_y: y.into(),
-            speed: 40_000_000.into(),
+            // A million counts.
+            speed: (1_000_000 << 12).into(),
             acceleration_time: 20.into(),
             deceleration_time: 35.into(),
             halt: false.into(),
@@ -415,8 +416,8 @@ fn a_long_line_at_full_width() {
             points.push([q.x.get(), q.y.get()]);
         }
     }
-    // Tc = ceil((2·1,999,999,999 − 40,000,000·55) / 80,000,000) = 23.
-    assert_eq!(points.len(), 20 + 23 + 35);
+    // Tc = ceil((2·1,999,999,999 − 1,000,000·55) / 2,000,000) = 1973.
+    assert_eq!(points.len(), 20 + 1973 + 35);
     assert_eq!(points.last(), Some(&[x, y]));
     for [at_x, at_y] in points {
         let exact = i128::from(y) * i128::from(at_x);

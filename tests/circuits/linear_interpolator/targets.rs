@@ -24,17 +24,17 @@ proptest! {
                 push: push.into(),
                 x: i64::from(x).into(),
                 y: i64::from(y).into(),
-                speed: u64::from(speed).into(),
-                acceleration_time: up.into(),
-                deceleration_time: down.into(),
+                speed: [u64::from(speed).into()],
+                acceleration_time: [up.into()],
+                deceleration_time: [down.into()],
                 pop: pop.into(),
                 flush: flush.into(),
             };
             let (next, seen) = simulator.step(i, |now| {
                 let q = now.q;
                 let place = [q.target_x.get(), q.target_y.get()];
-                let times = [q.target_acceleration.get(), q.target_deceleration.get()];
-                let outputs = (place, q.target_speed.get(), times);
+                let times = [q.target_acceleration[0].get(), q.target_deceleration[0].get()];
+                let outputs = (place, q.target_speed[0].get(), times);
                 (now.w.ready.get(), now.w.available.get(), outputs)
             });
             simulator = next;

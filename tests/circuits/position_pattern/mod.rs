@@ -25,15 +25,18 @@ fn fits(value: i64, bits: u32) -> bool {
 }
 
 /// What holds of the positions of a cycle, the one at the start included; `whole` where it was not
-/// aborted.
-fn check(ports: &Ports, positions: &[i64], whole: bool) {
-    let plan = Plan::new(ports);
+/// aborted. `bits` are those of positions and times.
+fn check(ports: &Ports, bits: [u32; 2], positions: &[i64], whole: bool) {
+    let plan = Plan::new(ports, bits);
+    let [p, t] = bits;
+    let counted = plan.steady < (1 << (p - 1)) - 1;
     let (end, sign) = (ports.from + ports.distance, ports.distance.signum());
     let steps: Vec<i64> = positions.windows(2).map(|pair| pair[1] - pair[0]).collect();
     for (position, step) in positions[1..].iter().zip(&steps) {
         assert!(step * sign >= 0, "not monotone: {ports:?} {positions:?}");
-        let greatest = ports.speed.max(1) as i64;
-        assert!(step.abs() <= greatest, "too fast: {ports:?} {positions:?}");
+        let greatest = ports.speed.max(1).div_ceil(1 << t) as i64;
+        let slow = step.abs() <= greatest || !counted;
+        assert!(slow, "too fast: {ports:?} {positions:?}");
         let between = (end - position) * sign >= 0;
         assert!(between, "too far: {ports:?} {positions:?}");
     }
@@ -79,14 +82,14 @@ fn start_inside(distance: i64, bits: u32, n: u64) -> i64 {
 
 #[test]
 fn every_cycle_of_4_bits() {
-    let mut bench = Bench::<4, 4, 9, 14>::new();
-    for (distance, speed, times, n) in all(4, 4) {
+    let mut bench = Bench::<4, 3, 7, 12>::new();
+    for (distance, speed, times, n) in all(4, 3) {
         let ports = cycle(start_inside(distance, 4, n), distance, speed, times);
         let positions = bench.cycle(&ports, None, n % 3);
         if distance == 0 {
             assert_eq!(positions, [ports.from]);
         } else {
-            check(&ports, &positions, true);
+            check(&ports, [4, 3], &positions, true);
         }
     }
 }
@@ -99,18 +102,18 @@ fn every_cycle_of_6_bits_that_is_slow_or_fast() {
         if distance != 0 && !(3..=61).contains(&speed) {
             let ports = cycle(start_inside(distance, 6, n), distance, speed, times);
             let positions = bench.cycle(&ports, None, 0);
-            check(&ports, &positions, true);
+            check(&ports, [6, 2], &positions, true);
         }
     }
 }
 
 #[test]
 fn positions_wrap_at_the_ends_of_the_word() {
-    let mut bench = Bench::<4, 4, 9, 14>::new();
+    let mut bench = Bench::<4, 2, 5, 10>::new();
     let mut wrapped = 0;
     for from in -8..8 {
         for distance in (-8..8).filter(|&distance| distance != 0) {
-            for (speed, times) in [(1, [1, 1]), (2, [1, 3]), (15, [2, 1]), (4, [3, 3])] {
+            for (speed, times) in [(1, [1, 1]), (2, [1, 3]), (15, [2, 1]), (7, [3, 3])] {
                 let ports = cycle(from, distance, speed, times);
                 let positions = bench.cycle(&ports, None, 0);
                 let mut straight = vec![from];
@@ -119,9 +122,7 @@ fn positions_wrap_at_the_ends_of_the_word() {
                     straight.extend(straight.last().map(|x| x + step));
                 }
                 wrapped += u32::from(!fits(from + distance, 4));
-                if speed < 8 {
-                    check(&ports, &straight, true);
-                }
+                check(&ports, [4, 2], &straight, true);
                 let end = (from + distance) << 60 >> 60;
                 assert_eq!(positions.last(), Some(&end), "{ports:?}");
             }
@@ -136,13 +137,14 @@ fn abort_everywhere<const P: usize, const T: usize, const M: usize, const Q: usi
     ports: &Ports,
     n: u64,
 ) {
-    let plan = Plan::new(ports);
+    let bits = [P as u32, T as u32];
+    let plan = Plan::new(ports, bits);
     let latency = Bench::<P, T, M, Q>::SCAN_LATENCY;
     for scan in 0..plan.scans() as u64 {
         // With its advance, in the scan, with its end.
         for within in [0, 1, 1 + n % latency, latency] {
             let positions = bench.cycle(ports, Some((scan, within)), n % 2);
-            check(ports, &positions, false);
+            check(ports, bits, &positions, false);
             let made = positions.len() as i128 - 1;
             let before = i128::from(scan) + i128::from(within > 0);
             let [up, down] = ports.times.map(|time| i128::from(time.max(1)));
@@ -160,21 +162,21 @@ fn abort_everywhere<const P: usize, const T: usize, const M: usize, const Q: usi
         }
     }
     let positions = bench.cycle(ports, None, 0);
-    check(ports, &positions, true);
+    check(ports, bits, &positions, true);
 }
 
 #[test]
 fn an_abort_in_any_scan_ramps_down_on_the_way() {
-    let mut bench = Bench::<3, 3, 7, 11>::new();
-    for (distance, speed, times, n) in all(3, 3) {
+    let mut bench = Bench::<3, 2, 5, 9>::new();
+    for (distance, speed, times, n) in all(3, 2) {
         // 0 counts as 1.
         if distance != 0 && speed > 0 && !times.contains(&0) && (n + n / 8) % 2 == 0 {
             let ports = cycle(start_inside(distance, 3, n), distance, speed, times);
             abort_everywhere(&mut bench, &ports, n);
         }
     }
-    let mut bench = Bench::<4, 4, 9, 14>::new();
-    for (distance, speed, times, n) in all(4, 4).step_by(1009) {
+    let mut bench = Bench::<4, 3, 7, 12>::new();
+    for (distance, speed, times, n) in all(4, 3).step_by(251) {
         if distance != 0 {
             let ports = cycle(start_inside(distance, 4, n), distance, speed, times);
             abort_everywhere(&mut bench, &ports, n);
@@ -186,8 +188,8 @@ fn an_abort_in_any_scan_ramps_down_on_the_way() {
 #[test]
 fn an_abort_in_any_tick_leaves_nothing_behind() {
     let mut bench = Bench::<4, 2, 5, 10>::new();
-    let ports = cycle(-3, 6, 3, [2, 3]);
-    let other = cycle(5, -7, 2, [1, 2]);
+    let ports = cycle(-3, 6, 12, [2, 3]);
+    let other = cycle(5, -7, 8, [1, 2]);
     let mut latest = 0;
     let (prepare, scan) = (
         Bench::<4, 2, 5, 10>::PREPARE,
@@ -226,7 +228,7 @@ fn an_abort_in_any_tick_leaves_nothing_behind() {
             latest = late.max(latest);
             assert!(late == 0 || abort < prepare, "late after a scan");
             let positions = bench.scans(5, None, 0);
-            check(&other, &positions, true);
+            check(&other, [4, 2], &positions, true);
         }
     }
     assert_eq!(
@@ -242,7 +244,7 @@ fn an_abort_with_the_start_leaves_the_position_only() {
         for distance in -8..8 {
             let ports = Ports {
                 halt: abort,
-                ..cycle(distance / 2, distance, 3, [1, 1])
+                ..cycle(distance / 2, distance, 12, [1, 1])
             };
             bench.step(&ports);
             let outputs = bench.outputs();
@@ -266,10 +268,10 @@ const SCANS: u64 = 300;
 
 fn at_full_width(ports: &Ports, most: u64) {
     let mut bench = Full::new();
-    let scans = Plan::new(ports).scans();
+    let scans = Plan::new(ports, [32, 12]).scans();
     let abort = (scans > i128::from(most)).then_some((most, 0));
     let positions = bench.cycle(ports, abort, 0);
-    check(ports, &positions, abort.is_none());
+    check(ports, [32, 12], &positions, abort.is_none());
 }
 
 #[test]
@@ -283,7 +285,7 @@ fn the_extremes_at_full_width() {
         (-1, 1),
         (7, -1),
     ] {
-        for speed in [1, 3, (1 << 20) - 1, u64::from(u32::MAX)] {
+        for speed in [1, 3, 5000, (1 << 20) - 1, u64::from(u32::MAX)] {
             for times in [[1, 1], [4095, 1], [1, 4095], [2, 3]] {
                 at_full_width(&cycle(from, distance, speed, times), 40);
             }
@@ -291,7 +293,7 @@ fn the_extremes_at_full_width() {
     }
     // The longest ramps with the greatest distance, from end to end.
     at_full_width(&cycle(0, least, u64::from(u32::MAX), [4095, 4095]), 9000);
-    at_full_width(&cycle(-1, most, 600_000, [4095, 2]), 9000);
+    at_full_width(&cycle(-1, most, 600_000 << 12, [4095, 2]), 9000);
     // The greatest W.
     at_full_width(&cycle(0, least, 1, [4095, 4095]), 500);
 }

@@ -34,16 +34,19 @@ pub struct Plan {
 }
 
 impl Plan {
-    pub fn new(ports: &Ports) -> Self {
+    /// With positions of `p` bits and times of `t`, which are the bits of the speed's fraction too.
+    pub fn new(ports: &Ports, [p, t]: [u32; 2]) -> Self {
         let [up, down] = ports.times.map(|time| i128::from(time.max(1)));
         let speed = i128::from(ports.speed.max(1));
         let distance = i128::from(ports.distance);
         // The fewest scans with which no step is longer than V.
-        let rest = 2 * distance.abs() - speed * (up + down);
+        let rest = (2 * distance.abs() << t) - speed * (up + down);
         let steady = match rest > 0 {
             true => rest.div_euclid(2 * speed) + i128::from(rest % (2 * speed) > 0),
             false => 0,
         };
+        // As many as are counted: it goes faster then.
+        let steady = steady.min((1 << (p - 1)) - 1);
         let whole = up * down * (up + 2 * steady + down);
         Plan {
             distance,
@@ -114,6 +117,7 @@ struct Cycle {
 #[derive(Debug)]
 pub struct Program {
     p: u32,
+    t: u32,
     multiply: u64,
     divide: u64,
     tick: u64,
@@ -128,6 +132,7 @@ impl Program {
     pub fn new(p: u32, t: u32) -> Self {
         Program {
             p,
+            t,
             multiply: u64::from(2 * t + 1),
             divide: u64::from(p + 2 * t + 2),
             tick: 0,
@@ -169,7 +174,7 @@ impl Program {
         }
         let begun = self.free.max(self.tick + 1);
         self.cycle = Some(Cycle {
-            plan: Plan::new(i),
+            plan: Plan::new(i, [self.p, self.t]),
             from: i.from.into(),
             begun,
             ready_at: begun + self.steps().iter().sum::<u64>(),

@@ -2,6 +2,7 @@
 
 use super::{circle, compiled, lines};
 use motion_rtl::input::read_text;
+use motion_rtl::linear_interpolator::profile::{Profile, SPEED_ONE};
 use motion_rtl::linear_interpolator::settings::{Settings, ShortMoves};
 use motion_rtl::linear_interpolator::targets::{Target, TargetError, compile};
 use proptest::prelude::*;
@@ -13,33 +14,48 @@ fn cycle(x: f64, y: f64, change: impl FnOnce(&mut Settings)) -> Target {
     all.targets[0]
 }
 
+/// Times of acceleration and deceleration.
+fn scans(target: &Target) -> [u64; 2] {
+    let [profile] = target.profiles;
+    [profile.acceleration_scans, profile.deceleration_scans]
+}
+
+/// Speed in counts a scan.
+fn speed(target: &Target) -> f64 {
+    target.profiles[0].counts_per_scan()
+}
+
 #[test]
 fn a_line_along_an_axis_has_the_feed_itself() {
-    // 6000 mm/min are 100 mm/s, 20,000 counts/s, 20 counts in a scan of 1 ms; 100 ms are 100 scans.
+    // 6000 mm/min are 100 mm/s, 20,000 counts/s, 20 counts in a scan of 1 ms; it is a third of the
+    // speed that takes 100 ms.
     let expected = Target {
         x: 2000,
         y: 0,
-        speed: 20,
-        acceleration_scans: 100,
-        deceleration_scans: 100,
+        profiles: [Profile {
+            speed: 20 * SPEED_ONE,
+            acceleration_scans: 34,
+            deceleration_scans: 34,
+        }],
+        feed_mm_per_min: 6000.0,
         line: 1,
         rapid: false,
     };
     assert_eq!(cycle(10.0, 0.0, |_| ()), expected);
     let y = cycle(0.0, -10.0, |_| ());
-    assert_eq!((y.x, y.y, y.speed), (0, -2000, 20));
+    assert_eq!((y.x, y.y, speed(&y)), (0, -2000, 20.0));
 }
 
 #[test]
-fn whole_speeds_do_not_lose_a_count_to_rounding() {
-    for speed in 1..=300 {
+fn whole_speeds_do_not_lose_anything_to_rounding() {
+    for whole in 1..=300 {
         for scan_ticks in [400, 1000, 1500] {
             let target = cycle(1000.0, 0.0, |settings| {
                 settings.scan_ticks = scan_ticks;
                 let per_minute = 60.0 * 1e6 / f64::from(scan_ticks);
-                settings.feed_mm_per_min = f64::from(speed) * per_minute / 200.0;
+                settings.feed_mm_per_min = f64::from(whole) * per_minute / 200.0;
             });
-            assert_eq!(target.speed, speed as u64, "{scan_ticks} ticks");
+            assert_eq!(speed(&target), f64::from(whole), "{scan_ticks} ticks");
         }
     }
 }
@@ -47,15 +63,18 @@ fn whole_speeds_do_not_lose_a_count_to_rounding() {
 #[test]
 fn on_a_slope_the_master_axis_has_its_share_of_the_feed() {
     // 3, 4, 5: Y goes 80 mm/s of the 100 mm/s.
-    assert_eq!(cycle(30.0, 40.0, |_| ()).speed, 16);
-    assert_eq!(cycle(-40.0, 30.0, |_| ()).speed, 16);
-    // 45 degrees: 14.14 counts a scan.
-    assert_eq!(cycle(10.0, 10.0, |_| ()).speed, 14);
+    assert_eq!(speed(&cycle(30.0, 40.0, |_| ())), 16.0);
+    assert_eq!(speed(&cycle(-40.0, 30.0, |_| ())), 16.0);
+    // 45 degrees: 14.142 counts a scan, rounded down to the fraction.
+    let exact = 20.0 / 2f64.sqrt();
+    let found = speed(&cycle(10.0, 10.0, |_| ()));
+    assert!(found <= exact && found > exact - 1.0 / 4096.0, "{found}");
 }
 
-/// A count per scan is the slowest that a cycle goes: a feed below that is no reason to go faster.
+/// A hundred steps of the fraction are the slowest that a cycle goes, so that rounding costs at most
+/// 1 %; and no cycle has more steady scans than the circuit counts.
 #[test]
-fn a_feed_below_a_count_per_scan_is_refused() {
+fn a_feed_that_the_fraction_is_too_coarse_for_is_refused() {
     let slow = |to: [f64; 2], feed: f64| {
         let settings = Settings {
             feed_mm_per_min: feed,
@@ -63,22 +82,46 @@ fn a_feed_below_a_count_per_scan_is_refused() {
         };
         compile(&lines(&[to]), &settings)
     };
-    let least = |to: [f64; 2]| match slow(to, 0.5) {
+    let least = |to: [f64; 2]| match slow(to, 0.002) {
         Err(TargetError::Slow {
             line: 1,
-            value: 0.5,
+            value: 0.002,
             least,
         }) => least,
         other => panic!("{other:?}"),
     };
     // 200 counts/mm, scans of 1 ms.
-    assert_eq!(least([10.0, 0.0]), 300.0);
-    assert_eq!(least([30.0, 40.0]), 375.0);
-    assert_eq!(least([10.0, 10.0]), 424.265);
+    assert_eq!(least([10.0, 0.0]), 7.32422);
+    assert_eq!(least([30.0, 40.0]), 9.15528);
+    assert_eq!(least([10.0, 10.0]), 10.3581);
     for to in [[10.0, 0.0], [30.0, -40.0], [10.0, 10.0], [7.0, 3.0]] {
         let made = slow(to, least(to)).unwrap();
-        assert_eq!(made.targets[0].speed, 1);
-        slow(to, least(to) * 0.99999).unwrap_err();
+        assert_eq!(made.targets[0].profiles[0].speed, 100);
+        slow(to, least(to) * 0.9999).unwrap_err();
+    }
+    // 2^30 counts in 2^31 - 1 scans.
+    let to = [1e6, 0.0];
+    let far = least(to);
+    assert_eq!(far, 27.9397);
+    slow(to, far).unwrap();
+    slow(to, far * 0.9999).unwrap_err();
+}
+
+/// Feeds that whole counts a scan would have halved.
+#[test]
+fn slow_feeds_are_met_within_one_percent() {
+    for feed in [11.0, 290.0, 300.0, 590.0, 600.0, 899.0] {
+        for to in [[20.0, 0.0], [20.0, 11.547], [0.0, -20.0], [14.0, 14.0]] {
+            let target = cycle(to[0], to[1], |settings| settings.feed_mm_per_min = feed);
+            let way = [target.x, target.y].map(|counts| counts as f64);
+            let longer = way[0].abs().max(way[1].abs());
+            let along = speed(&target) * way[0].hypot(way[1]) / longer;
+            let reached = along * 1000.0 * 60.0 / 200.0;
+            assert!(
+                (0.99 * feed..=feed * (1.0 + 1e-9)).contains(&reached),
+                "{feed}: {reached}"
+            );
+        }
     }
 }
 
@@ -88,7 +131,7 @@ fn counts_that_differ_between_the_axes_choose_the_master_but_not_the_feed() {
     // takes 500 scans at 100 mm/s, so X goes 6 counts a scan.
     let change = |settings: &mut Settings| settings.counts_per_mm = [100.0, 10.0];
     let target = cycle(30.0, 40.0, change);
-    assert_eq!((target.x, target.y, target.speed), (3000, 400, 6));
+    assert_eq!((target.x, target.y, speed(&target)), (3000, 400, 6.0));
 }
 
 #[test]
@@ -101,8 +144,8 @@ fn feeds_come_from_the_move_and_rapid_ones_from_the_settings() {
     let speeds = made
         .targets
         .iter()
-        .map(|target| (target.speed, target.rapid));
-    let expected = [(20, false), (5, false), (40, true)];
+        .map(|target| (speed(target), target.rapid));
+    let expected = [(20.0, false), (5.0, false), (40.0, true)];
     assert_eq!(speeds.collect::<Vec<_>>(), expected);
 }
 
@@ -110,14 +153,34 @@ fn feeds_come_from_the_move_and_rapid_ones_from_the_settings() {
 fn times_are_whole_scans_and_at_least_one() {
     let times = |acceleration, deceleration| {
         let target = cycle(1000.0, 0.0, |settings| {
+            settings.feed_mm_per_min = settings.rapid_mm_per_min;
             settings.acceleration_ms = acceleration;
             settings.deceleration_ms = deceleration;
         });
-        [target.acceleration_scans, target.deceleration_scans]
+        scans(&target)
     };
     assert_eq!(times(100.0, 37.0), [100, 37]);
     assert_eq!(times(0.0, 1.4), [1, 1]);
     assert_eq!(times(4095.0, 1.6), [4095, 2]);
+}
+
+/// The slope is that to 100 % speed: on every axis, and whatever part of it the speed is.
+#[test]
+fn times_are_in_proportion_to_the_speed() {
+    let times = |to: [f64; 2], feed, full: f64| {
+        let target = cycle(to[0], to[1], |settings| {
+            (settings.feed_mm_per_min, settings.full_speed_mm_per_min) = (feed, Some(full));
+            settings.deceleration_ms = 200.0;
+        });
+        scans(&target)
+    };
+    assert_eq!(times([1000.0, 0.0], 18_000.0, 18_000.0), [100, 200]);
+    assert_eq!(times([1000.0, 0.0], 9000.0, 18_000.0), [50, 100]);
+    assert_eq!(times([1000.0, 0.0], 9000.0, 36_000.0), [25, 50]);
+    assert_eq!(times([1000.0, 0.0], 180.0, 18_000.0), [1, 2]);
+    assert_eq!(times([1000.0, 0.0], 181.0, 18_000.0), [2, 3]);
+    // 3, 4, 5: the master axis has four fifths of the feed.
+    assert_eq!(times([-300.0, 400.0], 9000.0, 18_000.0), [40, 80]);
 }
 
 #[test]
@@ -126,11 +189,13 @@ fn a_short_move_keeps_its_acceleration_or_its_times() {
     // the times.
     let short = |counts: f64, short_moves| {
         let target = cycle(counts / 200.0, 0.0, |settings| {
-            settings.deceleration_ms = 300.0;
+            // A third of 100 % speed.
+            settings.acceleration_ms = 300.0;
+            settings.deceleration_ms = 900.0;
             settings.short_moves = short_moves;
         });
-        assert_eq!(target.speed, 20);
-        [target.acceleration_scans, target.deceleration_scans]
+        assert_eq!(speed(&target), 20.0);
+        scans(&target)
     };
     use ShortMoves::{ConstantAcceleration as Acceleration, ConstantTime as Time};
     assert_eq!(short(4000.0, Acceleration), [100, 300]);
@@ -258,7 +323,8 @@ proptest! {
         prop_assert!(targets.next().is_none());
     }
 
-    /// The path goes no faster than the feed, and slower by less than a count of the master axis.
+    /// The path goes no faster than the feed, and slower by less than the last bit of the fraction of
+    /// the master axis's speed.
     #[test]
     fn the_feed_is_kept(
         to in [-300.0..300.0f64, -300.0..300.0],
@@ -272,10 +338,10 @@ proptest! {
         });
         let way = [target.x as f64 / counts_per_mm[0], target.y as f64 / counts_per_mm[1]];
         let longer = target.x.abs().max(target.y.abs()) as f64;
-        let per_scan = |speed: u64| speed as f64 / longer * way[0].hypot(way[1]);
+        let per_scan = |speed: u64| speed as f64 / 4096.0 / longer * way[0].hypot(way[1]);
         let wanted = feed / 60.0 / 1000.0;
-        prop_assert!(per_scan(target.speed) <= wanted * (1.0 + 1e-9));
-        prop_assert!(per_scan(target.speed + 1) > wanted);
+        prop_assert!(per_scan(target.profiles[0].speed) <= wanted * (1.0 + 1e-9));
+        prop_assert!(per_scan(target.profiles[0].speed + 1) > wanted);
     }
 
     /// With shortened times a move needs no more than its own acceleration and speed, and one scan
@@ -283,20 +349,21 @@ proptest! {
     #[test]
     fn short_moves_keep_their_acceleration(
         counts in 1..20_000u64,
-        speed in 1..200u64,
+        whole in 1..200u64,
         times in [1..4095u64, 1..4095],
     ) {
         let target = cycle(counts as f64 / 200.0, 0.0, |settings| {
-            settings.feed_mm_per_min = speed as f64 * 300.0;
+            settings.feed_mm_per_min = whole as f64 * 300.0;
+            settings.rapid_mm_per_min = settings.feed_mm_per_min;
             settings.acceleration_ms = times[0] as f64;
             settings.deceleration_ms = times[1] as f64;
         });
-        prop_assert_eq!(target.speed, speed);
-        let made = [target.acceleration_scans, target.deceleration_scans];
-        if 2 * counts >= speed * (times[0] + times[1]) {
+        prop_assert_eq!(speed(&target), whole as f64);
+        let made = scans(&target);
+        if 2 * counts >= whole * (times[0] + times[1]) {
             prop_assert_eq!(made, times);
         } else {
-            let k = (2.0 * counts as f64 / (speed * (times[0] + times[1])) as f64).sqrt();
+            let k = (2.0 * counts as f64 / (whole * (times[0] + times[1])) as f64).sqrt();
             for (made, time) in made.into_iter().zip(times) {
                 let exact = k * time as f64;
                 prop_assert!(made >= 1 && made <= time);

@@ -13,15 +13,17 @@ fn what_cannot_be_played_is_refused() {
         compile(drawing, &settings).unwrap_err()
     };
     let mut d = lines(&[[1.0, 0.0], [2.0, 0.0]]);
-    d.moves[1].feed_mm_per_min = Some(300_000.5);
+    d.moves[1].feed_mm_per_min = Some(18_000.5);
     let feed = TargetError::Feed {
         line: 2,
-        value: 300_000.5,
-        most: 300_000.0,
+        value: 18_000.5,
+        most: 18_000.0,
     };
     assert_eq!(refusal(&d, &|_| ()), feed);
     d.moves[1].feed_mm_per_min = Some(300_000.0);
-    assert_eq!(compiled(&d, |_| ()).targets[1].speed, 1000);
+    let fastest = |settings: &mut Settings| settings.full_speed_mm_per_min = Some(300_000.0);
+    let made = compiled(&d, fastest);
+    assert_eq!(made.targets[1].profiles[0].counts_per_scan(), 1000.0);
 
     let far = lines(&[[1e6, 0.0], [0.0, -1e6]]);
     let wide = |settings: &mut Settings| settings.counts_per_mm = [100.0, 1074.0];
@@ -61,7 +63,15 @@ type Change<'a> = &'a dyn Fn(&mut Settings);
 #[test]
 fn every_setting_is_refused_by_name_value_and_range() {
     assert_eq!(Settings::default().validate(), Ok(()));
-    let cases: [(Change, &str); 25] = [
+    let cases: [(Change, &str); 27] = [
+        (
+            &|s| s.full_speed_mm_per_min = Some(300_001.0),
+            "full_speed_mm_per_min: is 300001; allowed: 0.001 to 300000",
+        ),
+        (
+            &|s| s.full_speed_mm_per_min = Some(17_999.0),
+            "rapid_mm_per_min: is 18000; allowed: 0.001 to 17999",
+        ),
         (
             &|s| s.clock_hz = 0,
             "clock_hz: is 0; allowed: 1 to 10000000000",
