@@ -73,8 +73,6 @@ impl<'a> ControlComputer<'a> {
     pub(super) fn standing(&self) -> Ports {
         let settings = self.settings;
         let cks = |ms: f64| u64::from(settings.cks(ms));
-        // Lead time in gates, in 1/256.
-        let parameter = 256.0 * settings.speed_lead_ms / settings.speed_gate_ms;
         let standstill = match settings.completion {
             Completion::Standstill => cks(settings.standstill_ms),
             // No standstill is so long.
@@ -90,9 +88,23 @@ impl<'a> ControlComputer<'a> {
             time_out: cks(settings.time_out_ms).into(),
             rest: cks(settings.rest_ms).into(),
             seed: settings.code(settings.seed_ms).unwrap_or(0).into(),
-            lead_parameter: (parameter.round() as u64).min((1 << 14) - 1).into(),
+            lead_parameter: self.parameter(settings.speed_lead_ms).into(),
             gate: cks(settings.speed_gate_ms).into(),
             ..zero()
+        }
+    }
+
+    /// A lead time of the conventional compensator as its parameter: in gates, in 1/256.
+    fn parameter(&self, ms: f64) -> u64 {
+        let gates = 256.0 * ms / self.settings.speed_gate_ms;
+        (gates.round() as u64).min((1 << 14) - 1)
+    }
+
+    /// Sets the parameter of the step that runs, where each has its own.
+    fn choose_parameter(&self, i: &mut Ports, step: u64) {
+        let step = usize::try_from(step).unwrap_or(usize::MAX);
+        if let Some(ms) = self.settings.speed_leads_ms.get(step) {
+            i.lead_parameter = self.parameter(*ms).into();
         }
     }
 
@@ -338,6 +350,7 @@ pub fn play<P: JobLead>(
         let (drive, reverse) = (simulator.get(see.drive), simulator.get(see.reverse));
         let (a, b) = body.step(drive, reverse, speed as f64, simulator.get(see.control));
         computer.tick(&mut i.i, bench.played.ticks, bench.run());
+        computer.choose_parameter(&mut i.i, simulator.get(see.step));
         i.i.a = a.into();
         i.i.b = b.into();
         i.i.halt = (bench.past && drive).into();

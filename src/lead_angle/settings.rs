@@ -90,6 +90,8 @@ pub struct Settings {
     pub speed_gate_ms: f64,
     /// What it multiplies the speed with (a).
     pub speed_lead_ms: f64,
+    /// The same for each step, read by its number from a memory; empty where it is the same for all.
+    pub speed_leads_ms: Vec<f64>,
     /// How many positionings there are in all.
     pub positionings: u32,
     /// How many there are before the load changes; without it the load stays.
@@ -125,6 +127,7 @@ impl Default for Settings {
             rest_ms: 20.0,
             speed_gate_ms: 5.0,
             speed_lead_ms: 25.0,
+            speed_leads_ms: Vec::new(),
             positionings: 24,
             load_change_after: None,
             load: Load::NONE,
@@ -195,7 +198,9 @@ impl Settings {
             within(field, ms, &allowed)?;
         }
         let longest = LARGEST as f64 * ck;
-        within("speed_lead_ms", self.speed_lead_ms, &(0.0..=longest))?;
+        for ms in [self.speed_lead_ms].iter().chain(&self.speed_leads_ms) {
+            within("speed_lead_ms", *ms, &(0.0..=longest))?;
+        }
         within("positionings", self.positionings, &POSITIONINGS_RANGE)?;
         if let Some(after) = self.load_change_after {
             within("load_change_after", after, &(1..=self.positionings))?;

@@ -2,7 +2,7 @@
 
 use super::{CENTRE_REACH_MM, FEED_RANGE, PlanError};
 use crate::input::{Course, Drawing, Move, Point, REACH_MM};
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A move as a curve from its start, parametrised by a length in millimetres.
 ///
@@ -134,6 +134,22 @@ impl Curve {
     pub(super) fn pieces(&self, per_turn: u32) -> u64 {
         self.arc.as_ref().map_or(1, |arc| {
             ((arc.sweep.abs() / TAU * f64::from(per_turn)).ceil() as u64).max(1)
+        })
+    }
+
+    /// Lengths along an arc at which its angle is a multiple of a right one: there X or Y turns. On a
+    /// spiral, whose radius changes by little, they are near that.
+    pub(super) fn quarters(&self) -> impl Iterator<Item = f64> + '_ {
+        let length = self.length;
+        self.arc.iter().flat_map(move |arc| {
+            let [first, last] = [arc.start_angle, arc.start_angle + arc.sweep];
+            let (least, most) = (first.min(last) / FRAC_PI_2, first.max(last) / FRAC_PI_2);
+            // A turn has four; more than a few turns there are not in one move.
+            let quarters = (least.ceil() as i64)..=(most.floor() as i64);
+            quarters.map(move |quarter| {
+                let share = (quarter as f64 * FRAC_PI_2 - first) / arc.sweep;
+                length * share.clamp(0.0, 1.0)
+            })
         })
     }
 

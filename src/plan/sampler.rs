@@ -83,7 +83,67 @@ impl<'p, 'd> Sampler<'p, 'd> {
     }
 }
 
+impl Sampler<'_, '_> {
+    /// Puts the times within a span at which a coordinate may stop or turn into `turns`: between
+    /// them every coordinate goes one way only. They are the joints of the moves, and on arcs where
+    /// the angle is a multiple of a right one.
+    pub(crate) fn turns(&mut self, [from_s, to_s]: [f64; 2], turns: &mut Vec<f64>) {
+        turns.clear();
+        self.at(from_s);
+        let Some(mut current) = self.current else {
+            return;
+        };
+        let segments = self.plan.segments();
+        loop {
+            let Segment { start_s, .. } = current.segment;
+            let quarters = current.curve.quarters();
+            let own =
+                quarters.map(|along| start_s + current.time_at(along, self.plan.acceleration));
+            turns.extend(
+                [start_s]
+                    .into_iter()
+                    .chain(own)
+                    .filter(|t| (from_s..to_s).contains(t)),
+            );
+            let next = current.number + 1;
+            if next >= segments.len() || segments[next].start_s >= to_s {
+                break;
+            }
+            current = Current::enter(self.plan, next);
+        }
+        turns.extend(Some(self.plan.duration_s()).filter(|t| (from_s..to_s).contains(t)));
+    }
+}
+
 impl Current {
+    /// Seconds into the segment at which it is so many millimetres along.
+    fn time_at(&self, along: f64, acceleration: f64) -> f64 {
+        let Segment {
+            length_mm,
+            entry,
+            peak,
+            exit,
+            ..
+        } = self.segment;
+        let phases = &self.phases;
+        let ramp = |from: f64, mm: f64| {
+            let root = (from * from + 2.0 * acceleration * mm).sqrt();
+            if mm > 0.0 {
+                2.0 * mm / (from + root)
+            } else {
+                0.0
+            }
+        };
+        let to_go = length_mm - along;
+        if along <= phases.rising_mm {
+            ramp(entry, along)
+        } else if to_go >= phases.falling_mm {
+            phases.rising_s + (along - phases.rising_mm) / peak
+        } else {
+            phases.rising_s + phases.steady_s + phases.falling_s - ramp(exit, to_go)
+        }
+    }
+
     fn enter(plan: &Plan<'_>, number: usize) -> Self {
         let segment = plan.segments()[number];
         Self {

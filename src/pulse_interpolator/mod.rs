@@ -50,7 +50,7 @@ pub use pulse_generator::PulseGenerator;
 pub use sync_stage::SyncStage;
 pub use table::{
     AxisReport, AxisScaling, CountTable, FollowingError, PulseLimits, Ratio, Remedy, Report,
-    Scaled, Settings, StepTiming, Table, TableError, UnitEnd, Word, compile, counts, follow,
+    Scaled, Settings, StepTiming, Table, TableError, UnitErrors, Word, compile, counts, follow,
 };
 pub use unit_law::UnitLaw;
 pub use unit_time_counter::UnitTimeCounter;

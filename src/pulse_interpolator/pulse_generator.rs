@@ -11,10 +11,10 @@
 //! flip-flop change in the same tick: n ticks into the unit time, 2n, … RST acts on the registers
 //! only: `equal` and `pulse` may be high in its tick.
 //!
-//! Departures: in the *safe* variant RST clears counter and toggle, a half-period of 0 gives no
-//! pulse, and "equal" is `count + 1 >= half_period`, so no n makes the counter run to its wrap.
-//! The *literal* variant ignores RST (¶0017 clears the flip-flop 40 alone) and has
-//! `count + 1 == half_period`; its half-period of 0 means 2^N.
+//! Departures: a half-period of 0 gives no pulse and clears counter and toggle. In the *safe* variant
+//! RST clears them too, and "equal" is `count + 1 >= half_period`, so no n makes the counter run to
+//! its wrap. The *literal* variant ignores RST (¶0017 clears the flip-flop 40 alone) and has
+//! `count + 1 == half_period`.
 
 use super::Variant;
 use crate::check::{Invariants, Specified};
@@ -71,19 +71,16 @@ impl<const N: usize> Circuit for PulseGenerator<N> {
     fn comb<L: Logic>(&self, q: &Reg<L, N>, i: &In<L, N>) -> Net<L, N> {
         let next = q.count + 1;
         let (over, exactly) = (!next.below(i.half_period), next.equals(i.half_period));
+        let none = i.half_period.is_zero();
         let equal = match self.variant {
             Variant::Safe => over,
-            Variant::Literal => exactly,
+            Variant::Literal => exactly | none,
         };
         let turned = q.toggle ^ equal;
-        let none = i.half_period.is_zero();
         Net {
             next,
             equal,
-            pulse: match self.variant {
-                Variant::Safe => turned & !none,
-                Variant::Literal => turned,
-            },
+            pulse: turned & !none,
         }
     }
 

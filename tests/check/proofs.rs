@@ -28,7 +28,7 @@ fn the_literal_variant_breaks_the_count_law_at_once() {
         .inputs
         .iter()
         .map(|i| (i.half_period.get(), i.period.get()));
-    // The counter runs on from the unit time at power-on, misses n and runs to its wrap.
+    // The counter runs on over RST.
     expect_test::expect![[
         r#"[(1, 2), (1, 2), (1, 2)] tick 2: 0 pulses with n = 1 and T = 2, the law says 1"#
     ]]

@@ -45,7 +45,7 @@ fn the_literal_variant_breaks_and_shows_how() {
         .code(1)
         .stdout(predicate::str::contains("BROKEN"))
         .stderr(predicate::str::starts_with(
-            "error: unit_law: tick 1: where the unit time stands",
+            "error: unit_law: tick 2: where the unit time stands",
         ))
         .stderr(predicate::str::contains(
             "found/here/unit_law_where_the_unit_time_stands",
@@ -65,7 +65,7 @@ fn a_counterexample_is_told_where_its_waves_cannot_be_written() {
         .assert()
         .code(1)
         .stdout(predicate::str::contains("BROKEN"))
-        .stderr(predicate::str::starts_with("error: unit_law: tick 1: "))
+        .stderr(predicate::str::starts_with("error: unit_law: tick 2: "))
         .stderr(predicate::str::contains(
             "\nwaves: none: the waves could not be written: taken",
         ))

@@ -22,7 +22,7 @@ use motion_rtl::lead_angle::job::{
 use motion_rtl::lead_angle::settings::{History, Settings};
 use motion_rtl::trace::Options;
 use summary::Summary;
-use systems::{System, systems};
+use systems::{NONE, System, TUNED, systems, tuned};
 
 /// CKs that the save file's window shows.
 const CKS_SHOWN: u64 = 400;
@@ -55,14 +55,17 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         History::ShiftRegister => simulate::<ShiftLead>(arguments, job, &options),
         History::Ram => simulate::<RamLead>(arguments, job, &options),
     }?;
-    let played = systems(&job.settings).into_iter().map(|system| {
-        let played = match system.own {
+    let mut played: Vec<(System, Played)> = Vec::new();
+    for mut system in systems(&job.settings) {
+        if let (TUNED, Some(none)) = (system.name, summary::of(&played, NONE)) {
+            system.settings.speed_leads_ms = tuned(&job.settings, none);
+        }
+        let run = match system.own {
             true => own.clone(),
             false => alone(&system)?,
         };
-        Ok((system, played))
-    });
-    let played = played.collect::<Result<Vec<_>, Failure>>()?;
+        played.push((system, run));
+    }
     files.write("svg", &picture::draw(job, &played))?;
     let summary = Summary::new(job, &played);
     conclude(arguments, &options, files, summary)

@@ -1,7 +1,8 @@
-//! What a run is compared with: the same steps without a lead, by speed, with a fixed lead, with a
-//! lead that is learned, and learned with the text's sign; where the scenario has positionings
+//! What a run is compared with: the same steps without a lead, by speed with one parameter and with
+//! one for each step that is tuned to the nominal load, with a fixed lead, with a lead that is learned, and learned with the text's sign; where the scenario has positionings
 //! complete by a fixed time, learned at standstills too.
 
+use motion_rtl::lead_angle::job::Played;
 use motion_rtl::lead_angle::settings::{Completion, Settings, Sign};
 
 /// Name of the system that learns with the sign that converges.
@@ -10,6 +11,10 @@ pub const LEARNING: &str = "learning";
 pub const LITERAL: &str = "literal sign";
 /// Name of the system that learns where the body has stopped, though the scenario has a fixed time.
 const STANDSTILL: &str = "at standstill";
+/// Name of the system without a lead.
+pub const NONE: &str = "no lead";
+/// Name of the system by speed whose parameters are tuned.
+pub const TUNED: &str = "tuned";
 /// Name of the system that keeps its lead times.
 const FIXED: &str = "fixed lead";
 
@@ -53,8 +58,9 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         own: name == own,
     };
     let mut all = vec![
-        system("no lead", none, false),
+        system(NONE, none, false),
         system("by speed", fixed.clone(), true),
+        system(TUNED, fixed.clone(), true),
         system(FIXED, fixed, false),
         system(LEARNING, learning(Sign::Converging), false),
         system(LITERAL, learning(Sign::Literal), false),
@@ -66,4 +72,22 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         all.push(system(STANDSTILL, stopped, false));
     }
     all
+}
+
+/// The parameter of each step that is right for it at the nominal load, as one who sets the machine up
+/// finds it: the stopping distance without a lead by the speed, at the first positioning of the step.
+/// Where there was none, or no speed, the one that is the same for all.
+pub fn tuned(settings: &Settings, without_lead: &Played) -> Vec<f64> {
+    let nominal = settings
+        .load_change_after
+        .map_or(usize::MAX, |after| after as usize);
+    let runs = &without_lead.positionings;
+    let step = |number: usize| {
+        let mut first = runs.iter().take(nominal).filter(|one| one.step == number);
+        let found = first.next().filter(|one| !one.timed_out && !one.missed);
+        let ms = found.map(|one| 1e3 * one.error as f64 / one.speed_counts_per_s.abs());
+        ms.filter(|ms| ms.is_finite() && *ms >= 0.0)
+            .unwrap_or(settings.speed_lead_ms)
+    };
+    (0..settings.steps.len()).map(step).collect()
 }

@@ -71,7 +71,7 @@ pub fn draw(job: &Job, played: &Played, following: &Following) -> String {
     let curves = following.curves.iter().zip(AXIS_NAMES);
     curves
         .fold(picture, |picture, (curve, name)| {
-            let title = format!("following error of {name} at the end of each unit time");
+            let title = format!("largest following error of {name} in each unit time");
             let panel = Panel::new(title, "time in s", "error in steps");
             picture.panel(
                 panel.curve(

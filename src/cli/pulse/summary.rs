@@ -56,7 +56,7 @@ pub struct AxisSummary {
     pub pulses_down: u64,
     /// Position at the end, in steps from the drawing's origin.
     pub end_position: i64,
-    /// Largest distance from the demand at the end of a unit time.
+    /// Largest distance from the demand, at whatever time.
     pub following_error_max: FollowingError,
     /// Shortest times on the step and direction lines, in ticks; `null` where there was none.
     pub timing_min_ticks: Minima,

@@ -150,6 +150,7 @@ impl Scenario {
             rest_ms: self.rest_ms,
             speed_gate_ms: self.speed_gate_ms,
             speed_lead_ms: self.speed_lead_ms,
+            speed_leads_ms: Vec::new(),
             positionings: self.positionings,
             load_change_after: self.load_change_after,
             load: Load {

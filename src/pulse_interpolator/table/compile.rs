@@ -3,7 +3,7 @@
 use super::count_table::{CountTable, PulseLimits, choose_half_period};
 use super::demand::{AXES, Demand, Demands};
 use super::error::TableError;
-use super::following::Following;
+use super::following;
 use super::remedy;
 use super::report::{AxisReport, FollowingError, Report};
 use super::settings::Settings;
@@ -31,6 +31,10 @@ pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<(Table, Report)
     settings.validate()?;
     let plan = Plan::new(drawing, &settings.motion)?;
     let (table, mut report) = compile_plan(&plan, settings)?;
+    let errors = following::of_table(&plan, settings, &table)?;
+    for (axis, error) in report.axes.iter_mut().zip(errors) {
+        axis.following_error = error;
+    }
     report.undriven = undriven(drawing, settings.steps_per_mm.len());
     if report.unattainable_units > 0 {
         report.remedy = remedy::find(&plan, settings)?;
@@ -38,7 +42,7 @@ pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<(Table, Report)
     Ok((table, report))
 }
 
-/// [`compile`] from valid settings, without looking for a remedy.
+/// [`compile`] from valid settings, without following errors, and without looking for a remedy.
 pub(super) fn compile_plan(
     plan: &Plan<'_>,
     settings: &Settings,
@@ -127,7 +131,6 @@ struct Compiler<'s> {
     settings: &'s Settings,
     table: Table,
     axes: Vec<Axis>,
-    following: Following,
     ticks: u64,
     unattainable_units: usize,
 }
@@ -153,7 +156,6 @@ impl<'s> Compiler<'s> {
             settings,
             table: Table::new(settings.clock_hz, axes, settings.half_period_bits),
             axes: (0..axes).map(axis).collect(),
-            following: Following::new(axes),
             ticks: 0,
             unattainable_units: 0,
         }
@@ -194,9 +196,6 @@ impl<'s> Compiler<'s> {
             };
             self.table.push(word);
         }
-        let positions = self.axes.iter().map(|axis| axis.position);
-        let time_s = self.ticks as f64 / self.settings.clock_hz as f64;
-        self.following.take(unit, time_s, next, positions);
         self.unattainable_units += usize::from(!attainable);
         Ok(())
     }
@@ -272,7 +271,6 @@ impl<'s> Compiler<'s> {
         let axis = |(k, axis): (usize, Axis)| AxisReport {
             end_position: axis.position as i32,
             steps_demanded: end.rounded(k) - start.rounded(k),
-            following_error: self.following.largest[k],
             ..axis.report
         };
         let report = Report {

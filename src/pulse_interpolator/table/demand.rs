@@ -64,7 +64,17 @@ impl<'p, 'd> Demands<'p, 'd> {
 
     /// The demand after so many ticks; from the path's end on exactly the end.
     pub(super) fn at(&mut self, ticks: u64) -> Result<Demand, TableError> {
-        let sample = self.sampler.at(self.seconds(ticks));
+        self.at_time(self.seconds(ticks))
+    }
+
+    /// The times within a span at which a coordinate may stop or turn.
+    pub(super) fn turns(&mut self, span_s: [f64; 2], turns: &mut Vec<f64>) {
+        self.sampler.turns(span_s, turns);
+    }
+
+    /// The demand at a time.
+    pub(super) fn at_time(&mut self, time_s: f64) -> Result<Demand, TableError> {
+        let sample = self.sampler.at(time_s);
         Ok(Demand {
             steps: self.convert(sample.position, sample.line)?,
             arc: sample.arc,

@@ -60,15 +60,15 @@ impl AxisReport {
     }
 }
 
-/// The largest following error of an axis, and where: the distance at the end of a unit between
-/// the pulses emitted and the exact, unrounded demand.
+/// The largest following error of an axis, and where: the distance between the pulses emitted and
+/// the exact, unrounded demand, at whatever time, just before and after each pulse included.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct FollowingError {
     /// In steps.
     pub steps: f64,
     /// The first unit it is reached in, from 0.
     pub unit: usize,
-    /// When that unit ends, in seconds.
+    /// When, in seconds.
     pub time_s: f64,
     /// Line of the input under way at that time.
     pub line: usize,

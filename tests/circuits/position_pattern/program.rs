@@ -40,7 +40,7 @@ impl Plan {
         let speed = i128::from(ports.speed.max(1));
         let distance = i128::from(ports.distance);
         // The fewest scans with which no step is longer than V.
-        let rest = (2 * distance.abs() << t) - speed * (up + down);
+        let rest = ((2 * distance.abs()) << t) - speed * (up + down);
         let steady = match rest > 0 {
             true => rest.div_euclid(2 * speed) + i128::from(rest % (2 * speed) > 0),
             false => 0,
