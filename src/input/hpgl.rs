@@ -242,6 +242,7 @@ impl<'a> Plotter<'a> {
             b"BP" => self.lexer.skip_parameters()?,
             _ => drop(self.parameters(&[0, 1])?),
         }
+        self.leave_polygon_mode();
         self.turn(Turn::None);
         self.down = false;
         self.corners = DEFAULT_CORNERS;
@@ -250,10 +251,7 @@ impl<'a> Plotter<'a> {
     }
 
     fn defaults(&mut self) {
-        if let Some((at, _)) = self.recording.take() {
-            self.at = at;
-        }
-        self.polygon = Polygon::default();
+        self.leave_polygon_mode();
         self.relative = false;
         self.window = None;
         self.paper.set_window(None);
@@ -266,6 +264,14 @@ impl<'a> Plotter<'a> {
         self.rescale();
         self.text = Text::default();
         self.mark();
+    }
+
+    /// Without its polygon; the pen is where it was before.
+    fn leave_polygon_mode(&mut self) {
+        if let Some((at, _)) = self.recording.take() {
+            self.at = at;
+        }
+        self.polygon = Polygon::default();
     }
 
     /// Takes up changed corners or a changed window. The pen stays where it is on the paper.
@@ -360,6 +366,6 @@ fn may_be_in_a_polygon(mnemonic: &Mnemonic) -> bool {
             | b"XT"
             | b"YT"
             | b"RO"
-            | b"SM"
+            | b"PS"
     )
 }

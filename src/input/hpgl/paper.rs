@@ -125,13 +125,17 @@ impl<'a> Paper<'a> {
         }
     }
 
-    /// Turns the coordinates; gives what takes points from the old to the new ones.
-    pub(super) fn turn(&mut self, turn: Turn) -> impl Fn([f64; 2]) -> [f64; 2] + use<> {
+    /// Turns the coordinates; takes points from the old to the new ones.
+    pub(super) fn turn<const N: usize>(
+        &mut self,
+        turn: Turn,
+        points: [[f64; 2]; N],
+    ) -> [[f64; 2]; N] {
         let (page, old) = (self.page, self.turn);
+        let to_new = |point| turn.to_units(page, old.to_page(page, point));
         self.turn = turn;
-        let to_new = move |point| turn.to_units(page, old.to_page(page, point));
         self.sent = to_new(self.sent);
-        to_new
+        points.map(to_new)
     }
 
     fn to_mm(&self, point: [f64; 2]) -> Point {

@@ -149,13 +149,12 @@ impl Plotter<'_> {
     /// their coordinates.
     pub(super) fn turn(&mut self, turn: Turn) {
         let here = self.here();
-        let to_new = self.paper.turn(turn);
-        let new = to_new(here);
+        let [new, carriage] = self.paper.turn(turn, [here, self.text.carriage]);
         // So that without a turn not even the rounding changes.
         if new != here {
             self.at = self.scale.to_user(new);
         }
-        self.text.carriage = to_new(self.text.carriage);
+        self.text.carriage = carriage;
     }
 
     /// The size of the paper, which turns of the coordinates and IR go by. P1 and P2 stay.

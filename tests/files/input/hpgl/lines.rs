@@ -70,7 +70,7 @@ fn what_stands_between_instructions_does_not_matter() {
         "PU40,80,;PD400,400,",
         "IN\r\r\nPU40,80\r\r\nPD400,400\r\r\n",
         "PU40,80;PD400,400;\0\0",
-        "PU40,80;\0PD400,\0400;\x1a",
+        "PU40,80;\x00PD400,\x00400;\x1a",
         "\u{feff}PU40,80;PD400,400;",
         "PU40,80;PD400,400;!PG;",
         "!ST1;PU40,80!FS80,2PD400,400!PG",
