@@ -71,7 +71,10 @@ fn fillings_are_lines_and_leave_the_pen_where_it_was() {
             "IP0,0,100,100;SC0,10,0,10;FT3,4;PU0,1;RA10,6",
             "U0,10 U0,40 D100,40 U0,10",
         ),
-        ("FT3,100;PU0,1;WG200,0,90,90", "U0,1 U0,100 D101,100 U0,1"),
+        (
+            "FT3,100;PU0,1;WG200,0,90,90",
+            "U0,1 U0,100 D101,100 U1,200 D0,200 U0,1",
+        ),
     ] {
         assert_eq!(path(text), drawn, "{text}");
     }
