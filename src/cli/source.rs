@@ -19,7 +19,8 @@ pub struct Input {
     /// Overrides a key of the scenario.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
-    /// Skips with a warning what of an HPGL drawing is not understood and may move the pen.
+    /// Skips with a warning what of an HPGL drawing is not understood or incomplete, though it may
+    /// move the pen.
     #[arg(long)]
     pub lenient: bool,
 }

@@ -67,8 +67,8 @@ type Reader = fn(&str, &[u8], &Options) -> Result<Drawing, Fault>;
 /// How strict the readers of moves are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Options {
-    /// HPGL: skips with a warning what else is refused since it is not understood and may move the
-    /// pen.
+    /// HPGL: skips with a warning what else is refused since it is not understood or incomplete and
+    /// may move the pen.
     pub lenient: bool,
 }
 

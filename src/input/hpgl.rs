@@ -32,6 +32,7 @@ mod font;
 mod label;
 mod lexer;
 mod paper;
+mod parameters;
 mod polygon;
 mod scale;
 mod settings;
@@ -63,8 +64,8 @@ pub fn read(file: &str, text: &[u8]) -> Result<Drawing, Fault> {
 }
 
 /// Reads an HPGL drawing as [`read`] does, as strictly as the options say: if lenient, instructions
-/// that are not known, text that is none, and the last of an odd count of coordinates are skipped
-/// with a warning.
+/// that are not known or lack parameters, text that is none, parameters beyond those of an
+/// instruction and the last of an odd count of coordinates are skipped with a warning.
 ///
 /// # Errors
 ///
@@ -319,27 +320,6 @@ impl<'a> Plotter<'a> {
             self.note("SP", line, text);
         }
         Ok(())
-    }
-
-    /// The parameters of an instruction that takes one of the given counts, in rising order.
-    fn parameters(&mut self, counts: &[usize]) -> Result<Vec<f64>, Fault> {
-        let most = counts.last().copied().unwrap_or(0);
-        let mut numbers = Vec::new();
-        while let Some(number) = self.lexer.number()? {
-            numbers.push(number);
-            if numbers.len() > most {
-                let allowed = format!("at most {most}");
-                return Err(self.lexer.fault("too many parameters", allowed));
-            }
-        }
-        if !counts.contains(&numbers.len()) {
-            let counts: Vec<String> = counts.iter().map(usize::to_string).collect();
-            let problem = format!("{} parameters", numbers.len());
-            return Err(self
-                .lexer
-                .fault(problem, format!("{} parameters", counts.join(", "))));
-        }
-        Ok(numbers)
     }
 
     fn note(&mut self, key: &str, line: usize, text: impl FnOnce() -> String) {

@@ -27,7 +27,7 @@ fn what_may_move_the_pen_is_refused_unless_lenient() {
         said,
         [
             "l.hpgl:2: QQ: not known, skipped; what it draws or moves is missing",
-            "l.hpgl:3: an X without its Y: an odd count of coordinates; the X is skipped",
+            "l.hpgl:3: PD: an X without its Y: an odd count of coordinates; the X is skipped",
         ]
     );
     // So in a scenario, and for a table.

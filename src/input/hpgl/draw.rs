@@ -32,27 +32,6 @@ impl Plotter<'_> {
         Ok(())
     }
 
-    /// A coordinate pair and the line it begins in, or the end of the instruction.
-    fn pair(&mut self) -> Result<Option<([f64; 2], usize)>, Fault> {
-        let Some(x) = self.lexer.number()? else {
-            return Ok(None);
-        };
-        let line = self.lexer.line();
-        if let Some(y) = self.lexer.number()? {
-            return Ok(Some(([x, y], line)));
-        }
-        let problem = "an X without its Y: an odd count of coordinates";
-        if self.lenient {
-            let text = || format!("{problem}; the X is skipped");
-            self.note("odd", line, text);
-            return Ok(None);
-        }
-        Err(Fault {
-            line,
-            ..self.lexer.fault(problem, "pairs of X and Y")
-        })
-    }
-
     fn target(&self, [x, y]: [f64; 2], relative: bool) -> [f64; 2] {
         let [from_x, from_y] = self.at;
         if relative {
@@ -177,7 +156,9 @@ impl Plotter<'_> {
     /// part of its own.
     pub(super) fn circle(&mut self, by: By<'_>) -> Result<(), Fault> {
         let numbers = self.parameters(&[1, 2])?;
-        let radius = numbers.first().copied().unwrap_or(0.0);
+        let Some(radius) = numbers.first().copied() else {
+            return Ok(());
+        };
         let chord_deg = self
             .tolerance
             .chord_deg(numbers.get(1).copied(), radius.abs());
@@ -203,9 +184,9 @@ impl Plotter<'_> {
             let by = By { line, ..by };
             let (Some((second, _)), Some((third, _))) = (self.pair()?, self.pair()?) else {
                 let problem = "a curve without all of its points";
-                return Err(self
-                    .lexer
-                    .fault(problem, "two control points and an end for each curve"));
+                let allowed = "two control points and an end for each curve";
+                self.forgive(self.lexer.fault(problem, allowed), "the curve is skipped")?;
+                break;
             };
             let [first, second, end] =
                 [first, second, third].map(|point| self.target(point, relative));

@@ -116,7 +116,7 @@ impl Plotter<'_> {
         Ok(())
     }
 
-    /// The window outside of which nothing is drawn.
+    /// The window outside of which nothing is drawn, its corners in user units.
     pub(super) fn clip(&mut self) -> Result<(), Fault> {
         let window = match *self.parameters(&[0, 4])? {
             [x1, y1, x2, y2] => {

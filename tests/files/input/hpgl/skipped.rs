@@ -77,7 +77,28 @@ fn what_is_not_known_is_refused_unless_lenient() {
             "PD1,1;\nPD7;",
             "t:2: PD: an X without its Y: an odd count of coordinates; allowed: pairs of X and Y"
                 .to_owned(),
-            "t:2: an X without its Y: an odd count of coordinates; the X is skipped".to_owned(),
+            "t:2: PD: an X without its Y: an odd count of coordinates; the X is skipped".to_owned(),
+        ),
+        (
+            "AA5,5;CI;AA5;PD1,1",
+            "t:1: AA: 2 parameters; allowed: 3, 4 parameters".to_owned(),
+            "t:1: AA: 2 parameters; skipped|t:1: CI: 0 parameters; skipped|t:1: AA: 1 parameters; \
+             skipped"
+                .to_owned(),
+        ),
+        (
+            "PD1,1;IP1,2,3;TL1,2,3,4;",
+            "t:1: IP: 3 parameters; allowed: 0, 2, 4 parameters".to_owned(),
+            "t:1: IP: 3 parameters; taken as without any|t:1: TL: too many parameters; those \
+             beyond are skipped (2 times)"
+                .to_owned(),
+        ),
+        (
+            "PD1,1;BZ1,2,3,4",
+            "t:1: BZ: a curve without all of its points; allowed: two control points and an end \
+             for each curve"
+                .to_owned(),
+            "t:1: BZ: a curve without all of its points; the curve is skipped".to_owned(),
         ),
         (
             "PD1,,1",
