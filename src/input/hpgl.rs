@@ -71,7 +71,21 @@ pub fn read(file: &str, text: &[u8]) -> Result<Drawing, Fault> {
 ///
 /// As [`read`].
 pub fn read_with(file: &str, text: &[u8], options: &Options) -> Result<Drawing, Fault> {
-    let mut plotter = Plotter::new(file, text, options.lenient);
+    let fault = match draw_all(Plotter::new(file, text, options.lenient)) {
+        Err(fault) if fault.field == "PE" => fault,
+        result => return result,
+    };
+    let Some(bytes) = bytes_of_utf8(text) else {
+        return Err(fault);
+    };
+    let mut plotter = Plotter::new(file, &bytes, options.lenient);
+    plotter.note("UTF-8", fault.line, || {
+        "PE: characters are UTF-8, taken for the bytes they stand for".to_owned()
+    });
+    draw_all(plotter).map_err(|_| fault)
+}
+
+fn draw_all(mut plotter: Plotter<'_>) -> Result<Drawing, Fault> {
     while let Some(item) = plotter.lexer.item()? {
         plotter.run(item)?;
     }
@@ -79,6 +93,16 @@ pub fn read_with(file: &str, text: &[u8], options: &Options) -> Result<Drawing, 
         .paper
         .track
         .finish("an HPGL drawing with at least one move")
+}
+
+/// The bytes of a text that an editor has made UTF-8 of, each of them a character then.
+fn bytes_of_utf8(text: &[u8]) -> Option<Vec<u8>> {
+    let text = str::from_utf8(text).ok()?;
+    let byte = |character| u8::try_from(u32::from(character)).ok();
+    text.trim_start_matches('\u{feff}')
+        .chars()
+        .map(byte)
+        .collect()
 }
 
 /// The state an instruction may change.

@@ -116,6 +116,24 @@ fn a_missing_semicolon_before_an_instruction_is_forgiven() {
 }
 
 #[test]
+fn bytes_that_an_editor_made_utf8_of_are_bytes() {
+    let n = |value| number(value, 64);
+    let encoded = text(&[&"IN;\nPE", &n(40), &n(-80), &n(400), &n(0), &";"]);
+    let as_text: String = encoded.iter().map(|&byte| char::from(byte)).collect();
+    let drawing = read("t", as_text.as_bytes()).unwrap();
+    assert_eq!(moves(&drawing), drawn(&encoded));
+    assert_eq!(
+        drawing.warnings[0].to_string(),
+        "t:2: PE: characters are UTF-8, taken for the bytes they stand for"
+    );
+    // What is UTF-8 by chance, and right as it is, is left so: -1 and 0.
+    assert_eq!(drawn(b"PE\xc2\xbf;"), ["line to -0.025 0 0"]);
+    // The first fault is the one that is shown.
+    let fault = read("t", "PE\u{f6}\u{f6}!;".as_bytes()).unwrap_err();
+    assert!(fault.problem.starts_with("'\\u{b6}'"), "{fault}");
+}
+
+#[test]
 fn what_is_not_encoded_is_refused() {
     let n = |value| number(value, 64);
     for (encoded, problem) in [
