@@ -5,7 +5,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
 use motion_rtl::input::scenario::Loaded;
-use motion_rtl::input::{Drawing, Fault, Kind, read_path};
+use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
 use motion_rtl::plan::{FEED_RANGE, PlanError};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -19,6 +19,19 @@ pub struct Input {
     /// Overrides a key of the scenario.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
+    /// Skips with a warning what of an HPGL drawing is not understood or incomplete, though it may
+    /// move the pen.
+    #[arg(long)]
+    pub lenient: bool,
+}
+
+impl Input {
+    /// How strict the readers of moves are.
+    fn options(&self) -> Options {
+        Options {
+            lenient: self.lenient,
+        }
+    }
 }
 
 /// A scenario, of whatever circuit, and where its input is.
@@ -29,6 +42,7 @@ pub struct Source {
     /// What its files are called.
     pub stem: String,
     origin: Origin,
+    options: Options,
 }
 
 /// Where an input is.
@@ -54,6 +68,7 @@ impl Source {
             loaded,
             stem,
             origin,
+            options: input.options(),
         })
     }
 
@@ -68,7 +83,10 @@ impl Source {
     /// Reads the input of a circuit that can do without: a drawing.
     pub fn drawing_if_any(&self) -> Option<Result<Drawing, Fault>> {
         match &self.origin {
-            Origin::File(path) => Some(self.takes(path).and_then(|()| read_path(path))),
+            Origin::File(path) => {
+                let read = |()| read_path_with(path, &self.options);
+                Some(self.takes(path).and_then(read))
+            }
             Origin::Crate(shipped) => shipped.drawing(),
             Origin::Nowhere => None,
         }

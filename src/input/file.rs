@@ -62,7 +62,23 @@ impl fmt::Display for Kind {
 }
 
 /// What reads a text, by the name of its file.
-type Reader = fn(&str, &[u8]) -> Result<Drawing, Fault>;
+type Reader = fn(&str, &[u8], &Options) -> Result<Drawing, Fault>;
+
+/// How strict the readers of moves are.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Options {
+    /// HPGL: skips with a warning what else is refused since it is not understood or incomplete and
+    /// may move the pen.
+    pub lenient: bool,
+}
+
+impl Options {
+    /// Skips with a warning whatever can be skipped.
+    #[must_use]
+    pub fn lenient() -> Self {
+        Options { lenient: true }
+    }
+}
 
 /// Reads an HPGL drawing or a G-code program, told apart by the extension in either case.
 ///
@@ -71,9 +87,18 @@ type Reader = fn(&str, &[u8]) -> Result<Drawing, Fault>;
 /// A path without a known extension, that is neither a regular file nor a pipe, cannot be read or is
 /// larger than [`LARGEST_FILE`]; and whatever [`hpgl::read`] and [`gcode::read`] object to.
 pub fn read_path(path: &Path) -> Result<Drawing, Fault> {
+    read_path_with(path, &Options::default())
+}
+
+/// Reads a drawing or a program as [`read_path`] does, as strictly as the options say.
+///
+/// # Errors
+///
+/// As [`read_path`].
+pub fn read_path_with(path: &Path, options: &Options) -> Result<Drawing, Fault> {
     let name = path.display().to_string();
     let read = reader(&name, path)?;
-    read(&name, &read_bytes(path, LARGEST_FILE)?)
+    read(&name, &read_bytes(path, LARGEST_FILE)?, options)
 }
 
 /// Reads the contents of a file called `name`, as [`read_path`] does.
@@ -82,14 +107,25 @@ pub fn read_path(path: &Path) -> Result<Drawing, Fault> {
 ///
 /// A name without a known extension; and whatever [`hpgl::read`] and [`gcode::read`] object to.
 pub fn read_text(name: &str, text: &[u8]) -> Result<Drawing, Fault> {
-    reader(name, Path::new(name))?(name, text)
+    read_text_with(name, text, &Options::default())
+}
+
+/// Reads the contents of a file as [`read_text`] does, as strictly as the options say.
+///
+/// # Errors
+///
+/// As [`read_text`].
+pub fn read_text_with(name: &str, text: &[u8], options: &Options) -> Result<Drawing, Fault> {
+    reader(name, Path::new(name))?(name, text, options)
 }
 
 fn reader(name: &str, path: &Path) -> Result<Reader, Fault> {
     let extension = path.extension().and_then(|text| text.to_str());
     let problem = match extension.map(str::to_ascii_lowercase).as_deref() {
-        Some("hpgl" | "hpg" | "plt" | "hgl") => return Ok(hpgl::read),
-        Some("ngc" | "gcode" | "nc" | "tap" | "gc" | "cnc") => return Ok(gcode::read),
+        Some("hpgl" | "hpg" | "plt" | "hgl") => return Ok(hpgl::read_with),
+        Some("ngc" | "gcode" | "nc" | "tap" | "gc" | "cnc") => {
+            return Ok(|name, text, _| gcode::read(name, text));
+        }
         Some(other) => format!("unknown extension .{other}"),
         None => "no extension".to_owned(),
     };

@@ -1,47 +1,115 @@
 //! HPGL and HPGL/2 pen-plotter drawings.
 //!
-//! Understood are IN, DF, SP, PU, PD, PA, PR, IP, SC (anisotropic and isotropic) and, so that the
-//! letters of a label are not taken for instructions, DT. Every other instruction and every
-//! escape sequence is skipped with one warning for each kind.
+//! | drawn | |
+//! |---|---|
+//! | PU, PD, PA, PR, PE | lines; PE with pens, fractions, absolute points, base 64 and 32 |
+//! | AA, AR, AT, RT, CI, CT | arcs and circles, as chords of the angle given, or 5° |
+//! | BZ, BR | Bézier curves, as chords at most 6 µm off |
+//! | EA, ER, EW, PM, EP | rectangles, wedges, polygons |
+//! | RA, RR, WG, FP, FT, AC, PT, PW, WU | their fillings, by lines: FT 1 to 4 |
+//! | LB, BL, PB, CP, DT, SI, SR, DI, DR, SL, LO, DV, ES, SM, UC | labels and symbols, in Hershey's single-stroke Roman letters, all of one width as a plotter's are |
+//! | XT, YT, TL | ticks |
+//!
+//! IN, BP, DF, IP, IR, SC (of every type), IW, RO, PS and SP act. What moves no pen, such as VS or
+//! LT, is skipped with one warning for each kind, and so are escape sequences. What is not known
+//! may move the pen: it is refused, unless [`Options::lenient`] has it skipped.
 //!
 //! A plotter unit is 0.025 mm. The pen starts up, at the origin of the plotter units, and nothing
-//! is added after the last move. IN raises the pen where it is. P1 and P2 start where an HP 7475A
-//! with A4 paper has them: (250, 279) and (10250, 7479).
+//! is added after the last move. IN raises the pen where it is. P1 and P2, and the paper that RO
+//! turns and IR divides, start as an HP 7475A with paper of size A has them: (250, 279) and (10250,
+//! 7479), and 10365 by 7962. RO shifts the origin to the corner that is then at the lower left. The
+//! paper's edges clip nothing; a window (IW) does.
 //!
-//! A coordinate pair that does not move the pen gives no [`Move`]; [`Drawing::zero_length`]
-//! counts it, with the pen up or down.
+//! A coordinate pair that does not move the pen gives no [`Move`](super::Move);
+//! [`Drawing::zero_length`] counts it, with the pen up or down.
 
+mod areas;
+mod curve;
+mod draw;
+mod encoded;
+mod fill;
+mod font;
+mod label;
 mod lexer;
+mod paper;
+mod parameters;
+mod polygon;
 mod scale;
+mod settings;
+mod skipped;
+mod text;
 
-use super::track::Track;
-use super::{Course, Drawing, Fault, Move};
+use super::{Drawing, Fault, Options};
+use curve::Tolerance;
+use fill::Fill;
 use lexer::{Item, Lexer, Mnemonic};
+use paper::{By, Paper, Turn};
+use polygon::Polygon;
 use scale::{Corners, DEFAULT_CORNERS, Scale, Window};
+use text::Text;
 
 /// Reads an HPGL drawing; `file` is the name that warnings and faults carry.
 ///
-/// The text may hold any bytes: labels are skipped whatever their character set.
+/// The text may hold any bytes. Control characters between instructions, such as NUL, are skipped,
+/// and so is a byte order mark.
 ///
 /// # Errors
 ///
-/// Text that is not HPGL, a number that is none or is out of range, an odd count of coordinates,
-/// a wrong count of other parameters, a scale that maps a length to zero or from zero, a
-/// label or string without its end, a coordinate beyond [`super::REACH_MM`], no move at all.
+/// Text that is not HPGL, an instruction that is not known and may move the pen, a number that is
+/// none or is out of range, an odd count of coordinates, a wrong count of other parameters, a scale
+/// that maps a length to zero or from zero, a label or string without its end, a coordinate beyond
+/// [`super::REACH_MM`], curves, labels and fills of more than four million moves, no move at all.
 pub fn read(file: &str, text: &[u8]) -> Result<Drawing, Fault> {
-    let mut plotter = Plotter::new(file, text);
+    read_with(file, text, &Options::default())
+}
+
+/// Reads an HPGL drawing as [`read`] does, as strictly as the options say: if lenient, instructions
+/// that are not known or lack parameters, text that is none, parameters beyond those of an
+/// instruction and the last of an odd count of coordinates are skipped with a warning.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn read_with(file: &str, text: &[u8], options: &Options) -> Result<Drawing, Fault> {
+    let fault = match draw_all(Plotter::new(file, text, options.lenient)) {
+        Err(fault) if fault.field == "PE" => fault,
+        result => return result,
+    };
+    let Some(bytes) = bytes_of_utf8(text) else {
+        return Err(fault);
+    };
+    let mut plotter = Plotter::new(file, &bytes, options.lenient);
+    plotter.note("UTF-8", fault.line, || {
+        "PE: characters are UTF-8, taken for the bytes they stand for".to_owned()
+    });
+    draw_all(plotter).map_err(|_| fault)
+}
+
+fn draw_all(mut plotter: Plotter<'_>) -> Result<Drawing, Fault> {
     while let Some(item) = plotter.lexer.item()? {
         plotter.run(item)?;
     }
     plotter
+        .paper
         .track
         .finish("an HPGL drawing with at least one move")
+}
+
+/// The bytes of a text that an editor has made UTF-8 of, each of them a character then.
+fn bytes_of_utf8(text: &[u8]) -> Option<Vec<u8>> {
+    let text = str::from_utf8(text).ok()?;
+    let byte = |character| u8::try_from(u32::from(character)).ok();
+    text.trim_start_matches('\u{feff}')
+        .chars()
+        .map(byte)
+        .collect()
 }
 
 /// The state an instruction may change.
 struct Plotter<'a> {
     lexer: Lexer<'a>,
-    track: Track<'a>,
+    lenient: bool,
+    paper: Paper<'a>,
     down: bool,
     relative: bool,
     pen: Option<f64>,
@@ -50,13 +118,46 @@ struct Plotter<'a> {
     scale: Scale,
     /// Where the pen is, in user units: integers stay exact, however long a chain of PR.
     at: [f64; 2],
+    tolerance: Tolerance,
+    polygon: Polygon,
+    /// In polygon mode: where the pen was when it began, and whether it was down.
+    recording: Option<([f64; 2], bool)>,
+    fill: Fill,
+    /// Where the lines of a hatching pass, in plotter units.
+    anchor: [f64; 2],
+    pen_width: PenWidth,
+    text: Text<'a>,
+    /// Ticks' lengths on either side, as parts of the distance of P1 and P2.
+    ticks: [f64; 2],
 }
 
+/// How wide the pen is, which the lines of a solid filling depend on.
+#[derive(Debug, Clone, Copy)]
+struct PenWidth {
+    /// PW's number is a percentage of the distance of P1 and P2.
+    relative: bool,
+    /// In plotter units.
+    units: f64,
+}
+
+impl Default for PenWidth {
+    fn default() -> Self {
+        PenWidth {
+            relative: false,
+            units: 0.3 * scale::UNITS_PER_MM,
+        }
+    }
+}
+
+/// The length of a tick on either side, as a part of the distance of P1 and P2.
+const DEFAULT_TICKS: [f64; 2] = [0.005; 2];
+
 impl<'a> Plotter<'a> {
-    fn new(file: &'a str, text: &'a [u8]) -> Self {
+    fn new(file: &'a str, text: &'a [u8], lenient: bool) -> Self {
         Self {
-            lexer: Lexer::new(file, text),
-            track: Track::new(file),
+            lexer: Lexer::new(file, text, lenient),
+            lenient,
+            paper: Paper::new(file),
             down: false,
             relative: false,
             pen: None,
@@ -64,37 +165,93 @@ impl<'a> Plotter<'a> {
             window: None,
             scale: Scale::new(DEFAULT_CORNERS, None),
             at: [0.0; 2],
+            tolerance: Tolerance::default(),
+            polygon: Polygon::default(),
+            recording: None,
+            fill: Fill::default(),
+            anchor: [0.0; 2],
+            pen_width: PenWidth::default(),
+            text: Text::default(),
+            ticks: DEFAULT_TICKS,
         }
     }
 
     fn run(&mut self, item: Item) -> Result<(), Fault> {
-        let line = self.lexer.line();
+        let line = self.lexer.start();
         let mnemonic = match item {
             Item::Instruction(mnemonic) => mnemonic,
+            Item::Maker(mnemonic) => return self.makers_own(mnemonic),
             Item::Escape(kind) => {
                 let name = format!("ESC {}", kind.escape_default());
-                self.track
-                    .note(&name, line, || format!("{name}: escape sequence skipped"));
+                self.note(&name, line, || format!("{name}: escape sequence skipped"));
                 return Ok(());
             }
             Item::Job => {
-                self.track.note("@", line, || "@: line skipped".to_owned());
+                self.note("@", line, || "@: line skipped".to_owned());
+                return Ok(());
+            }
+            Item::Noise(first) => {
+                let text = || format!("'{}': no instruction, skipped", first.escape_default());
+                self.note("noise", line, text);
                 return Ok(());
             }
         };
+        let by = By {
+            field: mnemonic.as_str(),
+            line,
+        };
+        if self.recording.is_some() && !may_be_in_a_polygon(&mnemonic) {
+            return self.out_of_place(mnemonic, line);
+        }
         match &mnemonic.0 {
             b"PU" | b"PD" | b"PA" | b"PR" => self.draw(mnemonic),
-            b"SP" => self.select_pen(line),
-            b"IP" => self.input_corners(),
-            b"SC" => self.set_window(),
-            b"DT" => self.lexer.label_terminator(),
-            b"IN" => {
-                self.parameters(&[0, 1])?;
-                self.down = false;
-                self.corners = DEFAULT_CORNERS;
-                self.defaults();
-                Ok(())
+            b"PE" => self.draw_encoded(by),
+            b"AA" | b"AR" => self.arc(by, mnemonic.0[1] == b'R'),
+            b"AT" | b"RT" => self.arc_through(by, mnemonic.0[0] == b'R'),
+            b"CI" => self.circle(by),
+            b"BZ" | b"BR" => self.bezier(by, mnemonic.0[1] == b'R'),
+            b"CT" => self.chord_tolerance(),
+            b"EA" | b"ER" => self.rectangle(by, mnemonic.0[1] == b'R', false),
+            b"RA" | b"RR" => self.rectangle(by, mnemonic.0[1] == b'R', true),
+            b"EW" => self.wedge(by, false),
+            b"WG" => self.wedge(by, true),
+            b"PM" => self.polygon_mode(),
+            b"EP" => {
+                self.parameters(&[0])?;
+                self.edge_polygon(by)
             }
+            b"FP" => self.fill_polygon(by),
+            b"FT" => self.fill_type(),
+            b"AC" => self.anchor_corner(),
+            b"PT" => self.pen_thickness(),
+            b"PW" => self.pen_width(),
+            b"WU" => self.width_unit(),
+            b"SP" => {
+                let numbers = self.parameters(&[0, 1])?;
+                self.select_pen(line, numbers.first().copied().unwrap_or(0.0))
+            }
+            b"IP" => self.input_corners(),
+            b"IR" => self.input_relative_corners(),
+            b"SC" => self.set_window(),
+            b"IW" => self.clip(),
+            b"RO" => self.rotate(),
+            b"PS" => self.plot_size(),
+            b"LB" => self.label(by),
+            b"BL" => self.buffer_label(),
+            b"PB" => self.print_buffer(by),
+            b"CP" => self.plot_character(by),
+            b"DT" => self.lexer.label_terminator(),
+            b"SI" | b"SR" => self.character_size(mnemonic.0[1] == b'R'),
+            b"DI" | b"DR" => self.text_direction(mnemonic.0[1] == b'R'),
+            b"SL" => self.slant(),
+            b"LO" => self.label_origin(),
+            b"DV" => self.text_path(),
+            b"ES" => self.extra_space(),
+            b"SM" => self.symbol_mode(),
+            b"UC" => self.user_character(by),
+            b"XT" | b"YT" => self.tick(by, mnemonic.0[0] == b'Y'),
+            b"TL" => self.tick_length(),
+            b"IN" | b"BP" => self.initialise(mnemonic),
             b"DF" => {
                 self.parameters(&[0])?;
                 self.defaults();
@@ -104,59 +261,79 @@ impl<'a> Plotter<'a> {
         }
     }
 
+    fn initialise(&mut self, mnemonic: Mnemonic) -> Result<(), Fault> {
+        match &mnemonic.0 {
+            // Begins a plot, with kinds and values of no concern here, texts among them.
+            b"BP" => self.lexer.skip_parameters()?,
+            _ => drop(self.parameters(&[0, 1])?),
+        }
+        self.leave_polygon_mode();
+        self.turn(Turn::None);
+        self.down = false;
+        self.corners = DEFAULT_CORNERS;
+        self.defaults();
+        Ok(())
+    }
+
     fn defaults(&mut self) {
+        self.leave_polygon_mode();
         self.relative = false;
         self.window = None;
+        self.paper.set_window(None);
+        self.tolerance = Tolerance::default();
+        self.fill = Fill::default();
+        self.anchor = [0.0; 2];
+        self.pen_width = PenWidth::default();
+        self.ticks = DEFAULT_TICKS;
         self.lexer.reset_terminator();
         self.rescale();
+        self.text = Text::default();
+        self.mark();
+    }
+
+    /// Without its polygon; the pen is where it was before.
+    fn leave_polygon_mode(&mut self) {
+        if let Some((at, _)) = self.recording.take() {
+            self.at = at;
+        }
+        self.polygon = Polygon::default();
     }
 
     /// Takes up changed corners or a changed window. The pen stays where it is on the paper.
     fn rescale(&mut self) {
         let scale = Scale::new(self.corners, self.window);
         if scale != self.scale {
-            self.at = scale.to_user(self.scale.to_mm(self.at));
+            self.at = scale.to_user(self.scale.to_plotter(self.at));
+            if let Some((at, _)) = &mut self.recording {
+                *at = scale.to_user(self.scale.to_plotter(*at));
+            }
             self.scale = scale;
         }
     }
 
-    fn draw(&mut self, mnemonic: Mnemonic) -> Result<(), Fault> {
-        match &mnemonic.0 {
-            b"PU" => self.down = false,
-            b"PD" => self.down = true,
-            b"PA" => self.relative = false,
-            _ => self.relative = true,
+    /// Where the pen is, in plotter units.
+    fn here(&self) -> [f64; 2] {
+        self.scale.to_plotter(self.at)
+    }
+
+    /// Carriage returns of labels lead back to where the pen is now.
+    fn mark(&mut self) {
+        self.text.carriage = self.here();
+    }
+
+    /// Moves the pen to a point in user units, as it is: up or down, or into the polygon buffer.
+    fn go(&mut self, by: By<'_>, to: [f64; 2]) -> Result<(), Fault> {
+        self.at = to;
+        let to = self.here();
+        if self.recording.is_some() {
+            self.polygon.add(to, self.down);
+            return Ok(());
         }
-        let field = mnemonic.to_string();
-        while let Some(x) = self.lexer.number()? {
-            let line = self.lexer.line();
-            let Some(y) = self.lexer.number()? else {
-                let problem = "an X without its Y: an odd count of coordinates";
-                return Err(self.track.fault(line, field, problem, "pairs of X and Y"));
-            };
-            let [from_x, from_y] = self.at;
-            self.at = if self.relative {
-                [from_x + x, from_y + y]
-            } else {
-                [x, y]
-            };
-            let [x, y] = self.scale.to_mm(self.at);
-            let next = Move {
-                to: [x, y, 0.0],
-                course: Course::Line,
-                rapid: !self.down,
-                feed_mm_per_min: None,
-                line,
-            };
-            self.track.push(&field, next)?;
-        }
-        Ok(())
+        self.paper.go(by, to, self.down)
     }
 
     /// Pens are not told apart; a change from one to another is worth a warning.
-    fn select_pen(&mut self, line: usize) -> Result<(), Fault> {
-        let numbers = self.parameters(&[0, 1])?;
-        let pen = numbers.first().copied().unwrap_or(0.0);
+    fn select_pen(&mut self, line: usize, pen: f64) -> Result<(), Fault> {
         if pen < 0.0 || pen.fract() != 0.0 {
             let problem = format!("{pen} is not a pen");
             return Err(self.lexer.fault(problem, "a whole number from 0"));
@@ -164,126 +341,35 @@ impl<'a> Plotter<'a> {
         // Pen 0 is no pen: the one in use goes back to its stall.
         if pen > 0.0 && *self.pen.get_or_insert(pen) != pen {
             let text = || "SP: more than one pen; all pens draw alike".to_owned();
-            self.track.note("SP", line, text);
+            self.note("SP", line, text);
         }
         Ok(())
     }
 
-    fn input_corners(&mut self) -> Result<(), Fault> {
-        let corners = match *self.parameters(&[0, 2, 4])? {
-            [x1, y1, x2, y2] => Corners {
-                p1: [x1, y1],
-                p2: [x2, y2],
-            },
-            [x1, y1] => {
-                let ([old_x1, old_y1], [old_x2, old_y2]) = (self.corners.p1, self.corners.p2);
-                Corners {
-                    p1: [x1, y1],
-                    p2: [x1 + (old_x2 - old_x1), y1 + (old_y2 - old_y1)],
-                }
-            }
-            _ => DEFAULT_CORNERS,
-        };
-        let mut pairs = corners.p1.iter().zip(&corners.p2);
-        if pairs.any(|(p1, p2)| p1 == p2) {
-            let allowed = "P1 and P2 that differ in X and in Y";
-            return Err(self
-                .lexer
-                .fault("P1 and P2 leave no area between them", allowed));
-        }
-        self.corners = corners;
-        self.rescale();
-        Ok(())
-    }
-
-    fn set_window(&mut self) -> Result<(), Fault> {
-        let numbers = self.parameters(&[0, 4, 5, 7])?;
-        let (x, y, isotropic) = match *numbers {
-            [] => {
-                self.window = None;
-                self.rescale();
-                return Ok(());
-            }
-            [x1, x2, y1, y2] | [x1, x2, y1, y2, 0.0] => ([x1, x2], [y1, y2], None),
-            [x1, x2, y1, y2, 1.0] => ([x1, x2], [y1, y2], Some([50.0, 50.0])),
-            [x1, x2, y1, y2, 1.0, left, bottom] => ([x1, x2], [y1, y2], Some([left, bottom])),
-            [_, _, _, _, kind, ..] => {
-                let allowed = "0 (anisotropic, without further parameters) or 1 (isotropic)";
-                return Err(self.lexer.fault(format!("scaling of type {kind}"), allowed));
-            }
-            _ => {
-                return Err(self
-                    .lexer
-                    .fault("too few parameters", "4, 5 or 7 parameters"));
-            }
-        };
-        for (axis, [first, last]) in [("X", x), ("Y", y)] {
-            if first == last {
-                let problem = format!("{axis} runs from {first} to {last}");
-                return Err(self
-                    .lexer
-                    .fault(problem, "a minimum and a maximum that differ"));
-            }
-        }
-        for share in isotropic.into_iter().flatten() {
-            if !(0.0..=100.0).contains(&share) {
-                let problem = format!("{share} % of the room left over");
-                return Err(self.lexer.fault(problem, "0 to 100 %"));
-            }
-        }
-        self.window = Some(Window {
-            x,
-            y,
-            isotropic: isotropic.map(|shares: [f64; 2]| shares.map(|share| share / 100.0)),
-        });
-        self.rescale();
-        Ok(())
-    }
-
-    /// The parameters of an instruction that takes one of the given counts, in rising order.
-    fn parameters(&mut self, counts: &[usize]) -> Result<Vec<f64>, Fault> {
-        let most = counts.last().copied().unwrap_or(0);
-        let mut numbers = Vec::new();
-        while let Some(number) = self.lexer.number()? {
-            numbers.push(number);
-            if numbers.len() > most {
-                let allowed = format!("at most {most}");
-                return Err(self.lexer.fault("too many parameters", allowed));
-            }
-        }
-        if !counts.contains(&numbers.len()) {
-            let counts: Vec<String> = counts.iter().map(usize::to_string).collect();
-            let problem = format!("{} parameters", numbers.len());
-            return Err(self
-                .lexer
-                .fault(problem, format!("{} parameters", counts.join(", "))));
-        }
-        Ok(numbers)
-    }
-
-    fn skip(&mut self, mnemonic: Mnemonic, line: usize) -> Result<(), Fault> {
-        let field = mnemonic.to_string();
-        self.track
-            .note(&field, line, || match changes_the_drawing(mnemonic) {
-                true => format!("{mnemonic}: skipped; what it draws or moves is missing"),
-                false => format!("{mnemonic}: skipped"),
-            });
-        match &mnemonic.0 {
-            b"LB" | b"BL" | b"WD" => self.lexer.skip_label(),
-            b"PE" | b"MG" => self.lexer.skip_to_semicolon(),
-            b"SM" => self.lexer.skip_character(),
-            _ => self.lexer.skip_parameters(),
-        }
+    fn note(&mut self, key: &str, line: usize, text: impl FnOnce() -> String) {
+        self.paper.track.note(key, line, text);
     }
 }
 
-/// Whether a skipped instruction would have drawn, moved the pen, or changed where or whether
-/// the next ones draw.
-fn changes_the_drawing(mnemonic: Mnemonic) -> bool {
-    const THEY_DO: [&[u8; 2]; 28] = [
-        b"AA", b"AR", b"AT", b"BR", b"BZ", b"CI", b"CP", b"EA", b"EP", b"ER", b"EW", b"FP", b"IR",
-        b"IW", b"LB", b"PB", b"PE", b"PM", b"RA", b"RO", b"RR", b"RT", b"SM", b"UC", b"WG", b"XT",
-        b"YT", b"RP",
-    ];
-    THEY_DO.contains(&&mnemonic.0)
+/// Whether polygon mode takes an instruction: what adds corners, and what moves no pen.
+fn may_be_in_a_polygon(mnemonic: &Mnemonic) -> bool {
+    !matches!(
+        &mnemonic.0,
+        b"EA"
+            | b"ER"
+            | b"EW"
+            | b"EP"
+            | b"RA"
+            | b"RR"
+            | b"WG"
+            | b"FP"
+            | b"LB"
+            | b"PB"
+            | b"CP"
+            | b"UC"
+            | b"XT"
+            | b"YT"
+            | b"RO"
+            | b"PS"
+    )
 }

@@ -12,7 +12,8 @@ pub mod scenario;
 mod track;
 
 pub use file::{
-    DRAWINGS, Kind, LARGEST_FILE, POSITION_LOGS, read_bytes, read_path, read_string, read_text,
+    DRAWINGS, Kind, LARGEST_FILE, Options, POSITION_LOGS, read_bytes, read_path, read_path_with,
+    read_string, read_text, read_text_with,
 };
 
 use std::fmt;

@@ -6,10 +6,16 @@
 //! 7175,   12,            11                  times rise, counts are whole
 //! ```
 //!
-//! Fields stand between commas. Blank lines and lines that begin with `#` are skipped.
+//! Fields stand between commas. Blank lines and lines that begin with `#` are skipped. What column
+//! has what [`Columns`] says, or else the log itself: see there.
+
+mod columns;
+
+pub use columns::{Columns, Place};
 
 use super::{Fault, LARGEST_FILE, read_bytes};
-use csv::{ByteRecord, ReaderBuilder, Trim};
+use columns::Survey;
+use csv::{ByteRecord, Reader, ReaderBuilder, Trim};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -18,28 +24,6 @@ pub const COUNTS_RANGE: RangeInclusive<i64> = -(1 << 31)..=1 << 31;
 
 /// The most samples of a log.
 pub const MOST_SAMPLES: usize = 4_000_000;
-
-/// What to take from a log.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Columns {
-    /// Name of the column of times; without it `time`, or else the first that is not the counts.
-    pub time: Option<String>,
-    /// Name of the column of counts; without it `counts`, or else the first that is not the time.
-    pub counts: Option<String>,
-    /// Seconds in a unit of time.
-    pub time_unit_s: f64,
-}
-
-impl Default for Columns {
-    /// The default columns, time in milliseconds.
-    fn default() -> Self {
-        Columns {
-            time: None,
-            counts: None,
-            time_unit_s: 1e-3,
-        }
-    }
-}
 
 /// A sample of a log.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,6 +41,10 @@ pub struct Sample {
 pub struct PositionLog {
     /// The file's name as the user gave it.
     pub file: String,
+    /// The column that the times are from.
+    pub time: Place,
+    /// The column that the counts are from.
+    pub counts: Place,
     /// The samples, two or more, in the order of time.
     pub samples: Vec<Sample>,
 }
@@ -116,60 +104,38 @@ pub fn read_path(path: &Path, columns: &Columns) -> Result<PositionLog, Fault> {
 ///
 /// # Errors
 ///
-/// A text that is not UTF-8, a column that is not there, a field that is no number, a count outside
-/// [`COUNTS_RANGE`], a time that does not rise, fewer than two samples or more than
-/// [`MOST_SAMPLES`].
+/// A text that is not UTF-8, a column that is not there or cannot be what it is to be, a field that
+/// is no number, a count outside [`COUNTS_RANGE`], a time that does not rise, fewer than two samples
+/// or more than [`MOST_SAMPLES`].
 pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, Fault> {
-    let log = Log {
-        file: name,
-        columns,
-    };
+    let log = Log { file: name };
     log.check_text(text)?;
-    let mut reader = ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(text);
-    let mut record = ByteRecord::new();
-    let mut places = None;
+    let mut survey = None;
+    log.each(text, |line, fields| {
+        match &mut survey {
+            None => survey = Some(Survey::begin(line, fields)),
+            Some(survey) => survey.add(fields),
+        }
+        Ok(())
+    })?;
+    let Some(survey) = survey else {
+        return Err(log.too_short(0));
+    };
+    let (time, counts) = columns.choose(&log, &survey)?;
     let mut first = None;
     let mut samples: Vec<Sample> = Vec::new();
-    loop {
-        let more = reader.read_byte_record(&mut record);
-        let more = more.map_err(|error| log.fault(0, "file", error.to_string(), "CSV"))?;
-        if !more {
-            break;
+    log.each(text, |line, fields| {
+        if survey.is_header(line) {
+            return Ok(());
         }
-        let line = line_of(text, &record);
-        let fields: Vec<&str> = record
-            .iter()
-            .map(|field| str::from_utf8(field).unwrap_or_default())
-            .collect();
-        if fields == [""] {
-            continue;
-        }
-        let [time, counts] = match &places {
-            Some(places) => places,
-            None => {
-                let header = fields.iter().all(|field| field.parse::<f64>().is_err());
-                let found = log.places(line, &fields, header)?;
-                let places = places.insert(found);
-                if header {
-                    continue;
-                }
-                places
-            }
-        };
-        let time = log.number(line, time, &fields)?;
-        let start = *first.get_or_insert(time);
-        let seconds = (time - start) * columns.time_unit_s;
-        let counts = log.counts(line, counts, &fields)?;
+        let at = log.number(line, &time, fields)?;
+        let seconds = (at - *first.get_or_insert(at)) * columns.time_unit_s;
+        let counts = log.counts(line, &counts, fields)?;
         if let Some(before) = samples.last()
             && !(seconds > before.seconds && seconds.is_finite())
         {
-            let problem = format!("{time} does not rise above line {}", before.line);
-            return Err(log.fault(line, "time", problem, "times that rise"));
+            let problem = format!("{at} does not rise above line {}", before.line);
+            return Err(log.fault(line, &time.name, problem, "times that rise"));
         }
         if samples.len() == MOST_SAMPLES {
             let problem = format!("more than {MOST_SAMPLES} samples");
@@ -181,32 +147,32 @@ pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, F
             counts,
             line,
         });
-    }
+        Ok(())
+    })?;
     if samples.len() < 2 {
-        let problem = format!("{} samples in it", samples.len());
-        return Err(log.fault(0, "file", problem, "a log of 2 samples or more"));
+        return Err(log.too_short(samples.len()));
     }
     Ok(PositionLog {
         file: name.to_owned(),
+        time,
+        counts,
         samples,
     })
-}
-
-/// A column: where it stands and what faults call it.
-struct Place {
-    index: usize,
-    name: String,
 }
 
 /// A log being read.
 struct Log<'a> {
     file: &'a str,
-    columns: &'a Columns,
 }
 
 impl Log<'_> {
     fn fault(&self, line: usize, field: &str, problem: impl Into<String>, allowed: &str) -> Fault {
         Fault::new(self.file, line, field, problem, allowed)
+    }
+
+    fn too_short(&self, samples: usize) -> Fault {
+        let problem = format!("{samples} samples in it");
+        self.fault(0, "file", problem, "a log of 2 samples or more")
     }
 
     fn check_text(&self, text: &[u8]) -> Result<(), Fault> {
@@ -218,43 +184,33 @@ impl Log<'_> {
         Err(self.fault(line, "file", "not UTF-8", "a position log in CSV"))
     }
 
-    /// Where time and counts stand, by the first record.
-    fn places(&self, line: usize, fields: &[&str], header: bool) -> Result<[Place; 2], Fault> {
-        if fields.len() < 2 {
-            let allowed = "a column of times and one of counts, with a comma between them";
-            return Err(self.fault(line, "file", "only one column", allowed));
+    /// Hands over the records with their lines, the header among them.
+    fn each(
+        &self,
+        text: &[u8],
+        mut take: impl FnMut(usize, &[&str]) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        let mut reader: Reader<&[u8]> = ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .trim(Trim::All)
+            .comment(Some(b'#'))
+            .from_reader(text);
+        let mut record = ByteRecord::new();
+        loop {
+            let more = reader.read_byte_record(&mut record);
+            let more = more.map_err(|error| self.fault(0, "file", error.to_string(), "CSV"))?;
+            if !more {
+                return Ok(());
+            }
+            let fields: Vec<&str> = record
+                .iter()
+                .map(|field| str::from_utf8(field).unwrap_or_default())
+                .collect();
+            if fields != [""] {
+                take(line_of(text, &record), &fields)?;
+            }
         }
-        let named = |name: &str| {
-            let index = fields.iter().position(|field| header && *field == name)?;
-            let name = name.to_owned();
-            Some(Place { index, name })
-        };
-        let wanted = |name: &Option<String>| match name {
-            None => Ok(None),
-            Some(name) => named(name).map(Some).ok_or_else(|| {
-                let allowed = match header {
-                    true => fields.join(", "),
-                    false => "a log whose first line has the names of its columns".to_owned(),
-                };
-                self.fault(line, name, "no such column", &allowed)
-            }),
-        };
-        let at = |index: usize, name: &str| Place {
-            index,
-            name: if header { fields[index] } else { name }.to_owned(),
-        };
-        // Of the first two the one that is not the other column.
-        let beside =
-            |other: Option<&Place>| usize::from(other.is_some_and(|place| place.index == 0));
-        let counts = wanted(&self.columns.counts)?.or_else(|| named("counts"));
-        let time = wanted(&self.columns.time)?.or_else(|| named("time"));
-        let time = time.unwrap_or_else(|| at(beside(counts.as_ref()), "time"));
-        let counts = counts.unwrap_or_else(|| at(beside(Some(&time)), "counts"));
-        if time.index == counts.index {
-            let problem = format!("{} is both time and counts", time.name);
-            return Err(self.fault(line, &time.name, problem, &fields.join(", ")));
-        }
-        Ok([time, counts])
     }
 
     fn field<'a>(&self, line: usize, place: &Place, fields: &[&'a str]) -> Result<&'a str, Fault> {
@@ -301,15 +257,6 @@ mod tests {
         read("l.csv", text.as_bytes(), &Columns::default()).unwrap()
     }
 
-    fn with(time: &str, counts: &str) -> Columns {
-        let name = |name: &str| (!name.is_empty()).then(|| name.to_owned());
-        Columns {
-            time: name(time),
-            counts: name(counts),
-            ..Columns::default()
-        }
-    }
-
     fn refuse(text: &str, columns: &Columns) -> String {
         read("l.csv", text.as_bytes(), columns)
             .unwrap_err()
@@ -336,31 +283,6 @@ mod tests {
         assert_eq!(samples(&log), [(0, 4), (12, 6), (-30, 9)]);
         let bare = |log: &PositionLog| log.samples.iter().map(|s| s.seconds).collect::<Vec<_>>();
         assert_eq!(bare(&log), bare(&plain));
-    }
-
-    #[test]
-    fn columns_are_found_by_name_or_place() {
-        let text = "left, mode, time, counts\n1, 2, 30, 4\n5, 6, 70, 8\n";
-        let read = |columns: &Columns| {
-            let log = read("l.csv", text.as_bytes(), columns).unwrap();
-            let counts: Vec<_> = log.samples.iter().map(|s| s.counts).collect();
-            (log.seconds(), counts)
-        };
-        assert_eq!(read(&Columns::default()), (0.04, vec![4, 8]));
-        assert_eq!(read(&with("", "left")), (0.04, vec![1, 5]));
-        assert_eq!(read(&with("left", "mode")), (0.004, vec![2, 6]));
-        let seconds = Columns {
-            time_unit_s: 1.0,
-            ..with("", "mode")
-        };
-        assert_eq!(read(&seconds), (40.0, vec![2, 6]));
-        // Without the names the first two; where only the time has its own, the first other.
-        let log = accept("a,b\n1,2\n3,4\n");
-        assert_eq!(samples(&log), [(2, 2), (4, 3)]);
-        let log = accept("b,time\n1,2\n3,4\n");
-        assert_eq!(samples(&log), [(1, 2), (3, 3)]);
-        let log = accept("counts,t\n1,2\n3,4\n");
-        assert_eq!(samples(&log), [(1, 2), (3, 3)]);
     }
 
     #[test]
@@ -402,7 +324,7 @@ mod tests {
             ),
             (
                 "1,x\n",
-                "l.csv:1: counts: is 'x'; allowed: a whole number, -2147483648 to 2147483648",
+                "l.csv:1: counts (column 2): is 'x'; allowed: a whole number, -2147483648 to 2147483648",
             ),
             (
                 "t,c\n1,2\n\n2,3.5\n",
@@ -411,7 +333,7 @@ mod tests {
             ),
             (
                 "1,2\n2,2147483649\n",
-                "l.csv:2: counts: is '2147483649'; allowed: a whole number, \
+                "l.csv:2: counts (column 2): is '2147483649'; allowed: a whole number, \
               -2147483648 to 2147483648",
             ),
             (
@@ -420,31 +342,17 @@ mod tests {
             ),
             (
                 "1,2\n2\n",
-                "l.csv:2: counts: the line has only 1 of its fields; allowed: a number",
+                "l.csv:2: counts (column 2): the line has only 1 of its fields; allowed: a number",
             ),
             (
                 "1,2\n2,3\n2,4\n",
-                "l.csv:3: time: 2 does not rise above line 2; allowed: times that \
+                "l.csv:3: time (column 1): 2 does not rise above line 2; allowed: times that \
               rise",
             ),
         ];
         for (text, message) in cases {
             assert_eq!(refuse(text, &none), message, "{text:?}");
         }
-        let text = "time,a,b\n1,2,3\n";
-        assert_eq!(
-            refuse(text, &with("", "c")),
-            "l.csv:1: c: no such column; allowed: time, a, b"
-        );
-        assert_eq!(
-            refuse(text, &with("", "time")),
-            "l.csv:1: time: time is both time and counts; allowed: time, a, b"
-        );
-        assert_eq!(
-            refuse("1,2\n", &with("when", "")),
-            "l.csv:1: when: no such column; allowed: a log whose first line has the names of its \
-             columns"
-        );
         let fault = read("l.csv", b"1,2\n2,\xff\n", &none).unwrap_err();
         assert_eq!(
             fault.to_string(),

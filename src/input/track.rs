@@ -53,17 +53,19 @@ impl<'a> Track<'a> {
                 self.check_reach(field, next.line, axis, value)?;
             }
         }
-        let still = || {
-            let mut pairs = self.here.iter().zip(&next.to);
-            pairs.all(|(from, to)| (to - from).abs() < ZERO_MM)
-        };
-        if next.course == Course::Line && still() {
+        if next.course == Course::Line && self.is_at(next.to) {
             self.zero_length += 1;
         } else {
             self.here = next.to;
             self.moves.push(next);
         }
         Ok(())
+    }
+
+    /// Whether a straight move to a point would be of zero length.
+    pub(super) fn is_at(&self, to: Point) -> bool {
+        let mut pairs = self.here.iter().zip(&to);
+        pairs.all(|(from, to)| (to - from).abs() < ZERO_MM)
     }
 
     fn check_reach(&self, field: &str, line: usize, what: &str, mm: f64) -> Result<(), Fault> {

@@ -460,6 +460,7 @@ fn the_text_of_a_log_has_its_signals() {
     let text = log().succeed(&["run", "s.toml", "--no-vcd"]);
     expect![[r#"
         log.csv on lead_angle: 501 samples, 500001 ticks, 0.500 s at 1000000 Hz, CK of 100 ticks
+        times from time, counts from right
 
         prediction error in counts   largest       rms
         with the lead                    0.0       0.0
@@ -584,7 +585,7 @@ fn a_log_is_read_and_checked() {
     );
     assert_eq!(
         of("fast"),
-        "error: fast.csv:2: counts: 2000000 counts/s since the sample before; allowed: up to \
+        "error: fast.csv:2: counts (column 2): 2000000 counts/s since the sample before; allowed: up to \
          1000000, one count per tick\n"
     );
     assert_eq!(
@@ -598,7 +599,10 @@ fn a_log_is_read_and_checked() {
          2147483648\n"
     );
     let back = of("back");
-    assert!(back.starts_with("error: back.csv:3: time: "), "{back}");
+    assert!(
+        back.starts_with("error: back.csv:3: time (column 1): "),
+        "{back}"
+    );
     assert_eq!(
         of("short"),
         "error: short.csv:3: counts: the line has only 1 of its fields; allowed: a number\n"
@@ -610,7 +614,7 @@ fn a_log_is_read_and_checked() {
     );
     assert_eq!(
         of("long"),
-        "error: long.csv:3: counts: is 2097153; allowed: up to 2097152 counts from the first, 0\n"
+        "error: long.csv:3: counts (column 2): is 2097153; allowed: up to 2097152 counts from the first, 0\n"
     );
 }
 

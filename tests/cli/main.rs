@@ -13,8 +13,10 @@ mod drawings;
 mod files;
 mod fst;
 mod lead_angle;
+mod lenient;
 mod linear;
 mod linear_refusals;
+mod log_columns;
 mod machine;
 #[cfg(target_os = "linux")]
 mod memory;

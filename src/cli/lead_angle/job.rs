@@ -99,7 +99,7 @@ fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<
     let fault = |line, problem: String, allowed: String| Fault {
         file: log.file.clone(),
         line,
-        field: "counts".to_owned(),
+        field: log.counts.name.clone(),
         problem,
         allowed,
     };
@@ -112,7 +112,7 @@ fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<
     let (longest, seconds) = (u64::MAX as f64 / settings.clock_hz as f64, log.seconds());
     if let Some(last) = log.samples.last().filter(|_| seconds >= longest) {
         return Err(Fault {
-            field: "time".to_owned(),
+            field: log.time.name.clone(),
             ..fault(
                 last.line,
                 format!("is {seconds} s after the first"),

@@ -4,6 +4,8 @@ use std::fmt;
 
 use crate::input::Fault;
 
+mod escape;
+
 const ESC: u8 = 0x1b;
 const ETX: u8 = 0x03;
 
@@ -11,108 +13,161 @@ const ETX: u8 = 0x03;
 const LARGEST: f64 = 1_073_741_824.0;
 
 /// The two letters of an instruction, in upper case.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct Mnemonic(pub(super) [u8; 2]);
+
+impl Mnemonic {
+    pub(super) fn as_str(&self) -> &str {
+        str::from_utf8(&self.0).unwrap_or_default()
+    }
+}
 
 impl fmt::Display for Mnemonic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [first, second] = self.0.map(char::from);
-        write!(f, "{first}{second}")
+        f.write_str(self.as_str())
+    }
+}
+
+impl fmt::Debug for Mnemonic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
     }
 }
 
 /// What stands where an instruction may stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Item {
     /// An instruction; its parameters come next.
     Instruction(Mnemonic),
+    /// One of a maker's own, with an exclamation mark before it; its parameters come next.
+    Maker(Mnemonic),
     /// An escape sequence, already skipped; told apart by the character after ESC.
     Escape(char),
     /// A line of printer job language, already skipped.
     Job,
+    /// Text that is no instruction, already skipped, up to where one may begin. What it begins
+    /// with.
+    Noise(char),
 }
+
+/// A place in the text: the bytes before it, and its line.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place(usize, usize);
 
 pub(super) struct Lexer<'a> {
     file: &'a str,
     text: &'a [u8],
+    lenient: bool,
     at: usize,
     line: usize,
     /// The line of the instruction being read.
     start: usize,
     /// What a fault names.
     field: String,
-    /// No parameter of the instruction has been read yet.
-    first: bool,
+    /// The text is a printer's, not a plotter's, up to the next escape sequence.
+    printer: bool,
     /// Ends a label.
     terminator: u8,
 }
 
 impl<'a> Lexer<'a> {
-    pub(super) fn new(file: &'a str, text: &'a [u8]) -> Self {
+    /// Where `lenient`, what is no instruction is an [`Item::Noise`] and not a fault.
+    pub(super) fn new(file: &'a str, text: &'a [u8], lenient: bool) -> Self {
         Self {
             file,
-            text,
+            text: text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text),
+            lenient,
             at: 0,
             line: 1,
             start: 1,
             field: String::new(),
-            first: true,
+            printer: false,
             terminator: ETX,
         }
     }
 
-    /// The line reached, from 1. CR, LF and CR LF each end a line.
+    /// The line reached, from 1. CR, LF, CR LF and CR CR LF each end a line.
     pub(super) fn line(&self) -> usize {
         self.line
     }
 
-    /// The next instruction; `None` at the end of the text.
+    /// The line the instruction being read begins in.
+    pub(super) fn start(&self) -> usize {
+        self.start
+    }
+
+    /// The next instruction; `None` at the end of the text. Separators between instructions are
+    /// skipped.
     pub(super) fn item(&mut self) -> Result<Option<Item>, Fault> {
-        while self
-            .take_if(|byte| byte == b';' || is_space(byte))
-            .is_some()
-        {}
+        if self.printer {
+            while self.take_if(|byte| byte != ESC).is_some() {}
+        }
+        let separator = |byte| byte == b';' || byte == b',' || is_space(byte);
+        while self.take_if(separator).is_some() {}
         self.start = self.line;
         let Some(byte) = self.bump() else {
             return Ok(None);
         };
-        if byte == ESC {
-            return Ok(Some(self.escape()));
-        }
-        if byte == b'@' {
-            while self.take_if(|byte| byte != b'\n').is_some() {}
-            return Ok(Some(Item::Job));
-        }
-        self.field = format!("'{}'", char::from(byte).escape_default());
-        let letters = match self.peek() {
-            Some(second) if byte.is_ascii_alphabetic() && second.is_ascii_alphabetic() => {
-                self.bump();
-                [byte.to_ascii_uppercase(), second.to_ascii_uppercase()]
+        match byte {
+            ESC => return Ok(Some(Item::Escape(self.escape()))),
+            b'@' => {
+                while self.take_if(|byte| byte != b'\n').is_some() {}
+                return Ok(Some(Item::Job));
             }
-            _ => {
-                let allowed = "instructions of two letters, such as PD";
-                return Err(self.fault_here("no instruction starts with it", allowed));
-            }
-        };
-        let mnemonic = Mnemonic(letters);
+            _ => {}
+        }
         self.field.clear();
-        self.field.extend(letters.map(char::from));
-        self.first = true;
-        Ok(Some(Item::Instruction(mnemonic)))
+        let maker = byte == b'!';
+        let first = if maker { self.peek() } else { Some(byte) };
+        let second = self.text.get(self.at + usize::from(maker)).copied();
+        let (Some(first), Some(second)) = (first, second) else {
+            return self.noise(byte).map(Some);
+        };
+        if !(first.is_ascii_alphabetic() && second.is_ascii_alphabetic()) {
+            return self.noise(byte).map(Some);
+        }
+        self.at += 1 + usize::from(maker);
+        let mnemonic = Mnemonic([first, second].map(|byte| byte.to_ascii_uppercase()));
+        if maker {
+            self.field.push('!');
+        }
+        self.field.push_str(mnemonic.as_str());
+        Ok(Some(match maker {
+            true => Item::Maker(mnemonic),
+            false => Item::Instruction(mnemonic),
+        }))
+    }
+
+    /// What is no instruction.
+    fn noise(&mut self, byte: u8) -> Result<Item, Fault> {
+        let shown = char::from(byte);
+        if self.lenient {
+            let inner = |byte: u8| !byte.is_ascii_alphabetic() && byte != b';' && byte != ESC;
+            while self.take_if(inner).is_some() {}
+            return Ok(Item::Noise(shown));
+        }
+        self.field = format!("'{}'", shown.escape_default());
+        let allowed = "instructions of two letters, such as PD";
+        Err(self.fault_here("no instruction starts with it", allowed))
     }
 
     /// The next parameter of the instruction; `None` at its end. Commas, white space and signs
-    /// separate; the end is a semicolon, the next instruction or the end of the text.
+    /// separate; a comma may stand before the first and after the last. The end is a semicolon, the
+    /// next instruction or the end of the text.
     pub(super) fn number(&mut self) -> Result<Option<f64>, Fault> {
         self.skip_space();
-        let comma = !self.first && self.take_if(|byte| byte == b',').is_some();
-        if comma {
+        if self.take_if(|byte| byte == b',').is_some() {
             self.skip_space();
+            if self.lenient {
+                while self
+                    .take_if(|byte| byte == b',' || is_space(byte))
+                    .is_some()
+                {}
+            }
         }
-        self.first = false;
         match self.peek() {
             Some(b'0'..=b'9' | b'+' | b'-' | b'.') => self.literal().map(Some),
-            None | Some(b';' | ESC | b'A'..=b'Z' | b'a'..=b'z') if !comma => {
+            None | Some(b';' | ESC | b'!' | b'@' | b'A'..=b'Z' | b'a'..=b'z') => {
                 self.take_if(|byte| byte == b';');
                 Ok(None)
             }
@@ -120,22 +175,24 @@ impl<'a> Lexer<'a> {
                 let shown = char::from(byte).escape_default();
                 Err(self.fault_here(format!("'{shown}' in place of a number"), NUMBER))
             }
-            None => Err(self.fault_here("no number after the comma", NUMBER)),
         }
     }
 
     fn literal(&mut self) -> Result<f64, Fault> {
         let start = self.at;
         self.take_if(|byte| byte == b'+' || byte == b'-');
-        while self
-            .take_if(|byte| byte.is_ascii_digit() || byte == b'.')
-            .is_some()
-        {}
+        let digit = |byte: u8| byte.is_ascii_digit() || byte == b'.';
+        while self.take_if(digit).is_some() {}
         let digits = self.text.get(start..self.at).unwrap_or_default();
         let text = String::from_utf8_lossy(digits);
         let Ok(value) = text.parse::<f64>() else {
             return Err(self.fault_here(format!("{} is not a number", shorten(&text)), NUMBER));
         };
+        if let Some([b'e' | b'E', b'0'..=b'9' | b'+' | b'-']) = self.text.get(self.at..self.at + 2)
+        {
+            let problem = format!("{} has an exponent", shorten(&text));
+            return Err(self.fault_here(problem, NUMBER));
+        }
         if value.abs() > LARGEST {
             let problem = format!("{} is out of range", shorten(&text));
             return Err(self.fault_here(problem, format!("-{LARGEST} to {LARGEST}")));
@@ -147,10 +204,10 @@ impl<'a> Lexer<'a> {
     pub(super) fn skip_parameters(&mut self) -> Result<(), Fault> {
         loop {
             match self.peek() {
-                None | Some(ESC | b'A'..=b'Z' | b'a'..=b'z') => return Ok(()),
+                None | Some(ESC | b'A'..=b'Z' | b'a'..=b'z' | b'!' | b'@') => return Ok(()),
                 Some(b'"') => {
                     self.bump();
-                    self.skip_past(b'"', "no closing quote")?;
+                    self.through(b'"', "no closing quote")?;
                 }
                 Some(byte) => {
                     self.bump();
@@ -162,26 +219,59 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Skips a label up to its terminator.
-    pub(super) fn skip_label(&mut self) -> Result<(), Fault> {
-        self.skip_past(self.terminator, "no label terminator after it")
+    /// The text of a label, up to its terminator, which is not part of it.
+    pub(super) fn label(&mut self) -> Result<&'a [u8], Fault> {
+        self.through(self.terminator, "no label terminator after it")
     }
 
-    /// Skips any bytes up to a semicolon.
-    pub(super) fn skip_to_semicolon(&mut self) -> Result<(), Fault> {
-        self.skip_past(b';', "no semicolon after it")
+    /// Skips a quoted text and its end, or else any bytes up to a semicolon.
+    pub(super) fn skip_text(&mut self) -> Result<(), Fault> {
+        self.skip_space();
+        match self.peek() {
+            Some(b'"') => self.skip_parameters(),
+            _ => self.through(b';', "no semicolon after it").map(|_| ()),
+        }
     }
 
-    /// Skips a parameter that is one character, whatever it is, and then the others.
-    pub(super) fn skip_character(&mut self) -> Result<(), Fault> {
-        self.take_if(|byte| byte != b';');
-        self.skip_parameters()
+    /// The next byte of an encoded polyline and its place; `None` at the semicolon that ends it, which is taken.
+    /// White space and control characters are skipped.
+    ///
+    /// # Errors
+    ///
+    /// Without a semicolon before the end of the text.
+    pub(super) fn encoded(&mut self) -> Result<Option<(u8, Place)>, Fault> {
+        // Characters 128 to 160 and 255 are skipped as those below are.
+        let skipped = |byte: u8| byte & 0x7f <= b' ' || byte & 0x7f == 0x7f;
+        while self.take_if(skipped).is_some() {}
+        let missing = "no semicolon after it, to the end of the file";
+        let place = Place(self.at, self.line);
+        let Some(byte) = self.bump() else {
+            return Err(self.fault(missing, "';' at its end"));
+        };
+        Ok((byte & 0x7f != b';').then_some((byte, place)))
+    }
+
+    /// Whether what stands at a place begins as an instruction does; if so, goes back there.
+    pub(super) fn back_to_instruction(&mut self, Place(at, line): Place) -> bool {
+        let begins = |bytes: &[u8]| bytes.iter().all(u8::is_ascii_alphabetic);
+        let found = self.text.get(at..at + 2).is_some_and(begins);
+        if found {
+            (self.at, self.line) = (at, line);
+        }
+        found
+    }
+
+    /// A parameter that is one character, if there is one before the semicolon, which is taken.
+    pub(super) fn character(&mut self) -> Result<Option<u8>, Fault> {
+        let character = self.take_if(|byte| byte != b';');
+        self.skip_parameters()?;
+        Ok(character)
     }
 
     /// Reads what is to end labels from here on; without a character that is ETX.
     pub(super) fn label_terminator(&mut self) -> Result<(), Fault> {
-        self.terminator = self.take_if(|byte| byte != b';').unwrap_or(ETX);
-        self.skip_parameters()
+        self.terminator = self.character()?.unwrap_or(ETX);
+        Ok(())
     }
 
     /// Puts the label terminator back to ETX.
@@ -189,37 +279,12 @@ impl<'a> Lexer<'a> {
         self.terminator = ETX;
     }
 
-    /// Skips an escape sequence, the ESC itself already read. `ESC .` is the plotter's own, with
-    /// numbers up to a colon; one that starts with a mark has
-    /// numbers and small letters up to a capital one.
-    fn escape(&mut self) -> Item {
-        let kind = self.bump().map_or(' ', char::from);
-        match kind {
-            '.' => {
-                self.bump();
-                let rest = self.text.get(self.at..).unwrap_or_default();
-                let numbers = rest
-                    .iter()
-                    .take_while(|&&b| b.is_ascii_digit() || b == b';');
-                let length = numbers.count();
-                if rest.get(length) == Some(&b':') {
-                    self.at += length + 1;
-                }
-            }
-            '!'..='/' => {
-                let inner = |byte| matches!(byte, b'0'..=b'9' | b'+' | b'-' | b'.' | b'a'..=b'z');
-                while self.take_if(inner).is_some() {}
-                self.take_if(|byte| byte == b'@' || byte.is_ascii_uppercase());
-            }
-            _ => {}
-        }
-        Item::Escape(kind)
-    }
-
-    fn skip_past(&mut self, end: u8, missing: &str) -> Result<(), Fault> {
+    /// What stands before the byte `end`, which is taken too.
+    fn through(&mut self, end: u8, missing: &str) -> Result<&'a [u8], Fault> {
+        let start = self.at;
         while let Some(byte) = self.bump() {
             if byte == end {
-                return Ok(());
+                return Ok(self.text.get(start..self.at - 1).unwrap_or_default());
             }
         }
         let shown = char::from(end).escape_default();
@@ -246,9 +311,15 @@ impl<'a> Lexer<'a> {
     fn bump(&mut self) -> Option<u8> {
         let byte = self.peek()?;
         self.at += 1;
-        if byte == b'\n' || (byte == b'\r' && self.peek() != Some(b'\n')) {
-            self.line += 1;
-        }
+        let ends_a_line = match byte {
+            b'\n' => true,
+            b'\r' => {
+                let rest = self.text.get(self.at..).unwrap_or_default();
+                !(rest.starts_with(b"\n") || rest.starts_with(b"\r\n"))
+            }
+            _ => false,
+        };
+        self.line += usize::from(ends_a_line);
         Some(byte)
     }
 
@@ -257,15 +328,21 @@ impl<'a> Lexer<'a> {
         Fault::new(self.file, self.start, self.field.as_str(), problem, allowed)
     }
 
-    fn fault_here(&self, problem: impl Into<String>, allowed: impl Into<String>) -> Fault {
+    /// A fault at the line reached.
+    pub(super) fn fault_here(
+        &self,
+        problem: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Fault {
         Fault::new(self.file, self.line, self.field.as_str(), problem, allowed)
     }
 }
 
 const NUMBER: &str = "decimal numbers such as -12.5, separated by commas or spaces";
 
+/// White space, and the control characters that serial lines and old systems leave in files.
 fn is_space(byte: u8) -> bool {
-    byte.is_ascii_whitespace()
+    (byte <= b' ' && byte != ESC) || byte == 0x7f
 }
 
 /// A number as a message shows it.

@@ -3,7 +3,11 @@
 /// Plotter units in a millimetre.
 pub(super) const UNITS_PER_MM: f64 = 40.0;
 
-/// P1 and P2 of an HP 7475A loaded with A4 paper, in plotter units.
+/// The hard-clip limits of an HP 7475A loaded with paper of size A (8.5 by 11 inches), in plotter
+/// units from the origin.
+pub(super) const DEFAULT_PAGE: [f64; 2] = [10_365.0, 7_962.0];
+
+/// P1 and P2 of an HP 7475A loaded with the same paper, in plotter units.
 pub(super) const DEFAULT_CORNERS: Corners = Corners {
     p1: [250.0, 279.0],
     p2: [10_250.0, 7_479.0],
@@ -16,14 +20,33 @@ pub(super) struct Corners {
     pub(super) p2: [f64; 2],
 }
 
+impl Corners {
+    /// From P1 to P2, in plotter units.
+    pub(super) fn span(&self) -> [f64; 2] {
+        let ([x1, y1], [x2, y2]) = (self.p1, self.p2);
+        [x2 - x1, y2 - y1]
+    }
+
+    /// The distance of P1 and P2, in plotter units.
+    pub(super) fn diagonal(&self) -> f64 {
+        let [x, y] = self.span();
+        x.hypot(y)
+    }
+}
+
 /// What the user calls P1 and P2, in user units (SC).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Window {
-    pub(super) x: [f64; 2],
-    pub(super) y: [f64; 2],
-    /// For equal units on both axes: how much of the room left over goes before the window, 0 to
-    /// 1, on each axis. Without it the window fills the whole area from P1 to P2.
-    pub(super) isotropic: Option<[f64; 2]>,
+pub(super) enum Window {
+    /// The user's names of both.
+    Ranges {
+        x: [f64; 2],
+        y: [f64; 2],
+        /// For equal units on both axes: how much of the room left over goes before the window, 0
+        /// to 1, on each axis. Without it the window fills the whole area from P1 to P2.
+        isotropic: Option<[f64; 2]>,
+    },
+    /// The user's name of P1, and how many plotter units a user unit has.
+    Factors { p1: [f64; 2], factors: [f64; 2] },
 }
 
 /// One axis of the mapping: `user` lands at `plotter`, and `den` user units span `num` plotter
@@ -43,6 +66,15 @@ impl Axis {
         num: 1.0,
         den: 1.0,
     };
+
+    fn stretched(user: f64, plotter: f64, factor: f64) -> Self {
+        Self {
+            user,
+            plotter,
+            num: factor,
+            den: 1.0,
+        }
+    }
 
     fn spanning(user: [f64; 2], from: f64, to: f64) -> Self {
         let [first, last] = user;
@@ -79,7 +111,7 @@ impl Axis {
     }
 }
 
-/// User units to millimetres and back.
+/// User units to plotter units and back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     x: Axis,
@@ -90,32 +122,47 @@ impl Scale {
     /// Both pairs of corners must differ on both axes. Without a window, user units are plotter
     /// units.
     pub(super) fn new(corners: Corners, window: Option<Window>) -> Self {
-        let Some(window) = window else {
-            return Self {
+        let ([x1, y1], [x2, y2]) = (corners.p1, corners.p2);
+        match window {
+            None => Self {
                 x: Axis::UNSCALED,
                 y: Axis::UNSCALED,
-            };
-        };
-        let ([x1, y1], [x2, y2]) = (corners.p1, corners.p2);
-        let mut x = Axis::spanning(window.x, x1, x2);
-        let mut y = Axis::spanning(window.y, y1, y2);
-        if let Some([left, bottom]) = window.isotropic {
-            if x.size() > y.size() {
-                x.shrink_to(&y, left);
-            } else {
-                y.shrink_to(&x, bottom);
+            },
+            Some(Window::Factors { p1, factors }) => {
+                let ([user_x, user_y], [x, y]) = (p1, factors);
+                Self {
+                    x: Axis::stretched(user_x, x1, x),
+                    y: Axis::stretched(user_y, y1, y),
+                }
+            }
+            Some(Window::Ranges { x, y, isotropic }) => {
+                let mut x = Axis::spanning(x, x1, x2);
+                let mut y = Axis::spanning(y, y1, y2);
+                if let Some([left, bottom]) = isotropic {
+                    if x.size() > y.size() {
+                        x.shrink_to(&y, left);
+                    } else {
+                        y.shrink_to(&x, bottom);
+                    }
+                }
+                Self { x, y }
             }
         }
-        Self { x, y }
     }
 
-    pub(super) fn to_mm(self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.x.to_plotter(x), self.y.to_plotter(y)].map(|units| units / UNITS_PER_MM)
+    /// User units to plotter units.
+    pub(super) fn to_plotter(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.x.to_plotter(x), self.y.to_plotter(y)]
     }
 
-    pub(super) fn to_user(self, mm: [f64; 2]) -> [f64; 2] {
-        let [x, y] = mm.map(|mm| mm * UNITS_PER_MM);
+    /// Plotter units to user units.
+    pub(super) fn to_user(self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.x.to_user(x), self.y.to_user(y)]
+    }
+
+    /// How many plotter units a user unit along X has.
+    pub(super) fn unit_x(&self) -> f64 {
+        self.x.size()
     }
 }
 
@@ -129,50 +176,64 @@ mod tests {
     };
 
     fn scale(x: [f64; 2], y: [f64; 2], isotropic: Option<[f64; 2]>) -> Scale {
-        Scale::new(CORNERS, Some(Window { x, y, isotropic }))
+        Scale::new(CORNERS, Some(Window::Ranges { x, y, isotropic }))
     }
 
     #[test]
-    fn without_a_window_forty_units_are_a_millimetre() {
+    fn without_a_window_user_units_are_plotter_units() {
         let scale = Scale::new(CORNERS, None);
-        assert_eq!(scale.to_mm([40.0, -20.0]), [1.0, -0.5]);
-        assert_eq!(scale.to_user([1.0, -0.5]), [40.0, -20.0]);
+        assert_eq!(scale.to_plotter([40.0, -20.0]), [40.0, -20.0]);
+        assert_eq!(scale.to_user([1.0, -0.5]), [1.0, -0.5]);
+        assert_eq!(scale.unit_x(), 1.0);
+    }
+
+    #[test]
+    fn factors_are_plotter_units_a_unit() {
+        let window = Window::Factors {
+            p1: [1.0, -2.0],
+            factors: [10.0, -4.0],
+        };
+        let scale = Scale::new(CORNERS, Some(window));
+        assert_eq!(scale.to_plotter([1.0, -2.0]), [400.0, 800.0]);
+        assert_eq!(scale.to_plotter([3.0, 3.0]), [420.0, 780.0]);
+        assert_eq!(scale.to_user([420.0, 780.0]), [3.0, 3.0]);
+        assert_eq!(scale.unit_x(), 10.0);
     }
 
     #[test]
     fn the_window_lands_on_the_corners() {
         let scale = scale([0.0, 7.0], [-3.0, 10.0], None);
-        assert_eq!(scale.to_mm([0.0, -3.0]), [10.0, 20.0]);
-        assert_eq!(scale.to_mm([7.0, 10.0]), [110.0, 70.0]);
-        assert_eq!(scale.to_user([60.0, 45.0]), [3.5, 3.5]);
+        assert_eq!(scale.to_plotter([0.0, -3.0]), [400.0, 800.0]);
+        assert_eq!(scale.to_plotter([7.0, 10.0]), [4_400.0, 2_800.0]);
+        assert_eq!(scale.to_user([2_400.0, 1_800.0]), [3.5, 3.5]);
     }
 
     #[test]
     fn a_mirrored_window_turns_the_axis() {
         let scale = scale([10.0, 0.0], [0.0, 10.0], None);
-        assert_eq!(scale.to_mm([10.0, 0.0]), [10.0, 20.0]);
-        assert_eq!(scale.to_mm([9.0, 1.0]), [20.0, 25.0]);
+        assert_eq!(scale.to_plotter([10.0, 0.0]), [400.0, 800.0]);
+        assert_eq!(scale.to_plotter([9.0, 1.0]), [800.0, 1_000.0]);
     }
 
     #[test]
     fn isotropic_units_are_square_and_placed() {
-        // The area is 100 x 50 mm, the window 10 x 10: 5 mm a unit, 50 mm left over in X.
+        // The area is 4000 x 2000, the window 10 x 10: 200 a unit, 2000 left over in X.
         let unit = ([0.0, 10.0], [0.0, 10.0]);
-        for (left, x0) in [(0.0, 10.0), (0.5, 35.0), (1.0, 60.0)] {
+        for (left, x0) in [(0.0, 400.0), (0.5, 1_400.0), (1.0, 2_400.0)] {
             let scale = scale(unit.0, unit.1, Some([left, 0.25]));
-            assert_eq!(scale.to_mm([0.0, 0.0]), [x0, 20.0]);
-            assert_eq!(scale.to_mm([10.0, 10.0]), [x0 + 50.0, 70.0]);
+            assert_eq!(scale.to_plotter([0.0, 0.0]), [x0, 800.0]);
+            assert_eq!(scale.to_plotter([10.0, 10.0]), [x0 + 2_000.0, 2_800.0]);
         }
-        // 40 x 10: 2.5 mm a unit, 25 mm left over in Y.
+        // 40 x 10: 100 a unit, 1000 left over in Y.
         let scale = scale([0.0, 40.0], [0.0, 10.0], Some([0.25, 1.0]));
-        assert_eq!(scale.to_mm([0.0, 0.0]), [10.0, 45.0]);
-        assert_eq!(scale.to_mm([40.0, 10.0]), [110.0, 70.0]);
+        assert_eq!(scale.to_plotter([0.0, 0.0]), [400.0, 1_800.0]);
+        assert_eq!(scale.to_plotter([40.0, 10.0]), [4_400.0, 2_800.0]);
     }
 
     #[test]
     fn isotropic_and_mirrored() {
         let scale = scale([10.0, 0.0], [0.0, 10.0], Some([0.0, 0.0]));
-        assert_eq!(scale.to_mm([10.0, 0.0]), [10.0, 20.0]);
-        assert_eq!(scale.to_mm([0.0, 10.0]), [60.0, 70.0]);
+        assert_eq!(scale.to_plotter([10.0, 0.0]), [400.0, 800.0]);
+        assert_eq!(scale.to_plotter([0.0, 10.0]), [2_400.0, 2_800.0]);
     }
 }

@@ -2,13 +2,17 @@
 
 use std::fmt::Write as _;
 
-use motion_rtl::input::{Course, Drawing, Fault, REACH_MM, gcode, hpgl};
+use motion_rtl::input::{Course, Drawing, Fault, Options, REACH_MM, gcode, hpgl};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
 use super::common::{Reader, accept, near};
 
-const READERS: [Reader; 2] = [hpgl::read, gcode::read];
+const READERS: [Reader; 3] = [hpgl::read, gcode::read, lenient];
+
+fn lenient(file: &str, text: &[u8]) -> Result<Drawing, Fault> {
+    hpgl::read_with(file, text, &Options::lenient())
+}
 
 /// An accepted drawing keeps its promises; so does a fault.
 fn check(result: Result<Drawing, Fault>) -> Result<(), TestCaseError> {
@@ -72,7 +76,39 @@ const HPGL: &[&str] = &[
     "DT",
     "\x1b%",
     "\x1b.",
+    "\x1b*b",
     "PE",
+    "AA",
+    "AR5,6,",
+    "AT1,2,3,",
+    "CI",
+    "BZ1,2,3,4,5,",
+    "CT1",
+    "EA9,",
+    "RR99,",
+    "WG99,1,",
+    "PM",
+    "PM1;",
+    "PM2;",
+    "EP",
+    "FP",
+    "FT3,",
+    "FT4,9,",
+    "PT",
+    "IW0,0,99,",
+    "RO90",
+    "IR",
+    "PS9,",
+    "LBab\x03",
+    "SI1,",
+    "DI1,",
+    "LO",
+    "CP",
+    "SM",
+    "UC",
+    "XT",
+    "!PG",
+    "QQ",
     "\"",
     "\n",
     "@",
@@ -118,6 +154,7 @@ proptest! {
     #[test]
     fn anything_like_hpgl(text in near_text(HPGL)) {
         check(hpgl::read("t", text.as_bytes()))?;
+        check(lenient("t", text.as_bytes()))?;
     }
 
     #[test]

@@ -22,6 +22,12 @@ use serde::Serialize;
 struct Summary {
     #[serde(flatten)]
     outcome: Outcome,
+    /// The columns of the log that were taken.
+    time_column: String,
+    counts_column: String,
+    /// The counts' column was asked for, or is called so.
+    #[serde(skip)]
+    counts_named: bool,
     samples: usize,
     ck_ticks: u32,
     /// Predictions with a lead that the log can judge, and their errors in counts.
@@ -114,6 +120,9 @@ fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summa
             complaints: replayed.lost.then_some(lost).into_iter().collect(),
             ..Outcome::new("lead_angle", &log.file, settings.clock_hz, replayed.ticks)
         },
+        time_column: log.time.name.clone(),
+        counts_column: log.counts.name.clone(),
+        counts_named: log.counts.named,
         samples: log.samples.len(),
         ck_ticks: settings.ck_ticks,
         predictions: predictions.count,

@@ -15,11 +15,20 @@ impl Report for Summary {
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
         writeln!(
             text,
-            "{}: {} samples, {}, CK of {} ticks\n",
+            "{}: {} samples, {}, CK of {} ticks",
             self.outcome.subject(),
             self.samples,
             self.outcome.length(),
             self.ck_ticks
+        )?;
+        let others = match self.counts_named {
+            true => "",
+            false => ", the first that fits; --set log_column=NAME takes another",
+        };
+        writeln!(
+            text,
+            "times from {}, counts from {}{others}\n",
+            self.time_column, self.counts_column
         )?;
         self.predictions(text)?;
         self.signals(text, all)?;

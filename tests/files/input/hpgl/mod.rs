@@ -1,0 +1,24 @@
+//! HPGL: what is read, skipped and refused.
+
+mod areas;
+mod curves;
+mod encoded;
+mod labels;
+mod lines;
+mod refused;
+mod scales;
+mod skipped;
+
+use motion_rtl::input::hpgl::read;
+
+use super::common::accept;
+
+/// What a text draws, in plotter units rounded to a hundredth: U where the pen is up on the way, D
+/// where it is down.
+fn path(text: &str) -> String {
+    let shown = accept(read, text).moves.into_iter().map(|step| {
+        let [x, y, _] = step.to.map(|mm| (mm * 4000.0).round() / 100.0 + 0.0);
+        format!("{}{x},{y}", if step.rapid { "U" } else { "D" })
+    });
+    shown.collect::<Vec<_>>().join(" ")
+}
