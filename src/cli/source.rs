@@ -23,6 +23,13 @@ pub struct Input {
     /// move the pen.
     #[arg(long)]
     pub lenient: bool,
+    /// Refuses what of a G-code program says nothing about the path, instead of skipping it.
+    #[arg(long)]
+    pub strict: bool,
+    /// The most lines of a G-code program that are run, loops and calls counted each time; 10000000
+    /// without it.
+    #[arg(long, value_name = "LINES")]
+    pub most_lines: Option<u64>,
 }
 
 impl Input {
@@ -30,6 +37,8 @@ impl Input {
     fn options(&self) -> Options {
         Options {
             lenient: self.lenient,
+            strict: self.strict,
+            most_lines: self.most_lines.unwrap_or(Options::MOST_LINES),
         }
     }
 }

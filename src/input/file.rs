@@ -65,18 +65,38 @@ impl fmt::Display for Kind {
 type Reader = fn(&str, &[u8], &Options) -> Result<Drawing, Fault>;
 
 /// How strict the readers of moves are.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
     /// HPGL: skips with a warning what else is refused since it is not understood or incomplete and
     /// may move the pen.
     pub lenient: bool,
+    /// G-code: refuses what says nothing about the path, where else it is skipped with a warning.
+    pub strict: bool,
+    /// G-code: the most lines that are run, loops and calls counted each time.
+    pub most_lines: u64,
 }
 
 impl Options {
+    /// The most lines that are run, unless something else is said.
+    pub const MOST_LINES: u64 = 10_000_000;
+
     /// Skips with a warning whatever can be skipped.
     #[must_use]
     pub fn lenient() -> Self {
-        Options { lenient: true }
+        Options {
+            lenient: true,
+            ..Self::default()
+        }
+    }
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            lenient: false,
+            strict: false,
+            most_lines: Self::MOST_LINES,
+        }
     }
 }
 
@@ -123,9 +143,7 @@ fn reader(name: &str, path: &Path) -> Result<Reader, Fault> {
     let extension = path.extension().and_then(|text| text.to_str());
     let problem = match extension.map(str::to_ascii_lowercase).as_deref() {
         Some("hpgl" | "hpg" | "plt" | "hgl") => return Ok(hpgl::read_with),
-        Some("ngc" | "gcode" | "nc" | "tap" | "gc" | "cnc") => {
-            return Ok(|name, text, _| gcode::read(name, text));
-        }
+        Some("ngc" | "gcode" | "nc" | "tap" | "gc" | "cnc") => return Ok(gcode::read_with),
         Some(other) => format!("unknown extension .{other}"),
         None => "no extension".to_owned(),
     };

@@ -1,55 +1,100 @@
-//! G-code part programs.
+//! G-code part programs of RS274/NGC, and of mills, printers and laser cutters that are close to it.
 //!
-//! Understood are G0, G1, G2 and G3 in the X-Y plane (G17) with Z, helical arcs included; G20,
-//! G21, G90, G91, G80, F, N, `%`, M2 and M30, comments in parentheses and after a semicolon.
-//! G40, G49, G91.1 and G94 state what is so anyway. G4, G54, G61, G64, the M words up to M9, O, S
-//! and T are skipped with one warning each. Everything else is a fault, since it would change the
-//! path: other planes, offsets, compensation, canned cycles, parameters, optional lines.
+//! # What moves
 //!
-//! The position starts at the origin, in millimetres and absolute, without a motion in force.
-//! G20, G21, G90 and G91 act before the other words of their line, F included.
+//! G0, G1, arcs (G2, G3, full circles, helices, P turns; centres by I, J, K, relative or by G90.1,
+//! or R) in the planes G17, G18 and G19, the splines G5 and G5.1, probing (G38.2 to G38.5, which
+//! goes to its end as if nothing was touched), drilling (G73, G81 to G86 and G89 with G98 and G99,
+//! L or K times), and G28 and G30 by way of their axis words. G80 with another motion in its line
+//! yields to it.
+//! Arcs in G18 and G19 and splines become chords within 0.001 mm, which a warning says.
 //!
-//! The centre of an arc is at I and J from its start. The end may be off the circle by 0.005 mm
-//! or 0.1 % of the radius at the start, whichever is more: the [`Move`](super::Move) then keeps
-//! the centre as written, and the radius runs from that at the start to that at the end. With R
-//! the arc is the minor one, with a negative R the major one; an R short of half the chord by no
-//! more than the same tolerance gives a half circle.
+//! The position starts at the origin, in millimetres and absolute, without a motion in force. G20,
+//! G21, G90, G91 and the planes act before the other words of their line, F included. G93 gives a
+//! move the feed of its length times F. G0 carries no feed. A line to where the tool is gives no
+//! move, and [`Drawing::zero_length`] counts it.
 //!
-//! G0 carries no feed. A line to where the tool is gives no move, and
-//! [`Drawing::zero_length`] counts it; an arc to where it starts is a full circle.
+//! The end of an arc may be off its circle by 0.005 mm or 0.1 % of the radius at the start,
+//! whichever is more: the [`Move`](super::Move) then keeps the centre as written, and the radius
+//! runs from that at the start to that at the end. With R the arc is the minor one, with a negative
+//! R the major one; an R short of half the chord by no more than the same tolerance gives a half
+//! circle.
+//!
+//! # Offsets
+//!
+//! Moves are in the machine's coordinates. The offsets of G54 to G59.3 are zero until G10 L2 or L20
+//! sets them; G92, G92.1 to G92.3, G52 and G53 act. The reference points of G28 and G30 are the
+//! machine's zero until G28.1 or G30.1 sets them. Tool lengths (G43, G43.1) are taken for zero. M70
+//! and M73 keep what is in force, M72 and the end of the call bring it back.
+//!
+//! # Parameters and O-words
+//!
+//! `#1` to `#5602`, `#<name>` and `#<_name>`, in and out of expressions in brackets with all
+//! operators and functions of RS274/NGC; they are set after their line was read. The position,
+//! offsets and modes can be read (`#5420`, `#5220`, `#<_x>`, `#<_metric>` and others). `O100` or
+//! `O<name>` with `sub`, `endsub`, `call`, `return`, `if`, `elseif`, `else`, `endif`, `while`,
+//! `endwhile`, `do`, `repeat`, `endrepeat`, `break` and `continue`; M98 P and M99 with programs of
+//! the file itself. Calls nest 10 deep. [`Options::most_lines`] bounds a run.
+//!
+//! # What is skipped
+//!
+//! With one warning a kind: M0, M1, M3 to M9, S, T, O numbers, G4, G61 and G64. So are, unless
+//! [`Options::strict`] refuses them: other M words whose meaning is known and that neither move nor
+//! change offsets or scales (heaters, fans, displays, switches, settings of printers), with what
+//! else is in their line; E, H and D; A, B, C, U, V and W at 0; `$` lines; the `/` of optional
+//! lines, which are run; G61.1, P, Q and R of G64, G43, G96, G97, G10 for tools, G10 and G11 of
+//! printers, G29, G34.
+//!
+//! # What is refused
+//!
+//! What would change the path otherwise: other rotary positions, cutter compensation (G41, G42),
+//! scaling, mirroring, rotation, polar coordinates, diameters (G7), feeds per turn (G95), turning
+//! and threading cycles, NURBS, macro calls, calls into other files, unknown words.
+//!
+//! # Text
+//!
+//! Lines end in LF, CR, CR LF or CR CR LF. Blanks and NUL stand anywhere, in numbers too; a byte
+//! order mark before and Ctrl-Z behind are passed over. Outside of comments, in parentheses or
+//! behind a semicolon, the text is ASCII. A line may end in `*` and a checksum.
 
 mod arc;
 mod block;
+mod chords;
+mod codes;
+mod cycle;
+mod expression;
+mod flow;
 mod machine;
-mod screen;
+mod modal;
+mod motion;
+mod offsets;
+mod parameters;
+mod problem;
+mod runner;
+mod text;
 
-use super::{Drawing, Fault};
-use machine::Machine;
+use super::{Drawing, Fault, Options};
+use runner::Runner;
+
+/// What chooses how to move, for faults.
+const G_MOTIONS: &str = "G0 G1 G2 G3";
 
 /// Reads a G-code program; `file` is the name that warnings and faults carry.
 ///
-/// Outside of comments the text must be UTF-8.
+/// # Errors
+///
+/// What the [module](self) says is refused; a number that is none or is out of range; a feed of
+/// zero or less; an arc whose ends and centre or radius do not fit; a coordinate beyond
+/// [`super::REACH_MM`]; more lines than [`Options::most_lines`] allows; no move at all.
+pub fn read(file: &str, text: &[u8]) -> Result<Drawing, Fault> {
+    read_with(file, text, &Options::default())
+}
+
+/// Reads a G-code program as [`read`] does, as strictly as the options say.
 ///
 /// # Errors
 ///
-/// A word, or words in one line, outside of what the [module](self) lists; a number that is
-/// none or is out of range; a feed of zero or less; an arc whose ends and centre or radius do not
-/// fit; a coordinate beyond [`super::REACH_MM`]; no move at all.
-pub fn read(file: &str, text: &[u8]) -> Result<Drawing, Fault> {
-    // Editors put a byte order mark before the first line.
-    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
-    let mut machine = Machine::new(file);
-    let mut lines = (1..).zip(text.split(|&byte| byte == b'\n'));
-    for (line, text) in lines.by_ref() {
-        machine.run(line, text)?;
-        if machine.ended() {
-            break;
-        }
-    }
-    let written =
-        |text: &[u8]| !matches!(text.trim_ascii().first(), None | Some(b'%' | b';' | b'('));
-    if let Some((line, _)) = lines.find(|(_, text)| written(text)) {
-        machine.note_rest(line);
-    }
-    machine.finish()
+/// As [`read`], and with [`Options::strict`] what says nothing about the path.
+pub fn read_with(file: &str, text: &[u8], options: &Options) -> Result<Drawing, Fault> {
+    Runner::new(file, text::trimmed(text), options).run()
 }

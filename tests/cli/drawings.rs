@@ -219,3 +219,26 @@ fn an_arc_that_ends_a_step_before_its_start_is_drawn_nearly_all_around() {
         assert!(gap(0).hypot(gap(1)) < 0.01 * x, "{turn}");
     }
 }
+
+#[test]
+fn a_program_with_a_loop_says_what_it_skipped_unless_it_is_strict() {
+    let text = "M104 S200\n#1=0\no1 while [#1 LT 4]\n#1=[#1+1]\nG1 X[#1*2.5] F1200\no1 endwhile\n";
+    let bench = Bench::with("loop.ngc", text);
+    let run = [&["run", "loop.ngc", "--no-vcd"], &SHORT[..]].concat();
+    let done = bench.run(&[&run[..], &["--json"]].concat());
+    assert_eq!(done.code, 0);
+    let said = "loop.ngc:1: M104: skipped";
+    assert!(done.stderr.contains(said), "{}", done.stderr);
+    let summary = serde_json::from_str(&done.stdout).unwrap();
+    assert_eq!(steps(&summary, "x"), [800, 800, 0, 800]);
+    bench.refuse(
+        &[&run[..], &["--strict"]].concat(),
+        "loop.ngc:1: M104: says nothing about the path, which --strict refuses; allowed: words that \
+         move",
+    );
+    bench.refuse(
+        &[&run[..], &["--most-lines", "10"]].concat(),
+        "loop.ngc:3: program: more than 10 lines are run; allowed: a program that ends before; \
+         --most-lines for more",
+    );
+}

@@ -1,15 +1,7 @@
 //! One line of G-code to its words.
-//!
-//! The words are found by the `gcode` crate. It gets one line at a time, without comments, and
-//! only after what it would misread was refused; every diagnostic it gives becomes a
-//! fault, and values are read again from the text because it only keeps single precision.
 
-use ::gcode::core::{
-    BlockVisitor, CommandVisitor, ControlFlow, Diagnostics, Number, ProgramVisitor, Span,
-    TokenType, Value,
-};
-
-use super::screen::{Problem, check_codes, printable, shown, without_comments};
+use super::expression::{Name, Scanner, Values};
+use super::problem::{Problem, shown};
 
 /// The largest value of a word, either side of zero: beyond it no word makes sense.
 const LARGEST: f64 = 1.0e9;
@@ -19,255 +11,212 @@ const WORDS: &str = "words of a letter and a number, such as X10.5";
 /// The number of a G or M word: G91.1 is (91, 1).
 pub(super) type Code = (u32, u32);
 
-/// The words of one line, as written.
-#[derive(Debug, Default, PartialEq)]
+/// The words of one line.
+#[derive(Debug, Default)]
 pub(super) struct Block {
     /// G words.
     pub(super) g: Vec<Code>,
     /// M words.
     pub(super) m: Vec<Code>,
-    /// X, Y and Z.
-    pub(super) axes: [Option<f64>; 3],
-    /// I and J.
-    pub(super) centre: [Option<f64>; 2],
-    /// R.
-    pub(super) radius: Option<f64>,
-    /// F.
-    pub(super) feed: Option<f64>,
-    /// P.
-    pub(super) dwell: Option<f64>,
-    /// S.
-    pub(super) spindle: Option<f64>,
-    /// T is there.
-    pub(super) tool: bool,
-    /// O is there.
-    pub(super) program_number: bool,
-    /// N is there.
-    pub(super) line_number: bool,
-    /// `%` is there.
-    pub(super) delimiter: bool,
+    letters: [Option<f64>; 26],
+    /// Parameters to be set after the line was read.
+    pub(super) sets: Vec<(Name, f64)>,
+    /// The line begins with `/`.
+    pub(super) optional: bool,
+    /// E was there.
+    pub(super) extruder: bool,
+    /// It has a word, N apart.
+    pub(super) any: bool,
 }
 
 impl Block {
-    /// A line with nothing but `%`.
-    pub(super) fn delimiter() -> Self {
-        Self {
-            delimiter: true,
-            ..Self::default()
-        }
-    }
-
-    /// Reads a line, without its line feed.
-    pub(super) fn read(line: &[u8]) -> Result<Self, Problem> {
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
-        let line = without_comments(line)?;
-        let line = printable(&line)?;
-        check_codes(line)?;
-        let mut words = Words {
-            line,
-            block: Self::default(),
-            problem: None,
-        };
-        ::gcode::core::parse(line, &mut Visitor(&mut words));
-        match words.problem {
-            Some(problem) => Err(problem),
-            None => Ok(words.block),
-        }
-    }
-}
-
-/// What the crate reports about a line.
-struct Words<'a> {
-    line: &'a str,
-    block: Block,
-    /// The first one counts.
-    problem: Option<Problem>,
-}
-
-impl Words<'_> {
-    fn refuse(&mut self, field: impl Into<String>, problem: impl Into<String>, allowed: &str) {
-        if self.problem.is_none() {
-            self.problem = Some(Problem::new(field, problem, allowed));
-        }
-    }
-
-    fn word(&mut self, letter: char, span: Span) {
-        let letter = letter.to_ascii_uppercase();
-        let text = self
-            .line
-            .get(span.start + 1..span.end())
-            .unwrap_or_default();
-        let Some(value) = number(text) else {
-            let problem = format!("{} is not a number", shown(text));
-            return self.refuse(letter, problem, "a decimal number");
-        };
-        if value.abs() > LARGEST {
-            let problem = format!("{} is out of range", shown(text));
-            return self.refuse(letter, problem, "-1000000000 to 1000000000");
-        }
-        let [x, y, z] = &mut self.block.axes;
-        let [i, j] = &mut self.block.centre;
-        let place = match letter {
-            'X' => x,
-            'Y' => y,
-            'Z' => z,
-            'I' => i,
-            'J' => j,
-            'R' => &mut self.block.radius,
-            'F' => &mut self.block.feed,
-            'P' => &mut self.block.dwell,
-            'S' => &mut self.block.spindle,
-            _ => {
-                let allowed = "the letters F G I J M N O P R S T X Y Z";
-                return self.refuse(letter, "not a word of these machines", allowed);
+    /// Reads a cleaned line into itself.
+    ///
+    /// # Errors
+    ///
+    /// What is no word, and values that cannot be computed.
+    pub(super) fn read(&mut self, line: &[u8], values: &dyn Values) -> Result<(), Problem> {
+        self.g.clear();
+        self.m.clear();
+        self.sets.clear();
+        self.letters = [None; 26];
+        (self.extruder, self.any) = (false, false);
+        let mut scanner = Scanner::new(line);
+        self.optional = line_start(&mut scanner)?;
+        while let Some(letter) = scanner.next_word() {
+            // A checksum as printers' hosts send it.
+            if letter == b'*' {
+                break;
             }
+            self.any = true;
+            scanner.bump();
+            match letter {
+                b'#' => {
+                    let name = scanner.parameter(values)?;
+                    if !scanner.take("=") {
+                        let allowed = "#1=2";
+                        return Err(Problem::new(name.to_string(), "without =", allowed));
+                    }
+                    let value = scanner.value(values)?;
+                    self.sets.push((name, value));
+                }
+                b'A'..=b'Z' => self.word(letter, &mut scanner, values)?,
+                _ => {
+                    let field = format!("{}{}", char::from(letter), scanner.rest_text());
+                    return Err(Problem::new(shown(&field), "not a word", WORDS));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn word(
+        &mut self,
+        letter: u8,
+        scanner: &mut Scanner<'_>,
+        values: &dyn Values,
+    ) -> Result<(), Problem> {
+        let field = char::from(letter);
+        match scanner.next_word() {
+            Some(b'0'..=b'9' | b'.' | b'+' | b'-' | b'#' | b'[') => {}
+            Some(b'A'..=b'Z') if function(scanner.rest()) => {}
+            // Printers take a letter alone for a flag, as in G28 X.
+            _ if self.flags(letter) => {
+                return self.put(letter, 0.0);
+            }
+            _ => {
+                let problem = "a letter without its number, or out of place";
+                return Err(Problem::new(field, problem, WORDS));
+            }
+        }
+        let value = scanner.value(values).map_err(|problem| Problem {
+            field: if problem.field == "number" {
+                field.into()
+            } else {
+                problem.field
+            },
+            ..problem
+        })?;
+        if value.abs() > LARGEST {
+            let problem = format!("{} is out of range", shown(&value.to_string()));
+            return Err(Problem::new(field, problem, "-1000000000 to 1000000000"));
+        }
+        match letter {
+            b'G' => self.g.push(code(field, value)?),
+            b'M' => self.m.push(code(field, value)?),
+            b'N' => {}
+            b'E' => {
+                self.extruder = true;
+                return self.put(letter, value);
+            }
+            _ => return self.put(letter, value),
+        }
+        Ok(())
+    }
+
+    fn put(&mut self, letter: u8, value: f64) -> Result<(), Problem> {
+        let index = usize::from(letter.wrapping_sub(b'A'));
+        let Some(place) = self.letters.get_mut(index) else {
+            return Ok(());
         };
         if place.replace(value).is_some() {
-            self.refuse(
-                letter,
+            let allowed = "each of these letters once in a line";
+            return Err(Problem::new(
+                char::from(letter),
                 "twice in one line",
-                "each of these letters once in a line",
-            );
+                allowed,
+            ));
+        }
+        Ok(())
+    }
+
+    /// Whether a letter may stand without a number: in G28 and with M words of printers.
+    fn flags(&self, letter: u8) -> bool {
+        let homes = self.g.iter().any(|code| matches!(code.0, 28 | 29));
+        let printer = self.m.iter().any(|code| code.0 >= 17);
+        !matches!(letter, b'G' | b'M' | b'N') && (homes || printer)
+    }
+
+    /// The value of a letter, where it is there.
+    pub(super) fn letter(&self, letter: u8) -> Option<f64> {
+        let index = usize::from(letter.wrapping_sub(b'A'));
+        self.letters.get(index).copied().flatten()
+    }
+
+    /// Takes a letter out.
+    pub(super) fn take(&mut self, letter: u8) -> Option<f64> {
+        let index = usize::from(letter.wrapping_sub(b'A'));
+        self.letters.get_mut(index).and_then(Option::take)
+    }
+
+    /// X, Y and Z.
+    pub(super) fn axes(&self) -> [Option<f64>; 3] {
+        [b'X', b'Y', b'Z'].map(|letter| self.letter(letter))
+    }
+
+    /// The letters that are there.
+    pub(super) fn given(&self) -> impl Iterator<Item = u8> + '_ {
+        (b'A'..=b'Z').filter(|&letter| self.letter(letter).is_some())
+    }
+
+    /// Forgets all letters.
+    pub(super) fn clear_letters(&mut self) {
+        self.letters = [None; 26];
+    }
+}
+
+/// Steps over `/` and the line number; true where there was a `/`.
+///
+/// # Errors
+///
+/// An N without its number.
+pub(super) fn line_start(scanner: &mut Scanner<'_>) -> Result<bool, Problem> {
+    let mut optional = false;
+    loop {
+        match scanner.next_word() {
+            Some(b'/') => {
+                optional = true;
+                scanner.bump();
+                // Some controls number their switches.
+                scanner.digits();
+            }
+            Some(b'N') => {
+                scanner.bump();
+                if !matches!(scanner.next_word(), Some(b'0'..=b'9' | b'.')) {
+                    let problem = "a letter without its number, or out of place";
+                    return Err(Problem::new("N", problem, "N and a number without a sign"));
+                }
+                scanner.number()?;
+            }
+            _ => return Ok(optional),
         }
     }
 }
 
-/// The value of a word at full precision; blanks may stand around the sign.
-fn number(text: &str) -> Option<f64> {
-    let text = text.trim();
-    let digits = text.strip_prefix(['+', '-']).unwrap_or(text).trim_start();
-    let value: f64 = digits.parse().ok()?;
-    Some(if text.starts_with('-') { -value } else { value })
+fn function(rest: &[u8]) -> bool {
+    const NAMES: [&str; 14] = [
+        "ABS[", "ACOS[", "ASIN[", "ATAN[", "COS[", "EXISTS[", "EXP[", "FIX[", "FUP[", "LN[",
+        "ROUND[", "SIN[", "SQRT[", "TAN[",
+    ];
+    NAMES.iter().any(|name| rest.starts_with(name.as_bytes()))
 }
 
-/// Drives [`Words`] from the crate's callbacks: the same for a program, a line and a code.
-struct Visitor<'v, 'a>(&'v mut Words<'a>);
-
-impl<'a> Visitor<'_, 'a> {
-    fn again(&mut self) -> Visitor<'_, 'a> {
-        Visitor(self.0)
+/// The number of a G or M word, from 0 to 99999 with one decimal.
+fn code(letter: char, value: f64) -> Result<Code, Problem> {
+    let tenths = (value * 10.0).round();
+    if !(0.0..=999_999.0).contains(&tenths) || (value * 10.0 - tenths).abs() > 1.0e-3 {
+        let problem = format!("{value} is not the number of a code");
+        let allowed = "a whole number, or one with one decimal";
+        return Err(Problem::new(letter, problem, allowed));
     }
+    let tenths = tenths as u32;
+    Ok((tenths / 10, tenths % 10))
 }
 
-impl Diagnostics for Visitor<'_, '_> {
-    fn emit_unknown_content(&mut self, text: &str, _: Span) {
-        self.0.refuse(shown(text), "not a word", WORDS);
-    }
-
-    fn emit_unexpected(&mut self, actual: &str, _: &[TokenType], _: Span) {
-        self.0.refuse(
-            shown(actual),
-            "a letter without its number, or out of place",
-            WORDS,
-        );
-    }
-
-    fn emit_parse_int_error(&mut self, value: &str, _: std::num::ParseIntError, _: Span) {
-        self.0
-            .refuse(shown(value), "not a line number", "0 to 4294967295");
-    }
-}
-
-impl ProgramVisitor for Visitor<'_, '_> {
-    fn start_block(&mut self) -> ControlFlow<impl BlockVisitor + '_> {
-        ControlFlow::Continue(self.again())
-    }
-}
-
-impl BlockVisitor for Visitor<'_, '_> {
-    fn line_number(&mut self, _: u32, _: Span) {
-        self.0.block.line_number = true;
-    }
-
-    fn program_number(&mut self, _: u32, _: Span) {
-        self.0.block.program_number = true;
-    }
-
-    fn program_delimiter(&mut self, _: Span) {
-        self.0.block.delimiter = true;
-    }
-
-    fn word_address(&mut self, letter: char, _: Value<'_>, span: Span) {
-        self.0.word(letter, span);
-    }
-
-    fn start_general_code(&mut self, number: Number) -> ControlFlow<impl CommandVisitor + '_> {
-        self.0.block.g.push(code(number));
-        ControlFlow::Continue(self.again())
-    }
-
-    fn start_miscellaneous_code(
-        &mut self,
-        number: Number,
-    ) -> ControlFlow<impl CommandVisitor + '_> {
-        self.0.block.m.push(code(number));
-        ControlFlow::Continue(self.again())
-    }
-
-    fn start_tool_change_code(&mut self, _: Number) -> ControlFlow<impl CommandVisitor + '_> {
-        self.0.block.tool = true;
-        ControlFlow::Continue(self.again())
-    }
-}
-
-impl CommandVisitor for Visitor<'_, '_> {
-    fn argument(&mut self, letter: char, _: Value<'_>, span: Span) {
-        self.0.word(letter, span);
-    }
-}
-
-fn code(number: Number) -> Code {
-    (number.major(), number.minor().map_or(0, u32::from))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn refused(line: &str) -> String {
-        let Problem { field, problem, .. } = Block::read(line.as_bytes()).unwrap_err();
-        format!("{field}: {problem}")
-    }
-
-    #[test]
-    fn words_come_out_in_full_precision() {
-        let block = Block::read(b"n10 g1 x- 1.23456789 Y+.5 (to) f 600\r").unwrap();
-        let expected = Block {
-            g: vec![(1, 0)],
-            axes: [Some(-1.234_567_89), Some(0.5), None],
-            feed: Some(600.0),
-            line_number: true,
-            ..Block::default()
-        };
-        assert_eq!(block, expected);
-    }
-
-    #[test]
-    fn comments_are_blanks_whatever_their_bytes() {
-        let block = Block::read(b"(\xe9 G99999999999)X1(a)Y2;Z3 (").unwrap();
-        assert_eq!(block.axes, [Some(1.0), Some(2.0), None]);
-        assert_eq!(refused("X1 (open"), "comment: no closing )");
-        assert_eq!(refused("(a (b) X1"), "comment: another ( inside a comment");
-        assert_eq!(
-            refused("X1(a)2"),
-            "2: a letter without its number, or out of place"
-        );
-    }
-
-    #[test]
-    fn what_is_no_word_is_refused() {
-        for line in [
-            "X", "X-", "5", "#1=2", "X#1", "X[1+2]", "/X1", "G1 N5", "N-1", "G", "GX1",
-        ] {
-            assert!(Block::read(line.as_bytes()).is_err(), "{line}");
-        }
-        assert_eq!(refused("X1 X1"), "X: twice in one line");
-        assert_eq!(refused("A1"), "A: not a word of these machines");
-        assert_eq!(refused("X1\rY1"), "line: a carriage return inside it");
-        assert_eq!(
-            refused("\u{2000}A1"),
-            r"line: the character '\u{2000}' inside it"
-        );
-        assert_eq!(refused("X2000000000"), "X: 2000000000 is out of range");
+/// A code as it is written.
+pub(super) fn name(letter: char, (whole, tenths): Code) -> String {
+    match tenths {
+        0 => format!("{letter}{whole}"),
+        _ => format!("{letter}{whole}.{tenths}"),
     }
 }

@@ -1,304 +1,470 @@
 //! What the words of a line do, given the lines before it.
 
-use super::arc;
-use super::block::{Block, Code};
-use super::screen::Problem;
+use super::block::{Block, Code, name};
+use super::codes::{self, Kind};
+use super::cycle::Cycle;
+use super::modal::{Modal, Motion, Plane};
+use super::offsets::{Offsets, Own};
+use super::problem::Problem;
 use crate::input::track::Track;
-use crate::input::{Course, Drawing, Fault, Move, ZERO_MM};
+use crate::input::{Course, Drawing, Fault, Move, Point};
 
 const MM_PER_INCH: f64 = 25.4;
 
-const G_CODES: &str = "G0 G1 G2 G3 G4 G17 G20 G21 G40 G49 G54 G61 G64 G80 G90 G91 G91.1 G94";
-const M_CODES: &str = "M0 to M9 and M30";
+pub(super) const G_CODES: &str = "G0 to G5 G5.1 G8 G10 G11 G15 G17 to G21 G28 G30 G38.2 to G38.5 \
+                                  G40 G43 G49 G52 to G59.3 G61 G64 G69 G73 G80 to G86 G89 to G94 \
+                                  G97 to G99";
+const M_CODES: &str = "M words that neither move nor change the path";
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Motion {
-    Rapid,
-    Line,
-    Arc { clockwise: bool },
+/// A piece of the move of a line.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece {
+    pub(super) to: Point,
+    pub(super) course: Course,
+    pub(super) rapid: bool,
+    /// Its length in millimetres, where an inverse time needs it.
+    pub(super) length: f64,
 }
 
-impl Motion {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Rapid => "G0",
-            Self::Line => "G1",
-            Self::Arc { clockwise: true } => "G2",
-            Self::Arc { clockwise: false } => "G3",
-        }
-    }
-}
-
-/// The modal state.
+/// The machine: its modal state, its offsets, and the moves it has made.
 pub(super) struct Machine<'a> {
-    track: Track<'a>,
-    /// The programmed position, in millimetres.
-    at: [f64; 3],
-    motion: Option<Motion>,
-    relative: bool,
-    mm_per_unit: f64,
-    feed_mm_per_min: Option<f64>,
-    /// A line with words has been read.
-    started: bool,
-    ended: bool,
+    pub(super) track: Track<'a>,
+    /// The programmed position from the machine's zero, in millimetres.
+    pub(super) at: Point,
+    pub(super) modal: Modal,
+    saved: Option<Modal>,
+    pub(super) offsets: Offsets,
+    pub(super) cycle: Cycle,
+    /// The end control point of a G5 from its end, for the one that follows.
+    pub(super) last_control: Option<[f64; 2]>,
+    pub(super) pieces: Vec<Piece>,
+    /// The instruction that made them.
+    pub(super) made_by: String,
+    /// F as it is written.
+    feed_word: Option<f64>,
+    spindle: f64,
+    tool: f64,
+    strict: bool,
 }
 
 impl<'a> Machine<'a> {
-    pub(super) fn new(file: &'a str) -> Self {
+    pub(super) fn new(file: &'a str, strict: bool) -> Self {
         Self {
             track: Track::new(file),
             at: [0.0; 3],
-            motion: None,
-            relative: false,
-            mm_per_unit: 1.0,
-            feed_mm_per_min: None,
-            started: false,
-            ended: false,
+            modal: Modal::default(),
+            saved: None,
+            offsets: Offsets::default(),
+            cycle: Cycle::default(),
+            last_control: None,
+            pieces: Vec::new(),
+            made_by: String::new(),
+            feed_word: None,
+            spindle: 0.0,
+            tool: 0.0,
+            strict,
         }
     }
 
-    /// The program has ended: nothing after this line counts.
-    pub(super) fn ended(&self) -> bool {
-        self.ended
+    pub(super) fn note(&mut self, key: &str, line: usize, text: impl FnOnce() -> String) {
+        self.track.note(key, line, text);
     }
 
-    /// Notes that there is text after the end of the program.
-    pub(super) fn note_rest(&mut self, line: usize) {
-        let text = || "text after the end of the program is not read".to_owned();
-        self.track.note("rest", line, text);
+    pub(super) fn fault(&self, line: usize, it: Problem) -> Fault {
+        self.track.fault(line, it.field, it.problem, it.allowed)
     }
 
-    pub(super) fn finish(self) -> Result<Drawing, Fault> {
-        self.track.finish("a G-code program with at least one move")
+    /// The drawing; the program may have been subroutines alone.
+    pub(super) fn finish(self, subs: bool) -> Result<Drawing, Fault> {
+        self.track.finish(match subs {
+            true => "a G-code program that calls its subroutines and makes at least one move",
+            false => "a G-code program with at least one move",
+        })
     }
 
-    /// Reads and runs one line, without its line feed.
-    pub(super) fn run(&mut self, line: usize, text: &[u8]) -> Result<(), Fault> {
-        let next = Block::read(text).and_then(|block| self.block(line, &block));
-        match next {
-            Ok(Some((motion, next))) => self.track.push(motion.name(), next),
-            Ok(None) => Ok(()),
-            Err(it) => Err(self.track.fault(line, it.field, it.problem, it.allowed)),
+    pub(super) fn modal(&self) -> Modal {
+        self.modal
+    }
+
+    pub(super) fn restore(&mut self, modal: Modal) {
+        self.modal = modal;
+    }
+
+    pub(super) fn skip(&mut self, word: &str, line: usize) {
+        self.track.note(word, line, || format!("{word}: skipped"));
+    }
+
+    /// Skips what says nothing about the path, unless the reader is strict.
+    pub(super) fn say_nothing(&mut self, word: &str, line: usize) -> Result<(), Problem> {
+        if self.strict {
+            let problem = "says nothing about the path, which --strict refuses";
+            return Err(Problem::new(word, problem, "words that move"));
         }
+        self.skip(word, line);
+        Ok(())
     }
 
-    /// The order within a line: units and distances, feed, M words, then the move.
-    fn block(&mut self, line: usize, block: &Block) -> Result<Option<(Motion, Move)>, Problem> {
-        if *block == Block::default() {
-            return Ok(None);
-        }
-        if block.delimiter {
-            if *block != Block::delimiter() {
-                return Err(Problem::new(
-                    "%",
-                    "not alone in its line",
-                    "% on a line of its own",
-                ));
+    /// Records the moves of the line that was run.
+    pub(super) fn push(&mut self, line: usize) -> Result<(), Fault> {
+        let total: f64 = self.pieces.iter().map(|piece| piece.length).sum();
+        let feed_mm_per_min = match (self.modal.inverse_time, self.feed_word) {
+            (true, Some(per_min)) if total > 0.0 => Some(per_min * total),
+            (true, _) => None,
+            (false, _) => self.modal.feed_mm_per_min,
+        };
+        for piece in self.pieces.drain(..) {
+            if !piece.rapid && feed_mm_per_min.is_none() {
+                let text = || "no feed set; the feed of the settings applies".to_owned();
+                self.track.note("feed", line, text);
             }
-            // The first % opens the program, the next one closes it.
-            self.ended = self.started;
-            self.started = true;
-            return Ok(None);
+            let next = Move {
+                to: piece.to,
+                course: piece.course,
+                rapid: piece.rapid,
+                feed_mm_per_min: feed_mm_per_min.filter(|_| !piece.rapid),
+                line,
+            };
+            self.track.push(&self.made_by, next)?;
         }
-        self.started = true;
-        let explicit = self.g_words(line, &block.g)?;
-        if let Some(feed) = block.feed {
-            if feed <= 0.0 {
-                return Err(Problem::new(
-                    "F",
-                    format!("a feed of {feed}"),
-                    "a feed above 0",
-                ));
-            }
-            self.feed_mm_per_min = Some(feed * self.mm_per_unit);
-        }
-        self.m_words(line, &block.m)?;
-        for (word, given) in [
-            ("S", block.spindle.is_some()),
-            ("T", block.tool),
-            ("O", block.program_number),
-        ] {
-            if given {
-                self.skip(word, line);
-            }
-        }
-        self.motion(line, block, explicit)
+        Ok(())
     }
 
-    /// Runs the G words; true where one of them chose how to move.
-    fn g_words(&mut self, line: usize, codes: &[Code]) -> Result<bool, Problem> {
-        let (mut motion, mut units, mut distance) = (None, None, None);
-        for &code in codes {
-            match code {
-                (0, 0) => choose(&mut motion, code, Some(Motion::Rapid))?,
-                (1, 0) => choose(&mut motion, code, Some(Motion::Line))?,
-                (2, 0) => choose(&mut motion, code, Some(Motion::Arc { clockwise: true }))?,
-                (3, 0) => choose(&mut motion, code, Some(Motion::Arc { clockwise: false }))?,
-                (80, 0) => choose(&mut motion, code, None)?,
-                (20, 0) => choose(&mut units, code, MM_PER_INCH)?,
-                (21, 0) => choose(&mut units, code, 1.0)?,
-                (90, 0) => choose(&mut distance, code, false)?,
-                (91, 0) => choose(&mut distance, code, true)?,
-                // What is so anyway: the plane, no compensation, the arc centre, the feed's unit.
-                (17, 0) | (40, 0) | (49, 0) | (91, 1) | (94, 0) => {}
-                (4, 0) => self
-                    .track
-                    .note("G4", line, || "G4: no dwell is made".to_owned()),
-                (54 | 61 | 64, 0) => self.skip(&name('G', code), line),
-                _ => return Err(Problem::new(name('G', code), "not supported", G_CODES)),
+    /// Runs the words of a line, and says how many more lines it counts for. The order is: units,
+    /// planes and distances, feed, M words, offsets, then the move.
+    pub(super) fn run(&mut self, line: usize, block: &mut Block) -> Result<u64, Problem> {
+        self.pieces.clear();
+        if block.optional {
+            self.say_nothing("/", line)?;
+        }
+        self.m_words(line, block)?;
+        let words = self.g_words(line, block)?;
+        self.feed(block)?;
+        if let Some(spindle) = block.take(b'S') {
+            self.spindle = spindle;
+            self.skip("S", line);
+        }
+        if let Some(tool) = block.take(b'T') {
+            self.tool = tool;
+            self.skip("T", line);
+        }
+        for letter in [b'E', b'H', b'D'] {
+            if block.take(letter).is_some() {
+                self.say_nothing(&char::from(letter).to_string(), line)?;
             }
         }
-        if let Some((_, mm_per_unit)) = units {
-            self.mm_per_unit = mm_per_unit;
+        self.still_axes(line, block)?;
+        if let Some(own) = words.own {
+            self.own(line, block, own, words.motion.is_some())?;
         }
-        if let Some((_, relative)) = distance {
-            self.relative = relative;
-        }
-        if let Some((_, motion)) = motion {
-            self.motion = motion;
-        }
-        Ok(motion.is_some())
+        self.motion(line, block, &words)
     }
 
-    fn m_words(&mut self, line: usize, codes: &[Code]) -> Result<(), Problem> {
-        for &code in codes {
-            match code {
-                (2 | 30, 0) => self.ended = true,
-                (0 | 1 | 3..=9, 0) => self.skip(&name('M', code), line),
-                _ => return Err(Problem::new(name('M', code), "not supported", M_CODES)),
+    /// Rotary and parallel axes, which no circuit has, may be named as long as they stand still.
+    fn still_axes(&mut self, line: usize, block: &mut Block) -> Result<(), Problem> {
+        for letter in [b'A', b'B', b'C', b'U', b'V', b'W'] {
+            match block.take(letter) {
+                None => {}
+                Some(0.0) => self.say_nothing(&char::from(letter).to_string(), line)?,
+                Some(value) => {
+                    let problem = format!("{value}: an axis that no circuit has");
+                    let allowed = "X, Y and Z; A, B, C, U, V and W at 0";
+                    return Err(Problem::new(char::from(letter), problem, allowed));
+                }
             }
         }
         Ok(())
     }
 
-    fn skip(&mut self, word: &str, line: usize) {
-        self.track.note(word, line, || format!("{word}: skipped"));
+    fn feed(&mut self, block: &mut Block) -> Result<(), Problem> {
+        // An inverse time holds for its line alone.
+        let word = block.take(b'F');
+        if self.modal.inverse_time {
+            self.feed_word = None;
+        }
+        let Some(feed) = word else {
+            return Ok(());
+        };
+        if feed <= 0.0 {
+            let problem = format!("a feed of {feed}");
+            return Err(Problem::new("F", problem, "a feed above 0"));
+        }
+        self.feed_word = Some(feed);
+        if !self.modal.inverse_time {
+            self.modal.feed_mm_per_min = Some(feed * self.modal.mm_per_unit);
+        }
+        Ok(())
     }
 
-    /// The move of a line, where its words make one.
-    fn motion(
-        &mut self,
-        line: usize,
-        block: &Block,
-        explicit: bool,
-    ) -> Result<Option<(Motion, Move)>, Problem> {
-        let dwell = block.g.contains(&(4, 0));
-        let moves = block.axes.iter().any(Option::is_some);
-        let bends = block.centre.iter().any(Option::is_some) || block.radius.is_some();
-        if dwell && (moves || bends || explicit) {
-            return Err(Problem::new(
-                "G4",
-                "a dwell and a move in one line",
-                "G4 with P only",
-            ));
-        }
-        if block.dwell.is_some() && !dwell {
-            return Err(Problem::new("P", "without G4", "P with G4 only"));
-        }
-        let arc = matches!(self.motion, Some(Motion::Arc { .. }));
-        if !(moves || bends || (arc && explicit)) {
-            return Ok(None);
-        }
-        let Some(motion) = self.motion else {
-            return Err(Problem::new(
-                "X, Y, Z",
-                "no G0, G1, G2 or G3 in force",
-                "G0 G1 G2 G3",
-            ));
-        };
-        let from = self.at;
-        for (at, word) in self.at.iter_mut().zip(block.axes) {
-            if let Some(word) = word.map(|word| word * self.mm_per_unit) {
-                *at = if self.relative { *at + word } else { word };
+    fn m_words(&mut self, line: usize, block: &mut Block) -> Result<(), Problem> {
+        for index in 0..block.m.len() {
+            let Some(&code) = block.m.get(index) else {
+                break;
+            };
+            let word = name('M', code);
+            match codes::m_word(code) {
+                Kind::Known => match code.0 {
+                    70 => self.saved = Some(self.modal),
+                    72 => {
+                        let nothing = || Problem::new(&word, "without M70 before", "M70 first");
+                        self.modal = self.saved.ok_or_else(nothing)?;
+                    }
+                    _ => {}
+                },
+                Kind::Skipped => self.skip(&word, line),
+                Kind::Harmless => {
+                    self.say_nothing(&word, line)?;
+                    if block.g.is_empty() {
+                        block.clear_letters();
+                    } else {
+                        for letter in [b'P', b'Q', b'L', b'E', b'S', b'R'] {
+                            block.take(letter);
+                        }
+                    }
+                }
+                Kind::Refused => {
+                    let problem = "not known to leave the path as it is";
+                    return Err(Problem::new(word, problem, M_CODES));
+                }
             }
         }
-        let (to, course) = match motion {
-            Motion::Arc { clockwise } => self.arc(block, from, clockwise)?,
-            _ if bends => {
-                let problem = format!("with {}", motion.name());
-                return Err(Problem::new(
-                    "I, J, R",
-                    problem,
-                    "I, J and R with G2 and G3 only",
-                ));
-            }
-            _ => (self.at, Course::Line),
-        };
-        let rapid = motion == Motion::Rapid;
-        if !rapid && self.feed_mm_per_min.is_none() {
-            let text = || "no feed set; the feed of the settings applies".to_owned();
-            self.track.note("feed", line, text);
-        }
-        let next = Move {
-            to,
-            course,
-            rapid,
-            feed_mm_per_min: if rapid { None } else { self.feed_mm_per_min },
-            line,
-        };
-        Ok(Some((motion, next)))
+        Ok(())
     }
 
-    /// The end and the course of an arc from `from` to the programmed position.
-    fn arc(
-        &self,
-        block: &Block,
-        from: [f64; 3],
-        clockwise: bool,
-    ) -> Result<([f64; 3], Course), Problem> {
-        const FORMS: &str = "either I and J (the centre from the start) or R (the radius)";
-        let [x, y, _] = from;
-        let [end_x, end_y, end_z] = self.at;
-        let given = |word: Option<f64>| word.unwrap_or(0.0) * self.mm_per_unit;
-        let centre = match (block.centre, block.radius) {
-            ([None, None], None) => {
-                return Err(Problem::new(
-                    "I, J, R",
-                    "an arc without centre or radius",
-                    FORMS,
-                ));
+    fn g_words(&mut self, line: usize, block: &mut Block) -> Result<Words, Problem> {
+        let mut words = Words::default();
+        let (mut plane, mut units, mut distance) = (None, None, None);
+        let (mut centres, mut feeds, mut system, mut ends) = (None, None, None, None);
+        for index in 0..block.g.len() {
+            let Some(&code) = block.g.get(index) else {
+                break;
+            };
+            match code {
+                (0, 0) => choose(&mut words.motion, code, Motion::Rapid)?,
+                (1, 0) => choose(&mut words.motion, code, Motion::Line)?,
+                (2, 0) => choose(&mut words.motion, code, Motion::Arc { clockwise: true })?,
+                (3, 0) => choose(&mut words.motion, code, Motion::Arc { clockwise: false })?,
+                (5, 0) => choose(&mut words.motion, code, Motion::Cubic)?,
+                (5, 1) => choose(&mut words.motion, code, Motion::Quadratic)?,
+                (38, 2..=5) => choose(&mut words.motion, code, Motion::Probe)?,
+                (73 | 81..=86 | 89, 0) => choose(&mut words.motion, code, Motion::Cycle(code.0))?,
+                (80, 0) => words.cancels = true,
+                (17, 0) => choose(&mut plane, code, Plane::Xy)?,
+                (18, 0) => choose(&mut plane, code, Plane::Zx)?,
+                (19, 0) => choose(&mut plane, code, Plane::Yz)?,
+                (20, 0) => choose(&mut units, code, MM_PER_INCH)?,
+                (21, 0) => choose(&mut units, code, 1.0)?,
+                (90, 0) => choose(&mut distance, code, false)?,
+                (91, 0) => choose(&mut distance, code, true)?,
+                (90, 1) => choose(&mut centres, code, true)?,
+                (91, 1) => choose(&mut centres, code, false)?,
+                (93, 0) => choose(&mut feeds, code, true)?,
+                (94, 0) => choose(&mut feeds, code, false)?,
+                (98, 0) => choose(&mut ends, code, false)?,
+                (99, 0) => choose(&mut ends, code, true)?,
+                (54..=58, 0) => choose(&mut system, code, code.0 as usize - 54)?,
+                (59, 0..=3) => choose(&mut system, code, 5 + code.1 as usize)?,
+                (53, 0) => words.machine = true,
+                // What is so anyway: no compensation, diameter, scaling, rotation or polar axes.
+                (8 | 15 | 40 | 49 | 50 | 69 | 97, 0) | (50, 1) | (69, 1) => {
+                    if code.0 == 50 && block.axes().iter().any(Option::is_some) {
+                        let problem = "sets coordinates, as controls of lathes do";
+                        return Err(Problem::new("G50", problem, "G50 alone; G92"));
+                    }
+                    if code == (97, 0) {
+                        self.say_nothing("G97", line)?;
+                    }
+                }
+                (4, 0) => {
+                    words.dwell = true;
+                    self.note("G4", line, || "G4: no dwell is made".to_owned());
+                }
+                (61 | 64, 0) => self.skip(&name('G', code), line),
+                (61, 1) => self.say_nothing("G61.1", line)?,
+                (96, 0) => self.say_nothing("G96", line)?,
+                (43 | 44, 0) => {
+                    let text = || "tool lengths are taken for 0".to_owned();
+                    if self.strict {
+                        self.say_nothing(&name('G', code), line)?;
+                    }
+                    self.note("length", line, text);
+                }
+                (43, 1 | 2) => {
+                    self.say_nothing(&name('G', code), line)?;
+                    block.clear_letters();
+                }
+                (10, 0) if block.letter(b'L').is_some() => choose(&mut words.own, code, Own::Set)?,
+                // Printers take filament back, and level their bed.
+                (10 | 11 | 29 | 34, 0) if block.given().next().is_none() => {
+                    self.say_nothing(&name('G', code), line)?;
+                }
+                (28, 0) => choose(&mut words.own, code, Own::Go(0))?,
+                (30, 0) => choose(&mut words.own, code, Own::Go(1))?,
+                (28, 1) => choose(&mut words.own, code, Own::Keep(0))?,
+                (30, 1) => choose(&mut words.own, code, Own::Keep(1))?,
+                (92, 0) => choose(&mut words.own, code, Own::Shift)?,
+                (52, 0) => choose(&mut words.own, code, Own::Local)?,
+                (92, 1) => choose(&mut words.own, code, Own::Forget)?,
+                (92, 2) => choose(&mut words.own, code, Own::Suspend)?,
+                (92, 3) => choose(&mut words.own, code, Own::Resume)?,
+                _ => {
+                    let reason = codes::g_reason(code);
+                    return Err(Problem::new(name('G', code), reason, G_CODES));
+                }
             }
-            ([i, j], None) => [x + given(i), y + given(j)],
-            ([None, None], Some(radius)) => {
-                let radius = radius * self.mm_per_unit;
-                arc::centre_by_radius([x, y], [end_x, end_y], radius, clockwise).map_err(
-                    |problem| Problem::new("R", problem, "half the distance to the end, or more"),
-                )?
+        }
+        // P, Q and R of G64 are tolerances.
+        if block.g.contains(&(64, 0)) {
+            for letter in [b'P', b'Q', b'R'] {
+                if block.take(letter).is_some() && self.strict {
+                    self.say_nothing("P, Q, R", line)?;
+                }
             }
-            _ => return Err(Problem::new("I, J, R", "a centre and a radius", FORMS)),
-        };
-        arc::check([x, y], [end_x, end_y], centre).map_err(|problem| {
-            Problem::new("I, J", problem, "radii that agree to 0.005 mm or 0.1 %")
-        })?;
-        // Rounding must not turn a full circle into next to nothing.
-        let full = (end_x - x).abs() < ZERO_MM && (end_y - y).abs() < ZERO_MM;
-        let [here_x, here_y, _] = self.track.here();
-        let to = if full {
-            [here_x, here_y, end_z]
-        } else {
-            self.at
-        };
-        Ok((to, Course::Arc { centre, clockwise }))
+        }
+        let modal = &mut self.modal;
+        set(&mut modal.plane, plane);
+        set(&mut modal.mm_per_unit, units);
+        set(&mut modal.relative, distance);
+        set(&mut modal.centres_absolute, centres);
+        set(&mut modal.system, system);
+        set(&mut modal.ends_at_r, ends);
+        if let Some((_, inverse)) = feeds {
+            modal.inverse_time = inverse;
+            self.feed_word = None;
+        }
+        match words.motion {
+            Some((_, motion)) => {
+                if let (Motion::Cycle(_), false) =
+                    (motion, matches!(modal.motion, Some(Motion::Cycle(_))))
+                {
+                    self.cycle = Cycle::from(self.at[2]);
+                }
+                modal.motion = Some(motion);
+            }
+            None if words.cancels => modal.motion = None,
+            None => {}
+        }
+        Ok(words)
+    }
+
+    /// The value of a parameter that the machine keeps, in the units in force.
+    pub(super) fn parameter(&self, number: u32) -> Option<f64> {
+        let units = self.modal.mm_per_unit;
+        let axis = |base: u32| (number - base) as usize;
+        let pick = |point: Point, base: u32| point.get(axis(base)).map_or(0.0, |mm| mm / units);
+        match number {
+            5161..=5169 => Some(pick(self.offsets.reference(0), 5161)),
+            5181..=5189 => Some(pick(self.offsets.reference(1), 5181)),
+            5211..=5219 => Some(pick(self.offsets.shift(), 5211)),
+            5220 => Some((self.modal.system + 1) as f64),
+            5221..=5389 => {
+                let (system, axis) = ((number - 5221) / 20, (number - 5221) % 20);
+                let offset = self.offsets.system(system as usize);
+                Some(offset.get(axis as usize).map_or(0.0, |mm| mm / units))
+            }
+            5400 => Some(self.tool),
+            5420..=5428 => Some(pick(self.here(), 5420)),
+            _ => None,
+        }
+    }
+
+    /// The value of a name that the machine keeps.
+    pub(super) fn named(&self, name: &str) -> Option<f64> {
+        let units = self.modal.mm_per_unit;
+        let flag = |holds: bool| Some(f64::from(u8::from(holds)));
+        let metric = self.modal.mm_per_unit == 1.0;
+        let [x, y, z] = self.here().map(|mm| mm / units);
+        match name {
+            "_X" => Some(x),
+            "_Y" => Some(y),
+            "_Z" => Some(z),
+            "_A" | "_B" | "_C" | "_U" | "_V" | "_W" | "_TASK" => Some(0.0),
+            "_ABS_X" => Some(self.at[0] / units),
+            "_ABS_Y" => Some(self.at[1] / units),
+            "_ABS_Z" => Some(self.at[2] / units),
+            "_METRIC" => flag(metric),
+            "_IMPERIAL" => flag(!metric),
+            "_ABSOLUTE" => flag(!self.modal.relative),
+            "_INCREMENTAL" => flag(self.modal.relative),
+            "_INVERSE_TIME" => flag(self.modal.inverse_time),
+            "_UNITS_PER_MINUTE" => flag(!self.modal.inverse_time),
+            "_COORD_SYSTEM" => Some(match self.modal.system {
+                system @ 0..=5 => (540 + 10 * system) as f64,
+                system => (590 + system - 5) as f64,
+            }),
+            "_PLANE" => Some(match self.modal.plane {
+                Plane::Xy => 170.0,
+                Plane::Zx => 180.0,
+                Plane::Yz => 190.0,
+            }),
+            "_MOTION_MODE" => Some(match self.modal.motion {
+                None => 800.0,
+                Some(Motion::Rapid) => 0.0,
+                Some(Motion::Line) => 10.0,
+                Some(Motion::Arc { clockwise: true }) => 20.0,
+                Some(Motion::Arc { clockwise: false }) => 30.0,
+                Some(Motion::Cubic) => 50.0,
+                Some(Motion::Quadratic) => 51.0,
+                Some(Motion::Probe) => 382.0,
+                Some(Motion::Cycle(code)) => f64::from(code) * 10.0,
+            }),
+            "_CCOMP" => Some(400.0),
+            "_FEED" => Some(self.feed_word.unwrap_or(0.0)),
+            "_RPM" => Some(self.spindle),
+            "_CURRENT_TOOL" | "_SELECTED_TOOL" => Some(self.tool),
+            "_RETRACT_OLD_Z" => flag(!self.modal.ends_at_r),
+            "_RETRACT_R_PLANE" => flag(self.modal.ends_at_r),
+            "_VMAJOR" => Some(2.9),
+            "_VMINOR" => Some(0.0),
+            _ => None,
+        }
     }
 }
 
-/// Sets what one word of a line may choose only once.
+/// What the G words of a line choose.
+#[derive(Debug, Default)]
+pub(super) struct Words {
+    pub(super) motion: Option<(Code, Motion)>,
+    /// An instruction that takes the axis words for itself.
+    pub(super) own: Option<(Code, Own)>,
+    cancels: bool,
+    /// G53.
+    pub(super) machine: bool,
+    pub(super) dwell: bool,
+}
+
+impl Machine<'_> {
+    /// An inverse time is given in every line that moves.
+    pub(super) fn needs_feed(&self) -> Result<(), Problem> {
+        match self.feed_word {
+            Some(_) => Ok(()),
+            None => Err(Problem::new(
+                "F",
+                "missing under G93",
+                "F in every line that moves",
+            )),
+        }
+    }
+
+    pub(super) fn made_by(&mut self, name: String) {
+        self.made_by = name;
+    }
+}
+
+fn set<T>(place: &mut T, chosen: Option<(Code, T)>) {
+    if let Some((_, value)) = chosen {
+        *place = value;
+    }
+}
+
+/// Sets what the words of a line may choose once; saying it again is no harm.
 fn choose<T>(place: &mut Option<(Code, T)>, code: Code, value: T) -> Result<(), Problem> {
-    if let Some((other, _)) = place {
+    if let Some((other, _)) = place
+        && *other != code
+    {
         let problem = format!("together with {} in one line", name('G', *other));
-        return Err(Problem::new(
-            name('G', code),
-            problem,
-            "one of them in a line",
-        ));
+        let allowed = "one of them in a line";
+        return Err(Problem::new(name('G', code), problem, allowed));
     }
     *place = Some((code, value));
     Ok(())
-}
-
-fn name(letter: char, (whole, tenths): Code) -> String {
-    match tenths {
-        0 => format!("{letter}{whole}"),
-        _ => format!("{letter}{whole}.{tenths}"),
-    }
 }

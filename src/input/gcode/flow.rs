@@ -1,0 +1,250 @@
+//! O-words: where the blocks of a program begin and end.
+
+use std::collections::HashMap;
+
+use super::block::line_start;
+use super::expression::Scanner;
+use super::problem::Problem;
+use super::text::{clean, line_at};
+
+/// What an O-word does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Keyword {
+    Sub,
+    EndSub,
+    Call,
+    Return,
+    If,
+    ElseIf,
+    Else,
+    EndIf,
+    While,
+    EndWhile,
+    Do,
+    Repeat,
+    EndRepeat,
+    Break,
+    Continue,
+    /// The number of a program: none of the others follows.
+    Program,
+}
+
+use Keyword as K;
+
+/// Longer ones before those that are their beginning.
+const KEYWORDS: [(&str, Keyword); 15] = [
+    ("SUB", K::Sub),
+    ("ENDSUB", K::EndSub),
+    ("CALL", K::Call),
+    ("RETURN", K::Return),
+    ("IF", K::If),
+    ("ELSEIF", K::ElseIf),
+    ("ELSE", K::Else),
+    ("ENDIF", K::EndIf),
+    ("WHILE", K::While),
+    ("ENDWHILE", K::EndWhile),
+    ("DO", K::Do),
+    ("REPEAT", K::Repeat),
+    ("ENDREPEAT", K::EndRepeat),
+    ("BREAK", K::Break),
+    ("CONTINUE", K::Continue),
+];
+
+impl Keyword {
+    pub(super) fn name(self) -> &'static str {
+        let found = KEYWORDS.iter().find(|(_, keyword)| *keyword == self);
+        found.map_or("", |(name, _)| name)
+    }
+
+    fn opens(self) -> bool {
+        matches!(self, K::Sub | K::If | K::While | K::Do | K::Repeat)
+    }
+
+    /// Whether a block that `self` opens goes on or ends with another keyword.
+    fn goes_on_with(self, next: Keyword) -> bool {
+        match self {
+            K::Sub => next == K::EndSub,
+            K::If => matches!(next, K::ElseIf | K::Else | K::EndIf),
+            K::While => next == K::EndWhile,
+            K::Do => next == K::While,
+            K::Repeat => next == K::EndRepeat,
+            _ => false,
+        }
+    }
+
+    fn loops(self) -> bool {
+        matches!(self, K::While | K::Do | K::Repeat)
+    }
+}
+
+/// The O-word at the beginning of a cleaned line, where there is one: its label, what it does, and
+/// the rest of the line.
+///
+/// # Errors
+///
+/// An O without a number or a name.
+pub(super) fn o_word(line: &[u8]) -> Result<Option<(String, Keyword, Scanner<'_>)>, Problem> {
+    if !line.iter().any(|byte| matches!(byte, b'O' | b':')) {
+        return Ok(None);
+    }
+    let mut scanner = Scanner::new(line);
+    line_start(&mut scanner)?;
+    if !matches!(scanner.next_word(), Some(b'O' | b':')) {
+        return Ok(None);
+    }
+    scanner.bump();
+    let label = match scanner.peek() {
+        Some(b'<') => format!("<{}>", scanner.angled()?.to_ascii_lowercase()),
+        Some(b'0'..=b'9') => {
+            let digits = scanner.digits().trim_start_matches('0');
+            if digits.is_empty() { "0" } else { digits }.to_owned()
+        }
+        _ => {
+            let problem = "an O-word without a number or name as written";
+            return Err(Problem::new("O", problem, "O100 or O<name>"));
+        }
+    };
+    scanner.next_word();
+    let rest = scanner.rest();
+    // ELSE is the beginning of ELSEIF.
+    let longest = KEYWORDS
+        .iter()
+        .filter(|(name, _)| rest.starts_with(name.as_bytes()))
+        .max_by_key(|(name, _)| name.len());
+    let keyword = match longest {
+        Some(&(name, keyword)) => {
+            scanner.take(name);
+            keyword
+        }
+        None => K::Program,
+    };
+    Ok(Some((label, keyword, scanner)))
+}
+
+/// A line with an O-word.
+#[derive(Debug)]
+pub(super) struct Place {
+    pub(super) keyword: Keyword,
+    /// Its line, from 1.
+    pub(super) line: usize,
+    /// Where it begins.
+    pub(super) start: usize,
+    /// Where the next line begins.
+    pub(super) next: usize,
+    /// Where its block goes on: the next branch of an IF, the end of others.
+    pub(super) onward: Option<usize>,
+    /// The first line of its block, or of the loop it leaves.
+    pub(super) head: Option<usize>,
+    /// The last line of its block.
+    pub(super) end: Option<usize>,
+}
+
+/// All lines with O-words, in order.
+#[derive(Debug, Default)]
+pub(super) struct Index {
+    pub(super) places: Vec<Place>,
+    subs: HashMap<String, usize>,
+    programs: HashMap<String, usize>,
+}
+
+impl Index {
+    /// Looks through a text. Lines that cannot be read are passed over: if they are run, they are
+    /// refused.
+    pub(super) fn of(text: &[u8]) -> Self {
+        let mut index = Index::default();
+        let mut open: Vec<(usize, String)> = Vec::new();
+        let (mut start, mut line, mut cleaned) = (0, 0, Vec::new());
+        while let Some((bytes, next)) = line_at(text, start) {
+            line += 1;
+            let first = bytes.trim_ascii_start().first();
+            if matches!(first, Some(b'o' | b'O' | b':' | b'n' | b'N' | b'/'))
+                && clean(bytes, &mut cleaned).is_ok()
+                && let Ok(Some((label, keyword, _))) = o_word(&cleaned)
+            {
+                index.add(&mut open, label, keyword, (line, start, next));
+            }
+            start = next;
+        }
+        index
+    }
+
+    fn add(
+        &mut self,
+        open: &mut Vec<(usize, String)>,
+        label: String,
+        keyword: Keyword,
+        (line, start, next): (usize, usize, usize),
+    ) {
+        let here = self.places.len();
+        let mut place = Place {
+            keyword,
+            line,
+            start,
+            next,
+            onward: None,
+            head: None,
+            end: None,
+        };
+        let keyword_of = |places: &[Place], at: usize| places.get(at).map(|place| place.keyword);
+        let continued = open.iter().rposition(|(at, of)| {
+            *of == label
+                && keyword_of(&self.places, *at).is_some_and(|head| head.goes_on_with(keyword))
+        });
+        if let Some(depth) = continued {
+            let head = open.get(depth).map_or(here, |(head, _)| *head);
+            let ends = !matches!(keyword, K::ElseIf | K::Else);
+            place.head = Some(head);
+            // Every branch of the block learns where the next one is, and where all ends.
+            let mut at = Some(head);
+            while let Some(branch) = at.and_then(|at| self.places.get_mut(at)) {
+                at = branch.onward;
+                branch.onward.get_or_insert(here);
+                if ends {
+                    branch.end = Some(here);
+                }
+            }
+            if ends {
+                place.end = Some(here);
+                open.truncate(depth);
+            } else {
+                open.truncate(depth + 1);
+            }
+        } else if keyword.opens() {
+            place.head = Some(here);
+            if keyword == K::Sub {
+                self.subs.entry(label.clone()).or_insert(here);
+            }
+            open.push((here, label));
+        } else if keyword == K::Program {
+            self.programs.entry(label).or_insert(here);
+        } else if matches!(keyword, K::Break | K::Continue) {
+            let found = open.iter().rfind(|(at, of)| {
+                *of == label && keyword_of(&self.places, *at).is_some_and(Keyword::loops)
+            });
+            place.head = found.map(|(at, _)| *at);
+        }
+        self.places.push(place);
+    }
+
+    /// The O-word in the line that begins at an offset.
+    pub(super) fn at(&self, start: usize) -> Option<usize> {
+        self.places
+            .binary_search_by_key(&start, |place| place.start)
+            .ok()
+    }
+
+    /// Whether there is a SUB.
+    pub(super) fn has_subs(&self) -> bool {
+        !self.subs.is_empty()
+    }
+
+    /// The SUB of a label.
+    pub(super) fn sub(&self, label: &str) -> Option<usize> {
+        self.subs.get(label).copied()
+    }
+
+    /// The program of a number.
+    pub(super) fn program(&self, label: &str) -> Option<usize> {
+        self.programs.get(label).copied()
+    }
+}

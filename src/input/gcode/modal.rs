@@ -1,0 +1,87 @@
+//! What stays in force from line to line.
+
+/// How axis words make a move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Motion {
+    Rapid,
+    Line,
+    Arc {
+        clockwise: bool,
+    },
+    /// G5.
+    Cubic,
+    /// G5.1.
+    Quadratic,
+    /// G38.2 to G38.5: as if nothing was touched.
+    Probe,
+    /// G73, G81 to G86 and G89.
+    Cycle(u32),
+}
+
+impl Motion {
+    pub(super) fn name(self) -> String {
+        match self {
+            Self::Rapid => "G0".to_owned(),
+            Self::Line => "G1".to_owned(),
+            Self::Arc { clockwise: true } => "G2".to_owned(),
+            Self::Arc { clockwise: false } => "G3".to_owned(),
+            Self::Cubic => "G5".to_owned(),
+            Self::Quadratic => "G5.1".to_owned(),
+            Self::Probe => "G38".to_owned(),
+            Self::Cycle(code) => format!("G{code}"),
+        }
+    }
+}
+
+/// The plane of arcs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Plane {
+    Xy,
+    Zx,
+    Yz,
+}
+
+impl Plane {
+    /// The two axes in it, and the third, so that they turn right.
+    pub(super) fn axes(self) -> [usize; 3] {
+        match self {
+            Self::Xy => [0, 1, 2],
+            Self::Zx => [2, 0, 1],
+            Self::Yz => [1, 2, 0],
+        }
+    }
+}
+
+/// The modal state of a machine.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Modal {
+    pub(super) motion: Option<Motion>,
+    pub(super) plane: Plane,
+    pub(super) relative: bool,
+    /// I, J and K are coordinates (G90.1).
+    pub(super) centres_absolute: bool,
+    pub(super) mm_per_unit: f64,
+    pub(super) feed_mm_per_min: Option<f64>,
+    /// F is one over the minutes of a move (G93).
+    pub(super) inverse_time: bool,
+    /// Cycles end at R (G99).
+    pub(super) ends_at_r: bool,
+    /// The coordinate system, from 0 for G54.
+    pub(super) system: usize,
+}
+
+impl Default for Modal {
+    fn default() -> Self {
+        Self {
+            motion: None,
+            plane: Plane::Xy,
+            relative: false,
+            centres_absolute: false,
+            mm_per_unit: 1.0,
+            feed_mm_per_min: None,
+            inverse_time: false,
+            ends_at_r: false,
+            system: 0,
+        }
+    }
+}

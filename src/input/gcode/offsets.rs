@@ -1,0 +1,220 @@
+//! Coordinate systems, offsets and reference points.
+
+use super::block::{Block, Code, name};
+use super::machine::{Machine, Piece};
+use super::problem::Problem;
+use crate::input::{Course, Point};
+
+/// Coordinate systems: G54 to G59, G59.1 to G59.3.
+const SYSTEMS: usize = 9;
+
+/// An instruction that takes the axis words for itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Own {
+    /// G10.
+    Set,
+    /// G28 and G30.
+    Go(usize),
+    /// G28.1 and G30.1.
+    Keep(usize),
+    /// G92.
+    Shift,
+    /// G52.
+    Local,
+    /// G92.1.
+    Forget,
+    /// G92.2.
+    Suspend,
+    /// G92.3.
+    Resume,
+}
+
+/// Where the zeros are, from the machine's, in millimetres.
+#[derive(Debug, Default)]
+pub(super) struct Offsets {
+    systems: [Point; SYSTEMS],
+    shift: Point,
+    /// What G92.2 put aside.
+    suspended: Point,
+    references: [Point; 2],
+}
+
+impl Offsets {
+    pub(super) fn system(&self, number: usize) -> Point {
+        self.systems.get(number).copied().unwrap_or_default()
+    }
+
+    pub(super) fn shift(&self) -> Point {
+        self.shift
+    }
+
+    pub(super) fn reference(&self, number: usize) -> Point {
+        self.references.get(number).copied().unwrap_or_default()
+    }
+}
+
+impl Machine<'_> {
+    /// The zero of the program from the machine's.
+    pub(super) fn zero(&self) -> Point {
+        let system = self.offsets.system(self.modal.system);
+        let mut zero = self.offsets.shift;
+        for (zero, system) in zero.iter_mut().zip(system) {
+            *zero += system;
+        }
+        zero
+    }
+
+    /// The programmed position as the program sees it, in millimetres.
+    pub(super) fn here(&self) -> Point {
+        let mut here = self.at;
+        for (here, zero) in here.iter_mut().zip(self.zero()) {
+            *here -= zero;
+        }
+        here
+    }
+
+    /// Runs an instruction that takes the axis words for itself, and takes them out.
+    pub(super) fn own(
+        &mut self,
+        line: usize,
+        block: &mut Block,
+        (code, own): (Code, Own),
+        moves: bool,
+    ) -> Result<(), Problem> {
+        let axes = block.axes();
+        if moves && !matches!(own, Own::Forget | Own::Suspend | Own::Resume) {
+            // G0 G28 X0 is common; what goes is G28.
+            if !matches!(own, Own::Go(_) | Own::Shift | Own::Set) {
+                let problem = "together with a motion in one line";
+                return Err(Problem::new(name('G', code), problem, "a line of its own"));
+            }
+        }
+        let words = axes.map(|word| word.map(|word| word * self.modal.mm_per_unit));
+        let given = words.iter().any(Option::is_some);
+        match own {
+            Own::Set => self.set_offsets(line, block, words)?,
+            Own::Go(number) => self.go_home(block, number, words, name('G', code)),
+            Own::Keep(number) => {
+                let at = self.at;
+                if let Some(place) = self.offsets.references.get_mut(number) {
+                    *place = at;
+                }
+            }
+            Own::Shift if !given => {
+                // Printers reset their extruder with G92 E0; G92 alone means all axes.
+                if block.given().next().is_none() && !block.extruder {
+                    let system = self.offsets.system(self.modal.system);
+                    for ((shift, at), system) in
+                        self.offsets.shift.iter_mut().zip(self.at).zip(system)
+                    {
+                        *shift = at - system;
+                    }
+                }
+            }
+            Own::Shift => {
+                let system = self.offsets.system(self.modal.system);
+                let places = self.offsets.shift.iter_mut().zip(self.at).zip(system);
+                for (((shift, at), system), word) in places.zip(words) {
+                    if let Some(word) = word {
+                        *shift = at - system - word;
+                    }
+                }
+            }
+            Own::Local => {
+                for (shift, word) in self.offsets.shift.iter_mut().zip(words) {
+                    *shift = word.unwrap_or(*shift);
+                }
+            }
+            Own::Forget => {
+                self.offsets.shift = [0.0; 3];
+                self.offsets.suspended = [0.0; 3];
+            }
+            Own::Suspend => {
+                self.offsets.suspended = std::mem::take(&mut self.offsets.shift);
+            }
+            Own::Resume => self.offsets.shift = self.offsets.suspended,
+        }
+        if !matches!(own, Own::Forget | Own::Suspend | Own::Resume) {
+            for letter in [b'X', b'Y', b'Z'] {
+                block.take(letter);
+            }
+        }
+        Ok(())
+    }
+
+    /// G10: offsets of coordinate systems; tables of tools are passed over.
+    fn set_offsets(
+        &mut self,
+        line: usize,
+        block: &mut Block,
+        words: [Option<f64>; 3],
+    ) -> Result<(), Problem> {
+        let what = block.take(b'L').unwrap_or(0.0);
+        let number = block.take(b'P').unwrap_or(0.0);
+        let turn = block.take(b'R');
+        if [1.0, 10.0, 11.0, 12.0, 13.0].contains(&what) {
+            for letter in [b'I', b'J', b'Q'] {
+                block.take(letter);
+            }
+            return self.say_nothing("G10 tool table", line);
+        }
+        if what != 2.0 && what != 20.0 {
+            let allowed = "L2 and L20; L1, L10 and L11 are skipped";
+            return Err(Problem::new("G10", format!("with L{what}"), allowed));
+        }
+        if turn.is_some_and(|turn| turn != 0.0) {
+            let problem = "a rotation changes the path";
+            return Err(Problem::new("G10 R", problem, "R0"));
+        }
+        let system = match number {
+            0.0 => Some(self.modal.system),
+            number => (1..=SYSTEMS).find(|&n| n as f64 == number).map(|n| n - 1),
+        };
+        let shift = self.offsets.shift;
+        let place = system.and_then(|system| self.offsets.systems.get_mut(system));
+        let Some(place) = place else {
+            let problem = format!("the coordinate system P{number}");
+            return Err(Problem::new("G10 P", problem, "0 to 9"));
+        };
+        for (((place, at), shift), word) in place.iter_mut().zip(self.at).zip(shift).zip(words) {
+            if let Some(word) = word {
+                *place = if what == 2.0 { word } else { at - shift - word };
+            }
+        }
+        Ok(())
+    }
+
+    /// To a reference point by way of the axis words; without any, all axes go there.
+    fn go_home(&mut self, block: &mut Block, number: usize, words: [Option<f64>; 3], by: String) {
+        let zero = self.zero();
+        let reference = self.offsets.reference(number);
+        let all = words.iter().all(Option::is_none);
+        let (mut by_way, mut home) = (self.at, self.at);
+        for axis in 0..3 {
+            let (Some(way), Some(home)) = (by_way.get_mut(axis), home.get_mut(axis)) else {
+                continue;
+            };
+            let at = |point: &Point| point.get(axis).copied().unwrap_or(0.0);
+            if let Some(word) = words.get(axis).copied().flatten() {
+                let from = if self.modal.relative { *way } else { at(&zero) };
+                *way = from + word;
+            } else if !all {
+                continue;
+            }
+            *home = at(&reference);
+        }
+        let rapid = |to| Piece {
+            to,
+            course: Course::Line,
+            rapid: true,
+            length: 0.0,
+        };
+        if !all {
+            self.pieces.push(rapid(by_way));
+        }
+        self.pieces.push(rapid(home));
+        self.at = home;
+        self.made_by(by);
+        block.clear_letters();
+    }
+}

@@ -1,0 +1,118 @@
+//! Drilling cycles.
+
+use motion_rtl::input::gcode::read;
+
+use crate::input::common::{accept, moves, refuse};
+
+#[test]
+fn holes_and_their_moves() {
+    let cases: &[(&str, &[&str])] = &[
+        // Back to where Z was, then to R alone.
+        (
+            "F60 G0 Z5\nG81 X1 R2 Z-3\nX2",
+            &[
+                "rapid to 0 0 5",
+                "rapid to 1 0 5",
+                "rapid to 1 0 2",
+                "line to 1 0 -3 F60",
+                "rapid to 1 0 2",
+                "rapid to 1 0 5",
+                "rapid to 2 0 5",
+                "rapid to 2 0 2",
+                "line to 2 0 -3 F60",
+                "rapid to 2 0 2",
+                "rapid to 2 0 5",
+            ],
+        ),
+        (
+            "F60 G0 Z5\nG99 G82 X1 R2 Z-3 P1\nX2\nG80\nG0 X0",
+            &[
+                "rapid to 0 0 5",
+                "rapid to 1 0 5",
+                "rapid to 1 0 2",
+                "line to 1 0 -3 F60",
+                "rapid to 1 0 2",
+                "rapid to 2 0 2",
+                "line to 2 0 -3 F60",
+                "rapid to 2 0 2",
+                "rapid to 0 0 2",
+            ],
+        ),
+        // From below R.
+        (
+            "F60 G85 X1 R2 Z1",
+            &[
+                "rapid to 0 0 2",
+                "rapid to 1 0 2",
+                "line to 1 0 1 F60",
+                "line to 1 0 2 F60",
+            ],
+        ),
+        // Pecks: out of the hole, and a little up.
+        (
+            "F60 G83 R0 Z-5 Q2",
+            &[
+                "line to 0 0 -2 F60",
+                "rapid to 0 0 0",
+                "rapid to 0 0 -1.746",
+                "line to 0 0 -4 F60",
+                "rapid to 0 0 0",
+                "rapid to 0 0 -3.746",
+                "line to 0 0 -5 F60",
+                "rapid to 0 0 0",
+            ],
+        ),
+        (
+            "F60 G73 R0 Z-3 Q2",
+            &[
+                "line to 0 0 -2 F60",
+                "rapid to 0 0 -1.746",
+                "line to 0 0 -3 F60",
+                "rapid to 0 0 0",
+            ],
+        ),
+        // Repeated in steps; R from where Z was, Z from R.
+        (
+            "F60 G0 Z4\nG91 G81 X1 R-3 Z-2 L2",
+            &[
+                "rapid to 0 0 4",
+                "rapid to 1 0 4",
+                "rapid to 1 0 1",
+                "line to 1 0 -1 F60",
+                "rapid to 1 0 1",
+                "rapid to 1 0 4",
+                "rapid to 2 0 4",
+                "rapid to 2 0 1",
+                "line to 2 0 -1 F60",
+                "rapid to 2 0 1",
+                "rapid to 2 0 4",
+            ],
+        ),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(moves(&accept(read, text)), *expected, "{text}");
+    }
+}
+
+#[test]
+fn what_a_cycle_lacks() {
+    for (text, fault) in [
+        ("G81 X1 Z-1", "t:1: G81: without R"),
+        ("G81 X1 R1", "t:1: G81: without Z"),
+        ("G81 X1 R-2 Z-1", "t:1: G81: R is below Z by 1 mm"),
+        ("G83 X1 R1 Z-1", "t:1: G83: without a Q that fits the depth"),
+        (
+            "G83 X1 R1 Z-1 Q0",
+            "t:1: G83: without a Q that fits the depth",
+        ),
+        ("G18 G81 X1 R1 Z-1", "t:1: G81: outside of G17"),
+        ("G81 X1 R1 Z-1 L1.5", "t:1: L: is 1.5"),
+        (
+            "G81 X1 R1 Z-1\nG80\nX2",
+            "t:3: X, Y, Z: no G0, G1, G2 or G3 in force",
+        ),
+    ] {
+        let refused = refuse(read, text);
+        assert!(refused.starts_with(fault), "{refused}");
+    }
+}

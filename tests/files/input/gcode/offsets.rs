@@ -1,0 +1,74 @@
+//! Coordinate systems, offsets and reference points.
+
+use motion_rtl::input::gcode::read;
+
+use crate::input::common::{accept, moves, refuse};
+
+#[test]
+fn offsets_and_where_they_lead() {
+    let cases: &[(&str, &[&str])] = &[
+        ("G92 X10\nG0 X12", &["rapid to 2 0 0"]),
+        ("G10 L2 P1 X10\nG92 X3\nG0 X4", &["rapid to 1 0 0"]),
+        (
+            "G0 X5\nG92 X0 Y1\nX1 Y1\nG92.1\nX1",
+            &["rapid to 5 0 0", "rapid to 6 0 0", "rapid to 1 0 0"],
+        ),
+        (
+            "G92 X10\nG92.2\nG0 X1\nG92.3\nX12",
+            &["rapid to 1 0 0", "rapid to 2 0 0"],
+        ),
+        ("G0 X5\nG92\nX1", &["rapid to 5 0 0", "rapid to 6 0 0"]),
+        (
+            "G52 X5\nG0 X1\nG52 X0\nX1",
+            &["rapid to 6 0 0", "rapid to 1 0 0"],
+        ),
+        (
+            "G10 L2 P2 X10 Z1\nG0 X1\nG55 X1 Z0\nG53 X1",
+            &["rapid to 1 0 0", "rapid to 11 0 1", "rapid to 1 0 1"],
+        ),
+        (
+            "G0 X5\nG10 L20 P0 X0\nX1",
+            &["rapid to 5 0 0", "rapid to 6 0 0"],
+        ),
+        ("G20 G10 L2 P9 Y1\nG59.3 G0 Y1", &["rapid to 0 50.8 0"]),
+        (
+            "G91 G0 X5\nG53 X1\nX1",
+            &["rapid to 5 0 0", "rapid to 1 0 0", "rapid to 2 0 0"],
+        ),
+        ("G0 X5 Y5\nG28", &["rapid to 5 5 0", "rapid to 0 0 0"]),
+        ("G0 X5 Y5\nG28 X", &["rapid to 5 5 0", "rapid to 0 5 0"]),
+        (
+            "G0 X5 Y5\nG91 G28 Z3",
+            &["rapid to 5 5 0", "rapid to 5 5 3", "rapid to 5 5 0"],
+        ),
+        (
+            "G0 X5\nG28.1\nX9 Y9\nG28",
+            &["rapid to 5 0 0", "rapid to 9 9 0", "rapid to 5 0 0"],
+        ),
+        (
+            "G0 X5\nG30.1\nX9\nG30 X7",
+            &[
+                "rapid to 5 0 0",
+                "rapid to 9 0 0",
+                "rapid to 7 0 0",
+                "rapid to 5 0 0",
+            ],
+        ),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(moves(&accept(read, text)), *expected, "{text}");
+    }
+    assert!(refuse(read, "G10 L2 P10 X1").starts_with("t:1: G10 P: "));
+    assert!(refuse(read, "G52 G1 X1").starts_with("t:1: G52: together with a motion"));
+}
+
+#[test]
+fn parameters_show_the_offsets() {
+    let text = "G10 L2 P2 X10\nG55\nG92 Y3\nG0 X[#5241+#5220]\nX[#5420+#5212+1]";
+    let ends: Vec<_> = accept(read, text)
+        .moves
+        .iter()
+        .map(|step| step.to)
+        .collect();
+    assert_eq!(ends, [[22.0, 0.0, 0.0], [20.0, 0.0, 0.0]]);
+}
