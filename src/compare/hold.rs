@@ -138,12 +138,17 @@ mod tests {
 
     #[test]
     fn ticks_are_left_out_of_others() {
-        let left = |others: &[Range<i128>]| without(3..9, others.iter().cloned());
-        assert_eq!(left(&[]), [3..9]);
-        assert_eq!(left(&[0..2, 4..5, 7..8, 11..12]), [3..4, 5..7, 8..9]);
-        assert_eq!(left(&[0..4, 8..12]), [4..8]);
-        assert_eq!(left(&[4..7, 5..6]), [3..4, 7..9]);
-        assert!(left(&[3..9]).is_empty() && left(&[0..12]).is_empty());
+        let left = |others: &[(i128, i128)]| -> Vec<(i128, i128)> {
+            let others = others.iter().map(|&(start, end)| start..end);
+            let left = without(3..9, others).into_iter();
+            left.map(|ticks| (ticks.start, ticks.end)).collect()
+        };
+        assert_eq!(left(&[]), [(3, 9)]);
+        let between = left(&[(0, 2), (4, 5), (7, 8), (11, 12)]);
+        assert_eq!(between, [(3, 4), (5, 7), (8, 9)]);
+        assert_eq!(left(&[(0, 4), (8, 12)]), [(4, 8)]);
+        assert_eq!(left(&[(4, 7), (5, 6)]), [(3, 4), (7, 9)]);
+        assert!(left(&[(3, 9)]).is_empty() && left(&[(0, 12)]).is_empty());
     }
 
     #[test]

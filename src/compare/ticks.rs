@@ -136,7 +136,7 @@ impl Ticks {
                     _ => 0,
                 };
                 let between = time(*first) - time(*last);
-                if period == 0 || between % period != 0 {
+                if period == 0 || !between.is_multiple_of(period) {
                     return Err(Unusable::Uncounted(*last, *first));
                 }
                 // The tick that the first edge ends has its end in the dump.
