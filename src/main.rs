@@ -5,7 +5,6 @@
 mod cli;
 
 use clap::{Parser, Subcommand};
-use motion_rtl::trace::atomic::abandon;
 use std::io::Write as _;
 use std::process::ExitCode;
 
@@ -35,25 +34,17 @@ enum Command {
     List(cli::list::Arguments),
 }
 
-/// What a shell says of a program that a signal has ended.
-const INTERRUPTED: i32 = 130;
-
 fn main() -> ExitCode {
-    // Where there can be no handler, what is half written stays behind a signal; what `nohup` or a
-    // shell has a program ignore, it ignores.
-    let _ = ctrlc::try_set_handler(|| {
-        abandon();
-        std::process::exit(INTERRUPTED);
-    });
-    let done = match Arguments::parse().command {
-        None => cli::run::run(&cli::run::Arguments::default()),
-        Some(Command::Run(arguments)) => cli::run::run(&arguments),
-        Some(Command::Table(arguments)) => cli::table::table(&arguments),
-        Some(Command::Check(arguments)) => cli::check::check(&arguments),
-        Some(Command::Verilog(arguments)) => cli::verilog::verilog(&arguments),
-        Some(Command::Compare(arguments)) => cli::compare::compare(&arguments),
-        Some(Command::Plan(arguments)) => cli::plan::plan(&arguments),
-        Some(Command::List(arguments)) => cli::list::list(&arguments),
+    cli::signals::watch();
+    let done = match Arguments::try_parse() {
+        Ok(arguments) => run(arguments.command),
+        Err(error) if error.use_stderr() => {
+            // Where standard error is gone, the exit code is all there is to say.
+            let _ = error.print();
+            return ExitCode::from(2);
+        }
+        // Help or the version.
+        Err(asked) => cli::printed(asked.print()),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -62,5 +53,18 @@ fn main() -> ExitCode {
             let _ = writeln!(std::io::stderr(), "error: {failure}");
             failure.code()
         }
+    }
+}
+
+fn run(command: Option<Command>) -> Result<(), cli::Failure> {
+    match command {
+        None => cli::run::run(&cli::run::Arguments::default()),
+        Some(Command::Run(arguments)) => cli::run::run(&arguments),
+        Some(Command::Table(arguments)) => cli::table::table(&arguments),
+        Some(Command::Check(arguments)) => cli::check::check(&arguments),
+        Some(Command::Verilog(arguments)) => cli::verilog::verilog(&arguments),
+        Some(Command::Compare(arguments)) => cli::compare::compare(&arguments),
+        Some(Command::Plan(arguments)) => cli::plan::plan(&arguments),
+        Some(Command::List(arguments)) => cli::list::list(&arguments),
     }
 }

@@ -1,13 +1,15 @@
 // Bench: plays unit_law.stimulus into a step channel and dumps everything.
 //
 // A line of the file is a clock cycle: {reset, next limit, next half-period} in hexadecimal.
-// The inputs change with the falling edge and are taken by the rising edge behind it.
+// The inputs change with the falling edge and are taken by the rising edge behind it. The last word
+// has no falling edge behind it: a tick is over with its rising edge.
 `timescale 1ns / 1ps
 
 module step_channel_tb;
 
     reg         clk_100 = 1'b0;
     reg  [32:0] vec;
+    reg  [32:0] following;
     integer     fd;
     integer     got;
 
@@ -32,8 +34,11 @@ module step_channel_tb;
         got = $fscanf(fd, "%h", vec);
         while (got == 1) begin
             #5 clk_100 = 1'b1;
-            #5 clk_100 = 1'b0;
-            got = $fscanf(fd, "%h", vec);
+            #5 got = $fscanf(fd, "%h", following);
+            if (got == 1) begin
+                clk_100 = 1'b0;
+                vec = following;
+            end
         end
         $finish;
     end

@@ -1,6 +1,6 @@
 //! `compare`: two waveforms held against each other, tick by tick.
 
-use super::{Failure, print, print_json};
+use super::{Failure, print, print_json, threads};
 use clap::Args;
 use motion_rtl::compare::{Map, Settings, compare as hold, template};
 use std::path::PathBuf;
@@ -22,7 +22,8 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     other_clock: Option<String>,
     /// The scope of the other file that stands for golden's outermost scope, by its path or the end
-    /// of its path; without it the one with the most signals of golden's.
+    /// of its path; without it the one with the most signals of golden's, or none where the map
+    /// names scopes.
     #[arg(long, value_name = "PATH")]
     scope: Option<String>,
     /// Ticks to leave out at the beginning of OTHER: its reset. Below 0 where OTHER begins later.
@@ -60,12 +61,15 @@ pub struct Arguments {
     /// otherwise that is a difference.
     #[arg(long, conflicts_with = "strict")]
     allow_missing: bool,
+    /// One file may have ticks behind the other's last one; otherwise that is a difference.
+    #[arg(long)]
+    any_length: bool,
     /// Cuts no list short, and lists the other file's signals without partner too.
     #[arg(long)]
     all: bool,
     /// Prints a map to fill in, instead of comparing: golden's signals without partner and the
     /// other file's.
-    #[arg(long, conflicts_with_all = ["strict", "all", "json"])]
+    #[arg(long, conflicts_with_all = ["strict", "any_length", "all", "json"])]
     template: bool,
     /// Prints the report as JSON, with nothing cut short.
     #[arg(long)]
@@ -95,6 +99,7 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
         ticks: arguments.from..arguments.from.saturating_add(count),
         around: arguments.around,
     };
+    threads::start()?;
     if arguments.template {
         return print(&template(&arguments.golden, &arguments.other, &settings)?);
     }
@@ -118,6 +123,13 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
                 "{what}; a map pairs them, --allow-missing takes the rest as equal"
             )));
         }
+    }
+    if !arguments.any_length && !report.same_length() {
+        return Err(Failure::Check(
+            "the files end in different ticks; --ticks chooses those of both, --any-length takes \
+             the rest as equal"
+                .into(),
+        ));
     }
     for (what, unheld) in [
         ("golden signals without partner", &report.without_partner),

@@ -1,9 +1,9 @@
 //! The files of a run: they get their names together, when all of them are complete.
 
 use super::Failure;
-use motion_rtl::trace::atomic::{AtomicFile, Directory, commit_all};
+use motion_rtl::trace::atomic::{self, AtomicFile, Claim, Directory, commit_all};
 use std::ffi::OsString;
-use std::io;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 /// Files that are complete but not yet named; dropped, they leave nothing.
@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 pub struct Files {
     stem: PathBuf,
     complete: Vec<AtomicFile>,
+    /// Another run into these files is refused.
+    _claim: Option<Claim>,
     // Last, as it can go only when the files are gone.
     _directory: Directory,
 }
@@ -23,13 +25,35 @@ fn refuse(error: &io::Error) -> Failure {
     }
 }
 
+/// Removes what runs have left in a directory that something ended at once, and says so.
+pub fn clear(directory: &Path) {
+    let removed = atomic::clear(directory);
+    let names = removed.iter().map(|path| path.display().to_string());
+    let names: Vec<_> = names.collect();
+    if !names.is_empty() {
+        let names = names.join(", ");
+        // Where standard error is gone there is nobody to tell.
+        let _ = writeln!(
+            io::stderr(),
+            "warning: removed what a run that did not end by itself has left: {names}"
+        );
+    }
+}
+
 impl Files {
     /// Files called `stem` in `directory`.
     pub fn begin(directory: &Path, stem: &str) -> Result<Self, Failure> {
         let created = Directory::create(directory).map_err(|error| refuse(&error))?;
+        let claim = Claim::new(directory, stem).map_err(|error| Failure::Argument {
+            field: "--out",
+            problem: error.to_string(),
+            allowed: "another directory, or to wait until that run is over".into(),
+        })?;
+        clear(directory);
         Ok(Files {
             stem: directory.join(stem),
             complete: Vec::new(),
+            _claim: claim,
             _directory: created,
         })
     }

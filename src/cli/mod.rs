@@ -17,14 +17,16 @@ mod report;
 mod rows;
 pub mod run;
 mod shipped;
+pub mod signals;
 mod source;
 pub mod table;
+mod threads;
 mod times;
 mod traces;
 mod trajectory;
 pub mod verilog;
 
-use motion_rtl::input::Fault;
+use motion_rtl::input::{Fault, LISTED, SHOWN, shown};
 use motion_rtl::kernel::RunError;
 use motion_rtl::settings::JobError;
 use std::io::{self, Write};
@@ -37,7 +39,11 @@ pub enum Failure {
     #[error(transparent)]
     Input(#[from] Fault),
     /// An argument of the command line that clap cannot judge: 2.
-    #[error("{field}: {problem}; allowed: {allowed}")]
+    #[error(
+        "{field}: {}; allowed: {}",
+        shown(problem, SHOWN),
+        shown(allowed, LISTED)
+    )]
     Argument {
         /// The argument.
         field: &'static str,
@@ -83,8 +89,12 @@ impl Failure {
 
 /// Prints to standard output; a reader that has gone away (`| head`) is no failure.
 fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    printed(io::stdout().lock().write_all(text.as_bytes()))
+}
+
+/// What came of printing to standard output.
+pub fn printed(done: io::Result<()>) -> Result<(), Failure> {
+    match done.and_then(|()| io::stdout().flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         done => Ok(done
             .map_err(|error| io::Error::new(error.kind(), format!("standard output: {error}")))?),

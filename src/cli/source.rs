@@ -8,7 +8,6 @@ use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
 use motion_rtl::plan::{FEED_RANGE, PlanError};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 /// What to run.
 #[derive(Debug, Default, Args)]
@@ -163,7 +162,8 @@ pub fn compiling() -> ProgressBar {
     let spinner = ProgressBar::new_spinner()
         .with_message("compiling")
         .with_finish(ProgressFinish::AndClear);
-    spinner.enable_steady_tick(Duration::from_millis(100));
+    // Once: a thread that ticks may not be had.
+    spinner.tick();
     spinner
 }
 

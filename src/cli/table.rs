@@ -59,6 +59,10 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
     let table = scaled.as_ref().map_or(&job.table, |scaled| &scaled.table);
     let mut files = Vec::new();
     if let Some(path) = &arguments.out {
+        super::files::clear(match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        });
         let written = atomic::write(path, csv(table)).map_err(|error| Failure::Argument {
             field: "--out",
             problem: error.to_string(),

@@ -97,10 +97,11 @@ impl Runs {
 
     fn row(&self, pair: &Pair, start: i128, end: i128) -> Result<Row, Fault> {
         let (golden, other) = self.samples(pair)?;
-        let has = other.zero + i128::from(self.other.ticks.count);
+        let held = self.held(&other);
         let cell = |tick: i128| {
             let (expected, found) = (golden.at(tick), other.at(tick));
-            let differs = expected.is_known() && expected != found && tick < has;
+            let held = held.iter().any(|ticks| ticks.contains(&tick));
+            let differs = expected.is_known() && expected != found && held;
             Cell {
                 golden: expected.cell(pair.width),
                 other: differs.then(|| found.cell(pair.width)),

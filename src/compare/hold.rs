@@ -46,6 +46,34 @@ impl Samples {
     }
 }
 
+impl Tally {
+    /// Takes over what later ticks came to.
+    pub fn add(&mut self, later: Self) {
+        self.compared += later.compared;
+        self.unknown += later.unknown;
+        self.differing += later.differing;
+        self.first = self.first.or(later.first);
+    }
+}
+
+/// What is left of some ticks without others; both in order.
+pub(super) fn without(
+    ticks: Range<i128>,
+    others: impl Iterator<Item = Range<i128>>,
+) -> Vec<Range<i128>> {
+    let mut left = Vec::new();
+    let mut from = ticks.start;
+    for other in others {
+        if other.start > from {
+            left.push(from..other.start.min(ticks.end));
+        }
+        from = from.max(other.end);
+    }
+    left.push(from..ticks.end);
+    left.retain(|ticks| !ticks.is_empty());
+    left
+}
+
 /// Holds two signals against each other in these ticks, from change to change.
 pub(super) fn hold(golden: &Samples, other: &Samples, ticks: Range<i128>) -> Tally {
     let mut tally = Tally::default();
@@ -106,6 +134,21 @@ mod tests {
         assert_eq!(hold(&golden, &other, 21..30).differing, 0);
         assert_eq!(hold(&golden, &other, 20..21).first, Some(20));
         assert_eq!((golden.at(19), other.at(20)), (Value::HIGH, Value::HIGH));
+    }
+
+    #[test]
+    fn ticks_are_left_out_of_others() {
+        let left = |others: &[(i128, i128)]| -> Vec<(i128, i128)> {
+            let others = others.iter().map(|&(start, end)| start..end);
+            let left = without(3..9, others).into_iter();
+            left.map(|ticks| (ticks.start, ticks.end)).collect()
+        };
+        assert_eq!(left(&[]), [(3, 9)]);
+        let between = left(&[(0, 2), (4, 5), (7, 8), (11, 12)]);
+        assert_eq!(between, [(3, 4), (5, 7), (8, 9)]);
+        assert_eq!(left(&[(0, 4), (8, 12)]), [(4, 8)]);
+        assert_eq!(left(&[(4, 7), (5, 6)]), [(3, 4), (7, 9)]);
+        assert!(left(&[(3, 9)]).is_empty() && left(&[(0, 12)]).is_empty());
     }
 
     #[test]

@@ -15,7 +15,7 @@ const PARTNER: &str = "a path in quotes, as \"tb.dut.count\", \"!tb.dut.step_n\"
 /// let map = Map::parse("names.toml", r#"
 /// ignore = ["top.debug", "top.memory.*"]         # left out on purpose
 ///
-/// [scopes]                                       # and everything below them
+/// [scopes]                                       # and everything below them, nothing beside
 /// "top.counter" = "tb.dut.u_timer"
 ///
 /// [signals]
@@ -25,6 +25,9 @@ const PARTNER: &str = "a path in quotes, as \"tb.dut.count\", \"!tb.dut.step_n\"
 /// "top.x" = { name = "tb.dut.y", delay = 2 }     # shows 2 ticks later in the other file
 /// "#).unwrap();
 /// ```
+///
+/// Where there are `[scopes]`, a signal that is in none of them has a partner only by `[signals]`
+/// or by [`Settings::scope`](super::Settings::scope).
 ///
 /// A name of the other file may be the end of a path, if it is the end of only one: `dut.y` is
 /// `TOP.tb.dut.y` too.

@@ -12,15 +12,20 @@
 //! ```
 //!
 //! **Ticks.** A tick has the values that a flip-flop samples: those that stand just before a
-//! rising edge of the clock. A rising edge is a change from 0 to 1; the first value in a file is
-//! none. Tick 0 lasts to the first edge, tick 1 to the second. What changes at the time of an edge
-//! belongs to the tick that begins with it; within a tick the last value counts. Behind the last
-//! edge there is one more tick if the clock falls again. A window of one of this crate's dumps
-//! counts its ticks as the run did: its times tell. The clock must be 0 or 1 at all times.
+//! rising edge of the clock. A rising edge is a change from 0 to 1, or from an x or z that the file
+//! begins with; the first value in a file is none. Tick 0 lasts to the first edge, tick 1 to the
+//! second. What changes at the time of an edge belongs to the tick that begins with it; within a
+//! tick the last value counts. Behind the last edge there is one more tick if the clock falls
+//! again. A window of one of this crate's dumps counts its ticks as the run did: its times tell.
+//! From its first 0 or 1 on the clock must be one of both, except where the dump is switched off.
+//!
+//! **Dumps that are switched off** (`$dumpoff`) and on again have ticks in between, by the period of
+//! the clock, which must then be a whole part of that time. They are not compared, and counted.
+//! Ticks before a dump is switched on for the first time are none.
 //!
 //! **Pairs.** A golden signal is paired with the signal of the same path below the scope that
 //! stands for golden's outermost one. That is the scope with the most partners, unless
-//! [`Settings::scope`] names it. `mem.word5` and `mem.stage5` are the same as `mem[5]`; where the
+//! [`Settings::scope`] names it, and none where the map names scopes. `mem.word5` and `mem.stage5` are the same as `mem[5]`; where the
 //! other file has a memory of single bits as a vector, they are its bits. A [`Map`] pairs what has
 //! other names; the end of a path will do for the other file's, where it is the only one. Clocks,
 //! and variables without bits, are not compared.
@@ -32,13 +37,15 @@
 //! value of any pair was compared, that is an error.
 //!
 //! **Ticks of both.** Tick n of the golden file is held against tick n + [`Settings::skip`] of the
-//! other. What only one of them has is counted.
+//! other. What only one of them has is counted, by itself what one has behind the other's last tick:
+//! a file may be cut off there ([`Report::same_length`]).
 //!
-//! **Files that are cut off** are refused where that shows: a VCD that does not end with a line's
-//! end, and one of ours that does not end with a time.
+//! **Files that are cut off** are refused where that shows: one of ours that does not end with a time
+//! in a whole line.
 
 mod around;
 mod ends;
+mod gap;
 mod hold;
 mod map;
 mod mapped;
@@ -61,11 +68,12 @@ pub use map::Map;
 pub use report::{Cell, Difference, Mismatch, Report, Row, Side, WidthDifference};
 pub use value::WIDEST;
 
-use crate::input::Fault;
+use crate::input::{Fault, size};
 use runs::{Run, Runs, span};
 use std::ops::Range;
 use std::panic::resume_unwind;
 use std::path::Path;
+use std::thread::Builder;
 use wave::Wave;
 
 /// How two files are compared.
@@ -76,7 +84,8 @@ pub struct Settings {
     /// The other file's clock, where it has another name.
     pub other_clock: Option<String>,
     /// The scope of the other file that stands for golden's outermost scope, by its path or the
-    /// end of its path; without it the one with the most partners.
+    /// end of its path; without it the one with the most partners, or none where the map names
+    /// scopes.
     pub scope: Option<String>,
     /// Names that differ, and signals to leave out.
     pub map: Map,
@@ -134,10 +143,18 @@ pub fn template(golden: &Path, other: &Path, settings: &Settings) -> Result<Stri
 }
 
 fn read(golden: &Path, other: &Path) -> Result<(Wave, Wave), Fault> {
+    // Both before either is read.
+    for path in [golden, other] {
+        size(path, wave::LARGEST)?;
+    }
     std::thread::scope(|scope| {
-        let reading = scope.spawn(|| Wave::read(golden));
+        let reading = Builder::new().spawn_scoped(scope, || Wave::read(golden));
         let other = Wave::read(other);
-        let golden = reading.join().unwrap_or_else(|panic| resume_unwind(panic));
+        let golden = match reading {
+            Ok(reading) => reading.join().unwrap_or_else(|panic| resume_unwind(panic)),
+            // No thread to be had: one after the other.
+            Err(_) => Wave::read(golden),
+        };
         golden.and_then(|golden| Ok((golden, other?)))
     })
 }

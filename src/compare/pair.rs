@@ -104,14 +104,14 @@ pub(super) fn pair(
         }
     }
 
-    let scope = scope::find(
-        golden,
-        other,
-        clocks.1,
-        &rest,
-        wanted,
-        allowed || !pairing.pairs.is_empty(),
-    )?;
+    // Who names scopes wants these, and no other beside them that would be found by itself.
+    let scope = match scopes[..] {
+        [_, ..] if wanted.is_none() => None,
+        _ => {
+            let paired = allowed || !pairing.pairs.is_empty();
+            scope::find(golden, other, clocks.1, &rest, wanted, paired)?
+        }
+    };
     for index in rest {
         match &scope {
             Some(scope) => {

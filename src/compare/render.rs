@@ -45,9 +45,17 @@ impl Report {
         if !ports.is_empty() {
             write!(out, "ports of golden without partner: {}; ", listed(ports))?;
         }
+        for (which, side) in [("golden", &self.golden), ("other", &self.other)] {
+            if side.longer > 0 {
+                write!(out, "{which} is {} longer; ", count(side.longer, "tick"))?;
+            }
+        }
         match self.is_equal() {
             true if !ports.is_empty() || self.hardly_pairs() => {
                 writeln!(out, "what pairs is equal: {ticks}, {signals}, {values}")?;
+            }
+            true if !self.same_length() => {
+                writeln!(out, "what both have is equal: {ticks}, {signals}, {values}")?;
             }
             true => writeln!(out, "equal: {ticks}, {signals}, {values}")?,
             false => writeln!(
@@ -83,6 +91,9 @@ impl Report {
         }
         if side.alone > 0 {
             write!(out, ", {} only here", side.alone)?;
+        }
+        if side.switched_off > 0 {
+            write!(out, ", {} switched off, not compared", side.switched_off)?;
         }
         writeln!(out)
     }

@@ -57,6 +57,10 @@ pub struct Side {
     pub ticks: u64,
     /// Ticks of it that the other file does not have.
     pub alone: u64,
+    /// Those of them that are behind the other file's last tick.
+    pub longer: u64,
+    /// Common ticks in which its dump was switched off. They are not compared.
+    pub switched_off: u64,
     /// Variables without bits, such as strings and reals. They are not compared.
     pub without_bits: usize,
 }
@@ -136,6 +140,12 @@ impl Report {
     /// compared stands in the lists.
     pub fn is_equal(&self) -> bool {
         self.differences.is_empty() && self.different_widths.is_empty()
+    }
+
+    /// Whether neither file has ticks behind the other's last one. A file that is cut off behind a
+    /// time differs from a whole one in nothing else.
+    pub fn same_length(&self) -> bool {
+        self.golden.longer == 0 && self.other.longer == 0
     }
 
     /// Whether hardly any golden signal has a partner, so that two designs may have been compared

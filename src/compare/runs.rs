@@ -1,5 +1,5 @@
 use super::Settings;
-use super::hold::{Samples, Tally, hold};
+use super::hold::{Samples, Tally, hold, without};
 use super::pair::{Pair, Pairing};
 use super::report::{Difference, Report, Side};
 use super::ticks::Ticks;
@@ -36,19 +36,27 @@ pub(super) fn number(tick: i128) -> u64 {
     u64::try_from(tick).unwrap_or(0)
 }
 
+/// The ticks in which a dump was switched off, if its first has this number.
+fn off(ticks: &Ticks, zero: i128) -> impl Iterator<Item = Range<i128>> {
+    let shifted = move |off: &Range<u64>| zero + i128::from(off.start)..zero + i128::from(off.end);
+    ticks.off.iter().map(shifted)
+}
+
 impl Run {
     pub fn of(wave: Wave, clock: usize) -> Result<Self, Fault> {
         let ticks = Ticks::of(&wave, clock)?;
         Ok(Run { wave, clock, ticks })
     }
 
-    fn side(&self, alone: i128) -> Side {
+    fn side(&self, alone: i128, longer: i128, off: i128) -> Side {
         Side {
             file: self.wave.file.clone(),
             clock: self.wave.variables[self.clock].path.clone(),
             first_tick: self.ticks.first,
             ticks: self.ticks.count,
             alone: number(alone),
+            longer: number(longer),
+            switched_off: number(off),
             without_bits: self.wave.without_bits,
         }
     }
@@ -79,12 +87,24 @@ impl Runs {
 
     fn tally(&self, pair: &Pair) -> Result<Tally, Fault> {
         let (golden, other) = self.samples(pair)?;
+        let mut tally = Tally::default();
+        for ticks in self.held(&other) {
+            tally.add(hold(&golden, &other, ticks));
+        }
+        Ok(tally)
+    }
+
+    /// The ticks in which a signal is held against golden's.
+    pub fn held(&self, other: &Samples) -> Vec<Range<i128>> {
         // A signal that is late has its last ticks behind the end of the file.
         let end = self
             .common
             .end
             .min(other.zero + i128::from(self.other.ticks.count));
-        Ok(hold(&golden, &other, self.common.start..end))
+        let golden = off(&self.golden.ticks, self.golden.ticks.first.into());
+        let mut off: Vec<_> = golden.chain(off(&self.other.ticks, other.zero)).collect();
+        off.sort_by_key(|ticks| ticks.start);
+        without(self.common.start..end, off.into_iter())
     }
 
     pub fn report(&self, pairing: Pairing, settings: &Settings) -> Result<Report, Fault> {
@@ -124,13 +144,21 @@ impl Runs {
         let ports = pairing.without_partner.iter().copied().filter(is_port);
         let ports: Vec<usize> = ports.collect();
         let window = i128::from(settings.ticks.start)..i128::from(settings.ticks.end);
-        let alone = |start: i128, run: &Run| {
+        let side = |start: i128, run: &Run| {
             let end = (start + i128::from(run.ticks.count)).min(window.end);
-            (end - start.max(window.start)).max(0) - (self.common.end - self.common.start)
+            let common = self.common.end - self.common.start;
+            let alone = (end - start.max(window.start)).max(0) - common;
+            let common = &self.common;
+            let within = |off: Range<i128>| off.end.min(common.end) - off.start.max(common.start);
+            let off: i128 = off(&run.ticks, start)
+                .map(within)
+                .filter(|&ticks| ticks > 0)
+                .sum();
+            run.side(alone, end - common.end, off)
         };
         Ok(Report {
-            golden: golden.side(alone(golden.ticks.first.into(), golden)),
-            other: other.side(alone(self.start, other)),
+            golden: side(golden.ticks.first.into(), golden),
+            other: side(self.start, other),
             from_tick: number(self.common.start),
             ticks: number(self.common.end - self.common.start),
             skip: settings.skip,
@@ -153,7 +181,13 @@ impl Runs {
     /// That no value was compared, which is not the same as that the files are equal.
     pub fn no_value(&self, report: &Report) -> Fault {
         let ticks = span(self.common.clone());
+        let off = report.golden.switched_off + report.other.switched_off;
         let (file, problem, allowed) = match report.unknown_values {
+            0 if off > 0 => (
+                &report.other.file,
+                format!("nothing to compare: in {ticks} one of the two dumps is switched off"),
+                "dumps that are both on in a tick",
+            ),
             0 => (
                 &report.other.file,
                 format!(

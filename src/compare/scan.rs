@@ -3,12 +3,29 @@
 
 mod header;
 
+use super::gap::Gap;
 use crate::input::Fault;
-use header::header;
+use header::{Header, header};
 use std::collections::HashMap;
+use std::ops::Range;
 
 const VALUES: &str =
     "0, 1, x or z and the code of a variable, b and the bits, r, s, or # and a time";
+
+/// The most bytes of all values of a file as the reader holds them, a quarter of their bits: a value
+/// may be a million times as wide as it is written.
+const ROOM: u64 = 1 << 30;
+
+/// What there is to know of a VCD beside what the reader tells.
+#[derive(Debug, Default)]
+pub(super) struct Scanned {
+    /// Written by this crate.
+    pub ours: bool,
+    /// When its dump was switched off, in order.
+    pub gaps: Vec<Gap>,
+    /// Bytes that are nothing to the reader: it panics at a second `$date` or `$version`.
+    pub again: Vec<Range<usize>>,
+}
 
 /// What the values of a code are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,14 +44,14 @@ struct Words<'a> {
 }
 
 /// Refuses what is no complete VCD, with the line.
-pub(super) fn check(file: &str, bytes: &[u8]) -> Result<(), Fault> {
+pub(super) fn check(file: &str, bytes: &[u8]) -> Result<Scanned, Fault> {
     let mut words = Words {
         file,
         bytes,
         place: 0,
         line: 1,
     };
-    let (codes, ours) = header(&mut words)?;
+    let Header { codes, ours, again } = header(&mut words)?;
     if codes.is_empty() {
         return Err(Fault::new(
             file,
@@ -44,15 +61,17 @@ pub(super) fn check(file: &str, bytes: &[u8]) -> Result<(), Fault> {
             "a VCD with signals",
         ));
     }
-    let ends_with_time = body(&mut words, &codes)?;
-    if bytes.last() != Some(&b'\n') {
+    let (ends_with_time, gaps) = body(&mut words, &codes)?;
+    let whole_line = bytes.last() == Some(&b'\n');
+    // Others may do without the last line's end.
+    if ours && !whole_line {
         return Err(words.cut_off("the file ends within this line"));
     }
     if ours && !ends_with_time {
         words.line -= 1;
         return Err(words.cut_off("the last line is no time"));
     }
-    Ok(())
+    Ok(Scanned { ours, gaps, again })
 }
 
 impl<'a> Words<'a> {
@@ -102,9 +121,11 @@ impl<'a> Words<'a> {
     }
 }
 
-/// Whether the last word is a time.
-fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<bool, Fault> {
+/// Whether the last word is a time, and when the dump is switched off.
+fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<(bool, Vec<Gap>), Fault> {
     let mut now = None;
+    let mut gaps: Vec<Gap> = Vec::new();
+    let mut room = ROOM;
     let mut values = false;
     let mut ends_with_time = false;
     while let Some(word) = words.next() {
@@ -128,7 +149,9 @@ fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<bool, Fau
             b'$' => {
                 match word {
                     b"$comment" => drop(words.command(word)?),
-                    b"$dumpvars" | b"$dumpon" | b"$dumpoff" | b"$dumpall" | b"$end" => {}
+                    b"$dumpvars" | b"$dumpall" | b"$end" => {}
+                    b"$dumpoff" => Gap::switch(&mut gaps, now.unwrap_or(0), false),
+                    b"$dumpon" => Gap::switch(&mut gaps, now.unwrap_or(0), true),
                     _ => {
                         return Err(words.fault(
                             word,
@@ -168,6 +191,13 @@ fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<bool, Fau
         if !fits {
             return Err(words.fault(word, format!("is no value of {kind}"), VALUES));
         }
+        if let Kind::Bits(width) = kind {
+            let left = room.checked_sub(u64::from(*width).div_ceil(4));
+            room = left.ok_or_else(|| {
+                let allowed = format!("values of {} MiB together, by 2 bits each", ROOM >> 20);
+                words.fault(code, format!("more values of {kind} than fit"), allowed)
+            })?;
+        }
     }
     if !values {
         return Err(Fault::new(
@@ -178,7 +208,7 @@ fn body(words: &mut Words<'_>, codes: &HashMap<&[u8], Kind>) -> Result<bool, Fau
             "a VCD with values",
         ));
     }
-    Ok(ends_with_time)
+    Ok((ends_with_time, gaps))
 }
 
 impl std::fmt::Display for Kind {

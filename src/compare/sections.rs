@@ -1,6 +1,7 @@
 //! An FST is looked through before it is read: the reader makes room for whatever number of bytes
 //! or items the file claims to have, and where there is no such room the program ends.
 
+use super::gap::Gap;
 use crate::input::Fault;
 
 /// The most that deflate can make of a byte.
@@ -11,6 +12,7 @@ const LZ4: u64 = 255;
 const HEADER: u8 = 0;
 /// With the eight bytes of the length itself.
 const HEADER_LENGTH: u64 = 329;
+const BLACKOUT: u8 = 2;
 const GEOMETRY: u8 = 3;
 
 struct Section<'a> {
@@ -25,26 +27,38 @@ pub(super) fn begins(bytes: &[u8]) -> bool {
     bytes.first() == Some(&HEADER) && number(bytes, 1) == Some(HEADER_LENGTH)
 }
 
-/// Refuses sections that claim more than they can hold.
-pub(super) fn check(file: &str, bytes: &[u8]) -> Result<(), Fault> {
-    let sections = sections(bytes);
-    let holds = sections.is_some_and(|sections| {
+/// Refuses sections that claim more than they can hold. Gives the times in which the dump was
+/// switched off.
+pub(super) fn check(file: &str, bytes: &[u8]) -> Result<Vec<Gap>, Fault> {
+    let gaps = sections(bytes).and_then(|sections| {
         let complete = sections.iter().any(|section| section.kind == GEOMETRY);
         let handles = sections.iter().filter(|section| section.kind == GEOMETRY);
         let handles = handles.filter_map(|section| number(section.bytes, 8)).max();
         let fits = |section: &Section<'_>| fits(section, handles.unwrap_or(0)).is_some();
-        complete && sections.iter().all(fits)
+        let mut gaps = Vec::new();
+        for section in sections.iter().filter(|section| section.kind == BLACKOUT) {
+            blackouts(section.bytes, &mut gaps)?;
+        }
+        (complete && sections.iter().all(fits)).then_some(gaps)
     });
-    match holds {
-        true => Ok(()),
-        false => Err(Fault::new(
-            file,
-            0,
-            "file",
-            "its sections do not fit together",
-            "a complete FST, from a simulator that has ended",
-        )),
+    gaps.ok_or_else(|| {
+        let allowed = "a complete FST, from a simulator that has ended";
+        Fault::new(file, 0, "file", "its sections do not fit together", allowed)
+    })
+}
+
+/// How many, then for each whether the dump is on from there, and the time since the one before.
+fn blackouts(bytes: &[u8], gaps: &mut Vec<Gap>) -> Option<()> {
+    let (count, mut rest) = varint(bytes)?;
+    let mut time = 0u64;
+    for _ in 0..count {
+        let (&on, after) = rest.split_first()?;
+        let (delta, after) = varint(after)?;
+        time = time.checked_add(delta)?;
+        Gap::switch(gaps, time, on != 0);
+        rest = after;
     }
+    Some(())
 }
 
 /// The eight bytes at this place as a number.

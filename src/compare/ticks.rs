@@ -1,3 +1,4 @@
+use super::gap::Gap;
 use super::names::listed;
 use super::value::Value;
 use super::wave::Wave;
@@ -7,11 +8,21 @@ use std::ops::Range;
 /// The ticks of a file, counted from its start.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Ticks {
-    /// Indices of the times of the rising edges.
-    rises: Vec<u32>,
+    rises: Vec<Rise>,
     pub count: u64,
     /// The number of the file's first tick in its run.
     pub first: u64,
+    /// Ticks whose end is not in the dump, as it was switched off.
+    pub off: Vec<Range<u64>>,
+}
+
+/// A rising edge of the clock.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Rise {
+    /// The index of its time.
+    at: u32,
+    /// The tick that begins with it.
+    tick: u64,
 }
 
 /// A clock that is none.
@@ -20,6 +31,8 @@ enum Unusable {
     /// From the index of this time on it is x or z.
     Unknown(u32),
     Constant,
+    /// Nothing tells how many edges there are between these, in a time without a dump.
+    Uncounted(u32, u32),
 }
 
 impl Ticks {
@@ -33,55 +46,121 @@ impl Ticks {
             let allowed = "a clock that is 0 or 1 at all times and changes";
             Fault::new(&wave.file, 0, &wave.variables[clock].path, problem, allowed)
         };
-        let mut ticks = Ticks::by(&levels).map_err(|unusable| match unusable {
-            Unusable::Constant => fault("the clock never changes".to_owned()),
-            Unusable::Unknown(at) => {
-                let time = wave.times.get(at as usize).copied().unwrap_or(0);
-                fault(format!("the clock is x or z at {}", wave.time(time)))
-            }
-        })?;
+        let time = |at: u32| wave.time(wave.times.get(at as usize).copied().unwrap_or(0));
+        let mut ticks =
+            Ticks::by(&levels, &wave.times, &wave.gaps).map_err(|unusable| match unusable {
+                Unusable::Constant => fault("the clock never changes".to_owned()),
+                Unusable::Unknown(at) => fault(format!("the clock is x or z at {}", time(at))),
+                Unusable::Uncounted(from, to) => {
+                    let (from, to) = (time(from), time(to));
+                    let allowed = "a clock of which a whole number of periods fits in between";
+                    Fault {
+                        allowed: allowed.to_owned(),
+                        ..fault(format!(
+                            "its edges between {from} and {to} cannot be counted: the dump is switched off"
+                        ))
+                    }
+                }
+            })?;
         if wave.ours {
             ticks.first = first(wave, &levels);
         }
         Ok(ticks)
     }
 
-    fn by(levels: &[(u32, Option<bool>)]) -> Result<Self, Unusable> {
-        let mut rises = Vec::new();
+    fn by(levels: &[(u32, Option<bool>)], times: &[u64], gaps: &[Gap]) -> Result<Self, Unusable> {
+        let time = |at: u32| times.get(at as usize).copied().unwrap_or(0);
+        // The edges between two gaps.
+        let mut runs: Vec<Vec<u32>> = vec![Vec::new()];
         let mut before = None;
         let mut changed = false;
+        // The file begins with an x or z.
+        let mut unset = false;
+        let mut gaps = gaps.iter().peekable();
         for (place, &(at, level)) in levels.iter().enumerate() {
             // Within a time the last value counts.
             if levels.get(place + 1).is_some_and(|next| next.0 == at) {
                 continue;
             }
-            let Some(level) = level else {
-                return Err(Unusable::Unknown(at));
-            };
-            changed |= before == Some(!level);
-            if before == Some(false) && level {
-                rises.push(at);
+            // Behind a gap the level is a first one again.
+            while gaps
+                .next_if(|gap| gap.to.is_some_and(|to| to <= time(at)))
+                .is_some()
+            {
+                runs.push(Vec::new());
+                (before, unset) = (None, false);
             }
-            before = Some(level);
+            let off = gaps.peek().is_some_and(|gap| gap.contains(time(at)));
+            let Some(level) = level else {
+                if before.is_some() && !off {
+                    return Err(Unusable::Unknown(at));
+                }
+                unset = !off;
+                continue;
+            };
+            let rises = level && (before == Some(false) || unset);
+            changed |= before == Some(!level) || rises;
+            if rises && let Some(run) = runs.last_mut() {
+                run.push(at);
+            }
+            (before, unset) = (Some(level), false);
         }
         if !changed {
             return Err(Unusable::Constant);
         }
+        let ends_off = gaps.peek().is_some();
+        let mut ticks = Ticks::join(&runs, time)?;
         // The interval behind the last edge is a tick once the clock has fallen again.
-        let count = rises.len() as u64 + u64::from(before == Some(false));
-        Ok(Ticks {
-            rises,
-            count,
+        let whole = before == Some(false)
+            && !ends_off
+            && runs
+                .last()
+                .is_some_and(|run| !run.is_empty() || runs.len() == 1);
+        ticks.count += u64::from(whole);
+        Ok(ticks)
+    }
+
+    /// Numbers the edges; between two runs of them by the period of either.
+    fn join(runs: &[Vec<u32>], time: impl Fn(u32) -> u64) -> Result<Self, Unusable> {
+        let mut ticks = Ticks {
+            rises: Vec::new(),
+            count: 0,
             first: 0,
-        })
+            off: Vec::new(),
+        };
+        let mut earlier: &[u32] = &[];
+        for run in runs.iter().filter(|run| !run.is_empty()) {
+            if let ([.., last], [first, ..]) = (earlier, &run[..]) {
+                let period = match (earlier, &run[..]) {
+                    ([.., one, two], _) | (_, [one, two, ..]) => time(*two) - time(*one),
+                    _ => 0,
+                };
+                let between = time(*first) - time(*last);
+                if period == 0 || !between.is_multiple_of(period) {
+                    return Err(Unusable::Uncounted(*last, *first));
+                }
+                // The tick that the first edge ends has its end in the dump.
+                let end = ticks.count + between / period - 1;
+                if end > ticks.count {
+                    ticks.off.push(ticks.count..end);
+                }
+                ticks.count = end;
+            }
+            for &at in run {
+                ticks.count += 1;
+                let tick = ticks.count;
+                ticks.rises.push(Rise { at, tick });
+            }
+            earlier = run;
+        }
+        Ok(ticks)
     }
 
     /// When a tick of the file begins.
     pub fn time(&self, wave: &Wave, tick: u64) -> u64 {
-        let rise = tick
-            .checked_sub(1)
-            .and_then(|edge| self.rises.get(edge as usize));
-        let index = rise.map_or(0, |&rise| rise as usize);
+        let after = self.rises.partition_point(|rise| rise.tick <= tick);
+        let rise = after.checked_sub(1).and_then(|place| self.rises.get(place));
+        let index = rise.map_or(0, |rise| rise.at as usize);
         wave.times.get(index).copied().unwrap_or(0)
     }
 
@@ -90,15 +169,16 @@ impl Ticks {
     pub fn sample(&self, changes: &[(u32, Value)]) -> Vec<(u64, Value)> {
         let mut samples: Vec<(u64, Value)> = Vec::new();
         let mut tick = 0;
+        let mut rises = self.rises.iter().peekable();
         for &(at, value) in changes {
             // What changes with the edge belongs to the tick that begins with it.
-            while self.rises.get(tick).is_some_and(|&rise| rise <= at) {
-                tick += 1;
+            while let Some(rise) = rises.next_if(|rise| rise.at <= at) {
+                tick = rise.tick;
             }
             match samples.last_mut() {
-                Some(last) if last.0 == tick as u64 => last.1 = value,
-                _ if tick as u64 >= self.count => break,
-                _ => samples.push((tick as u64, value)),
+                Some(last) if last.0 == tick => last.1 = value,
+                _ if tick >= self.count => break,
+                _ => samples.push((tick, value)),
             }
         }
         samples

@@ -1,6 +1,7 @@
+use super::gap::Gap;
 use super::names::{self, listed};
 use super::quiet::catch;
-use super::scan;
+use super::scan::{self, Scanned};
 use super::sections;
 use super::times;
 use super::value::Value;
@@ -10,6 +11,11 @@ use std::io::Cursor;
 use std::path::Path;
 use wellen::simple::Waveform;
 use wellen::{SignalRef, SignalValueRef, VarDirection, VarType};
+
+/// The largest file that is compared, in bytes: the reader takes several times as much memory.
+pub(super) const LARGEST: u64 = 1 << 30;
+
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// A variable that has bits.
 #[derive(Debug)]
@@ -56,6 +62,8 @@ pub(super) struct Wave {
     pub times: Vec<u64>,
     /// Written by this crate, so that its times tell its ticks.
     pub ours: bool,
+    /// When its dump was switched off, in order.
+    pub gaps: Vec<Gap>,
     pub(super) unit: Option<(u32, &'static str)>,
     by_path: HashMap<String, usize>,
     by_element: HashMap<String, Option<usize>>,
@@ -64,24 +72,38 @@ pub(super) struct Wave {
 
 impl Wave {
     pub fn read(path: &Path) -> Result<Self, Fault> {
-        // Waves may be as large as there is memory for.
-        Self::parse(&path.display().to_string(), read_bytes(path, u64::MAX)?)
+        Self::parse(&path.display().to_string(), read_bytes(path, LARGEST)?)
     }
 
-    pub fn parse(file: &str, bytes: Vec<u8>) -> Result<Self, Fault> {
+    pub fn parse(file: &str, mut bytes: Vec<u8>) -> Result<Self, Fault> {
         let fault = |problem: &str, allowed: &str| Fault::new(file, 0, "file", problem, allowed);
         let formats = "a VCD or an FST";
+        if bytes.starts_with(BYTE_ORDER_MARK) {
+            bytes.drain(..BYTE_ORDER_MARK.len());
+        }
+        let scanned;
         let kind = match bytes.trim_ascii_start().first() {
             None => return Err(fault("empty", formats)),
             Some(b'$') => {
-                scan::check(file, &bytes)?;
+                scanned = scan::check(file, &bytes)?;
+                for again in &scanned.again {
+                    bytes.get_mut(again.clone()).unwrap_or_default().fill(b' ');
+                }
+                if bytes.last() != Some(&b'\n') {
+                    // The reader leaves out a last line without an end.
+                    bytes.push(b'\n');
+                }
                 "VCD"
             }
             Some(_) => {
                 if !sections::begins(&bytes) {
                     return Err(fault("neither a VCD nor an FST", formats));
                 }
-                sections::check(file, &bytes)?;
+                scanned = Scanned {
+                    ours: false,
+                    gaps: sections::check(file, &bytes)?,
+                    again: Vec::new(),
+                };
                 "FST"
             }
         };
@@ -99,17 +121,18 @@ impl Wave {
                 ));
             }
         };
-        Self::of(file, waveform)
+        Self::of(file, waveform, scanned)
     }
 
-    fn of(file: &str, waveform: Waveform) -> Result<Self, Fault> {
+    fn of(file: &str, waveform: Waveform, scanned: Scanned) -> Result<Self, Fault> {
         let hierarchy = waveform.hierarchy();
         let mut wave = Wave {
             file: file.to_owned(),
             variables: Vec::new(),
             without_bits: 0,
             times: waveform.time_table().to_vec(),
-            ours: hierarchy.version().trim().starts_with("motion-rtl "),
+            ours: scanned.ours || hierarchy.version().trim().starts_with("motion-rtl "),
+            gaps: scanned.gaps,
             unit: hierarchy.timescale().and_then(times::unit),
             by_path: HashMap::new(),
             by_element: HashMap::new(),

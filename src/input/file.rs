@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::fs::{File, Metadata};
-use std::io::Read as _;
+use std::io::{self, Read as _};
 use std::path::Path;
 
 use super::{Drawing, Fault, gcode, hpgl};
@@ -156,23 +156,9 @@ fn reader(name: &str, path: &Path) -> Result<Reader, Fault> {
 ///
 /// A path that is neither a regular file nor a pipe, cannot be read or is larger than `most` bytes.
 pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
-    let name = path.display().to_string();
-    let fault = |problem: String| Fault::new(&name, 0, "file", problem, "a readable file");
-    let too_large = || {
-        let allowed = format!("at most {most} bytes");
-        Fault::new(&name, 0, "file", "too large", allowed)
-    };
-    let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"));
-    // Asked before opening, which may do something to a device.
-    let metadata = path.metadata().map_err(unreadable)?;
-    if !(metadata.is_file() || is_pipe(&metadata)) {
-        return Err(fault("not a regular file".to_owned()));
-    }
-    if metadata.len() > most {
-        return Err(too_large());
-    }
+    let room = size(path, most)?;
+    let unreadable = |error| unreadable(path, &error);
     let mut bytes = Vec::new();
-    let room = usize::try_from(metadata.len()).map_err(|_| too_large())?;
     let reserved = bytes.try_reserve_exact(room);
     reserved.map_err(|error| unreadable(error.into()))?;
     let file = File::open(path).map_err(unreadable)?;
@@ -180,9 +166,53 @@ pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Fault> {
     let mut reader = file.take(most.saturating_add(1));
     let length = reader.read_to_end(&mut bytes).map_err(unreadable)?;
     if length as u64 > most {
-        return Err(too_large());
+        return Err(too_large(path, most));
     }
     Ok(bytes)
+}
+
+/// The bytes of a file before it is read; of a pipe none.
+///
+/// # Errors
+///
+/// As [`read_bytes`], without reading.
+pub(crate) fn size(path: &Path, most: u64) -> Result<usize, Fault> {
+    // Asked before opening, which may do something to a device.
+    let metadata = path.metadata().map_err(|error| unreadable(path, &error))?;
+    if !(metadata.is_file() || is_pipe(&metadata)) {
+        return Err(fault(
+            path,
+            "not a regular file".to_owned(),
+            "a readable file",
+        ));
+    }
+    match usize::try_from(metadata.len()) {
+        Ok(size) if metadata.len() <= most => Ok(size),
+        _ => Err(too_large(path, most)),
+    }
+}
+
+fn fault(path: &Path, problem: String, allowed: impl Into<String>) -> Fault {
+    Fault::new(&path.display().to_string(), 0, "file", problem, allowed)
+}
+
+fn too_large(path: &Path, most: u64) -> Fault {
+    fault(
+        path,
+        "too large".to_owned(),
+        format!("at most {most} bytes"),
+    )
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> Fault {
+    let dangles = error.kind() == io::ErrorKind::NotFound && path.is_symlink();
+    match path.read_link() {
+        Ok(target) if dangles => {
+            let problem = format!("is a link to {}, which is not there", target.display());
+            fault(path, problem, "a readable file")
+        }
+        _ => fault(path, format!("cannot be read: {error}"), "a readable file"),
+    }
 }
 
 #[cfg(unix)]

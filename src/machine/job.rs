@@ -119,6 +119,21 @@ pub struct Played {
     pub settled: bool,
     /// Something came too late, or could not be counted.
     pub fault: bool,
+    /// What of it.
+    pub causes: Causes,
+}
+
+/// What came too late, or could not be counted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Causes {
+    /// A scan of the linear interpolator.
+    pub scan: bool,
+    /// A sampling time of the arc generator or of the trajectory controller.
+    pub sample: bool,
+    /// An edge of a servo's encoder.
+    pub servo: bool,
+    /// An edge of the pen lift's encoder.
+    pub lift: bool,
 }
 
 /// What the plants are driven by.
@@ -192,6 +207,10 @@ struct See {
     pulse_busy: At<bool>,
     unit: At<bool>,
     fault: At<bool>,
+    scan: [At<bool>; 2],
+    sample: [At<bool>; 5],
+    servo: [At<bool>; 2],
+    lift_lost: At<bool>,
     lift: SeeLift,
     lift_busy: At<bool>,
     driven: At<bool>,
@@ -217,12 +236,25 @@ impl See {
     fn of(watch: &Watcher<Plant>) -> Self {
         let (q, w) = (&watch.q, &watch.w);
         let (axes, lift) = (&q.trajectory_controller.axes, &w.lead_angle.w);
+        let (lines, arcs) = (&w.linear_interpolator.w, &w.arc_generator.w);
+        let trajectory = &w.trajectory_controller.w;
         See {
             lines: [(w.step_x, w.dir_x), (w.step_y, w.dir_y)]
                 .map(|(step, dir)| (watch.at(step), watch.at(dir))),
             pulse_busy: watch.at(w.pulse_busy),
             unit: watch.at(w.enables.w.unit),
             fault: watch.at(w.fault),
+            scan: [lines.late, lines.refused].map(|bit| watch.at(bit)),
+            sample: [
+                arcs.late,
+                arcs.starved,
+                trajectory.late,
+                trajectory.profile_late,
+                trajectory.starved,
+            ]
+            .map(|bit| watch.at(bit)),
+            servo: trajectory.lost.map(|bit| watch.at(bit)),
+            lift_lost: watch.at(lift.lost),
             lift: SeeLift {
                 fire: watch.at(lift.fire),
                 complete: watch.at(lift.complete),
@@ -269,7 +301,15 @@ impl Bench {
                 .push(from_fn(|axis| around.drivers[axis].position()));
             played.step_ticks.push(now.tick);
         }
-        played.fault |= now.get(see.fault);
+        if now.get(see.fault) {
+            let any = |bits: &[At<bool>]| bits.iter().any(|&bit| now.get(bit));
+            let causes = &mut played.causes;
+            played.fault = true;
+            causes.scan |= any(&see.scan);
+            causes.sample |= any(&see.sample);
+            causes.servo |= any(&see.servo);
+            causes.lift |= now.get(see.lift_lost);
+        }
         let lift = &see.lift;
         if now.get(lift.fire) {
             self.lifting = Some(Lifting {

@@ -1,12 +1,22 @@
 //! Files that appear whole or not at all, whatever ends the program. What a loss of power leaves is
 //! up to the file system: they are not synchronised.
 
-use std::fs;
+mod left;
+mod naming;
+
+pub use left::{Claim, clear};
+pub use naming::commit_all;
+
+use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
-use std::mem;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
+
+/// What the names of temporary files begin with, so that those that were left are known again.
+const PREFIX: &str = ".motion-rtl-";
+/// What they end with.
+const SUFFIX: &str = ".part";
 
 /// A file that takes its name only when it is complete.
 ///
@@ -38,20 +48,14 @@ impl AtomicFile {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".").suffix(".part");
-        // A temporary file is private; this one is to become an ordinary file.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         // Made while the list is held: a signal in between would leave it.
         let made = unfinished(|all| {
             let all = all.as_mut().ok_or(io::ErrorKind::Interrupted)?;
-            let file = builder.tempfile_in(directory)?;
+            let file = temporary(directory)?;
             all.push(file.path().to_owned());
             Ok(file)
         });
-        // The kind alone: the rest would name the temporary file.
-        let file = made.map_err(|error: io::Error| named(&path, &error.kind().into()))?;
+        let file = made.map_err(|error: io::Error| named(&path, &error))?;
         Ok(AtomicFile {
             _unfinished: Unfinished(vec![file.path().to_owned()]),
             file,
@@ -63,43 +67,39 @@ impl AtomicFile {
     /// Gives the file its name.
     ///
     /// # Errors
-    /// The rename failed; nothing stays behind. The error names the path.
+    /// The rename failed; nothing stays behind. The files were [abandoned](abandon). The error names
+    /// the path.
     pub fn commit(self) -> io::Result<PathBuf> {
-        let AtomicFile {
-            file, path, target, ..
-        } = self;
-        match file.persist(&target) {
-            Ok(_) => Ok(path),
-            Err(failed) => Err(named(&path, &failed.error)),
-        }
+        let path = self.path.clone();
+        commit_all([self]).map(|_| path)
     }
 }
 
-/// Gives all of them their names, or none: where one cannot be named, those before it go again. What
-/// these have replaced is gone then too.
-///
-/// # Errors
-/// A rename failed. The error names the path.
-pub fn commit_all(files: impl IntoIterator<Item = AtomicFile>) -> io::Result<Vec<PathBuf>> {
-    let (mut named, mut targets) = (Vec::new(), Vec::new());
-    for file in files {
-        let target = file.target.clone();
-        match file.commit() {
-            Ok(path) => {
-                named.push(path);
-                // A link stays, and what it leads to goes.
-                targets.push(target);
-            }
-            Err(error) => {
-                for target in targets {
-                    // The first error is the one to report.
-                    let _ = fs::remove_file(target);
-                }
-                return Err(error);
-            }
+/// A file in this directory that is locked while it is open, so that others see that somebody
+/// writes it.
+fn temporary(directory: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
+    loop {
+        // The builder's own error would name the temporary file.
+        let mut failed = None;
+        let made = builder.make_in(directory, |path| {
+            // Not private, as such files are otherwise: it is to become an ordinary one.
+            let opened = File::options()
+                .read(true)
+                .write(true)
+                .create_new(true)
+                .open(path);
+            opened.inspect_err(|error| failed = error.raw_os_error())
+        });
+        let file = made.map_err(|error| failed.map_or(error, io::Error::from_raw_os_error))?;
+        // Where files cannot be locked, what is left is never removed.
+        let _ = file.as_file().lock();
+        // Before it was locked it may have been taken for one that was left.
+        if left::is_there(file.as_file(), file.path()) {
+            return Ok(file);
         }
     }
-    Ok(named)
 }
 
 impl Write for AtomicFile {
@@ -141,13 +141,17 @@ fn unfinished<T>(work: impl FnOnce(&mut Option<Vec<PathBuf>>) -> T) -> T {
     work(&mut UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Removes every temporary file, and what is empty of the directories made for them: for a program
-/// that is about to end by a signal, which drops nothing. The files are still open; from then on
-/// commits fail, and nothing can be begun.
-pub fn abandon() {
-    for path in unfinished(mem::take).into_iter().flatten().rev() {
-        let _ = fs::remove_file(&path).or_else(|_| fs::remove_dir(&path));
-    }
+/// Removes every temporary file, and what is empty of the directories made for them, and does what
+/// ends the program: for one that a signal ends, which drops nothing. It waits until files that are
+/// being named have their names. The files are still open; until `end` returns who begins, names or
+/// drops one waits, and from then on nothing can be begun or named.
+pub fn abandon<T>(end: impl FnOnce() -> T) -> T {
+    unfinished(|all| {
+        for path in all.take().into_iter().flatten().rev() {
+            let _ = fs::remove_file(&path).or_else(|_| fs::remove_dir(&path));
+        }
+        end()
+    })
 }
 
 /// A directory that is there from now on; dropped while it is still empty, it goes again.
@@ -178,7 +182,10 @@ impl Directory {
             all.extend(made);
             fs::create_dir_all(path)
         });
-        created.map_err(|error| named(path, &error))?;
+        created.map_err(|error| match dangling(path) {
+            Some(link) => named(&link, &io::Error::new(io::ErrorKind::NotFound, DANGLES)),
+            None => named(path, &error),
+        })?;
         Ok(directory)
     }
 }
@@ -233,151 +240,17 @@ fn target(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many symbolic links"))
 }
 
+const DANGLES: &str = "is a link to what is not there";
+
+/// The link on a path that leads to nothing.
+fn dangling(path: &Path) -> Option<PathBuf> {
+    let dangles = |path: &&Path| path.is_symlink() && !path.exists();
+    path.ancestors().find(dangles).map(Path::to_owned)
+}
+
 fn named(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn names(directory: &Path) -> Vec<String> {
-        let mut names: Vec<_> = fs::read_dir(directory)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
-        names.sort();
-        names
-    }
-
-    #[test]
-    fn a_file_has_its_name_only_when_committed() {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("a.txt");
-        fs::write(&path, "old").unwrap();
-        let mut file = AtomicFile::create(&path).unwrap();
-        file.write_all(b"new").unwrap();
-        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
-        assert_eq!(file.commit().unwrap(), path);
-        assert_eq!(fs::read_to_string(&path).unwrap(), "new");
-        assert_eq!(names(directory.path()), ["a.txt"]);
-    }
-
-    #[test]
-    fn a_dropped_file_leaves_nothing() {
-        let directory = tempfile::tempdir().unwrap();
-        let mut file = AtomicFile::create(directory.path().join("a.txt")).unwrap();
-        file.write_all(b"half").unwrap();
-        assert_eq!(names(directory.path()).len(), 1);
-        drop(file);
-        assert!(names(directory.path()).is_empty());
-    }
-
-    #[test]
-    fn a_failed_rename_leaves_nothing_and_names_the_path() {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("taken");
-        fs::create_dir_all(path.join("full")).unwrap();
-        let error = write(&path, "text").unwrap_err();
-        assert!(error.to_string().contains("taken"), "{error}");
-        assert_eq!(names(directory.path()), ["taken"]);
-    }
-
-    #[test]
-    fn whole_files_may_bring_their_directory() {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("new/a.txt");
-        write(&path, "text").unwrap();
-        assert_eq!(fs::read_to_string(&path).unwrap(), "text");
-    }
-
-    #[test]
-    fn a_directory_goes_again_where_it_stays_empty() {
-        let outer = tempfile::tempdir().unwrap();
-        let deep = outer.path().join("a/b/c");
-        let directory = Directory::create(&deep).unwrap();
-        assert!(deep.is_dir());
-        drop(directory);
-        assert!(names(outer.path()).is_empty());
-
-        let directory = Directory::create(&deep).unwrap();
-        fs::write(outer.path().join("a/x"), "").unwrap();
-        drop(directory);
-        assert_eq!(names(&outer.path().join("a")), ["x"]);
-
-        let file = outer.path().join("a/x");
-        let error = Directory::create(&file.join("y/z")).unwrap_err();
-        assert!(error.to_string().contains("a/x/y/z: "), "{error}");
-        let before = fs::read_dir(outer.path()).unwrap().count();
-        drop(Directory::create(outer.path()).unwrap());
-        assert_eq!(fs::read_dir(outer.path()).unwrap().count(), before);
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_link_stays_and_what_it_leads_to_is_written() {
-        use std::os::unix::fs::symlink;
-        let directory = tempfile::tempdir().unwrap();
-        let at = |name: &str| directory.path().join(name);
-        fs::create_dir(at("far")).unwrap();
-        fs::write(at("far/old"), "old").unwrap();
-        symlink("far/old", at("there")).unwrap();
-        symlink(at("there"), at("by_two")).unwrap();
-        symlink("far/new", at("not_yet")).unwrap();
-        for (link, target) in [
-            ("there", "far/old"),
-            ("by_two", "far/old"),
-            ("not_yet", "far/new"),
-        ] {
-            assert_eq!(write(at(link), link).unwrap(), at(link));
-            assert!(at(link).is_symlink(), "{link}");
-            assert!(!at(target).is_symlink(), "{link}");
-            assert_eq!(fs::read_to_string(at(target)).unwrap(), link);
-        }
-        // The temporary file stands where the rename is one step.
-        let file = AtomicFile::create(at("there")).unwrap();
-        assert_eq!(names(&at("far")).len(), 3);
-        drop(file);
-        symlink("circle", at("circle")).unwrap();
-        let error = write(at("circle"), "").unwrap_err().to_string();
-        assert!(
-            error.ends_with("circle: too many symbolic links"),
-            "{error}"
-        );
-        let left = ["by_two", "circle", "far", "not_yet", "there"];
-        assert_eq!(names(directory.path()), left);
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn what_is_no_regular_file_stays() {
-        use std::os::unix::fs::{FileTypeExt, symlink};
-        let directory = tempfile::tempdir().unwrap();
-        let socket = directory.path().join("socket");
-        let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
-        let link = directory.path().join("link");
-        symlink("socket", &link).unwrap();
-        for path in [&socket, &link] {
-            let error = write(path, "text").unwrap_err();
-            let text = "is not a regular file, and only such a file is replaced";
-            assert_eq!(error.to_string(), format!("{}: {text}", path.display()));
-        }
-        let kind = socket.symlink_metadata().unwrap().file_type();
-        assert!(kind.is_socket());
-        assert!(link.is_symlink());
-        assert_eq!(names(directory.path()), ["link", "socket"]);
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_file_is_as_readable_as_any_other() {
-        use std::os::unix::fs::PermissionsExt;
-        let directory = tempfile::tempdir().unwrap();
-        let ours = directory.path().join("ours");
-        let plain = directory.path().join("plain");
-        write(&ours, "").unwrap();
-        fs::write(&plain, "").unwrap();
-        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
-        assert_eq!(mode(&ours), mode(&plain));
-    }
-}
+mod tests;

@@ -47,7 +47,8 @@ impl<S: Sink> Behind<S> {
             // The channel has room for all of them, and its other end is here.
             let _ = back.send(Section::default());
         }
-        let thread = Builder::new().name("waves".into()).spawn(move || {
+        let thread = Builder::new().name("waves".into());
+        let thread = thread.spawn(move || {
             for mut section in work {
                 sink.write(&section)?;
                 section.clear();
@@ -55,6 +56,10 @@ impl<S: Sink> Behind<S> {
                 let _ = back.send(section);
             }
             Ok(sink)
+        });
+        let thread = thread.map_err(|error| {
+            let text = format!("a thread for the waves could not be started: {error}");
+            io::Error::new(error.kind(), text)
         })?;
         Ok(Behind {
             section: Section::default(),

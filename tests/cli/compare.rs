@@ -88,13 +88,21 @@ fn equal_waves_are_equal() {
         ],
     );
     let text = expect![[r#"
-        equal: 4 ticks (0 to 3), 2 signals, 8 values
+        other is 1 tick longer; what both have is equal: 4 ticks (0 to 3), 2 signals, 8 values
         golden golden.vcd: clock counter.clk, 4 ticks
         other  other.vcd: clock tb.dut.clk, scope tb.dut, 5 ticks, 1 only here
 
         signals not compared: 1 without partner in other
     "#]];
-    shows(&bench(&other), &[], 0, &text);
+    shows(&bench(&other), &["--any-length"], 0, &text);
+    let text = expect![[r#"
+        equal: 4 ticks (0 to 3), 2 signals, 8 values
+        golden golden.vcd: clock counter.clk, 4 ticks
+        other  other.vcd: clock tb.dut.clk, scope tb.dut, 5 ticks
+
+        signals not compared: 1 without partner in other
+    "#]];
+    shows(&bench(&other), &["--ticks", "4"], 0, &text);
 }
 
 #[test]

@@ -78,9 +78,9 @@ fn files_that_are_no_waves_are_refused() {
         "#]],
         ),
         (
-            "$date a $end\n$date b $end\n",
+            "$timescale 1 ns $end\n$timescale 1 ps $end\n",
             &expect![[r#"
-            error: o.vcd:2: $date: stands here again; allowed: one in a file
+            error: o.vcd:2: $timescale: stands here again; allowed: one in a file
         "#]],
         ),
         (

@@ -1,6 +1,6 @@
 //! Directories and files that cannot be written.
 
-use super::support::{Bench, LINE, PROGRAM, SHORT};
+use super::support::{Bench, LINE, SHORT};
 
 const WRITABLE: &str = "allowed: a directory that can be written";
 
@@ -46,7 +46,7 @@ fn a_directory_in_the_place_of_a_file_stays_and_is_the_only_one() {
 #[test]
 fn a_directory_that_takes_no_files_is_refused() {
     let bench = Bench::with("l.hpgl", LINE);
-    let text = format!("--out: /proc/l.vcd: entity not found; {WRITABLE}");
+    let text = format!("--out: /proc/l.vcd: No such file or directory (os error 2); {WRITABLE}");
     bench.refuse(&run(&["--out", "/proc"]), &text);
 }
 
@@ -64,7 +64,7 @@ fn a_directory_without_permission_is_refused() {
     permit(0o555);
     // To root nothing is locked.
     if std::fs::write(locked.join("probe"), "").is_err() {
-        let text = format!("--out: locked/l.vcd: permission denied; {WRITABLE}");
+        let text = format!("--out: locked/l.vcd: Permission denied (os error 13); {WRITABLE}");
         bench.refuse(&run(&["--out", "locked"]), &text);
     }
     permit(0o755);
@@ -136,46 +136,89 @@ fn a_table_cannot_replace_a_directory() {
     );
 }
 
-/// Ctrl-C, and what asks a program to end.
 #[cfg(unix)]
 #[test]
-fn an_interrupted_run_leaves_nothing() {
-    use std::process::{Command, Stdio};
-    use std::time::Duration;
-    for signal in ["-INT", "-TERM"] {
-        let bench = Bench::new();
-        let mut run = Command::new(PROGRAM)
-            .args(["run", "waves/turntable.toml", "--out", "new/deep"])
-            .current_dir(bench.path(""))
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        // It has begun to write.
-        while !bench.names().iter().any(|name| name.ends_with(".part")) {
-            assert_eq!(run.try_wait().unwrap(), None, "it is over");
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        let pid = run.id().to_string();
-        let sent = Command::new("kill").args([signal, &pid]).status().unwrap();
-        assert!(sent.success());
-        assert_eq!(run.wait().unwrap().code(), Some(130), "{signal}");
-        assert!(bench.names().is_empty(), "{signal}: {:?}", bench.names());
+fn links_to_nothing_say_so() {
+    let bench = Bench::with("l.hpgl", LINE);
+    for link in ["o", "d.hpgl", "d.toml"] {
+        std::os::unix::fs::symlink("nowhere", bench.path(link)).unwrap();
+    }
+    let text = format!("--out: o: is a link to what is not there; {WRITABLE}");
+    bench.refuse(&run(&["--out", "o"]), &text);
+    for link in ["d.hpgl", "d.toml"] {
+        let text = "is a link to nowhere, which is not there; allowed: a readable file";
+        bench.refuse(&["run", link], &format!("{link}: file: {text}"));
     }
 }
 
-/// As `nohup` begins it.
-#[cfg(unix)]
+/// A limit on open files: too low for those of the run, high enough to begin.
+#[cfg(target_os = "linux")]
 #[test]
-fn a_run_that_is_to_ignore_the_end_of_its_terminal_goes_on() {
-    use std::process::Command;
-    let bench = Bench::new();
-    let text = "trap '' HUP; \"$0\" run waves/turntable.toml --no-vcd & run=$!; \
-                sleep 0.2; kill -HUP $run; wait $run";
-    let done = Command::new("sh")
-        .args(["-c", text, PROGRAM])
-        .current_dir(bench.path(""))
-        .output()
-        .unwrap();
-    assert_eq!(done.status.code(), Some(0), "{done:?}");
+fn too_many_open_files_are_called_so() {
+    let bench = Bench::with("l.hpgl", LINE);
+    let mut said = Vec::new();
+    for limit in 3..40 {
+        let script = format!("ulimit -n {limit}; exec \"$0\" \"$@\"");
+        let arguments = [
+            &["-c", script.as_str(), super::support::PROGRAM],
+            &run(&["--out", "o"])[..],
+        ];
+        let mut command = assert_cmd::Command::new("sh");
+        let output = command.current_dir(bench.path("")).args(arguments.concat());
+        let output = output
+            .timeout(std::time::Duration::from_secs(60))
+            .output()
+            .unwrap();
+        let text = String::from_utf8(output.stderr).unwrap();
+        match output.status.code() {
+            Some(0) => break,
+            // The system's loader.
+            Some(127) => {}
+            code => {
+                assert_eq!(code, Some(2), "{limit}: {text}");
+                said.push(text);
+            }
+        }
+    }
+    assert!(
+        said.iter()
+            .any(|text| text.contains("o/l.vcd: Too many open files")),
+        "{said:?}"
+    );
+    for text in &said {
+        assert!(
+            text.contains("Too many open files") && !text.contains("motion-rtl-"),
+            "{text}"
+        );
+    }
+}
+
+/// What comes from a file is shown as far as it helps, and as nothing that a terminal obeys.
+#[test]
+fn messages_are_cut_and_plain() {
+    let long = "k".repeat(3_000_000);
+    let bench = Bench::with("long.toml", format!("circuit = \"machine\"\n{long} = 1\n"));
+    bench.write("long.csv", format!("0,0\n1,{long}\n2,2\n"));
+    bench.write("odd.csv", "0,0\n1,\u{1b}[31m\u{7}\n2,2\n");
+    bench.write("odd.toml", "circuit = \"machine\"\n\"\\u001b[31m\" = 1\n");
+    for (name, shown) in [
+        ("long.toml", "kkkk"),
+        ("long.csv", "kkkk"),
+        ("odd.csv", "\\u{1b}[31m\\u{7}"),
+        ("odd.toml", "\\u{1b}[31m"),
+    ] {
+        let done = bench.run(&["run", name, "--no-vcd"]);
+        let text = done.stderr.trim_end_matches('\n');
+        assert_eq!(done.code, 2, "{name}");
+        assert!(
+            text.len() < 12_000 && text.contains(shown),
+            "{name}: {text}"
+        );
+        assert!(!text.contains(char::is_control), "{name}: {text:?}");
+        assert_eq!(
+            text.contains(" bytes more)"),
+            name.starts_with("long"),
+            "{name}: {text}"
+        );
+    }
 }

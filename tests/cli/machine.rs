@@ -434,3 +434,16 @@ fn bad_input_is_refused_with_its_line() {
         "s.toml:1: circuit: the machine has no table; allowed: pulse_interpolator, or the command run",
     );
 }
+
+/// An unlucky setting: what is to blame is named, with its value.
+#[test]
+fn what_was_too_fast_or_late_names_its_keys() {
+    let bench = Bench::new();
+    let run = ["run", "waves/machine.toml", "--no-vcd", "--out", "o"];
+    let done = bench.run(&[&run[..], &["--set", "speed_hz=400"]].concat());
+    let text = "error: fault: the encoder of a servo was too fast; raise clock_hz = 160000, or lower \
+                counts_per_mm = 1000, feed_mm_per_min = 1500, rapid_mm_per_min = 3000 or, where the \
+                servo swings, position_gain_per_s = 16 or speed_hz = 400\n";
+    assert!(done.stderr.starts_with(text), "{}", done.stderr);
+    assert_eq!(done.code, 1);
+}

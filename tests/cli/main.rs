@@ -10,6 +10,7 @@ mod compare_names;
 mod compare_refusals;
 mod damage;
 mod drawings;
+mod dumps;
 mod files;
 mod fst;
 mod lead_angle;
@@ -27,6 +28,8 @@ mod refusals;
 mod runs;
 mod scenarios;
 mod settings;
+#[cfg(unix)]
+mod signals;
 mod streams;
 mod support;
 mod tables;

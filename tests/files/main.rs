@@ -1,6 +1,7 @@
 //! Files that are read and written: waves and their comparison, drawings and programs, Verilog.
 
 mod compare;
+mod fuzz;
 mod input;
 mod verilog;
 mod waves;

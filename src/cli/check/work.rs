@@ -3,7 +3,7 @@
 use super::parts::Shard;
 use super::report::{Ended, Kind, Row};
 use super::tasks::Task;
-use crate::cli::Failure;
+use crate::cli::{Failure, threads};
 use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::check::Proof;
 use motion_rtl::kernel::RunError;
@@ -41,6 +41,7 @@ impl Bars {
 /// The rows of a part of the tasks, in their order. Proofs run side by side, a thread each; then the
 /// sweeps one by one, each on all threads, so that the time of a row is its own.
 pub fn run(tasks: &[Task], shard: Shard, limit: u32, out: &Path) -> Result<Vec<Row>, Failure> {
+    threads::start()?;
     let mine = shard.of(tasks);
     let bars = Bars::new(mine.len());
     let done = |(index, task): (usize, &Task)| {

@@ -9,9 +9,7 @@ use motion_rtl::machine::program::Move;
 /// What is wrong with the run; empty where nothing is.
 pub fn complaints(job: &Job, played: &Played, ends: &Ends) -> Vec<String> {
     let mut all = Vec::new();
-    if played.fault {
-        all.push("fault: a circuit was late, or an encoder too fast".to_owned());
-    }
+    all.extend(causes(job, played));
     if !played.settled {
         all.push(restless(job, played));
     }
@@ -25,6 +23,52 @@ pub fn complaints(job: &Job, played: &Played, ends: &Ends) -> Vec<String> {
         }
     }
     all
+}
+
+/// What was too late or too fast, with the keys that make it so.
+fn causes(job: &Job, played: &Played) -> Vec<String> {
+    let (settings, causes) = (&job.settings, played.causes);
+    let motion = &settings.motion;
+    let all = [
+        (
+            causes.scan,
+            format!(
+                "the linear interpolator was late; raise scan_ticks = {}",
+                settings.scan_ticks
+            ),
+        ),
+        (
+            causes.sample,
+            format!(
+                "the arc generator or the trajectory controller was late; raise sample_ticks = {}",
+                settings.sample_ticks
+            ),
+        ),
+        (
+            causes.servo,
+            format!(
+                "the encoder of a servo was too fast; raise clock_hz = {}, or lower counts_per_mm = \
+                 {}, feed_mm_per_min = {}, rapid_mm_per_min = {} or, where the servo swings, \
+                 position_gain_per_s = {} or speed_hz = {}",
+                settings.clock_hz,
+                settings.counts_per_mm,
+                motion.feed_mm_per_min,
+                motion.rapid_mm_per_min,
+                settings.position_gain_per_s,
+                settings.speed_hz
+            ),
+        ),
+        (
+            causes.lift,
+            format!(
+                "the encoder of the pen lift was too fast; raise clock_hz = {}, or lower \
+                 lift_counts_per_s = {}",
+                settings.clock_hz, settings.lift_counts_per_s
+            ),
+        ),
+    ];
+    let all = all.into_iter().filter(|(seen, _)| *seen);
+    all.map(|(_, text)| format!("fault: {text}")).collect()
 }
 
 /// In which move the servos did not come to rest, and what helps.

@@ -10,11 +10,11 @@ mod verdict;
 
 pub use job::Job;
 
-use super::Failure;
 use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
+use super::{Failure, threads};
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::settings::JobError;
 use motion_rtl::trace::Options;
@@ -76,12 +76,19 @@ fn all<const AXES: usize>(
     // Before the others run, as what it refuses would wait for them.
     let traces = Traces::begin((&circuit, &circuit), arguments, scenario, options, ticks)?;
     thread::scope(|scope| {
-        let others = CORRECTIONS.map(|correction| {
+        let mut others = Vec::new();
+        for correction in CORRECTIONS {
             let untraced = move || untraced::<AXES>(job, correction);
-            (correction != traced).then(|| scope.spawn(untraced))
-        });
+            let started = (correction != traced)
+                .then(|| thread::Builder::new().spawn_scoped(scope, untraced))
+                .transpose();
+            others.push(started.map_err(|error| threads::none(&error))?);
+        }
         let own = simulate(&circuit, job, traces);
-        let others = others.map(|other| other.map(thread::ScopedJoinHandle::join));
+        let others: Vec<_> = others
+            .into_iter()
+            .map(|other| other.map(thread::ScopedJoinHandle::join))
+            .collect();
         let (own, files) = own?;
         let mut own = Some(own);
         let mut runs = Vec::new();

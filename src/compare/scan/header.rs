@@ -1,16 +1,26 @@
 use super::{Kind, Words};
 use crate::input::Fault;
 use std::collections::{HashMap, HashSet};
+use std::ops::Range;
 
 /// The widest variable, in bits. Beyond it a wrong number is likelier than a signal.
 const WIDEST: u32 = 1 << 20;
 
-/// The codes that are declared, and whether this crate wrote the file.
-pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<(HashMap<&'a [u8], Kind>, bool), Fault> {
-    let mut codes = HashMap::new();
+/// What stands before the values.
+#[derive(Default)]
+pub(super) struct Header<'a> {
+    /// The codes that are declared.
+    pub codes: HashMap<&'a [u8], Kind>,
+    /// This crate wrote the file.
+    pub ours: bool,
+    /// Where there is a second `$date` or `$version`.
+    pub again: Vec<Range<usize>>,
+}
+
+pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<Header<'a>, Fault> {
+    let mut header = Header::default();
     let mut once = HashSet::new();
     let mut depth = 0;
-    let mut ours = false;
     while let Some(name) = words.next() {
         if !name.starts_with(b"$") {
             return Err(words.fault(
@@ -20,15 +30,21 @@ pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<(HashMap<&'a [u8], Kin
             ));
         }
         let line = words.line;
+        let begin = words.place - name.len();
         let body = words.command(name)?;
+        let again = !once.insert(name);
         match name {
-            b"$date" | b"$version" | b"$timescale" => {
-                if !once.insert(name) {
-                    return Err(words.fault(name, "stands here again", "one in a file"));
-                }
-                ours |= name == b"$version" && body.first() == Some(&&b"motion-rtl"[..]);
+            b"$timescale" if again => {
+                return Err(words.fault(name, "stands here again", "one in a file"));
             }
-            b"$comment" | b"$attrbegin" | b"$attrend" => {}
+            // Each program that the file went through may have left its own.
+            b"$date" | b"$version" => {
+                header.ours |= name == b"$version" && body.first() == Some(&&b"motion-rtl"[..]);
+                if again {
+                    header.again.push(begin..words.place);
+                }
+            }
+            b"$timescale" | b"$comment" | b"$attrbegin" | b"$attrend" => {}
             b"$scope" if body.len() < 2 => {
                 return Err(words.fault(name, "a word is missing", "$scope KIND NAME $end"));
             }
@@ -37,7 +53,7 @@ pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<(HashMap<&'a [u8], Kin
                 return Err(words.fault(name, "no scope is open", "one $upscope for each $scope"));
             }
             b"$upscope" => depth -= 1,
-            b"$var" => variable(words, line, &body, &mut codes)?,
+            b"$var" => variable(words, line, &body, &mut header.codes)?,
             b"$enddefinitions" => {
                 // The reader begins with the next line.
                 let rest = &words.bytes[words.place..];
@@ -52,7 +68,7 @@ pub(super) fn header<'a>(words: &mut Words<'a>) -> Result<(HashMap<&'a [u8], Kin
                         "values in lines of their own",
                     ));
                 }
-                return Ok((codes, ours));
+                return Ok(header);
             }
             _ => {
                 return Err(words.fault(

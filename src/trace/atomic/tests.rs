@@ -1,0 +1,262 @@
+use super::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+fn names(directory: &Path) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(directory)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_file_has_its_name_only_when_committed() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("a.txt");
+    fs::write(&path, "old").unwrap();
+    let mut file = AtomicFile::create(&path).unwrap();
+    file.write_all(b"new").unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+    assert_eq!(file.commit().unwrap(), path);
+    assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+    assert_eq!(names(directory.path()), ["a.txt"]);
+}
+
+#[test]
+fn a_dropped_file_leaves_nothing() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut file = AtomicFile::create(directory.path().join("a.txt")).unwrap();
+    file.write_all(b"half").unwrap();
+    assert_eq!(names(directory.path()).len(), 1);
+    drop(file);
+    assert!(names(directory.path()).is_empty());
+}
+
+#[test]
+fn a_failed_rename_leaves_nothing_and_names_the_path() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("taken");
+    fs::create_dir_all(path.join("full")).unwrap();
+    let error = write(&path, "text").unwrap_err();
+    assert!(error.to_string().contains("taken"), "{error}");
+    assert_eq!(names(directory.path()), ["taken"]);
+}
+
+#[test]
+fn whole_files_may_bring_their_directory() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("new/a.txt");
+    write(&path, "text").unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "text");
+}
+
+#[test]
+fn a_directory_goes_again_where_it_stays_empty() {
+    let outer = tempfile::tempdir().unwrap();
+    let deep = outer.path().join("a/b/c");
+    let directory = Directory::create(&deep).unwrap();
+    assert!(deep.is_dir());
+    drop(directory);
+    assert!(names(outer.path()).is_empty());
+
+    let directory = Directory::create(&deep).unwrap();
+    fs::write(outer.path().join("a/x"), "").unwrap();
+    drop(directory);
+    assert_eq!(names(&outer.path().join("a")), ["x"]);
+
+    let file = outer.path().join("a/x");
+    let error = Directory::create(&file.join("y/z")).unwrap_err();
+    assert!(error.to_string().contains("a/x/y/z: "), "{error}");
+    let before = fs::read_dir(outer.path()).unwrap().count();
+    drop(Directory::create(outer.path()).unwrap());
+    assert_eq!(fs::read_dir(outer.path()).unwrap().count(), before);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_and_what_it_leads_to_is_written() {
+    use std::os::unix::fs::symlink;
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name);
+    fs::create_dir(at("far")).unwrap();
+    fs::write(at("far/old"), "old").unwrap();
+    symlink("far/old", at("there")).unwrap();
+    symlink(at("there"), at("by_two")).unwrap();
+    symlink("far/new", at("not_yet")).unwrap();
+    for (link, target) in [
+        ("there", "far/old"),
+        ("by_two", "far/old"),
+        ("not_yet", "far/new"),
+    ] {
+        assert_eq!(write(at(link), link).unwrap(), at(link));
+        assert!(at(link).is_symlink(), "{link}");
+        assert!(!at(target).is_symlink(), "{link}");
+        assert_eq!(fs::read_to_string(at(target)).unwrap(), link);
+    }
+    // The temporary file stands where the rename is one step.
+    let file = AtomicFile::create(at("there")).unwrap();
+    assert_eq!(names(&at("far")).len(), 3);
+    drop(file);
+    symlink("circle", at("circle")).unwrap();
+    let error = write(at("circle"), "").unwrap_err().to_string();
+    assert!(
+        error.ends_with("circle: too many symbolic links"),
+        "{error}"
+    );
+    let left = ["by_two", "circle", "far", "not_yet", "there"];
+    assert_eq!(names(directory.path()), left);
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_stays() {
+    use std::os::unix::fs::{FileTypeExt, symlink};
+    let directory = tempfile::tempdir().unwrap();
+    let socket = directory.path().join("socket");
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+    let link = directory.path().join("link");
+    symlink("socket", &link).unwrap();
+    for path in [&socket, &link] {
+        let error = write(path, "text").unwrap_err();
+        let text = "is not a regular file, and only such a file is replaced";
+        assert_eq!(error.to_string(), format!("{}: {text}", path.display()));
+    }
+    let kind = socket.symlink_metadata().unwrap().file_type();
+    assert!(kind.is_socket());
+    assert!(link.is_symlink());
+    assert_eq!(names(directory.path()), ["link", "socket"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_is_as_readable_as_any_other() {
+    use std::os::unix::fs::PermissionsExt;
+    let directory = tempfile::tempdir().unwrap();
+    let ours = directory.path().join("ours");
+    let plain = directory.path().join("plain");
+    write(&ours, "").unwrap();
+    fs::write(&plain, "").unwrap();
+    let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+    assert_eq!(mode(&ours), mode(&plain));
+}
+
+fn begin(directory: &Path, name: &str, text: &str) -> AtomicFile {
+    let mut file = AtomicFile::create(directory.join(name)).unwrap();
+    file.write_all(text.as_bytes()).unwrap();
+    file
+}
+
+#[test]
+fn where_one_cannot_be_named_the_older_ones_are_there_again() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name);
+    fs::write(path("a"), "old").unwrap();
+    let all = ["a", "b", "c", "d"];
+    let files = all.map(|name| begin(directory.path(), name, "new"));
+    // In the way only after the file was begun.
+    fs::create_dir_all(path("c/full")).unwrap();
+    let error = commit_all(files).unwrap_err().to_string();
+    assert!(
+        error.starts_with(&path("c").display().to_string()),
+        "{error}"
+    );
+    assert_eq!(names(directory.path()), ["a", "c"]);
+    assert_eq!(fs::read_to_string(path("a")).unwrap(), "old");
+    fs::remove_dir_all(path("c")).unwrap();
+    let files = all.map(|name| begin(directory.path(), name, "new"));
+    assert_eq!(commit_all(files).unwrap(), all.map(path));
+    assert_eq!(names(directory.path()), all);
+    assert_eq!(fs::read_to_string(path("a")).unwrap(), "new");
+}
+
+#[test]
+fn what_nobody_writes_any_more_is_removed() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name);
+    let others = [".motion-rtl-x.txt", ".other.part", "motion-rtl-x.part"];
+    for name in others {
+        fs::write(path(name), "").unwrap();
+    }
+    fs::create_dir(path(".motion-rtl-d.part")).unwrap();
+    let file = begin(directory.path(), "a", "half");
+    let claim = Claim::new(directory.path(), "a").unwrap().unwrap();
+    assert!(clear(directory.path()).is_empty());
+    for name in [".motion-rtl-x.part", ".motion-rtl-x.lock"] {
+        fs::write(path(name), "").unwrap();
+    }
+    let removed = clear(directory.path());
+    assert_eq!(
+        removed,
+        [".motion-rtl-x.lock", ".motion-rtl-x.part"].map(path)
+    );
+    assert_eq!(names(directory.path()).len(), others.len() + 3);
+    file.commit().unwrap();
+    drop(claim);
+    assert_eq!(clear(directory.path()), [] as [PathBuf; 0]);
+    assert_eq!(fs::read_to_string(path("a")).unwrap(), "half");
+}
+
+#[test]
+fn a_stem_has_one_writer_at_a_time() {
+    let directory = tempfile::tempdir().unwrap();
+    let long = "\u{e9}".repeat(127);
+    for stem in ["a", &long] {
+        let claim = Claim::new(directory.path(), stem).unwrap().unwrap();
+        let error = Claim::new(directory.path(), stem).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::ResourceBusy);
+        let text = error.to_string();
+        assert!(
+            text.ends_with(": is being written by another run"),
+            "{text}"
+        );
+        let other = Claim::new(directory.path(), "b").unwrap().unwrap();
+        drop(claim);
+        drop(Claim::new(directory.path(), stem).unwrap().unwrap());
+        drop(other);
+        assert!(names(directory.path()).is_empty());
+    }
+    // Where no file can be made there is no claim; who writes there says why not.
+    assert!(
+        Claim::new(&directory.path().join("none"), "a")
+            .unwrap()
+            .is_none()
+    );
+}
+
+/// Whoever writes at the same time never takes a file that is being written for one that was left.
+#[test]
+fn files_that_are_only_just_begun_are_no_leftovers() {
+    let directory = tempfile::tempdir().unwrap();
+    let over = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while !over.load(Ordering::Relaxed) {
+                clear(directory.path());
+            }
+        });
+        let write = |name: &String| {
+            begin(directory.path(), name, name).commit()?;
+            fs::read_to_string(directory.path().join(name))
+        };
+        let names: Vec<_> = (0..300).map(|k: u32| k.to_string()).collect();
+        let wrong = names
+            .iter()
+            .find(|name| write(name).ok().as_ref() != Some(name));
+        over.store(true, Ordering::Relaxed);
+        assert_eq!(wrong, None);
+    });
+}
+
+#[cfg(unix)]
+#[test]
+fn a_directory_that_is_a_link_to_nothing_says_so() {
+    let outer = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink("nowhere", outer.path().join("link")).unwrap();
+    let error = Directory::create(&outer.path().join("link/deep")).unwrap_err();
+    let text = format!(
+        "{}: is a link to what is not there",
+        outer.path().join("link").display()
+    );
+    assert_eq!(error.to_string(), text);
+}
