@@ -36,7 +36,7 @@ fn bad_drawings_are_refused() {
         ("p.ngc", b"G1 X1 F0\n", "p.ngc:1: F: a feed of 0; allowed: a feed above 0".into()),
         ("p.ngc", b"G1 X1 F100000000\n", "p.ngc:1: F: is 100000000 mm/min; allowed: 0.001 to 10000000 mm/min".into()),
         ("p.ngc", b"G2 X10 R1\n", "p.ngc:1: R: a radius of 1.0000 mm does not span 10.0000 mm; allowed: half the distance to the end, or more".into()),
-        ("p.ngc", b"\xff\xfeG1 X1\n", "p.ngc:1: line: characters that are not UTF-8; allowed: ASCII letters, digits and signs, in lines that end in LF or CR LF".into()),
+        ("p.ngc", b"\xff\xfeG1 X1\n", "p.ngc:1: line: characters that are not UTF-8; allowed: ASCII letters, digits and signs, in lines that end in LF, CR or CR LF".into()),
         ("p.txt", b"PD1,1;", format!("p.txt: file: unknown extension .txt; allowed: {KNOWN}")),
     ];
     for (name, text, refusal) in cases {
