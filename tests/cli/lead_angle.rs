@@ -201,27 +201,28 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
         stop error in counts   largest       rms  missed  timed out
         no lead                   1555     910.3       0          0
         by speed                   555     239.5       0          0
+        tuned                      549     231.1       0          0
         fixed lead                 955     464.6       0          0
         learning                   569     299.4       0          0  in the waves
         literal sign              1429     678.8       0          0
 
         positionings 0 to 3: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  by speed  fixed lead  learning  literal sign      lead  one code  settled after
-           0      3000   20000       366      -134          66        12           120   17.7 ms       2.0          never
-           1         0   40000      1010        10         410       160           652   21.2 ms       8.0          never
+        step    target   speed   no lead  by speed     tuned  fixed lead  learning  literal sign      lead  one code  settled after
+           0      3000   20000       366      -134         0          66        12           120   17.7 ms       2.0          never
+           1         0   40000      1010        10         0         410       160           652   21.2 ms       8.0          never
 
         positionings 4 to 5, with the other load: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  by speed  fixed lead  learning  literal sign      lead  one code  settled after
-           0      3000   20000       504         4         204       138           338   18.3 ms       2.0          never
-           1         0   40000      1555       555         955       569          1429   24.6 ms       8.0          never
+        step    target   speed   no lead  by speed     tuned  fixed lead  learning  literal sign      lead  one code  settled after
+           0      3000   20000       504         4       138         204       138           338   18.3 ms       2.0          never
+           1         0   40000      1555       555       549         955       569          1429   24.6 ms       8.0          never
 
-        positioning  step   no lead  by speed  fixed lead  learning  literal sign      lead  one code
-                  0     0       366      -134          66        66            66   15.0 ms       2.0
-                  1     1      1006         6         406       406           406   15.0 ms       4.0
-                  2     0       366      -134          66        12           120   17.7 ms       2.0
-                  3     1      1010        10         410       160           652   21.2 ms       8.0
-                  4     0       504         4         204       138           338   18.3 ms       2.0
-                  5     1      1555       555         955       569          1429   24.6 ms       8.0
+        positioning  step   no lead  by speed     tuned  fixed lead  learning  literal sign      lead  one code
+                  0     0       366      -134         0          66        66            66   15.0 ms       2.0
+                  1     1      1006         6         0         406       406           406   15.0 ms       4.0
+                  2     0       366      -134         0          66        12           120   17.7 ms       2.0
+                  3     1      1010        10         0         410       160           652   21.2 ms       8.0
+                  4     0       504         4       138         204       138           338   18.3 ms       2.0
+                  5     1      1555       555       549         955       569          1429   24.6 ms       8.0
 
         wrote waves/s.svg
     "#]].assert_eq(&text);

@@ -136,7 +136,7 @@ fn a_pattern_that_comes_too_late_costs_time_and_no_pulse() {
 
 #[test]
 fn the_literal_variant_ends_elsewhere() {
-    let (table, report, played) = run::<2>("F1000\nG3 X0 Y0 I9 J4\nG1 X30 Y7\n", Variant::Literal);
+    let (table, report, played) = run::<2>("F3700\nG1 X300 Y70\n", Variant::Literal);
     assert_ne!(played.positions, expected(&table));
     let ends: Vec<_> = played.axes.iter().map(|axis| axis.position()).collect();
     let demanded: Vec<_> = report.axes.iter().map(|axis| axis.steps_demanded).collect();
