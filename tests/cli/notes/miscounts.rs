@@ -66,7 +66,7 @@ impl Data {
                 .map(recipe)
                 .collect(),
             Data::Filling => (1..=period / 2)
-                .filter(|pulses| period % (2 * pulses) == 0)
+                .filter(|pulses| period.is_multiple_of(2 * pulses))
                 .map(recipe)
                 .collect(),
         }
