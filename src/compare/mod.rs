@@ -25,7 +25,8 @@
 //!
 //! **Pairs.** A golden signal is paired with the signal of the same path below the scope that
 //! stands for golden's outermost one. That is the scope with the most partners, unless
-//! [`Settings::scope`] names it, and none where the map names scopes. `mem.word5` and `mem.stage5` are the same as `mem[5]`; where the
+//! [`Settings::scope`] names it, and none where the map names scopes. `mem.word5` and `mem.stage5`
+//! are the same as `mem[5]`; where the
 //! other file has a memory of single bits as a vector, they are its bits. A [`Map`] pairs what has
 //! other names; the end of a path will do for the other file's, where it is the only one. Clocks,
 //! and variables without bits, are not compared.

@@ -10,7 +10,7 @@ use super::targets::TIME_BITS;
 pub const SPEED_ONE: u64 = 1 << TIME_BITS;
 
 /// The slowest speed of a target in counts a scan: the fraction rounds it by at most 1 %.
-pub const FASTEST_LOSS: f64 = 100.0 / SPEED_ONE as f64;
+pub const SLOWEST: f64 = 100.0 / SPEED_ONE as f64;
 
 /// A speed this little below a step of the fraction is that step: a rounding of floating point must
 /// not cost one.

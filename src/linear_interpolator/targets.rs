@@ -4,7 +4,7 @@
 //! points rounded to encoder counts one by one, so that no error adds up. A Z is ignored.
 
 use super::LinearInterpolator;
-use super::profile::{FASTEST_LOSS, Profile, SPEED_ONE, speed_word};
+use super::profile::{Profile, SLOWEST, SPEED_ONE, speed_word};
 use super::settings::{AXIS_NAMES, Settings};
 use crate::input::{Drawing, Point};
 use crate::plan::digits::round_up;
@@ -187,7 +187,7 @@ impl Compiler<'_> {
         let longer = longer[master];
         let scans = x_mm.hypot(y_mm) / (feed / 60.0) / settings.scan_s();
         let exact = longer as f64 / scans;
-        let slowest = FASTEST_LOSS.max(longer as f64 / MOST_STEADY);
+        let slowest = SLOWEST.max(longer as f64 / MOST_STEADY);
         let Some(speed) = speed_word(exact).filter(|_| exact >= slowest) else {
             let least = round_up(feed * slowest / exact);
             let value = feed;

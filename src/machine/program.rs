@@ -10,7 +10,7 @@ use crate::arc_generator::record::{Record, records as arc_records};
 use crate::arc_generator::vector::{add, sub};
 use crate::arc_generator::widths::Widths as ArcWidths;
 use crate::input::{Drawing, Point};
-use crate::linear_interpolator::profile::{FASTEST_LOSS, SPEED_ONE, speed_word};
+use crate::linear_interpolator::profile::{SLOWEST, SPEED_ONE, speed_word};
 use crate::pulse_interpolator::{Report, Table, TableError, compile};
 use crate::settings::SettingError;
 use crate::trajectory_controller::Widths;
@@ -239,7 +239,7 @@ fn line_speed(way: [f64; 2], speed: f64, settings: &Settings) -> Result<(u64, f6
     }
     // Counts a scan, at a millimetre a second.
     let scale = settings.counts_per_mm * settings.scan_s() * master / length;
-    let least = FASTEST_LOSS / scale;
+    let least = SLOWEST / scale;
     let word = speed_word(speed * scale).filter(|_| speed >= least);
     let word = word.ok_or(Reason::Slow { speed, least })?;
     Ok((word, word as f64 / SPEED_ONE as f64 / scale))

@@ -1,5 +1,6 @@
 //! What a run is compared with: the same steps without a lead, by speed with one parameter and with
-//! one for each step that is tuned to the nominal load, with a fixed lead, with a lead that is learned, and learned with the text's sign; where the scenario has positionings
+//! one for each step that is tuned to the nominal load, with a fixed lead, with a lead that is
+//! learned, and learned with the text's sign; where the scenario has positionings
 //! complete by a fixed time, learned at standstills too.
 
 use motion_rtl::lead_angle::job::Played;

@@ -346,7 +346,7 @@ impl<'a> Runner<'a> {
                     ));
                 }
             }
-            K::If if !holds => self.branch(onward, line)?,
+            K::If if !holds => self.branch(onward)?,
             // A branch that was run to its end.
             K::ElseIf | K::Else => self.go_after(end),
             K::While if closes && holds => self.go_after(head),
@@ -375,7 +375,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Tries the branches behind an IF that does not hold.
-    fn branch(&mut self, mut at: Option<usize>, _: usize) -> Result<(), Problem> {
+    fn branch(&mut self, mut at: Option<usize>) -> Result<(), Problem> {
         while let Some(place) = self.place(at) {
             let (keyword, start, line, onward) =
                 (place.keyword, place.start, place.line, place.onward);
