@@ -4,6 +4,7 @@ mod arc;
 pub mod check;
 mod chosen;
 pub mod compare;
+mod faults;
 mod files;
 mod lead_angle;
 mod linear;
@@ -78,6 +79,14 @@ impl From<JobError> for Failure {
 }
 
 impl Failure {
+    /// What is told on standard error.
+    pub fn report(&self) -> String {
+        match self {
+            Failure::Input(fault) => faults::report(fault),
+            failure => format!("error: {failure}"),
+        }
+    }
+
     /// The exit code.
     pub fn code(&self) -> ExitCode {
         match self {

@@ -130,13 +130,9 @@ impl Source {
         if circuit.takes(kind) {
             return Ok(());
         }
-        Err(Fault {
-            file: input.display().to_string(),
-            line: 0,
-            field: "file".to_owned(),
-            problem: format!("is {kind}, which {} does not take", circuit.name()),
-            allowed: circuit.inputs().to_owned(),
-        })
+        let problem = format!("is {kind}, which {} does not take", circuit.name());
+        let name = input.display().to_string();
+        Err(Fault::new(&name, 0, "file", problem, circuit.inputs()))
     }
 }
 
@@ -148,13 +144,7 @@ pub fn drawing_fault(
     problem: String,
     allowed: String,
 ) -> Fault {
-    Fault {
-        file: drawing.file.clone(),
-        line,
-        field: field.to_owned(),
-        problem,
-        allowed,
-    }
+    Fault::new(&drawing.file, line, field, problem, allowed)
 }
 
 /// Says on a terminal that the input is being compiled, until it is dropped.

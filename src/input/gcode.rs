@@ -3,8 +3,8 @@
 //! # What moves
 //!
 //! G0, G1, arcs (G2, G3, full circles, helices, P turns; centres by I, J, K, relative or by G90.1,
-//! or R) in the planes G17, G18 and G19, the splines G5 and G5.1, probing (G38.2 to G38.5, which
-//! goes to its end as if nothing was touched), drilling (G73, G81 to G86 and G89 with G98 and G99,
+//! or R) in the planes G17, G18 and G19, the splines G5 and G5.1, the NURBS G5.2 to G5.3 and G6.2,
+//! probing (G38.2 to G38.5, which goes to its end as if nothing was touched), drilling (G73, G81 to G86 and G89 with G98 and G99,
 //! L or K times), and G28 and G30 by way of their axis words. G80 with another motion in its line
 //! yields to it.
 //! Arcs in G18 and G19 and splines become chords within 0.001 mm, which a warning says.
@@ -49,7 +49,7 @@
 //!
 //! What would change the path otherwise: other rotary positions, cutter compensation (G41, G42),
 //! scaling, mirroring, rotation, polar coordinates, diameters (G7), feeds per turn (G95), turning
-//! and threading cycles, NURBS, macro calls, calls into other files, unknown words.
+//! and threading cycles, macro calls, calls into other files, unknown words.
 //!
 //! # Text
 //!
@@ -65,8 +65,10 @@ mod cycle;
 mod expression;
 mod flow;
 mod machine;
+mod mark;
 mod modal;
 mod motion;
+mod nurbs;
 mod offsets;
 mod parameters;
 mod problem;
@@ -82,6 +84,9 @@ const G_MOTIONS: &str = "G0 G1 G2 G3";
 /// Reads a G-code program; `file` is the name that warnings and faults carry.
 ///
 /// # Errors
+///
+/// After a fault the reader goes on with the next line, and does not tell of what may be a fault for
+/// no other reason than that one before it.
 ///
 /// What the [module](self) says is refused; a number that is none or is out of range; a feed of
 /// zero or less; an arc whose ends and centre or radius do not fit; a coordinate beyond

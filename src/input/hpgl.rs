@@ -39,7 +39,7 @@ mod settings;
 mod skipped;
 mod text;
 
-use super::{Drawing, Fault, Options};
+use super::{Drawing, Fault, Faults, Options};
 use curve::Tolerance;
 use fill::Fill;
 use lexer::{Item, Lexer, Mnemonic};
@@ -54,6 +54,8 @@ use text::Text;
 /// and so is a byte order mark.
 ///
 /// # Errors
+///
+/// After a fault the reader goes on behind the instruction.
 ///
 /// Text that is not HPGL, an instruction that is not known and may move the pen, a number that is
 /// none or is out of range, an odd count of coordinates, a wrong count of other parameters, a scale
@@ -72,7 +74,7 @@ pub fn read(file: &str, text: &[u8]) -> Result<Drawing, Fault> {
 /// As [`read`].
 pub fn read_with(file: &str, text: &[u8], options: &Options) -> Result<Drawing, Fault> {
     let fault = match draw_all(Plotter::new(file, text, options.lenient)) {
-        Err(fault) if fault.field == "PE" => fault,
+        Err(fault) if fault.all().any(|fault| fault.field == "PE") => fault,
         result => return result,
     };
     let Some(bytes) = bytes_of_utf8(text) else {
@@ -86,13 +88,22 @@ pub fn read_with(file: &str, text: &[u8], options: &Options) -> Result<Drawing, 
 }
 
 fn draw_all(mut plotter: Plotter<'_>) -> Result<Drawing, Fault> {
-    while let Some(item) = plotter.lexer.item()? {
-        plotter.run(item)?;
+    let mut faults = Faults::default();
+    loop {
+        let done = match plotter.lexer.item() {
+            Ok(None) => break,
+            Ok(Some(item)) => plotter.run(item),
+            Err(fault) => Err(fault),
+        };
+        if let Err(fault) = done {
+            if !faults.add(plotter.lexer.marked(fault)) {
+                break;
+            }
+            plotter.lexer.recover();
+        }
     }
-    plotter
-        .paper
-        .track
-        .finish("an HPGL drawing with at least one move")
+    let track = plotter.paper.track;
+    faults.or(|| track.finish("an HPGL drawing with at least one move"))
 }
 
 /// The bytes of a text that an editor has made UTF-8 of, each of them a character then.

@@ -13,9 +13,10 @@ mod columns;
 
 pub use columns::{Columns, Place};
 
-use super::{Fault, LARGEST_FILE, read_bytes};
+use super::{Fault, Faults, LARGEST_FILE, read_bytes};
 use columns::Survey;
 use csv::{ByteRecord, Reader, ReaderBuilder, Trim};
+use std::iter;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -108,15 +109,15 @@ pub fn read_path(path: &Path, columns: &Columns) -> Result<PositionLog, Fault> {
 /// is no number, a count outside [`COUNTS_RANGE`], a time that does not rise, fewer than two samples
 /// or more than [`MOST_SAMPLES`].
 pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, Fault> {
-    let log = Log { file: name };
-    log.check_text(text)?;
+    let log = Log { file: name, text };
+    log.check_text()?;
     let mut survey = None;
-    log.each(text, |line, fields| {
+    log.each(|line, fields| {
         match &mut survey {
             None => survey = Some(Survey::begin(line, fields)),
             Some(survey) => survey.add(fields),
         }
-        Ok(())
+        true
     })?;
     let Some(survey) = survey else {
         return Err(log.too_short(0));
@@ -124,10 +125,8 @@ pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, F
     let (time, counts) = columns.choose(&log, &survey)?;
     let mut first = None;
     let mut samples: Vec<Sample> = Vec::new();
-    log.each(text, |line, fields| {
-        if survey.is_header(line) {
-            return Ok(());
-        }
+    let mut faults = Faults::default();
+    let mut sample = |line, fields: &[&str], samples: &mut Vec<Sample>| {
         let at = log.number(line, &time, fields)?;
         let seconds = (at - *first.get_or_insert(at)) * columns.time_unit_s;
         let counts = log.counts(line, &counts, fields)?;
@@ -135,7 +134,7 @@ pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, F
             && !(seconds > before.seconds && seconds.is_finite())
         {
             let problem = format!("{at} does not rise above line {}", before.line);
-            return Err(log.fault(line, &time.name, problem, "times that rise"));
+            return Err(log.fault_at(line, &time, problem, "times that rise"));
         }
         if samples.len() == MOST_SAMPLES {
             let problem = format!("more than {MOST_SAMPLES} samples");
@@ -148,21 +147,33 @@ pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, F
             line,
         });
         Ok(())
+    };
+    log.each(|line, fields| {
+        if survey.is_header(line) {
+            return true;
+        }
+        match sample(line, fields, &mut samples) {
+            Ok(()) => true,
+            Err(fault) => faults.add(fault) && samples.len() < MOST_SAMPLES,
+        }
     })?;
-    if samples.len() < 2 {
-        return Err(log.too_short(samples.len()));
-    }
-    Ok(PositionLog {
-        file: name.to_owned(),
-        time,
-        counts,
-        samples,
+    faults.or(|| {
+        if samples.len() < 2 {
+            return Err(log.too_short(samples.len()));
+        }
+        Ok(PositionLog {
+            file: name.to_owned(),
+            time,
+            counts,
+            samples,
+        })
     })
 }
 
 /// A log being read.
 struct Log<'a> {
     file: &'a str,
+    text: &'a [u8],
 }
 
 impl Log<'_> {
@@ -170,32 +181,56 @@ impl Log<'_> {
         Fault::new(self.file, line, field, problem, allowed)
     }
 
+    /// A fault of a field, with its line.
+    fn fault_at(
+        &self,
+        line: usize,
+        place: &Place,
+        problem: impl Into<String>,
+        allowed: &str,
+    ) -> Fault {
+        let ends = self.text.iter().enumerate();
+        let ends = ends.filter(|(_, byte)| **byte == b'\n');
+        let mut begins = iter::once(0).chain(ends.map(|(at, _)| at + 1));
+        let begin = begins.nth(line - 1).unwrap_or(0);
+        let rest = self.text.get(begin..).unwrap_or_default();
+        let written = rest.split(|byte| matches!(byte, b'\n' | b'\r')).next();
+        let written = written.unwrap_or_default();
+        let mut at = begin;
+        let mut fields = written.split(|byte| *byte == b',').map(|field| {
+            let begin = at + field.len() - field.trim_ascii_start().len();
+            at += field.len() + 1;
+            begin..begin + field.trim_ascii().len()
+        });
+        // Within quotes there may be commas, and the line may lack the field.
+        let field = fields.nth(place.index).filter(|_| !written.contains(&b'"'));
+        let marked = field.unwrap_or(begin..begin + written.len());
+        self.fault(line, &place.name, problem, allowed)
+            .marked(self.text, &marked)
+    }
+
     fn too_short(&self, samples: usize) -> Fault {
         let problem = format!("{samples} samples in it");
         self.fault(0, "file", problem, "a log of 2 samples or more")
     }
 
-    fn check_text(&self, text: &[u8]) -> Result<(), Fault> {
-        let Err(error) = str::from_utf8(text) else {
+    fn check_text(&self) -> Result<(), Fault> {
+        let Err(error) = str::from_utf8(self.text) else {
             return Ok(());
         };
-        let before = &text[..error.valid_up_to()];
+        let before = &self.text[..error.valid_up_to()];
         let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
         Err(self.fault(line, "file", "not UTF-8", "a position log in CSV"))
     }
 
-    /// Hands over the records with their lines, the header among them.
-    fn each(
-        &self,
-        text: &[u8],
-        mut take: impl FnMut(usize, &[&str]) -> Result<(), Fault>,
-    ) -> Result<(), Fault> {
+    /// Hands over the records with their lines, the header among them, as long as they are wanted.
+    fn each(&self, mut take: impl FnMut(usize, &[&str]) -> bool) -> Result<(), Fault> {
         let mut reader: Reader<&[u8]> = ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
             .trim(Trim::All)
             .comment(Some(b'#'))
-            .from_reader(text);
+            .from_reader(self.text);
         let mut record = ByteRecord::new();
         loop {
             let more = reader.read_byte_record(&mut record);
@@ -207,8 +242,8 @@ impl Log<'_> {
                 .iter()
                 .map(|field| str::from_utf8(field).unwrap_or_default())
                 .collect();
-            if fields != [""] {
-                take(line_of(text, &record), &fields)?;
+            if fields != [""] && !take(line_of(self.text, &record), &fields) {
+                return Ok(());
             }
         }
     }
@@ -216,14 +251,14 @@ impl Log<'_> {
     fn field<'a>(&self, line: usize, place: &Place, fields: &[&'a str]) -> Result<&'a str, Fault> {
         fields.get(place.index).copied().ok_or_else(|| {
             let problem = format!("the line has only {} of its fields", fields.len());
-            self.fault(line, &place.name, problem, "a number")
+            self.fault_at(line, place, problem, "a number")
         })
     }
 
     fn number(&self, line: usize, place: &Place, fields: &[&str]) -> Result<f64, Fault> {
         let field = self.field(line, place, fields)?;
         let number = field.parse().ok().filter(|number: &f64| number.is_finite());
-        number.ok_or_else(|| self.fault(line, &place.name, format!("is '{field}'"), "a number"))
+        number.ok_or_else(|| self.fault_at(line, place, format!("is '{field}'"), "a number"))
     }
 
     fn counts(&self, line: usize, place: &Place, fields: &[&str]) -> Result<i64, Fault> {
@@ -233,7 +268,7 @@ impl Log<'_> {
         counts.ok_or_else(|| {
             let (least, most) = (COUNTS_RANGE.start(), COUNTS_RANGE.end());
             let allowed = format!("a whole number, {least} to {most}");
-            self.fault(line, &place.name, format!("is '{field}'"), &allowed)
+            self.fault_at(line, place, format!("is '{field}'"), &allowed)
         })
     }
 }

@@ -11,6 +11,7 @@ mod compare_refusals;
 mod damage;
 mod drawings;
 mod dumps;
+mod fault_reports;
 mod files;
 mod fst;
 mod lead_angle;

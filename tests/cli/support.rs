@@ -87,12 +87,33 @@ impl Bench {
         serde_json::from_str(&text).unwrap()
     }
 
-    /// Runs what must be refused with exactly this text, and must leave no trace.
+    /// Runs what must be refused with exactly this text first, and must leave no trace.
     #[track_caller]
     pub fn refuse(&self, arguments: &[&str], text: &str) {
+        self.refuse_with(arguments, |stderr| {
+            assert_eq!(
+                stderr.lines().next(),
+                Some(&*format!("error: {text}")),
+                "{arguments:?}"
+            );
+            // Below it its line, and what else is wrong.
+            for line in stderr.lines() {
+                let of_excerpt = line.trim_start().trim_start_matches(char::is_numeric);
+                assert!(
+                    line.starts_with("error: ")
+                        || line.contains("there may be more")
+                        || of_excerpt.trim_start().starts_with('|'),
+                    "{arguments:?}: {stderr}"
+                );
+            }
+        });
+    }
+
+    /// Runs what must be refused, with code 2 and nothing left behind.
+    pub fn refuse_with(&self, arguments: &[&str], check: impl Fn(&str)) {
         let before = self.names();
         let done = self.run(arguments);
-        assert_eq!(done.stderr, format!("error: {text}\n"), "{arguments:?}");
+        check(&done.stderr);
         assert_eq!((done.code, done.stdout.as_str()), (2, ""), "{arguments:?}");
         assert_eq!(self.names(), before, "{arguments:?} left something");
     }

@@ -72,13 +72,8 @@ impl Shard {
 }
 
 fn fault(file: &Path, line: usize, field: &str, problem: String, allowed: String) -> Failure {
-    Failure::Input(Fault {
-        file: file.display().to_string(),
-        line,
-        field: field.to_owned(),
-        problem,
-        allowed,
-    })
+    let file = file.display().to_string();
+    Failure::Input(Fault::new(&file, line, field, problem, allowed))
 }
 
 /// Reads a part, and holds it against the tasks that its own arguments ask for.

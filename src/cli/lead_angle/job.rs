@@ -96,12 +96,8 @@ fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<
             }
             loaded.refuse(error)
         })?;
-    let fault = |line, problem: String, allowed: String| Fault {
-        file: log.file.clone(),
-        line,
-        field: log.counts.name.clone(),
-        problem,
-        allowed,
+    let fault = |line, problem: String, allowed: String| {
+        Fault::new(&log.file, line, &log.counts.name, problem, allowed)
     };
     let far = |sample: &&Sample| sample.counts.abs_diff(first) > FARTHEST_COUNTS;
     if let Some(sample) = log.samples.iter().find(far) {

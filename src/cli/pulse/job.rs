@@ -40,13 +40,11 @@ impl Job {
             Scenario::Machine(_) => Err("machine"),
         };
         let scenario = scenario.map_err(|circuit| match source.chose_circuit() {
-            Some(path) => Fault {
-                file: path.display().to_string(),
-                line: 0,
-                field: "file".to_owned(),
-                problem: format!("is for the {circuit}, which has no table"),
-                allowed: format!("{DRAWINGS}; or the command run"),
-            },
+            Some(path) => {
+                let problem = format!("is for the {circuit}, which has no table");
+                let allowed = format!("{DRAWINGS}; or the command run");
+                Fault::new(&path.display().to_string(), 0, "file", problem, allowed)
+            }
             None => {
                 let problem = format!("the {circuit} has no table");
                 let allowed = "pulse_interpolator, or the command run".to_owned();

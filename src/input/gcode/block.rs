@@ -49,24 +49,30 @@ impl Block {
                 break;
             }
             self.any = true;
+            let begin = scanner.at();
             scanner.bump();
-            match letter {
-                b'#' => {
-                    let name = scanner.parameter(values)?;
-                    if !scanner.take("=") {
-                        let allowed = "#1=2";
-                        return Err(Problem::new(name.to_string(), "without =", allowed));
-                    }
-                    let value = scanner.value(values)?;
-                    self.sets.push((name, value));
-                }
-                b'A'..=b'Z' => self.word(letter, &mut scanner, values)?,
+            let read = match letter {
+                b'#' => self.set(&mut scanner, values),
+                b'A'..=b'Z' => self.word(letter, &mut scanner, values),
                 _ => {
                     let field = format!("{}{}", char::from(letter), scanner.rest_text());
-                    return Err(Problem::new(shown(&field), "not a word", WORDS));
+                    Err(Problem::new(shown(&field), "not a word", WORDS))
                 }
-            }
+            };
+            read.map_err(|problem| problem.at(begin..scanner.at()))?;
         }
+        Ok(())
+    }
+
+    /// A parameter that is given a value.
+    fn set(&mut self, scanner: &mut Scanner<'_>, values: &dyn Values) -> Result<(), Problem> {
+        let name = scanner.parameter(values)?;
+        if !scanner.take("=") {
+            let allowed = "#1=2";
+            return Err(Problem::new(name.to_string(), "without =", allowed));
+        }
+        let value = scanner.value(values)?;
+        self.sets.push((name, value));
         Ok(())
     }
 

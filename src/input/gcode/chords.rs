@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::nurbs::Weighted;
 use crate::input::Point;
 
 /// How far chords may be off their curve, in millimetres.
@@ -93,6 +94,85 @@ pub(super) fn cubic(points: [[f64; 2]; 4], mut push: impl FnMut([f64; 2])) {
     push(s);
 }
 
+/// How often a span of a NURBS is halved at most.
+const HALVINGS: u32 = 12;
+
+/// A NURBS, as its start and the ends of its chords. There are as many control points as the order
+/// or more, and as many knots, which do not fall, as both together.
+pub(super) fn nurbs(
+    points: &[Weighted],
+    knots: &[f64],
+    order: usize,
+    mut push: impl FnMut([f64; 2]),
+) {
+    let mut first = true;
+    for span in order - 1..points.len() {
+        let (begin, end) = (knots[span], knots[span + 1]);
+        if begin >= end {
+            continue;
+        }
+        let at = |part: f64| on_nurbs(points, knots, order, span, begin + (end - begin) * part);
+        if std::mem::take(&mut first) {
+            push(at(0.0));
+        }
+        halve((0.0, at(0.0)), (1.0, at(1.0)), HALVINGS, &at, &mut push);
+    }
+}
+
+/// The ends of chords between two points of a curve: halved until points between are close enough.
+fn halve(
+    from: (f64, [f64; 2]),
+    to: (f64, [f64; 2]),
+    left: u32,
+    at: &impl Fn(f64) -> [f64; 2],
+    push: &mut impl FnMut([f64; 2]),
+) {
+    let between = |part: f64| from.0 + (to.0 - from.0) * part;
+    // Not evenly spread, so that a bend to either side is not passed by. Half the tolerance, since
+    // what is farthest off lies between them.
+    let off = [0.2, 0.45, 0.75].map(|part| off_chord(from.1, to.1, at(between(part))));
+    if left == 0 || (left < HALVINGS && off.into_iter().all(|off| off <= OFF_MM / 2.0)) {
+        push(to.1);
+        return;
+    }
+    let middle = (between(0.5), at(between(0.5)));
+    halve(from, middle, left - 1, at, push);
+    halve(middle, to, left - 1, at, push);
+}
+
+/// How far a point is off a chord.
+fn off_chord([x0, y0]: [f64; 2], [x1, y1]: [f64; 2], [x, y]: [f64; 2]) -> f64 {
+    let (u, v) = (x1 - x0, y1 - y0);
+    let square = u * u + v * v;
+    let part = match square > 0.0 {
+        true => (((x - x0) * u + (y - y0) * v) / square).clamp(0.0, 1.0),
+        false => 0.0,
+    };
+    (x - x0 - u * part).hypot(y - y0 - v * part)
+}
+
+/// A point of a NURBS at a parameter within a span of its knots, by de Boor's algorithm.
+fn on_nurbs(points: &[Weighted], knots: &[f64], order: usize, span: usize, u: f64) -> [f64; 2] {
+    let first = span + 1 - order;
+    let mut sums: Vec<[f64; 3]> = points[first..=span]
+        .iter()
+        .map(|Weighted { at: [x, y], weight }| [x * weight, y * weight, *weight])
+        .collect();
+    for round in 1..order {
+        for index in (round..order).rev() {
+            let low = knots[first + index];
+            let high = knots[first + index + order - round];
+            let part = (u - low) / (high - low);
+            let before = sums[index - 1];
+            for (sum, before) in sums[index].iter_mut().zip(before) {
+                *sum = (1.0 - part) * before + part * *sum;
+            }
+        }
+    }
+    let [x, y, weight] = sums[order - 1];
+    [x / weight, y / weight]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -152,5 +232,76 @@ mod tests {
                 / (b[0] - a[0]).hypot(b[1] - a[1]);
             assert!(off <= OFF_MM, "{off}");
         }
+    }
+
+    fn weighted<const N: usize>(points: [[f64; 3]; N]) -> [Weighted; N] {
+        points.map(|[x, y, weight]| Weighted { at: [x, y], weight })
+    }
+
+    #[test]
+    fn a_nurbs_of_weights_is_a_circle() {
+        // A quarter by one span, and a full circle by four with double knots.
+        let half = 0.5_f64.sqrt();
+        let quarter = weighted([[10.0, 0.0, 1.0], [10.0, 10.0, half], [0.0, 10.0, 1.0]]);
+        let full = weighted([
+            [10.0, 0.0, 1.0],
+            [10.0, 10.0, half],
+            [0.0, 10.0, 1.0],
+            [-10.0, 10.0, half],
+            [-10.0, 0.0, 1.0],
+            [-10.0, -10.0, half],
+            [0.0, -10.0, 1.0],
+            [10.0, -10.0, half],
+            [10.0, 0.0, 1.0],
+        ]);
+        let quarter_knots = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
+        let full_knots = [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
+        for (points, knots, end, length) in [
+            (
+                &quarter[..],
+                &quarter_knots[..],
+                [0.0, 10.0],
+                FRAC_PI_2 * 10.0,
+            ),
+            (&full, &full_knots, [10.0, 0.0], TAU * 10.0),
+        ] {
+            let (mut path, mut sum) = (Vec::new(), 0.0);
+            nurbs(points, knots, 3, |to| path.push(to));
+            assert_eq!(path.first(), Some(&[10.0, 0.0]));
+            for pair in path.windows(2) {
+                let [[x0, y0], [x1, y1]] = [pair[0], pair[1]];
+                assert!((x1.hypot(y1) - 10.0).abs() < 1e-9);
+                let middle = ((x0 + x1) / 2.0).hypot((y0 + y1) / 2.0);
+                assert!(10.0 - middle <= OFF_MM, "{middle}");
+                sum += (x1 - x0).hypot(y1 - y0);
+            }
+            let last = path.last().unwrap();
+            assert!((last[0] - end[0]).hypot(last[1] - end[1]) < 1e-9);
+            assert!((sum - length).abs() < 0.01, "{sum}");
+        }
+    }
+
+    #[test]
+    fn a_nurbs_with_the_knots_of_a_bezier_curve_is_that_curve() {
+        let points = [[0.0, 0.0], [0.0, 40.0], [30.0, -40.0], [30.0, 0.0]];
+        let weighted = points.map(|at| Weighted { at, weight: 2.5 });
+        let knots = [0.0, 0.0, 0.0, 0.0, 5.0, 5.0, 5.0, 5.0];
+        for step in 0..=16 {
+            let t = f64::from(step) / 16.0;
+            let u = 1.0 - t;
+            let weights = [u * u * u, 3.0 * u * u * t, 3.0 * u * t * t, t * t * t];
+            let exact = [0, 1].map(|axis| {
+                let parts = weights.iter().zip(points);
+                parts
+                    .map(|(weight, point)| weight * point[axis])
+                    .sum::<f64>()
+            });
+            let [x, y] = on_nurbs(&weighted, &knots, 4, 3, 5.0 * t);
+            assert!((x - exact[0]).hypot(y - exact[1]) < 1e-9, "{t}");
+        }
+        // It bends to both sides of its chord.
+        let mut ends = Vec::new();
+        nurbs(&weighted, &knots, 4, |to| ends.push(to));
+        assert!(ends.len() > 50, "{}", ends.len());
     }
 }

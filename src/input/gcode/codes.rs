@@ -39,7 +39,6 @@ pub(super) fn m_word((number, tenth): Code) -> Kind {
 /// Why a G word is refused, where it is known.
 pub(super) fn g_reason(code: Code) -> &'static str {
     match code {
-        (5, 2 | 3) => "a NURBS is not understood",
         (7, 0) => "changes X to a diameter",
         (12..=13, 0) => "a pocket cycle of a control is not understood",
         (16, 0) => "changes X and Y to polar coordinates",

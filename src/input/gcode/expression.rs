@@ -62,6 +62,11 @@ impl<'a> Scanner<'a> {
         self.peek()
     }
 
+    /// Where in the line it is.
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
     pub(super) fn peek(&self) -> Option<u8> {
         self.line.get(self.at).copied()
     }

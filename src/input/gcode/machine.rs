@@ -4,6 +4,7 @@ use super::block::{Block, Code, name};
 use super::codes::{self, Kind};
 use super::cycle::Cycle;
 use super::modal::{Modal, Motion, Plane};
+use super::nurbs::Nurbs;
 use super::offsets::{Offsets, Own};
 use super::problem::Problem;
 use crate::input::track::Track;
@@ -11,7 +12,7 @@ use crate::input::{Course, Drawing, Fault, Move, Point};
 
 const MM_PER_INCH: f64 = 25.4;
 
-pub(super) const G_CODES: &str = "G0 to G5 G5.1 G8 G10 G11 G15 G17 to G21 G28 G30 G38.2 to G38.5 \
+pub(super) const G_CODES: &str = "G0 to G5 G5.1 to G5.3 G6.2 G8 G10 G11 G15 G17 to G21 G28 G30 G38.2 to G38.5 \
                                   G40 G43 G49 G52 to G59.3 G61 G64 G69 G73 G80 to G86 G89 to G94 \
                                   G97 to G99";
 const M_CODES: &str = "M words that neither move nor change the path";
@@ -37,6 +38,8 @@ pub(super) struct Machine<'a> {
     pub(super) cycle: Cycle,
     /// The end control point of a G5 from its end, for the one that follows.
     pub(super) last_control: Option<[f64; 2]>,
+    /// The NURBS that is being read.
+    pub(super) nurbs: Option<Nurbs>,
     pub(super) pieces: Vec<Piece>,
     /// The instruction that made them.
     pub(super) made_by: String,
@@ -57,6 +60,7 @@ impl<'a> Machine<'a> {
             offsets: Offsets::default(),
             cycle: Cycle::default(),
             last_control: None,
+            nurbs: None,
             pieces: Vec::new(),
             made_by: String::new(),
             feed_word: None,
@@ -76,6 +80,11 @@ impl<'a> Machine<'a> {
 
     /// The drawing; the program may have been subroutines alone.
     pub(super) fn finish(self, subs: bool) -> Result<Drawing, Fault> {
+        if let Some(curve) = &self.nurbs {
+            let allowed = "G5.3 behind a G5.2, and as many equal knots as the order behind a G6.2";
+            let problem = Problem::new(curve.name(), "without its end", allowed);
+            return Err(self.fault(curve.line, problem));
+        }
         self.track.finish(match subs {
             true => "a G-code program that calls its subroutines and makes at least one move",
             false => "a G-code program with at least one move",
@@ -105,7 +114,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Records the moves of the line that was run.
-    pub(super) fn push(&mut self, line: usize) -> Result<(), Fault> {
+    pub(super) fn push(&mut self, line: usize) -> Result<(), Problem> {
         let total: f64 = self.pieces.iter().map(|piece| piece.length).sum();
         let feed_mm_per_min = match (self.modal.inverse_time, self.feed_word) {
             (true, Some(per_min)) if total > 0.0 => Some(per_min * total),
@@ -124,7 +133,9 @@ impl<'a> Machine<'a> {
                 feed_mm_per_min: feed_mm_per_min.filter(|_| !piece.rapid),
                 line,
             };
-            self.track.push(&self.made_by, next)?;
+            let pushed = self.track.push(&self.made_by, next);
+            pushed
+                .map_err(|far| Problem::new(&self.made_by, far.problem, far.allowed).following())?;
         }
         Ok(())
     }
@@ -245,6 +256,9 @@ impl<'a> Machine<'a> {
                 (3, 0) => choose(&mut words.motion, code, Motion::Arc { clockwise: false })?,
                 (5, 0) => choose(&mut words.motion, code, Motion::Cubic)?,
                 (5, 1) => choose(&mut words.motion, code, Motion::Quadratic)?,
+                (5, 2) => choose(&mut words.motion, code, Motion::Nurbs)?,
+                (5, 3) => choose(&mut words.motion, code, Motion::NurbsEnd)?,
+                (6, 2) => choose(&mut words.motion, code, Motion::KnottedNurbs)?,
                 (38, 2..=5) => choose(&mut words.motion, code, Motion::Probe)?,
                 (73 | 81..=86 | 89, 0) => choose(&mut words.motion, code, Motion::Cycle(code.0))?,
                 (80, 0) => words.cancels = true,
@@ -404,6 +418,9 @@ impl<'a> Machine<'a> {
                 Some(Motion::Arc { clockwise: false }) => 30.0,
                 Some(Motion::Cubic) => 50.0,
                 Some(Motion::Quadratic) => 51.0,
+                Some(Motion::Nurbs) => 52.0,
+                Some(Motion::NurbsEnd) => 53.0,
+                Some(Motion::KnottedNurbs) => 62.0,
                 Some(Motion::Probe) => 382.0,
                 Some(Motion::Cycle(code)) => f64::from(code) * 10.0,
             }),

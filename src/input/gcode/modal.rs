@@ -12,6 +12,12 @@ pub(super) enum Motion {
     Cubic,
     /// G5.1.
     Quadratic,
+    /// G5.2.
+    Nurbs,
+    /// G5.3.
+    NurbsEnd,
+    /// G6.2.
+    KnottedNurbs,
     /// G38.2 to G38.5: as if nothing was touched.
     Probe,
     /// G73, G81 to G86 and G89.
@@ -27,6 +33,9 @@ impl Motion {
             Self::Arc { clockwise: false } => "G3".to_owned(),
             Self::Cubic => "G5".to_owned(),
             Self::Quadratic => "G5.1".to_owned(),
+            Self::Nurbs => "G5.2".to_owned(),
+            Self::NurbsEnd => "G5.3".to_owned(),
+            Self::KnottedNurbs => "G6.2".to_owned(),
             Self::Probe => "G38".to_owned(),
             Self::Cycle(code) => format!("G{code}"),
         }

@@ -35,8 +35,18 @@ impl Machine<'_> {
                 return Err(Problem::new("G4", problem, "G4 with P, or with X alone"));
             }
         }
+        self.not_within_nurbs(words)?;
         let moves = block.axes().iter().any(Option::is_some);
         let motion = self.modal.motion;
+        if let Some(motion @ (Motion::Nurbs | Motion::NurbsEnd | Motion::KnottedNurbs)) = motion
+            && (moves || explicit || block.given().next().is_some())
+        {
+            self.made_by(motion.name());
+            let to = self.target(block, false);
+            self.nurbs(line, block, to, motion)?;
+            self.leftover(block)?;
+            return self.made(block, None);
+        }
         let arc = matches!(motion, Some(Motion::Arc { .. }));
         if words.own.is_some() && !moves {
             return self.leftover(block);
@@ -47,7 +57,7 @@ impl Machine<'_> {
         }
         let Some(motion) = motion else {
             let problem = "no G0, G1, G2 or G3 in force";
-            return Err(Problem::new("X, Y, Z", problem, G_MOTIONS));
+            return Err(Problem::new("X, Y, Z", problem, G_MOTIONS).following());
         };
         if words.machine && !matches!(motion, Motion::Rapid | Motion::Line) {
             return Err(Problem::new(
@@ -84,6 +94,11 @@ impl Machine<'_> {
                 }
             }
         }
+        self.made(block, holes)
+    }
+
+    /// What there is to check of the moves that a line has made.
+    fn made(&mut self, block: &mut Block, holes: Option<u64>) -> Result<u64, Problem> {
         if self.modal.inverse_time && self.pieces.iter().any(|piece| !piece.rapid) {
             self.needs_feed()?;
         }
@@ -171,13 +186,14 @@ impl Machine<'_> {
             ([i, j], None) => [place(i, a, start[0]), place(j, b, start[1])],
             ([None, None], Some(radius)) => {
                 arc::centre_by_radius(start, end, radius * units, clockwise).map_err(|problem| {
-                    Problem::new("R", problem, "half the distance to the end, or more")
+                    let allowed = "half the distance to the end, or more";
+                    Problem::new("R", problem, allowed).following()
                 })?
             }
             _ => return Err(Problem::new("I, J, R", "a centre and a radius", FORMS)),
         };
         arc::check(start, end, centre).map_err(|problem| {
-            Problem::new("I, J", problem, "radii that agree to 0.005 mm or 0.1 %")
+            Problem::new("I, J", problem, "radii that agree to 0.005 mm or 0.1 %").following()
         })?;
         // Rounding must not turn a full circle into next to nothing.
         let mut end_point = to;
@@ -251,7 +267,7 @@ impl Machine<'_> {
         ))
     }
 
-    fn say_chords(&mut self, line: usize) {
+    pub(super) fn say_chords(&mut self, line: usize) {
         let off = chords::OFF_MM;
         let text = || format!("arcs outside of G17, and splines, are chords within {off} mm");
         self.note("chords", line, text);
@@ -284,7 +300,7 @@ impl Machine<'_> {
             let first = first.or(self.last_control.map(|[p, q]| [-p, -q]));
             let (Some([i, j]), Some([p, q])) = (first, second) else {
                 let problem = "without its control points";
-                return Err(Problem::new(field, problem, "I, J, P and Q"));
+                return Err(Problem::new(field, problem, "I, J, P and Q").following());
             };
             self.last_control = Some([p, q]);
             [[x + i, y + j], [end_x + p, end_y + q]]

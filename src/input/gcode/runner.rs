@@ -5,11 +5,12 @@ use super::block::{Block, Code};
 use super::expression::{Name, Scanner, Values};
 use super::flow::{Index, Keyword, Place, o_word};
 use super::machine::Machine;
+use super::mark;
 use super::modal::Modal;
 use super::parameters::{LOCALS, Parameters};
 use super::problem::{Problem, shown};
 use super::text::{clean, line_at};
-use crate::input::{Drawing, Fault};
+use crate::input::{Drawing, Fault, Faults};
 
 /// How deep calls nest.
 const DEEPEST: usize = 10;
@@ -49,6 +50,7 @@ pub(super) struct Runner<'a> {
     executed: u64,
     started: bool,
     ended: bool,
+    faults: Faults,
 }
 
 /// What expressions see.
@@ -90,6 +92,7 @@ impl<'a> Runner<'a> {
             executed: 0,
             started: false,
             ended: false,
+            faults: Faults::default(),
         }
     }
 
@@ -102,13 +105,20 @@ impl<'a> Runner<'a> {
                 break;
             };
             self.at = (next, line + 1);
-            self.step(bytes, start, line, &mut cleaned, &mut block)?;
+            let done = self.step(bytes, start, line, &mut cleaned, &mut block);
+            if let Err(problem) = done
+                && (!problem.follows || self.faults.is_empty())
+            {
+                let marked = mark::find(bytes, &problem);
+                let fault = self.machine.fault(line, problem).marked(bytes, &marked);
+                self.ended |= !self.faults.add(fault);
+            }
         }
         if self.ended && self.index.is_none() {
             self.look_at_rest();
         }
         let unused = self.index.as_ref().is_some_and(Index::has_subs);
-        self.machine.finish(unused)
+        self.faults.or(|| self.machine.finish(unused))
     }
 
     fn step(
@@ -118,43 +128,30 @@ impl<'a> Runner<'a> {
         line: usize,
         cleaned: &mut Vec<u8>,
         block: &mut Block,
-    ) -> Result<(), Fault> {
-        let done = self.count(1).and_then(|()| {
-            if self.outside(bytes, line)? {
-                return Ok(true);
-            }
-            clean(bytes, cleaned)?;
-            if cleaned.iter().all(|byte| *byte == b' ') {
-                return Ok(true);
-            }
-            self.delimiter(cleaned)
-        });
-        let words = done.and_then(|done| {
-            if done {
-                return Ok(false);
-            }
-            self.started = true;
-            match o_word(cleaned)? {
-                Some((_, Keyword::Program, rest)) => {
-                    self.machine.skip("O", line);
-                    self.words(rest.rest(), line, block)?;
-                    Ok(true)
-                }
-                Some((label, keyword, rest)) => {
-                    self.flow(start, line, &label, keyword, rest)?;
-                    Ok(false)
-                }
-                None => {
-                    self.words(cleaned, line, block)?;
-                    Ok(true)
-                }
-            }
-        });
-        match words {
-            Ok(true) => self.machine.push(line),
-            Ok(false) => Ok(()),
-            Err(problem) => Err(self.machine.fault(line, problem)),
+    ) -> Result<(), Problem> {
+        self.count(1)?;
+        if self.outside(bytes, line)? {
+            return Ok(());
         }
+        clean(bytes, cleaned)?;
+        if cleaned.iter().all(|byte| *byte == b' ') || self.delimiter(cleaned)? {
+            return Ok(());
+        }
+        self.started = true;
+        match o_word(cleaned)? {
+            Some((_, Keyword::Program, rest)) => {
+                self.machine.skip("O", line);
+                self.words(rest.rest(), line, block)?;
+            }
+            Some((label, keyword, rest)) => {
+                // Where it would go on is not known after a fault.
+                let done = self.flow(start, line, &label, keyword, rest);
+                self.ended |= done.is_err();
+                return done;
+            }
+            None => self.words(cleaned, line, block)?,
+        }
+        self.machine.push(line)
     }
 
     /// Counts lines that are run.
@@ -164,6 +161,7 @@ impl<'a> Runner<'a> {
         if self.executed <= most {
             return Ok(());
         }
+        self.ended = true;
         let problem = format!("more than {most} lines are run");
         let allowed = "a program that ends before; --most-lines for more";
         Err(Problem::new("program", problem, allowed))

@@ -38,18 +38,27 @@ pub(super) fn line_at(text: &[u8], offset: usize) -> Option<(&[u8], usize)> {
 /// A character that is no printable ASCII, or a comment that is not closed.
 pub(super) fn clean(line: &[u8], into: &mut Vec<u8>) -> Result<(), Problem> {
     into.clear();
+    each(line, |_, byte| into.push(byte))
+}
+
+/// Hands over what [`clean`] keeps of a line, with its places in the line.
+///
+/// # Errors
+///
+/// As [`clean`].
+pub(super) fn each(line: &[u8], mut keep: impl FnMut(usize, u8)) -> Result<(), Problem> {
     let mut depth = 0_usize;
-    for &byte in line {
+    for (at, &byte) in line.iter().enumerate() {
         match (byte, depth) {
             (b';', 0) => break,
             (b'(', _) => depth += 1,
             (b')', 1) => {
                 depth = 0;
-                into.push(b' ');
+                keep(at, b' ');
             }
             (b')', 2..) => depth -= 1,
             (b' ' | b'\t' | 0, 0) | (_, 1..) => {}
-            (b'!'..=b'~', 0) => into.push(byte.to_ascii_uppercase()),
+            (b'!'..=b'~', 0) => keep(at, byte.to_ascii_uppercase()),
             _ => return Err(stranger(line)),
         }
     }

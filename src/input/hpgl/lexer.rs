@@ -1,6 +1,7 @@
 //! HPGL text to instructions and numbers, read as they are asked for.
 
 use std::fmt;
+use std::ops::Range;
 
 use crate::input::Fault;
 
@@ -62,6 +63,10 @@ pub(super) struct Lexer<'a> {
     line: usize,
     /// The line of the instruction being read.
     start: usize,
+    /// Where its name stands.
+    name: Range<usize>,
+    /// Where the number read last stands, and its line.
+    last: (Range<usize>, usize),
     /// What a fault names.
     field: String,
     /// The text is a printer's, not a plotter's, up to the next escape sequence.
@@ -80,6 +85,8 @@ impl<'a> Lexer<'a> {
             at: 0,
             line: 1,
             start: 1,
+            name: 0..0,
+            last: (0..0, 0),
             field: String::new(),
             printer: false,
             terminator: ETX,
@@ -105,9 +112,11 @@ impl<'a> Lexer<'a> {
         let separator = |byte| byte == b';' || byte == b',' || is_space(byte);
         while self.take_if(separator).is_some() {}
         self.start = self.line;
+        let begin = self.at;
         let Some(byte) = self.bump() else {
             return Ok(None);
         };
+        (self.name, self.last) = (begin..self.at, (0..0, 0));
         match byte {
             ESC => return Ok(Some(Item::Escape(self.escape()))),
             b'@' => {
@@ -127,6 +136,7 @@ impl<'a> Lexer<'a> {
             return self.noise(byte).map(Some);
         }
         self.at += 1 + usize::from(maker);
+        self.name.end = self.at;
         let mnemonic = Mnemonic([first, second].map(|byte| byte.to_ascii_uppercase()));
         if maker {
             self.field.push('!');
@@ -172,6 +182,7 @@ impl<'a> Lexer<'a> {
                 Ok(None)
             }
             Some(byte) => {
+                self.last = (self.at..self.at + 1, self.line);
                 let shown = char::from(byte).escape_default();
                 Err(self.fault_here(format!("'{shown}' in place of a number"), NUMBER))
             }
@@ -183,6 +194,7 @@ impl<'a> Lexer<'a> {
         self.take_if(|byte| byte == b'+' || byte == b'-');
         let digit = |byte: u8| byte.is_ascii_digit() || byte == b'.';
         while self.take_if(digit).is_some() {}
+        self.last = (start..self.at, self.line);
         let digits = self.text.get(start..self.at).unwrap_or_default();
         let text = String::from_utf8_lossy(digits);
         let Ok(value) = text.parse::<f64>() else {
@@ -321,6 +333,32 @@ impl<'a> Lexer<'a> {
         };
         self.line += usize::from(ends_a_line);
         Some(byte)
+    }
+
+    /// A fault with what is at fault in its line: a number that was just read, or the instruction.
+    pub(super) fn marked(&self, fault: Fault) -> Fault {
+        let (number, line) = &self.last;
+        match fault.line {
+            at if at == *line => fault.marked(self.text, number),
+            at if at == self.start => fault.marked(self.text, &self.name),
+            _ => fault,
+        }
+    }
+
+    /// Goes on after a fault, behind the instruction.
+    pub(super) fn recover(&mut self) {
+        let encoded = self.field == "PE";
+        let letters = |pair: &[u8]| pair.iter().all(u8::is_ascii_alphabetic);
+        while let Some(byte) = self.peek() {
+            let next = self.text.get(self.at..self.at + 2);
+            if byte == ESC || (!encoded && next.is_some_and(letters)) {
+                return;
+            }
+            self.bump();
+            if byte == b';' {
+                return;
+            }
+        }
     }
 
     /// A fault of the instruction as a whole.

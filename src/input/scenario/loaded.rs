@@ -1,6 +1,9 @@
+mod errors;
+
 use super::{BARE, BARE_LOG, Runnable, Scenario};
 use crate::input::{DRAWINGS, Fault, Kind, POSITION_LOGS, read_string};
 use crate::settings::{Place, SettingError};
+use errors::{key_of, of_tables, split};
 use serde::Deserialize;
 use serde_path_to_error::{Segment, Track};
 use std::path::Path;
@@ -93,15 +96,14 @@ impl Loaded {
     }
 
     fn build(file: &str, text: &str, sets: &[String]) -> Result<Self, Fault> {
-        let refuse = |error| fault(file, text, &error);
         let mut loaded = Loaded {
-            scenario: scenario(|| toml::Deserializer::parse(text))
-                .map_err(|error| refuse(error.into_inner()))?,
+            scenario: errors::read(file, text)?,
             file: None,
             text: text.to_owned(),
             overridden: Vec::new(),
         };
-        let mut table: Table = text.parse().map_err(refuse)?;
+        let parsed: Result<Table, _> = text.parse();
+        let mut table = parsed.map_err(|error| errors::fault(file, text, &error))?;
         let mut pairs = sets
             .iter()
             .map(|set| key_value(set))
@@ -161,7 +163,13 @@ impl Loaded {
     /// A fault of what no override gave: of a line of the file, or of a default.
     fn given(&self, line: usize, field: String, problem: String, allowed: String) -> Fault {
         match &self.file {
-            Some(file) => Fault::new(file, line, field, problem, allowed),
+            Some(file) => {
+                let fault = Fault::new(file, line, field, problem, allowed);
+                match errors::value_in(&self.text, line) {
+                    Some(value) => fault.marked(self.text.as_bytes(), &value),
+                    None => fault,
+                }
+            }
             None => Fault::new(SET, 0, format!("{field} (default)"), problem, allowed),
         }
     }
@@ -322,13 +330,6 @@ fn set_fault(key: &str, error: &Located) -> Fault {
     Fault::new(SET, 0, field, problem, allowed)
 }
 
-/// The same of a key whose value is a list of tables.
-fn of_tables(key: &str, message: &str) -> Option<(String, String)> {
-    let (problem, _) = message.split_once(", expected a sequence")?;
-    let tables = ["step", "piece", "axis"].contains(&key);
-    tables.then(|| (problem.to_owned(), format!("tables [[{key}]]")))
-}
-
 fn key_value(set: &str) -> Result<(&str, Value), Fault> {
     let allowed = "key=value with a key of the scenario";
     let Some((key, value)) = set.split_once('=') else {
@@ -345,74 +346,6 @@ fn key_value(set: &str) -> Result<(&str, Value), Fault> {
         .and_then(|mut table| table.remove("x"))
         .unwrap_or_else(|| Value::String(value.to_owned()));
     Ok((key, value))
-}
-
-/// The key that a line gives a value to; the line where it gives none.
-fn key_of(line: &str) -> &str {
-    let key = line.split('=').next().unwrap_or(line);
-    key.trim().trim_matches(['"', '\''])
-}
-
-fn line_at(text: &[u8], place: usize) -> usize {
-    let before = &text[..place.min(text.len())];
-    before.iter().filter(|&&byte| byte == b'\n').count() + 1
-}
-
-/// A message of the TOML reader as problem and what is allowed.
-fn split(message: &str) -> (String, String) {
-    // What the parser expects next, where the text is no TOML, is rarely what was meant.
-    let of_a_value = message.starts_with("invalid ") || message.starts_with("unknown ");
-    let (problem, allowed) = message
-        .split_once(", expected ")
-        .filter(|_| of_a_value)
-        .unwrap_or((message, "lines of key = value, in TOML"));
-    let allowed = match allowed {
-        "u64" => "a whole number from 0",
-        "u32" => "a whole number from 0 to 4294967295",
-        "i64" => "a whole number",
-        "f64" => "a number",
-        "a boolean" => "true or false",
-        "an array of length 2" => "a list of two numbers, of X and of Y",
-        "an array of length 3" => "a list of three numbers, of X, Y and Z",
-        "a sequence" => "a list of numbers, one for each axis",
-        "path string" => "a path",
-        record if record.starts_with("struct ") => "a table of keys and values",
-        other => other,
-    };
-    (problem.replace(" as i128", ""), allowed.to_owned())
-}
-
-fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
-    let message = error.message();
-    if let Some(key) = message.strip_prefix("missing field `") {
-        let key = key.trim_end_matches('`');
-        // What lacks in a table lacks where the table begins, else in the file as a whole.
-        let place = error.span().map_or(0, |span| span.start);
-        let line = match place {
-            0 => 0,
-            place => line_at(text.as_bytes(), place),
-        };
-        return Fault::new(file, line, key, "missing", NO_DEFAULT);
-    }
-    let line = line_at(text.as_bytes(), error.span().map_or(0, |span| span.start));
-    let mut upwards = text
-        .lines()
-        .take(line)
-        .collect::<Vec<_>>()
-        .into_iter()
-        .rev();
-    let written = upwards.clone().next().unwrap_or("");
-    let written = match message.starts_with("invalid ") {
-        // A value of the wrong type may stand lines below its key.
-        true => upwards.find(|line| line.contains('=')).unwrap_or(written),
-        false => written,
-    };
-    let field = match key_of(written) {
-        "" => "file",
-        key => key,
-    };
-    let (problem, allowed) = of_tables(field, message).unwrap_or_else(|| split(message));
-    Fault::new(file, line, field, problem, allowed)
 }
 
 #[cfg(test)]

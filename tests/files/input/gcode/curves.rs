@@ -90,6 +90,93 @@ fn splines_go_through_their_curves() {
     }
 }
 
+/// A closed curve of order 3 over five control points, as LinuxCNC's manual has it.
+const LOOP: [&str; 2] = [
+    "F60\nG5.2 P1 L3\nX0 Y1 P1\nX2 Y2 P1\nX2 Y0 P1\nX0 Y0 P2\nG5.3",
+    "F60\nG6.2 X0 Y0 R1 K0 P3 Q1\nX0 Y1 R1 K0\nX2 Y2 R1 K0\nX2 Y0 R1 K1\nX0 Y0 R2 K2\nG6.2 K3\n\
+     G6.2 K3\nG6.2 K3",
+];
+
+#[test]
+fn a_nurbs_goes_through_its_curve_by_either_form() {
+    let drawings = LOOP.map(chords);
+    assert_eq!(ends(&drawings[0]), ends(&drawings[1]));
+    let path = ends(&drawings[0]);
+    // Halfway through the middle span the basis is 1/8, 3/4, 1/8; between spans half and half.
+    for point in [[1.75, 1.625, 0.0], [1.0, 1.5, 0.0], [2.0, 1.0, 0.0]] {
+        assert!(
+            path.iter().any(|to| near(*to, point)),
+            "{point:?}: {path:?}"
+        );
+    }
+    assert!(near(*path.last().unwrap(), [0.0; 3]));
+    // As moves of one line, that of the end.
+    assert!(drawings[0].moves.iter().all(|step| step.line == 7));
+    // What follows it needs a motion of its own, and starts at its end.
+    let after = |text: &str| format!("{}\n{text}", LOOP[0]);
+    assert!(refuse(read, &after("X5")).starts_with("t:8: X, Y, Z: no G0, G1, G2 or G3 in force"));
+    let last = accept(read, &after("G91 G1 X5")).moves.pop().unwrap();
+    assert!(near(last.to, [5.0, 0.0, 0.0]));
+}
+
+#[test]
+fn a_nurbs_lies_in_the_plane_in_force() {
+    let drawing = chords("G19 G0 X7\nG5.2 Y0 Z4 P1 L2 F60\nY4 Z4 P1\nG5.3");
+    let path = ends(&drawing);
+    assert_eq!(path[0], [7.0, 0.0, 0.0]);
+    assert!(path.contains(&[7.0, 0.0, 4.0]), "{path:?}");
+    assert_eq!(path.last(), Some(&[7.0, 4.0, 4.0]));
+}
+
+#[test]
+fn a_nurbs_that_is_not_whole_is_refused() {
+    for (text, fault) in [
+        ("G1 X1 F60\nG5.3", "t:2: G5.3: without G5.2 before"),
+        (
+            "G5.2 X1 P1",
+            "t:1: G5.2: control points have both coordinates",
+        ),
+        (
+            "G5.2 X1 Y1 Z1",
+            "t:1: G5.2: control points have both coordinates",
+        ),
+        ("G5.2 X1 Y1 P0", "t:1: P: a weight that is not above 0"),
+        ("G5.2 X1 Y1 L2.5", "t:1: L: an order of 2.5"),
+        ("G5.2 X1 Y1 L21", "t:1: L: an order of 21"),
+        (
+            "G5.2 X1 Y1\nP2",
+            "t:2: P: a weight without its control point",
+        ),
+        (
+            "G5.2 X1 Y1\nG5.3",
+            "t:2: G5.2: 2 control points, the first included",
+        ),
+        (
+            "G5.2 X1 Y1\nG1 X2",
+            "t:2: G1: within the NURBS that G5.2 began in line 1",
+        ),
+        (
+            "G5.2 X1 Y1\nG28",
+            "t:2: G5.2: within the NURBS that G5.2 began in line 1",
+        ),
+        ("G1 X1 F60\nG5.2 X1 Y1", "t:2: G5.2: without its end"),
+        ("G6.2 X1 Y1 K0", "t:1: P: a G6.2 begins without its order"),
+        ("G6.2 X1 Y1 P3", "t:1: K: a line of a G6.2 without its knot"),
+        (
+            "G6.2 X1 Y1 P3 K1\nX2 Y2 K0",
+            "t:2: K: knot 0 is less than the one before",
+        ),
+        (
+            "G6.2 X1 Y1 P3 K0\nG5.3",
+            "t:2: G5.3: within the NURBS that G6.2 began in line 1",
+        ),
+        ("G5.2 X1 Y1 I2", "t:1: I: without a word that it belongs to"),
+    ] {
+        let refused = refuse(read, text);
+        assert!(refused.starts_with(fault), "{text:?}: {refused}");
+    }
+}
+
 #[test]
 fn a_probe_goes_to_its_end() {
     let drawing = accept(read, "G38.2 Z-5 F60");
