@@ -2,7 +2,7 @@
 //! none is named.
 
 use motion_rtl::input::scenario::Loaded;
-use motion_rtl::input::{Drawing, Fault, read_text};
+use motion_rtl::input::{Drawing, Fault, Options, read_text_with};
 use std::path::Path;
 
 /// A scenario and its input, by the names they have in the crate.
@@ -120,9 +120,9 @@ impl Shipped {
     }
 
     /// Its input; none where it is complete without.
-    pub fn drawing(&self) -> Option<Result<Drawing, Fault>> {
+    pub fn drawing(&self, options: &Options) -> Option<Result<Drawing, Fault>> {
         let input = self.input.as_ref()?;
-        Some(read_text(input.file, input.text.as_bytes()))
+        Some(read_text_with(input.file, input.text.as_bytes(), options))
     }
 }
 

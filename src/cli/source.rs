@@ -32,13 +32,15 @@ pub struct Input {
 }
 
 impl Input {
-    /// How strict the readers of moves are.
-    fn options(&self) -> Options {
-        Options {
+    /// How a drawing or a part program is read.
+    fn options(&self, loaded: &Loaded) -> Result<Options, Fault> {
+        let zeros = loaded.scenario.program().zeros();
+        Ok(Options {
             lenient: self.lenient,
             strict: self.strict,
             most_lines: self.most_lines.unwrap_or(Options::MOST_LINES),
-        }
+            zeros: zeros.map_err(|error| loaded.refuse(error))?,
+        })
     }
 }
 
@@ -73,10 +75,10 @@ impl Source {
             |stem| stem.to_string_lossy().into_owned(),
         );
         Ok(Source {
+            options: input.options(&loaded)?,
             loaded,
             stem,
             origin,
-            options: input.options(),
         })
     }
 
@@ -95,7 +97,7 @@ impl Source {
                 let read = |()| read_path_with(path, &self.options);
                 Some(self.takes(path).and_then(read))
             }
-            Origin::Crate(shipped) => shipped.drawing(),
+            Origin::Crate(shipped) => shipped.drawing(&self.options),
             Origin::Nowhere => None,
         }
     }

@@ -5,7 +5,7 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read as _};
 use std::path::Path;
 
-use super::{Drawing, Fault, gcode, hpgl};
+use super::{Drawing, Fault, Point, gcode, hpgl};
 
 /// The largest file read, in bytes. Beyond it a wrong file is likelier than a drawing, and the
 /// moves take several times the memory of their text.
@@ -64,8 +64,17 @@ impl fmt::Display for Kind {
 /// What reads a text, by the name of its file.
 type Reader = fn(&str, &[u8], &Options) -> Result<Drawing, Fault>;
 
-/// How strict the readers of moves are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Where zeros and reference points are, from the machine's zero, in millimetres.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Zeros {
+    /// The zeros of G54 to G59 and G59.1 to G59.3.
+    pub systems: [Point; 9],
+    /// The reference points of G28 and G30.
+    pub references: [Point; 2],
+}
+
+/// How the readers of moves read: how strictly, and from where.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// HPGL: skips with a warning what else is refused since it is not understood or incomplete and
     /// may move the pen.
@@ -74,6 +83,8 @@ pub struct Options {
     pub strict: bool,
     /// G-code: the most lines that are run, loops and calls counted each time.
     pub most_lines: u64,
+    /// G-code: where its zeros are, until it says otherwise.
+    pub zeros: Zeros,
 }
 
 impl Options {
@@ -96,6 +107,7 @@ impl Default for Options {
             lenient: false,
             strict: false,
             most_lines: Self::MOST_LINES,
+            zeros: Zeros::default(),
         }
     }
 }

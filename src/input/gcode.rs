@@ -22,9 +22,10 @@
 //!
 //! # Offsets
 //!
-//! Moves are in the machine's coordinates. The offsets of G54 to G59.3 are zero until G10 L2 or L20
-//! sets them; G92, G92.1 to G92.3, G52 and G53 act. The reference points of G28 and G30 are the
-//! machine's zero until G28.1 or G30.1 sets them. Tool lengths (G43, G43.1) are taken for zero. M70
+//! Moves are in the machine's coordinates. The offsets of G54 to G59.3 are those of
+//! [`Options::zeros`], zero by default, until G10 L2 or L20 sets them; G92, G92.1 to G92.3, G52 and
+//! G53 act. The reference points of G28 and G30 are likewise the machine's zero until G28.1 or G30.1
+//! sets them. Tool lengths (G43, G43.1) are taken for zero. M70
 //! and M73 keep what is in force, M72 and the end of the call bring it back.
 //!
 //! # Parameters and O-words

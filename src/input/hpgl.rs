@@ -39,7 +39,7 @@ mod settings;
 mod skipped;
 mod text;
 
-use super::{Drawing, Fault, Faults, Options};
+use super::{Drawing, Fault, Faults, Options, Zeros};
 use curve::Tolerance;
 use fill::Fill;
 use lexer::{Item, Lexer, Mnemonic};
@@ -71,8 +71,18 @@ pub fn read(file: &str, text: &[u8]) -> Result<Drawing, Fault> {
 ///
 /// # Errors
 ///
-/// As [`read`].
+/// As [`read`], and with [`Options::zeros`] that are not zero.
 pub fn read_with(file: &str, text: &[u8], options: &Options) -> Result<Drawing, Fault> {
+    if options.zeros != Zeros::default() {
+        let problem = "a drawing in HPGL has no zeros and reference points of its own";
+        return Err(Fault::new(
+            file,
+            0,
+            "program",
+            problem,
+            "them with G-code only",
+        ));
+    }
     let fault = match draw_all(Plotter::new(file, text, options.lenient)) {
         Err(fault) if fault.all().any(|fault| fault.field == "PE") => fault,
         result => return result,

@@ -17,8 +17,8 @@ pub(crate) use fault::Faults;
 pub use fault::{Excerpt, Fault, LISTED, MOST_FAULTS, SHOWN, shown};
 pub(crate) use file::size;
 pub use file::{
-    DRAWINGS, Kind, LARGEST_FILE, Options, POSITION_LOGS, read_bytes, read_path, read_path_with,
-    read_string, read_text, read_text_with,
+    DRAWINGS, Kind, LARGEST_FILE, Options, POSITION_LOGS, Zeros, read_bytes, read_path,
+    read_path_with, read_string, read_text, read_text_with,
 };
 
 use std::fmt;

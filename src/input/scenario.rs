@@ -10,10 +10,12 @@ pub mod lead_angle;
 pub mod linear_interpolator;
 mod loaded;
 pub mod machine;
+mod program;
 pub mod pulse_interpolator;
 pub mod trajectory_controller;
 
 pub use loaded::Loaded;
+pub use program::Program;
 
 use super::file::{DRAWINGS, Kind, POSITION_LOGS};
 use serde::Deserialize;
@@ -81,6 +83,18 @@ impl Scenario {
             Scenario::ArcGenerator(scenario) => scenario.input.as_mut(),
             Scenario::TrajectoryController(scenario) => scenario.input.as_mut(),
             Scenario::Machine(scenario) => scenario.input.as_mut(),
+        }
+    }
+
+    /// Where the zeros of a part program are.
+    pub fn program(&self) -> Program {
+        match self {
+            Scenario::PulseInterpolator(scenario) => scenario.program,
+            Scenario::LinearInterpolator(scenario) => scenario.program,
+            Scenario::LeadAngle(_) => Program::default(),
+            Scenario::ArcGenerator(scenario) => scenario.program,
+            Scenario::TrajectoryController(scenario) => scenario.program,
+            Scenario::Machine(scenario) => scenario.program,
         }
     }
 

@@ -48,7 +48,7 @@ fn bad_settings_are_refused() {
         ),
         (
             "feed=1",
-            "feed: unknown field `feed`; allowed: one of `circuit`, `input`, `start_mm`, `piece`, ",
+            "feed: unknown field `feed`; allowed: one of `circuit`, `input`, `program`, `start_mm`, `piece`, ",
         ),
         (
             "input=p.ngc",

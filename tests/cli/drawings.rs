@@ -242,3 +242,39 @@ fn a_program_with_a_loop_says_what_it_skipped_unless_it_is_strict() {
          --most-lines for more",
     );
 }
+
+#[test]
+fn zeros_of_a_part_program_come_from_the_scenario() {
+    let keys = "circuit = \"pulse_interpolator\"\ninput = \"p.ngc\"\n";
+    let zeros = "[program]\ng54_mm = [5, 0, 0]\ng28_mm = [0, 2, 0]\n";
+    let bench = Bench::with("p.ngc", "G1 X1 F1200\nG28\n");
+    bench.write("s.toml", format!("{keys}{zeros}"));
+    let ends = |arguments: &[&str]| {
+        let run = [&["run"], arguments, &["--no-vcd"]].concat();
+        let run = bench.json(&run);
+        ["x", "y"].map(|axis| run["axes"][axis]["end_position"].as_i64().unwrap())
+    };
+    assert_eq!(ends(&["s.toml"]), [0, 160]);
+    assert_eq!(
+        ends(&["s.toml", "--set", "program.g28_mm=[6, 0, 0]"]),
+        [480, 0]
+    );
+    assert_eq!(
+        ends(&["p.ngc", "--set", "program={g28_mm=[0, 0.5, 0]}"]),
+        [0, 40]
+    );
+    bench.refuse(
+        &["run", "s.toml", "--set", "program.g28_mm=[6, nan, 0]"],
+        "--set: program.g28_mm: has NaN; allowed: -1000000 to 1000000",
+    );
+    bench.refuse(
+        &["run", "s.toml", "--set", "program.g54_mm=[6, 0]"],
+        "--set: program.g54_mm: invalid length 2; allowed: a list of three numbers, of X, Y and Z",
+    );
+    bench.write("l.hpgl", "PD400,0;");
+    bench.refuse(
+        &["run", "l.hpgl", "--set", "program={g54_mm=[6, 0, 0]}"],
+        "l.hpgl: program: a drawing in HPGL has no zeros and reference points of its own; \
+         allowed: them with G-code only",
+    );
+}

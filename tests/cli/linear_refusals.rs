@@ -3,7 +3,7 @@
 use super::linear::{LINEAR, run};
 use super::support::{Bench, LINE};
 
-const KEYS: &str = "one of `circuit`, `input`, `variant`, `clock_hz`, `scan_ticks`, \
+const KEYS: &str = "one of `circuit`, `input`, `program`, `variant`, `clock_hz`, `scan_ticks`, \
      `counts_per_mm`, `feed_mm_per_min`, `rapid_mm_per_min`, `full_speed_mm_per_min`, `acceleration_ms`, \
      `deceleration_ms`, `short_moves`, `chord_tolerance_mm`, `exact_stop`, \
      `in_position_counts`, `position_gain_per_s`, `rated_speed_rev_per_min`, `counts_per_rev`, \

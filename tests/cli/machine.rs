@@ -306,7 +306,7 @@ fn bad_input_is_refused_with_its_line() {
         (
             "feed = 1",
             SHORT,
-            "s.toml:8: feed: unknown field `feed`; allowed: one of `circuit`, `input`, `clock_hz`, ",
+            "s.toml:8: feed: unknown field `feed`; allowed: one of `circuit`, `input`, `program`, `clock_hz`, ",
         ),
         (
             "[lift]\nmass = 1",

@@ -8,7 +8,7 @@ use super::nurbs::Nurbs;
 use super::offsets::{Offsets, Own};
 use super::problem::Problem;
 use crate::input::track::Track;
-use crate::input::{Course, Drawing, Fault, Move, Point};
+use crate::input::{Course, Drawing, Fault, Move, Options, Point};
 
 const MM_PER_INCH: f64 = 25.4;
 
@@ -51,13 +51,13 @@ pub(super) struct Machine<'a> {
 }
 
 impl<'a> Machine<'a> {
-    pub(super) fn new(file: &'a str, strict: bool) -> Self {
+    pub(super) fn new(file: &'a str, options: &Options) -> Self {
         Self {
             track: Track::new(file),
             at: [0.0; 3],
             modal: Modal::default(),
             saved: None,
-            offsets: Offsets::default(),
+            offsets: Offsets::new(options.zeros),
             cycle: Cycle::default(),
             last_control: None,
             nurbs: None,
@@ -66,7 +66,7 @@ impl<'a> Machine<'a> {
             feed_word: None,
             spindle: 0.0,
             tool: 0.0,
-            strict,
+            strict: options.strict,
         }
     }
 

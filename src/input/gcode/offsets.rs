@@ -3,10 +3,7 @@
 use super::block::{Block, Code, name};
 use super::machine::{Machine, Piece};
 use super::problem::Problem;
-use crate::input::{Course, Point};
-
-/// Coordinate systems: G54 to G59, G59.1 to G59.3.
-const SYSTEMS: usize = 9;
+use crate::input::{Course, Point, Zeros};
 
 /// An instruction that takes the axis words for itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,18 +27,25 @@ pub(super) enum Own {
 }
 
 /// Where the zeros are, from the machine's, in millimetres.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Offsets {
-    systems: [Point; SYSTEMS],
+    zeros: Zeros,
     shift: Point,
     /// What G92.2 put aside.
     suspended: Point,
-    references: [Point; 2],
 }
 
 impl Offsets {
+    pub(super) fn new(zeros: Zeros) -> Self {
+        Self {
+            zeros,
+            shift: Point::default(),
+            suspended: Point::default(),
+        }
+    }
+
     pub(super) fn system(&self, number: usize) -> Point {
-        self.systems.get(number).copied().unwrap_or_default()
+        self.zeros.systems.get(number).copied().unwrap_or_default()
     }
 
     pub(super) fn shift(&self) -> Point {
@@ -49,7 +53,11 @@ impl Offsets {
     }
 
     pub(super) fn reference(&self, number: usize) -> Point {
-        self.references.get(number).copied().unwrap_or_default()
+        self.zeros
+            .references
+            .get(number)
+            .copied()
+            .unwrap_or_default()
     }
 }
 
@@ -96,7 +104,7 @@ impl Machine<'_> {
             Own::Go(number) => self.go_home(block, number, words, name('G', code)),
             Own::Keep(number) => {
                 let at = self.at;
-                if let Some(place) = self.offsets.references.get_mut(number) {
+                if let Some(place) = self.offsets.zeros.references.get_mut(number) {
                     *place = at;
                 }
             }
@@ -168,10 +176,12 @@ impl Machine<'_> {
         }
         let system = match number {
             0.0 => Some(self.modal.system),
-            number => (1..=SYSTEMS).find(|&n| n as f64 == number).map(|n| n - 1),
+            number => (1..=self.offsets.zeros.systems.len())
+                .find(|&n| n as f64 == number)
+                .map(|n| n - 1),
         };
         let shift = self.offsets.shift;
-        let place = system.and_then(|system| self.offsets.systems.get_mut(system));
+        let place = system.and_then(|system| self.offsets.zeros.systems.get_mut(system));
         let Some(place) = place else {
             let problem = format!("the coordinate system P{number}");
             return Err(Problem::new("G10 P", problem, "0 to 9"));

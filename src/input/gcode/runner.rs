@@ -83,7 +83,7 @@ impl<'a> Runner<'a> {
         Self {
             text,
             options,
-            machine: Machine::new(file, options.strict),
+            machine: Machine::new(file, options),
             parameters: Parameters::new(),
             at: (0, 1),
             index: None,

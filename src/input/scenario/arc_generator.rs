@@ -1,7 +1,7 @@
 //! The keys of the arc generator.
 
-use super::Runnable;
 use super::exactly::exactly;
+use super::{Program, Runnable};
 use crate::arc_generator::Rounding;
 use crate::arc_generator::path::Taught;
 use crate::arc_generator::settings::{Settings, ShortPieces};
@@ -19,6 +19,9 @@ pub struct Scenario {
     pub circuit: Runnable,
     /// The drawing or part program; in a file relative to that file.
     pub input: Option<PathBuf>,
+    /// Where the zeros of a part program are.
+    #[serde(default)]
+    pub program: Program,
     /// Where the first piece begins.
     #[serde(default, deserialize_with = "exactly")]
     pub start_mm: Point,

@@ -1,7 +1,7 @@
 //! The keys of the linear interpolator.
 
-use super::Runnable;
 use super::exactly::exactly;
+use super::{Program, Runnable};
 use crate::linear_interpolator::settings::{AxisSettings, Rule, Settings, ShortMoves};
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -15,6 +15,9 @@ pub struct Scenario {
     pub circuit: Runnable,
     /// The drawing or part program; in a file relative to that file.
     pub input: Option<PathBuf>,
+    /// Where the zeros of a part program are.
+    #[serde(default)]
+    pub program: Program,
     /// How the integrator 24 divides.
     #[serde(default = "default::variant")]
     pub variant: Rule,

@@ -1,7 +1,7 @@
 //! The keys of the machine.
 
 use super::exactly::exactly;
-use super::{Runnable, VCD_TICKS};
+use super::{Program, Runnable, VCD_TICKS};
 use crate::machine::settings::{Correction, Settings};
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
@@ -17,6 +17,8 @@ pub struct Scenario {
     pub circuit: Runnable,
     /// The drawing or part program; in a file relative to that file.
     pub input: Option<PathBuf>,
+    /// Where the zeros of a part program are.
+    pub program: Program,
     /// Reference clock in Hz.
     pub clock_hz: u64,
     /// T: unit time of the steppers, in ticks.
@@ -86,6 +88,7 @@ impl Default for Scenario {
         Scenario {
             circuit: Runnable::Machine,
             input: None,
+            program: Program::default(),
             clock_hz: settings.clock_hz,
             unit_ticks: settings.unit_ticks,
             scan_ticks: settings.scan_ticks,

@@ -1,6 +1,6 @@
 //! The keys of the pulse interpolator.
 
-use super::Runnable;
+use super::{Program, Runnable};
 use crate::input::Drawing;
 use crate::plan::MotionLimits;
 use crate::pulse_interpolator::{Settings, StepTiming};
@@ -15,6 +15,9 @@ pub struct Scenario {
     pub circuit: Runnable,
     /// The drawing or part program; in a file relative to that file.
     pub input: Option<PathBuf>,
+    /// Where the zeros of a part program are.
+    #[serde(default)]
+    pub program: Program,
     /// What RST clears.
     #[serde(default)]
     pub variant: VariantName,

@@ -1,8 +1,8 @@
 //! The keys of the trajectory controller.
 
-use super::Runnable;
 use super::arc_generator::{PieceKeys, taught};
 use super::exactly::exactly;
+use super::{Program, Runnable};
 use crate::arc_generator::path::Taught;
 use crate::input::Point;
 use crate::plant::TwoMassParameters;
@@ -24,6 +24,9 @@ pub struct Scenario {
     pub circuit: Runnable,
     /// The drawing or part program; in a file relative to that file.
     pub input: Option<PathBuf>,
+    /// Where the zeros of a part program are.
+    #[serde(default)]
+    pub program: Program,
     /// Where the first piece begins.
     #[serde(default, deserialize_with = "exactly")]
     pub start_mm: Point,

@@ -1,6 +1,7 @@
 //! Coordinate systems, offsets and reference points.
 
-use motion_rtl::input::gcode::read;
+use motion_rtl::input::gcode::{read, read_with};
+use motion_rtl::input::{Options, Zeros, hpgl};
 
 use crate::input::common::{accept, moves, refuse};
 
@@ -71,4 +72,41 @@ fn parameters_show_the_offsets() {
         .map(|step| step.to)
         .collect();
     assert_eq!(ends, [[22.0, 0.0, 0.0], [20.0, 0.0, 0.0]]);
+}
+
+#[test]
+fn zeros_are_where_they_are_given_until_the_program_sets_them() {
+    let mut zeros = Zeros::default();
+    zeros.systems[0] = [10.0, 20.0, 30.0];
+    zeros.systems[8] = [0.0, 0.0, -1.0];
+    zeros.references = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]];
+    let options = Options {
+        zeros,
+        ..Options::default()
+    };
+    let with_zeros = |text: &str| {
+        let drawing = read_with("t", text.as_bytes(), &options).unwrap();
+        moves(&drawing)
+    };
+    for (text, expected) in [
+        ("G0 X1 Y1 Z1", &["rapid to 11 21 31"][..]),
+        ("G59.3 G0 Z1 X2", &["rapid to 2 0 0"]),
+        ("G10 L2 P1 X5\nG0 X1 Z0", &["rapid to 6 0 30"]),
+        ("G28", &["rapid to 1 2 3"]),
+        ("G30 Z5", &["rapid to 0 0 35", "rapid to 0 0 6"]),
+        (
+            "G53 G0 X7\nG28.1\nG53 G0 X0\nG28 X0",
+            &[
+                "rapid to 7 0 0",
+                "rapid to 0 0 0",
+                "rapid to 10 0 0",
+                "rapid to 7 0 0",
+            ],
+        ),
+        ("G0 X#5221 Y[#5161 + #5183]", &["rapid to 20 27 0"]),
+    ] {
+        assert_eq!(with_zeros(text), expected, "{text}");
+    }
+    let fault = hpgl::read_with("t", b"PD1,1;", &options).unwrap_err();
+    assert_eq!(fault.field, "program");
 }

@@ -5,11 +5,12 @@ use motion_rtl::input::gcode::{read, read_with};
 
 use crate::input::common::{accept, moves, refuse, warnings};
 
-const STRICT: Options = Options {
-    lenient: false,
-    strict: true,
-    most_lines: Options::MOST_LINES,
-};
+fn strict() -> Options {
+    Options {
+        strict: true,
+        ..Options::default()
+    }
+}
 
 /// Lines that a printer, a mill or a host sends, and the words they are skipped for.
 const NOTHING: &[(&str, &[&str])] = &[
@@ -62,11 +63,11 @@ fn what_says_nothing_is_skipped_once_and_strictly_refused() {
             };
             assert!(shown.contains(&expected), "{line}: {shown:?}");
         }
-        let fault = read_with("t", format!("G1 X1 F60\n{line}").as_bytes(), &STRICT);
+        let fault = read_with("t", format!("G1 X1 F60\n{line}").as_bytes(), &strict());
         assert_eq!(fault.unwrap_err().line, 2, "{line}");
     }
     let same = b"T1 M6\nS900 M3 M8\nG54 G64 G49 G40 G1 X1 F60\nG4 P1\nM9 M5 M2";
-    assert_eq!(read_with("t", same, &STRICT), read("t", same));
+    assert_eq!(read_with("t", same, &strict()), read("t", same));
 }
 
 #[test]
