@@ -49,13 +49,22 @@ struct Host<'a> {
     waiting: usize,
     sample_ticks: u64,
     started: bool,
+    /// It gave nothing but what stands in this tick.
+    quiet: bool,
 }
 
 impl Host<'_> {
+    /// Whether it gives in the tick to come what it gave in this one, if what it looks at does not
+    /// change.
+    fn stands(&self) -> bool {
+        self.quiet && self.records.stands(usize::MAX)
+    }
+
     fn ports(&mut self) -> generator::In<Sim, D, T> {
         let start = !self.started && self.records.written() == self.waiting;
         self.started |= start;
         let record = self.records.write();
+        self.quiet = self.started && !start && !record.write;
         generator::In {
             write: record.write.into(),
             write_word: record.word.into(),
@@ -94,6 +103,7 @@ pub fn play(
         waiting: records.len().min(HEAD_START),
         sample_ticks: u64::from(sample_ticks),
         started: false,
+        quiet: false,
     };
     let mut played = Played::default();
     let all = observer.needs_all();
@@ -112,8 +122,10 @@ pub fn play(
     while !over && !stopped {
         let i = host.ports();
         let (started, pushed) = (i.start.get(), i.push.get());
-        let (busy, flow) = simulator.step_watched(&i, &mut observer, |now| {
+        let mut quiet = true;
+        let (busy, flow) = simulator.look(&i, &mut observer, |now| {
             host.records.free = now.get(see.ready) && !pushed;
+            quiet = !now.get(see.sampled);
             if now.get(see.sampled) {
                 let counts = see.command.map(|word| now.get(word));
                 played.commands.push(Command {
@@ -123,9 +135,14 @@ pub fn play(
             }
             now.get(see.busy)
         })?;
-        played.ticks += 1;
+        played.ticks = simulator.tick() + 1;
         over = host.started && !started && !busy;
         stopped = flow.is_break();
+        let most = match quiet && host.stands() && !over && !stopped {
+            true => observer.next_look(simulator.tick() + 1) - simulator.tick(),
+            false => 1,
+        };
+        simulator.go_on(most);
     }
     played.late = simulator.get(see.late);
     played.starved = simulator.get(see.starved);

@@ -41,6 +41,11 @@ impl<'a> RecordWriter<'a> {
         self.record
     }
 
+    /// Whether it writes nothing of the first so many records as long as there is no more room.
+    pub(crate) fn stands(&self, records: usize) -> bool {
+        self.record >= records.min(self.records.len()) || !self.free
+    }
+
     /// The word of this tick.
     pub(crate) fn write(&mut self) -> Written {
         self.write_up_to(self.records.len())

@@ -154,8 +154,8 @@ impl Progress {
 }
 
 impl<C: Circuit> Observer<C> for Progress {
-    fn looks(&self, tick: u64) -> bool {
-        tick >= self.due
+    fn next_look(&self, tick: u64) -> u64 {
+        tick.max(self.due)
     }
 
     fn needs_all(&self) -> bool {

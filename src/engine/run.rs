@@ -180,6 +180,7 @@ impl Engine {
     #[inline]
     pub fn edge(&mut self) {
         self.begin();
+        self.pause.left = self.pause.left.saturating_sub(1);
         self.tier.edge(&self.program.plan, &mut self.slab);
     }
 

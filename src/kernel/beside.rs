@@ -130,8 +130,8 @@ impl<C: Circuit, B: Beside> Circuit for With<C, B> {
 pub struct Without<O>(pub O);
 
 impl<C: Circuit, B: Beside, O: Observer<C>> Observer<With<C, B>> for Without<O> {
-    fn looks(&self, tick: u64) -> bool {
-        self.0.looks(tick)
+    fn next_look(&self, tick: u64) -> u64 {
+        self.0.next_look(tick)
     }
 
     fn needs_all(&self) -> bool {

@@ -73,7 +73,13 @@ impl Model {
 
     /// It planned.
     pub fn program(&self, watch: Watch<'_>) -> Arc<Program> {
-        let held = ports_out(&self.design);
+        self.program_with(watch, &[])
+    }
+
+    /// It planned, where idle ticks leave not only ports out as they are, but these leaves too.
+    pub(crate) fn program_with(&self, watch: Watch<'_>, seen: &[usize]) -> Arc<Program> {
+        let mut held = ports_out(&self.design);
+        held.extend(seen);
         Arc::new(Program::planned(&self.flat, watch, &held))
     }
 

@@ -28,12 +28,16 @@ pub enum RunError {
 ///
 /// `()` observes nothing and costs nothing; a tuple observes with each of its parts in turn.
 pub trait Observer<C: Circuit> {
-    /// Whether it looks at that tick: of one that it does not, [`sample`](Self::sample) takes
-    /// nothing. Where ticks are [watched](super::Simulator::step_watched) one by one, those at which
-    /// nobody looks are not shown.
+    /// The first tick from this one on at which it looks: of others [`sample`](Self::sample) takes
+    /// nothing. Where ticks are [watched](super::Simulator::look) one by one, those at which nobody
+    /// looks are not shown.
+    fn next_look(&self, tick: u64) -> u64 {
+        tick
+    }
+
+    /// Whether it looks at that tick.
     fn looks(&self, tick: u64) -> bool {
-        let _ = tick;
-        true
+        self.next_look(tick) == tick
     }
 
     /// Whether it looks at signals that nobody chose to [watch](super::Simulator::watching).
@@ -49,8 +53,8 @@ pub trait Observer<C: Circuit> {
 }
 
 impl<C: Circuit> Observer<C> for () {
-    fn looks(&self, _: u64) -> bool {
-        false
+    fn next_look(&self, _: u64) -> u64 {
+        u64::MAX
     }
 
     fn needs_all(&self) -> bool {
@@ -63,8 +67,8 @@ impl<C: Circuit> Observer<C> for () {
 }
 
 impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
-    fn looks(&self, tick: u64) -> bool {
-        (**self).looks(tick)
+    fn next_look(&self, tick: u64) -> u64 {
+        (**self).next_look(tick)
     }
 
     fn needs_all(&self) -> bool {
@@ -77,8 +81,9 @@ impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
 }
 
 impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
-    fn looks(&self, tick: u64) -> bool {
-        self.as_ref().is_some_and(|observer| observer.looks(tick))
+    fn next_look(&self, tick: u64) -> u64 {
+        self.as_ref()
+            .map_or(u64::MAX, |observer| observer.next_look(tick))
     }
 
     fn needs_all(&self) -> bool {
@@ -96,8 +101,8 @@ impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
 macro_rules! together {
     ($($part:ident $place:tt),+) => {
         impl<C: Circuit, $($part: Observer<C>),+> Observer<C> for ($($part,)+) {
-            fn looks(&self, tick: u64) -> bool {
-                $(self.$place.looks(tick))||+
+            fn next_look(&self, tick: u64) -> u64 {
+                u64::MAX$(.min(self.$place.next_look(tick)))+
             }
 
             fn needs_all(&self) -> bool {

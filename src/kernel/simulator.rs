@@ -102,7 +102,8 @@ impl<C: Circuit> Simulator<C> {
             true => Watch::All,
             false => Watch::Leaves(&watched),
         };
-        Ok((Simulator::of(model.engine(watch), 0), chosen))
+        let engine = Engine::new(model.program_with(watch, &watched));
+        Ok((Simulator::of(engine, 0), chosen))
     }
 
     fn of(engine: Engine, tick: u64) -> Self {
@@ -306,15 +307,16 @@ impl<C: Circuit> Simulator<C> {
         self.step_with_reset(false, i, show)
     }
 
-    /// Goes on by one tick and shows its sample, which `observer` sees too if it
-    /// [looks](Observer::looks) at the tick. Also gives whether the observer goes on.
+    /// Shows the sample of the tick to come, which `observer` sees too if it
+    /// [looks](Observer::looks) at it; [`go_on`](Self::go_on) goes on from there. Also gives whether
+    /// the observer goes on.
     ///
     /// Nothing is moved: where ports in are many and few of them change, this takes less time than
     /// [`step`](Self::step).
     ///
     /// # Errors
     /// What `observer` objects to.
-    pub fn step_watched<T>(
+    pub fn look<T>(
         &mut self,
         i: &C::In<Sim>,
         mut observer: impl Observer<C>,
@@ -330,8 +332,31 @@ impl<C: Circuit> Simulator<C> {
             };
             (shown, flow)
         });
-        self.edge();
         Ok((shown, flow?))
+    }
+
+    /// [Looks](Self::look) at the tick to come and goes on by it.
+    ///
+    /// # Errors
+    /// What `observer` objects to.
+    pub fn step_watched<T>(
+        &mut self,
+        i: &C::In<Sim>,
+        observer: impl Observer<C>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> Result<(T, ControlFlow<()>), RunError> {
+        let looked = self.look(i, observer, show)?;
+        self.go_on(1);
+        Ok(looked)
+    }
+
+    /// Goes on from a tick that was [looked](Self::look) at, by up to so many ticks and at least one,
+    /// ports in as they are: to the first in which a port out or what is
+    /// [watched](Self::watching) may have changed. Returns how many it has gone.
+    pub fn go_on(&mut self, ticks: u64) -> u64 {
+        let start = self.tick;
+        self.go_to_change(start.saturating_add(ticks.max(1)), true);
+        self.tick - start
     }
 
     /// Runs one tick and shows its sample; with `rst` high its edge is that of a synchronous

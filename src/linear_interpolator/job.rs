@@ -8,7 +8,7 @@ use super::targets::{TIME_BITS, Target};
 use super::{CommandSource, Controller, Conventional, LinearInterpolator, Rule, controller};
 use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn, zero};
 use crate::logic::Sim;
-use crate::plant::{ServoAxis, ServoParameters, waves};
+use crate::plant::{Ahead, ServoAxis, ServoParameters, waves};
 use crate::settings::JobError;
 use fixed::types::U8F8;
 use std::array::from_fn;
@@ -106,9 +106,18 @@ struct Bench<'a, const N: usize> {
     fresh: Option<usize>,
     /// Scans since a new command.
     idle: u64,
+    /// The tick was one of many like it, as far as is looked at.
+    quiet: bool,
 }
 
 impl<const N: usize> Bench<'_, N> {
+    /// Whether the tick to come gives the ports what this one did, and is written down like it, if
+    /// nothing that is looked at changes.
+    fn stands(&self) -> bool {
+        let pushes = self.pushing || (self.ready && self.pushed < self.targets.len());
+        self.quiet && !pushes && self.loaded.is_none()
+    }
+
     /// The target that is given in this tick.
     fn push(&mut self) -> Option<Target<N>> {
         let target = self.targets.get(self.pushed).copied();
@@ -128,7 +137,10 @@ impl<const N: usize> Bench<'_, N> {
     ) -> bool {
         let played = &mut self.played;
         let command = || see.command.map(|command| now.get(command));
-        played.ticks += 1;
+        played.ticks = now.tick + 1;
+        self.quiet = ![see.scan, see.start, see.load]
+            .map(|bit| now.get(bit))
+            .contains(&true);
         self.ready = now.get(see.ready);
         if let Some(cycle) = self.loaded.take() {
             played.cycles[cycle].end = command();
@@ -139,7 +151,7 @@ impl<const N: usize> Bench<'_, N> {
             self.idle += 1;
             let at = played.records.len();
             played.records.push(ScanRecord {
-                tick: played.ticks - 1,
+                tick: now.tick,
                 command: command(),
                 motor,
             });
@@ -195,7 +207,7 @@ pub fn play<C: CommandSource<P, T, N>, const N: usize>(
     settings.validate()?;
     let tick_s = 1.0 / settings.clock_hz as f64;
     let [x, y] = &settings.axes;
-    let mut servos = [
+    let servos = [
         ServoAxis::new(&x.servo(), tick_s)?,
         ServoAxis::new(&y.servo(), tick_s)?,
     ];
@@ -220,12 +232,17 @@ pub fn play<C: CommandSource<P, T, N>, const N: usize>(
         loaded: None,
         fresh: None,
         idle: 0,
+        quiet: false,
     };
     let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
+    let mut motors = Ahead::new(servos);
     loop {
         let references = see.reference.map(|axis| simulator.get(axis));
-        let [(a_x, b_x), (a_y, b_y)] =
-            [0, 1].map(|axis: usize| servos[axis].step(references[axis], FULL_SCALE));
+        let step = |axis: &mut ServoAxis, reference| axis.step(reference, FULL_SCALE);
+        let [(a_x, b_x), (a_y, b_y)] = motors.step(|servos| {
+            let [x, y] = servos;
+            [step(x, references[0]), step(y, references[1])]
+        });
         let target = bench.push();
         let ports = &mut i.i;
         ports.push = target.is_some().into();
@@ -240,14 +257,24 @@ pub fn play<C: CommandSource<P, T, N>, const N: usize>(
             from_fn(|n| setting(|profile| profile.deceleration_scans, n).into());
         (ports.a_x, ports.b_x) = (a_x.into(), b_x.into());
         (ports.a_y, ports.b_y) = (a_y.into(), b_y.into());
+        let servos = &motors.plants;
         if observer.looks(simulator.tick()) {
-            i.beside = waves::Signals::of(&servos);
+            i.beside = waves::Signals::of(servos);
         }
         let motor = [0, 1].map(|axis: usize| servos[axis].position_counts());
         let take = |now: &Sample<'_, _>| bench.take(now, &see, motor);
-        let (goes_on, flow) = simulator.step_watched(&i, &mut observer, take)?;
+        let (goes_on, flow) = simulator.look(&i, &mut observer, take)?;
         if !goes_on || flow.is_break() {
             return Ok(bench.played);
         }
+        let most = match bench.stands() {
+            true => observer.next_look(simulator.tick() + 1) - simulator.tick(),
+            false => 1,
+        };
+        let step = |servos: &mut [ServoAxis; 2]| {
+            let [x, y] = servos;
+            [step(x, references[0]), step(y, references[1])]
+        };
+        motors.go_on(most, step, |ticks| simulator.go_on(ticks));
     }
 }

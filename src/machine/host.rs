@@ -92,6 +92,8 @@ pub(super) struct Host<'a> {
     profile: RecordWriter<'a>,
     /// Records of these that are ended in this tick.
     pushed: [bool; 2],
+    /// It gave nothing but what stands in this tick.
+    quiet: bool,
     lift_steps: Vec<lead_angle::Step>,
     /// Lift steps that are written.
     lift_words: usize,
@@ -134,6 +136,7 @@ impl<'a> Host<'a> {
             arcs: RecordWriter::new(&program.arcs),
             profile: RecordWriter::new(&program.profile),
             pushed: [false; 2],
+            quiet: false,
             lift_steps: settings.lift().steps,
             lift_words: 0,
             stage: Stage::Write,
@@ -175,6 +178,22 @@ impl<'a> Host<'a> {
         }
     }
 
+    /// Whether it gives in the tick to come what it gave in this one, and is at what it was, if what
+    /// it looks at does not change.
+    pub(super) fn stands(&self) -> bool {
+        let waits = match self.stage {
+            Stage::Move(age) | Stage::Close(age) => age >= DEAF,
+            Stage::Lift(begun) => begun,
+            // It looks at the ends of sampling times.
+            Stage::Settle | Stage::Done => true,
+            Stage::Write | Stage::Ready => false,
+        };
+        self.quiet
+            && waits
+            && self.arcs.stands(self.arcs_due)
+            && self.profile.stands(self.profile_due)
+    }
+
     /// What it gives in this tick, from the registers; the encoders are left as they are.
     pub(super) fn drive(&mut self, i: &mut In<Sim>, now: &Simulator<Plant>) {
         i.pulse = self.pulse(now.get(self.see.pending));
@@ -195,6 +214,20 @@ impl<'a> Host<'a> {
             }
             _ => {}
         }
+        let strobes = [
+            i.pulse.command,
+            i.pulse.write,
+            i.lines.push,
+            i.arcs.write,
+            i.arcs.start,
+            i.trajectory.write,
+            i.trajectory.start,
+            i.trajectory.write_path,
+            i.lift.write_target,
+            i.lift.run,
+        ];
+        let written = self.lift_words > self.lift_steps.len();
+        self.quiet = written && strobes.iter().all(|strobe| !strobe.get());
     }
 
     /// Begins the next move, or what must come before it.

@@ -9,7 +9,8 @@ use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn};
 use crate::lead_angle::settings::SPEED_UNIT_COUNTS_PER_S;
 use crate::lead_angle::{Compensator, Variant};
 use crate::logic::{Image, Sim};
-use crate::plant::{BrakedBody, TwoMassAxis};
+use crate::plant::brake::BodyState;
+use crate::plant::{Ahead, BrakedBody, Plant as Motion, TwoMassAxis};
 use crate::pulse_interpolator::step_dir::Driver;
 use crate::pulse_interpolator::{self as pulse, StepTiming};
 use crate::settings::{JobError, SettingError};
@@ -161,9 +162,50 @@ impl Drives {
 /// Everything around the circuit.
 struct Surroundings {
     drives: Drives,
+    plants: Ahead<Bodies, [(bool, bool); 3]>,
+    drivers: [Driver; 2],
+}
+
+/// Motors with what they move.
+struct Bodies {
     servos: [TwoMassAxis; 2],
     lift: BrakedBody,
-    drivers: [Driver; 2],
+}
+
+/// What the plants are driven by in a tick.
+#[derive(Clone, Copy)]
+struct Driven {
+    torque: [i64; 2],
+    speed: f64,
+    drive: bool,
+    reverse: bool,
+    brake: bool,
+}
+
+impl Motion for Bodies {
+    type State = (<[TwoMassAxis; 2] as Motion>::State, BodyState);
+
+    #[inline]
+    fn state(&self) -> Self::State {
+        (self.servos.state(), self.lift.state())
+    }
+
+    fn set_state(&mut self, (servos, lift): Self::State) {
+        self.servos.set_state(servos);
+        self.lift.set_state(lift);
+    }
+}
+
+impl Bodies {
+    /// A tick; the encoders' channels of X, of Y and of the lift.
+    fn step(&mut self, by: &Driven) -> [(bool, bool); 3] {
+        let [x, y] = &mut self.servos;
+        [
+            x.step(by.torque[0]),
+            y.step(by.torque[1]),
+            self.lift.step(by.drive, by.reverse, by.speed, by.brake),
+        ]
+    }
 }
 
 impl Surroundings {
@@ -171,32 +213,42 @@ impl Surroundings {
         let tick_s = 1.0 / settings.clock_hz as f64;
         Ok(Surroundings {
             drives,
-            servos: [
-                TwoMassAxis::new(&settings.axis, tick_s)?,
-                TwoMassAxis::new(&settings.axis, tick_s)?,
-            ],
-            lift: BrakedBody::new(&settings.lift, tick_s)?,
+            plants: Ahead::new(Bodies {
+                servos: [
+                    TwoMassAxis::new(&settings.axis, tick_s)?,
+                    TwoMassAxis::new(&settings.axis, tick_s)?,
+                ],
+                lift: BrakedBody::new(&settings.lift, tick_s)?,
+            }),
             drivers: [0, 1].map(|_| Driver::new(StepTiming::default())),
         })
     }
 
-    /// Steps the plants by what the registers say, and gives the encoders' channels.
-    fn step(&mut self, now: &Simulator<Plant>, i: &mut In<Sim>) {
-        for (axis, servo) in self.servos.iter_mut().enumerate() {
-            let (a, b) = servo.step(now.get(self.drives.torque[axis]));
-            i.trajectory.a[axis] = a.into();
-            i.trajectory.b[axis] = b.into();
-        }
+    /// What the registers drive the plants by.
+    fn driven(&self, now: &Simulator<Plant>) -> Driven {
         let drives = &self.drives;
         let speed = now.get(drives.speed) * u64::from(SPEED_UNIT_COUNTS_PER_S);
-        let (a, b) = self.lift.step(
-            now.get(drives.drive),
-            now.get(drives.reverse),
-            speed as f64,
-            now.get(drives.brake),
-        );
-        i.lift.a = a.into();
-        i.lift.b = b.into();
+        Driven {
+            torque: drives.torque.map(|torque| now.get(torque)),
+            speed: speed as f64,
+            drive: now.get(drives.drive),
+            reverse: now.get(drives.reverse),
+            brake: now.get(drives.brake),
+        }
+    }
+
+    /// Steps the plants to the tick to come, and gives the encoders' channels.
+    fn step(&mut self, by: &Driven, i: &mut In<Sim>) {
+        let [x, y, lift] = self.plants.step(|plants| plants.step(by));
+        i.trajectory.a = [x.0.into(), y.0.into()];
+        i.trajectory.b = [x.1.into(), y.1.into()];
+        (i.lift.a, i.lift.b) = (lift.0.into(), lift.1.into());
+    }
+
+    /// What is shown of it in the waves.
+    fn signals(&self) -> Signals<Sim> {
+        let Bodies { servos, lift } = &self.plants.plants;
+        Signals::of(servos, lift, &self.drivers)
     }
 }
 
@@ -219,6 +271,21 @@ struct See {
     model: [At<i64>; 2],
     counts: [At<i64>; 2],
     motor: [At<i64>; 2],
+}
+
+impl See {
+    /// Whether a tick that shows the same again is written down no other than this one.
+    fn is_quiet(&self, now: &Sample<'_, Plant>) -> bool {
+        let lift = &self.lift;
+        let strobes = [
+            self.unit,
+            self.driven,
+            lift.fire,
+            lift.complete,
+            lift.learned,
+        ];
+        strobes.iter().all(|&strobe| !now.get(strobe))
+    }
 }
 
 /// What is looked at of the pen lift.
@@ -349,7 +416,7 @@ impl Bench {
                 corrected: see.corrected.map(|axis| now.get(axis)),
                 model: see.model.map(|axis| now.get(axis)),
                 motor: see.motor.map(|axis| now.get(axis)),
-                load: from_fn(|k| around.servos[k].load_position_counts()),
+                load: from_fn(|k| around.plants.plants.servos[k].load_position_counts()),
                 lift: now.get(lift.position),
             });
             self.waiting = match host.stage {
@@ -379,7 +446,7 @@ pub fn play(
     let mut around = Surroundings::new(settings, drives)?;
     let mut i = WithIn {
         i: host.standing(),
-        beside: Signals::of(&around.servos, &around.lift, &around.drivers),
+        beside: around.signals(),
     };
     let mut bench = Bench {
         see,
@@ -392,19 +459,22 @@ pub fn play(
     loop {
         let before = host.stage;
         host.drive(&mut i.i, &simulator);
-        around.step(&simulator, &mut i.i);
+        let by = around.driven(&simulator);
+        around.step(&by, &mut i.i);
         if observer.looks(simulator.tick()) {
-            i.beside = Signals::of(&around.servos, &around.lift, &around.drivers);
+            i.beside = around.signals();
         }
-        let (pulsing, flow) = simulator.step_watched(&i, &mut *observer, |now| {
+        let mut quiet = true;
+        let (pulsing, flow) = simulator.look(&i, &mut *observer, |now| {
             bench.take(now, &mut around, &host);
             host.take(now);
+            quiet = bench.see.is_quiet(now);
             bench.played.command = bench.see.counts.map(|axis| now.get(axis));
             bench.played.motor = bench.see.motor.map(|axis| now.get(axis));
             now.get(bench.see.pulse_busy)
         })?;
-        let tick = bench.played.ticks;
-        bench.played.ticks += 1;
+        let tick = simulator.tick();
+        bench.played.ticks = tick + 1;
         match (before, host.stage) {
             (Stage::Ready, Stage::Move(_)) => bench.played.moves.push(Timed {
                 begun: tick,
@@ -419,7 +489,16 @@ pub fn play(
         }
         let over = host.stage == Stage::Done && bench.begun && !pulsing && host.pulses_given();
         bench.played.settled = over;
-        if over || bench.waiting > patience || flow.is_break() {
+        let ends = over || bench.waiting > patience || flow.is_break();
+        let most = match quiet && host.stands() && !ends {
+            true => observer.next_look(tick + 1) - tick,
+            false => 1,
+        };
+        let step = |bodies: &mut Bodies| bodies.step(&by);
+        around
+            .plants
+            .go_on(most, step, |ticks| simulator.go_on(ticks));
+        if ends {
             break;
         }
     }

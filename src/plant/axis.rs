@@ -1,7 +1,8 @@
 //! Driver, motor and encoder of one axis together.
 
 use super::parameters::check_tick;
-use super::{Encoder, Motor, ServoDriver, ServoParameters};
+use super::servo::MotorState;
+use super::{Encoder, Motor, Plant, ServoDriver, ServoParameters};
 use crate::settings::SettingError;
 
 /// Servo driver 2, motor 3 and pulse generator 4 of one axis, stepped once per reference tick.
@@ -13,6 +14,8 @@ pub struct ServoAxis {
     counts_per_rad: f64,
     tick_s: f64,
     torque_nm: f64,
+    /// The word, its full scale, and the speed in rad/s that they ask for.
+    asked: (i64, i64, f64),
 }
 
 impl ServoAxis {
@@ -31,6 +34,7 @@ impl ServoAxis {
             counts_per_rad: parameters.counts_per_rad(),
             tick_s,
             torque_nm: 0.0,
+            asked: (0, 1, 0.0),
         })
     }
 
@@ -39,9 +43,14 @@ impl ServoAxis {
     /// A and B of the tick to come.
     #[inline]
     pub fn step(&mut self, reference: i64, full_scale: i64) -> (bool, bool) {
-        let fraction = reference as f64 / full_scale.max(1) as f64;
+        // It stands for many ticks, and a division takes as long as all the rest.
+        if (self.asked.0, self.asked.1) != (reference, full_scale) {
+            let fraction = reference as f64 / full_scale.max(1) as f64;
+            let wanted = self.driver.wanted_rad_per_s(fraction);
+            self.asked = (reference, full_scale, wanted);
+        }
         let speed = self.motor.speed_rad_per_s();
-        self.torque_nm = self.driver.torque_nm(fraction, speed);
+        self.torque_nm = self.driver.torque_nm(self.asked.2, speed);
         self.motor.step(self.torque_nm, self.tick_s);
         self.channels()
     }
@@ -73,5 +82,19 @@ impl ServoAxis {
     /// The highest speed in counts a second at which every quarter is seen.
     pub fn countable_counts_per_s(&self) -> f64 {
         self.encoder.countable_counts_per_s(self.tick_s)
+    }
+}
+
+impl Plant for ServoAxis {
+    type State = (MotorState, f64);
+
+    #[inline]
+    fn state(&self) -> Self::State {
+        (self.motor.state(), self.torque_nm)
+    }
+
+    fn set_state(&mut self, (motor, torque_nm): Self::State) {
+        self.motor.set_state(motor);
+        self.torque_nm = torque_nm;
     }
 }

@@ -10,8 +10,8 @@ mod tests;
 
 pub use parameters::{BodyParameters, Load};
 
-use super::Encoder;
 use super::parameters::check_tick;
+use super::{Encoder, Plant};
 use crate::settings::SettingError;
 
 /// Motor drive, body, brake and encoder together, stepped once per reference tick.
@@ -29,6 +29,42 @@ pub struct BrakedBody {
     /// The brake has rubbed since it was last released.
     rubbed: bool,
     brakings: u32,
+}
+
+/// What of a body changes, its load aside.
+#[derive(Debug, Clone, Copy)]
+pub struct BodyState {
+    position_counts: f64,
+    speed_counts_per_s: f64,
+    signal_s: f64,
+    engaged: bool,
+    rubbed: bool,
+    brakings: u32,
+}
+
+impl Plant for BrakedBody {
+    type State = BodyState;
+
+    #[inline]
+    fn state(&self) -> BodyState {
+        BodyState {
+            position_counts: self.position_counts,
+            speed_counts_per_s: self.speed_counts_per_s,
+            signal_s: self.signal_s,
+            engaged: self.engaged,
+            rubbed: self.rubbed,
+            brakings: self.brakings,
+        }
+    }
+
+    fn set_state(&mut self, state: BodyState) {
+        self.position_counts = state.position_counts;
+        self.speed_counts_per_s = state.speed_counts_per_s;
+        self.signal_s = state.signal_s;
+        self.engaged = state.engaged;
+        self.rubbed = state.rubbed;
+        self.brakings = state.brakings;
+    }
 }
 
 impl BrakedBody {

@@ -30,6 +30,7 @@
 //!
 //! `rtl_notes/plant.md` has the equations and what is idealised.
 
+mod ahead;
 pub mod axis;
 pub mod brake;
 pub mod encoder;
@@ -38,6 +39,7 @@ pub mod servo;
 pub mod two_mass;
 pub mod waves;
 
+pub use ahead::{Ahead, Plant};
 pub use axis::ServoAxis;
 pub use brake::{BodyParameters, BrakedBody, Load};
 pub use encoder::Encoder;

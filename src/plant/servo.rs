@@ -4,7 +4,7 @@
 //! integrated without error: where friction stops the motor within a tick, it is stopped at that
 //! moment.
 
-use super::ServoParameters;
+use super::{Plant, ServoParameters};
 
 /// Servo driver 2: first-order velocity loop with a torque limit.
 ///
@@ -29,18 +29,28 @@ impl ServoDriver {
         }
     }
 
-    /// Torque in N·m for a reference that is a fraction of rated speed, at a speed in rad/s.
+    /// The speed in rad/s that a reference asks for, a fraction of rated speed.
     #[inline]
-    pub fn torque_nm(&self, reference: f64, speed_rad_per_s: f64) -> f64 {
-        let missing = reference * self.rated_speed_rad_per_s - speed_rad_per_s;
+    pub fn wanted_rad_per_s(&self, reference: f64) -> f64 {
+        reference * self.rated_speed_rad_per_s
+    }
+
+    /// Torque in N·m to come to a speed, at a speed, both in rad/s.
+    #[inline]
+    pub fn torque_nm(&self, wanted_rad_per_s: f64, speed_rad_per_s: f64) -> f64 {
+        let missing = wanted_rad_per_s - speed_rad_per_s;
         (self.gain * missing).clamp(-self.max_torque_nm, self.max_torque_nm)
     }
 }
 
+/// Position in counts and speed in rad/s of a motor.
+pub type MotorState = [f64; 2];
+
 /// Motor 3 with its load: inertia and Coulomb friction.
 #[derive(Debug, Clone, Copy)]
 pub struct Motor {
-    inertia_kg_m2: f64,
+    /// Acceleration per torque, in 1/(kg·m²).
+    ease: f64,
     friction_nm: f64,
     counts_per_rad: f64,
     position_counts: f64,
@@ -51,7 +61,7 @@ impl Motor {
     /// The motor of these parameters, at rest at position 0.
     pub fn new(parameters: &ServoParameters) -> Self {
         Motor {
-            inertia_kg_m2: parameters.inertia_kg_m2,
+            ease: 1.0 / parameters.inertia_kg_m2,
             friction_nm: parameters.friction_nm,
             counts_per_rad: parameters.counts_per_rad(),
             position_counts: 0.0,
@@ -79,7 +89,7 @@ impl Motor {
             return self.start(torque_nm, time_s);
         }
         let opposed = torque_nm - self.friction_nm * speed.signum();
-        let acceleration = opposed / self.inertia_kg_m2;
+        let acceleration = opposed * self.ease;
         if (speed + acceleration * time_s) * speed >= 0.0 {
             return self.advance(acceleration, time_s);
         }
@@ -94,7 +104,7 @@ impl Motor {
     #[inline]
     fn start(&mut self, torque_nm: f64, time_s: f64) {
         let over = (torque_nm.abs() - self.friction_nm).max(0.0);
-        self.advance(over * torque_nm.signum() / self.inertia_kg_m2, time_s);
+        self.advance(over * torque_nm.signum() * self.ease, time_s);
     }
 
     #[inline]
@@ -102,5 +112,19 @@ impl Motor {
         let mean = self.speed_rad_per_s + 0.5 * acceleration * time_s;
         self.position_counts += mean * time_s * self.counts_per_rad;
         self.speed_rad_per_s += acceleration * time_s;
+    }
+}
+
+impl Plant for Motor {
+    type State = MotorState;
+
+    #[inline]
+    fn state(&self) -> MotorState {
+        [self.position_counts, self.speed_rad_per_s]
+    }
+
+    fn set_state(&mut self, [position_counts, speed_rad_per_s]: MotorState) {
+        self.position_counts = position_counts;
+        self.speed_rad_per_s = speed_rad_per_s;
     }
 }

@@ -22,8 +22,8 @@ mod tests;
 
 pub use parameters::TwoMassParameters;
 
-use super::Encoder;
 use super::parameters::check_tick;
+use super::{Encoder, Plant};
 use crate::settings::{SettingError, within};
 use events::{Flank, Grip};
 use motion::{Equations, REACH, Regime, State, Step};
@@ -34,17 +34,50 @@ pub struct TwoMassAxis {
     parameters: TwoMassParameters,
     encoder: Encoder,
     tick_s: f64,
+    counts_per_rad: f64,
     equations: Equations,
     /// The whole tick without dry friction and backlash.
     whole: Step,
     /// A piece of a tick, for each regime.
     pieces: [Step; 8],
     count: u32,
+    /// The torque word that stands, and its torque.
+    asked: (i64, f64),
     torque_nm: f64,
     /// Motor angle, load angle, motor speed, load speed, in rad and rad/s.
     state: State,
     grips: [Grip; 2],
     flank: Flank,
+}
+
+/// What of a two-mass axis changes.
+#[derive(Debug, Clone, Copy)]
+pub struct TwoMassState {
+    torque_nm: f64,
+    state: State,
+    grips: [Grip; 2],
+    flank: Flank,
+}
+
+impl Plant for TwoMassAxis {
+    type State = TwoMassState;
+
+    #[inline]
+    fn state(&self) -> TwoMassState {
+        TwoMassState {
+            torque_nm: self.torque_nm,
+            state: self.state,
+            grips: self.grips,
+            flank: self.flank,
+        }
+    }
+
+    fn set_state(&mut self, state: TwoMassState) {
+        self.torque_nm = state.torque_nm;
+        self.state = state.state;
+        self.grips = state.grips;
+        self.flank = state.flank;
+    }
 }
 
 impl TwoMassAxis {
@@ -92,10 +125,12 @@ impl TwoMassAxis {
             parameters: *parameters,
             encoder: Encoder,
             tick_s,
+            counts_per_rad: parameters.counts_per_rad(),
             equations,
             whole,
             pieces: std::array::from_fn(piece),
             count: count as u32,
+            asked: (0, 0.0),
             torque_nm: 0.0,
             state: [0.0; 4],
             grips: dry.map(|dry| if dry > 0.0 { Grip::Stuck } else { Grip::Loose }),
@@ -110,8 +145,13 @@ impl TwoMassAxis {
     /// torque. Gives the encoder's channels A and B of the tick to come.
     #[inline]
     pub fn step(&mut self, torque_word: i64) -> (bool, bool) {
-        let word = torque_word.clamp(-Self::FULL_SCALE, Self::FULL_SCALE);
-        self.drive(word as f64 / Self::FULL_SCALE as f64 * self.parameters.max_torque_nm);
+        // It stands for many ticks, and a division takes as long as much of the rest.
+        if self.asked.0 != torque_word {
+            let word = torque_word.clamp(-Self::FULL_SCALE, Self::FULL_SCALE);
+            let part = word as f64 / Self::FULL_SCALE as f64;
+            self.asked = (torque_word, part * self.parameters.max_torque_nm);
+        }
+        self.drive(self.asked.1);
         self.channels()
     }
 
@@ -124,25 +164,25 @@ impl TwoMassAxis {
     /// Position of the motor in encoder counts.
     #[inline]
     pub fn position_counts(&self) -> f64 {
-        self.state[0] * self.parameters.counts_per_rad()
+        self.state[0] * self.counts_per_rad
     }
 
     /// Speed of the motor in encoder counts a second.
     #[inline]
     pub fn speed_counts_per_s(&self) -> f64 {
-        self.state[2] * self.parameters.counts_per_rad()
+        self.state[2] * self.counts_per_rad
     }
 
     /// Position of the load in encoder counts.
     #[inline]
     pub fn load_position_counts(&self) -> f64 {
-        self.state[1] * self.parameters.counts_per_rad()
+        self.state[1] * self.counts_per_rad
     }
 
     /// Speed of the load in encoder counts a second.
     #[inline]
     pub fn load_speed_counts_per_s(&self) -> f64 {
-        self.state[3] * self.parameters.counts_per_rad()
+        self.state[3] * self.counts_per_rad
     }
 
     /// Position of the load in mm.

@@ -34,14 +34,18 @@ impl<F: Format> Dump<F> {
         }
     }
 
-    /// Whether a tick is one of those that are asked for.
-    pub fn looks(&self, tick: u64) -> bool {
-        self.ticks.contains(&tick)
+    /// The first tick from this one on that is asked for.
+    pub fn next_look(&self, tick: u64) -> u64 {
+        let next = tick.max(self.ticks.start);
+        match self.ticks.contains(&next) {
+            true => next,
+            false => u64::MAX,
+        }
     }
 
     /// Sees a tick, if it is one of those that are asked for.
     pub fn sample<C: Circuit>(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if self.looks(now.tick) {
+        if self.ticks.contains(&now.tick) {
             self.tick(now.tick, now.view())?;
         }
         Ok(ControlFlow::Continue(()))

@@ -57,8 +57,8 @@ impl<C: Circuit, W: Write + Seek + Send + 'static> Fst<C, W> {
 }
 
 impl<C: Circuit, W: Write + Seek + Send + 'static> Observer<C> for Fst<C, W> {
-    fn looks(&self, tick: u64) -> bool {
-        self.dump.looks(tick)
+    fn next_look(&self, tick: u64) -> u64 {
+        self.dump.next_look(tick)
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

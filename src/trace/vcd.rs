@@ -58,8 +58,8 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
 }
 
 impl<C: Circuit, W: Write> Observer<C> for Vcd<C, W> {
-    fn looks(&self, tick: u64) -> bool {
-        self.dump.looks(tick)
+    fn next_look(&self, tick: u64) -> u64 {
+        self.dump.next_look(tick)
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
@@ -107,8 +107,8 @@ impl<C: Circuit, W: Write + Send + 'static> VcdBehind<C, W> {
 }
 
 impl<C: Circuit, W: Write + Send + 'static> Observer<C> for VcdBehind<C, W> {
-    fn looks(&self, tick: u64) -> bool {
-        self.dump.looks(tick)
+    fn next_look(&self, tick: u64) -> u64 {
+        self.dump.next_look(tick)
     }
 
     /// # Errors

@@ -68,8 +68,8 @@ impl<C: Circuit> WaveFile<C> {
 }
 
 impl<C: Circuit> Observer<C> for WaveFile<C> {
-    fn looks(&self, tick: u64) -> bool {
-        self.dump.looks(tick)
+    fn next_look(&self, tick: u64) -> u64 {
+        self.dump.next_look(tick)
     }
 
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {

@@ -16,6 +16,8 @@ pub(super) struct Host<'a> {
     path: PathWriter<'a>,
     pub(super) records: RecordWriter<'a>,
     started: bool,
+    /// It gave nothing but what stands in this tick.
+    quiet: bool,
 }
 
 impl<'a> Host<'a> {
@@ -26,6 +28,7 @@ impl<'a> Host<'a> {
             path: PathWriter::new(program),
             records: RecordWriter::new(&program.records),
             started: false,
+            quiet: false,
         }
     }
 
@@ -47,6 +50,12 @@ impl<'a> Host<'a> {
             limit: from_fn(|axis| program.servo[axis].limit.into()),
             ..zero()
         }
+    }
+
+    /// Whether it gives in the tick to come what it gave in this one, the encoders' channels aside,
+    /// if what it looks at does not change.
+    pub(super) fn stands(&self) -> bool {
+        self.quiet && self.records.stands(self.program.records.len())
     }
 
     /// What it gives in this tick, with the encoders' channels.
@@ -71,6 +80,7 @@ impl<'a> Host<'a> {
         i.write_path = path.write.into();
         i.path_address = (path.segment << 4 | path.word).into();
         i.path_data = path.data.into();
+        self.quiet = self.started && !start && !record.write && self.path.is_done() && !path.write;
         i.a = channels.map(|(a, _)| a.into());
         i.b = channels.map(|(_, b)| b.into());
     }

@@ -6,7 +6,7 @@ pub use super::program::{Program, ProgramError};
 use super::{TrajectoryController, Widths, controller};
 use crate::kernel::{At, Observer, Sample, Simulator, Watcher};
 use crate::logic::Sim;
-use crate::plant::TwoMassAxis;
+use crate::plant::{Ahead, TwoMassAxis};
 use crate::settings::{JobError, SettingError};
 use std::array::from_fn;
 
@@ -185,7 +185,7 @@ pub(crate) fn patience(program: &Program) -> usize {
 pub fn play<const AXES: usize, const A: usize, const E: usize>(
     circuit: &Controller<AXES, A, E>,
     program: &Program,
-    mut plants: [TwoMassAxis; AXES],
+    plants: [TwoMassAxis; AXES],
     mut observer: impl Observer<Controller<AXES, A, E>>,
 ) -> Result<Played<AXES>, JobError> {
     let segments = program.path.stretches.len();
@@ -200,22 +200,29 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
     let mut compared = None;
     let (mut rests, mut calm, patience) = (0, 0, patience(program));
     let unit = f64::from(Widths::FULL.guard()).exp2();
+    let mut motors = Ahead::new(plants);
     loop {
-        let channels = from_fn(|axis| plants[axis].step(simulator.get(see.axes[axis].drive)));
-        host.drive(&mut i, channels);
+        let drives: [i64; AXES] = from_fn(|axis| simulator.get(see.axes[axis].drive));
+        let step = |plants: &mut [TwoMassAxis; AXES]| {
+            from_fn::<_, AXES, _>(|axis| plants[axis].step(drives[axis]))
+        };
+        host.drive(&mut i, motors.step(step));
         let (starts, pushed) = (i.start.get(), i.push.get());
         if starts {
             played.start = played.ticks;
         }
+        let plants = &motors.plants;
+        let (mut quiet, mut ended) = (true, false);
         let take = |now: &Sample<'_, _>| {
             host.records.free = now.get(see.ready) && !pushed;
+            quiet = !now.get(see.fresh) && !now.get(see.driven);
             if let Some(period) = see.period(now) {
                 compared = Some(Period {
                     load: from_fn(|axis| plants[axis].load_position_counts()),
                     ..period
                 });
             }
-            played.ticks += 1;
+            played.ticks = now.tick + 1;
             played.late |= see.late.iter().any(|late| now.get(*late));
             played.lost |= see.axes.iter().any(|axis| now.get(axis.lost));
             if now.get(see.driven)
@@ -224,14 +231,13 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
                 period.torque = from_fn(|k| now.get(see.axes[k].torque));
                 period.saturated = from_fn(|k| now.get(see.axes[k].saturated));
                 played.periods.push(period);
-                return Some((period, now.get(see.busy)));
+                ended = !now.get(see.busy);
             }
-            None
         };
-        let (over, flow) = simulator.step_watched(&i, &mut observer, take)?;
-        if let Some((period, busy)) = over
+        let ((), flow) = simulator.look(&i, &mut observer, take)?;
+        if let Some(period) = played.periods.last()
+            && ended
             && !starts
-            && !busy
         {
             rests += 1;
             let near = (0..AXES).all(|axis| {
@@ -243,7 +249,13 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
             calm = if near { calm + 1 } else { 0 };
         }
         played.settled = calm >= CALM;
-        if played.settled || rests > patience || flow.is_break() {
+        let ends = played.settled || rests > patience || flow.is_break();
+        let most = match quiet && host.stands() && !ends {
+            true => observer.next_look(simulator.tick() + 1) - simulator.tick(),
+            false => 1,
+        };
+        motors.go_on(most, step, |ticks| simulator.go_on(ticks));
+        if ends {
             break;
         }
     }

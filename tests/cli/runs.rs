@@ -234,3 +234,59 @@ fn without_waves_everything_else_is_the_same() {
     });
     assert_eq!(with, without);
 }
+
+/// Without waves circuits and motors go over many ticks at once.
+#[test]
+fn a_run_is_the_same_without_waves() {
+    let bench = Bench::with("p.ngc", "G1 X2 F1500\nX1 Y1\nG3 X2 Y1 I0.5\nG0 X0 Y0\n");
+    bench.write("straight.ngc", "G1 X2 F1500\nX1 Y1\nG0 X0 Y0\n");
+    for (circuit, program, scope, others) in [
+        (
+            "pulse_interpolator",
+            "p.ngc",
+            "pulse_interpolator.unit_time",
+            &[][..],
+        ),
+        ("linear_interpolator", "p.ngc", "controller.plant", &[]),
+        (
+            "linear_interpolator",
+            "straight.ngc",
+            "controller.plant",
+            &["clock_hz=200000", "scan_ticks=200"],
+        ),
+        (
+            "arc_generator",
+            "straight.ngc",
+            "arc_generator.sequencer",
+            &["acceleration_ms=20", "rapid_mm_per_s=20"],
+        ),
+        (
+            "trajectory_controller",
+            "p.ngc",
+            "trajectory_controller.progress",
+            &[],
+        ),
+        ("machine", "p.ngc", "machine.plant", &[]),
+    ] {
+        let circuit = format!("circuit={circuit}");
+        let sets = std::iter::once(circuit.as_str()).chain(others.iter().copied());
+        let sets = sets.flat_map(|set| ["--set", set]);
+        let run: Vec<&str> = ["run", program].into_iter().chain(sets).collect();
+        let told = |more: &[&str]| {
+            let mut told = bench.json(&[&run, more].concat());
+            let told = told.as_object_mut().unwrap();
+            for of_waves in ["vcd_window", "files"] {
+                told.remove(of_waves).unwrap();
+            }
+            serde_json::to_string_pretty(told).unwrap()
+        };
+        let quick = told(&["--no-vcd"]);
+        // All of it in the waves, and a part in the middle.
+        for window in [["0", "4000000000"], ["30000", "50000"]] {
+            let waves = ["--format", "fst", "--only", scope];
+            let [from, to] = window;
+            let told = told(&[&waves[..], &["--from", from, "--to", to]].concat());
+            assert_eq!(told, quick, "{run:?} {window:?}");
+        }
+    }
+}

@@ -61,10 +61,8 @@ fn word(line: &[u8], name: &str) -> Option<Range<usize>> {
             && !after.first().is_some_and(u8::is_ascii_alphabetic)
             && (name.len() == 1 || (number.is_some() && written.parse().ok() == number))
     };
-    if letter.is_ascii_alphabetic()
-        && (name.len() == 1 || number.is_some())
-        && let Some(begin) = (0..line.len()).find(|&at| begins(at))
-    {
+    if letter.is_ascii_alphabetic() && (name.len() == 1 || number.is_some()) {
+        let begin = (0..line.len()).find(|&at| begins(at))?;
         return Some(begin..value_end(line, begin + 1));
     }
     let text = name

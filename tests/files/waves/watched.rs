@@ -13,8 +13,8 @@ const TICKS: u64 = 700;
 struct Seventh(Vec<u64>);
 
 impl Observer<Zoo> for Seventh {
-    fn looks(&self, tick: u64) -> bool {
-        tick.is_multiple_of(7)
+    fn next_look(&self, tick: u64) -> u64 {
+        tick.next_multiple_of(7)
     }
 
     fn sample(&mut self, now: &Sample<'_, Zoo>) -> Result<ControlFlow<()>, RunError> {

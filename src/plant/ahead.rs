@@ -1,0 +1,160 @@
+//! Plants that go ahead of the circuit, for as long as it leaves them alone.
+
+use std::array::from_fn;
+
+/// The most ticks that plants go ahead.
+const MOST: u64 = 256;
+
+/// What moves, and can be put back to where it was.
+pub trait Plant {
+    /// All of it that changes.
+    type State: Copy;
+
+    /// Its state.
+    fn state(&self) -> Self::State;
+
+    /// Puts it into a state.
+    fn set_state(&mut self, state: Self::State);
+}
+
+impl<P: Plant, const N: usize> Plant for [P; N] {
+    type State = [P::State; N];
+
+    #[inline]
+    fn state(&self) -> Self::State {
+        from_fn(|n| self[n].state())
+    }
+
+    fn set_state(&mut self, state: Self::State) {
+        for (plant, state) in self.iter_mut().zip(state) {
+            plant.set_state(state);
+        }
+    }
+}
+
+/// Plants, stepped once a tick, and what they give: the levels of their encoders' channels.
+#[derive(Debug, Clone)]
+pub struct Ahead<P: Plant, S> {
+    /// The plants, in the tick that they were stepped to last.
+    pub plants: P,
+    given: Option<S>,
+    /// The states from that tick on, as far as they are tried.
+    states: Vec<P::State>,
+}
+
+impl<P: Plant, S: Copy + PartialEq> Ahead<P, S> {
+    /// Plants before their first tick.
+    pub fn new(plants: P) -> Self {
+        Ahead {
+            plants,
+            given: None,
+            states: Vec::with_capacity(MOST as usize),
+        }
+    }
+
+    /// What they give in the tick to come, to which `step` steps them.
+    #[inline]
+    pub fn step(&mut self, step: impl FnOnce(&mut P) -> S) -> S {
+        let given = step(&mut self.plants);
+        self.given = Some(given);
+        given
+    }
+
+    /// Goes on together with the circuit, by at most so many ticks, for as long as they give what
+    /// they gave last and the circuit drives them as it did: `step` steps them, and `circuit` goes on
+    /// by at most so many ticks and says by how many. They are then in the tick before the one that
+    /// it has come to.
+    pub fn go_on(
+        &mut self,
+        most: u64,
+        mut step: impl FnMut(&mut P) -> S,
+        circuit: impl FnOnce(u64) -> u64,
+    ) {
+        self.states.clear();
+        self.states.push(self.plants.state());
+        let most = most.clamp(1, MOST) as usize;
+        // In the tick in which they give something else the circuit may drive them otherwise.
+        while self.states.len() < most && self.given == Some(step(&mut self.plants)) {
+            self.states.push(self.plants.state());
+        }
+        let gone = circuit(self.states.len() as u64);
+        let before = usize::try_from(gone)
+            .unwrap_or(usize::MAX)
+            .saturating_sub(1);
+        if let Some(&state) = self.states.get(before) {
+            self.plants.set_state(state);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Gives a third of how often it was stepped.
+    struct Thirds(u64);
+
+    impl Plant for Thirds {
+        type State = u64;
+
+        fn state(&self) -> u64 {
+            self.0
+        }
+
+        fn set_state(&mut self, state: u64) {
+            self.0 = state;
+        }
+    }
+
+    fn step(plant: &mut Thirds) -> u64 {
+        plant.0 += 1;
+        plant.0 / 3
+    }
+
+    #[test]
+    fn what_is_stepped_ahead_is_given_in_its_tick() {
+        // Up to how many ticks, and after how many the circuit stops.
+        let cases = [
+            (1, 9),
+            (5, 9),
+            (1, 9),
+            (2, 9),
+            (9, 9),
+            (9, 2),
+            (9, 1),
+            (0, 9),
+            (4, 9),
+            (9, 1),
+            (9, 9),
+        ];
+        let mut plant = Ahead::new(Thirds(0));
+        let mut tick = 0;
+        for (most, stops) in cases {
+            assert_eq!(plant.step(step), (tick + 1) / 3, "tick {tick}");
+            // What is seen of it is of this tick.
+            assert_eq!(plant.plants.0, tick + 1, "tick {tick}");
+            let mut gone = 0;
+            plant.go_on(most, step, |ticks| {
+                let stays = 3 - (tick + 1) % 3;
+                assert_eq!(ticks, stays.min(most.max(1)), "tick {tick}");
+                gone = ticks.min(stops);
+                gone
+            });
+            assert_eq!(plant.plants.0, tick + gone, "tick {tick}");
+            tick += gone;
+        }
+    }
+
+    #[test]
+    fn what_drives_it_in_the_tick_in_which_it_gives_something_else_is_that_of_the_tick() {
+        let mut plant = Ahead::new(Thirds(0));
+        plant.step(step);
+        plant.go_on(9, step, |ticks| ticks);
+        // The circuit drives it otherwise from this tick on.
+        let given = plant.step(|plant| {
+            plant.0 += 10;
+            plant.0
+        });
+        assert_eq!(given, 12);
+    }
+}
