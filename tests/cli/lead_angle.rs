@@ -630,3 +630,35 @@ fn it_has_no_table() {
          |           ^^^^^^^^^^^^\n"
     );
 }
+
+/// The figures of the README: no step comes to its speed.
+#[test]
+fn what_is_measured_on_the_way_to_speed_is_of_a_moment_ago() {
+    let bench = Bench::new();
+    let run = bench.json(&[
+        "run",
+        "waves/turntable.toml",
+        "--no-vcd",
+        "--set",
+        "acceleration_counts_per_s2=60000",
+    ]);
+    let names: Vec<&str> = run["systems"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|system| system["name"].as_str().unwrap())
+        .collect();
+    let last = |phase: usize, name: &str| {
+        let system = names.iter().position(|other| *other == name).unwrap();
+        let steps = run["phases"][phase]["steps"].as_array().unwrap();
+        let errors = steps.iter().map(|step| {
+            let error = step["last_error_counts"][system].as_i64().unwrap();
+            error.unsigned_abs()
+        });
+        errors.collect::<Vec<_>>()
+    };
+    assert_eq!(last(0, "tuned"), [1, 5, 2, 46]);
+    assert_eq!(last(0, "learning"), [1, 1, 8, 0]);
+    assert_eq!(last(1, "tuned"), [91, 170, 539, 765]);
+    assert_eq!(last(1, "learning"), [3, 3, 3, 6]);
+}

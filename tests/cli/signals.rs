@@ -255,6 +255,35 @@ fn a_million_threads_are_as_many_as_help() {
     assert_eq!(output.status.code(), Some(0), "{output:?}");
 }
 
+/// A stack that there is no room for is as good as a limit on processes, which does not hold for
+/// whoever runs tests as root.
+#[test]
+fn no_thread_to_be_had_is_an_error_and_leaves_nothing() {
+    let bench = Bench::with("l.hpgl", LINE);
+    let before = bench.names();
+    for (arguments, said) in [
+        (
+            &["check", "unit_law", "--width", "3"][..],
+            "error: threads: one could not be started: ",
+        ),
+        (
+            &["run", "l.hpgl"],
+            "error: a thread for the waves could not be started: ",
+        ),
+    ] {
+        let mut command = bench.command(arguments);
+        command.env("RUST_MIN_STACK", (1_u64 << 46).to_string());
+        let output = command.output().unwrap();
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {text}");
+        assert!(
+            text.starts_with(said) && text.lines().count() == 1,
+            "{text}"
+        );
+        assert_eq!(bench.names(), before, "{arguments:?}");
+    }
+}
+
 /// Into a device that is full.
 #[cfg(target_os = "linux")]
 #[test]
