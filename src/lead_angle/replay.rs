@@ -176,7 +176,7 @@ pub fn replay<P: JobLead>(
     for tick in 0..=ticks {
         let seconds = tick as f64 * tick_s;
         let position = at(seconds);
-        let (a, b) = Encoder.channels(position);
+        let (a, b) = Encoder::default().channels(position);
         computer.tick(&mut i.i, tick, true);
         i.i.a = a.into();
         i.i.b = b.into();

@@ -30,7 +30,7 @@ impl ServoAxis {
         Ok(ServoAxis {
             driver: ServoDriver::new(parameters, tick_s),
             motor: Motor::new(parameters),
-            encoder: Encoder,
+            encoder: Encoder::default(),
             counts_per_rad: parameters.counts_per_rad(),
             tick_s,
             torque_nm: 0.0,
@@ -52,7 +52,7 @@ impl ServoAxis {
         let speed = self.motor.speed_rad_per_s();
         self.torque_nm = self.driver.torque_nm(self.asked.2, speed);
         self.motor.step(self.torque_nm, self.tick_s);
-        self.channels()
+        self.encoder.see(self.motor.position_counts())
     }
 
     /// The encoder's channels A and B as they stand.

@@ -78,7 +78,7 @@ impl BrakedBody {
         check_tick(tick_s)?;
         Ok(BrakedBody {
             parameters: *parameters,
-            encoder: Encoder,
+            encoder: Encoder::default(),
             tick_s,
             load: Load::NONE,
             position_counts: 0.0,
@@ -135,7 +135,7 @@ impl BrakedBody {
             self.rubbed |= self.speed_counts_per_s != 0.0;
             self.approach(0.0, self.deceleration(), tick - free);
         }
-        self.channels()
+        self.encoder.see(self.position_counts)
     }
 
     /// The encoder's channels A and B as they stand.

@@ -4,15 +4,43 @@
 ///
 /// Quarter k of the encoder's period reaches from k − ½ to k + ½ counts, so a motor at rest on a
 /// whole count stands in the middle of a quarter. A leads where the position goes up.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Encoder;
+#[derive(Debug, Clone, Copy)]
+pub struct Encoder {
+    /// The quarter that was seen last: where it begins and ends, in counts, and its levels.
+    quarter: [f64; 2],
+    levels: (bool, bool),
+}
+
+impl Default for Encoder {
+    fn default() -> Self {
+        Encoder {
+            quarter: [-0.5, 0.5],
+            levels: (false, false),
+        }
+    }
+}
 
 impl Encoder {
     /// Channels A and B at a position in counts.
     #[inline]
     pub fn channels(&self, position_counts: f64) -> (bool, bool) {
-        let quarter = floor(position_counts + 0.5) & 3;
-        (quarter == 1 || quarter == 2, quarter >= 2)
+        levels(quarter(position_counts))
+    }
+
+    /// The same, which remembers the quarter: most ticks stay in it.
+    #[inline]
+    pub fn see(&mut self, position_counts: f64) -> (bool, bool) {
+        let [begin, end] = self.quarter;
+        if !(begin <= position_counts && position_counts < end) {
+            self.turn(position_counts);
+        }
+        self.levels
+    }
+
+    fn turn(&mut self, position_counts: f64) {
+        let quarter = quarter(position_counts);
+        self.quarter = [quarter - 0.5, quarter + 0.5];
+        self.levels = levels(quarter);
     }
 
     /// The highest speed in counts a second at which a circuit that samples once in `tick_s`
@@ -25,33 +53,40 @@ impl Encoder {
     }
 }
 
-/// The greatest whole number that is no greater: `f64::floor` is a call where the processor may be
-/// an old one, and this is asked for in every tick.
-#[inline]
-fn floor(value: f64) -> i64 {
-    let cut = value as i64;
-    cut - i64::from(value < cut as f64)
+/// The quarter that a position is in.
+fn quarter(position_counts: f64) -> f64 {
+    let nearest = (position_counts + 0.5).floor();
+    // The sum may be rounded over the end of a quarter.
+    match position_counts < nearest - 0.5 {
+        true => nearest - 1.0,
+        false => nearest,
+    }
+}
+
+fn levels(quarter: f64) -> (bool, bool) {
+    let quarter = (quarter as i64).rem_euclid(4);
+    (quarter == 1 || quarter == 2, quarter >= 2)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::floor;
+    use super::*;
 
     #[test]
-    fn it_rounds_down() {
-        for value in [
-            0.0,
-            -0.0,
-            0.5,
-            -0.5,
-            3.0,
-            -3.0,
-            -3.000_001,
-            2.999_999,
-            1e15,
-            -1e15 - 0.5,
-        ] {
-            assert_eq!(floor(value), value.floor() as i64, "{value}");
+    fn what_it_remembers_is_what_it_sees() {
+        let below = |value: f64| f64::from_bits(value.to_bits() - 1);
+        let mut encoder = Encoder::default();
+        let ends = (0..8).map(|k| f64::from(k) + 0.5);
+        let places =
+            ends.flat_map(|end| [end - 0.7, below(end), end, -end, -below(end), 1e9 * end]);
+        for place in places {
+            assert_eq!(encoder.see(place), encoder.channels(place), "{place}");
+            assert_eq!(encoder.see(place), encoder.channels(place), "{place}");
         }
+        assert_eq!(quarter(below(0.5)), 0.0);
+        assert_eq!(
+            (quarter(0.5), quarter(-0.5), quarter(-below(0.5))),
+            (1.0, 0.0, 0.0)
+        );
     }
 }

@@ -106,14 +106,14 @@ fn the_encoder_turns_through_its_quarters() {
     let up = [(false, false), (true, false), (true, true), (false, true)];
     for count in -9i32..9 {
         for part in [-0.49, 0.0, 0.49] {
-            let channels = Encoder.channels(f64::from(count) + part);
+            let channels = Encoder::default().channels(f64::from(count) + part);
             assert_eq!(channels, up[count.rem_euclid(4) as usize], "{count} {part}");
         }
     }
     // At the countable speed no tick turns by more than a quarter.
-    let step = Encoder.countable_counts_per_s(TICK_S) * TICK_S;
+    let step = Encoder::default().countable_counts_per_s(TICK_S) * TICK_S;
     for tick in 0..1000 {
-        let at = |tick: i32| Encoder.channels(0.3 + f64::from(tick) * step);
+        let at = |tick: i32| Encoder::default().channels(0.3 + f64::from(tick) * step);
         let ((a, b), (c, d)) = (at(tick), at(tick + 1));
         assert!((a != c) != (b != d));
     }

@@ -123,7 +123,7 @@ impl TwoMassAxis {
         ];
         Ok(TwoMassAxis {
             parameters: *parameters,
-            encoder: Encoder,
+            encoder: Encoder::default(),
             tick_s,
             counts_per_rad: parameters.counts_per_rad(),
             equations,
@@ -152,7 +152,7 @@ impl TwoMassAxis {
             self.asked = (torque_word, part * self.parameters.max_torque_nm);
         }
         self.drive(self.asked.1);
-        self.channels()
+        self.encoder.see(self.state[0] * self.counts_per_rad)
     }
 
     /// The encoder's channels A and B as they stand.

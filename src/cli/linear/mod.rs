@@ -9,17 +9,19 @@ mod verdict;
 
 pub use job::Job;
 
-use super::Failure;
 use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
+use super::{Failure, threads};
 use motion_rtl::kernel::Without;
-use motion_rtl::linear_interpolator::job::{conventional, play, plotter};
+use motion_rtl::linear_interpolator::LinearInterpolator;
+use motion_rtl::linear_interpolator::job::{Drive, Plotter, conventional, play, plotter};
 use motion_rtl::linear_interpolator::measure::Played;
 use motion_rtl::linear_interpolator::ways::Way;
-use motion_rtl::trace::Options;
 use picture::draw;
+use std::panic::resume_unwind;
+use std::thread;
 use summary::Summary;
 
 /// Scans that the save file's window shows.
@@ -52,14 +54,28 @@ pub struct Runs {
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
-    let (interpolator, mut files) = simulate(arguments, job, &options)?;
+    let circuit = plotter(job.settings.rule);
+    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
+    let printed = &circuit.circuit;
+    // Before the others run, as what it refuses would wait for them.
+    let traces = Traces::begin((&circuit, printed), arguments, scenario, &options, ticks)?;
     let conventional = |way: Way| {
         let targets = way.targets(&job.compiled.targets, &job.settings);
-        let progress = Progress::new(interpolator.ticks);
-        play(&conventional(), &targets, &job.settings, progress)
+        play(&conventional(), &targets, &job.settings, ())
     };
-    let [same, inverse] = Way::ALL;
-    let conventional = [conventional(same)?, conventional(inverse)?];
+    let (interpolator, mut files, conventional) = thread::scope(|scope| {
+        let start = |way| {
+            let started = thread::Builder::new().spawn_scoped(scope, move || conventional(way));
+            started.map_err(|error| threads::none(&error))
+        };
+        let [same, inverse] = Way::ALL;
+        let others = [start(same)?, start(inverse)?];
+        let (interpolator, files) = simulate(&circuit, job, traces)?;
+        // A panic there is one here.
+        let [same, inverse] =
+            others.map(|other| other.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        Ok::<_, Failure>((interpolator, files, [same?, inverse?]))
+    })?;
     let runs = Runs {
         interpolator,
         conventional,
@@ -71,19 +87,15 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 
 /// Plays the job on the linear interpolator, with its waves.
 fn simulate(
-    arguments: &Arguments,
+    circuit: &Plotter<LinearInterpolator, 1>,
     job: &Job,
-    options: &Options,
+    mut traces: Traces<'_, Plotter<LinearInterpolator, 1>, Drive<LinearInterpolator, 1>>,
 ) -> Result<(Played, Files), Failure> {
-    let circuit = plotter(job.settings.rule);
     let (targets, settings) = (&job.compiled.targets, &job.settings);
-    let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    let printed = &circuit.circuit;
-    let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
-    let mut progress = Progress::new(ticks);
+    let mut progress = Progress::new(job.ticks_at_least());
     let stimulus = traces.stimulus.as_mut().map(Without);
     let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-    let played = play(&circuit, targets, settings, (files, &mut progress))?;
+    let played = play(circuit, targets, settings, (files, &mut progress))?;
     drop(progress);
     let scan = u64::from(settings.scan_ticks);
     let first = played.cycles.first().map_or(0, |cycle| cycle.scans.start);
@@ -93,6 +105,6 @@ fn simulate(
         shown: SCANS_SHOWN * scan,
         overview: &OVERVIEW,
     };
-    let files = traces.finish(&circuit, &focus, played.ticks)?;
+    let files = traces.finish(circuit, &focus, played.ticks)?;
     Ok((played, files))
 }

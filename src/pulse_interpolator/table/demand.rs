@@ -87,18 +87,60 @@ impl<'p, 'd> Demands<'p, 'd> {
         let mut all = [Steps::ZERO; COORDINATES];
         for (axis, scale) in self.steps_per_mm.iter().enumerate() {
             let steps = position[axis] * scale;
-            all[axis] = Steps::checked_from_num(steps)
-                .filter(|s| {
-                    s.checked_round()
-                        .and_then(|r| r.checked_to_num::<i32>())
-                        .is_some()
-                })
-                .ok_or(TableError::Position {
-                    line,
-                    axis: AXES[axis],
-                    steps,
-                })?;
+            all[axis] = nearest(steps).ok_or(TableError::Position {
+                line,
+                axis: AXES[axis],
+                steps,
+            })?;
         }
         Ok(all)
+    }
+}
+
+/// The position nearest to so many steps, if its rounding to whole ones fits 32 bits.
+fn nearest(steps: f64) -> Option<Steps> {
+    // As `from_num` does it, without taking the number apart: a long path asks for millions.
+    if steps.abs() < f64::from(i32::MAX) {
+        let parts = steps * f64::from(1_u32 << Steps::FRAC_NBITS);
+        return Some(Steps::from_bits(parts.round_ties_even() as i64));
+    }
+    let fits = |steps: &Steps| {
+        let round = steps.checked_round();
+        round
+            .and_then(|round| round.checked_to_num::<i32>())
+            .is_some()
+    };
+    Steps::checked_from_num(steps).filter(fits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_nearest_is_that_of_the_crate(
+            steps in prop_oneof![-2.2e9..2.2e9, -2.0..2.0, -1e-4..1e-4],
+            half in any::<i32>(),
+        ) {
+            // Halves of the least part, which are rounded to even ones.
+            for steps in [steps, f64::from(half) / 131_072.0] {
+                let fits = steps.round().abs() <= f64::from(i32::MAX) || steps.round() == f64::from(i32::MIN);
+                prop_assert_eq!(nearest(steps), fits.then(|| Steps::from_num(steps)));
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_none() {
+        let most = f64::from(i32::MAX);
+        assert_eq!(nearest(most), Some(Steps::from_num(most)));
+        assert_eq!(nearest(most + 0.25), Some(Steps::from_num(most + 0.25)));
+        assert_eq!(nearest(most + 0.75), None);
+        assert_eq!(nearest(-most - 1.25), Some(Steps::from_num(-most - 1.25)));
+        assert_eq!(nearest(-most - 2.0), None);
+        assert_eq!(nearest(f64::NAN), None);
+        assert_eq!(nearest(f64::INFINITY), None);
     }
 }
