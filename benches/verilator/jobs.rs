@@ -3,25 +3,28 @@
 
 use super::ours::{Outputs, Port};
 use super::stimulus::{Recorder, Stimulus};
-use motion_rtl::arc_generator::job::arc_generator;
-use motion_rtl::arc_generator::path::{Speeds, from_drawing, from_points};
-use motion_rtl::arc_generator::prepare::prepare;
-use motion_rtl::arc_generator::record::records;
 use motion_rtl::arc_generator::{self, ArcGenerator};
 use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::input::{Drawing, read_path};
+use motion_rtl::jobs;
+use motion_rtl::jobs::arc_generator::job::arc_generator;
+use motion_rtl::jobs::arc_generator::path::{Speeds, from_drawing, from_points};
+use motion_rtl::jobs::arc_generator::prepare::prepare;
+use motion_rtl::jobs::arc_generator::record::records;
+use motion_rtl::jobs::lead_angle::job::{ShiftLead, positioner};
+use motion_rtl::jobs::linear_interpolator::job::plotter;
+use motion_rtl::jobs::linear_interpolator::targets;
+use motion_rtl::jobs::pulse_interpolator::{Settings, compile};
+use motion_rtl::jobs::trajectory_controller::job as trajectory;
 use motion_rtl::kernel::{Watcher, Without, zero};
-use motion_rtl::lead_angle::job::{ShiftLead, positioner};
-use motion_rtl::lead_angle::{self, Compensator};
-use motion_rtl::linear_interpolator::job::plotter;
-use motion_rtl::linear_interpolator::targets;
-use motion_rtl::linear_interpolator::{self, Controller, LinearInterpolator};
+use motion_rtl::lead_angle::Compensator;
+use motion_rtl::linear_interpolator::{Controller, LinearInterpolator};
 use motion_rtl::logic::Sim;
-use motion_rtl::machine::{self, Machine};
+use motion_rtl::machine::Machine;
 use motion_rtl::plan::MotionLimits;
 use motion_rtl::plant::TwoMassAxis;
-use motion_rtl::pulse_interpolator::{self, Group, Settings, Variant, compile};
-use motion_rtl::trajectory_controller::{self, job as trajectory};
+use motion_rtl::pulse_interpolator::{self, Group, Variant};
+use motion_rtl::trajectory_controller::{self};
 use std::path::Path;
 
 /// A circuit and what goes into it.
@@ -115,9 +118,9 @@ pub fn bracket(ticks: u64, clock: Clock) -> Job<Group<2>> {
         ..Settings::default()
     };
     let (table, _) = compile(&drawing(&whole), &settings).expect("it fits");
-    let circuit = pulse_interpolator::job::group(&table, Variant::Safe);
+    let circuit = jobs::pulse_interpolator::job::group(&table, Variant::Safe);
     let mut recorder = Recorder::new(ticks);
-    pulse_interpolator::job::play(&circuit, &table, &mut recorder).expect("nobody objects");
+    jobs::pulse_interpolator::job::play(&circuit, &table, &mut recorder).expect("nobody objects");
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
 }
@@ -167,7 +170,7 @@ pub fn plotting(ticks: u64, clock: Clock) -> Job<Controller<LinearInterpolator>>
     let circuit = plotter(settings.rule);
     let mut recorder = Recorder::new(ticks);
     let observer = Without(&mut recorder);
-    linear_interpolator::job::play(&circuit, &targets.targets, &settings, observer)
+    jobs::linear_interpolator::job::play(&circuit, &targets.targets, &settings, observer)
         .expect("nobody objects");
     Job {
         circuit: circuit.circuit,
@@ -187,7 +190,8 @@ pub fn turntable(ticks: u64, clock: Clock) -> Job<Compensator<ShiftLead>> {
     let settings = scenario.settings();
     let circuit = positioner::<ShiftLead>(&settings);
     let mut recorder = Recorder::new(ticks);
-    lead_angle::job::play(&circuit, &settings, Without(&mut recorder)).expect("nobody objects");
+    jobs::lead_angle::job::play(&circuit, &settings, Without(&mut recorder))
+        .expect("nobody objects");
     Job {
         circuit: circuit.circuit,
         stimulus: recorder.finish(),
@@ -211,7 +215,7 @@ pub fn weld(ticks: u64, clock: Clock) -> Job<ArcGenerator> {
     let sample_ticks = settings.sample_ticks(&widths).expect("it fits");
     let circuit = arc_generator(rounding);
     let mut recorder = Recorder::new(ticks);
-    arc_generator::job::play(&circuit, &records, sample_ticks, &mut recorder)
+    jobs::arc_generator::job::play(&circuit, &records, sample_ticks, &mut recorder)
         .expect("nobody objects");
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
@@ -258,11 +262,11 @@ pub fn machine(ticks: u64, clock: Clock) -> Job<Machine> {
         unreachable!("the machine's")
     };
     let settings = scenario.settings();
-    let program = machine::Program::of(&drawing(&whole), &settings).expect("it fits");
-    let circuit = machine::job::machine(&settings);
+    let program = jobs::machine::Program::of(&drawing(&whole), &settings).expect("it fits");
+    let circuit = jobs::machine::job::machine(&settings);
     let mut recorder = Recorder::new(ticks);
     let mut observer = Without(&mut recorder);
-    machine::job::play(&circuit, &program, &settings, &mut observer).expect("nobody objects");
+    jobs::machine::job::play(&circuit, &program, &settings, &mut observer).expect("nobody objects");
     Job {
         circuit: circuit.circuit,
         stimulus: recorder.finish(),

@@ -11,30 +11,13 @@
 //! multiplied by one constant matrix a sample. What is known beforehand is computed once, in `f64`
 //! and exact integers; per sample the circuit adds, and on an arc multiplies by constants.
 //!
-//! On the control computer: [`circle`] (an arc from three points), [`path`] (pieces from taught
-//! points or a drawing), [`prepare`](mod@prepare) (pieces as segments), [`record`] (segments as
-//! words), [`bounds`] (how far the rotation may be off), [`mod@reference`] (the same samples by
-//! division), [`conventional`] (what the patent compares itself with), [`job`] (a path on the
-//! circuit), [`measure`] (what came out). `rtl_notes/arc_generator.md` is the note of this circuit.
+//! What runs on the control computer is in [`jobs`](crate::jobs::arc_generator).
+//! `rtl_notes/arc_generator.md` is the note of this circuit.
 
-pub mod bounds;
-pub mod circle;
-pub mod conventional;
-pub mod error;
 pub mod generator;
-pub mod job;
-pub mod measure;
-pub mod path;
 pub mod position_command;
-pub mod prepare;
-pub mod prepared;
-pub mod record;
-pub(crate) mod record_writer;
-pub mod reference;
 pub mod rotation;
 pub mod rotation_row;
-pub mod settings;
-pub mod vector;
 pub mod widths;
 
 pub use generator::ArcGenerator;

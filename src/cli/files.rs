@@ -1,7 +1,7 @@
 //! The files of a run: they get their names together, when all of them are complete.
 
 use super::Failure;
-use motion_rtl::trace::atomic::{self, AtomicFile, Claim, Directory, commit_all};
+use motion_rtl::files::{self, AtomicFile, Claim, Directory, commit_all};
 use std::ffi::OsString;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ fn refuse(error: &io::Error) -> Failure {
 
 /// Removes what runs have left in a directory that something ended at once, and says so.
 pub fn clear(directory: &Path) {
-    let removed = atomic::clear(directory);
+    let removed = files::clear(directory);
     let names = removed.iter().map(|path| path.display().to_string());
     let names: Vec<_> = names.collect();
     if !names.is_empty() {

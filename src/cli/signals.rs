@@ -3,7 +3,7 @@
 
 #[cfg(unix)]
 use {
-    motion_rtl::trace::atomic::abandon,
+    motion_rtl::files::abandon,
     signal_hook::consts::{SIGHUP, SIGINT, SIGTERM},
     signal_hook::iterator::Signals,
     std::sync::mpsc::channel,

@@ -4,8 +4,9 @@ use super::pulse::{Job, TableSummary, warnings};
 use super::source::{Input, Source};
 use super::{Failure, print, print_json};
 use clap::Args;
-use motion_rtl::pulse_interpolator::{AXIS_NAMES, Ratio, Report, Scaled, Table};
-use motion_rtl::trace::atomic;
+use motion_rtl::files;
+use motion_rtl::jobs::pulse_interpolator::{Ratio, Report, Scaled, Table};
+use motion_rtl::pulse_interpolator::AXIS_NAMES;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -63,7 +64,7 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         });
-        let written = atomic::write(path, csv(table)).map_err(|error| Failure::Argument {
+        let written = files::write(path, csv(table)).map_err(|error| Failure::Argument {
             field: "--out",
             problem: error.to_string(),
             allowed: "a file that can be written".into(),
@@ -71,7 +72,7 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
         files.push(written.display().to_string());
     }
     let scaling = scaled.as_ref().map(|scaled| {
-        let axis = |axis: &motion_rtl::pulse_interpolator::AxisScaling| Scaling {
+        let axis = |axis: &motion_rtl::jobs::pulse_interpolator::AxisScaling| Scaling {
             largest_deviation_pulses_per_unit: axis.largest_deviation,
             drift_steps: axis.drift,
             rounded_units: axis.rounded_units,

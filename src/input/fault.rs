@@ -109,6 +109,20 @@ pub fn shown(text: &str, most: usize) -> Cow<'_, str> {
     Cow::Owned(plain)
 }
 
+/// A word of the input as a message shows it: its beginning, and control characters by their names.
+pub(super) fn brief(text: &str) -> String {
+    let mut chars = text.trim().chars();
+    let mut short: String = chars
+        .by_ref()
+        .take(20)
+        .flat_map(char::escape_debug)
+        .collect();
+    if chars.next().is_some() {
+        short.push_str("...");
+    }
+    short
+}
+
 /// The fault by itself, on one line.
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -60,11 +60,14 @@
 
 mod arc;
 mod block;
+mod branches;
+mod calls;
 mod chords;
 mod codes;
 mod cycle;
 mod expression;
 mod flow;
+mod kept;
 mod machine;
 mod mark;
 mod modal;

@@ -14,6 +14,7 @@ pub mod scenario;
 mod track;
 
 pub(crate) use fault::Faults;
+use fault::brief;
 pub use fault::{Excerpt, Fault, LISTED, MOST_FAULTS, SHOWN, shown};
 pub(crate) use file::size;
 pub use file::{

@@ -18,21 +18,17 @@
 //! still go is predicted from the way that it went in the last Δt/N, and Δt is learned from how it
 //! stopped. `rtl_notes/lead_angle.md` is the note of this circuit.
 
-pub mod codes;
 pub mod comparator;
 pub mod compensator;
 pub mod completion_detector;
 pub mod correction;
 pub mod correction_arithmetic;
-pub mod job;
 pub mod lead;
 pub mod lead_source;
 pub mod placement;
 pub mod position_history;
 pub mod ram_history;
 pub mod ratio_logic;
-pub mod replay;
-pub mod settings;
 pub mod speed_lead;
 pub mod step_sequencer;
 pub mod stop_error;

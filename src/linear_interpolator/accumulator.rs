@@ -18,10 +18,36 @@
 //! Departures: the rounding rule, which the text leaves open, is a [`Rule`]; a start with a Δ of 0
 //! for the master is not taken.
 
-use super::Rule;
 use crate::kernel::Circuit;
 use crate::logic::{Bit, Logic, Signed, Unsigned};
 use crate::signals;
+use serde::Deserialize;
+
+/// How the integrator 24 divides: what becomes of the remainder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rule {
+    /// Towards minus infinity: the remainder has the sign of the divisor. A return stroke meets the
+    /// points of the stroke.
+    #[default]
+    Floor,
+    /// Towards zero: the remainder has the sign of the dividend.
+    Truncating,
+    /// Towards minus infinity, from a remainder of half the divisor on: half the deviation.
+    Centred,
+}
+
+impl Rule {
+    /// The name it has in scenarios.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Rule::Floor => "floor",
+            Rule::Truncating => "truncating",
+            Rule::Centred => "centred",
+        }
+    }
+}
 
 signals! {
     /// Ports in.

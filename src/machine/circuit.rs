@@ -11,16 +11,16 @@
 
 use super::{CommandJoin, Enables, command_join, enables, ports};
 use crate::arc_generator::{ArcGenerator, generator};
+use crate::jobs::lead_angle::job::RamLead;
+use crate::jobs::pulse_interpolator::job::JobGroup;
+use crate::jobs::trajectory_controller::job::Controller;
 use crate::kernel::{Circuit, Instance};
-use crate::lead_angle::job::RamLead;
 use crate::lead_angle::{Compensator, compensator};
 use crate::linear_interpolator::{LinearInterpolator, interpolator};
 use crate::logic::{Logic, Signed, Sim};
 use crate::pulse_interpolator::group;
-use crate::pulse_interpolator::job::JobGroup;
 use crate::signals;
 use crate::trajectory_controller::controller;
-use crate::trajectory_controller::job::Controller;
 
 /// Bits behind the count in the trajectory controller.
 const GUARD: usize = 16;

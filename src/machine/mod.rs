@@ -19,16 +19,8 @@
 pub mod circuit;
 pub mod command_join;
 pub mod enables;
-mod host;
-pub mod job;
-pub mod measure;
 pub mod ports;
-pub mod program;
-pub mod settings;
-pub mod waves;
 
 pub use circuit::Machine;
 pub use command_join::CommandJoin;
 pub use enables::Enables;
-pub use program::Program;
-pub use settings::Settings;

@@ -28,14 +28,11 @@
 pub mod address_sequencer;
 pub mod axis;
 pub mod command_port;
-pub mod control_computer;
+pub mod counts;
 pub mod group;
-pub mod job;
 pub mod pattern_memory;
 pub mod pulse_generator;
-pub mod step_dir;
 pub mod sync_stage;
-pub mod table;
 pub mod unit_law;
 pub mod unit_time_counter;
 pub mod unit_time_register;
@@ -43,15 +40,10 @@ pub mod unit_time_register;
 pub use address_sequencer::AddressSequencer;
 pub use axis::Axis;
 pub use command_port::CommandPort;
-pub use control_computer::ControlComputer;
 pub use group::Group;
 pub use pattern_memory::PatternMemory;
 pub use pulse_generator::PulseGenerator;
 pub use sync_stage::SyncStage;
-pub use table::{
-    AxisReport, AxisScaling, CountTable, FollowingError, PulseLimits, Ratio, Remedy, Report,
-    Scaled, Settings, StepTiming, Table, TableError, UnitErrors, Word, compile, counts, follow,
-};
 pub use unit_law::UnitLaw;
 pub use unit_time_counter::UnitTimeCounter;
 pub use unit_time_register::UnitTimeRegister;

@@ -2,8 +2,8 @@
 
 use crate::check::{CheckError, Drive, Driven, Outcome, Progress, Proof, Specified, reach};
 use crate::engine::EngineError;
+use crate::files::Directory;
 use crate::kernel::{Circuit, Declarations, Model, RunError};
-use crate::trace::atomic::Directory;
 use crate::trace::chart::{Chart, ChartFailure};
 use crate::trace::{Clock, Layout, LayoutError};
 use crate::verilog::{Verilog, VerilogError};

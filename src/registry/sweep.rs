@@ -3,9 +3,9 @@
 use super::Verdict;
 use super::circuits::make::{RULES, one_of};
 use crate::check::{CheckError, Law, Swept, cases, sweep};
+use crate::files::Directory;
 use crate::linear_interpolator::{Integrator, LineSweep, Rule};
 use crate::trace::Clock;
-use crate::trace::atomic::Directory;
 use std::ops::Range;
 use std::path::Path;
 

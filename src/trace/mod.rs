@@ -4,7 +4,6 @@
 //! At tick n everything is sampled at time n·P with `clk` high, `clk` falls half a period later,
 //! and the registers of tick n + 1 show from (n + 1)·P on.
 
-pub mod atomic;
 mod behind;
 pub mod chart;
 mod clock;
@@ -34,9 +33,9 @@ pub use vcd::{Vcd, VcdBehind};
 pub use wave_file::{WaveFile, WaveFormat};
 
 use crate::engine::Watch;
+use crate::files::{AtomicFile, commit_all};
 use crate::kernel::{Circuit, Model, RunError, View, words};
 use crate::logic::Sim;
-use atomic::{AtomicFile, commit_all};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 

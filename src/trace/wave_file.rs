@@ -1,4 +1,3 @@
-use super::atomic::AtomicFile;
 use super::behind::Behind;
 use super::dump::{Dump, Format};
 use super::fst::Encoder;
@@ -6,6 +5,7 @@ use super::layout::Layout;
 use super::vcd::VcdFile;
 use super::walk::Change;
 use super::{Clock, Options};
+use crate::files::AtomicFile;
 use crate::kernel::{Circuit, Observer, RunError, Sample};
 use std::io;
 use std::marker::PhantomData;

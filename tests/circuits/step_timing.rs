@@ -1,8 +1,9 @@
 //! The step/direction timing monitor on lines whose times are known.
 
+use motion_rtl::jobs::pulse_interpolator::StepTiming;
+use motion_rtl::jobs::pulse_interpolator::step_dir::{Driver, Drivers, TimingMinima, TooShort};
 use motion_rtl::kernel::{RunError, Simulator, zero};
-use motion_rtl::pulse_interpolator::step_dir::{Driver, Drivers, TimingMinima, TooShort};
-use motion_rtl::pulse_interpolator::{Group, Pattern, StepTiming, Variant};
+use motion_rtl::pulse_interpolator::{Group, Pattern, Variant};
 
 /// Runs a driver over lines drawn as `_` and `#`; the first complaint with its tick.
 fn watch(limits: StepTiming, step: &str, dir: &str) -> (Driver, Option<(u64, TooShort)>) {

@@ -3,12 +3,13 @@
 
 use super::tools::{Simulator, complete, write};
 use motion_rtl::input::read_text;
+use motion_rtl::jobs::linear_interpolator::job::{Drive, Plotter, conventional, play, plotter};
+use motion_rtl::jobs::linear_interpolator::settings::Settings;
+use motion_rtl::jobs::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
+use motion_rtl::jobs::linear_interpolator::ways::Way;
 use motion_rtl::kernel::{Circuit, Declarations, Without};
 use motion_rtl::linear_interpolator::CommandSource;
-use motion_rtl::linear_interpolator::job::{Drive, Plotter, conventional, play, plotter};
-use motion_rtl::linear_interpolator::settings::{Rule, Settings};
-use motion_rtl::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
-use motion_rtl::linear_interpolator::ways::Way;
+use motion_rtl::linear_interpolator::Rule;
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;

@@ -2,9 +2,11 @@
 //! their Verilog.
 
 use super::tools::{Simulator, complete, write};
+use motion_rtl::jobs::lead_angle::job::{
+    Conventional, Played, RamLead, ShiftLead, play, positioner,
+};
+use motion_rtl::jobs::lead_angle::settings::{Comparing, Placement, Settings, Step};
 use motion_rtl::kernel::{Circuit, Declarations, Without};
-use motion_rtl::lead_angle::job::{Conventional, Played, RamLead, ShiftLead, play, positioner};
-use motion_rtl::lead_angle::settings::{Comparing, Placement, Settings, Step};
 use motion_rtl::lead_angle::{Compensator, LeadSource};
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;

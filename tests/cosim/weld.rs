@@ -2,14 +2,14 @@
 
 use super::tools::{Simulator, complete, write};
 use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::job::{Played, arc_generator, play};
-use motion_rtl::arc_generator::path::{Taught, from_points};
-use motion_rtl::arc_generator::prepare::{Timing, prepare};
-use motion_rtl::arc_generator::record::records;
-use motion_rtl::arc_generator::reference::commands;
-use motion_rtl::arc_generator::settings::{LEAST_SAMPLE_TICKS, Settings, ShortPieces};
 use motion_rtl::arc_generator::widths::Widths;
 use motion_rtl::input::Point;
+use motion_rtl::jobs::arc_generator::job::{Played, arc_generator, play};
+use motion_rtl::jobs::arc_generator::path::{Taught, from_points};
+use motion_rtl::jobs::arc_generator::prepare::{Timing, prepare};
+use motion_rtl::jobs::arc_generator::record::records;
+use motion_rtl::jobs::arc_generator::reference::commands;
+use motion_rtl::jobs::arc_generator::settings::{LEAST_SAMPLE_TICKS, Settings, ShortPieces};
 use motion_rtl::kernel::Declarations;
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;

@@ -1,16 +1,16 @@
 //! Paths on the arc generator: what it commands, against integers and against the exact curves.
 
 use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::bounds::{command_error, rotation_error};
-use motion_rtl::arc_generator::job::{arc_generator, play};
-use motion_rtl::arc_generator::path::{Taught, from_points};
-use motion_rtl::arc_generator::prepare::{Timing, prepare};
-use motion_rtl::arc_generator::prepared::{Prepared, Segment, Shape};
-use motion_rtl::arc_generator::record::{Record, records};
-use motion_rtl::arc_generator::reference::{Decoded, commands};
-use motion_rtl::arc_generator::settings::{LEAST_SAMPLE_TICKS, Settings, ShortPieces};
 use motion_rtl::arc_generator::widths::Widths;
 use motion_rtl::input::Point;
+use motion_rtl::jobs::arc_generator::bounds::{command_error, rotation_error};
+use motion_rtl::jobs::arc_generator::job::{arc_generator, play};
+use motion_rtl::jobs::arc_generator::path::{Taught, from_points};
+use motion_rtl::jobs::arc_generator::prepare::{Timing, prepare};
+use motion_rtl::jobs::arc_generator::prepared::{Prepared, Segment, Shape};
+use motion_rtl::jobs::arc_generator::record::{Record, records};
+use motion_rtl::jobs::arc_generator::reference::{Decoded, commands};
+use motion_rtl::jobs::arc_generator::settings::{LEAST_SAMPLE_TICKS, Settings, ShortPieces};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

@@ -2,9 +2,10 @@
 //! Each is played tick by tick and over idle ticks in one.
 
 use motion_rtl::input::{Drawing, gcode};
+use motion_rtl::jobs::pulse_interpolator::job::{Played, fast_forward, group, play};
+use motion_rtl::jobs::pulse_interpolator::{Report, Settings, StepTiming, Table, compile};
 use motion_rtl::plan::MotionLimits;
-use motion_rtl::pulse_interpolator::job::{Played, fast_forward, group, play};
-use motion_rtl::pulse_interpolator::{Report, Settings, StepTiming, Table, Variant, compile};
+use motion_rtl::pulse_interpolator::Variant;
 
 /// Unit times of 40 ticks for lines and 25 for arcs, at 20 kHz.
 fn settings(axes: usize) -> Settings {

@@ -1,13 +1,16 @@
 //! The reference of the linear interpolator, and the measures that runs are judged by.
 
 use motion_rtl::input::read_text;
-use motion_rtl::linear_interpolator::job::{conventional, play, plotter};
-use motion_rtl::linear_interpolator::measure::{Cycle, Deviation, Played, ScanRecord, Segment};
-use motion_rtl::linear_interpolator::profile::{Profile, SPEED_ONE};
-use motion_rtl::linear_interpolator::reference::{self, Integrator, Pattern};
-use motion_rtl::linear_interpolator::settings::{Rule, Settings};
-use motion_rtl::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
-use motion_rtl::linear_interpolator::ways::Way;
+use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
+use motion_rtl::jobs::linear_interpolator::measure::{
+    Cycle, Deviation, Played, ScanRecord, Segment,
+};
+use motion_rtl::jobs::linear_interpolator::profile::{Profile, SPEED_ONE};
+use motion_rtl::jobs::linear_interpolator::reference::{self, Integrator, Pattern};
+use motion_rtl::jobs::linear_interpolator::settings::Settings;
+use motion_rtl::jobs::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
+use motion_rtl::jobs::linear_interpolator::ways::Way;
+use motion_rtl::linear_interpolator::Rule;
 use proptest::prelude::*;
 
 const RULES: [Rule; 3] = [Rule::Floor, Rule::Truncating, Rule::Centred];

@@ -1,10 +1,11 @@
 //! Jobs on the machine of all five circuits.
 
 use motion_rtl::input::gcode;
+use motion_rtl::jobs::machine::job::{Plant, Played, machine, play};
+use motion_rtl::jobs::machine::{Program, Settings};
+use motion_rtl::jobs::pulse_interpolator::job;
 use motion_rtl::kernel::{Observer, RunError, Sample};
-use motion_rtl::machine::job::{Plant, Played, machine, play};
-use motion_rtl::machine::{Program, Settings};
-use motion_rtl::pulse_interpolator::{Variant, job};
+use motion_rtl::pulse_interpolator::Variant;
 use std::ops::ControlFlow;
 
 /// A line, an arc, rapid moves, pen down and up twice.

@@ -1,9 +1,9 @@
 //! How far both machines are off the path, and why: runs written by hand, of known distances.
 
 use motion_rtl::input::{Drawing, read_text};
-use motion_rtl::machine::job::{Frame, Played, Timed};
-use motion_rtl::machine::measure::{Farthest, Measured, Reason, Servos};
-use motion_rtl::machine::{Program, Settings};
+use motion_rtl::jobs::machine::job::{Frame, Played, Timed};
+use motion_rtl::jobs::machine::measure::{Farthest, Measured, Reason, Servos};
+use motion_rtl::jobs::machine::{Program, Settings};
 use motion_rtl::plan::Plan;
 
 /// Guard units of a count.

@@ -18,7 +18,7 @@ use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
 use figures::Figures;
-use motion_rtl::arc_generator::job::{Played, arc_generator, play};
+use motion_rtl::jobs::arc_generator::job::{Played, arc_generator, play};
 use motion_rtl::trace::Options;
 use picture::draw;
 use summary::Summary;

@@ -2,12 +2,12 @@
 //! the circuit.
 
 use super::Job;
-use motion_rtl::arc_generator::conventional::{
-    Conventional, DIFFERENCE_ENGINE, blend, blend_terms, rotation,
-};
-use motion_rtl::arc_generator::vector::rodrigues;
 use motion_rtl::arc_generator::widths::Widths;
 use motion_rtl::blocks::CoefficientControl;
+use motion_rtl::jobs::arc_generator::conventional::{
+    Conventional, DIFFERENCE_ENGINE, blend, blend_terms, rotation,
+};
+use motion_rtl::jobs::arc_generator::vector::rodrigues;
 use serde::Serialize;
 
 /// Ticks of a step of the rotation.

@@ -5,9 +5,9 @@ use super::Job;
 use super::figures::{ArcFigures, Figures};
 use super::rows::bound;
 use super::view::path;
-use motion_rtl::arc_generator::measure::Measured;
-use motion_rtl::arc_generator::prepared::Segment;
-use motion_rtl::arc_generator::vector::distance;
+use motion_rtl::jobs::arc_generator::measure::Measured;
+use motion_rtl::jobs::arc_generator::prepared::Segment;
+use motion_rtl::jobs::arc_generator::vector::distance;
 use motion_rtl::picture::{Curve, Panel, Picture};
 
 pub const LINE: &str = "#0072b2";

@@ -6,8 +6,8 @@ use super::operations;
 use super::rows::{self, ArcRow, BlendRow, LineRow};
 use super::verdict::{bounds, complaints};
 use crate::cli::report::Outcome;
-use motion_rtl::arc_generator::job::Played;
-use motion_rtl::arc_generator::settings::LEAST_SAMPLE_TICKS;
+use motion_rtl::jobs::arc_generator::job::Played;
+use motion_rtl::jobs::arc_generator::settings::LEAST_SAMPLE_TICKS;
 use serde::Serialize;
 
 /// The summary of a run.

@@ -15,11 +15,11 @@ use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
-use motion_rtl::kernel::Without;
-use motion_rtl::lead_angle::job::{
+use motion_rtl::jobs::lead_angle::job::{
     Conventional, JobLead, Played, RamLead, ShiftLead, play, positioner,
 };
-use motion_rtl::lead_angle::settings::{History, Settings};
+use motion_rtl::jobs::lead_angle::settings::{History, Settings};
+use motion_rtl::kernel::Without;
 use motion_rtl::trace::Options;
 use summary::Summary;
 use systems::{NONE, System, TUNED, systems, tuned};

@@ -4,7 +4,7 @@
 use super::Job;
 use super::summary::{code_travel, of};
 use super::systems::{LEARNING, LITERAL, System};
-use motion_rtl::lead_angle::job::{Played, Positioning};
+use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::picture::{Curve, Panel, Picture};
 
 const COLOURS: [&str; 6] = [

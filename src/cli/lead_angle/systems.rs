@@ -3,8 +3,8 @@
 //! learned, and learned with the text's sign; where the scenario has positionings
 //! complete by a fixed time, learned at standstills too.
 
-use motion_rtl::lead_angle::job::Played;
-use motion_rtl::lead_angle::settings::{Completion, Settings, Sign};
+use motion_rtl::jobs::lead_angle::job::Played;
+use motion_rtl::jobs::lead_angle::settings::{Completion, Settings, Sign};
 
 /// Name of the system that learns with the sign that converges.
 pub const LEARNING: &str = "learning";

@@ -3,8 +3,8 @@
 
 use super::{Job, Runs};
 use crate::cli::magnification::magnification;
-use motion_rtl::linear_interpolator::measure::{Cycle, Played, ScanRecord};
-use motion_rtl::linear_interpolator::settings::Settings;
+use motion_rtl::jobs::linear_interpolator::measure::{Cycle, Played, ScanRecord};
+use motion_rtl::jobs::linear_interpolator::settings::Settings;
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
 
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);

@@ -1,9 +1,9 @@
 //! The figures of a run, cycle by cycle.
 
 use super::{Job, Runs};
-use motion_rtl::linear_interpolator::measure::Segment;
-use motion_rtl::linear_interpolator::settings::AXIS_NAMES;
-use motion_rtl::linear_interpolator::targets::Target;
+use motion_rtl::jobs::linear_interpolator::measure::Segment;
+use motion_rtl::jobs::linear_interpolator::settings::AXIS_NAMES;
+use motion_rtl::jobs::linear_interpolator::targets::Target;
 use serde::Serialize;
 
 /// One cycle, played by all systems.

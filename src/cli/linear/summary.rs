@@ -5,8 +5,8 @@ use super::verdict::complaints;
 use super::{Job, Runs};
 use crate::cli::report::Outcome;
 use crate::cli::times::rounded;
-use motion_rtl::linear_interpolator::measure::Played;
-use motion_rtl::linear_interpolator::settings::AXIS_NAMES;
+use motion_rtl::jobs::linear_interpolator::measure::Played;
+use motion_rtl::jobs::linear_interpolator::settings::AXIS_NAMES;
 use serde::Serialize;
 
 /// The summary of a run.

@@ -3,7 +3,7 @@
 use super::rows::{Figures, Row};
 use super::summary::{Summary, SystemSummary};
 use crate::cli::report::{Outcome, Report};
-use motion_rtl::linear_interpolator::ways::Way;
+use motion_rtl::jobs::linear_interpolator::ways::Way;
 use std::fmt::Write;
 
 /// Cycles in the table, unless all are asked for.

@@ -2,10 +2,11 @@
 
 use super::{Job, Runs};
 use crate::cli::report::first;
-use motion_rtl::linear_interpolator::measure::{Played, Segment};
-use motion_rtl::linear_interpolator::settings::{AXIS_NAMES, Rule};
-use motion_rtl::linear_interpolator::targets::Target;
-use motion_rtl::linear_interpolator::ways::Way;
+use motion_rtl::jobs::linear_interpolator::measure::{Played, Segment};
+use motion_rtl::jobs::linear_interpolator::settings::AXIS_NAMES;
+use motion_rtl::jobs::linear_interpolator::targets::Target;
+use motion_rtl::jobs::linear_interpolator::ways::Way;
+use motion_rtl::linear_interpolator::Rule;
 
 /// What is wrong with a run; empty where nothing is.
 pub fn complaints(job: &Job, runs: &Runs, segments: &[Vec<Segment>; 3]) -> Vec<String> {
@@ -82,8 +83,8 @@ fn of_system(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use motion_rtl::linear_interpolator::measure::{Cycle, ScanRecord};
-    use motion_rtl::linear_interpolator::profile::Profile;
+    use motion_rtl::jobs::linear_interpolator::measure::{Cycle, ScanRecord};
+    use motion_rtl::jobs::linear_interpolator::profile::Profile;
 
     fn target(x: i64, y: i64) -> Target {
         Target {

@@ -4,14 +4,14 @@ use crate::cli::Failure;
 use crate::cli::pieces::{SpeedKeys, fault};
 use crate::cli::pulse::table_fault;
 use crate::cli::source::{Source, compiling};
-use motion_rtl::arc_generator::path::Speeds;
 use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault};
-use motion_rtl::machine::program::ProgramError;
-use motion_rtl::machine::{Program, Settings};
-use motion_rtl::pulse_interpolator::TableError;
+use motion_rtl::jobs::arc_generator::path::Speeds;
+use motion_rtl::jobs::machine::program::ProgramError;
+use motion_rtl::jobs::machine::{Program, Settings};
+use motion_rtl::jobs::pulse_interpolator::TableError;
+use motion_rtl::jobs::trajectory_controller::program::ProgramError as TrajectoryError;
 use motion_rtl::settings::{Place, SettingError};
-use motion_rtl::trajectory_controller::program::ProgramError as TrajectoryError;
 
 /// An input ready to be run.
 #[derive(Debug)]

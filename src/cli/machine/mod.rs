@@ -14,9 +14,9 @@ use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
+use motion_rtl::jobs::machine::job::{Played, machine, play};
+use motion_rtl::jobs::machine::measure::Measured;
 use motion_rtl::kernel::Without;
-use motion_rtl::machine::job::{Played, machine, play};
-use motion_rtl::machine::measure::Measured;
 use motion_rtl::trace::Options;
 use summary::Summary;
 

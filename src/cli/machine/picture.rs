@@ -3,11 +3,11 @@
 
 use super::Job;
 use crate::cli::magnification::magnification;
-use motion_rtl::arc_generator::path::Course;
-use motion_rtl::arc_generator::vector::{distance, sub};
 use motion_rtl::input::Point;
-use motion_rtl::machine::job::Played;
-use motion_rtl::machine::measure::{Beside, Measured};
+use motion_rtl::jobs::arc_generator::path::Course;
+use motion_rtl::jobs::arc_generator::vector::{distance, sub};
+use motion_rtl::jobs::machine::job::Played;
+use motion_rtl::jobs::machine::measure::{Beside, Measured};
 use motion_rtl::picture::{Curve, Panel, Picture};
 use std::f64::consts::TAU;
 

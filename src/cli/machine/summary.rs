@@ -5,8 +5,8 @@ use super::rows::{self, EndRow, LiftRow, PieceRow};
 use super::verdict::{complaints, steppers_cut_off};
 use crate::cli::report::Outcome;
 use crate::cli::times::rounded;
-use motion_rtl::machine::job::Played;
-use motion_rtl::machine::measure::Measured;
+use motion_rtl::jobs::machine::job::Played;
+use motion_rtl::jobs::machine::measure::Measured;
 use serde::Serialize;
 
 /// The summary of a run.

@@ -2,9 +2,9 @@
 
 use super::Job;
 use super::rows;
-use motion_rtl::machine::job::Played;
-use motion_rtl::machine::measure::Ends;
-use motion_rtl::machine::program::Move;
+use motion_rtl::jobs::machine::job::Played;
+use motion_rtl::jobs::machine::measure::Ends;
+use motion_rtl::jobs::machine::program::Move;
 
 /// What is wrong with the run; empty where nothing is.
 pub fn complaints(job: &Job, played: &Played, ends: &Ends) -> Vec<String> {

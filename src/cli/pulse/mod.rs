@@ -14,7 +14,7 @@ use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
-use motion_rtl::pulse_interpolator::job::{Played, fast_forward, group, play};
+use motion_rtl::jobs::pulse_interpolator::job::{Played, fast_forward, group, play};
 use motion_rtl::trace::Options;
 use picture::{Following, draw};
 use summary::Summary;

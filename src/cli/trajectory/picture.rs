@@ -4,11 +4,11 @@
 use super::Job;
 use super::runs::{Run, Runs};
 use crate::cli::magnification::magnification;
-use motion_rtl::arc_generator::vector::{distance, sub};
 use motion_rtl::input::Point;
+use motion_rtl::jobs::arc_generator::vector::{distance, sub};
+use motion_rtl::jobs::trajectory_controller::measure::Deviation;
+use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::picture::{Curve, Panel, Picture};
-use motion_rtl::trajectory_controller::measure::Deviation;
-use motion_rtl::trajectory_controller::settings::Correction;
 
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 

@@ -2,12 +2,12 @@
 
 use super::Job;
 use super::runs::{CircleError, Run, Runs};
+use motion_rtl::jobs::trajectory_controller::closed::Variants;
+use motion_rtl::jobs::trajectory_controller::measure::Errors;
+use motion_rtl::jobs::trajectory_controller::profile::Profile;
+use motion_rtl::jobs::trajectory_controller::settings::Correction;
+use motion_rtl::jobs::trajectory_controller::speed_limits::spans;
 use motion_rtl::plant::TwoMassAxis;
-use motion_rtl::trajectory_controller::closed::Variants;
-use motion_rtl::trajectory_controller::measure::Errors;
-use motion_rtl::trajectory_controller::profile::Profile;
-use motion_rtl::trajectory_controller::settings::Correction;
-use motion_rtl::trajectory_controller::speed_limits::spans;
 use serde::Serialize;
 
 /// Names of the axes.

@@ -5,7 +5,7 @@ use super::rows::{self, CorrectionRow, SegmentRow};
 use super::runs::Runs;
 use super::verdict::complaints;
 use crate::cli::report::Outcome;
-use motion_rtl::trajectory_controller::settings::LEAST_PERIOD_TICKS;
+use motion_rtl::jobs::trajectory_controller::settings::LEAST_PERIOD_TICKS;
 use serde::Serialize;
 
 /// The summary of a run.

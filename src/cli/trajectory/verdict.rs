@@ -2,7 +2,7 @@
 
 use super::Job;
 use super::runs::{Run, Runs};
-use motion_rtl::trajectory_controller::settings::Correction;
+use motion_rtl::jobs::trajectory_controller::settings::Correction;
 
 /// What is wrong with the runs; empty where nothing is.
 pub fn complaints(job: &Job, runs: &Runs) -> Vec<String> {
@@ -58,8 +58,8 @@ mod tests {
     use crate::cli::source::{Input, Source};
     use crate::cli::trajectory::CORRECTIONS;
     use motion_rtl::input::scenario::Scenario;
-    use motion_rtl::trajectory_controller::job::{Period, Played};
-    use motion_rtl::trajectory_controller::profile_record::lengths;
+    use motion_rtl::jobs::trajectory_controller::job::{Period, Played};
+    use motion_rtl::jobs::trajectory_controller::profile_record::lengths;
     use motion_rtl::trajectory_controller::widths::Widths;
     use std::array::from_fn;
 

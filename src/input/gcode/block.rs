@@ -1,7 +1,8 @@
 //! One line of G-code to its words.
 
 use super::expression::{Name, Scanner, Values};
-use super::problem::{Problem, shown};
+use super::problem::Problem;
+use crate::input::brief;
 
 /// The largest value of a word, either side of zero: beyond it no word makes sense.
 const LARGEST: f64 = 1.0e9;
@@ -56,7 +57,7 @@ impl Block {
                 b'A'..=b'Z' => self.word(letter, &mut scanner, values),
                 _ => {
                     let field = format!("{}{}", char::from(letter), scanner.rest_text());
-                    Err(Problem::new(shown(&field), "not a word", WORDS))
+                    Err(Problem::new(brief(&field), "not a word", WORDS))
                 }
             };
             read.map_err(|problem| problem.at(begin..scanner.at()))?;
@@ -104,7 +105,7 @@ impl Block {
             ..problem
         })?;
         if value.abs() > LARGEST {
-            let problem = format!("{} is out of range", shown(&value.to_string()));
+            let problem = format!("{} is out of range", brief(&value.to_string()));
             return Err(Problem::new(field, problem, "-1000000000 to 1000000000"));
         }
         match letter {

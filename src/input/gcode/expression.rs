@@ -5,7 +5,8 @@
 //! part of its number: `-2**2` is 4. Angles are in degrees. What compares gives 1 or 0; `EQ` holds
 //! within 0.0001. `MOD` is never negative. `ROUND` rounds halves away from zero.
 
-use super::problem::{Problem, shown};
+use super::problem::Problem;
+use crate::input::brief;
 
 /// How deep brackets, signs and parameters stand inside each other.
 const DEEPEST: usize = 64;
@@ -28,7 +29,7 @@ impl std::fmt::Display for Name {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Name::Number(number) => write!(f, "#{number}"),
-            Name::Text(name) => write!(f, "#<{}>", shown(&name.to_ascii_lowercase())),
+            Name::Text(name) => write!(f, "#<{}>", brief(&name.to_ascii_lowercase())),
         }
     }
 }
@@ -80,7 +81,7 @@ impl<'a> Scanner<'a> {
     }
 
     pub(super) fn rest_text(&self) -> String {
-        shown(&String::from_utf8_lossy(self.rest()))
+        brief(&String::from_utf8_lossy(self.rest()))
     }
 
     /// Steps over a text, where it is next.
@@ -191,7 +192,7 @@ impl<'a> Scanner<'a> {
     pub(super) fn number(&mut self) -> Result<f64, Problem> {
         let text = self.run(|byte| byte.is_ascii_digit() || byte == b'.');
         text.parse().map_err(|_| {
-            let problem = format!("{} is not a number", shown(text));
+            let problem = format!("{} is not a number", brief(text));
             Problem::new("number", problem, "a decimal number")
         })
     }
@@ -240,7 +241,7 @@ impl<'a> Scanner<'a> {
         let name = self.letters();
         let unknown = || {
             let allowed = "ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN";
-            Problem::new(shown(name), "not a function", allowed)
+            Problem::new(brief(name), "not a function", allowed)
         };
         if name == "EXISTS" {
             if !self.take("[#") {

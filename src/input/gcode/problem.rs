@@ -46,17 +46,3 @@ impl Problem {
         }
     }
 }
-
-/// A piece of the input as a message shows it.
-pub(super) fn shown(text: &str) -> String {
-    let mut chars = text.trim().chars();
-    let mut short: String = chars
-        .by_ref()
-        .take(20)
-        .flat_map(char::escape_debug)
-        .collect();
-    if chars.next().is_some() {
-        short.push_str("...");
-    }
-    short
-}

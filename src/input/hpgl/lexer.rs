@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::input::Fault;
+use crate::input::{Fault, brief};
 
 mod escape;
 
@@ -198,15 +198,15 @@ impl<'a> Lexer<'a> {
         let digits = self.text.get(start..self.at).unwrap_or_default();
         let text = String::from_utf8_lossy(digits);
         let Ok(value) = text.parse::<f64>() else {
-            return Err(self.fault_here(format!("{} is not a number", shorten(&text)), NUMBER));
+            return Err(self.fault_here(format!("{} is not a number", brief(&text)), NUMBER));
         };
         if let Some([b'e' | b'E', b'0'..=b'9' | b'+' | b'-']) = self.text.get(self.at..self.at + 2)
         {
-            let problem = format!("{} has an exponent", shorten(&text));
+            let problem = format!("{} has an exponent", brief(&text));
             return Err(self.fault_here(problem, NUMBER));
         }
         if value.abs() > LARGEST {
-            let problem = format!("{} is out of range", shorten(&text));
+            let problem = format!("{} is out of range", brief(&text));
             return Err(self.fault_here(problem, format!("-{LARGEST} to {LARGEST}")));
         }
         Ok(value)
@@ -381,12 +381,4 @@ const NUMBER: &str = "decimal numbers such as -12.5, separated by commas or spac
 /// White space, and the control characters that serial lines and old systems leave in files.
 fn is_space(byte: u8) -> bool {
     (byte <= b' ' && byte != ESC) || byte == 0x7f
-}
-
-/// A number as a message shows it.
-fn shorten(text: &str) -> String {
-    match text.char_indices().nth(20) {
-        Some((end, _)) => format!("{}...", text.get(..end).unwrap_or_default()),
-        None => text.to_owned(),
-    }
 }

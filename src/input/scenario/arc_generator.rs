@@ -3,9 +3,9 @@
 use super::exactly::exactly;
 use super::{Program, Runnable};
 use crate::arc_generator::Rounding;
-use crate::arc_generator::path::Taught;
-use crate::arc_generator::settings::{Settings, ShortPieces};
 use crate::input::Point;
+use crate::jobs::arc_generator::path::Taught;
+use crate::jobs::arc_generator::settings::{Settings, ShortPieces};
 use crate::settings::SettingError;
 use serde::{Deserialize, Deserializer};
 use std::path::PathBuf;

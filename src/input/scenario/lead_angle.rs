@@ -2,7 +2,7 @@
 
 use super::Runnable;
 use crate::input::position_log::Columns;
-use crate::lead_angle::settings::{
+use crate::jobs::lead_angle::settings::{
     Comparing, Completion, History, Placement, Settings, Sign, Step,
 };
 use crate::plant::{BodyParameters, Load};

@@ -2,7 +2,8 @@
 
 use super::exactly::exactly;
 use super::{Program, Runnable};
-use crate::linear_interpolator::settings::{AxisSettings, Rule, Settings, ShortMoves};
+use crate::jobs::linear_interpolator::settings::{AxisSettings, Settings, ShortMoves};
+use crate::linear_interpolator::Rule;
 use serde::Deserialize;
 use std::path::PathBuf;
 

@@ -2,10 +2,10 @@
 
 use super::exactly::exactly;
 use super::{Program, Runnable, VCD_TICKS};
-use crate::machine::settings::{Correction, Settings};
+use crate::jobs::machine::settings::{Correction, Settings};
+use crate::jobs::pulse_interpolator::StepTiming;
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
-use crate::pulse_interpolator::StepTiming;
 use serde::Deserialize;
 use std::path::PathBuf;
 

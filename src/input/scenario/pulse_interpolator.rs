@@ -2,8 +2,8 @@
 
 use super::{Program, Runnable};
 use crate::input::Drawing;
+use crate::jobs::pulse_interpolator::{Settings, StepTiming};
 use crate::plan::MotionLimits;
-use crate::pulse_interpolator::{Settings, StepTiming};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -105,7 +105,7 @@ pub enum VariantName {
 
 /// What a key is worth that is not given: what the compiler's settings are by default.
 mod default {
-    use crate::pulse_interpolator::Settings;
+    use crate::jobs::pulse_interpolator::Settings;
 
     pub(super) fn clock_hz() -> u64 {
         Settings::default().clock_hz

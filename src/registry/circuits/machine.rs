@@ -1,6 +1,7 @@
 //! The machine of all circuits, and what it has besides them.
 
-use crate::machine::{CommandJoin, Enables, Machine, Settings, job};
+use crate::jobs::machine::{Settings, job};
+use crate::machine::{CommandJoin, Enables, Machine};
 use crate::registry::Entry;
 use crate::registry::entry::{Made, alone, at_width, entry, proved_at};
 

@@ -2,7 +2,8 @@
 
 use motion_rtl::kernel::{Circuit, Instance};
 use motion_rtl::logic::Sim;
-use motion_rtl::pulse_interpolator::{PulseGenerator, SyncStage, Variant, counts};
+use motion_rtl::pulse_interpolator::counts;
+use motion_rtl::pulse_interpolator::{PulseGenerator, SyncStage, Variant};
 use motion_rtl::pulse_interpolator::{pulse_generator, sync_stage};
 
 /// The longest unit time looked at.

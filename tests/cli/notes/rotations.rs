@@ -1,18 +1,18 @@
 //! Figures of the arc generator: how far its rotations are off, and what a sample costs.
 
 use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::bounds::rotation_error;
-use motion_rtl::arc_generator::circle::Circle;
-use motion_rtl::arc_generator::conventional::{
+use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::jobs::arc_generator::bounds::rotation_error;
+use motion_rtl::jobs::arc_generator::circle::Circle;
+use motion_rtl::jobs::arc_generator::conventional::{
     Conventional, DIFFERENCE_ENGINE, Operations, blend, blend_terms, rotation,
 };
-use motion_rtl::arc_generator::prepare::Timing;
-use motion_rtl::arc_generator::prepared::{Prepared, Segment, Shape};
-use motion_rtl::arc_generator::record::records;
-use motion_rtl::arc_generator::reference::Decoded;
-use motion_rtl::arc_generator::settings::ShortPieces;
-use motion_rtl::arc_generator::vector::{distance, rodrigues, sub};
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::jobs::arc_generator::prepare::Timing;
+use motion_rtl::jobs::arc_generator::prepared::{Prepared, Segment, Shape};
+use motion_rtl::jobs::arc_generator::record::records;
+use motion_rtl::jobs::arc_generator::reference::Decoded;
+use motion_rtl::jobs::arc_generator::settings::ShortPieces;
+use motion_rtl::jobs::arc_generator::vector::{distance, rodrigues, sub};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 

@@ -2,10 +2,11 @@
 
 use super::zoo::{Zoo, inputs};
 use super::{SEED, clock, dump, run_zoo};
+use motion_rtl::files::AtomicFile;
 use motion_rtl::kernel::{Circuit, RunError, Simulator};
 use motion_rtl::logic::{Logic, Ram, Sim};
 use motion_rtl::signals;
-use motion_rtl::trace::{Options, VcdBehind, atomic::AtomicFile};
+use motion_rtl::trace::{Options, VcdBehind};
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;

@@ -3,8 +3,9 @@
 use super::reader::{self, Dump};
 use super::zoo::{Part, PartIn, Zoo, inputs};
 use super::{SEED, clock, options};
+use motion_rtl::files::AtomicFile;
 use motion_rtl::kernel::Simulator;
-use motion_rtl::trace::{Clock, Fst, Options, Vcd, atomic::AtomicFile};
+use motion_rtl::trace::{Clock, Fst, Options, Vcd};
 use std::fs::{self, File};
 use std::io::{self, Cursor};
 use wellen::VarType;

@@ -1,10 +1,10 @@
 //! The conventional method: on the circle all the time, at its price.
 
 use super::*;
-use motion_rtl::arc_generator::conventional::{
+use motion_rtl::jobs::arc_generator::conventional::{
     Conventional, DIFFERENCE_ENGINE, Operations, blend, blend_terms, rotation,
 };
-use motion_rtl::arc_generator::vector::rodrigues;
+use motion_rtl::jobs::arc_generator::vector::rodrigues;
 
 fn count(multiplications: u64, additions: u64, trigonometric: u64) -> Operations {
     Operations {

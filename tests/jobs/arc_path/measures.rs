@@ -2,13 +2,13 @@
 
 use super::*;
 use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::bounds::command_error;
-use motion_rtl::arc_generator::measure::Measured;
-use motion_rtl::arc_generator::prepare::prepare;
-use motion_rtl::arc_generator::prepared::Kind;
-use motion_rtl::arc_generator::record::records;
-use motion_rtl::arc_generator::reference::commands;
 use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::jobs::arc_generator::bounds::command_error;
+use motion_rtl::jobs::arc_generator::measure::Measured;
+use motion_rtl::jobs::arc_generator::prepare::prepare;
+use motion_rtl::jobs::arc_generator::prepared::Kind;
+use motion_rtl::jobs::arc_generator::record::records;
+use motion_rtl::jobs::arc_generator::reference::commands;
 
 const COUNTS: f64 = 1000.0;
 

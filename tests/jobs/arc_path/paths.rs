@@ -1,9 +1,9 @@
 //! Pieces as segments: what lies where, how fast, and that everything meets.
 
 use super::*;
-use motion_rtl::arc_generator::prepare::prepare;
-use motion_rtl::arc_generator::prepared::{Kind, Place};
-use motion_rtl::arc_generator::vector::{apply, rodrigues};
+use motion_rtl::jobs::arc_generator::prepare::prepare;
+use motion_rtl::jobs::arc_generator::prepared::{Kind, Place};
+use motion_rtl::jobs::arc_generator::vector::{apply, rodrigues};
 use std::f64::consts::TAU;
 
 /// Velocity at the start and at the end of a segment, from its points alone.

@@ -1,7 +1,7 @@
 //! Settings: every field's limits, with their texts.
 
-use motion_rtl::arc_generator::settings::Settings;
 use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::jobs::arc_generator::settings::Settings;
 use motion_rtl::settings::SettingError;
 
 const FULL: Widths = Widths::FULL;

@@ -2,8 +2,10 @@
 
 use super::judge::{arc, drawing, line, play, run};
 use motion_rtl::input::Drawing;
+use motion_rtl::jobs::pulse_interpolator::{
+    Ratio, Settings, StepTiming, Table, TableError, compile,
+};
 use motion_rtl::plan::MotionLimits;
-use motion_rtl::pulse_interpolator::{Ratio, Settings, StepTiming, Table, TableError, compile};
 
 /// Unit times of 1000 ticks at 1 MHz, no timing limits.
 fn plain() -> Settings {

@@ -2,9 +2,9 @@
 
 use super::{circle, compiled, lines};
 use motion_rtl::input::read_text;
-use motion_rtl::linear_interpolator::profile::{Profile, SPEED_ONE};
-use motion_rtl::linear_interpolator::settings::{Settings, ShortMoves};
-use motion_rtl::linear_interpolator::targets::{Target, TargetError, compile};
+use motion_rtl::jobs::linear_interpolator::profile::{Profile, SPEED_ONE};
+use motion_rtl::jobs::linear_interpolator::settings::{Settings, ShortMoves};
+use motion_rtl::jobs::linear_interpolator::targets::{Target, TargetError, compile};
 use proptest::prelude::*;
 
 /// The one cycle from the origin to a point in millimetres.

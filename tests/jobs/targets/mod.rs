@@ -4,8 +4,8 @@ mod cycles;
 mod refusals;
 
 use motion_rtl::input::{Course, Drawing, Move};
-use motion_rtl::linear_interpolator::settings::Settings;
-use motion_rtl::linear_interpolator::targets::{Targets, compile};
+use motion_rtl::jobs::linear_interpolator::settings::Settings;
+use motion_rtl::jobs::linear_interpolator::targets::{Targets, compile};
 
 fn move_to(x: f64, y: f64) -> Move {
     Move {

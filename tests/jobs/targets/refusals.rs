@@ -2,8 +2,8 @@
 
 use super::{circle, compiled, lines};
 use motion_rtl::input::Drawing;
-use motion_rtl::linear_interpolator::settings::Settings;
-use motion_rtl::linear_interpolator::targets::{TargetError, compile};
+use motion_rtl::jobs::linear_interpolator::settings::Settings;
+use motion_rtl::jobs::linear_interpolator::targets::{TargetError, compile};
 
 #[test]
 fn what_cannot_be_played_is_refused() {

@@ -5,7 +5,7 @@ mod records;
 mod segments;
 mod settings;
 
-use motion_rtl::trajectory_controller::speed_limits::Span;
+use motion_rtl::jobs::trajectory_controller::speed_limits::Span;
 use proptest::prelude::*;
 
 fn config(cases: u32) -> ProptestConfig {

@@ -1,8 +1,8 @@
 //! Settings: what is refused, and what gains make of a target.
 
 use super::config;
+use motion_rtl::jobs::trajectory_controller::settings::{Correction, Settings};
 use motion_rtl::trajectory_controller::Rounding;
-use motion_rtl::trajectory_controller::settings::{Correction, Settings};
 use motion_rtl::trajectory_controller::widths::Widths;
 use proptest::prelude::*;
 

@@ -1,7 +1,7 @@
 //! A circle at constant speed: contour errors against closed forms, and the loads against physics.
 
 use super::*;
-use motion_rtl::trajectory_controller::closed::Steady;
+use motion_rtl::jobs::trajectory_controller::closed::Steady;
 use std::f64::consts::TAU;
 
 /// Contour errors of a circle of 10 mm by the models' recursion, run until it is steady: with a turn a

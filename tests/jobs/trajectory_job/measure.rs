@@ -1,9 +1,9 @@
 //! What is measured, against places that are known, and against a search of all lengths.
 
 use super::*;
-use motion_rtl::trajectory_controller::job::Period;
-use motion_rtl::trajectory_controller::measure::Measured;
-use motion_rtl::trajectory_controller::segments::Path;
+use motion_rtl::jobs::trajectory_controller::job::Period;
+use motion_rtl::jobs::trajectory_controller::measure::Measured;
+use motion_rtl::jobs::trajectory_controller::segments::Path;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

@@ -1,7 +1,7 @@
 //! Any path: profile, commands and models against the equations in floating point.
 
 use super::*;
-use motion_rtl::trajectory_controller::profile_record::lengths;
+use motion_rtl::jobs::trajectory_controller::profile_record::lengths;
 use std::f64::consts::TAU;
 
 /// p' = p + v, v' = v + K2(K1(u − p) − v), from old values.

@@ -1,8 +1,8 @@
 //! What is refused, and why.
 
 use super::*;
+use motion_rtl::jobs::trajectory_controller::job::ProgramError;
 use motion_rtl::settings::Place;
-use motion_rtl::trajectory_controller::job::ProgramError;
 
 fn program(
     pieces: &[Piece],

@@ -10,10 +10,10 @@ use crate::cli::report::{Outcome, conclude};
 use crate::cli::run::{Arguments, Progress};
 use crate::cli::traces::{Traces, no_such_tick};
 use motion_rtl::input::position_log::PositionLog;
+use motion_rtl::jobs::lead_angle::job::{JobLead, RamLead, ShiftLead, positioner};
+use motion_rtl::jobs::lead_angle::replay::{Replayed, Signal, replay, settings_for};
+use motion_rtl::jobs::lead_angle::settings::{History, Settings};
 use motion_rtl::kernel::Without;
-use motion_rtl::lead_angle::job::{JobLead, RamLead, ShiftLead, positioner};
-use motion_rtl::lead_angle::replay::{Replayed, Signal, replay, settings_for};
-use motion_rtl::lead_angle::settings::{History, Settings};
 use motion_rtl::trace::Options;
 use serde::Serialize;
 

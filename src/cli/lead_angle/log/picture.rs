@@ -2,8 +2,8 @@
 
 use crate::cli::lead_angle::Job;
 use motion_rtl::input::position_log::PositionLog;
-use motion_rtl::lead_angle::replay::Replayed;
-use motion_rtl::lead_angle::settings::Settings;
+use motion_rtl::jobs::lead_angle::replay::Replayed;
+use motion_rtl::jobs::lead_angle::settings::Settings;
 use motion_rtl::picture::{Curve, Panel, Picture};
 
 const AXIS: &str = "time in s";

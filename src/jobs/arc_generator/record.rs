@@ -1,0 +1,201 @@
+//! Segments as records: 32 words each, as the record memory holds them.
+//!
+//! | word | blend, line | arc |
+//! |---|---|---|
+//! | 0 | bits 1..0 kind, bit 2 ends at rest, from bit 3 on samples | the same |
+//! | 1 | modulus: M⁴ of a blend, N of a line | 1 |
+//! | 2, 3, 4 | where it begins | the vector GP0 |
+//! | 5, 6, 7 | 0 | the centre G |
+//! | 8c + 8 … | of coordinate c: whole and part of the differences 1 to 4 | row c of R, then 0 |
+//!
+//! Points are in guard units of 2^-G count, coefficients in units of 2^-B; a signed word is cut to
+//! its bits. Differences are exact: whole·modulus + part.
+
+use super::bounds::rotation_error;
+use super::circle::Circle;
+use super::error::{PathError, Reason};
+use super::prepared::{Prepared, Segment, Shape};
+use super::vector::{rodrigues, scale};
+use crate::arc_generator::Rounding;
+use crate::arc_generator::widths::Widths;
+use crate::input::{COORDINATES, Point};
+use fixed::types::I64F64;
+
+/// Words of a record.
+pub const WORDS: usize = 32;
+
+/// Words of a coordinate from its [`coordinate_word`] on.
+const COORDINATE_WORDS: usize = 8;
+
+/// One segment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Record {
+    /// Its words, each below 2^D.
+    pub words: [u64; WORDS],
+}
+
+/// First word of the differences or of the matrix row of a coordinate.
+#[must_use]
+pub fn coordinate_word(coordinate: usize) -> usize {
+    COORDINATE_WORDS * (coordinate + 1)
+}
+
+/// The records of a path, at so many counts per millimetre.
+///
+/// Every segment begins at the word at which the one before ends; an arc ends there but for its
+/// [`rotation_error`].
+///
+/// # Errors
+/// A coordinate, centre or radius does not fit in the words; the width that it needs is said.
+pub fn records(
+    prepared: &Prepared,
+    counts_per_mm: f64,
+    widths: &Widths,
+    rounding: Rounding,
+) -> Result<Vec<Record>, PathError> {
+    let segments = prepared.segments.iter().map(|segment| {
+        fits(segment, counts_per_mm, widths, rounding).map_err(|reason| PathError {
+            piece: segment.piece,
+            line: prepared
+                .pieces
+                .get(segment.piece)
+                .and_then(|piece| piece.line),
+            reason,
+        })?;
+        Ok(record(segment, counts_per_mm, widths))
+    });
+    segments.collect()
+}
+
+/// Checks that a segment's points are words.
+fn fits(
+    segment: &Segment,
+    counts_per_mm: f64,
+    widths: &Widths,
+    rounding: Rounding,
+) -> Result<(), Reason> {
+    let check = |what, counts: f64| match widths.holds(counts) {
+        true => Ok(()),
+        false => Err(Reason::Reach {
+            what,
+            counts,
+            most: widths.reach(),
+            width: widths.position,
+            needed: Widths::needed(counts),
+        }),
+    };
+    let check_point = |names: [&'static str; COORDINATES], point: Point, error: f64| {
+        let coordinates = names.into_iter().zip(point);
+        coordinates
+            .map(|(what, mm)| (what, mm * counts_per_mm))
+            .try_for_each(|(what, counts)| check(what, counts + error.copysign(counts)))
+    };
+    let names = ["x", "y", "z"];
+    // A point is rounded to a guard unit before it is rounded to a count.
+    let unit = (-f64::from(widths.guard())).exp2();
+    match &segment.shape {
+        // A blend stays within the triangle of its points.
+        Shape::Blend {
+            before,
+            corner,
+            behind,
+        } => [before, corner, behind]
+            .into_iter()
+            .try_for_each(|point| check_point(names, *point, unit)),
+        Shape::Line { from, to } => [from, to]
+            .into_iter()
+            .try_for_each(|point| check_point(names, *point, unit)),
+        Shape::Arc { circle, from, step } => {
+            let radius = circle.radius * counts_per_mm;
+            let error = rotation_error(radius, segment.samples, widths, rounding);
+            check("radius", radius + error)?;
+            let names_of_centre = ["centre x", "centre y", "centre z"];
+            check_point(names_of_centre, circle.centre, unit)?;
+            let part = Circle {
+                start: circle.point(*from),
+                angle: step * segment.samples as f64,
+                ..*circle
+            };
+            let extremes = part.extremes();
+            (0..2).try_for_each(|end| check_point(names, extremes.map(|k| k[end]), error))
+        }
+    }
+}
+
+fn record(segment: &Segment, counts_per_mm: f64, widths: &Widths) -> Record {
+    let units =
+        |point: Point| scale(point, counts_per_mm).map(|counts| quantise(counts, widths.guard()));
+    let signed = |value: i64, bits: u32| value as u64 & ((1 << bits) - 1);
+    let mut words = [0; WORDS];
+    words[0] = segment.kind() as u64 | u64::from(segment.ends_at_rest) << 2 | segment.samples << 3;
+    let mut put = |first: usize, values: [i64; COORDINATES], bits: u32| {
+        for (word, value) in words[first..].iter_mut().zip(values) {
+            *word = signed(value, bits);
+        }
+    };
+    let (point, coefficient) = (widths.point, widths.coefficient);
+    let (modulus, differences): (u128, [[i128; 4]; COORDINATES]) = match &segment.shape {
+        Shape::Arc { circle, from, step } => {
+            let centre = units(circle.centre);
+            let begin = units(circle.point(*from));
+            let vector = std::array::from_fn(|k| begin[k] - centre[k]);
+            put(2, vector, point);
+            put(5, centre, point);
+            let matrix = rodrigues(circle.axis, *step);
+            for (row, coefficients) in matrix.into_iter().enumerate() {
+                let fraction = widths.coefficient_fraction();
+                let coefficients = coefficients.map(|value| quantise(value, fraction));
+                put(coordinate_word(row), coefficients, coefficient);
+            }
+            words[1] = 1;
+            return Record { words };
+        }
+        Shape::Line { from, to } => {
+            let (from, to) = (units(*from), units(*to));
+            put(2, from, point);
+            let way = std::array::from_fn(|k| [i128::from(to[k]) - i128::from(from[k]), 0, 0, 0]);
+            (u128::from(segment.samples), way)
+        }
+        Shape::Blend {
+            before,
+            corner,
+            behind,
+        } => {
+            let [before, corner, behind] = [before, corner, behind].map(|point| units(*point));
+            put(2, before, point);
+            let of =
+                |k: usize| blend_differences([before[k], corner[k], behind[k]], segment.samples);
+            (u128::from(segment.samples).pow(4), std::array::from_fn(of))
+        }
+    };
+    words[1] = modulus as u64;
+    for (coordinate, differences) in differences.into_iter().enumerate() {
+        let pairs = words[coordinate_word(coordinate)..].chunks_exact_mut(2);
+        for (pair, difference) in pairs.zip(differences) {
+            let modulus = modulus as i128;
+            pair[0] = signed(difference.div_euclid(modulus) as i64, point);
+            pair[1] = difference.rem_euclid(modulus) as u64;
+        }
+    }
+    Record { words }
+}
+
+/// The differences of x·M⁴ at the first sample, in guard units, of
+/// x = A⁻ + 2(A − A⁻)h + S(2 − h)h³ with h = n/M and S = A⁻ − 2A + A⁺.
+fn blend_differences([before, corner, behind]: [i64; 3], samples: u64) -> [i128; 4] {
+    let [before, corner, behind] = [before, corner, behind].map(i128::from);
+    let (bend, m) = (before - 2 * corner + behind, i128::from(samples));
+    [
+        2 * (corner - before) * m * m * m + bend * (2 * m - 1),
+        bend * (12 * m - 14),
+        bend * (12 * m - 36),
+        -24 * bend,
+    ]
+}
+
+/// The nearest multiple of 2^-`fraction`, in units of it, a half away from zero.
+fn quantise(value: f64, fraction: u32) -> i64 {
+    // A number of 64 bits on either side of the point holds whatever fits into a word.
+    let units = I64F64::saturating_from_num(value).saturating_mul(I64F64::ONE << fraction);
+    units.round().saturating_to_num()
+}

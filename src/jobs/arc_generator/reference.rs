@@ -1,0 +1,123 @@
+//! The samples of records by plain integer arithmetic: every sample of a blend or line from its
+//! polynomial by a division, every rotation by whole products.
+
+use super::record::{Record, coordinate_word};
+use crate::arc_generator::Rounding;
+use crate::arc_generator::widths::Widths;
+use crate::input::COORDINATES;
+
+/// What a record says, in guard units.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Decoded {
+    /// 0 blend, 1 line, 2 arc.
+    pub kind: u64,
+    /// It ends at rest.
+    pub ends_at_rest: bool,
+    /// Its samples.
+    pub samples: u64,
+    /// Of the differences.
+    pub modulus: u64,
+    /// Where it begins; of an arc the vector from the centre.
+    pub start: [i64; COORDINATES],
+    /// The centre of an arc, else 0.
+    pub origin: [i64; COORDINATES],
+    /// The words of each coordinate: differences as whole and part, or a matrix row.
+    pub coordinates: [[i64; 8]; COORDINATES],
+}
+
+impl Decoded {
+    /// Reads a record as the circuit does: upper bits of signed words are ignored.
+    #[must_use]
+    pub fn of(record: &Record, widths: &Widths) -> Self {
+        let words = &record.words;
+        let header = words[0];
+        let kind = header & 3;
+        let point = |word: usize| signed(words[word], widths.point);
+        let coordinates = std::array::from_fn(|coordinate| {
+            std::array::from_fn(|k| {
+                let word = words[coordinate_word(coordinate) + k];
+                match (kind, k % 2) {
+                    (2, _) => signed(word, widths.coefficient),
+                    (_, 0) => signed(word, widths.point),
+                    _ => word as i64,
+                }
+            })
+        });
+        Decoded {
+            kind,
+            ends_at_rest: header & 4 != 0,
+            samples: header >> 3 & ((1 << widths.samples) - 1),
+            modulus: words[1],
+            start: std::array::from_fn(|k| point(2 + k)),
+            origin: std::array::from_fn(|k| point(5 + k)),
+            coordinates,
+        }
+    }
+
+    /// The points of its samples in guard units, from the one where it begins.
+    #[must_use]
+    pub fn points(&self, widths: &Widths, rounding: Rounding) -> Vec<[i64; COORDINATES]> {
+        match self.kind {
+            2 => self.rotated(widths, rounding),
+            _ => (0..=self.samples)
+                .map(|n| self.interpolated(n, widths))
+                .collect(),
+        }
+    }
+
+    /// Newton's forward formula: value + Σ C(n, k)·dₖ, rounded to the nearest, a half upwards.
+    fn interpolated(&self, n: u64, widths: &Widths) -> [i64; COORDINATES] {
+        let modulus = i128::from(self.modulus);
+        std::array::from_fn(|coordinate| {
+            let mut sum = i128::from(self.start[coordinate]) * modulus;
+            let mut ways = 1;
+            for (k, pair) in (0..).zip(self.coordinates[coordinate].chunks_exact(2)) {
+                ways = ways * (i128::from(n) - k) / (k + 1);
+                sum += ways * (i128::from(pair[0]) * modulus + i128::from(pair[1]));
+            }
+            let nearest = (2 * sum + modulus).div_euclid(2 * modulus);
+            signed(nearest as u64, widths.point)
+        })
+    }
+
+    fn rotated(&self, widths: &Widths, rounding: Rounding) -> Vec<[i64; COORDINATES]> {
+        let fraction = widths.coefficient_fraction();
+        let half = match rounding {
+            Rounding::Nearest => 1i128 << (fraction - 1),
+            Rounding::Floor => 0,
+        };
+        let vectors = std::iter::successors(Some(self.start), |vector| {
+            Some(std::array::from_fn(|row| {
+                let products = self.coordinates[row].iter().zip(vector);
+                let sum: i128 = products.map(|(&r, &v)| i128::from(r) * i128::from(v)).sum();
+                signed(((sum + half) >> fraction) as u64, widths.point)
+            }))
+        });
+        let points = vectors.map(|v| std::array::from_fn(|k| self.origin[k] + v[k]));
+        points.take(self.samples as usize + 1).collect()
+    }
+}
+
+/// The position commands of a path, in counts: the start of the first record and every sample of
+/// all.
+#[must_use]
+pub fn commands(
+    records: &[Record],
+    widths: &Widths,
+    rounding: Rounding,
+) -> Vec<[i64; COORDINATES]> {
+    let half = (1i64 << widths.guard()) >> 1;
+    let segments = records.iter().enumerate().flat_map(|(index, record)| {
+        let points = Decoded::of(record, widths).points(widths, rounding);
+        points.into_iter().skip(usize::from(index > 0))
+    });
+    segments
+        .map(|point| point.map(|units| (units + half) >> widths.guard()))
+        .collect()
+}
+
+/// A word of so many bits in two's complement.
+fn signed(word: u64, bits: u32) -> i64 {
+    let unused = 64 - bits;
+    (word << unused) as i64 >> unused
+}

@@ -1,0 +1,368 @@
+//! Positionings one after the other: a compensator, a body, and its brake.
+
+use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings};
+use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn, zero};
+use crate::lead_angle::compensator;
+use crate::lead_angle::{
+    Compensator, LeadSource, PositionHistory, RamHistory, SpeedLead, TimeLead, Variant,
+};
+use crate::logic::{Image, Sim};
+use crate::plant::{BrakedBody, waves};
+use crate::settings::JobError;
+
+/// Width of a lead time.
+pub(super) const C: usize = 11;
+/// Width of a position.
+pub(super) const W: usize = 24;
+/// Width of a step number.
+pub(super) const A: usize = 4;
+/// Width of a speed.
+pub(super) const D: usize = 16;
+/// Width of a time in CKs.
+pub(super) const N: usize = 16;
+/// Width of the CK period.
+pub(super) const S: usize = 24;
+
+/// How far past its target a body is stopped by hand, in seconds of its way.
+const MISSED_S: f64 = 0.1;
+/// Seconds after which a positioning is given up that is not complete.
+const PATIENCE_S: f64 = 600.0;
+
+/// A compensator with the body beside it in the waves.
+pub type Positioner<P> = With<Compensator<P>, waves::Body>;
+
+/// A lead source of the widths that jobs have.
+pub trait JobLead: LeadSource<C, W, N> + 'static {}
+
+impl<P: LeadSource<C, W, N> + 'static> JobLead for P {}
+
+/// Lead of a time, with the history as a shift register.
+pub type ShiftLead = TimeLead<PositionHistory<199, 8, W>, 199, 8, C, W>;
+/// Lead of a time, with the history as a RAM.
+pub type RamLead = TimeLead<RamHistory<199, 8, W>, 199, 8, C, W>;
+/// The conventional lead.
+pub type Conventional = SpeedLead<W, N>;
+
+/// The ports in of a compensator.
+pub type Ports = compensator::In<Sim, C, W, A, D, N, S>;
+
+/// The compensator of these settings whose lead comes from `P`.
+pub fn positioner<P: JobLead>(settings: &Settings) -> Positioner<P> {
+    let variant = Variant {
+        placement: settings.placement,
+        comparing: settings.comparing,
+        sign: settings.sign,
+    };
+    let codes = settings
+        .steps
+        .iter()
+        .map(|step| settings.code(step.lead_ms).unwrap_or(0));
+    With::new(Compensator::new(variant, Image::new(codes)))
+}
+
+/// The control computer: writes a step a tick, then lets them run.
+#[derive(Debug)]
+pub(super) struct ControlComputer<'a> {
+    settings: &'a Settings,
+}
+
+impl<'a> ControlComputer<'a> {
+    pub(super) fn new(settings: &'a Settings) -> Self {
+        ControlComputer { settings }
+    }
+
+    /// What it gives in every tick, with all else low.
+    pub(super) fn standing(&self) -> Ports {
+        let settings = self.settings;
+        let cks = |ms: f64| u64::from(settings.cks(ms));
+        let standstill = match settings.completion {
+            Completion::Standstill => cks(settings.standstill_ms),
+            // No standstill is so long.
+            Completion::FixedTime => (1 << N) - 1,
+        };
+        // The times are in the ROM.
+        Ports {
+            learn: settings.learn.into(),
+            common: settings.common_time.into(),
+            last_step: (settings.steps.len().saturating_sub(1) as u64).into(),
+            ck_period: u64::from(settings.ck_ticks).into(),
+            standstill: standstill.into(),
+            time_out: cks(settings.time_out_ms).into(),
+            rest: cks(settings.rest_ms).into(),
+            seed: settings.code(settings.seed_ms).unwrap_or(0).into(),
+            lead_parameter: self.parameter(settings.speed_lead_ms).into(),
+            gate: cks(settings.speed_gate_ms).into(),
+            ..zero()
+        }
+    }
+
+    /// A lead time of the conventional compensator as its parameter: in gates, in 1/256.
+    fn parameter(&self, ms: f64) -> u64 {
+        let gates = 256.0 * ms / self.settings.speed_gate_ms;
+        (gates.round() as u64).min((1 << 14) - 1)
+    }
+
+    /// Sets the parameter of the step that runs, where each has its own.
+    fn choose_parameter(&self, i: &mut Ports, step: u64) {
+        let step = usize::try_from(step).unwrap_or(usize::MAX);
+        if let Some(ms) = self.settings.speed_leads_ms.get(step) {
+            i.lead_parameter = self.parameter(*ms).into();
+        }
+    }
+
+    /// What it gives in `tick`; steps run as soon as all are written.
+    pub(super) fn tick(&self, i: &mut Ports, tick: u64, run: bool) {
+        let steps = &self.settings.steps;
+        let place = usize::try_from(tick).unwrap_or(usize::MAX);
+        let step = steps.get(place);
+        let speed = step.map_or(0, |step| step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S);
+        i.write_target = step.is_some().into();
+        i.write_step = step.map_or(0, |_| tick).into();
+        i.step_target = step.map_or(0, |step| step.target).into();
+        i.step_speed = u64::from(speed).into();
+        i.run = (step.is_none() && run).into();
+    }
+}
+
+/// One positioning.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Positioning {
+    /// The step it was.
+    pub step: usize,
+    /// The last tick in which it was armed.
+    pub begun: u64,
+    /// Sx.
+    pub target: i64,
+    /// It went to greater counts.
+    pub upward: bool,
+    /// Δt1 in CKs.
+    pub code: u64,
+    /// Tick of the control signal.
+    pub fired: u64,
+    /// Dx at the control signal.
+    pub trigger_position: i64,
+    /// True speed at the control signal, in counts a second.
+    pub speed_counts_per_s: f64,
+    /// Tick in which it was complete.
+    pub completed: u64,
+    /// Dx then.
+    pub stopped: i64,
+    /// Way past the target in the direction of the move; negative where it stopped short. Where the
+    /// time was over, of where the body was then.
+    pub error: i64,
+    /// Its time was over before the body stood still.
+    pub timed_out: bool,
+    /// True speed when it was complete, in counts a second.
+    pub end_speed_counts_per_s: f64,
+    /// The target was missed, and the body stopped by hand.
+    pub missed: bool,
+    /// Δt2 in CKs, where something was learned.
+    pub learned: Option<u64>,
+}
+
+/// What came of a run.
+#[derive(Debug, Clone, Default)]
+pub struct Played {
+    /// Ticks.
+    pub ticks: u64,
+    /// Positionings in order.
+    pub positionings: Vec<Positioning>,
+    /// The encoder was too fast.
+    pub lost: bool,
+    /// A positioning was not complete for too long, and the run given up.
+    pub unsettled: bool,
+}
+
+/// What is looked at.
+struct See {
+    speed: At<u64>,
+    drive: At<bool>,
+    reverse: At<bool>,
+    control: At<bool>,
+    arm: At<bool>,
+    fire: At<bool>,
+    halting: At<bool>,
+    complete: At<bool>,
+    learned: At<bool>,
+    learned_time: At<u64>,
+    busy: At<bool>,
+    lost: At<bool>,
+    timed_out: At<bool>,
+    missed: At<bool>,
+    step: At<u64>,
+    position: At<i64>,
+    target: At<i64>,
+    time: At<u64>,
+}
+
+impl See {
+    fn of<P: JobLead>(watch: &Watcher<Positioner<P>>) -> Self {
+        let (q, w) = (&watch.q, &watch.w);
+        See {
+            speed: watch.at(q.target_setter.speed),
+            drive: watch.at(q.sequencer.drive),
+            reverse: watch.at(q.sequencer.reverse),
+            control: watch.at(q.comparator.control),
+            arm: watch.at(q.sequencer.arm),
+            fire: watch.at(w.fire),
+            halting: watch.at(q.sequencer.halting),
+            complete: watch.at(w.complete),
+            learned: watch.at(w.learned),
+            learned_time: watch.at(w.learned_time),
+            busy: watch.at(w.busy),
+            lost: watch.at(w.lost),
+            timed_out: watch.at(w.timed_out),
+            missed: watch.at(q.sequencer.missed),
+            step: watch.at(w.step),
+            position: watch.at(w.position),
+            target: watch.at(w.target),
+            time: watch.at(w.lead_time),
+        }
+    }
+}
+
+/// Watches, stops by hand what missed its target, and writes down what comes of it.
+struct Bench<'a> {
+    settings: &'a Settings,
+    completed: u32,
+    /// Ticks since something was complete.
+    idle: u64,
+    patience: u64,
+    /// A step was armed in the tick before.
+    arming: bool,
+    /// The body is far past its target.
+    past: bool,
+    played: Played,
+}
+
+impl Bench<'_> {
+    /// Whether another positioning is to begin.
+    fn run(&self) -> bool {
+        self.played.positionings.len() < self.settings.positionings as usize
+    }
+
+    /// Takes the tick up; whether the run goes on.
+    fn take<P: JobLead>(
+        &mut self,
+        now: &Sample<'_, Positioner<P>>,
+        see: &See,
+        body: &BrakedBody,
+    ) -> bool {
+        let tick = self.played.ticks;
+        self.played.ticks += 1;
+        self.idle += 1;
+        let arm = now.get(see.arm);
+        if arm {
+            if self.arming {
+                // The sample that ends it says where the body is.
+                self.played.positionings.pop();
+            }
+            let (target, position) = (now.get(see.target), now.get(see.position));
+            self.played.positionings.push(Positioning {
+                step: now.get(see.step) as usize,
+                begun: tick,
+                target,
+                upward: target >= position,
+                code: now.get(see.time),
+                fired: tick,
+                trigger_position: position,
+                speed_counts_per_s: 0.0,
+                completed: tick,
+                stopped: position,
+                error: 0,
+                timed_out: false,
+                end_speed_counts_per_s: 0.0,
+                missed: false,
+                learned: None,
+            });
+        }
+        self.arming = arm;
+        if let Some(current) = self.played.positionings.last_mut() {
+            if now.get(see.fire) || now.get(see.halting) {
+                current.fired = tick;
+                current.trigger_position = now.get(see.position);
+                current.speed_counts_per_s = body.speed_counts_per_s();
+            }
+            if now.get(see.complete) {
+                let position = now.get(see.position);
+                let way = position - now.get(see.target);
+                current.completed = tick;
+                current.stopped = position;
+                current.error = if current.upward { way } else { -way };
+                current.end_speed_counts_per_s = body.speed_counts_per_s();
+                current.timed_out = match self.settings.completion {
+                    Completion::Standstill => now.get(see.timed_out),
+                    Completion::FixedTime => current.end_speed_counts_per_s != 0.0,
+                };
+                current.missed = now.get(see.missed);
+                self.completed += 1;
+                self.idle = 0;
+            }
+            if current.learned.is_none() && now.get(see.learned) {
+                current.learned = Some(now.get(see.learned_time));
+            }
+            let way = body.position_counts() - current.target as f64;
+            let way = if current.upward { way } else { -way };
+            let step = self.settings.steps.get(current.step);
+            let speed = step.map_or(0, |step| step.speed_counts_per_s);
+            self.past = way > f64::from(speed) * MISSED_S;
+        }
+        self.played.lost = now.get(see.lost);
+        self.played.unsettled = self.idle > self.patience;
+        let over = self.completed >= self.settings.positionings && !now.get(see.busy);
+        !over && !self.played.unsettled
+    }
+}
+
+/// Plays the positionings of `settings` on `circuit`, with a body and its brake, seen by `observer`
+/// too.
+///
+/// # Errors
+/// A setting or a parameter of the body is out of range, or what `observer` objects to.
+pub fn play<P: JobLead>(
+    circuit: &Positioner<P>,
+    settings: &Settings,
+    mut observer: impl Observer<Positioner<P>>,
+) -> Result<Played, JobError> {
+    settings.validate()?;
+    let clock = settings.clock_hz as f64;
+    let mut body = BrakedBody::new(&settings.body, 1.0 / clock)?;
+    let mut bench = Bench {
+        settings,
+        completed: 0,
+        idle: 0,
+        patience: (PATIENCE_S * clock) as u64,
+        arming: false,
+        past: false,
+        played: Played::default(),
+    };
+    let computer = ControlComputer::new(settings);
+    let mut i = WithIn::<Sim, Compensator<P>, waves::Body> {
+        i: computer.standing(),
+        beside: waves::BodySignals::of(&body),
+    };
+    let mut loaded = false;
+    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
+    loop {
+        if settings.load_change_after == Some(bench.completed) && !loaded {
+            body.set_load(settings.load)?;
+            loaded = true;
+        }
+        let speed = simulator.get(see.speed) * u64::from(SPEED_UNIT_COUNTS_PER_S);
+        let (drive, reverse) = (simulator.get(see.drive), simulator.get(see.reverse));
+        let (a, b) = body.step(drive, reverse, speed as f64, simulator.get(see.control));
+        computer.tick(&mut i.i, bench.played.ticks, bench.run());
+        computer.choose_parameter(&mut i.i, simulator.get(see.step));
+        i.i.a = a.into();
+        i.i.b = b.into();
+        i.i.halt = (bench.past && drive).into();
+        if observer.looks(bench.played.ticks) {
+            i.beside = waves::BodySignals::of(&body);
+        }
+        let take = |now: &Sample<'_, _>| bench.take(now, &see, &body);
+        let (goes_on, flow) = simulator.step_watched(&i, &mut observer, take)?;
+        if !goes_on || flow.is_break() {
+            return Ok(bench.played);
+        }
+    }
+}

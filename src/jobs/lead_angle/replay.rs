@@ -1,0 +1,226 @@
+//! A position log on a compensator: where it would have given its signals, and how good its
+//! predictions were.
+
+use super::job::{ControlComputer, JobLead, Positioner};
+use super::settings::Settings;
+use crate::input::position_log::PositionLog;
+use crate::kernel::{At, Observer, Sample, Simulator, Watcher, WithIn};
+use crate::lead_angle::Compensator;
+use crate::logic::Sim;
+use crate::plant::Encoder;
+use crate::plant::waves::{Body, BodySignals};
+use crate::settings::JobError;
+
+/// A control signal that the log gave rise to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Signal {
+    /// The step whose target it was.
+    pub step: usize,
+    /// Sx in the log's counts.
+    pub target: i64,
+    /// Its tick.
+    pub tick: u64,
+    /// Δt1 in CKs.
+    pub code: u64,
+    /// Position at the signal, in the log's counts.
+    pub position: i64,
+    /// Position Δt1 after the sample that the signal came of, in the log's counts; `None` where the
+    /// log is over by then.
+    pub position_after: Option<f64>,
+}
+
+/// Parts of a log whose largest errors are told apart.
+pub const PARTS: usize = 400;
+
+/// How far off the predictions of all CKs were, in counts.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Predictions {
+    /// Predictions that the log can judge.
+    pub count: u64,
+    /// Root of their mean square error.
+    pub rms: f64,
+    /// Largest error.
+    pub largest: f64,
+    /// Root of the mean square error without a lead.
+    pub rms_without: f64,
+    /// Largest error without a lead.
+    pub largest_without: f64,
+}
+
+/// What came of a log.
+#[derive(Debug, Clone, Default)]
+pub struct Replayed {
+    /// Ticks.
+    pub ticks: u64,
+    /// Signals in order.
+    pub signals: Vec<Signal>,
+    /// All predictions that were made with a lead.
+    pub predictions: Predictions,
+    /// Largest errors with the lead and without in each of [`PARTS`] equal parts of the log, in
+    /// counts; `NaN` where nothing was predicted.
+    pub parts: Vec<[f64; 2]>,
+    /// The encoder was too fast.
+    pub lost: bool,
+}
+
+/// The settings that a log is replayed with: targets count from its first sample. No signal has an
+/// effect on a log: nothing is learned, and the next step begins as soon as it can.
+#[must_use]
+pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
+    let mut settings = settings.clone();
+    for step in &mut settings.steps {
+        step.target = step.target.saturating_sub(origin(log));
+    }
+    settings.learn = false;
+    let ck_ms = settings.ck_ms();
+    settings.standstill_ms = ck_ms;
+    settings.time_out_ms = ck_ms;
+    settings.rest_ms = ck_ms;
+    settings
+}
+
+/// Counts of the first sample.
+fn origin(log: &PositionLog) -> i64 {
+    log.samples.first().map_or(0, |sample| sample.counts)
+}
+
+/// What is looked at.
+struct See {
+    fire: At<bool>,
+    fresh: At<bool>,
+    enough: At<bool>,
+    lost: At<bool>,
+    step: At<u64>,
+    time: At<u64>,
+    position: At<i64>,
+    target: At<i64>,
+    lead: At<i64>,
+}
+
+impl See {
+    fn of<P: JobLead>(watch: &Watcher<Positioner<P>>) -> Self {
+        let w = &watch.w;
+        let source = P::outputs(&watch.q.lead_source, &w.lead_source.w);
+        See {
+            fire: watch.at(w.fire),
+            fresh: watch.at(source.fresh),
+            enough: watch.at(source.enough),
+            lost: watch.at(w.lost),
+            step: watch.at(w.step),
+            time: watch.at(w.lead_time),
+            position: watch.at(w.position),
+            target: watch.at(w.target),
+            lead: watch.at(source.lead),
+        }
+    }
+}
+
+/// Sums of what is measured.
+#[derive(Default)]
+struct Sums {
+    squares: [f64; 2],
+    largest: [f64; 2],
+    count: u64,
+    parts: Vec<[f64; 2]>,
+}
+
+impl Sums {
+    fn add(&mut self, part: usize, errors: [f64; 2]) {
+        self.count += 1;
+        let part = &mut self.parts[part];
+        for (index, error) in errors.into_iter().enumerate() {
+            self.squares[index] += error * error;
+            self.largest[index] = self.largest[index].max(error.abs());
+            part[index] = part[index].max(error.abs());
+        }
+    }
+
+    fn finish(&self) -> Predictions {
+        let rms = |squares: f64| (squares / self.count.max(1) as f64).sqrt();
+        Predictions {
+            count: self.count,
+            rms: rms(self.squares[0]),
+            largest: self.largest[0],
+            rms_without: rms(self.squares[1]),
+            largest_without: self.largest[1],
+        }
+    }
+}
+
+/// Replays `log` on `circuit` to its end, with the settings of [`settings_for`], seen by `observer`
+/// too.
+///
+/// # Errors
+/// What `observer` objects to.
+pub fn replay<P: JobLead>(
+    circuit: &Positioner<P>,
+    settings: &Settings,
+    log: &PositionLog,
+    mut observer: impl Observer<Positioner<P>>,
+) -> Result<Replayed, JobError> {
+    settings.validate()?;
+    let origin = origin(log);
+    let tick_s = 1.0 / settings.clock_hz as f64;
+    let ck_s = f64::from(settings.ck_ticks) * tick_s;
+    let ticks = (log.seconds() / tick_s).floor() as u64;
+    let at = |seconds: f64| log.position_at(seconds) - origin as f64;
+    let (mut replayed, mut sums) = (Replayed::default(), Sums::default());
+    sums.parts = vec![[f64::NAN; 2]; PARTS];
+    let computer = ControlComputer::new(settings);
+    let mut i = WithIn::<Sim, Compensator<P>, Body> {
+        i: computer.standing(),
+        beside: BodySignals::at(0.0, 0.0),
+    };
+    let mut before = 0.0;
+    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
+    for tick in 0..=ticks {
+        let seconds = tick as f64 * tick_s;
+        let position = at(seconds);
+        let (a, b) = Encoder::default().channels(position);
+        computer.tick(&mut i.i, tick, true);
+        i.i.a = a.into();
+        i.i.b = b.into();
+        let speed = (position - before) / tick_s;
+        before = position;
+        if observer.looks(tick) {
+            i.beside = BodySignals::at(position, speed);
+        }
+        let take = |now: &Sample<'_, _>| {
+            let (fire, time) = (now.get(see.fire), now.get(see.time));
+            let predicts = now.get(see.fresh) && now.get(see.enough) && time > 0;
+            let known = if predicts || fire {
+                // The sample of this pair was taken a tick ago.
+                let after = seconds - tick_s + time as f64 * ck_s;
+                (after <= log.seconds()).then(|| at(after))
+            } else {
+                None
+            };
+            if let Some(truth) = known
+                && predicts
+            {
+                let (position, lead) = (now.get(see.position) as f64, now.get(see.lead) as f64);
+                let part = u128::from(tick) * PARTS as u128 / (u128::from(ticks) + 1);
+                sums.add(part as usize, [position + lead - truth, position - truth]);
+            }
+            if fire {
+                replayed.signals.push(Signal {
+                    step: now.get(see.step) as usize,
+                    target: now.get(see.target) + origin,
+                    tick,
+                    code: time,
+                    position: now.get(see.position) + origin,
+                    position_after: known.map(|position| position + origin as f64),
+                });
+            }
+            replayed.ticks = tick + 1;
+            replayed.lost = now.get(see.lost);
+        };
+        let ((), flow) = simulator.step_watched(&i, &mut observer, take)?;
+        if flow.is_break() {
+            break;
+        }
+    }
+    replayed.predictions = sums.finish();
+    replayed.parts = sums.parts;
+    Ok(replayed)
+}

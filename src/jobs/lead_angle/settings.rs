@@ -1,0 +1,260 @@
+//! What the lead-angle compensator is run with: clock and CK, steps, learning, body and load.
+
+use super::codes::{LARGEST, STAGES, code, neighbours};
+use super::job::{A, D, N, S, W};
+pub use crate::lead_angle::{Comparing, Placement, Sign};
+use crate::plant::{BodyParameters, Load};
+use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
+use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+
+/// Counts a second in a unit of the speed word.
+pub const SPEED_UNIT_COUNTS_PER_S: u32 = 10;
+
+/// Ticks of a CK that are accepted.
+pub const CK_RANGE_TICKS: RangeInclusive<u32> = 4..=(1 << S) - 1;
+/// Targets that are accepted, in counts: no way between two of them is half of what wraps.
+pub const TARGET_RANGE_COUNTS: RangeInclusive<i64> = -(1 << (W - 3))..=1 << (W - 3);
+/// How many steps there may be. With one there would be no way to go from the second cycle on.
+pub const STEPS_RANGE: RangeInclusive<usize> = 2..=1 << A;
+/// How many positionings a run may have.
+pub const POSITIONINGS_RANGE: RangeInclusive<u32> = 1..=10_000;
+/// Times other than lead times that are accepted, in CKs.
+pub const TIME_RANGE_CKS: RangeInclusive<u16> = 1..=((1u32 << N) - 1) as u16;
+
+/// What keeps the positions of the past (11).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum History {
+    /// A shift register with taps.
+    #[default]
+    ShiftRegister,
+    /// A RAM with a moving address.
+    Ram,
+}
+
+/// When a positioning is complete (26).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Completion {
+    /// The body has stood still for `standstill_ms`, or its time is over.
+    #[default]
+    Standstill,
+    /// `time_out_ms` after the control signal, whether the body stands or turns.
+    FixedTime,
+}
+
+/// One step of the sequence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Sx: where to stop, in counts.
+    pub target: i64,
+    /// Speed on the way, in counts a second.
+    pub speed_counts_per_s: u32,
+    /// Δt to begin with; 0 for none.
+    pub lead_ms: f64,
+}
+
+/// Settings of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Reference clock in Hz.
+    pub clock_hz: u64,
+    /// Ticks of a CK.
+    pub ck_ticks: u32,
+    /// The steps, run over and over from a rest at position 0.
+    pub steps: Vec<Step>,
+    /// Where the lead is placed.
+    pub placement: Placement,
+    /// When the comparator gives the control signal.
+    pub comparing: Comparing,
+    /// The sign of the stop error.
+    pub sign: Sign,
+    /// What keeps the positions of the past.
+    pub history: History,
+    /// The time data are corrected after each positioning.
+    pub learn: bool,
+    /// All steps share the time data of step 0.
+    pub common_time: bool,
+    /// What a step without time data begins to learn with; 0 for nothing.
+    pub seed_ms: f64,
+    /// When a positioning is complete.
+    pub completion: Completion,
+    /// How long the position must stay for a positioning to be complete.
+    pub standstill_ms: f64,
+    /// How long a positioning may take after the control signal.
+    pub time_out_ms: f64,
+    /// Pause between positionings.
+    pub rest_ms: f64,
+    /// Time over which the conventional compensator (Fig. 7) measures the speed.
+    pub speed_gate_ms: f64,
+    /// What it multiplies the speed with (a).
+    pub speed_lead_ms: f64,
+    /// The same for each step, read by its number from a memory; empty where it is the same for all.
+    pub speed_leads_ms: Vec<f64>,
+    /// How many positionings there are in all.
+    pub positionings: u32,
+    /// How many there are before the load changes; without it the load stays.
+    pub load_change_after: Option<u32>,
+    /// The load from then on.
+    pub load: Load,
+    /// Drive, body, brake and encoder.
+    pub body: BodyParameters,
+}
+
+impl Default for Settings {
+    /// A rotary table to and fro, a CK of 0.1 ms at 1 MHz.
+    fn default() -> Self {
+        let step = |target, speed_counts_per_s| Step {
+            target,
+            speed_counts_per_s,
+            lead_ms: 0.0,
+        };
+        Self {
+            clock_hz: 1_000_000,
+            ck_ticks: 100,
+            steps: vec![step(15_000, 40_000), step(0, 40_000)],
+            placement: Placement::default(),
+            comparing: Comparing::default(),
+            completion: Completion::default(),
+            sign: Sign::default(),
+            history: History::default(),
+            learn: true,
+            common_time: false,
+            seed_ms: 20.0,
+            standstill_ms: 5.0,
+            time_out_ms: 1000.0,
+            rest_ms: 20.0,
+            speed_gate_ms: 5.0,
+            speed_lead_ms: 25.0,
+            speed_leads_ms: Vec::new(),
+            positionings: 24,
+            load_change_after: None,
+            load: Load::NONE,
+            body: BodyParameters::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// Duration of a CK.
+    #[must_use]
+    pub fn ck_ms(&self) -> f64 {
+        1e3 * f64::from(self.ck_ticks) / self.clock_hz as f64
+    }
+
+    /// A time other than a lead time in whole CKs; saturates.
+    #[must_use]
+    pub fn cks(&self, ms: f64) -> u16 {
+        (ms / self.ck_ms()).round() as u16
+    }
+
+    /// A lead time as its code; none where it cannot be set.
+    #[must_use]
+    pub fn code(&self, lead_ms: f64) -> Option<u64> {
+        let cks = lead_ms / self.ck_ms();
+        let time = cks.round() as u64;
+        // A time written in milliseconds has its rounding.
+        let meant = (cks - time as f64).abs() < 1e-6;
+        (meant && (time == 0 || code(STAGES, time).is_some())).then_some(time)
+    }
+
+    /// The fastest speed of a step in counts a second: an encoder is counted at one count per tick.
+    #[must_use]
+    pub fn fastest_counts_per_s(&self) -> u32 {
+        let word = ((1 << D) - 1) * SPEED_UNIT_COUNTS_PER_S;
+        u64::from(word).min(self.clock_hz) as u32
+    }
+
+    /// Checks every field.
+    ///
+    /// # Errors
+    ///
+    /// Names the first field at fault, its value and what is allowed.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
+        within("ck_ticks", self.ck_ticks, &CK_RANGE_TICKS)?;
+        let count = self.steps.len();
+        if !STEPS_RANGE.contains(&count) {
+            let (least, most) = STEPS_RANGE.into_inner();
+            let (value, allowed) = (format!("{count} steps"), format!("{least} to {most} steps"));
+            return Err(SettingError::value("step", value, allowed));
+        }
+        for index in 0..count {
+            self.validate_step(index)
+                .map_err(|error| error.at(Place::Row("step", index)))?;
+        }
+        self.check_lead("seed_ms", self.seed_ms)?;
+        let times = [
+            ("standstill_ms", self.standstill_ms),
+            ("time_out_ms", self.time_out_ms),
+            ("rest_ms", self.rest_ms),
+            ("speed_gate_ms", self.speed_gate_ms),
+        ];
+        let ck = self.ck_ms();
+        let (least, most) = (*TIME_RANGE_CKS.start(), *TIME_RANGE_CKS.end());
+        let allowed = f64::from(least) * ck..=f64::from(most) * ck;
+        for (field, ms) in times {
+            within(field, ms, &allowed)?;
+        }
+        let longest = LARGEST as f64 * ck;
+        for ms in [self.speed_lead_ms].iter().chain(&self.speed_leads_ms) {
+            within("speed_lead_ms", *ms, &(0.0..=longest))?;
+        }
+        within("positionings", self.positionings, &POSITIONINGS_RANGE)?;
+        if let Some(after) = self.load_change_after {
+            within("load_change_after", after, &(1..=self.positionings))?;
+        }
+        self.load.validate()?;
+        self.body.validate()
+    }
+
+    fn validate_step(&self, index: usize) -> Result<(), SettingError> {
+        let Step {
+            target,
+            speed_counts_per_s: speed,
+            lead_ms,
+        } = self.steps[index];
+        within("target", target, &TARGET_RANGE_COUNTS)?;
+        let before = (index + self.steps.len() - 1) % self.steps.len();
+        let start = index == 0 && target == 0;
+        if start || target == self.steps[before].target {
+            let place = match start {
+                true => "the start".to_owned(),
+                false => format!("step {before}"),
+            };
+            let allowed = format!("another target than that of {place}");
+            return Err(SettingError::value("target", target, allowed));
+        }
+        let unit = SPEED_UNIT_COUNTS_PER_S;
+        let fastest = self.fastest_counts_per_s();
+        if !(unit..=fastest).contains(&speed) || !speed.is_multiple_of(unit) {
+            let allowed = format!("{unit} to {fastest}, a multiple of {unit}");
+            return Err(SettingError::value("speed_counts_per_s", speed, allowed));
+        }
+        if self.common_time && index > 0 && lead_ms != 0.0 {
+            let allowed = "0: with common_time all steps take that of step 0";
+            return Err(SettingError::value("lead_ms", lead_ms, allowed));
+        }
+        self.check_lead("lead_ms", lead_ms)
+    }
+
+    /// A lead time must be on the grid of the codes.
+    fn check_lead(&self, field: &'static str, ms: f64) -> Result<(), SettingError> {
+        if self.code(ms).is_some() {
+            return Ok(());
+        }
+        let ck = self.ck_ms();
+        // Digits that floating point adds are of no use here.
+        let shown = |code: u64| (code as f64 * ck * 1e9).round() / 1e9;
+        let allowed = match neighbours(STAGES, ms / ck) {
+            (below, Some(above)) if ms > 0.0 => format!("{} or {}", shown(below), shown(above)),
+            (below, None) if ms > 0.0 => format!("at most {}", shown(below)),
+            _ => format!("0 for none, {} to {}", shown(1), shown(LARGEST)),
+        };
+        Err(SettingError::value(field, ms, allowed))
+    }
+}
+
+#[cfg(test)]
+mod tests;

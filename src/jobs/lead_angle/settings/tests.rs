@@ -1,0 +1,254 @@
+//! What is accepted, what is refused and with which words.
+
+use super::*;
+use crate::plant::BrakedBody;
+
+#[test]
+fn the_default_is_valid() {
+    let settings = Settings::default();
+    assert_eq!(settings.validate(), Ok(()));
+    assert_eq!(settings.ck_ms(), 0.1);
+    assert_eq!(settings.cks(settings.rest_ms), 200);
+    assert_eq!(settings.fastest_counts_per_s(), 655_350);
+}
+
+#[test]
+fn lead_times_are_codes() {
+    let mut settings = Settings::default();
+    for (ms, code) in [
+        (0.0, Some(0)),
+        (0.1, Some(1)),
+        (0.3, Some(3)),
+        (19.9, Some(199)),
+        (20.2, Some(202)),
+        (39.9, None),
+        (40.5, Some(405)),
+        (99.6, None),
+        (199.0, Some(1990)),
+        (199.1, None),
+        (200.0, None),
+        (12.34, None),
+        (-0.1, None),
+        (f64::NAN, None),
+        (1e30, None),
+    ] {
+        assert_eq!(settings.code(ms), code, "{ms}");
+    }
+    // Another CK, the same codes.
+    settings.ck_ticks = 200;
+    assert_eq!(settings.code(0.3), None);
+    assert_eq!(settings.code(40.4), Some(202));
+}
+
+#[test]
+fn what_is_out_of_range_is_named_with_what_is_allowed() {
+    type Break = fn(&mut Settings);
+    let cases: [(Break, &str); 30] = [
+        (
+            |s| s.clock_hz = 0,
+            "clock_hz: is 0; allowed: 1 to 10000000000",
+        ),
+        (|s| s.ck_ticks = 3, "ck_ticks: is 3; allowed: 4 to 16777215"),
+        (
+            |s| s.steps.truncate(1),
+            "step: is 1 steps; allowed: 2 to 16 steps",
+        ),
+        (
+            |s| s.steps = s.steps.repeat(9),
+            "step: is 18 steps; allowed: 2 to 16 steps",
+        ),
+        (
+            |s| s.steps[1].target = 2_097_153,
+            "step 1: target: is 2097153; allowed: -2097152 to 2097152",
+        ),
+        (
+            |s| s.steps[1].target = 15_000,
+            "step 0: target: is 15000; allowed: another target than that of step 1",
+        ),
+        (
+            |s| s.steps[0].target = 0,
+            "step 0: target: is 0; allowed: another target than that of the start",
+        ),
+        (
+            |s| s.steps.insert(1, s.steps[0]),
+            "step 1: target: is 15000; allowed: another target than that of step 0",
+        ),
+        (
+            |s| s.steps[0].speed_counts_per_s = 0,
+            "step 0: speed_counts_per_s: is 0; allowed: 10 to 655350, a multiple of 10",
+        ),
+        (
+            |s| s.steps[1].speed_counts_per_s = 20_005,
+            "step 1: speed_counts_per_s: is 20005; allowed: 10 to 655350, a multiple of 10",
+        ),
+        (
+            |s| s.clock_hz = 39_990,
+            "step 0: speed_counts_per_s: is 40000; allowed: 10 to 39990, a multiple of 10",
+        ),
+        (
+            |s| s.steps[1].lead_ms = 39.9,
+            "step 1: lead_ms: is 39.9; allowed: 39.8 or 40",
+        ),
+        (
+            |s| s.steps[0].lead_ms = 12.34,
+            "step 0: lead_ms: is 12.34; allowed: 12.3 or 12.4",
+        ),
+        (
+            |s| s.steps[0].lead_ms = 200.0,
+            "step 0: lead_ms: is 200; allowed: at most 199",
+        ),
+        (
+            |s| s.steps[0].lead_ms = -1.0,
+            "step 0: lead_ms: is -1; allowed: 0 for none, 0.1 to 199",
+        ),
+        (
+            |s| s.steps[0].lead_ms = f64::NAN,
+            "step 0: lead_ms: is NaN; allowed: 0 for none, 0.1 to 199",
+        ),
+        (
+            |s| (s.common_time, s.steps[1].lead_ms) = (true, 2.0),
+            "step 1: lead_ms: is 2; allowed: 0: with common_time all steps take that of step 0",
+        ),
+        (
+            |s| s.seed_ms = 99.7,
+            "seed_ms: is 99.7; allowed: 99.5 or 100",
+        ),
+        (
+            |s| s.standstill_ms = 0.0,
+            "standstill_ms: is 0; allowed: 0.1 to 6553.5",
+        ),
+        (
+            |s| s.time_out_ms = 6554.0,
+            "time_out_ms: is 6554; allowed: 0.1 to 6553.5",
+        ),
+        (
+            |s| s.rest_ms = f64::NAN,
+            "rest_ms: is NaN; allowed: 0.1 to 6553.5",
+        ),
+        (
+            |s| s.speed_gate_ms = 0.0,
+            "speed_gate_ms: is 0; allowed: 0.1 to 6553.5",
+        ),
+        (
+            |s| s.speed_lead_ms = -1.0,
+            "speed_lead_ms: is -1; allowed: 0 to 199",
+        ),
+        (
+            |s| s.positionings = 0,
+            "positionings: is 0; allowed: 1 to 10000",
+        ),
+        (
+            |s| s.positionings = 10_001,
+            "positionings: is 10001; allowed: 1 to 10000",
+        ),
+        (
+            |s| s.load_change_after = Some(0),
+            "load_change_after: is 0; allowed: 1 to 24",
+        ),
+        (
+            |s| s.load_change_after = Some(25),
+            "load_change_after: is 25; allowed: 1 to 24",
+        ),
+        (
+            |s| s.load.load_inertia_factor = 0.0,
+            "load_inertia_factor: is 0; allowed: 0.001 to 1000",
+        ),
+        (
+            |s| s.body.brake_dead_time_s = -1.0,
+            "brake_dead_time_s: is -1; allowed: 0 to 10",
+        ),
+        (
+            |s| s.body.brake_fade = 0.6,
+            "brake_fade: is 0.6; allowed: 0 to 0.5",
+        ),
+    ];
+    for (spoil, message) in cases {
+        let mut settings = Settings::default();
+        spoil(&mut settings);
+        let error = settings.validate().expect_err(message);
+        assert_eq!(error.to_string(), message);
+    }
+}
+
+/// The scenario that ships.
+fn turntable() -> Settings {
+    use crate::input::scenario::{Loaded, Scenario};
+    let text = include_str!("../../../../waves/turntable.toml");
+    let loaded = Loaded::parse("turntable.toml", text, &[]).expect("it ships");
+    let Scenario::LeadAngle(scenario) = &loaded.scenario else {
+        panic!("another circuit");
+    };
+    scenario.settings()
+}
+
+/// A positioning with an ideal lead: the lead time it took in milliseconds, and how long the speed
+/// had been constant before the control signal.
+fn position(body: &mut BrakedBody, step: &Step, tick_s: f64) -> [f64; 2] {
+    let speed = f64::from(step.speed_counts_per_s);
+    let target = step.target as f64;
+    let sign = (target - body.position_counts()).signum();
+    for _ in 0..(1.0 / tick_s) as usize {
+        body.step(true, sign < 0.0, speed, false);
+        if body.speed_counts_per_s() == sign * speed {
+            break;
+        }
+    }
+    assert_eq!(body.speed_counts_per_s(), sign * speed);
+    // The stop from a speed that stays is always the same.
+    let stop = |body: &mut BrakedBody| {
+        let from = body.position_counts();
+        while body.speed_counts_per_s() != 0.0 {
+            body.step(false, false, 0.0, true);
+        }
+        (body.position_counts() - from).abs()
+    };
+    let way = stop(&mut body.clone());
+    let mut ticks = 0;
+    while (target - body.position_counts()) * sign > way {
+        body.step(true, sign < 0.0, speed, false);
+        ticks += 1;
+    }
+    stop(body);
+    assert!((body.position_counts() - target).abs() <= speed * tick_s);
+    // The brake is released.
+    body.step(false, false, 0.0, false);
+    [way / speed * 1e3, f64::from(ticks) * tick_s * 1e3]
+}
+
+#[test]
+fn the_scenario_that_ships_spans_the_codes() {
+    let settings = turntable();
+    assert_eq!(settings.validate(), Ok(()));
+    let tick_s = 1.0 / settings.clock_hz as f64;
+    let mut body = BrakedBody::new(&settings.body, tick_s).expect("they are in range");
+    let change = settings.load_change_after.expect("it has a change");
+    let steps = settings.steps.len() as u32;
+    // Each step six times before the load changes, and six times after.
+    assert!(change >= 6 * steps && settings.positionings - change >= 6 * steps);
+    assert_eq!(change % steps, 0);
+    let mut ratios = Vec::new();
+    let mut fixed = Vec::new();
+    for number in 0..settings.positionings {
+        if number == change {
+            body.set_load(settings.load).expect("it is in range");
+        }
+        let step = &settings.steps[(number % steps) as usize];
+        let [lead_ms, constant_ms] = position(&mut body, step, tick_s);
+        // The history has 199 CKs.
+        assert!(constant_ms > 199.0 * settings.ck_ms(), "{number}");
+        let nearest = neighbours(STAGES, lead_ms / settings.ck_ms());
+        ratios.push([
+            number / change,
+            code(STAGES, nearest.0).unwrap().ratio as u32,
+        ]);
+        fixed.push(step.lead_ms / lead_ms);
+        // From twice the true time on a correction does not come nearer.
+        assert!((0.2..1.8).contains(&(step.lead_ms / lead_ms)), "{number}");
+    }
+    for load in [0, 1] {
+        assert!([2, 5].iter().all(|&n| ratios.contains(&[load, n])));
+    }
+    assert!(ratios.contains(&[0, 1]));
+    // Too long for some, too short for others.
+    assert!(fixed.iter().any(|&r| r > 1.2) && fixed.iter().any(|&r| r < 0.8));
+}

@@ -1,0 +1,282 @@
+//! A drawing's cycles through the controller, with a motor on each axis: on the linear interpolator,
+//! and on the conventional system.
+
+use super::measure::{Cycle, Played, ScanRecord};
+use super::profile::Profile;
+use super::settings::{AxisSettings, Settings};
+use super::targets::{TIME_BITS, Target};
+use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn, zero};
+use crate::linear_interpolator::{
+    CommandSource, Controller, Conventional, LinearInterpolator, Rule, controller,
+};
+use crate::logic::Sim;
+use crate::plant::{Ahead, ServoAxis, ServoParameters, waves};
+use crate::settings::JobError;
+use fixed::types::U8F8;
+use std::array::from_fn;
+
+/// Position width of the controller that plays a job.
+const P: usize = 32;
+/// Width of its times.
+const T: usize = TIME_BITS;
+/// Full scale of its D/A converters of 16 bits.
+const FULL_SCALE: i64 = (1 << 15) - 1;
+/// Scans without a new command after which an axis that is not in position is given up.
+const PATIENCE: u64 = 20_000;
+
+/// A controller with the motors beside it in the waves.
+pub type Plotter<C, const N: usize> = With<Drive<C, N>, waves::Axes>;
+
+/// The controller of a job, for targets with `N` settings of speed and times.
+pub type Drive<C, const N: usize> = Controller<C, P, T, 16, 8, 16, 48, 24, N>;
+
+/// The plotter with the linear interpolator.
+pub fn plotter(rule: Rule) -> Plotter<LinearInterpolator, 1> {
+    With::new(Controller::new(LinearInterpolator::new(rule)))
+}
+
+/// The plotter with the conventional system of Fig. 3.
+pub fn conventional() -> Plotter<Conventional, 2> {
+    With::new(Controller::new(Conventional::default()))
+}
+
+impl AxisSettings {
+    /// Driver, motor and encoder of this axis.
+    fn servo(&self) -> ServoParameters {
+        ServoParameters {
+            velocity_loop_s: self.velocity_loop_ms / 1e3,
+            inertia_kg_m2: self.inertia_kg_m2,
+            max_torque_nm: self.max_torque_nm,
+            friction_nm: self.friction_nm,
+            rated_speed_rad_per_s: self.rated_speed_rev_per_min / 60.0 * std::f64::consts::TAU,
+            counts_per_rev: f64::from(self.counts_per_rev),
+        }
+    }
+
+    /// Kp in LSB of the D/A converter a count.
+    pub fn gain(&self) -> U8F8 {
+        let lsb_per_count =
+            self.position_gain_per_s * FULL_SCALE as f64 / self.rated_counts_per_s();
+        U8F8::saturating_from_num(lsb_per_count)
+    }
+}
+
+/// What is looked at.
+struct See {
+    reference: [At<i64>; 2],
+    scan: At<bool>,
+    start: At<bool>,
+    load: At<bool>,
+    ready: At<bool>,
+    busy: At<bool>,
+    late: At<bool>,
+    refused: At<bool>,
+    lost: [At<bool>; 2],
+    saturated: [At<bool>; 2],
+    command: [At<i64>; 2],
+}
+
+impl See {
+    fn of<C: CommandSource<P, T, N>, const N: usize>(watch: &Watcher<Plotter<C, N>>) -> Self {
+        let (q, w) = (&watch.q, &watch.w);
+        See {
+            reference: [&q.loop_x, &q.loop_y].map(|axis| watch.at(axis.control.speed_ref)),
+            scan: watch.at(w.scan),
+            start: watch.at(w.start),
+            load: watch.at(w.load),
+            ready: watch.at(w.ready),
+            busy: watch.at(w.busy),
+            late: watch.at(w.late),
+            refused: watch.at(w.refused),
+            lost: [w.lost_x, w.lost_y].map(|lost| watch.at(lost)),
+            saturated: [&w.loop_x, &w.loop_y].map(|axis| watch.at(axis.w.saturated)),
+            command: [w.command_x, w.command_y].map(|command| watch.at(command)),
+        }
+    }
+}
+
+/// The control computer: gives targets, and writes down what comes of them.
+struct Bench<'a, const N: usize> {
+    targets: &'a [Target<N>],
+    pushed: usize,
+    /// A push stood in the tick before.
+    pushing: bool,
+    ready: bool,
+    played: Played,
+    /// The cycle whose command came with the tick before, and which the next scan is to record.
+    loaded: Option<usize>,
+    fresh: Option<usize>,
+    /// Scans since a new command.
+    idle: u64,
+    /// The tick was one of many like it, as far as is looked at.
+    quiet: bool,
+}
+
+impl<const N: usize> Bench<'_, N> {
+    /// Whether the tick to come gives the ports what this one did, and is written down like it, if
+    /// nothing that is looked at changes.
+    fn stands(&self) -> bool {
+        let pushes = self.pushing || (self.ready && self.pushed < self.targets.len());
+        self.quiet && !pushes && self.loaded.is_none()
+    }
+
+    /// The target that is given in this tick.
+    fn push(&mut self) -> Option<Target<N>> {
+        let target = self.targets.get(self.pushed).copied();
+        // The flag is that of the tick before: full or not, it has not changed without a push.
+        let target = target.filter(|_| self.ready && !self.pushing);
+        self.pushing = target.is_some();
+        self.pushed += usize::from(self.pushing);
+        target
+    }
+
+    /// Whether the run goes on.
+    fn take<C: CommandSource<P, T, N>>(
+        &mut self,
+        now: &Sample<'_, Plotter<C, N>>,
+        see: &See,
+        motor: [f64; 2],
+    ) -> bool {
+        let played = &mut self.played;
+        let command = || see.command.map(|command| now.get(command));
+        played.ticks = now.tick + 1;
+        self.quiet = ![see.scan, see.start, see.load]
+            .map(|bit| now.get(bit))
+            .contains(&true);
+        self.ready = now.get(see.ready);
+        if let Some(cycle) = self.loaded.take() {
+            played.cycles[cycle].end = command();
+            self.fresh = Some(cycle);
+            self.idle = 0;
+        }
+        if now.get(see.scan) {
+            self.idle += 1;
+            let at = played.records.len();
+            played.records.push(ScanRecord {
+                tick: now.tick,
+                command: command(),
+                motor,
+            });
+            if let Some(cycle) = self.fresh.take() {
+                let scans = &mut played.cycles[cycle].scans;
+                *scans = match scans.len() {
+                    0 => at..at + 1,
+                    _ => scans.start..at + 1,
+                };
+            }
+            for axis in 0..2 {
+                played.saturated_scans[axis] += u64::from(now.get(see.saturated[axis]));
+            }
+        }
+        if now.get(see.start)
+            && let Some(target) = self.targets.get(played.cycles.len())
+        {
+            let (from, to) = (command(), [target.x, target.y]);
+            let way = [0, 1].map(|axis| to[axis].abs_diff(from[axis]));
+            played.cycles.push(Cycle {
+                from,
+                to,
+                master: usize::from(way[0] < way[1]),
+                scans: 0..0,
+                end: from,
+            });
+        }
+        if now.get(see.load) {
+            self.loaded = played.cycles.len().checked_sub(1);
+        }
+        played.late |= now.get(see.late);
+        played.lost = see.lost.map(|lost| now.get(lost));
+        played.unsettled = self.idle > PATIENCE;
+        let given = self.pushed == self.targets.len() && !self.pushing;
+        let over = given && !now.get(see.busy) && self.loaded.is_none() && self.fresh.is_none();
+        if over && now.get(see.refused) {
+            played.refused = (self.targets.len() - played.cycles.len()) as u64;
+        }
+        !over && !played.unsettled
+    }
+}
+
+/// Plays the cycles on `circuit`, with motors as `settings` have them, seen by `observer` too.
+///
+/// # Errors
+/// A setting is out of range, or what `observer` objects to.
+pub fn play<C: CommandSource<P, T, N>, const N: usize>(
+    circuit: &Plotter<C, N>,
+    targets: &[Target<N>],
+    settings: &Settings,
+    mut observer: impl Observer<Plotter<C, N>>,
+) -> Result<Played, JobError> {
+    settings.validate()?;
+    let tick_s = 1.0 / settings.clock_hz as f64;
+    let [x, y] = &settings.axes;
+    let servos = [
+        ServoAxis::new(&x.servo(), tick_s)?,
+        ServoAxis::new(&y.servo(), tick_s)?,
+    ];
+    let gains = [x, y].map(|axis| u64::from(axis.gain().to_bits()));
+    let mut i = WithIn::<Sim, Drive<C, N>, waves::Axes> {
+        i: controller::In::<Sim, P, T, 16, 24, N> {
+            exact_stop: settings.exact_stop.into(),
+            scan_period: u64::from(settings.scan_ticks).into(),
+            gain_x: gains[0].into(),
+            gain_y: gains[1].into(),
+            window: u64::from(settings.in_position_counts).into(),
+            ..zero()
+        },
+        beside: waves::Signals::of(&servos),
+    };
+    let mut bench = Bench {
+        targets,
+        pushed: 0,
+        pushing: false,
+        ready: true,
+        played: Played::default(),
+        loaded: None,
+        fresh: None,
+        idle: 0,
+        quiet: false,
+    };
+    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
+    let mut motors = Ahead::new(servos);
+    loop {
+        let references = see.reference.map(|axis| simulator.get(axis));
+        let step = |axis: &mut ServoAxis, reference| axis.step(reference, FULL_SCALE);
+        let [(a_x, b_x), (a_y, b_y)] = motors.step(|servos| {
+            let [x, y] = servos;
+            [step(x, references[0]), step(y, references[1])]
+        });
+        let target = bench.push();
+        let ports = &mut i.i;
+        ports.push = target.is_some().into();
+        ports.target_x = target.map_or(0, |target| target.x).into();
+        ports.target_y = target.map_or(0, |target| target.y).into();
+        let setting =
+            |of: fn(&Profile) -> u64, n: usize| target.map_or(0, |target| of(&target.profiles[n]));
+        ports.speed = from_fn(|n| setting(|profile| profile.speed, n).into());
+        ports.acceleration_time =
+            from_fn(|n| setting(|profile| profile.acceleration_scans, n).into());
+        ports.deceleration_time =
+            from_fn(|n| setting(|profile| profile.deceleration_scans, n).into());
+        (ports.a_x, ports.b_x) = (a_x.into(), b_x.into());
+        (ports.a_y, ports.b_y) = (a_y.into(), b_y.into());
+        let servos = &motors.plants;
+        if observer.looks(simulator.tick()) {
+            i.beside = waves::Signals::of(servos);
+        }
+        let motor = [0, 1].map(|axis: usize| servos[axis].position_counts());
+        let take = |now: &Sample<'_, _>| bench.take(now, &see, motor);
+        let (goes_on, flow) = simulator.look(&i, &mut observer, take)?;
+        if !goes_on || flow.is_break() {
+            return Ok(bench.played);
+        }
+        let most = match bench.stands() {
+            true => observer.next_look(simulator.tick() + 1) - simulator.tick(),
+            false => 1,
+        };
+        let step = |servos: &mut [ServoAxis; 2]| {
+            let [x, y] = servos;
+            [step(x, references[0]), step(y, references[1])]
+        };
+        motors.go_on(most, step, |ticks| simulator.go_on(ticks));
+    }
+}

@@ -1,0 +1,217 @@
+//! A drawing as positioning cycles: the target data 20.
+//!
+//! Every straight move is one cycle, every arc as many as it has chords. Targets are the drawing's
+//! points rounded to encoder counts one by one, so that no error adds up. A Z is ignored.
+
+use super::profile::{Profile, SLOWEST, SPEED_ONE, speed_word};
+use super::settings::{AXIS_NAMES, Settings};
+use crate::input::{Drawing, Point};
+use crate::linear_interpolator::LinearInterpolator;
+use crate::plan::digits::round_up;
+use crate::plan::{PlanError, check, chords};
+use crate::settings::SettingError;
+
+/// Ticks that the dividers need within a scan.
+pub const LATENCY_TICKS: u32 = LinearInterpolator::<6>::LATENCY as u32;
+
+/// Longest time of acceleration and of deceleration, in scans.
+pub const LONGEST_RAMP: u64 = (1 << TIME_BITS) - 1;
+
+/// Width of these times.
+pub(super) const TIME_BITS: usize = 12;
+
+/// Farthest position, in counts on either side of zero.
+pub const REACH_COUNTS: i64 = 1 << 30;
+
+/// The most cycles that a drawing may become.
+pub const MOST_TARGETS: usize = 1 << 20;
+
+/// The most steady scans of a cycle.
+const MOST_STEADY: f64 = i32::MAX as f64;
+
+/// One positioning cycle, with `N` settings of speed and times: that of the axis with the longer
+/// way, or those of X and Y.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target<const N: usize = 1> {
+    /// X in counts.
+    pub x: i64,
+    /// Y in counts.
+    pub y: i64,
+    /// Speeds and times.
+    pub profiles: [Profile; N],
+    /// The speed along the line that is asked for, in mm/min.
+    pub feed_mm_per_min: f64,
+    /// Line of the input; 0 for the way to a start that is not the origin.
+    pub line: usize,
+    /// Whether the pen is up.
+    pub rapid: bool,
+}
+
+/// What a drawing became.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Targets {
+    /// The cycles. They begin at the origin, where the command registers are at power-on.
+    pub targets: Vec<Target>,
+    /// Points left out because they have the counts of the point before.
+    pub dropped: usize,
+    /// The drawing moves in Z, which no axis drives.
+    pub moves_in_z: bool,
+}
+
+/// Why a drawing cannot be made into cycles.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TargetError {
+    /// A setting is outside what is allowed.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// The drawing has a value that cannot be computed with.
+    #[error(transparent)]
+    Drawing(#[from] PlanError),
+    /// A feed at which an encoder makes more than one count per tick, or above 100 % speed.
+    #[error("line {line}: feed {value} mm/min: allowed are up to {most}")]
+    Feed {
+        /// Line of the input.
+        line: usize,
+        /// The feed in mm/min.
+        value: f64,
+        /// The fastest.
+        most: f64,
+    },
+    /// A feed at which the axis with the longer way goes so slowly that the fraction of its speed is
+    /// too coarse, or that the cycle has too many scans.
+    #[error("line {line}: feed {value} mm/min: allowed are {least} and more in this direction")]
+    Slow {
+        /// Line of the input; 0 for the way to a start that is not the origin.
+        line: usize,
+        /// The feed in mm/min.
+        value: f64,
+        /// The slowest in this direction, rounded up to six digits.
+        least: f64,
+    },
+    /// A position is out of reach.
+    #[error("line {line}: {axis} = {counts} counts: allowed are -{REACH_COUNTS} to {REACH_COUNTS}")]
+    Position {
+        /// Line of the input.
+        line: usize,
+        /// "x" or "y".
+        axis: &'static str,
+        /// The position in counts.
+        counts: f64,
+    },
+    /// More cycles than can be played.
+    #[error("line {line}: more than {MOST_TARGETS} cycles")]
+    TooMany {
+        /// Line of the input.
+        line: usize,
+    },
+}
+
+/// Makes the cycles of a drawing.
+///
+/// # Errors
+///
+/// A setting outside its range; a drawing with a coordinate, a feed or a radius that cannot be
+/// computed with; a feed that an encoder cannot be counted at, above 100 % speed or too slow; a
+/// position out of reach; more than [`MOST_TARGETS`] cycles.
+pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<Targets, TargetError> {
+    settings.validate()?;
+    check(drawing)?;
+    let mut compiler = Compiler {
+        settings,
+        at: [0; 2],
+        made: Targets::default(),
+    };
+    let start = compiler.counts(0, drawing.start)?;
+    if start != [0; 2] {
+        compiler.go(start, settings.rapid_mm_per_min, 0, true)?;
+    }
+    let mut z = drawing.start[2];
+    for (index, step) in drawing.moves.iter().enumerate() {
+        compiler.made.moves_in_z |= step.to[2] != z;
+        z = step.to[2];
+        let feed = match step.rapid {
+            true => settings.rapid_mm_per_min,
+            false => step.feed_mm_per_min.unwrap_or(settings.feed_mm_per_min),
+        };
+        let (line, most) = (step.line, settings.fastest_mm_per_min());
+        if feed > most {
+            let value = feed;
+            return Err(TargetError::Feed { line, value, most });
+        }
+        for point in chords::ends(drawing, index, settings.chord_tolerance_mm) {
+            let to = compiler.counts(line, point)?;
+            compiler.go(to, feed, line, step.rapid)?;
+        }
+    }
+    Ok(compiler.made)
+}
+
+struct Compiler<'a> {
+    settings: &'a Settings,
+    at: [i64; 2],
+    made: Targets,
+}
+
+impl Compiler<'_> {
+    /// A point in counts.
+    fn counts(&self, line: usize, point: Point) -> Result<[i64; 2], TargetError> {
+        let mut counts = [0; 2];
+        for axis in 0..2 {
+            let exact = (point[axis] * self.settings.counts_per_mm[axis]).round();
+            if exact.abs() > REACH_COUNTS as f64 {
+                return Err(TargetError::Position {
+                    line,
+                    axis: AXIS_NAMES[axis],
+                    counts: exact,
+                });
+            }
+            counts[axis] = exact as i64;
+        }
+        Ok(counts)
+    }
+
+    /// Adds the cycle to a point; none where that is where the last one ends.
+    fn go(&mut self, to: [i64; 2], feed: f64, line: usize, rapid: bool) -> Result<(), TargetError> {
+        if to == self.at {
+            self.made.dropped += 1;
+            return Ok(());
+        }
+        if self.made.targets.len() == MOST_TARGETS {
+            return Err(TargetError::TooMany { line });
+        }
+        let settings = self.settings;
+        let way = [0, 1].map(|axis| to[axis] - self.at[axis]);
+        let [x_mm, y_mm] = [0, 1].map(|axis| way[axis] as f64 / settings.counts_per_mm[axis]);
+        let longer = [0, 1].map(|axis| way[axis].unsigned_abs());
+        let master = usize::from(longer[0] < longer[1]);
+        let longer = longer[master];
+        let scans = x_mm.hypot(y_mm) / (feed / 60.0) / settings.scan_s();
+        let exact = longer as f64 / scans;
+        let slowest = SLOWEST.max(longer as f64 / MOST_STEADY);
+        let Some(speed) = speed_word(exact).filter(|_| exact >= slowest) else {
+            let least = round_up(feed * slowest / exact);
+            let value = feed;
+            return Err(TargetError::Slow { line, value, least });
+        };
+        let speed = speed.min(u64::from(settings.scan_ticks) * SPEED_ONE);
+        let short = Some(settings.short_moves);
+        let profile = Profile::over(
+            settings,
+            master,
+            longer,
+            speed,
+            settings.ramp_scans(),
+            short,
+        );
+        self.made.targets.push(Target {
+            x: to[0],
+            y: to[1],
+            profiles: [profile],
+            feed_mm_per_min: feed,
+            line,
+            rapid,
+        });
+        self.at = to;
+        Ok(())
+    }
+}

@@ -1,0 +1,11 @@
+//! A job on the machine: steppers, servos and pen lift.
+
+mod host;
+pub mod job;
+pub mod measure;
+pub mod program;
+pub mod settings;
+pub mod waves;
+
+pub use program::Program;
+pub use settings::Settings;

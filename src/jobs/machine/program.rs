@@ -1,0 +1,312 @@
+//! A job as all circuits are given it: a table for the steppers; moves for the servos, each from
+//! rest to rest, with the words of its line or arc and of its length in time.
+
+use super::settings::Settings;
+use crate::arc_generator::widths::Widths as ArcWidths;
+use crate::input::{Drawing, Point};
+use crate::jobs::arc_generator::circle::Circle;
+use crate::jobs::arc_generator::error::{PathError, Reason};
+use crate::jobs::arc_generator::path::{Course, Piece, Speeds, from_drawing};
+use crate::jobs::arc_generator::prepare::prepare;
+use crate::jobs::arc_generator::record::{Record, records as arc_records};
+use crate::jobs::arc_generator::vector::{add, sub};
+use crate::jobs::linear_interpolator::profile::{SLOWEST, SPEED_ONE, speed_word};
+use crate::jobs::pulse_interpolator::{Report, Table, TableError, compile};
+use crate::jobs::trajectory_controller::planner::plan;
+use crate::jobs::trajectory_controller::profile::Profile;
+use crate::jobs::trajectory_controller::profile_record::records as profile_records;
+use crate::jobs::trajectory_controller::program::{
+    Program as Path, ProgramError as TrajectoryError,
+};
+use crate::jobs::trajectory_controller::ramp::Slope;
+use crate::jobs::trajectory_controller::speed_limits::{Span, spans};
+use crate::settings::SettingError;
+use crate::trajectory_controller::Widths;
+
+/// What a move of the servos is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Way {
+    /// A target for the linear interpolator.
+    Line {
+        /// Steady speed: counts of the master axis a scan, times [`SPEED_ONE`].
+        speed: u64,
+    },
+    /// Records for the arc generator.
+    Arc {
+        /// How many of [`Program::arcs`] it is made of.
+        records: usize,
+    },
+}
+
+/// A move of the servos, from rest to rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Move {
+    /// The piece of the job that it is.
+    pub piece: usize,
+    /// Line of the input it stands in.
+    pub line: usize,
+    /// Pen up.
+    pub rapid: bool,
+    /// By which circuit.
+    pub way: Way,
+    /// Where it ends, in counts from where the job begins.
+    pub to: [i64; 2],
+    /// How many of [`Program::profile`] its length in time is made of.
+    pub records: usize,
+}
+
+impl Move {
+    /// How many records of the arc generator it is made of.
+    #[must_use]
+    pub fn arcs(&self) -> usize {
+        match self.way {
+            Way::Line { .. } => 0,
+            Way::Arc { records } => records,
+        }
+    }
+}
+
+/// A job, ready to be run.
+#[derive(Debug, Clone)]
+pub struct Program {
+    /// The steppers' pattern memory.
+    pub table: Table,
+    /// What came of its compilation.
+    pub report: Report,
+    /// The pieces of the job, in mm.
+    pub pieces: Vec<Piece>,
+    /// Where it begins.
+    pub start: Point,
+    /// The path and the words of the servos' settings.
+    pub path: Path,
+    /// The servos' moves, in order.
+    pub moves: Vec<Move>,
+    /// Arcs and their blends, move after move.
+    pub arcs: Vec<Record>,
+    /// Length in time, move after move.
+    pub profile: Vec<Record>,
+    /// Acceleration time of lines, in scans.
+    pub ramp_scans: u64,
+}
+
+/// Why there is no program.
+#[derive(Debug, thiserror::Error)]
+pub enum ProgramError {
+    /// A setting.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// A setting of the pen lift's compensator.
+    #[error(transparent)]
+    Lift(SettingError),
+    /// A piece of the path.
+    #[error(transparent)]
+    Path(#[from] PathError),
+    /// A setting of the servos, or of one axis.
+    #[error(transparent)]
+    Trajectory(#[from] TrajectoryError),
+    /// The steppers' table.
+    #[error(transparent)]
+    Table(#[from] TableError),
+}
+
+impl Program {
+    /// Prepares a drawing or a part program in the X-Y plane.
+    ///
+    /// # Errors
+    /// The first setting or move at fault: what does not fit into a word, a move out of the plane,
+    /// more segments than the trajectory controller holds.
+    pub fn of(drawing: &Drawing, settings: &Settings) -> Result<Self, ProgramError> {
+        settings.validate()?;
+        settings.lift().validate().map_err(ProgramError::Lift)?;
+        let speeds = Speeds {
+            wanted: Some(settings.motion.feed_mm_per_min / 60.0),
+            rapid: settings.motion.rapid_mm_per_min / 60.0,
+        };
+        let (table, report) = compile(drawing, &settings.pulse())?;
+        let pieces = from_drawing(drawing, speeds)?;
+        let widths = Widths {
+            segment: 8,
+            ..Widths::FULL
+        };
+        let axes = [settings.axis; 2];
+        let path = Path::of(
+            drawing.start,
+            &pieces,
+            &settings.trajectory(),
+            &axes,
+            &widths,
+        )?;
+        let mut program = Program {
+            table,
+            report,
+            start: drawing.start,
+            path,
+            moves: Vec::with_capacity(pieces.len()),
+            arcs: Vec::new(),
+            profile: Vec::new(),
+            ramp_scans: settings.ramps()[0].periods,
+            pieces: Vec::new(),
+        };
+        program.add_moves(drawing, &pieces, settings, &widths)?;
+        program.pieces = pieces;
+        Ok(program)
+    }
+
+    fn add_moves(
+        &mut self,
+        drawing: &Drawing,
+        pieces: &[Piece],
+        settings: &Settings,
+        widths: &Widths,
+    ) -> Result<(), ProgramError> {
+        let counts =
+            |point: Point| [0, 1].map(|k: usize| (point[k] * settings.counts_per_mm).round());
+        let origin = counts(drawing.start);
+        let unit = self.path.motion.units_per_mm;
+        let limits = spans(&self.path.path, &self.path.motion);
+        // Where the arc generator stands: it counts the ways on arcs only.
+        let mut arc_at = [0.0; 2];
+        for (stretch, limit) in self.path.path.stretches.iter().zip(&limits) {
+            let index = stretch.piece;
+            let (piece, step) = (&pieces[index], &drawing.moves[index]);
+            let from = match index {
+                0 => drawing.start,
+                _ => pieces[index - 1].to,
+            };
+            let way = [0, 1].map(|k| counts(piece.to)[k] - counts(from)[k]);
+            let speed = limit.speed / unit;
+            let (made, speed, ramp_s) = match &piece.course {
+                Course::Line => {
+                    let ramp_s = self.ramp_scans as f64 * settings.scan_s();
+                    let fault = |reason| PathError {
+                        piece: index,
+                        line: Some(step.line),
+                        reason,
+                    };
+                    let (word, speed) = line_speed(way, speed, settings).map_err(fault)?;
+                    (Way::Line { speed: word }, speed, ramp_s)
+                }
+                Course::Arc(circle) => {
+                    let refuse = |error: PathError| PathError {
+                        piece: index,
+                        line: Some(step.line),
+                        ..error
+                    };
+                    let at = [arc_at[0], arc_at[1], 0.0];
+                    let start = at.map(|counts| counts / settings.counts_per_mm);
+                    let moved = [moved(piece, circle, start, speed)];
+                    let timing = settings.arcs().timing(&ArcWidths::FULL)?;
+                    let prepared = prepare(start, &moved, &timing).map_err(refuse)?;
+                    let made = arc_records(
+                        &prepared,
+                        settings.counts_per_mm,
+                        &ArcWidths::FULL,
+                        settings.arcs().rounding,
+                    )
+                    .map_err(refuse)?;
+                    let ended = counts(moved[0].to);
+                    arc_at = ended;
+                    let records = made.len();
+                    self.arcs.extend(made);
+                    (
+                        Way::Arc { records },
+                        prepared.pieces[0].speed,
+                        2.0 * timing.half_blend_s(),
+                    )
+                }
+            };
+            let profile = length_in_time(stretch.begin, stretch.length, speed * unit, ramp_s);
+            let made_profile = profile_records(&profile, self.path.motion.period, widths);
+            self.moves.push(Move {
+                piece: index,
+                line: step.line,
+                rapid: step.rapid,
+                way: made,
+                to: [0, 1].map(|k| (counts(piece.to)[k] - origin[k]) as i64),
+                records: made_profile.len(),
+            });
+            self.profile.extend(made_profile);
+        }
+        Ok(())
+    }
+}
+
+/// The word for a speed in mm/s over a line's way in counts, and the speed that it is: the
+/// interpolator's has a fraction of so many bits, and the profile is to go as fast.
+fn line_speed(way: [f64; 2], speed: f64, settings: &Settings) -> Result<(u64, f64), Reason> {
+    let (length, master) = (way[0].hypot(way[1]), way[0].abs().max(way[1].abs()));
+    if master == 0.0 {
+        // Shorter than a count: only the profile moves.
+        return Ok((1, speed));
+    }
+    // Counts a scan, at a millimetre a second.
+    let scale = settings.counts_per_mm * settings.scan_s() * master / length;
+    let least = SLOWEST / scale;
+    let word = speed_word(speed * scale).filter(|_| speed >= least);
+    let word = word.ok_or(Reason::Slow { speed, least })?;
+    Ok((word, word as f64 / SPEED_ONE as f64 / scale))
+}
+
+/// An arc's piece, begun elsewhere.
+fn moved(piece: &Piece, circle: &Circle, start: Point, speed: f64) -> Piece {
+    let by = sub(start, circle.start);
+    let circle = Circle {
+        centre: add(circle.centre, by),
+        start,
+        ..*circle
+    };
+    Piece {
+        course: Course::Arc(circle),
+        to: circle.end(),
+        speed,
+        line: piece.line,
+    }
+}
+
+/// A trapezoid of speed over a stretch of the path; a short one keeps its times and has a lower
+/// peak, as the interpolator's.
+fn length_in_time(begin: u64, length: u64, speed: f64, ramp_s: f64) -> Profile {
+    let span = Span {
+        length,
+        speed: speed.min(length as f64 / ramp_s),
+        entry: 0.0,
+    };
+    let slope = Slope {
+        acceleration: span.speed / ramp_s,
+        jerk_time: 0.0,
+    };
+    let mut profile = plan(&[span], slope);
+    for piece in &mut profile.pieces {
+        piece.q += begin as f64;
+    }
+    profile.length += begin as f64;
+    profile
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The speed that the profile is given is that of the interpolator's word, on any slope.
+    #[test]
+    fn a_line_goes_as_fast_as_its_word_says() {
+        // A thousand counts a millimetre, a scan of a millisecond: a count is a millimetre a second.
+        let settings = Settings::default();
+        let speed = |way, speed| line_speed(way, speed, &settings);
+        let (word, exact) = speed([4000.0, 0.0], 25.75).unwrap();
+        assert_eq!((word, exact), (103 * SPEED_ONE / 4, 25.75));
+        // Less than the last bit of the fraction is lost.
+        let (word, exact) = speed([4000.0, 0.0], 25.0 + 1.9 / 4096.0).unwrap();
+        assert_eq!(word, 25 * SPEED_ONE + 1);
+        assert!((exact - 25.0 - 1.0 / 4096.0).abs() < 1e-9, "{exact}");
+        // Three, four, five: the master axis has four parts of five.
+        let (word, exact) = speed([-3000.0, 4000.0], 25.0).unwrap();
+        assert_eq!(word, 20 * SPEED_ONE);
+        assert!((exact - 25.0).abs() < 1e-9, "{exact}");
+        assert_eq!(speed([0.0, 0.0], 0.3).unwrap(), (1, 0.3));
+        assert!(matches!(
+            speed([3000.0, 4000.0], 0.03),
+            Err(Reason::Slow { least, .. }) if (least - 1.25 * 100.0 / 4096.0).abs() < 1e-9
+        ));
+    }
+}

@@ -1,0 +1,238 @@
+//! A drawing through the whole interpolator: planned, compiled to a table, played by the control
+//! computer, and counted at the motor drivers.
+
+use super::step_dir::{Driver, TimingMinima};
+use super::{ControlComputer, StepTiming, Table};
+use crate::kernel::{At, Observer, Registers, RunError, Sample, Simulator, zero};
+use crate::pulse_interpolator::{Group, Variant};
+use crate::settings::{JobError, SettingError, within};
+use std::array::from_fn;
+use std::ops::ControlFlow;
+
+/// Half-period width of the group that plays a job.
+const N: usize = 16;
+/// Unit-time width of the group that plays a job.
+const T: usize = 24;
+/// Address width of the group that plays a job.
+const A: usize = 12;
+
+/// The group that plays a job of so many axes, with the default word lengths.
+pub type JobGroup<const AXES: usize> = Group<AXES, N, T, A>;
+
+/// What was seen at the drivers of a group that played a table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Played {
+    /// Ticks of the run, from power-on until the last pulse is over.
+    pub ticks: u64,
+    /// The tick in which the first unit time of the table began.
+    pub begun: u64,
+    /// The tick of the first step on any axis.
+    pub first_step: Option<u64>,
+    /// Unit times without pulses between two patterns, because the next one was not there yet.
+    pub idle_units: u64,
+    /// Each axis, X first.
+    pub axes: Vec<PlayedAxis>,
+    /// Positions at the end of every unit time of the table in steps from where the axes began,
+    /// X first, unit after unit.
+    pub positions: Vec<i32>,
+}
+
+/// One axis of [`Played`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PlayedAxis {
+    /// Steps up.
+    pub pulses_up: u64,
+    /// Steps down.
+    pub pulses_down: u64,
+    /// The shortest times on the step and direction lines.
+    pub minima: TimingMinima,
+}
+
+impl PlayedAxis {
+    /// Steps up less steps down.
+    pub fn position(&self) -> i64 {
+        self.pulses_up as i64 - self.pulses_down as i64
+    }
+}
+
+/// What is looked at.
+struct See<const AXES: usize> {
+    pending: At<bool>,
+    step: [At<bool>; AXES],
+    dir: [At<bool>; AXES],
+    unit_rst: At<bool>,
+    busy: At<bool>,
+}
+
+/// Drivers on all axes, and where they are when a unit time ends.
+struct Bench<O, const AXES: usize> {
+    see: See<AXES>,
+    observer: O,
+    /// The run ends in pieces: with every tick in which a command can be taken.
+    pieces: bool,
+    /// The table is played, or the observer has stopped.
+    over: bool,
+    drivers: [Driver; AXES],
+    positions: Vec<i32>,
+    units: usize,
+    begun: Option<u64>,
+    first_step: Option<u64>,
+    idle_units: u64,
+    last_tick: u64,
+}
+
+impl<O: Observer<JobGroup<AXES>>, const AXES: usize> Observer<JobGroup<AXES>> for Bench<O, AXES> {
+    fn needs_all(&self) -> bool {
+        self.observer.needs_all()
+    }
+
+    fn sample(&mut self, now: &Sample<'_, JobGroup<AXES>>) -> Result<ControlFlow<()>, RunError> {
+        let see = &self.see;
+        let (rst, busy) = (now.get(see.unit_rst), now.get(see.busy));
+        let taken = rst && self.pieces && now.get(see.pending);
+        for (axis, driver) in self.drivers.iter_mut().enumerate() {
+            // The drivers ask for nothing here, so they have nothing to complain of.
+            let _ = driver.sample(now.tick, now.get(see.step[axis]), now.get(see.dir[axis]));
+        }
+        if self.first_step.is_none() && see.step.iter().any(|step| now.get(*step)) {
+            self.first_step = Some(now.tick);
+        }
+        if rst {
+            self.unit_ends(busy);
+        }
+        if self.begun.is_none() && busy {
+            self.begun = Some(now.tick);
+        }
+        self.last_tick = now.tick;
+        self.over = self.positions.len() == self.units * AXES && !busy;
+        self.over |= self.observer.sample(now)?.is_break();
+        Ok(if self.over || taken {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        })
+    }
+}
+
+impl<O, const AXES: usize> Bench<O, AXES> {
+    fn unit_ends(&mut self, busy: bool) {
+        if busy {
+            let positions = self.drivers.iter().map(|driver| driver.position() as i32);
+            self.positions.extend(positions);
+        } else if self.begun.is_some() {
+            self.idle_units += 1;
+        }
+    }
+}
+
+/// Plays `table` on a group of `AXES` axes, as `table` has them, seen by `observer` too.
+///
+/// # Errors
+/// The group is not as wide as the table, or what `observer` objects to.
+pub fn play<const AXES: usize>(
+    group: &JobGroup<AXES>,
+    table: &Table,
+    observer: impl Observer<JobGroup<AXES>>,
+) -> Result<Played, JobError> {
+    played(group, table, observer, |simulator, computer, bench| {
+        let pending = bench.see.pending;
+        let drive = |_, q: &Registers<'_, JobGroup<AXES>>| {
+            computer.drive(q.get(pending)).unwrap_or_else(zero)
+        };
+        simulator.run(u64::MAX, drive, bench)
+    })
+}
+
+/// Does what [`play`] does, but goes over idle ticks: for an `observer` that need not see
+/// them.
+///
+/// # Errors
+/// As [`play`].
+pub fn fast_forward<const AXES: usize>(
+    group: &JobGroup<AXES>,
+    table: &Table,
+    observer: impl Observer<JobGroup<AXES>>,
+) -> Result<Played, JobError> {
+    played(group, table, observer, |mut simulator, computer, bench| {
+        let pending = bench.see.pending;
+        bench.pieces = true;
+        while !bench.over {
+            // All that the computer looks at is whether a command waits: no counter.
+            let drive = |_, q: &Registers<'_, JobGroup<AXES>>| match computer.drive(q.get(pending))
+            {
+                Some(i) => (i, 1),
+                None => (zero(), u64::MAX),
+            };
+            simulator = simulator.fast_forward(u64::MAX, drive, &mut *bench)?;
+        }
+        Ok(simulator)
+    })
+}
+
+/// Whether the words of a table have room in the group.
+fn fits<const AXES: usize>(table: &Table) -> Result<(), SettingError> {
+    let (axes, bits) = (table.axes(), table.half_period_bits());
+    if axes != AXES {
+        return Err(SettingError::value("axes", axes, AXES.to_string()));
+    }
+    // A unit time that is a few of these at most has room then.
+    within("half_period_bits", bits, &(0..=N as u32))
+}
+
+/// What the drivers see of a group that is run to the end of `table`.
+fn played<O: Observer<JobGroup<AXES>>, const AXES: usize>(
+    group: &JobGroup<AXES>,
+    table: &Table,
+    observer: O,
+    run: impl FnOnce(
+        Simulator<JobGroup<AXES>>,
+        &mut ControlComputer<'_, A>,
+        &mut Bench<O, AXES>,
+    ) -> Result<Simulator<JobGroup<AXES>>, RunError>,
+) -> Result<Played, JobError> {
+    fits::<AXES>(table)?;
+    let (simulator, see) = Simulator::watching(group, observer.needs_all(), |watch| See {
+        pending: watch.at(watch.q.port.pending),
+        step: watch.w.step.map(|step| watch.at(step)),
+        dir: watch.w.dir.map(|dir| watch.at(dir)),
+        unit_rst: watch.at(watch.w.unit_rst),
+        busy: watch.at(watch.w.busy),
+    })?;
+    let mut computer = ControlComputer::<A>::new(table);
+    let mut bench = Bench {
+        see,
+        observer,
+        pieces: false,
+        over: false,
+        drivers: from_fn(|_| Driver::new(StepTiming::default())),
+        positions: Vec::with_capacity(table.units() * AXES),
+        units: table.units(),
+        begun: None,
+        first_step: None,
+        idle_units: 0,
+        last_tick: 0,
+    };
+    let simulator = run(simulator, &mut computer, &mut bench)?;
+    let axes = bench.drivers.iter().map(|driver| {
+        let (pulses, position) = (driver.pulses() as i64, driver.position());
+        PlayedAxis {
+            pulses_up: ((pulses + position) / 2) as u64,
+            pulses_down: ((pulses - position) / 2) as u64,
+            minima: driver.minima(),
+        }
+    });
+    Ok(Played {
+        ticks: simulator.tick(),
+        begun: bench.begun.unwrap_or(bench.last_tick),
+        first_step: bench.first_step,
+        idle_units: bench.idle_units,
+        axes: axes.collect(),
+        positions: bench.positions,
+    })
+}
+
+/// The group for a table: its unit time at power-on is that of the first pattern.
+pub fn group<const AXES: usize>(table: &Table, variant: Variant) -> JobGroup<AXES> {
+    let period = table.patterns().first().map_or(1, |pattern| pattern.period);
+    Group::new(variant, period.into())
+}

@@ -1,0 +1,13 @@
+//! A drawing on the pulse interpolator: compiled to a table, played by a control computer, counted by
+//! drivers.
+
+pub mod control_computer;
+pub mod job;
+pub mod step_dir;
+pub mod table;
+
+pub use control_computer::ControlComputer;
+pub use table::{
+    AxisReport, AxisScaling, CountTable, FollowingError, PulseLimits, Ratio, Remedy, Report,
+    Scaled, Settings, StepTiming, Table, TableError, UnitErrors, Word, compile, follow,
+};

@@ -1,0 +1,167 @@
+//! A stepper driver's view of one axis: steps counted, step/direction timing measured.
+//!
+//! Behavioural: it watches the lines as a driver with a step and a direction input would.
+
+use super::StepTiming;
+use crate::kernel::{Observer, RunError, Sample};
+use crate::pulse_interpolator::Group;
+use std::ops::ControlFlow;
+
+/// The shortest times seen so far, in ticks; `None` where there was no such pair of edges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TimingMinima {
+    /// Step high.
+    pub high: Option<u64>,
+    /// Step low between two steps.
+    pub low: Option<u64>,
+    /// Change of direction to the next step.
+    pub setup: Option<u64>,
+    /// Step to the next change of direction.
+    pub hold: Option<u64>,
+}
+
+/// Two edges that came too close.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TooShort {
+    /// Which time: "high", "low", "setup" or "hold".
+    pub what: &'static str,
+    /// What was seen, in ticks.
+    pub ticks: u64,
+    /// What is asked, in ticks.
+    pub limit: u64,
+}
+
+/// A stepper driver on one axis: a step is a rising edge, its direction the level of the
+/// direction line in that tick; high counts down.
+#[derive(Debug, Clone, Default)]
+pub struct Driver {
+    limits: StepTiming,
+    minima: TimingMinima,
+    pulses: u64,
+    position: i64,
+    step: bool,
+    dir: Option<bool>,
+    rose: Option<u64>,
+    fell: Option<u64>,
+    /// A change of direction that no step has followed yet.
+    turned: Option<u64>,
+    /// The last step, while no change of direction has followed it.
+    stepped: Option<u64>,
+}
+
+impl Driver {
+    /// A driver at position 0 that asks for `limits`. Step is low before the first tick.
+    pub fn new(limits: StepTiming) -> Self {
+        Driver {
+            limits,
+            ..Driver::default()
+        }
+    }
+
+    /// Steps so far, in either direction.
+    pub fn pulses(&self) -> u64 {
+        self.pulses
+    }
+
+    /// Position in steps from where it began.
+    pub fn position(&self) -> i64 {
+        self.position
+    }
+
+    /// The shortest times so far.
+    pub fn minima(&self) -> TimingMinima {
+        self.minima
+    }
+
+    /// Sees the lines of one tick.
+    ///
+    /// # Errors
+    /// Two edges came closer than the limits allow; the minima and the position count them all
+    /// the same.
+    pub fn sample(&mut self, tick: u64, step: bool, dir: bool) -> Result<(), TooShort> {
+        if step == self.step && self.dir == Some(dir) {
+            return Ok(());
+        }
+        self.edges(tick, step, dir)
+    }
+
+    fn edges(&mut self, tick: u64, step: bool, dir: bool) -> Result<(), TooShort> {
+        let mut worst = Ok(());
+        let mut judge = |what, from: Option<u64>, least: &mut Option<u64>, limit: u32| {
+            let limit = u64::from(limit);
+            if let Some(from) = from {
+                let ticks = tick - from;
+                *least = Some(least.map_or(ticks, |least| least.min(ticks)));
+                if ticks < limit && worst.is_ok() {
+                    worst = Err(TooShort { what, ticks, limit });
+                }
+            }
+        };
+        let (least, limits) = (&mut self.minima, self.limits);
+        if self.dir.is_some_and(|before| before != dir) {
+            judge(
+                "hold",
+                self.stepped.take(),
+                &mut least.hold,
+                limits.dir_hold,
+            );
+            self.turned = Some(tick);
+        }
+        self.dir = Some(dir);
+        if step && !self.step {
+            judge(
+                "setup",
+                self.turned.take(),
+                &mut least.setup,
+                limits.dir_setup,
+            );
+            judge("low", self.fell, &mut least.low, limits.min_low);
+            self.pulses += 1;
+            self.position += if dir { -1 } else { 1 };
+            self.rose = Some(tick);
+            self.stepped = Some(tick);
+        }
+        if !step && self.step {
+            judge("high", self.rose, &mut least.high, limits.min_high);
+            self.fell = Some(tick);
+        }
+        self.step = step;
+        worst
+    }
+}
+
+/// A driver on every axis of a [`Group`]; a limit broken ends the run.
+#[derive(Debug, Clone)]
+pub struct Drivers<const AXES: usize>(pub [Driver; AXES]);
+
+impl<const AXES: usize> Drivers<AXES> {
+    /// Drivers that ask for `limits`.
+    pub fn new(limits: StepTiming) -> Self {
+        Drivers(std::array::from_fn(|_| Driver::new(limits)))
+    }
+}
+
+impl<const AXES: usize, const N: usize, const T: usize, const A: usize>
+    Observer<Group<AXES, N, T, A>> for Drivers<AXES>
+{
+    fn sample(
+        &mut self,
+        now: &Sample<'_, Group<AXES, N, T, A>>,
+    ) -> Result<ControlFlow<()>, RunError> {
+        for (axis, driver) in self.0.iter_mut().enumerate() {
+            let (step, dir) = (now.w.step[axis].get(), now.w.dir[axis].get());
+            driver.sample(now.tick, step, dir).map_err(|short| {
+                let name = crate::pulse_interpolator::AXIS_NAMES[axis];
+                RunError::Violation {
+                    tick: now.tick,
+                    signals: vec![format!("step_{name}"), format!("dir_{name}")],
+                    message: format!(
+                        "{} of {} ticks on axis {name}, the driver asks for {}",
+                        short.what, short.ticks, short.limit
+                    ),
+                }
+            })?;
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}

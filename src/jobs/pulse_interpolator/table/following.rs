@@ -1,0 +1,206 @@
+//! Following errors: where the axes are at any time, against where the path demands them.
+
+use super::demand::{Demand, Demands, Steps};
+use super::error::TableError;
+use super::report::FollowingError;
+use super::settings::Settings;
+use super::words::{Table, Word};
+use crate::input::{COORDINATES, Drawing};
+use crate::plan::Plan;
+
+/// A unit time that is over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnitErrors {
+    /// The unit, from 0.
+    pub unit: usize,
+    /// When it ends, in seconds.
+    pub time_s: f64,
+    /// Line of the input under way at that time.
+    pub line: usize,
+    /// Whether that is a rapid move.
+    pub rapid: bool,
+    /// Demand less position of each axis in steps, where in the unit it is farthest from 0; 0 for
+    /// the axes not driven.
+    pub errors: [f64; COORDINATES],
+}
+
+/// Demand and position over a run, unit after unit.
+struct Follower<'p, 'd> {
+    demands: Demands<'p, 'd>,
+    /// Position of each axis at the beginning of the unit.
+    positions: Vec<i64>,
+    largest: Vec<FollowingError>,
+    unit: usize,
+    ticks: u64,
+    turns: Vec<f64>,
+}
+
+impl Follower<'_, '_> {
+    /// A unit with these words, at whose end the axes are at `positions`.
+    ///
+    /// Between two steps, and between two places where the path may turn, the demand of an axis goes
+    /// one way and its position stays: the error is the largest at one of these.
+    fn unit(
+        &mut self,
+        period: u32,
+        words: &[Word],
+        positions: impl Iterator<Item = i64>,
+    ) -> Result<UnitErrors, TableError> {
+        let (begin, end) = (self.ticks, self.ticks + u64::from(period));
+        let (begin_s, end_s) = (self.demands.seconds(begin), self.demands.seconds(end));
+        let mut turns = std::mem::take(&mut self.turns);
+        self.demands.turns([begin_s, end_s], &mut turns);
+        let last = self.demands.at(end)?;
+        let mut unit = UnitErrors {
+            unit: self.unit,
+            time_s: end_s,
+            line: last.line,
+            rapid: last.rapid,
+            errors: [0.0; COORDINATES],
+        };
+        for (axis, (word, to)) in words.iter().zip(positions).enumerate() {
+            let from = std::mem::replace(&mut self.positions[axis], to);
+            let steps = Staircase::new(period, *word);
+            let mut see = |time_s: f64, demand: &Demand, position: i64| {
+                let error = (demand.steps[axis] - Steps::from_num(position)).to_num::<f64>();
+                if error.abs() > unit.errors[axis].abs() {
+                    unit.errors[axis] = error;
+                }
+                let largest = &mut self.largest[axis];
+                // Not where it is as large: the first of equals.
+                if error.abs() > largest.steps {
+                    *largest = FollowingError {
+                        steps: error.abs(),
+                        unit: self.unit,
+                        time_s,
+                        line: demand.line,
+                    };
+                }
+            };
+            // Where a variant of the circuit made other steps than the word says, when is not known.
+            if from + steps.signed(steps.count) == to {
+                for &time_s in &turns {
+                    let ticks = (time_s - begin_s) / (end_s - begin_s) * f64::from(period);
+                    let position = from + steps.signed(steps.until(ticks));
+                    see(time_s, &self.demands.at_time(time_s)?, position);
+                }
+                for step in 0..steps.count {
+                    let ticks = begin + steps.rise(step);
+                    let demand = self.demands.at(ticks)?;
+                    let time_s = self.demands.seconds(ticks);
+                    see(time_s, &demand, from + steps.signed(step));
+                    see(time_s, &demand, from + steps.signed(step + 1));
+                }
+            }
+            see(end_s, &last, to);
+        }
+        self.turns = turns;
+        self.ticks = end;
+        self.unit += 1;
+        Ok(unit)
+    }
+}
+
+/// When a word steps within its unit time.
+struct Staircase {
+    half_period: u64,
+    negative: bool,
+    count: u64,
+}
+
+impl Staircase {
+    fn new(period: u32, word: Word) -> Self {
+        Staircase {
+            half_period: u64::from(word.half_period()),
+            negative: word.negative(),
+            count: u64::from(crate::pulse_interpolator::counts::pulses(
+                word.half_period(),
+                period,
+            )),
+        }
+    }
+
+    /// The tick in which a step, counted from 0, rises.
+    fn rise(&self, step: u64) -> u64 {
+        (2 * step + 1) * self.half_period
+    }
+
+    /// Steps up to a time in ticks.
+    fn until(&self, ticks: f64) -> u64 {
+        match self.half_period {
+            0 => 0,
+            half => ((ticks / half as f64 + 1.0) / 2.0).floor().max(0.0) as u64,
+        }
+        .min(self.count)
+    }
+
+    fn signed(&self, steps: u64) -> i64 {
+        let steps = i64::try_from(steps).unwrap_or(i64::MAX);
+        if self.negative { -steps } else { steps }
+    }
+}
+
+/// Compares where a run of `table` had the axes with where `drawing` demands them: tells `each` of
+/// every unit time, and returns the largest error of each axis, at whatever time.
+///
+/// `positions` are those of all axes after each unit time, in steps from the start. Within a unit the
+/// steps are where the half-period has them.
+///
+/// # Errors
+///
+/// [`TableError`], where `settings` are not those that the table was compiled with.
+pub fn follow(
+    drawing: &Drawing,
+    settings: &Settings,
+    table: &Table,
+    positions: &[i32],
+    mut each: impl FnMut(&UnitErrors),
+) -> Result<Vec<FollowingError>, TableError> {
+    let axes = table.axes();
+    let plan = Plan::new(drawing, &settings.motion)?;
+    let mut follower = follower(&plan, settings, axes)?;
+    let start = follower.positions.clone();
+    for ((period, words), positions) in table.iter().zip(positions.chunks_exact(axes)) {
+        let positions = start.iter().zip(positions);
+        let positions = positions.map(|(start, &steps)| start + i64::from(steps));
+        each(&follower.unit(period, words, positions)?);
+    }
+    Ok(follower.largest)
+}
+
+/// The largest following errors of the steps that `table` stands for.
+pub(super) fn of_table(
+    plan: &Plan<'_>,
+    settings: &Settings,
+    table: &Table,
+) -> Result<Vec<FollowingError>, TableError> {
+    let mut follower = follower(plan, settings, table.axes())?;
+    for (period, words) in table.iter() {
+        let pairs = follower.positions.iter().zip(words);
+        let positions: Vec<i64> = pairs
+            .map(|(from, word)| {
+                let steps = Staircase::new(period, *word);
+                from + steps.signed(steps.count)
+            })
+            .collect();
+        follower.unit(period, words, positions.into_iter())?;
+    }
+    Ok(follower.largest)
+}
+
+fn follower<'p, 'd>(
+    plan: &'p Plan<'d>,
+    settings: &Settings,
+    axes: usize,
+) -> Result<Follower<'p, 'd>, TableError> {
+    let mut demands = Demands::new(plan, settings);
+    let start = demands.at(0)?;
+    Ok(Follower {
+        demands,
+        positions: (0..axes).map(|axis| start.rounded(axis)).collect(),
+        largest: vec![FollowingError::default(); axes],
+        unit: 0,
+        ticks: 0,
+        turns: Vec::new(),
+    })
+}

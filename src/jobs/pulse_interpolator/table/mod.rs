@@ -1,0 +1,25 @@
+//! From a drawing to the contents of the pattern memory.
+//!
+//! [`counts`](crate::pulse_interpolator::counts) says how many pulses a half-period gives in a unit time and which counts exist;
+//! [`compile`] turns a drawing into a [`Table`] of half-periods and reports what came of it;
+//! [`Table::scaled`] is the text's scaling by multiplying the data.
+
+mod compile;
+mod count_table;
+mod demand;
+mod error;
+mod following;
+mod remedy;
+mod report;
+mod scale;
+mod settings;
+mod words;
+
+pub use compile::compile;
+pub use count_table::{CountTable, Offer, PulseLimits, choose_half_period};
+pub use error::TableError;
+pub use following::{UnitErrors, follow};
+pub use report::{AxisReport, FollowingError, Remedy, Report};
+pub use scale::{AxisScaling, Ratio, Scaled};
+pub use settings::{Settings, StepTiming, WIDTH_RANGE};
+pub use words::{MAX_UNITS, Pattern, Table, Word};

@@ -1,0 +1,181 @@
+//! What models make of a circle at constant speed, by closed forms.
+//!
+//! A circle of the radius r, run at ω = v/r, is e^(jωt). The response of a model to it is G = G(jω)
+//! times as large, so that it runs r(1 − |G|) inside. The corrected command is 1 + e^(−jωτ) − G times
+//! as large, τ being the lag of the tangential response. In the widened circle it is 1 + c·ω².
+//!
+//! | | continuous | sampled, z = e^(jωΔt) |
+//! |---|---|---|
+//! | G | K1·K2 / (s² + K2·s + K1·K2) | z·K1·K2 / ((z − 1)² + K2·(z − 1) + K1·K2) |
+//! | τ | 1/K1 | (1/K1 − 1)·Δt |
+
+use super::job::{Played, Program};
+use super::measure::Errors;
+use super::segments::Segment;
+use super::settings::Correction;
+use crate::trajectory_controller::widths::Widths;
+use std::ops::Range;
+
+/// After so many times of its slowest decay a model has forgotten what was before.
+const FORGOTTEN: f64 = 20.0;
+
+type Complex = [f64; 2];
+
+/// Contour errors on a circle, in mm, inwards positive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClosedForms {
+    /// r in mm.
+    pub radius_mm: f64,
+    /// v in mm/s.
+    pub speed_mm_per_s: f64,
+    /// Of continuous models, by correction.
+    pub continuous: Variants,
+    /// Of the sampled models.
+    pub sampled: Variants,
+}
+
+/// A number of each correction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Variants {
+    /// Without correction: r(1 − |G|).
+    pub none: f64,
+    /// With the correction vector: r(1 − |G(1 + e^(−jωτ) − G)|).
+    pub vector: f64,
+    /// On the widened circle: r(1 − (1 + c·ω²)|G|).
+    pub steady: f64,
+}
+
+impl Variants {
+    /// That of a correction.
+    #[must_use]
+    pub fn of(&self, correction: Correction) -> f64 {
+        match correction {
+            Correction::None => self.none,
+            Correction::Vector => self.vector,
+            Correction::Steady => self.steady,
+        }
+    }
+}
+
+impl ClosedForms {
+    /// Of a circle, by gains in 1/s, the period in s and c in s².
+    #[must_use]
+    pub fn of(radius_mm: f64, speed_mm_per_s: f64, gains: [f64; 2], period: f64, c: f64) -> Self {
+        let omega = speed_mm_per_s / radius_mm;
+        let [k1, k2] = gains;
+        let widened = 1.0 + c * omega * omega;
+        let continuous = over(k1 * k2, [k1 * k2 - omega * omega, k2 * omega]);
+        let [k1, k2] = gains.map(|gain| gain * period);
+        let turn = omega * period;
+        let z = [turn.cos(), turn.sin()];
+        let step = [z[0] - 1.0, z[1]];
+        let square = times(step, step);
+        let sampled = over(
+            k1 * k2,
+            [square[0] + k2 * step[0] + k1 * k2, square[1] + k2 * step[1]],
+        );
+        let sampled = times(z, sampled);
+        let forms = |response: Complex, lag: f64| {
+            let sum = [1.0 + lag.cos() - response[0], -lag.sin() - response[1]];
+            let inside = |times: f64| radius_mm * (1.0 - times);
+            Variants {
+                none: inside(size(response)),
+                vector: inside(size(times(response, sum))),
+                steady: inside(widened * size(response)),
+            }
+        };
+        ClosedForms {
+            radius_mm,
+            speed_mm_per_s,
+            continuous: forms(continuous, omega / gains[0]),
+            sampled: forms(sampled, turn * (1.0 / k1 - 1.0)),
+        }
+    }
+}
+
+/// The part of a run in which a circle is run at constant speed, and what was before is forgotten.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Steady {
+    /// The periods.
+    pub periods: Range<usize>,
+    /// What the closed forms say.
+    pub forms: ClosedForms,
+}
+
+impl Steady {
+    /// The longest such part; none where there is no period of one.
+    #[must_use]
+    pub fn of<const AXES: usize>(program: &Program, played: &Played<AXES>) -> Option<Self> {
+        let motion = &program.motion;
+        let [k1, k2] = program.gains.parts(&Widths::FULL);
+        let root = (k2 * k2 - 4.0 * k1 * k2).max(0.0).sqrt();
+        let wait = (FORGOTTEN / ((k2 - root) / 2.0)).ceil() as usize;
+        let mut longest: Option<Steady> = None;
+        for (index, piece) in program.profile.pieces.iter().enumerate() {
+            let next = program.profile.pieces.get(index + 1);
+            let until = next.map_or(program.profile.duration, |next| next.t);
+            if piece.a != 0.0 || piece.jerk != 0.0 || piece.v <= 0.0 {
+                continue;
+            }
+            let ends = [piece.t, until].map(|t| program.profile.at(t)[0]);
+            for (circle, radius) in circles(program) {
+                let from = (circle.start as f64).max(ends[0]);
+                let to = (circle.end as f64).min(ends[1]);
+                let inside = |length: i64| (from..=to).contains(&(length as f64));
+                let first = played.periods.partition_point(|p| (p.length as f64) < from);
+                let behind = &played.periods[first..];
+                let count = behind.iter().take_while(|p| inside(p.length)).count();
+                let periods = first + wait..first + count;
+                let longer = longest.as_ref().map_or(0, |steady| steady.periods.len());
+                if periods.len() > longer {
+                    let mm = 1.0 / motion.units_per_mm;
+                    let gains = [k1, k2].map(|gain| gain / motion.period);
+                    let c = program.gains.radial_s2(&Widths::FULL, motion.period);
+                    let forms = ClosedForms::of(radius * mm, piece.v * mm, gains, motion.period, c);
+                    longest = Some(Steady { periods, forms });
+                }
+            }
+        }
+        longest
+    }
+
+    /// Mean contour error in these periods, in mm.
+    #[must_use]
+    pub fn mean_mm(&self, errors: &Errors) -> f64 {
+        let own = &errors.deviations[self.periods.clone()];
+        own.iter().map(|one| one.contour_mm).sum::<f64>() / own.len() as f64
+    }
+}
+
+/// Where the path is on one circle, in guard units, and the circle's radius.
+fn circles(program: &Program) -> Vec<(Range<u64>, f64)> {
+    let mut circles: Vec<(Range<u64>, f64)> = Vec::new();
+    let mut before: Option<Segment> = None;
+    for stretch in &program.path.stretches {
+        let segment = stretch.segment;
+        let end = stretch.begin + stretch.length;
+        let Some(arc) = segment.arc else {
+            before = None;
+            continue;
+        };
+        match (before, circles.last_mut()) {
+            (Some(last), Some((circle, _))) if last.same_circle(&segment) => circle.end = end,
+            _ => circles.push((stretch.begin..end, arc.radius)),
+        }
+        before = Some(segment);
+    }
+    circles
+}
+
+fn times([a, b]: Complex, [c, d]: Complex) -> Complex {
+    [a * c - b * d, a * d + b * c]
+}
+
+fn over(numerator: f64, [re, im]: Complex) -> Complex {
+    let square = re * re + im * im;
+    [numerator * re / square, -numerator * im / square]
+}
+
+fn size([re, im]: Complex) -> f64 {
+    re.hypot(im)
+}

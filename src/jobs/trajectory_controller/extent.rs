@@ -1,0 +1,75 @@
+//! Whether a piece of a path fits in the words of its segment, and what is beside it in those of
+//! commands.
+
+use crate::arc_generator::widths::Widths as RecordWidths;
+use crate::input::{COORDINATES, Point};
+use crate::jobs::arc_generator::error::Reason;
+use crate::jobs::arc_generator::path::{Course, Piece};
+
+/// Checks that a piece's points, centre and radius are words.
+pub(super) fn fits(
+    from: Point,
+    piece: &Piece,
+    counts_per_mm: f64,
+    widths: &RecordWidths,
+) -> Result<(), Reason> {
+    let check = |names: [&'static str; COORDINATES], point: Point| {
+        let mut coordinates = names.into_iter().zip(point);
+        coordinates.try_for_each(|(what, mm)| hold(what, mm * counts_per_mm, widths))
+    };
+    let names = ["x", "y", "z"];
+    check(names, from)?;
+    check(names, piece.to)?;
+    let Course::Arc(circle) = &piece.course else {
+        return Ok(());
+    };
+    let extremes = circle.extremes();
+    (0..2).try_for_each(|end| check(names, extremes.map(|extreme| extreme[end])))?;
+    check(["centre x", "centre y", "centre z"], circle.centre)?;
+    hold("radius", circle.radius * counts_per_mm, widths)
+}
+
+/// Checks that a piece stays within half the range around the path's start, where the motors are at
+/// 0: the other half is for the corrected command, and for a response that goes too far.
+pub(super) fn margin(
+    start: Point,
+    piece: &Piece,
+    counts_per_mm: f64,
+    widths: &RecordWidths,
+) -> Result<(), Reason> {
+    let (extremes, radius) = match &piece.course {
+        Course::Line => (piece.to.map(|mm| [mm; 2]), 0.0),
+        Course::Arc(circle) => (circle.extremes(), circle.radius),
+    };
+    let ways = (0..COORDINATES).flat_map(|axis| {
+        let name = ["x from the start", "y from the start", "z from the start"][axis];
+        extremes[axis].map(|mm| (name, mm - start[axis]))
+    });
+    for (what, mm) in ways.chain([("radius", radius)]) {
+        let counts = mm * counts_per_mm;
+        if !widths.holds(2.0 * counts) {
+            return Err(Reason::Reach {
+                what,
+                counts,
+                most: widths.reach() / 2,
+                width: widths.position,
+                needed: RecordWidths::needed(2.0 * counts),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Checks that counts are a word.
+pub(super) fn hold(what: &'static str, counts: f64, widths: &RecordWidths) -> Result<(), Reason> {
+    match widths.holds(counts) {
+        true => Ok(()),
+        false => Err(Reason::Reach {
+            what,
+            counts,
+            most: widths.reach(),
+            width: widths.position,
+            needed: RecordWidths::needed(counts),
+        }),
+    }
+}

@@ -1,0 +1,204 @@
+//! What came out: how far models, motors and loads were from the path, and from their commands.
+
+use super::job::{Period, Played, Program};
+use super::segments::{Path, Segment};
+use crate::input::Point;
+use crate::jobs::arc_generator::vector::{distance, dot, norm, scale, sub};
+use crate::trajectory_controller::widths::Widths;
+use std::array::from_fn;
+use std::f64::consts::TAU;
+
+/// Guard units of a count.
+const COUNT: f64 = (1u64 << Widths::FULL.guard()) as f64;
+
+/// A period of a run, in mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviation {
+    /// Time from the path's start, in s.
+    pub time_s: f64,
+    /// Length along the path of the point nearest to it.
+    pub length_mm: f64,
+    /// Where it was.
+    pub actual: Point,
+    /// The nearest point of the path.
+    pub nearest: Point,
+    /// Contour error: the distance of both.
+    pub contour_mm: f64,
+    /// Following error: the distance from P_c of the same period.
+    pub following_mm: f64,
+}
+
+/// The largest of an error.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Peak {
+    /// In mm.
+    pub mm: f64,
+    /// The period.
+    pub period: usize,
+    /// Its tick.
+    pub tick: u64,
+    /// Length along the path of the nearest point.
+    pub length_mm: f64,
+}
+
+/// What was between the path and models, motors or loads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Errors {
+    /// Period by period.
+    pub deviations: Vec<Deviation>,
+    /// Largest contour error.
+    pub contour: Peak,
+    /// Root of the mean square of the contour error.
+    pub contour_rms_mm: f64,
+    /// Largest following error.
+    pub following: Peak,
+    /// Root of the mean square of the following error.
+    pub following_rms_mm: f64,
+    /// Distance from the path's end in the last period.
+    pub final_mm: f64,
+}
+
+/// Measured on a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// The models of the servos: what the motors are held to.
+    pub model: Errors,
+    /// The motors, by their encoders.
+    pub motor: Errors,
+    /// The loads.
+    pub load: Errors,
+    /// Largest torque of each axis, in words.
+    pub torque: Vec<i64>,
+    /// Periods in which it was limited, of each axis.
+    pub saturated: Vec<usize>,
+}
+
+impl Measured {
+    /// Measures a run; `None` of one without periods.
+    #[must_use]
+    pub fn of<const AXES: usize>(program: &Program, played: &Played<AXES>) -> Option<Self> {
+        played.periods.first()?;
+        let model = |period: &Period<AXES>, axis: usize| period.model[axis] as f64;
+        let motor = |period: &Period<AXES>, axis: usize| period.motor[axis] as f64 * COUNT;
+        let load = |period: &Period<AXES>, axis: usize| period.load[axis] * COUNT;
+        let each = |axis: usize| played.periods.iter().map(move |period| (period, axis));
+        let torque = |(period, axis): (&Period<AXES>, usize)| period.torque[axis].abs();
+        let limited = |(period, axis): &(&Period<AXES>, usize)| period.saturated[*axis];
+        Some(Measured {
+            model: errors(program, played, model),
+            motor: errors(program, played, motor),
+            load: errors(program, played, load),
+            torque: (0..AXES)
+                .map(|axis| each(axis).map(torque).max().unwrap_or(0))
+                .collect(),
+            saturated: (0..AXES)
+                .map(|axis| each(axis).filter(limited).count())
+                .collect(),
+        })
+    }
+}
+
+fn errors<const AXES: usize>(
+    program: &Program,
+    played: &Played<AXES>,
+    position: impl Fn(&Period<AXES>, usize) -> f64,
+) -> Errors {
+    let path = &program.path;
+    let (mm, end) = (1.0 / program.motion.units_per_mm, path.length as f64);
+    let place = |from_start: &dyn Fn(usize) -> f64| -> Point {
+        from_fn(|axis| {
+            let moved = if axis < AXES { from_start(axis) } else { 0.0 };
+            program.origin[axis] as f64 + moved
+        })
+    };
+    let mut final_mm = 0.0;
+    let deviations = played.periods.iter().enumerate().map(|(index, period)| {
+        let actual = place(&|axis| position(period, axis));
+        let command = place(&|axis| period.command[axis] as f64);
+        let following = distance(actual, command);
+        // It is about where the tangential response is. What is nearer is within twice the way to
+        // there; beyond that the path may come by again.
+        let answered = period.answered as f64;
+        let reach = 2.0 * distance(actual, path.point(answered)) + COUNT;
+        let (length, nearest) = path.nearest(actual, [answered - reach, answered + reach]);
+        final_mm = mm * distance(actual, path.point(end));
+        Deviation {
+            time_s: index as f64 * program.motion.period,
+            length_mm: mm * length,
+            actual: scale(actual, mm),
+            nearest: scale(nearest, mm),
+            contour_mm: mm * distance(actual, nearest),
+            following_mm: mm * following,
+        }
+    });
+    let deviations: Vec<_> = deviations.collect();
+    let largest = |error: fn(&Deviation) -> f64| {
+        let mut peak = Peak::default();
+        for (period, deviation) in deviations.iter().enumerate() {
+            if error(deviation) > peak.mm {
+                peak = Peak {
+                    mm: error(deviation),
+                    period,
+                    tick: played.periods[period].tick,
+                    length_mm: deviation.length_mm,
+                };
+            }
+        }
+        peak
+    };
+    let rms = |error: fn(&Deviation) -> f64| {
+        let squares: f64 = deviations.iter().map(|one| error(one).powi(2)).sum();
+        (squares / deviations.len() as f64).sqrt()
+    };
+    Errors {
+        contour: largest(|deviation| deviation.contour_mm),
+        contour_rms_mm: rms(|deviation| deviation.contour_mm),
+        following: largest(|deviation| deviation.following_mm),
+        following_rms_mm: rms(|deviation| deviation.following_mm),
+        final_mm,
+        deviations,
+    }
+}
+
+impl Path {
+    /// The point between two lengths that is nearest to a point, and its length; the first of
+    /// several. All in guard units.
+    #[must_use]
+    pub fn nearest(&self, point: Point, window: [f64; 2]) -> (f64, Point) {
+        let [from, to] = window.map(|length| length.clamp(0.0, self.length as f64));
+        let (mut best, mut least) = ((from, self.point(from)), f64::INFINITY);
+        for stretch in &self.stretches[self.index(from)..=self.index(to)] {
+            let begin = stretch.begin as f64;
+            let inside = [
+                (from - begin).max(0.0),
+                (to - begin).min(stretch.length as f64),
+            ];
+            for offset in stretch.segment.candidates(point, inside) {
+                let near = stretch.segment.point(offset);
+                let off = distance(point, near);
+                if off < least {
+                    (best, least) = ((begin + offset, near), off);
+                }
+            }
+        }
+        best
+    }
+}
+
+impl Segment {
+    /// Offsets between two of them of which one is nearest to a point.
+    fn candidates(&self, point: Point, [from, to]: [f64; 2]) -> Vec<f64> {
+        let way = sub(point, self.base.map(|units| units as f64));
+        let [along, across] = [dot(way, self.along), dot(way, self.across)];
+        let Some(arc) = self.arc else {
+            // A way of length 1 in a unit of length, but for the length's rounding.
+            let size = norm(self.along);
+            return vec![(along / (size * size)).clamp(from, to)];
+        };
+        let turn = arc.turn / TAU * across.atan2(along).rem_euclid(TAU);
+        let turns = turn + ((from - turn) / arc.turn).ceil() * arc.turn;
+        let mut offsets = vec![from, to];
+        offsets.extend((from..=to).contains(&turns).then_some(turns));
+        offsets
+    }
+}

@@ -1,0 +1,87 @@
+//! What a control computer gives to the segment stores: the path, a word a tick.
+
+use super::program::Program;
+use crate::trajectory_controller::{Widths, segment_store};
+
+/// Words of a segment that are written.
+const SEGMENT_WORDS: usize = 13;
+
+/// A path that is written segment after segment.
+#[derive(Debug)]
+pub(crate) struct PathWriter<'a> {
+    program: &'a Program,
+    /// The segment and the word of it that are written next, and the segment's words.
+    segment: usize,
+    word: usize,
+    words: [u64; segment_store::WORDS],
+}
+
+/// What stands at the controller's ports in a tick.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PathWord {
+    /// A word is written.
+    pub(crate) write: bool,
+    /// Where the segment begins is written.
+    pub(crate) write_begin: bool,
+    /// The segment.
+    pub(crate) segment: u64,
+    /// The length at which it begins.
+    pub(crate) begin: u64,
+    /// Number of the word.
+    pub(crate) word: u64,
+    /// Its data.
+    pub(crate) data: u64,
+}
+
+impl<'a> PathWriter<'a> {
+    /// Of a program that is to be written from its first word on.
+    pub(crate) fn new(program: &'a Program) -> Self {
+        let mut writer = PathWriter {
+            program,
+            segment: 0,
+            word: 0,
+            words: [0; segment_store::WORDS],
+        };
+        writer.prepare();
+        writer
+    }
+
+    /// Whether all is written.
+    pub(crate) fn is_done(&self) -> bool {
+        self.segment >= self.program.path.stretches.len()
+    }
+
+    /// The words of the segment that is written next: the motors are at 0 where the path begins.
+    fn prepare(&mut self) {
+        let Some(stretch) = self.program.path.stretches.get(self.segment) else {
+            return;
+        };
+        let mut segment = stretch.segment;
+        for (base, origin) in segment.base.iter_mut().zip(self.program.origin) {
+            *base -= origin;
+        }
+        self.words = segment.words(&Widths::FULL);
+    }
+
+    /// The word of this tick.
+    pub(crate) fn write(&mut self) -> PathWord {
+        let (segment, word) = (self.segment, self.word);
+        let writing = self.program.path.stretches.get(segment);
+        let given = PathWord {
+            write: writing.is_some(),
+            write_begin: writing.is_some() && word == 0,
+            segment: segment as u64,
+            begin: writing.map_or(0, |stretch| stretch.begin),
+            word: word as u64,
+            data: self.words[word],
+        };
+        if given.write {
+            self.word = (word + 1) % SEGMENT_WORDS;
+            if self.word == 0 {
+                self.segment += 1;
+                self.prepare();
+            }
+        }
+        given
+    }
+}

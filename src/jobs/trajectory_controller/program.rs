@@ -1,0 +1,134 @@
+//! What a run is made of: the path, its profile in time, and the words of both and of the servos.
+
+use super::planner::plan;
+use super::profile::Profile;
+use super::profile_record::records;
+use super::segments::Path;
+use super::servo_gains::ServoGains;
+use super::settings::{Gains, Motion, Settings};
+use super::speed_limits::spans;
+use crate::input::{COORDINATES, Point, ZERO_MM};
+use crate::jobs::arc_generator::error::{PathError, Reason};
+use crate::jobs::arc_generator::path::{Course, Piece};
+use crate::jobs::arc_generator::record::Record;
+use crate::plant::TwoMassParameters;
+use crate::settings::{Place, SettingError};
+use crate::trajectory_controller::widths::Widths;
+
+/// How far the counts of a millimetre on the path and at the encoder may be apart, as a part.
+const SAME: f64 = 1e-9;
+
+/// A path that is ready to be run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Program {
+    /// By its length.
+    pub path: Path,
+    /// Its length in time: guard units and seconds.
+    pub profile: Profile,
+    /// The profile's words.
+    pub records: Vec<Record>,
+    /// Δt.
+    pub period_ticks: u32,
+    /// What it was planned by.
+    pub motion: Motion,
+    /// K1 and K2.
+    pub gains: Gains,
+    /// Of the axes, of which there are as many as there are machine parameters; the others are 0.
+    pub servo: [ServoGains; COORDINATES],
+    /// Where the path begins, in guard units: the motors stand at 0 there.
+    pub origin: [i64; COORDINATES],
+}
+
+/// The most periods of a path: so many, the records of its profile fit into memory.
+pub const MOST_PERIODS: u64 = 1 << 32;
+
+/// Why there is no program.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ProgramError {
+    /// A piece of the path is at fault.
+    #[error(transparent)]
+    Path(#[from] PathError),
+    /// A setting, or a parameter of an axis.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+}
+
+impl Program {
+    /// Plans the path of `pieces` from `start` on, for two or three axes: as many as `machine` has.
+    ///
+    /// # Errors
+    /// A setting, a piece or an axis that is at fault: the first. Two axes run in the plane of
+    /// `start` only.
+    pub fn of(
+        start: Point,
+        pieces: &[Piece],
+        settings: &Settings,
+        machine: &[TwoMassParameters],
+        widths: &Widths,
+    ) -> Result<Self, ProgramError> {
+        let motion = settings.motion(widths)?;
+        let gains = settings.gains(widths)?;
+        if !(2..=COORDINATES).contains(&machine.len()) {
+            return Err(SettingError::value("axes", machine.len(), "2 or 3").into());
+        }
+        let mut servo = [ServoGains::default(); COORDINATES];
+        for (axis, parameters) in machine.iter().enumerate() {
+            let place = Place::Row("axis", axis);
+            servo[axis] = ServoGains::of(settings, parameters, place, widths)?;
+            let (own, path) = (parameters.counts_per_mm(), settings.counts_per_mm);
+            if (own / path - 1.0).abs() > SAME {
+                let problem = format!("is {}: {own} counts a millimetre", parameters.mm_per_rev);
+                let allowed = format!(
+                    "{}: {path}, as counts_per_mm",
+                    parameters.counts_per_rev / path
+                );
+                let error = SettingError::new("mm_per_rev", problem, allowed);
+                return Err(error.at(place).into());
+            }
+        }
+        if machine.len() < COORDINATES {
+            flat(start, pieces)?;
+        }
+        let mut path = Path::of(start, pieces, settings.counts_per_mm, widths)?;
+        let spans = spans(&path, &motion);
+        path.widen(&spans, gains.radial_s2(widths, motion.period));
+        let profile = plan(&spans, motion.slope);
+        let periods = profile.duration / motion.period;
+        if periods > MOST_PERIODS as f64 {
+            let ms = settings.period_ms;
+            let problem = format!("the path takes {periods:.0} periods of {ms} ms");
+            let allowed = format!("{MOST_PERIODS}: a faster or shorter path, or longer periods");
+            return Err(SettingError::new("period_ms", problem, allowed).into());
+        }
+        let origin = path.point(0.0).map(|units| units.round() as i64);
+        Ok(Program {
+            records: records(&profile, motion.period, widths),
+            path,
+            profile,
+            period_ticks: settings.period_ticks(widths)?,
+            motion,
+            gains,
+            servo,
+            origin,
+        })
+    }
+}
+
+/// Checks that a path stays at its z.
+fn flat(start: Point, pieces: &[Piece]) -> Result<(), PathError> {
+    for (piece, of) in pieces.iter().enumerate() {
+        let [low, high] = match &of.course {
+            Course::Line => [of.to[2]; 2],
+            Course::Arc(circle) => circle.extremes()[2],
+        };
+        let leaves = [low, high].map(|z| z - start[2]);
+        if let Some(&off) = leaves.iter().find(|off| off.abs() > ZERO_MM) {
+            return Err(PathError {
+                piece,
+                line: of.line,
+                reason: Reason::Plane { off },
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,281 @@
+//! A path as segments: what the segment store and the search are filled with.
+//!
+//! | word | line | arc |
+//! |---|---|---|
+//! | 0 | 0 | bit 0 set, bits 6..1 H − n |
+//! | 1 | 0 | 2^(M + n − 4) / turn, of M bits |
+//! | 2 | 0 | radius / gain of CORDIC, with R − P bits behind the guard unit |
+//! | 3, 4, 5 | where it begins | the centre |
+//! | 6, 7, 8 | way / length | direction to where it begins |
+//! | 9, 10, 11 | 0 | direction a quarter turn on |
+//! | 12 | 0 | as word 2, the radius widened for constant speed |
+//! | 13 … 15 | 0 | 0 |
+//!
+//! Lengths are whole guard units of 2^-G count. A piece's own length is rounded, and what the
+//! rounding takes is spread over the piece: a line's coefficients are its way divided by the rounded
+//! length, an arc's angle at the rounded length is the arc's own. So each ends where the piece ends.
+//! The speed is off by as little: half a guard unit in the length of the piece.
+
+use super::extent::{fits, hold, margin};
+use super::speed_limits::Span;
+use crate::input::{COORDINATES, Point};
+use crate::jobs::arc_generator::circle::Circle;
+use crate::jobs::arc_generator::error::{PathError, Reason};
+use crate::jobs::arc_generator::path::{Course, Piece};
+use crate::jobs::arc_generator::vector::{add, cross, scale, sub, unit};
+use crate::trajectory_controller::cordic_state::GAIN;
+use crate::trajectory_controller::segment_store::WORDS;
+use crate::trajectory_controller::widths::Widths;
+use std::f64::consts::TAU;
+
+/// What a length within a segment becomes a point by. All in guard units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    /// Where a line begins; the centre of an arc.
+    pub base: [i64; COORDINATES],
+    /// A line's way in a guard unit of its length; of an arc the direction from the centre to where
+    /// it begins.
+    pub along: Point,
+    /// Of an arc the direction of its motion where it begins.
+    pub across: Point,
+    /// What an arc has besides.
+    pub arc: Option<Arc>,
+}
+
+/// An arc, in guard units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arc {
+    /// r.
+    pub radius: f64,
+    /// Length of a whole turn: 2πr, but for the rounding of the length.
+    pub turn: f64,
+    /// The radius of the command whose response has radius r at constant speed (¶0004); r before
+    /// [`Path::widen`].
+    pub widened: f64,
+}
+
+impl Segment {
+    /// Its words, each below 2^D. A turn is 1 or longer.
+    #[must_use]
+    pub fn words(&self, widths: &Widths) -> [u64; WORDS] {
+        let word = |value: i64| value as u64 & ((1 << widths.data) - 1);
+        let mut words = [0; WORDS];
+        if let Some(arc) = self.arc {
+            // 2^(n − 4) < turn <= 2^(n − 3): the mantissa has its leading bit set.
+            let n = (arc.turn.log2().ceil() as u32 + 3).min(widths.angle);
+            let mantissa = two_to(widths.curvature + n - 4) / arc.turn;
+            words[0] = 1 | u64::from(widths.angle - n) << 1;
+            words[1] = (mantissa.round() as u64).min((1 << widths.curvature) - 1);
+            let inside = two_to(widths.radius - widths.point);
+            let radius = |radius: f64| (radius / GAIN * inside).round() as u64;
+            words[2] = radius(arc.radius);
+            words[12] = radius(arc.widened);
+        }
+        let unit = two_to(widths.coefficient - 2);
+        for axis in 0..COORDINATES {
+            words[3 + axis] = word(self.base[axis]);
+            words[6 + axis] = word((self.along[axis] * unit).round() as i64);
+            words[9 + axis] = word((self.across[axis] * unit).round() as i64);
+        }
+        words
+    }
+
+    /// Whether both are arcs of one circle, run the same way.
+    #[must_use]
+    pub(super) fn same_circle(&self, other: &Segment) -> bool {
+        let near = |off: f64| off < 1e-6;
+        let axis = |segment: &Segment| cross(segment.along, segment.across);
+        match (self.arc, other.arc) {
+            (Some(one), Some(two)) => {
+                let apart = |k: usize| (self.base[k] - other.base[k]).abs() <= 2;
+                near((one.radius / two.radius - 1.0).abs())
+                    && (0..COORDINATES).all(apart)
+                    && near(crate::plan::norm(sub(axis(self), axis(other))))
+            }
+            _ => false,
+        }
+    }
+
+    /// The point at a length behind its beginning, unrounded.
+    #[must_use]
+    pub fn point(&self, offset: f64) -> Point {
+        let [along, across] = match self.arc {
+            None => [offset, 0.0],
+            Some(arc) => {
+                let (sin, cos) = (TAU * (offset / arc.turn)).sin_cos();
+                [arc.radius * cos, arc.radius * sin]
+            }
+        };
+        let way = add(scale(self.along, along), scale(self.across, across));
+        add(self.base.map(|units| units as f64), way)
+    }
+}
+
+/// A segment where it is on the path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    /// Its points.
+    pub segment: Segment,
+    /// The length at which it begins, in guard units.
+    pub begin: u64,
+    /// Its length in guard units, 1 or more.
+    pub length: u64,
+    /// Direction of motion at its start and at its end.
+    pub directions: [Point; 2],
+    /// The speed that is wanted, in mm/s.
+    pub speed: f64,
+    /// Radius of an arc in mm.
+    pub radius: Option<f64>,
+    /// The piece it comes from.
+    pub piece: usize,
+    /// Line of the input that stands in.
+    pub line: Option<usize>,
+}
+
+/// A path by its length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Path {
+    /// One after the other; never empty.
+    pub stretches: Vec<Stretch>,
+    /// L in guard units.
+    pub length: u64,
+    /// Pieces that begin and end at the same guard unit: they have no segment.
+    pub zero_length: usize,
+}
+
+impl Path {
+    /// The segments of pieces from `start` on, at so many counts per millimetre.
+    ///
+    /// # Errors
+    /// A piece without numbers or speed, or off the path; a coordinate, centre, radius or length
+    /// that does not fit, with the W that it needs; more segments than the memory holds, with the A
+    /// that they need; no piece with a length.
+    pub fn of(
+        start: Point,
+        pieces: &[Piece],
+        counts_per_mm: f64,
+        widths: &Widths,
+    ) -> Result<Self, PathError> {
+        let mut stretches: Vec<Stretch> = Vec::with_capacity(pieces.len());
+        let (mut from, mut length) = (start, 0);
+        for (index, piece) in pieces.iter().enumerate() {
+            let refuse = |reason| PathError {
+                piece: index,
+                line: piece.line,
+                reason,
+            };
+            piece.check(from).map_err(refuse)?;
+            fits(from, piece, counts_per_mm, &widths.record()).map_err(refuse)?;
+            margin(start, piece, counts_per_mm, &widths.record()).map_err(refuse)?;
+            let begin = std::mem::replace(&mut from, piece.to);
+            let unit = counts_per_mm * two_to(widths.guard());
+            let Some((segment, own)) = segment(begin, piece, unit) else {
+                continue;
+            };
+            stretches.push(Stretch {
+                segment,
+                begin: length,
+                length: own,
+                directions: piece.course.directions(begin, piece.to),
+                speed: piece.speed,
+                radius: match &piece.course {
+                    Course::Line => None,
+                    Course::Arc(circle) => Some(circle.radius),
+                },
+                piece: index,
+                line: piece.line,
+            });
+            length += own;
+            let counts = length as f64 / two_to(widths.guard());
+            hold("length", counts, &widths.record()).map_err(refuse)?;
+        }
+        let (count, most) = (stretches.len(), widths.most_segments());
+        if let Some(first) = stretches.get(most) {
+            return Err(PathError {
+                piece: first.piece,
+                line: first.line,
+                reason: Reason::Segments {
+                    count,
+                    most,
+                    needed: count.next_power_of_two().ilog2(),
+                },
+            });
+        }
+        if stretches.is_empty() {
+            return Err(PathError {
+                piece: 0,
+                line: None,
+                reason: Reason::Empty,
+            });
+        }
+        Ok(Path {
+            zero_length: pieces.len() - count,
+            stretches,
+            length,
+        })
+    }
+
+    /// Widens the radius of each arc by c·v²/r, v being the speed on its span; to twice the radius
+    /// at most, where the series that this is the first of is long worthless, and half of it at
+    /// least.
+    pub fn widen(&mut self, spans: &[Span], c: f64) {
+        for (stretch, span) in self.stretches.iter_mut().zip(spans) {
+            if let Some(arc) = &mut stretch.segment.arc {
+                let by = c * span.speed * span.speed / arc.radius;
+                arc.widened = arc.radius + by.clamp(-arc.radius / 2.0, arc.radius);
+            }
+        }
+    }
+
+    /// The segment that a length belongs to: the last that begins at or before it.
+    #[must_use]
+    pub fn index(&self, length: f64) -> usize {
+        let after = |stretch: &Stretch| stretch.begin as f64 <= length;
+        self.stretches.partition_point(after).saturating_sub(1)
+    }
+
+    /// Equations (1), (5): the exact point at a length, in guard units; before the start and behind
+    /// the end, the start and the end.
+    #[must_use]
+    pub fn point(&self, length: f64) -> Point {
+        let length = length.clamp(0.0, self.length as f64);
+        let stretch = &self.stretches[self.index(length)];
+        stretch.segment.point(length - stretch.begin as f64)
+    }
+}
+
+/// The segment of a piece and its length, with so many guard units a millimetre; none where the
+/// piece has no length.
+fn segment(from: Point, piece: &Piece, unit_per_mm: f64) -> Option<(Segment, u64)> {
+    let units = |point: Point| point.map(|mm| (mm * unit_per_mm).round());
+    let (base, along, across, arc, length) = match &piece.course {
+        Course::Line => {
+            let way = sub(units(piece.to), units(from));
+            let length = crate::plan::norm(way).round();
+            let along = scale(way, 1.0 / length);
+            (units(from), along, [0.0; COORDINATES], None, length)
+        }
+        Course::Arc(circle) => {
+            let Circle { centre, axis, .. } = *circle;
+            let length = (circle.length() * unit_per_mm).round();
+            let along = unit(sub(circle.start, centre));
+            let arc = Arc {
+                radius: circle.radius * unit_per_mm,
+                turn: length * (TAU / circle.angle),
+                widened: circle.radius * unit_per_mm,
+            };
+            (units(centre), along, cross(axis, along), Some(arc), length)
+        }
+    };
+    let segment = Segment {
+        base: base.map(|units| units as i64),
+        along,
+        across,
+        arc,
+    };
+    (length >= 1.0).then_some((segment, length as u64))
+}
+
+fn two_to(exponent: u32) -> f64 {
+    f64::from(exponent).exp2()
+}

@@ -1,0 +1,107 @@
+//! The gains of a servo control as words, from what its axis is made of.
+
+use super::settings::Settings;
+use crate::plant::{TwoMassAxis, TwoMassParameters};
+use crate::settings::{Place, SettingError, within};
+use crate::trajectory_controller::widths::Widths;
+use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
+
+/// Gains and bandwidths that are accepted, in 1/s and Hz.
+pub const RATE_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
+
+/// Integral times that are accepted, in ms; 0 for no integral.
+pub const INTEGRAL_RANGE_MS: RangeInclusive<f64> = 0.0..=1e9;
+
+/// Words of servo control 11 of one axis.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct ServoGains {
+    /// Of the position control 27: parts of 2^-(G - 1) a period.
+    pub position: u64,
+    /// Of the speed control 29: torque for a guard unit a period.
+    pub speed: u64,
+    /// Its integral, likewise, a period.
+    pub integral: u64,
+    /// Of the feed-forward 30: torque for a guard unit a period squared.
+    pub inertia: u64,
+    /// Largest torque.
+    pub limit: u64,
+}
+
+impl ServoGains {
+    /// The gains for an axis, whose own faults are those of `place`.
+    ///
+    /// With J = J_motor + J_load the speed control has Kp = J·2πf and an integral of Kp/Ti, and the
+    /// feed-forward has J.
+    ///
+    /// # Errors
+    /// A setting or a parameter of the axis that is out of range, or makes a gain that is no word;
+    /// an axis that is too fast for the clock.
+    pub fn of(
+        settings: &Settings,
+        axis: &TwoMassParameters,
+        place: Place,
+        widths: &Widths,
+    ) -> Result<Self, SettingError> {
+        let period = settings.period_s(widths)?;
+        let of_axis = |error: SettingError| error.at(place);
+        axis.validate().map_err(of_axis)?;
+        let (hz, longest_s) = (settings.clock_hz, axis.longest_tick_s());
+        let tick_s = 1.0 / hz as f64;
+        if tick_s > longest_s {
+            let value = format!("{hz}: a tick of {tick_s:e} s");
+            let allowed = format!("a faster clock: a tick of at most {longest_s:e} s");
+            return Err(SettingError::value("clock_hz", value, allowed));
+        }
+        let (rate, hz) = (settings.position_gain_per_s, settings.speed_hz);
+        within("position_gain_per_s", rate, &RATE_RANGE)?;
+        within("speed_hz", hz, &RATE_RANGE)?;
+        within("integral_ms", settings.integral_ms, &INTEGRAL_RANGE_MS)?;
+        let inertia = axis.motor_inertia_kg_m2 + axis.load_inertia_kg_m2;
+        let full_scale = TwoMassAxis::FULL_SCALE as f64;
+        let units_per_rad = axis.counts_per_rad() * f64::from(widths.guard()).exp2();
+        // Torque word for 1 N·m, of an angle in guard units.
+        let torque = full_scale / axis.max_torque_nm / units_per_rad;
+        let fine = f64::from(widths.torque_fraction).exp2();
+        let speed = inertia * TAU * hz * torque / period * fine;
+        let integral = match settings.integral_ms > 0.0 {
+            true => speed * period / (settings.integral_ms / 1e3),
+            false => 0.0,
+        };
+        let most = (1u64 << widths.servo_gain) - 1;
+        let word = |field, value: f64, exact: f64, grows: bool| {
+            // Written so that NaN fails.
+            if exact >= 0.5 && exact.round() <= most as f64 {
+                return Ok(exact.round() as u64);
+            }
+            // The values that make the least and the greatest word, a thousandth inside.
+            let ends = match grows {
+                true => [value / exact, value / exact * most as f64],
+                false => [value * exact / most as f64, value * exact],
+            };
+            let allowed = format!("{} to {}", short(ends[0] * 1.001), short(ends[1] * 0.999));
+            let problem = format!(
+                "is {value}: its gain is {}, of {most} at most",
+                short(exact)
+            );
+            Err(SettingError::new(field, problem, allowed))
+        };
+        let one = f64::from(widths.servo_gain - 1).exp2();
+        let (torque_nm, inertia) = (axis.max_torque_nm, inertia * torque / (period * period));
+        Ok(ServoGains {
+            position: word("position_gain_per_s", rate, rate * period * one, true)?,
+            speed: word("speed_hz", hz, speed, true)?,
+            integral: match integral > 0.0 {
+                true => word("integral_ms", settings.integral_ms, integral, false)?,
+                false => 0,
+            },
+            inertia: word("max_torque_nm", torque_nm, inertia * fine, false).map_err(of_axis)?,
+            limit: full_scale as u64,
+        })
+    }
+}
+
+/// Four digits of a number.
+fn short(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}

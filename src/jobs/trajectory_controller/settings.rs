@@ -1,0 +1,264 @@
+//! What the trajectory controller is run with: clock and period, machine, motion, reference model.
+
+use super::job::Controller;
+use super::ramp::Slope;
+use crate::input::COORDINATES;
+use crate::jobs::arc_generator::path::Speeds;
+use crate::jobs::arc_generator::settings::SPEED_RANGE_MM_PER_S;
+use crate::plan::ACCELERATION_RANGE;
+use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, whole_ticks, within};
+use crate::trajectory_controller::Rounding;
+pub use crate::trajectory_controller::vector_correction::Correction;
+use crate::trajectory_controller::widths::Widths;
+use std::ops::RangeInclusive;
+
+/// Shortest interpolation period in ticks: two points on the path, three model steps and a servo
+/// step are done within it.
+pub const LEAST_PERIOD_TICKS: u64 = Controller::<COORDINATES>::LEAST_PERIOD;
+
+/// Longest jerk time that is accepted, in ms.
+pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;
+
+/// Settings of a path and its run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Reference clock in Hz.
+    pub clock_hz: u64,
+    /// Δt: interpolation period.
+    pub period_ms: f64,
+    /// Counts per millimetre, of every axis.
+    pub counts_per_mm: f64,
+    /// F: speed of the pieces that have none of their own.
+    pub feed_mm_per_s: Option<f64>,
+    /// Speed of rapid moves.
+    pub rapid_mm_per_s: f64,
+    /// Largest acceleration along the path.
+    pub acceleration_mm_per_s2: f64,
+    /// Largest acceleration across it, on arcs.
+    pub normal_acceleration_mm_per_s2: f64,
+    /// Time in which the acceleration along the path comes and goes; 0 for a trapezoid of speed.
+    pub jerk_time_ms: f64,
+    /// Largest step of the velocity between two segments; 0 stops at every corner.
+    pub corner_mm_per_s: f64,
+    /// K1 in 1/s.
+    pub k1_per_s: f64,
+    /// K2 in 1/s.
+    pub k2_per_s: f64,
+    /// Gains with which the model goes beyond its target are allowed: K2 from 2·K1 on.
+    pub allow_overshoot: bool,
+    /// How the model rounds.
+    pub rounding: Rounding,
+    /// What is added to the path's point.
+    pub correction: Correction,
+    /// Gain of the position controls in 1/s.
+    pub position_gain_per_s: f64,
+    /// Bandwidth of the speed controls in Hz: their gain is 2πf times the inertia.
+    pub speed_hz: f64,
+    /// Integral time of the speed controls; 0 for no integral.
+    pub integral_ms: f64,
+}
+
+impl Default for Settings {
+    /// 1 µm a count, 1 ms at 1 MHz, K1 and K2 of the usual machine tool. Speed control of a fifth of
+    /// the resonance of the usual axis, 87 Hz; position gain and integral of a quarter of that in
+    /// 1/s, 27/s and 37 ms.
+    fn default() -> Self {
+        Self {
+            clock_hz: 1_000_000,
+            period_ms: 1.0,
+            counts_per_mm: 1000.0,
+            feed_mm_per_s: None,
+            rapid_mm_per_s: 200.0,
+            acceleration_mm_per_s2: 2000.0,
+            normal_acceleration_mm_per_s2: 2000.0,
+            jerk_time_ms: 0.0,
+            corner_mm_per_s: 10.0,
+            k1_per_s: 50.0,
+            k2_per_s: 200.0,
+            allow_overshoot: false,
+            rounding: Rounding::default(),
+            correction: Correction::default(),
+            position_gain_per_s: 30.0,
+            speed_hz: 17.0,
+            integral_ms: 40.0,
+        }
+    }
+}
+
+/// What the planner needs of the settings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Guard units of a millimetre.
+    pub units_per_mm: f64,
+    /// Δt in seconds.
+    pub period: f64,
+    /// Ramps, in guard units and seconds.
+    pub slope: Slope,
+    /// Largest acceleration across the path, in mm/s².
+    pub normal_acceleration: f64,
+    /// Largest step of the velocity, in mm/s.
+    pub corner_speed: f64,
+}
+
+/// The reference model's gains as words: parts of 2^(K − 1) a period.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Gains {
+    /// K1·Δt.
+    pub k1: u64,
+    /// K2·Δt.
+    pub k2: u64,
+}
+
+impl Gains {
+    /// K1·Δt and K2·Δt as numbers.
+    #[must_use]
+    pub fn parts(&self, widths: &Widths) -> [f64; 2] {
+        let one = f64::from(widths.gain - 1).exp2();
+        [self.k1, self.k2].map(|word| word as f64 / one)
+    }
+
+    /// c = ½(1/K1² − Δt/K1 − 2/(K1·K2)) in s²: at the speed v a circle of the radius r shrinks by
+    /// c·v²/r, but for higher orders of v/r. Δt/K1 is what the steps of the model are, and is not
+    /// there in a continuous one.
+    #[must_use]
+    pub fn radial_s2(&self, widths: &Widths, period: f64) -> f64 {
+        let [k1, k2] = self.parts(widths);
+        (1.0 / (k1 * k1) - 1.0 / k1 - 2.0 / (k1 * k2)) / 2.0 * period * period
+    }
+}
+
+impl From<&Settings> for Speeds {
+    fn from(settings: &Settings) -> Self {
+        Speeds {
+            wanted: settings.feed_mm_per_s,
+            rapid: settings.rapid_mm_per_s,
+        }
+    }
+}
+
+impl Settings {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// Names the first field at fault, its value and what is allowed.
+    pub fn validate(&self, widths: &Widths) -> Result<(), SettingError> {
+        self.motion(widths)?;
+        self.gains(widths).map(drop)
+    }
+
+    /// Δt as ticks of the clock.
+    ///
+    /// # Errors
+    /// As [`Settings::validate`], of the clock and the period.
+    pub fn period_ticks(&self, widths: &Widths) -> Result<u32, SettingError> {
+        within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
+        let ticks = LEAST_PERIOD_TICKS..=(1 << widths.period) - 1;
+        whole_ticks("period_ms", self.period_ms, self.clock_hz, &ticks)
+    }
+
+    /// Δt in seconds.
+    ///
+    /// # Errors
+    /// As [`Settings::period_ticks`].
+    pub fn period_s(&self, widths: &Widths) -> Result<f64, SettingError> {
+        Ok(f64::from(self.period_ticks(widths)?) / self.clock_hz as f64)
+    }
+
+    /// What the planner needs.
+    ///
+    /// # Errors
+    /// As [`Settings::validate`], of all but the model's gains.
+    pub fn motion(&self, widths: &Widths) -> Result<Motion, SettingError> {
+        let period = self.period_s(widths)?;
+        within("counts_per_mm", self.counts_per_mm, &COUNTS_PER_MM_RANGE)?;
+        let feed = self.feed_mm_per_s.map(|feed| ("feed_mm_per_s", feed));
+        let rapid = ("rapid_mm_per_s", self.rapid_mm_per_s);
+        for (field, speed) in feed.into_iter().chain([rapid]) {
+            within(field, speed, &SPEED_RANGE_MM_PER_S)?;
+        }
+        let accelerations = [
+            ("acceleration_mm_per_s2", self.acceleration_mm_per_s2),
+            (
+                "normal_acceleration_mm_per_s2",
+                self.normal_acceleration_mm_per_s2,
+            ),
+        ];
+        for (field, acceleration) in accelerations {
+            within(field, acceleration, &ACCELERATION_RANGE)?;
+        }
+        within("jerk_time_ms", self.jerk_time_ms, &JERK_TIME_RANGE_MS)?;
+        let corners = 0.0..=*SPEED_RANGE_MM_PER_S.end();
+        within("corner_mm_per_s", self.corner_mm_per_s, &corners)?;
+        let units_per_mm = self.counts_per_mm * f64::from(widths.guard()).exp2();
+        Ok(Motion {
+            units_per_mm,
+            period,
+            slope: Slope {
+                acceleration: self.acceleration_mm_per_s2 * units_per_mm,
+                jerk_time: self.jerk_time_ms / 1e3,
+            },
+            normal_acceleration: self.normal_acceleration_mm_per_s2,
+            corner_speed: self.corner_mm_per_s,
+        })
+    }
+
+    /// The model's gains, to the nearest word; but K1 rounds down where rounding alone would make the
+    /// model go beyond its target.
+    ///
+    /// # Errors
+    /// As [`Settings::validate`], of clock, period and gains. With gains k1, k2 a period: the model is
+    /// stable where k1 < 1 and k2·(2 − k1) < 4, which a word below 2 always is; it does not go beyond
+    /// its target where also 4·k1 <= k2; what rounding makes of it dies out where 2·k1 <= k2; and it
+    /// comes to the count it is told to where k1·k2 is a guard unit or more, with
+    /// [`Rounding::Floor`] two of them.
+    pub fn gains(&self, widths: &Widths) -> Result<Gains, SettingError> {
+        let period = self.period_s(widths)?;
+        let bits = widths.gain - 1;
+        let one = 1u64 << bits;
+        let word = |per_s: f64| (per_s * period * one as f64).round();
+        let [mut k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
+        if 4.0 * self.k1_per_s <= self.k2_per_s {
+            k1 = k1.min((k2 / 4.0).floor());
+        }
+        let refuse = |field, value: f64, word: f64, allowed: [u64; 2], why: &str| {
+            let part = |word: f64| word / one as f64;
+            let [least, most] = allowed.map(|word| part(word as f64));
+            let problem = format!("is {value}: {} a period", part(word));
+            let [first, last] = [least, most].map(|part| part / period);
+            let allowed = format!("{first} to {last}: {least} to {most} a period; {why}");
+            SettingError::new(field, problem, allowed)
+        };
+        // What k1·k2 must be, as a product of words.
+        let exact = match self.rounding {
+            Rounding::Nearest => 1u64 << (2 * bits - widths.guard()),
+            Rounding::Floor => 2 << (2 * bits - widths.guard()),
+        };
+        // The K1 that some K2 goes with.
+        let most_k2 = 2 * one - 1;
+        let damping = match self.allow_overshoot {
+            true => 2,
+            false => 4,
+        };
+        let most_k1 = most_k2 / damping;
+        let allowed = [exact.div_ceil(most_k2), most_k1];
+        // Written so that NaN fails.
+        if !(k1 >= allowed[0] as f64 && k1 <= allowed[1] as f64) {
+            let why = "there is a k2_per_s for it";
+            return Err(refuse("k1_per_s", self.k1_per_s, k1, allowed, why));
+        }
+        let first = k1 as u64;
+        let allowed = [(damping * first).max(exact.div_ceil(first)), most_k2];
+        if !(k2 >= allowed[0] as f64 && k2 <= allowed[1] as f64) {
+            let why = match (damping * first >= exact.div_ceil(first), damping) {
+                (true, 4) => "4 times k1_per_s or more, or 2 times with allow_overshoot",
+                (true, _) => "2 times k1_per_s or more",
+                (false, _) => "with less it would not come to its target",
+            };
+            return Err(refuse("k2_per_s", self.k2_per_s, k2, allowed, why));
+        }
+        Ok(Gains {
+            k1: first,
+            k2: k2 as u64,
+        })
+    }
+}
