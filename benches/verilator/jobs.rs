@@ -4,11 +4,9 @@
 use super::ours::{Outputs, Port};
 use super::stimulus::{Recorder, Stimulus};
 use motion_rtl::arc_generator::{self, ArcGenerator};
-use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::input::{Drawing, read_path};
 use motion_rtl::jobs;
 use motion_rtl::jobs::arc_generator::job::arc_generator;
-use motion_rtl::jobs::arc_generator::path::{Speeds, from_drawing, from_points};
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::lead_angle::job::{ShiftLead, positioner};
@@ -21,9 +19,11 @@ use motion_rtl::lead_angle::Compensator;
 use motion_rtl::linear_interpolator::{Controller, LinearInterpolator};
 use motion_rtl::logic::Sim;
 use motion_rtl::machine::Machine;
+use motion_rtl::path::pieces::{Speeds, from_drawing, from_points};
 use motion_rtl::plan::MotionLimits;
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::pulse_interpolator::{self, Group, Variant};
+use motion_rtl::scenario::{Loaded, Scenario};
 use motion_rtl::trajectory_controller::{self};
 use std::path::Path;
 

@@ -2,10 +2,10 @@
 
 use super::Failure;
 use super::source::{Source, drawing_fault};
-use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault, Point};
-use motion_rtl::jobs::arc_generator::error::{PathError, Reason};
-use motion_rtl::jobs::arc_generator::path::{Piece, Speeds, Taught, from_drawing, from_points};
+use motion_rtl::path::error::{PathError, Reason};
+use motion_rtl::path::pieces::{Piece, Speeds, Taught, from_drawing, from_points};
+use motion_rtl::scenario::Loaded;
 
 /// Where the path begins if nothing says so.
 const ORIGIN: Point = [0.0; 3];

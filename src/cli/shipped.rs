@@ -1,8 +1,8 @@
 //! Scenarios that ship with the crate, with the inputs of those that have one; the first runs where
 //! none is named.
 
-use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault, Options, read_text_with};
+use motion_rtl::scenario::Loaded;
 use std::path::Path;
 
 /// A scenario and its input, by the names they have in the crate.

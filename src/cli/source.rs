@@ -4,9 +4,9 @@ use super::shipped::{self, SHIPPED, Shipped};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
-use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
 use motion_rtl::plan::{FEED_RANGE, PlanError};
+use motion_rtl::scenario::Loaded;
 use std::path::{Path, PathBuf};
 
 /// What to run.

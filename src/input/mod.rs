@@ -1,4 +1,4 @@
-//! What comes in: drawings (HPGL), part programs (G-code), position logs (CSV) and scenario files.
+//! What comes in: drawings (HPGL), part programs (G-code) and position logs (CSV).
 //!
 //! A reader of moves turns its text into a [`Drawing`], every reader what it cannot use into a
 //! [`Fault`] that names the file, the line, the field, what was wrong and what is allowed, and that
@@ -10,7 +10,6 @@ mod file;
 pub mod gcode;
 pub mod hpgl;
 pub mod position_log;
-pub mod scenario;
 mod track;
 
 pub(crate) use fault::Faults;

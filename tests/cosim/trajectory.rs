@@ -4,10 +4,10 @@
 use super::tools::{Simulator, complete, write};
 use motion_rtl::arc_generator::Rounding;
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::path::{Speeds, Taught, from_points};
 use motion_rtl::jobs::trajectory_controller::job::{Controller, Program, play};
 use motion_rtl::jobs::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
 use motion_rtl::kernel::Declarations;
+use motion_rtl::path::pieces::{Speeds, Taught, from_points};
 use motion_rtl::plant::{TwoMassAxis, TwoMassParameters};
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::trajectory_controller::widths::Widths;

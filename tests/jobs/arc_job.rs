@@ -5,12 +5,13 @@ use motion_rtl::arc_generator::widths::Widths;
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::bounds::{command_error, rotation_error};
 use motion_rtl::jobs::arc_generator::job::{arc_generator, play};
-use motion_rtl::jobs::arc_generator::path::{Taught, from_points};
 use motion_rtl::jobs::arc_generator::prepare::{Timing, prepare};
 use motion_rtl::jobs::arc_generator::prepared::{Prepared, Segment, Shape};
-use motion_rtl::jobs::arc_generator::record::{Record, records};
+use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::reference::{Decoded, commands};
 use motion_rtl::jobs::arc_generator::settings::{LEAST_SAMPLE_TICKS, Settings, ShortPieces};
+use motion_rtl::path::pieces::{Taught, from_points};
+use motion_rtl::path::record::Record;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

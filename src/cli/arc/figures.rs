@@ -2,11 +2,11 @@
 
 use super::Job;
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::circle::Circle;
 use motion_rtl::jobs::arc_generator::conventional::Conventional;
 use motion_rtl::jobs::arc_generator::job::Played;
 use motion_rtl::jobs::arc_generator::measure::Measured;
 use motion_rtl::jobs::arc_generator::prepared::{ArcReport, PieceReport, Segment, Shape};
+use motion_rtl::path::circle::Circle;
 
 /// The figures of a run.
 #[derive(Debug)]

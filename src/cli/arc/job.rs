@@ -4,15 +4,16 @@ use crate::cli::Failure;
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
 use motion_rtl::arc_generator::widths::Widths;
-use motion_rtl::input::scenario::Loaded;
-use motion_rtl::input::scenario::arc_generator::Scenario;
 use motion_rtl::input::{Drawing, Point};
-use motion_rtl::jobs::arc_generator::error::PathError;
-use motion_rtl::jobs::arc_generator::path::Speeds;
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::prepared::Prepared;
-use motion_rtl::jobs::arc_generator::record::{Record, records};
+use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::settings::Settings;
+use motion_rtl::path::error::PathError;
+use motion_rtl::path::pieces::Speeds;
+use motion_rtl::path::record::Record;
+use motion_rtl::scenario::Loaded;
+use motion_rtl::scenario::arc_generator::Scenario;
 
 /// A path ready to be run.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use motion_rtl::blocks::CoefficientControl;
 use motion_rtl::jobs::arc_generator::conventional::{
     Conventional, DIFFERENCE_ENGINE, blend, blend_terms, rotation,
 };
-use motion_rtl::jobs::arc_generator::vector::rodrigues;
+use motion_rtl::path::vector::rodrigues;
 use serde::Serialize;
 
 /// Ticks of a step of the rotation.

@@ -7,7 +7,7 @@ use super::rows::bound;
 use super::view::path;
 use motion_rtl::jobs::arc_generator::measure::Measured;
 use motion_rtl::jobs::arc_generator::prepared::Segment;
-use motion_rtl::jobs::arc_generator::vector::distance;
+use motion_rtl::path::vector::distance;
 use motion_rtl::picture::{Curve, Panel, Picture};
 
 pub const LINE: &str = "#0072b2";

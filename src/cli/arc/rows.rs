@@ -7,7 +7,7 @@ use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::bounds::command_error;
 use motion_rtl::jobs::arc_generator::measure::{ArcMeasured, BlendMeasured, Measured};
 use motion_rtl::jobs::arc_generator::prepared::{Kind, PieceReport, Segment};
-use motion_rtl::jobs::arc_generator::vector::angle_between;
+use motion_rtl::path::vector::angle_between;
 use serde::Serialize;
 
 /// A figure that was measured, and what the closed form says.

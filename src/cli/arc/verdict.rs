@@ -6,7 +6,7 @@ use super::rows::{ArcRow, bound};
 use crate::cli::report::first;
 use motion_rtl::arc_generator::widths::Widths;
 use motion_rtl::jobs::arc_generator::job::Played;
-use motion_rtl::jobs::arc_generator::vector::distance;
+use motion_rtl::path::vector::distance;
 
 /// What is wrong with a run; empty where nothing is.
 pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]) -> Vec<String> {
@@ -87,9 +87,9 @@ mod tests {
     use super::*;
     use crate::cli::arc::rows::arcs;
     use crate::cli::source::{Input, Source};
-    use motion_rtl::input::scenario::Scenario;
     use motion_rtl::jobs::arc_generator::job::Command;
     use motion_rtl::jobs::arc_generator::reference;
+    use motion_rtl::scenario::Scenario;
 
     /// The weld seam that ships, and what its records say.
     fn seam() -> (Job, Played) {

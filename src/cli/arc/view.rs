@@ -5,7 +5,7 @@ use super::figures::Figures;
 use super::picture::{ARC, ARCS_MARKED, BLEND, EXPECTED, GAP, LINE, Points};
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::prepared::Kind;
-use motion_rtl::jobs::arc_generator::vector::distance;
+use motion_rtl::path::vector::distance;
 use motion_rtl::picture::{Curve, Panel};
 
 const FLOOR: &str = "#dcdcdc";

@@ -4,9 +4,9 @@ use crate::cli::Failure;
 use crate::cli::source::Source;
 use motion_rtl::input::Fault;
 use motion_rtl::input::position_log::{Columns, PositionLog, Sample};
-use motion_rtl::input::scenario::Loaded;
 use motion_rtl::jobs::lead_angle::replay::settings_for;
 use motion_rtl::jobs::lead_angle::settings::{Settings, TARGET_RANGE_COUNTS};
+use motion_rtl::scenario::Loaded;
 use motion_rtl::settings::within;
 use std::ops::RangeInclusive;
 

@@ -2,12 +2,12 @@
 
 use crate::cli::Failure;
 use crate::cli::source::{Source, compiling, drawing_fault, plan_fault};
-use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault};
 use motion_rtl::jobs::linear_interpolator::settings::Settings;
 use motion_rtl::jobs::linear_interpolator::targets::{
     MOST_TARGETS, REACH_COUNTS, TargetError, Targets, compile,
 };
+use motion_rtl::scenario::Loaded;
 
 /// An input ready to be run.
 #[derive(Debug)]

@@ -4,13 +4,13 @@ use crate::cli::Failure;
 use crate::cli::pieces::{SpeedKeys, fault};
 use crate::cli::pulse::table_fault;
 use crate::cli::source::{Source, compiling};
-use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault};
-use motion_rtl::jobs::arc_generator::path::Speeds;
 use motion_rtl::jobs::machine::program::ProgramError;
 use motion_rtl::jobs::machine::{Program, Settings};
 use motion_rtl::jobs::pulse_interpolator::TableError;
 use motion_rtl::jobs::trajectory_controller::program::ProgramError as TrajectoryError;
+use motion_rtl::path::pieces::Speeds;
+use motion_rtl::scenario::Loaded;
 use motion_rtl::settings::{Place, SettingError};
 
 /// An input ready to be run.

@@ -4,10 +4,10 @@
 use super::Job;
 use crate::cli::magnification::magnification;
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::path::Course;
-use motion_rtl::jobs::arc_generator::vector::{distance, sub};
 use motion_rtl::jobs::machine::job::Played;
 use motion_rtl::jobs::machine::measure::{Beside, Measured};
+use motion_rtl::path::pieces::Course;
+use motion_rtl::path::vector::{distance, sub};
 use motion_rtl::picture::{Curve, Panel, Picture};
 use std::f64::consts::TAU;
 

@@ -1,9 +1,9 @@
 //! The figures of a run: of each piece of the path, of each machine's end, of the pen lift.
 
 use super::Job;
-use motion_rtl::jobs::arc_generator::path::Course;
 use motion_rtl::jobs::machine::job::Played;
 use motion_rtl::jobs::machine::measure::{Ends, Farthest, Measured, PieceMeasured};
+use motion_rtl::path::pieces::Course;
 use serde::Serialize;
 use std::ops::RangeInclusive;
 

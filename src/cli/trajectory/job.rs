@@ -4,13 +4,13 @@ use crate::cli::Failure;
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
 use motion_rtl::input::Drawing;
-use motion_rtl::input::scenario::Loaded;
-use motion_rtl::input::scenario::trajectory_controller::Scenario;
-use motion_rtl::jobs::arc_generator::error::PathError;
-use motion_rtl::jobs::arc_generator::path::Speeds;
 use motion_rtl::jobs::trajectory_controller::program::{Program, ProgramError};
 use motion_rtl::jobs::trajectory_controller::settings::Settings;
+use motion_rtl::path::error::PathError;
+use motion_rtl::path::pieces::Speeds;
 use motion_rtl::plant::TwoMassParameters;
+use motion_rtl::scenario::Loaded;
+use motion_rtl::scenario::trajectory_controller::Scenario;
 use motion_rtl::settings::{Place, SettingError};
 use motion_rtl::trajectory_controller::widths::Widths;
 

@@ -5,9 +5,9 @@ use super::Job;
 use super::runs::{Run, Runs};
 use crate::cli::magnification::magnification;
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::vector::{distance, sub};
 use motion_rtl::jobs::trajectory_controller::measure::Deviation;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
+use motion_rtl::path::vector::{distance, sub};
 use motion_rtl::picture::{Curve, Panel, Picture};
 
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);

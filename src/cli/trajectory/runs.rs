@@ -2,11 +2,11 @@
 
 use super::Job;
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::vector::distance;
 use motion_rtl::jobs::trajectory_controller::closed::{ClosedForms, Steady};
 use motion_rtl::jobs::trajectory_controller::job::Played;
 use motion_rtl::jobs::trajectory_controller::measure::Measured;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
+use motion_rtl::path::vector::distance;
 
 /// The runs of a path.
 #[derive(Debug)]

@@ -57,9 +57,9 @@ mod tests {
     use super::*;
     use crate::cli::source::{Input, Source};
     use crate::cli::trajectory::CORRECTIONS;
-    use motion_rtl::input::scenario::Scenario;
     use motion_rtl::jobs::trajectory_controller::job::{Period, Played};
     use motion_rtl::jobs::trajectory_controller::profile_record::lengths;
+    use motion_rtl::scenario::Scenario;
     use motion_rtl::trajectory_controller::widths::Widths;
     use std::array::from_fn;
 

@@ -132,7 +132,12 @@ impl Graph {
             for write in &block.writes {
                 let enable = making.at(write.enable, &known);
                 unite(&mut set, &making.set(enable));
-                // What is written does not matter while nothing is.
+                // A block whose word is written already has nothing to do until it writes another one,
+                // or elsewhere.
+                for moved in [Some(write.data), write.address].into_iter().flatten() {
+                    let moved = making.at(moved, &known);
+                    unite(&mut set, &making.set(moved));
+                }
                 roots.push(Root::Write { enable });
             }
             edges.push(set);

@@ -4,10 +4,10 @@
 //! the matrix with it: a sine, a cosine and Rodrigues' formula each time. In return it stays on the
 //! circle while it accelerates.
 
-use super::circle::Circle;
 use super::prepare::Timing;
-use super::vector::{Matrix, sub};
 use crate::input::Point;
+use crate::path::circle::Circle;
+use crate::path::vector::{Matrix, sub};
 use std::ops::{Add, AddAssign};
 
 /// Operations of floating point or of words.

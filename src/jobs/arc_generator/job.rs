@@ -1,11 +1,11 @@
 //! A path on the arc generator: the control computer that feeds it, and the commands that come out.
 
-use super::record::Record;
-use super::record_writer::RecordWriter;
 use crate::arc_generator::{ArcGenerator, Rounding, generator};
 use crate::input::COORDINATES;
 use crate::kernel::{At, Observer, RunError, Simulator};
 use crate::logic::Sim;
+use crate::path::record::Record;
+use crate::path::record_writer::RecordWriter;
 
 /// Width of a data word of the generator that plays a job.
 const D: usize = 42;

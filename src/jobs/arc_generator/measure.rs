@@ -1,8 +1,8 @@
 //! What came out: measured from position commands, sample by sample.
 
 use super::prepared::{Kind, Prepared, Shape};
-use super::vector::{add, angle_between, distance, norm, scale, sub};
 use crate::input::{COORDINATES, Point};
+use crate::path::vector::{add, angle_between, distance, norm, scale, sub};
 
 /// Degree of the polynomial that is laid through the samples at a joint: that of a blend.
 const DEGREE: usize = 4;

@@ -1,13 +1,13 @@
 //! Pieces as segments: every piece gets the speed at which a whole number of samples lies between
 //! its blends.
 
-use super::circle::{Circle, CircleError};
-use super::error::{PathError, Reason};
-use super::path::{Course, Piece};
 use super::prepared::{ArcReport, PieceReport, Prepared, Segment, Shape};
 use super::settings::ShortPieces;
-use super::vector::{add, angle_between, scale, sub, unit};
 use crate::input::Point;
+use crate::path::circle::{Circle, CircleError};
+use crate::path::error::{PathError, Reason};
+use crate::path::pieces::{Course, Piece};
+use crate::path::vector::{add, angle_between, scale, sub, unit};
 
 /// Speeds that exceed what fits by no more than this part are taken for it: the rounding of numbers
 /// that were printed and read again.

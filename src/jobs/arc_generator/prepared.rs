@@ -1,10 +1,10 @@
 //! A path as it is generated: segments, one after the other, each of a whole number of samples.
 
-use super::circle::Circle;
-use super::path::Course;
 use super::prepare::Timing;
-use super::vector::{distance, norm, sub};
 use crate::input::Point;
+use crate::path::circle::Circle;
+use crate::path::pieces::Course;
+use crate::path::vector::{distance, norm, sub};
 
 /// What a path became.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,44 +1,15 @@
-//! Segments as records: 32 words each, as the record memory holds them.
-//!
-//! | word | blend, line | arc |
-//! |---|---|---|
-//! | 0 | bits 1..0 kind, bit 2 ends at rest, from bit 3 on samples | the same |
-//! | 1 | modulus: M⁴ of a blend, N of a line | 1 |
-//! | 2, 3, 4 | where it begins | the vector GP0 |
-//! | 5, 6, 7 | 0 | the centre G |
-//! | 8c + 8 … | of coordinate c: whole and part of the differences 1 to 4 | row c of R, then 0 |
-//!
-//! Points are in guard units of 2^-G count, coefficients in units of 2^-B; a signed word is cut to
-//! its bits. Differences are exact: whole·modulus + part.
+//! Segments as records.
 
 use super::bounds::rotation_error;
-use super::circle::Circle;
-use super::error::{PathError, Reason};
 use super::prepared::{Prepared, Segment, Shape};
-use super::vector::{rodrigues, scale};
 use crate::arc_generator::Rounding;
 use crate::arc_generator::widths::Widths;
 use crate::input::{COORDINATES, Point};
+use crate::path::circle::Circle;
+use crate::path::error::{PathError, Reason};
+use crate::path::record::{Record, WORDS, coordinate_word};
+use crate::path::vector::{rodrigues, scale};
 use fixed::types::I64F64;
-
-/// Words of a record.
-pub const WORDS: usize = 32;
-
-/// Words of a coordinate from its [`coordinate_word`] on.
-const COORDINATE_WORDS: usize = 8;
-
-/// One segment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Record {
-    /// Its words, each below 2^D.
-    pub words: [u64; WORDS],
-}
-
-/// First word of the differences or of the matrix row of a coordinate.
-#[must_use]
-pub fn coordinate_word(coordinate: usize) -> usize {
-    COORDINATE_WORDS * (coordinate + 1)
-}
 
 /// The records of a path, at so many counts per millimetre.
 ///

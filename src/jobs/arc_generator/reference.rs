@@ -1,10 +1,10 @@
 //! The samples of records by plain integer arithmetic: every sample of a blend or line from its
 //! polynomial by a division, every rotation by whole products.
 
-use super::record::{Record, coordinate_word};
 use crate::arc_generator::Rounding;
 use crate::arc_generator::widths::Widths;
 use crate::input::COORDINATES;
+use crate::path::record::{Record, coordinate_word};
 
 /// What a record says, in guard units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,6 +3,7 @@
 use super::prepare::Timing;
 use crate::arc_generator::widths::Widths;
 use crate::arc_generator::{ArcGenerator, Rounding};
+use crate::path::pieces::Speeds;
 use crate::settings::{
     CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, whole, whole_ticks, within,
 };
@@ -146,5 +147,14 @@ impl Settings {
             SettingError::value(field, format!("{ms}: {} samples", 2.0 * halves), allowed)
         })?;
         Ok(2 * half)
+    }
+}
+
+impl From<&Settings> for Speeds {
+    fn from(settings: &Settings) -> Self {
+        Speeds {
+            wanted: settings.speed_mm_per_s,
+            rapid: settings.rapid_mm_per_s,
+        }
     }
 }

@@ -8,7 +8,6 @@
 use super::job::Plant;
 use super::program::{Program, Way};
 use super::settings::Settings;
-use crate::jobs::arc_generator::record_writer::RecordWriter;
 use crate::jobs::lead_angle::settings::{self as lead_angle, SPEED_UNIT_COUNTS_PER_S};
 use crate::jobs::pulse_interpolator::ControlComputer;
 use crate::jobs::trajectory_controller::path_writer::PathWriter;
@@ -16,6 +15,7 @@ use crate::kernel::{At, Sample, Simulator, Watcher, zero};
 use crate::logic::Sim;
 use crate::machine::circuit::In;
 use crate::machine::{enables, ports};
+use crate::path::record_writer::RecordWriter;
 use std::array::from_fn;
 
 /// Address width of the pattern memory.

@@ -4,12 +4,8 @@
 use super::settings::Settings;
 use crate::arc_generator::widths::Widths as ArcWidths;
 use crate::input::{Drawing, Point};
-use crate::jobs::arc_generator::circle::Circle;
-use crate::jobs::arc_generator::error::{PathError, Reason};
-use crate::jobs::arc_generator::path::{Course, Piece, Speeds, from_drawing};
 use crate::jobs::arc_generator::prepare::prepare;
-use crate::jobs::arc_generator::record::{Record, records as arc_records};
-use crate::jobs::arc_generator::vector::{add, sub};
+use crate::jobs::arc_generator::record::records as arc_records;
 use crate::jobs::linear_interpolator::profile::{SLOWEST, SPEED_ONE, speed_word};
 use crate::jobs::pulse_interpolator::{Report, Table, TableError, compile};
 use crate::jobs::trajectory_controller::planner::plan;
@@ -20,6 +16,11 @@ use crate::jobs::trajectory_controller::program::{
 };
 use crate::jobs::trajectory_controller::ramp::Slope;
 use crate::jobs::trajectory_controller::speed_limits::{Span, spans};
+use crate::path::circle::Circle;
+use crate::path::error::{PathError, Reason};
+use crate::path::pieces::{Course, Piece, Speeds, from_drawing};
+use crate::path::record::Record;
+use crate::path::vector::{add, sub};
 use crate::settings::SettingError;
 use crate::trajectory_controller::Widths;
 

@@ -3,8 +3,8 @@
 
 use crate::arc_generator::widths::Widths as RecordWidths;
 use crate::input::{COORDINATES, Point};
-use crate::jobs::arc_generator::error::Reason;
-use crate::jobs::arc_generator::path::{Course, Piece};
+use crate::path::error::Reason;
+use crate::path::pieces::{Course, Piece};
 
 /// Checks that a piece's points, centre and radius are words.
 pub(super) fn fits(

@@ -3,8 +3,8 @@
 use super::job::Ports;
 use super::path_writer::PathWriter;
 use super::program::Program;
-use crate::jobs::arc_generator::record_writer::RecordWriter;
 use crate::kernel::zero;
+use crate::path::record_writer::RecordWriter;
 use std::array::from_fn;
 
 /// Records of the profile that wait before the path begins, where there are so many.

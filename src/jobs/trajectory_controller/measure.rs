@@ -3,7 +3,7 @@
 use super::job::{Period, Played, Program};
 use super::segments::{Path, Segment};
 use crate::input::Point;
-use crate::jobs::arc_generator::vector::{distance, dot, norm, scale, sub};
+use crate::path::vector::{distance, dot, norm, scale, sub};
 use crate::trajectory_controller::widths::Widths;
 use std::array::from_fn;
 use std::f64::consts::TAU;

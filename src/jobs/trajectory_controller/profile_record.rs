@@ -14,8 +14,8 @@
 //! L.
 
 use super::profile::{Cubic, Profile};
-use crate::jobs::arc_generator::record::{Record, WORDS, coordinate_word};
 use crate::jobs::arc_generator::reference::Decoded;
+use crate::path::record::{Record, WORDS, coordinate_word};
 use crate::trajectory_controller::widths::Widths;
 
 /// The most samples of a record: within them, third differences that are rounded to 2^-40 do not

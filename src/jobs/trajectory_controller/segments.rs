@@ -19,10 +19,10 @@
 use super::extent::{fits, hold, margin};
 use super::speed_limits::Span;
 use crate::input::{COORDINATES, Point};
-use crate::jobs::arc_generator::circle::Circle;
-use crate::jobs::arc_generator::error::{PathError, Reason};
-use crate::jobs::arc_generator::path::{Course, Piece};
-use crate::jobs::arc_generator::vector::{add, cross, scale, sub, unit};
+use crate::path::circle::Circle;
+use crate::path::error::{PathError, Reason};
+use crate::path::pieces::{Course, Piece};
+use crate::path::vector::{add, cross, scale, sub, unit};
 use crate::trajectory_controller::cordic_state::GAIN;
 use crate::trajectory_controller::segment_store::WORDS;
 use crate::trajectory_controller::widths::Widths;

@@ -3,8 +3,8 @@
 use super::job::Controller;
 use super::ramp::Slope;
 use crate::input::COORDINATES;
-use crate::jobs::arc_generator::path::Speeds;
 use crate::jobs::arc_generator::settings::SPEED_RANGE_MM_PER_S;
+use crate::path::pieces::Speeds;
 use crate::plan::ACCELERATION_RANGE;
 use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, whole_ticks, within};
 use crate::trajectory_controller::Rounding;

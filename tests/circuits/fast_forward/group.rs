@@ -2,7 +2,6 @@
 
 use crate::common;
 use motion_rtl::check::Random;
-use motion_rtl::input::scenario::{Loaded, Scenario};
 use motion_rtl::input::{Drawing, read_text};
 use motion_rtl::jobs::pulse_interpolator::job::{fast_forward, group, play};
 use motion_rtl::jobs::pulse_interpolator::{Settings, compile};
@@ -10,6 +9,7 @@ use motion_rtl::kernel::{Observer, RunError, Sample, Simulator, pack};
 use motion_rtl::logic::Sim;
 use motion_rtl::pulse_interpolator::group::{Group, In};
 use motion_rtl::pulse_interpolator::{Pattern, Variant};
+use motion_rtl::scenario::{Loaded, Scenario};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 

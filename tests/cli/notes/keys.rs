@@ -1,6 +1,6 @@
 //! The keys of scenarios stand in the notes, with their defaults.
 
-use motion_rtl::input::scenario::Loaded;
+use motion_rtl::scenario::Loaded;
 use std::collections::BTreeSet;
 
 const CIRCUITS: [&str; 6] = [

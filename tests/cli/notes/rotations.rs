@@ -3,7 +3,6 @@
 use motion_rtl::arc_generator::Rounding;
 use motion_rtl::arc_generator::widths::Widths;
 use motion_rtl::jobs::arc_generator::bounds::rotation_error;
-use motion_rtl::jobs::arc_generator::circle::Circle;
 use motion_rtl::jobs::arc_generator::conventional::{
     Conventional, DIFFERENCE_ENGINE, Operations, blend, blend_terms, rotation,
 };
@@ -12,7 +11,8 @@ use motion_rtl::jobs::arc_generator::prepared::{Prepared, Segment, Shape};
 use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::reference::Decoded;
 use motion_rtl::jobs::arc_generator::settings::ShortPieces;
-use motion_rtl::jobs::arc_generator::vector::{distance, rodrigues, sub};
+use motion_rtl::path::circle::Circle;
+use motion_rtl::path::vector::{distance, rodrigues, sub};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 

@@ -3,8 +3,8 @@
 
 use motion_rtl::compare::{Map, Settings, compare, template};
 use motion_rtl::input::position_log::{self, Columns};
-use motion_rtl::input::scenario::Loaded;
 use motion_rtl::input::{Drawing, Fault, gcode, hpgl};
+use motion_rtl::scenario::Loaded;
 use std::fs;
 use std::path::PathBuf;
 use std::process;

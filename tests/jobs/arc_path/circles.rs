@@ -2,9 +2,9 @@
 
 use super::*;
 use motion_rtl::input::{self, Drawing, Move};
-use motion_rtl::jobs::arc_generator::circle::CircleError;
-use motion_rtl::jobs::arc_generator::path::from_drawing;
 use motion_rtl::jobs::arc_generator::settings::Settings;
+use motion_rtl::path::circle::CircleError;
+use motion_rtl::path::pieces::from_drawing;
 use std::f64::consts::{PI, TAU};
 
 fn points() -> impl Strategy<Value = Point> {
@@ -211,7 +211,7 @@ fn moves_of_a_drawing_have_their_speeds() {
         Ok(pieces.iter().map(|piece| piece.speed).collect())
     };
     let mut settings = Settings::default();
-    let error: motion_rtl::jobs::arc_generator::error::PathError = match speeds(&settings) {
+    let error: motion_rtl::path::error::PathError = match speeds(&settings) {
         Ok(speeds) => {
             let _: Vec<f64> = speeds;
             panic!("no speed")

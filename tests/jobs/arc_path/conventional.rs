@@ -4,7 +4,7 @@ use super::*;
 use motion_rtl::jobs::arc_generator::conventional::{
     Conventional, DIFFERENCE_ENGINE, Operations, blend, blend_terms, rotation,
 };
-use motion_rtl::jobs::arc_generator::vector::rodrigues;
+use motion_rtl::path::vector::rodrigues;
 
 fn count(multiplications: u64, additions: u64, trigonometric: u64) -> Operations {
     Operations {

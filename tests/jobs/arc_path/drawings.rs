@@ -4,11 +4,11 @@ use super::*;
 use motion_rtl::arc_generator::Rounding;
 use motion_rtl::arc_generator::widths::Widths;
 use motion_rtl::input::read_text;
-use motion_rtl::jobs::arc_generator::path::from_drawing;
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::reference::commands;
 use motion_rtl::jobs::arc_generator::settings::Settings;
+use motion_rtl::path::pieces::from_drawing;
 
 const WIDTHS: Widths = Widths::FULL;
 

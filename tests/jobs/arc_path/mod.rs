@@ -13,11 +13,11 @@ mod scenario;
 mod settings;
 
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::circle::Circle;
-use motion_rtl::jobs::arc_generator::path::{Course, Piece};
 use motion_rtl::jobs::arc_generator::prepare::Timing;
 use motion_rtl::jobs::arc_generator::prepared::{Prepared, Segment, Shape};
 use motion_rtl::jobs::arc_generator::settings::ShortPieces;
+use motion_rtl::path::circle::Circle;
+use motion_rtl::path::pieces::{Course, Piece};
 use proptest::prelude::*;
 
 /// 1 ms, with so many samples in a blend.

@@ -3,7 +3,7 @@
 use super::*;
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::prepared::{Kind, Place};
-use motion_rtl::jobs::arc_generator::vector::{apply, rodrigues};
+use motion_rtl::path::vector::{apply, rodrigues};
 use std::f64::consts::TAU;
 
 /// Velocity at the start and at the end of a segment, from its points alone.

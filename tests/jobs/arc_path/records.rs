@@ -4,8 +4,9 @@ use super::*;
 use motion_rtl::arc_generator::Rounding;
 use motion_rtl::arc_generator::widths::Widths;
 use motion_rtl::jobs::arc_generator::prepare::prepare;
-use motion_rtl::jobs::arc_generator::record::{Record, records};
+use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::reference::{Decoded, commands};
+use motion_rtl::path::record::Record;
 
 const FULL: Widths = Widths::FULL;
 

@@ -3,11 +3,11 @@
 use super::*;
 use motion_rtl::arc_generator::Rounding;
 use motion_rtl::arc_generator::widths::Widths;
-use motion_rtl::jobs::arc_generator::error::PathError;
-use motion_rtl::jobs::arc_generator::path::{Taught, from_points};
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::settings::Settings;
+use motion_rtl::path::error::PathError;
+use motion_rtl::path::pieces::{Taught, from_points};
 
 const A: Point = [0.0; 3];
 const B: Point = [3.0, 3.0, 0.0];

@@ -2,11 +2,11 @@
 
 use motion_rtl::arc_generator::Rounding;
 use motion_rtl::arc_generator::widths::Widths;
-use motion_rtl::input::scenario::arc_generator::Scenario as Keys;
-use motion_rtl::input::scenario::{Loaded, Scenario};
-use motion_rtl::jobs::arc_generator::path::{Taught, from_points};
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::settings::{Settings, ShortPieces};
+use motion_rtl::path::pieces::{Taught, from_points};
+use motion_rtl::scenario::arc_generator::Scenario as Keys;
+use motion_rtl::scenario::{Loaded, Scenario};
 
 const HEAD: &str = "circuit = \"arc_generator\"\n";
 
@@ -145,7 +145,7 @@ fn faults_of_settings_and_pieces_have_their_lines() {
     );
     settings.acceleration_ms = 64.0;
     let mut taught = keys.taught().unwrap();
-    let shown = |error: motion_rtl::jobs::arc_generator::error::PathError| {
+    let shown = |error: motion_rtl::path::error::PathError| {
         let (reason, table) = (error.reason, ("piece", error.piece));
         let (problem, allowed) = (reason.to_string(), reason.allowed());
         let fault = loaded.table_fault(table, reason.field(), problem, allowed);

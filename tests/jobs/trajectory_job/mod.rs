@@ -6,10 +6,10 @@ mod paths;
 mod refusals;
 mod servo;
 
-use motion_rtl::jobs::arc_generator::circle::Circle;
-use motion_rtl::jobs::arc_generator::path::{Course, Piece};
 use motion_rtl::jobs::trajectory_controller::job::{Controller, Played, Program, play};
 use motion_rtl::jobs::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
+use motion_rtl::path::circle::Circle;
+use motion_rtl::path::pieces::{Course, Piece};
 use motion_rtl::plant::{TwoMassAxis, TwoMassParameters};
 use motion_rtl::trajectory_controller::widths::Widths;
 

@@ -346,6 +346,55 @@ fn count(registers: &[Counting], seeds: &[Seed], memories: &[[u16; 4]], leaves: 
     flat
 }
 
+/// A block that writes a word that is there already has nothing to do, until another block moves
+/// where it writes, or what.
+#[test]
+fn a_write_that_moves_in_a_block_that_sleeps() {
+    for (moves_address, ram) in [(true, true), (false, true), (false, false)] {
+        let mut making = super::Making::new();
+        making.0.inputs = vec![1, 1];
+        making.0.instances.push(making.0.instances[0].clone());
+        let counts = making.node(Op::Input(0), 1);
+        let enable = making.node(Op::Input(1), 1);
+        let count = making.register(3, 0);
+        let one = making.constant(1, 3);
+        let sum = making.node(Op::Add(count, one), 3);
+        let next = making.node(Op::Mux(counts, sum, count), 3);
+        making.next(count, next);
+        let (address, data) = match moves_address {
+            true => (count, one),
+            false => (one, count),
+        };
+        let mut flat = making.0;
+        flat.memories.push(Memory {
+            width: 3,
+            contents: vec![0; 5],
+            port: match ram {
+                true => Port::Ram {
+                    enable,
+                    address,
+                    data,
+                },
+                false => Port::Shift { enable, data },
+            },
+            instance: 1,
+        });
+        let hold = |port, ticks| Hold {
+            changes: vec![(port, 1)],
+            ticks,
+        };
+        let case = Case {
+            wanted: Vec::new(),
+            stimulus: vec![hold(1, 9), hold(0, 4)],
+            flat,
+            hot: vec![false],
+        };
+        let [gone, all] = run(&case, &[u64::MAX], 1).unwrap();
+        // Idle until it counts; a shift register goes on shifting.
+        assert!(all == 13 && (gone >= 6 || !ram), "{gone} of {all}");
+    }
+}
+
 /// Jumps as long as they may be, or shorter.
 fn short() -> impl Strategy<Value = Vec<u64>> {
     prop_oneof![

@@ -172,7 +172,7 @@ fn what_is_out_of_range_is_named_with_what_is_allowed() {
 
 /// The scenario that ships.
 fn turntable() -> Settings {
-    use crate::input::scenario::{Loaded, Scenario};
+    use crate::scenario::{Loaded, Scenario};
     let text = include_str!("../../../../waves/turntable.toml");
     let loaded = Loaded::parse("turntable.toml", text, &[]).expect("it ships");
     let Scenario::LeadAngle(scenario) = &loaded.scenario else {

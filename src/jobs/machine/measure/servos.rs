@@ -2,10 +2,10 @@
 
 use super::{Path, Reason, Servos, farthest};
 use crate::input::{Drawing, Point};
-use crate::jobs::arc_generator::path::Course;
-use crate::jobs::arc_generator::vector::{distance, sub};
 use crate::jobs::machine::job::Frame;
 use crate::jobs::machine::settings::Settings;
+use crate::path::pieces::Course;
+use crate::path::vector::{distance, sub};
 use crate::trajectory_controller::Widths;
 use std::array::from_fn;
 

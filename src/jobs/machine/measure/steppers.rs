@@ -2,10 +2,10 @@
 
 use super::{Farthest, Path, Reason, Steppers, farthest};
 use crate::input::{Drawing, Point};
-use crate::jobs::arc_generator::vector::{add, distance, scale, sub};
 use crate::jobs::machine::job::Played;
 use crate::jobs::machine::program::Program;
 use crate::jobs::machine::settings::Settings;
+use crate::path::vector::{add, distance, scale, sub};
 use crate::plan::{Plan, PlanError};
 use std::array::from_fn;
 

@@ -17,7 +17,7 @@ pub mod trajectory_controller;
 pub use loaded::Loaded;
 pub use program::Program;
 
-use super::file::{DRAWINGS, Kind, POSITION_LOGS};
+use crate::input::{DRAWINGS, Kind, POSITION_LOGS};
 use serde::Deserialize;
 use std::path::PathBuf;
 

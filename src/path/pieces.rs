@@ -2,7 +2,6 @@
 
 use super::circle::{Circle, CircleError};
 use super::error::{PathError, Reason};
-use super::settings::Settings;
 use super::vector::{add, distance, dot, scale, sub, unit};
 use crate::input::{self, Drawing, Move, Point};
 
@@ -106,15 +105,6 @@ pub struct Speeds {
     pub wanted: Option<f64>,
     /// Of rapid moves, in mm/s.
     pub rapid: f64,
-}
-
-impl From<&Settings> for Speeds {
-    fn from(settings: &Settings) -> Self {
-        Speeds {
-            wanted: settings.speed_mm_per_s,
-            rapid: settings.rapid_mm_per_s,
-        }
-    }
 }
 
 /// A piece as it is taught: by points.

@@ -7,7 +7,7 @@ fn refusal(text: &str, sets: &[&str]) -> String {
         .to_string()
 }
 
-const BARE: &str = crate::input::scenario::BARE;
+const BARE: &str = crate::scenario::BARE;
 
 #[test]
 fn a_fault_of_a_value_has_its_line_however_much_is_overridden() {

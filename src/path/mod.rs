@@ -1,0 +1,9 @@
+//! Paths in space, which arc generator and trajectory controller both run along: their pieces, the
+//! geometry of arcs, and records as a control computer writes them.
+
+pub mod circle;
+pub mod error;
+pub mod pieces;
+pub mod record;
+pub(crate) mod record_writer;
+pub mod vector;
