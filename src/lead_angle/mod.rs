@@ -18,6 +18,7 @@
 //! still go is predicted from the way that it went in the last Δt/N, and Δt is learned from how it
 //! stopped. `rtl_notes/lead_angle.md` is the note of this circuit.
 
+pub mod codes;
 pub mod comparator;
 pub mod compensator;
 pub mod completion_detector;

@@ -126,7 +126,7 @@ impl<const K: usize, const T: usize, const C: usize> Circuit for RatioLogic<K, T
 
 impl<const K: usize, const T: usize, const C: usize> Specified for RatioLogic<K, T, C> {
     fn invariants(&self) -> Invariants<'_, Self> {
-        let codes = crate::jobs::lead_angle::codes::grid(K as u64);
+        let codes = crate::lead_angle::codes::grid(K as u64);
         let known = codes.clone();
         Invariants::<Self>::new()
             .always(
@@ -165,7 +165,7 @@ impl<const K: usize, const T: usize, const C: usize> Specified for RatioLogic<K,
 mod tests {
     use super::*;
     use crate::check::{Outcome, reach};
-    use crate::jobs::lead_angle::codes;
+    use crate::lead_angle::codes;
     use crate::logic::Sim;
 
     type Full = RatioLogic<199, 8, 11>;

@@ -2,12 +2,12 @@
 //! position logs.
 
 use motion_rtl::input::position_log::{Columns, PositionLog, read};
-use motion_rtl::jobs::lead_angle::codes::{LARGEST, STAGES, code};
 use motion_rtl::jobs::lead_angle::job::{
     Conventional, Played, Positioning, RamLead, ShiftLead, play, positioner,
 };
 use motion_rtl::jobs::lead_angle::replay::{replay, settings_for};
 use motion_rtl::jobs::lead_angle::settings::{Comparing, Placement, Settings, Sign, Step};
+use motion_rtl::lead_angle::codes::{LARGEST, STAGES, code};
 use motion_rtl::scenario::{Loaded, Scenario};
 use std::fmt::Write;
 use std::path::Path;

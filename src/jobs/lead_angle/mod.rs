@@ -1,6 +1,5 @@
 //! Positionings on the lead-angle compensator, with a body and its brake, and position logs.
 
-pub mod codes;
 pub mod job;
 pub mod replay;
 pub mod settings;

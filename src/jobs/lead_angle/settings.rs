@@ -1,7 +1,7 @@
 //! What the lead-angle compensator is run with: clock and CK, steps, learning, body and load.
 
-use super::codes::{LARGEST, STAGES, code, neighbours};
 use super::job::{A, D, N, S, W};
+use crate::lead_angle::codes::{LARGEST, STAGES, code, neighbours};
 pub use crate::lead_angle::{Comparing, Placement, Sign};
 use crate::plant::{BodyParameters, Load};
 use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};

@@ -1,7 +1,7 @@
 //! The correction against plain arithmetic, and what learning comes to.
 
-use motion_rtl::jobs::lead_angle::codes;
 use motion_rtl::kernel::Simulator;
+use motion_rtl::lead_angle::codes;
 use motion_rtl::lead_angle::correction::In;
 use motion_rtl::lead_angle::{Correction, Sign};
 use motion_rtl::logic::Sim;

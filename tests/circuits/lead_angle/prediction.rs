@@ -1,7 +1,7 @@
 //! Prediction: exact on the ring, and how far off where the speed is a fraction or changes.
 
-use motion_rtl::jobs::lead_angle::codes;
 use motion_rtl::kernel::{Circuit, Nothing, Simulator};
+use motion_rtl::lead_angle::codes;
 use motion_rtl::lead_angle::{
     Lead, LeadPlacement, Placement, PositionHistory, TimeLead, lead, placement, time_lead,
 };

@@ -2,8 +2,8 @@
 
 use super::below;
 use motion_rtl::check::{Lockstep, Pair, Random};
-use motion_rtl::jobs::lead_angle::codes;
 use motion_rtl::kernel::{Observer, Simulator};
+use motion_rtl::lead_angle::codes;
 use motion_rtl::lead_angle::compensator::In;
 use motion_rtl::lead_angle::{
     Compensator, LeadSource, Placement, PositionHistory, RamHistory, TimeLead, Variant,
