@@ -3,7 +3,8 @@
 use super::Failure;
 use rayon::ThreadPoolBuilder;
 use std::io;
-use std::thread::available_parallelism;
+use std::panic::resume_unwind;
+use std::thread::{Builder, Scope, ScopedJoinHandle, available_parallelism};
 
 /// Threads a processor at most: more only take memory.
 const MOST: usize = 4;
@@ -22,8 +23,22 @@ pub fn start() -> Result<(), Failure> {
         .map_err(|error| none(&io::Error::other(error.to_string())))
 }
 
+/// Starts a thread beside this one.
+pub fn beside<'scope, T: Send + 'scope>(
+    scope: &'scope Scope<'scope, '_>,
+    work: impl FnOnce() -> T + Send + 'scope,
+) -> Result<ScopedJoinHandle<'scope, T>, Failure> {
+    let started = Builder::new().spawn_scoped(scope, work);
+    started.map_err(|error| none(&error))
+}
+
+/// What it came to; a panic there is one here.
+pub fn joined<T>(other: ScopedJoinHandle<'_, T>) -> T {
+    other.join().unwrap_or_else(|panic| resume_unwind(panic))
+}
+
 /// That a thread could not be started.
-pub fn none(error: &io::Error) -> Failure {
+fn none(error: &io::Error) -> Failure {
     Failure::Argument {
         field: "threads",
         problem: format!("one could not be started: {error}"),

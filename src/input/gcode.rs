@@ -4,9 +4,9 @@
 //!
 //! G0, G1, arcs (G2, G3, full circles, helices, P turns; centres by I, J, K, relative or by G90.1,
 //! or R) in the planes G17, G18 and G19, the splines G5 and G5.1, the NURBS G5.2 to G5.3 and G6.2,
-//! probing (G38.2 to G38.5, which goes to its end as if nothing was touched), drilling (G73, G81 to G86 and G89 with G98 and G99,
-//! L or K times), and G28 and G30 by way of their axis words. G80 with another motion in its line
-//! yields to it.
+//! probing (G38.2 to G38.5, which goes to its end as if nothing was touched), drilling (G73, G81 to
+//! G86 and G89 with G98 and G99, L or K times), and G28 and G30 by way of their axis words. G80 with
+//! another motion in its line yields to it.
 //! Arcs in G18 and G19 and splines become chords within 0.001 mm, which a warning says.
 //!
 //! The position starts at the origin, in millimetres and absolute, without a motion in force. G20,
@@ -25,8 +25,8 @@
 //! Moves are in the machine's coordinates. The offsets of G54 to G59.3 are those of
 //! [`Options::zeros`], zero by default, until G10 L2 or L20 sets them; G92, G92.1 to G92.3, G52 and
 //! G53 act. The reference points of G28 and G30 are likewise the machine's zero until G28.1 or G30.1
-//! sets them. Tool lengths (G43, G43.1) are taken for zero. M70
-//! and M73 keep what is in force, M72 and the end of the call bring it back.
+//! sets them. Tool lengths (G43, G43.1) are taken for zero. M70 and M73 keep what is in force, M72
+//! and the end of the call bring it back.
 //!
 //! # Parameters and O-words
 //!

@@ -350,6 +350,12 @@ impl<C: Circuit> Simulator<C> {
         Ok(looked)
     }
 
+    /// How many ticks there are up to the next at which an observer looks, the one that was
+    /// [looked](Self::look) at among them.
+    pub fn unseen(&self, observer: &impl Observer<C>) -> u64 {
+        observer.next_look(self.tick + 1) - self.tick
+    }
+
     /// Goes on from a tick that was [looked](Self::look) at, by up to so many ticks and at least one,
     /// ports in as they are: to the first in which a port out or what is
     /// [watched](Self::watching) may have changed. Returns how many it has gone.

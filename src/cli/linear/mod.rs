@@ -20,7 +20,6 @@ use motion_rtl::jobs::linear_interpolator::ways::Way;
 use motion_rtl::kernel::Without;
 use motion_rtl::linear_interpolator::LinearInterpolator;
 use picture::draw;
-use std::panic::resume_unwind;
 use std::thread;
 use summary::Summary;
 
@@ -64,16 +63,11 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         play(&conventional(), &targets, &job.settings, ())
     };
     let (interpolator, mut files, conventional) = thread::scope(|scope| {
-        let start = |way| {
-            let started = thread::Builder::new().spawn_scoped(scope, move || conventional(way));
-            started.map_err(|error| threads::none(&error))
-        };
+        let start = |way| threads::beside(scope, move || conventional(way));
         let [same, inverse] = Way::ALL;
         let others = [start(same)?, start(inverse)?];
         let (interpolator, files) = simulate(&circuit, job, traces)?;
-        // A panic there is one here.
-        let [same, inverse] =
-            others.map(|other| other.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        let [same, inverse] = others.map(threads::joined);
         Ok::<_, Failure>((interpolator, files, [same?, inverse?]))
     })?;
     let runs = Runs {

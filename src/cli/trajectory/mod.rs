@@ -79,24 +79,20 @@ fn all<const AXES: usize>(
         let mut others = Vec::new();
         for correction in CORRECTIONS {
             let untraced = move || untraced::<AXES>(job, correction);
-            let started = (correction != traced)
-                .then(|| thread::Builder::new().spawn_scoped(scope, untraced))
-                .transpose();
-            others.push(started.map_err(|error| threads::none(&error))?);
+            let started = (correction != traced).then(|| threads::beside(scope, untraced));
+            others.push(started.transpose()?);
         }
         let own = simulate(&circuit, job, traces);
         let others: Vec<_> = others
             .into_iter()
-            .map(|other| other.map(thread::ScopedJoinHandle::join))
+            .map(|other| other.map(threads::joined))
             .collect();
         let (own, files) = own?;
         let mut own = Some(own);
         let mut runs = Vec::new();
         for (correction, other) in CORRECTIONS.into_iter().zip(others) {
             let played = match other {
-                Some(Ok(played)) => Some(played?),
-                // A panic there is one here.
-                Some(Err(panic)) => std::panic::resume_unwind(panic),
+                Some(played) => Some(played?),
                 None => own.take(),
             };
             runs.extend(played.and_then(|played| Run::of(job, correction, &played)));

@@ -7,6 +7,7 @@ use super::runner::Runner;
 use super::text::{clean, line_at};
 
 impl Runner<'_> {
+    /// Does what an O-word says; `start` is where its line begins, `rest` what stands behind it.
     pub(super) fn flow(
         &mut self,
         start: usize,
@@ -94,14 +95,14 @@ impl Runner<'_> {
     }
 
     /// Goes to the line of an O-word.
-    pub(super) fn go_to(&mut self, at: Option<usize>) {
+    fn go_to(&mut self, at: Option<usize>) {
         if let Some(to) = self.place(at).map(|place| (place.start, place.line)) {
             self.at = to;
         }
     }
 
     /// Tries the branches behind an IF that does not hold.
-    pub(super) fn branch(&mut self, mut at: Option<usize>) -> Result<(), Problem> {
+    fn branch(&mut self, mut at: Option<usize>) -> Result<(), Problem> {
         while let Some(place) = self.place(at) {
             let (keyword, start, line, onward) =
                 (place.keyword, place.start, place.line, place.onward);
@@ -124,7 +125,7 @@ impl Runner<'_> {
         Ok(())
     }
 
-    pub(super) fn repeat(&mut self, head: Option<usize>) {
+    fn repeat(&mut self, head: Option<usize>) {
         match self.loops.last_mut() {
             Some((at, left)) if Some(*at) == head && *left > 0 => {
                 *left -= 1;
@@ -137,11 +138,7 @@ impl Runner<'_> {
         }
     }
 
-    pub(super) fn leave_loop(
-        &mut self,
-        keyword: Keyword,
-        head: Option<usize>,
-    ) -> Result<(), Problem> {
+    fn leave_loop(&mut self, keyword: Keyword, head: Option<usize>) -> Result<(), Problem> {
         let Some(place) = self.place(head) else {
             return Ok(());
         };

@@ -30,7 +30,7 @@ pub(super) struct Again {
 }
 
 impl Runner<'_> {
-    pub(super) fn enter(&mut self, program: Option<Again>) -> Result<(), Problem> {
+    fn enter(&mut self, program: Option<Again>) -> Result<(), Problem> {
         if self.frames.len() >= DEEPEST {
             let problem = format!("calls nest deeper than {DEEPEST}");
             return Err(Problem::new(

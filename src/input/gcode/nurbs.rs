@@ -1,8 +1,8 @@
 //! NURBS: G5.2 with G5.3, and G6.2, as LinuxCNC has them.
 //!
 //! The lines of a G5.2 give control points with their weights P, from where the tool is, up to G5.3;
-//! L of the first is the order. Those of a G6.2 give control points with their weights R and knots K;
-//! P of the first is the order, and as many equal knots at the end close it.
+//! L of the first is the order. Those of a G6.2 give control points with their weights R and knots
+//! K; P of the first is the order, and as many equal knots at the end close it.
 
 use super::block::Block;
 use super::chords;

@@ -139,7 +139,7 @@ pub fn play(
         over = host.started && !started && !busy;
         stopped = flow.is_break();
         let most = match quiet && host.stands() && !over && !stopped {
-            true => observer.next_look(simulator.tick() + 1) - simulator.tick(),
+            true => simulator.unseen(&observer),
             false => 1,
         };
         simulator.go_on(most);

@@ -240,11 +240,11 @@ pub fn play<C: CommandSource<P, T, N>, const N: usize>(
     let mut motors = Ahead::new(servos);
     loop {
         let references = see.reference.map(|axis| simulator.get(axis));
-        let step = |axis: &mut ServoAxis, reference| axis.step(reference, FULL_SCALE);
-        let [(a_x, b_x), (a_y, b_y)] = motors.step(|servos| {
-            let [x, y] = servos;
-            [step(x, references[0]), step(y, references[1])]
-        });
+        let step = |[x, y]: &mut [ServoAxis; 2]| {
+            [(x, references[0]), (y, references[1])]
+                .map(|(axis, reference)| axis.step(reference, FULL_SCALE))
+        };
+        let [(a_x, b_x), (a_y, b_y)] = motors.step(step);
         let target = bench.push();
         let ports = &mut i.i;
         ports.push = target.is_some().into();
@@ -270,12 +270,8 @@ pub fn play<C: CommandSource<P, T, N>, const N: usize>(
             return Ok(bench.played);
         }
         let most = match bench.stands() {
-            true => observer.next_look(simulator.tick() + 1) - simulator.tick(),
+            true => simulator.unseen(&observer),
             false => 1,
-        };
-        let step = |servos: &mut [ServoAxis; 2]| {
-            let [x, y] = servos;
-            [step(x, references[0]), step(y, references[1])]
         };
         motors.go_on(most, step, |ticks| simulator.go_on(ticks));
     }

@@ -492,7 +492,7 @@ pub fn play(
         bench.played.settled = over;
         let ends = over || bench.waiting > patience || flow.is_break();
         let most = match quiet && host.stands() && !ends {
-            true => observer.next_look(tick + 1) - tick,
+            true => simulator.unseen(&observer),
             false => 1,
         };
         let step = |bodies: &mut Bodies| bodies.step(&by);

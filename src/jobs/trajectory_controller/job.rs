@@ -251,7 +251,7 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
         played.settled = calm >= CALM;
         let ends = played.settled || rests > patience || flow.is_break();
         let most = match quiet && host.stands() && !ends {
-            true => observer.next_look(simulator.tick() + 1) - simulator.tick(),
+            true => simulator.unseen(&observer),
             false => 1,
         };
         motors.go_on(most, step, |ticks| simulator.go_on(ticks));
