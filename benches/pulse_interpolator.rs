@@ -4,11 +4,11 @@
 //! stepped, and over idle ticks.
 
 use divan::counter::ItemsCount;
+use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
+use motion_rtl::hdl::{Observer, RunError, Sample, Simulator, zero};
 use motion_rtl::input::read_text;
 use motion_rtl::jobs::pulse_interpolator::job::{self, fast_forward, play};
 use motion_rtl::jobs::pulse_interpolator::{Table, compile};
-use motion_rtl::kernel::{Observer, RunError, Sample, Simulator, zero};
-use motion_rtl::pulse_interpolator::{Group, Pattern, Variant};
 use motion_rtl::scenario::{Loaded, Scenario};
 use motion_rtl::trace::{Clock, Options, Vcd};
 use std::io;
@@ -22,19 +22,20 @@ const WORDS: u64 = 64;
 const PERIOD: u64 = 1000;
 
 /// A group that plays half-periods from 10 to 500 ticks, others on each axis, both ways.
-fn group<const AXES: usize>() -> Group<AXES> {
+fn group(axes: usize) -> Group {
     let pattern = Pattern {
         base: 0,
         last: WORDS - 1,
         cyclic: true,
         period: PERIOD,
     };
-    let mut group = Group::free_running(Variant::Safe, pattern);
-    for (axis, unit) in (0..AXES).flat_map(|axis| (0..WORDS).map(move |unit| (axis, unit))) {
-        let half_period = 10 + (unit * 37 + axis as u64 * 101) % 491;
-        let memory = &mut group.axes[axis].memory;
-        memory.half_periods.set(unit as usize, half_period);
-        memory.directions.set(unit as usize, unit / 8 % 2);
+    let mut group = Group::free_running(axes, Widths::default(), Variant::Safe, pattern);
+    for (axis, memory) in (0..).zip(&mut group.memories) {
+        for unit in 0..WORDS {
+            let half_period = 10 + (unit * 37 + axis * 101) % 491;
+            memory.half_periods.set(unit as usize, half_period);
+            memory.directions.set(unit as usize, unit / 8 % 2);
+        }
     }
     group
 }
@@ -43,32 +44,34 @@ fn group<const AXES: usize>() -> Group<AXES> {
 #[derive(Default)]
 struct Outputs(u64);
 
-impl<const AXES: usize> Observer<Group<AXES>> for Outputs {
-    fn sample(&mut self, now: &Sample<'_, Group<AXES>>) -> Result<ControlFlow<()>, RunError> {
+impl Observer<Group> for Outputs {
+    fn sample(&mut self, now: &Sample<'_, Group>) -> Result<ControlFlow<()>, RunError> {
         let lines = now.w.step.iter().chain(&now.w.dir);
         let lines = lines.chain([&now.w.unit_rst, &now.w.ready, &now.w.busy]);
-        self.0 += lines.filter(|line| line.get()).count() as u64;
+        self.0 += lines.filter(|line| **line).count() as u64;
         Ok(ControlFlow::Continue(()))
     }
 }
 
-fn run<const AXES: usize>(group: &Group<AXES>, ticks: u64, observer: impl Observer<Group<AXES>>) {
-    let run = Simulator::new(group)
-        .unwrap()
-        .run(ticks, |_, _| zero(), observer);
-    divan::black_box(run.expect("no observer objects").registers());
+fn run(group: &Group, ticks: u64, observer: impl Observer<Group>) {
+    let mut simulator = Simulator::new(group).unwrap();
+    let quiet = zero(group);
+    simulator
+        .run(ticks, |_, _| quiet.clone(), observer)
+        .expect("no observer objects");
+    divan::black_box(simulator.registers());
 }
 
-#[divan::bench(consts = [1, 2, 3, 8])]
-fn untraced<const AXES: usize>(bencher: divan::Bencher<'_, '_>) {
-    let group = group::<AXES>();
+#[divan::bench(args = [1, 2, 3, 8])]
+fn untraced(bencher: divan::Bencher<'_, '_>, axes: usize) {
+    let group = group(axes);
     let bencher = bencher.counter(ItemsCount::new(TICKS));
     bencher.bench_local(|| run(&group, TICKS, ()));
 }
 
-#[divan::bench(consts = [1, 2, 3, 8])]
-fn outputs_read<const AXES: usize>(bencher: divan::Bencher<'_, '_>) {
-    let group = group::<AXES>();
+#[divan::bench(args = [1, 2, 3, 8])]
+fn outputs_read(bencher: divan::Bencher<'_, '_>, axes: usize) {
+    let group = group(axes);
     bencher.counter(ItemsCount::new(TICKS)).bench_local(|| {
         let mut outputs = Outputs::default();
         run(&group, TICKS, &mut outputs);
@@ -76,9 +79,9 @@ fn outputs_read<const AXES: usize>(bencher: divan::Bencher<'_, '_>) {
     });
 }
 
-#[divan::bench(consts = [1, 2, 3, 8], sample_count = 20)]
-fn dumped<const AXES: usize>(bencher: divan::Bencher<'_, '_>) {
-    let group = group::<AXES>();
+#[divan::bench(args = [1, 2, 3, 8], sample_count = 20)]
+fn dumped(bencher: divan::Bencher<'_, '_>, axes: usize) {
+    let group = group(axes);
     let clock = Clock::from_hz(1_000_000).expect("a clock that a dump can show");
     bencher
         .counter(ItemsCount::new(TICKS_DUMPED))
@@ -111,7 +114,7 @@ fn bracket(times: u32) -> Table {
 #[divan::bench(args = [1, 10], sample_count = 10)]
 fn job_stepped(bencher: divan::Bencher<'_, '_>, times: u32) {
     let table = bracket(times);
-    let group = job::group::<2>(&table, Variant::Safe);
+    let group = job::group(&table, Variant::Safe);
     bencher
         .counter(ItemsCount::new(table.total_ticks()))
         .bench_local(|| play(&group, &table, ()).expect("no observer objects"));
@@ -121,7 +124,7 @@ fn job_stepped(bencher: divan::Bencher<'_, '_>, times: u32) {
 #[divan::bench(args = [1, 10, 100])]
 fn job_fast_forward(bencher: divan::Bencher<'_, '_>, times: u32) {
     let table = bracket(times);
-    let group = job::group::<2>(&table, Variant::Safe);
+    let group = job::group(&table, Variant::Safe);
     bencher
         .counter(ItemsCount::new(table.total_ticks()))
         .bench_local(|| fast_forward(&group, &table, ()).expect("no observer objects"));

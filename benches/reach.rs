@@ -1,9 +1,9 @@
 //! States a second and bytes a state of proofs by exhaustion.
 
 use divan::counter::ItemsCount;
-use motion_rtl::blocks::{MulDiv, QuadratureCounter};
 use motion_rtl::check::{Proof, Specified, reach};
-use motion_rtl::pulse_interpolator::{UnitLaw, Variant};
+use motion_rtl::circuits::blocks::{MulDiv, QuadratureCounter};
+use motion_rtl::circuits::pulse_interpolator::{UnitLaw, Variant};
 
 fn proof<C: Specified>(circuit: &C) -> Proof {
     let invariants = circuit.invariants();
@@ -16,7 +16,7 @@ fn proof<C: Specified>(circuit: &C) -> Proof {
 }
 
 /// In states a second; transitions are shown once.
-fn measure<C: Specified + Sync>(bencher: divan::Bencher<'_, '_>, circuit: &C) {
+fn measure<C: Specified>(bencher: divan::Bencher<'_, '_>, circuit: &C) {
     let Proof {
         states,
         transitions,
@@ -30,17 +30,19 @@ fn measure<C: Specified + Sync>(bencher: divan::Bencher<'_, '_>, circuit: &C) {
 
 #[divan::bench(sample_count = 5)]
 fn unit_law_of_4_bits(bencher: divan::Bencher<'_, '_>) {
-    measure(bencher, &UnitLaw::<4>::new(Variant::Safe));
+    let (width, variant) = (4, Variant::Safe);
+    measure(bencher, &UnitLaw { width, variant });
 }
 
 #[divan::bench(sample_count = 5)]
 fn mul_div_of_3_bits(bencher: divan::Bencher<'_, '_>) {
-    measure(bencher, &MulDiv::<2, 3>);
+    let (multiplier, word) = (2, 3);
+    measure(bencher, &MulDiv { multiplier, word });
 }
 
 #[divan::bench(sample_count = 5)]
 fn quadrature_counter_of_4_bits(bencher: divan::Bencher<'_, '_>) {
-    measure(bencher, &QuadratureCounter::<4>);
+    measure(bencher, &QuadratureCounter { width: 4 });
 }
 
 fn main() {

@@ -2,84 +2,136 @@
 //! 4,096 words; formatted alone, and into a file as VCD, as VCD with a thread that formats and writes,
 //! as FST.
 
-#[path = "../tests/files/waves/zoo.rs"]
-#[expect(dead_code, reason = "only its part is measured here")]
-mod zoo;
-
 use divan::counter::ItemsCount;
-use motion_rtl::kernel::{Circuit, Instance, Observer, Simulator};
-use motion_rtl::logic::{Logic, Ram, Sim, Unsigned};
-use motion_rtl::signals;
+use motion_rtl::hdl::Observer;
+use motion_rtl::hdl::prelude::*;
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
 use std::fs::File;
 use std::io;
-use zoo::{Part, PartIn, PartReg};
 
 /// Ticks of a run whose bytes go nowhere, and of one into a file.
 const TICKS: u64 = 20_000;
 const LONG: u64 = 400_000;
 
-signals! { struct BankReg<L> { part: [PartReg<L>; 8] } }
-signals! { struct BankNet<L> { part: [Instance<Part, L>; 8] } }
+/// Names of the phases.
+const PHASES: &[&str] = &["IDLE", "RUN", "STOP"];
+
+/// Six signals.
+#[derive(Debug, Clone)]
+struct Walker;
+
+signals! { for (Walker, Bank) as _c;
+    /// Ports in.
+    pub struct In {
+        /// How far it goes.
+        step: U(3),
+        /// Upwards.
+        up: Bit,
+    }
+}
+
+signals! { for Walker as _c;
+    /// Flip-flops.
+    pub struct Reg {
+        /// Where it is.
+        level: I(9) as Analog,
+        /// How often it came round.
+        phase: U(2) as States(PHASES),
+    }
+    /// Nets.
+    pub struct Net {
+        /// Where it goes.
+        next_level: I(9),
+        /// It comes round.
+        wrapped: Bit,
+    }
+}
+
+impl Circuit for Walker {
+    const NAME: &'static str = "walker";
+    const ABOUT: &'static str = "goes up and down";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let step = i.step.resize(9).signed();
+        let level = i.up.mux(q.level + step, q.level - step);
+        let wrapped = level.is_negative() ^ q.level.is_negative();
+        let phase = wrapped.mux(q.phase + 1, q.phase);
+        let net = Net {
+            next_level: level,
+            wrapped,
+        };
+        (net, Reg { level, phase })
+    }
+}
 
 /// Eight parts of six signals on the same two ports.
+#[derive(Debug, Clone)]
 struct Bank;
+
+signals! { for Bank as _c;
+    /// The parts.
+    pub struct Parts {
+        /// They.
+        part: [Part<Walker>(Walker); 8],
+    }
+}
 
 impl Circuit for Bank {
     const NAME: &'static str = "bank";
     const ABOUT: &'static str = "eight parts";
-    type In<L: Logic> = PartIn<L>;
-    type Reg<L: Logic> = BankReg<L>;
-    type Net<L: Logic> = BankNet<L>;
+    records!(In, Nothing, Nothing, Parts);
 
-    fn comb<L: Logic>(&self, q: &BankReg<L>, i: &PartIn<L>) -> BankNet<L> {
-        BankNet {
-            part: std::array::from_fn(|k| Instance::settle(&Part, &q.part[k], i.clone())),
-        }
-    }
-
-    fn next<L: Logic>(&self, q: BankReg<L>, w: &BankNet<L>, _: &PartIn<L>) -> BankReg<L> {
-        let mut nets = w.part.iter();
-        BankReg {
-            part: q.part.map(|q| match nets.next() {
-                Some(part) => part.next(&Part, q),
-                None => q,
-            }),
-        }
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Nothing, Nothing) {
+        settle_each(p.part, |_| i.clone());
+        (Nothing, Nothing)
     }
 }
 
-signals! { struct StoreIn<L> { write: L::Bit, word: L::U<24> } }
-signals! { struct StoreReg<L> { word: [L::Ram<12, 24>; 8] } }
-signals! { struct StoreNet<L> { address: L::U<12> } }
-
 /// Eight memories of 4,096 words.
+#[derive(Debug, Clone)]
 struct Store;
+
+signals! { for Store as _c;
+    /// Ports in.
+    pub struct StoreIn {
+        /// The word is written.
+        write: Bit,
+        /// It, and its address in its lower bits.
+        word: U(24),
+    }
+    /// Memories.
+    pub struct StoreReg {
+        /// They.
+        word: [Ram(12, 24); 8],
+    }
+    /// Nets.
+    pub struct StoreNet {
+        /// Where it is written.
+        address: U(12),
+    }
+}
 
 impl Circuit for Store {
     const NAME: &'static str = "store";
     const ABOUT: &'static str = "eight memories";
-    type In<L: Logic> = StoreIn<L>;
-    type Reg<L: Logic> = StoreReg<L>;
-    type Net<L: Logic> = StoreNet<L>;
+    records!(StoreIn, StoreReg, StoreNet);
 
-    fn comb<L: Logic>(&self, _: &StoreReg<L>, i: &StoreIn<L>) -> StoreNet<L> {
-        StoreNet {
-            address: i.word.resize(),
-        }
-    }
-
-    fn next<L: Logic>(&self, q: StoreReg<L>, w: &StoreNet<L>, i: &StoreIn<L>) -> StoreReg<L> {
-        StoreReg {
-            word: q.word.map(|ram| ram.write(i.write, w.address, i.word)),
-        }
+    fn tick(&self, i: StoreIn, q: StoreReg, _: Nothing) -> (StoreNet, StoreReg<Edge>) {
+        let address = i.word.resize(12);
+        let memories = q.word.into_iter();
+        let word = memories.map(|ram| ram.write(i.write, address, i.word));
+        let next = StoreReg {
+            word: word.collect(),
+        };
+        (StoreNet { address }, next)
     }
 }
 
 fn run<C: Circuit>(
     circuit: &C,
     ticks: u64,
-    i: impl Fn(u64) -> C::In<Sim>,
+    i: impl Fn(u64) -> C::In<Value>,
     observer: impl Observer<C>,
 ) {
     let run = Simulator::new(circuit)
@@ -88,33 +140,27 @@ fn run<C: Circuit>(
     divan::black_box(run.is_ok());
 }
 
-fn part_in(step: u64) -> impl Fn(u64) -> PartIn<Sim> {
-    move |_| PartIn {
-        step: step.into(),
-        up: true.into(),
-    }
+fn part_in(step: u64) -> impl Fn(u64) -> In<Value> {
+    move |_| In { step, up: true }
 }
 
-fn store_in(write: bool) -> impl Fn(u64) -> StoreIn<Sim> {
-    move |tick| StoreIn {
-        write: write.into(),
-        word: tick.into(),
-    }
+fn store_in(write: bool) -> impl Fn(u64) -> StoreIn<Value> {
+    move |word| StoreIn { write, word }
 }
 
 fn clock() -> Clock {
     Clock::from_hz(50_000_000).expect("a good rate")
 }
 
-fn vcd<C: Circuit, W: io::Write>(circuit: &C, out: W) -> Vcd<C, W> {
+fn vcd<C: Circuit, W: io::Write>(circuit: &C, out: W) -> Vcd<W> {
     Vcd::new(out, circuit, clock(), &Options::default()).expect("a good circuit")
 }
 
-fn vcd_behind<C: Circuit>(circuit: &C, out: File) -> VcdBehind<C, File> {
+fn vcd_behind<C: Circuit>(circuit: &C, out: File) -> VcdBehind<File> {
     VcdBehind::new(out, circuit, clock(), &Options::default()).expect("a good circuit and a thread")
 }
 
-fn fst<C: Circuit>(circuit: &C, out: File) -> Fst<C, File> {
+fn fst<C: Circuit>(circuit: &C, out: File) -> Fst<File> {
     Fst::new(out, circuit, clock(), &Options::default()).expect("a good circuit and a good file")
 }
 
@@ -122,10 +168,10 @@ fn file() -> File {
     tempfile::tempfile().expect("a file")
 }
 
-fn measure<C: Circuit + Sync>(
+fn measure<C: Circuit>(
     bencher: divan::Bencher<'_, '_>,
     circuit: &C,
-    i: impl Fn(u64) -> C::In<Sim> + Sync,
+    i: impl Fn(u64) -> C::In<Value> + Sync,
 ) {
     bencher
         .counter(ItemsCount::new(TICKS))

@@ -30,7 +30,7 @@ enum Command {
     Compare(cli::compare::Arguments),
     /// Shows how a circuit is run: its blocks, what wakes them, how often each runs.
     Plan(cli::plan::Arguments),
-    /// Lists circuits with ports and widths, and scenarios.
+    /// Lists circuits with ports and widths, and scenarios; or a circuit with what it is made of.
     List(cli::list::Arguments),
 }
 

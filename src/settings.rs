@@ -2,7 +2,7 @@
 //! that is refused.
 
 use crate::engine::EngineError;
-use crate::kernel::RunError;
+use crate::hdl::RunError;
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
 

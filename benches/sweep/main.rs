@@ -6,18 +6,23 @@ mod verilated;
 
 use divan::counter::ItemsCount;
 use motion_rtl::check::{Swept, sweep};
-use motion_rtl::linear_interpolator::{Integrator, LineSweep, Rule};
+use motion_rtl::circuits::linear_interpolator::{Integrator, LineSweep, Rule};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::ops::Range;
-
-type Law = LineSweep<8, 16>;
 
 /// A part of the 2^32 cases, two scans each.
 const FIRST: u64 = 0x1234_0000;
 const SCANS_A_CASE: u64 = 2;
 
-fn law() -> Law {
-    LineSweep::new(Integrator::new(Rule::Floor))
+fn integrator() -> Integrator {
+    Integrator {
+        position: 8,
+        rule: Rule::Floor,
+    }
+}
+
+fn law() -> LineSweep {
+    LineSweep::new(integrator())
 }
 
 fn threads(count: usize) -> ThreadPool {
@@ -30,7 +35,7 @@ fn measure(
     bencher: divan::Bencher<'_, '_>,
     count: usize,
     cases: u64,
-    run: impl Fn(&Law, Range<u64>) -> Swept<Integrator<8, 16>> + Sync,
+    run: impl Fn(&LineSweep, Range<u64>) -> Swept<LineSweep> + Sync,
 ) {
     let (law, pool) = (law(), threads(count));
     bencher

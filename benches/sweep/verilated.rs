@@ -1,9 +1,9 @@
 //! The same cases as a loop around the exported Verilog, compiled by Verilator, in turn with ours.
 
-use super::{FIRST, SCANS_A_CASE, law, threads};
+use super::{FIRST, SCANS_A_CASE, integrator, law, threads};
 use motion_rtl::check::{Law, Swept, sweep};
-use motion_rtl::kernel::Circuit;
-use motion_rtl::linear_interpolator::Integrator;
+use motion_rtl::circuits::linear_interpolator::{Integrator, LineSweep};
+use motion_rtl::hdl::Circuit;
 use motion_rtl::verilog::Verilog;
 use std::fs;
 use std::ops::Range;
@@ -39,7 +39,7 @@ fn run(directory: &Path, program: &str, arguments: &[&str]) -> String {
 }
 
 fn build(directory: &Path) {
-    let verilog = Verilog::of(law().circuit()).expect("a circuit that can be printed");
+    let verilog = Verilog::of(&integrator()).expect("a circuit that can be printed");
     let mut files = vec!["sweep.cpp".to_owned()];
     for source in verilog.sources() {
         fs::write(directory.join(&source.name), source.text).expect("room");
@@ -63,7 +63,7 @@ fn build(directory: &Path) {
         "-CFLAGS",
         "-O3",
     ];
-    let name = ["--top-module", Integrator::<8, 16>::NAME];
+    let name = ["--top-module", Integrator::NAME];
     let files: Vec<&str> = files.iter().map(String::as_str).collect();
     run(
         directory,
@@ -83,7 +83,7 @@ fn median(mut rates: Vec<f64>) -> f64 {
 fn ours(
     count: usize,
     cases: u64,
-    run: impl Fn(&super::Law, Range<u64>) -> Swept<Integrator<8, 16>> + Sync,
+    run: impl Fn(&LineSweep, Range<u64>) -> Swept<LineSweep> + Sync,
 ) -> f64 {
     let (law, pool) = (law(), threads(count));
     let begun = Instant::now();

@@ -3,28 +3,28 @@
 
 use super::ours::{Outputs, Port};
 use super::stimulus::{Recorder, Stimulus};
-use motion_rtl::arc_generator::{self, ArcGenerator};
+use motion_rtl::circuits::arc_generator::{self, ArcGenerator};
+use motion_rtl::circuits::lead_angle::{Compensator, LeadFrom, Memory};
+use motion_rtl::circuits::linear_interpolator::Controller;
+use motion_rtl::circuits::machine::Machine;
+use motion_rtl::circuits::pulse_interpolator::pattern_memory::WritePort;
+use motion_rtl::circuits::pulse_interpolator::{Group, Variant, Widths, group};
+use motion_rtl::circuits::trajectory_controller::{self, TrajectoryController};
+use motion_rtl::hdl::{Simulator, State, Watcher, zero};
 use motion_rtl::input::{Drawing, read_path};
 use motion_rtl::jobs;
 use motion_rtl::jobs::arc_generator::job::arc_generator;
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::record::records;
-use motion_rtl::jobs::lead_angle::job::{ShiftLead, positioner};
+use motion_rtl::jobs::lead_angle::job::positioner;
 use motion_rtl::jobs::linear_interpolator::job::plotter;
 use motion_rtl::jobs::linear_interpolator::targets;
 use motion_rtl::jobs::pulse_interpolator::{Settings, compile};
 use motion_rtl::jobs::trajectory_controller::job as trajectory;
-use motion_rtl::kernel::{Watcher, Without, zero};
-use motion_rtl::lead_angle::Compensator;
-use motion_rtl::linear_interpolator::{Controller, LinearInterpolator};
-use motion_rtl::logic::Sim;
-use motion_rtl::machine::Machine;
 use motion_rtl::path::pieces::{Speeds, from_drawing, from_points};
 use motion_rtl::plan::MotionLimits;
 use motion_rtl::plant::TwoMassAxis;
-use motion_rtl::pulse_interpolator::{self, Group, Variant};
 use motion_rtl::scenario::{Loaded, Scenario};
-use motion_rtl::trajectory_controller::{self};
 use std::path::Path;
 
 /// A circuit and what goes into it.
@@ -85,9 +85,9 @@ fn drawing(scenario: &Scenario) -> Drawing {
 }
 
 macro_rules! outputs {
-    ([$($generic:tt)*] $circuit:ty: $($port:ident)*) => {
-        impl<$($generic)*> Outputs for $circuit {
-            fn outputs(watch: &Watcher<Self>) -> Vec<usize> {
+    ($circuit:ty: $($port:ident)*) => {
+        impl Outputs for $circuit {
+            fn outputs(watch: &Watcher<'_, Self>) -> Vec<usize> {
                 let mut leaves = Vec::new();
                 $(watch.w.$port.leaves(watch, &mut leaves);)*
                 leaves
@@ -96,10 +96,10 @@ macro_rules! outputs {
     };
 }
 
-outputs!([const AXES: usize] Group<AXES>: step dir unit_rst ready busy);
+outputs!(Group: step dir unit_rst ready busy);
 
 /// The bracket on two axes.
-pub fn bracket(ticks: u64, clock: Clock) -> Job<Group<2>> {
+pub fn bracket(ticks: u64, clock: Clock) -> Job<Group> {
     let whole = scenario("bracket", clock);
     let Scenario::PulseInterpolator(scenario) = &whole else {
         unreachable!("the pulse interpolator's")
@@ -119,48 +119,57 @@ pub fn bracket(ticks: u64, clock: Clock) -> Job<Group<2>> {
     };
     let (table, _) = compile(&drawing(&whole), &settings).expect("it fits");
     let circuit = jobs::pulse_interpolator::job::group(&table, Variant::Safe);
-    let mut recorder = Recorder::new(ticks);
+    let mut recorder = Recorder::new(&circuit, ticks);
     jobs::pulse_interpolator::job::play(&circuit, &table, &mut recorder).expect("nobody objects");
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
 }
 
 /// Eight axes that play a pattern of 64 unit times, each its own, both ways.
-pub fn eight_axes(ticks: u64) -> Job<Group<8>> {
+pub fn eight_axes(ticks: u64) -> Job<Group> {
     const WORDS: u64 = 64;
-    let mut recorder = Recorder::new(ticks);
-    let idle: pulse_interpolator::group::In<Sim, 16, 24, 12> = zero();
-    for (axis, unit) in (0..8).flat_map(|axis| (0..WORDS).map(move |unit| (axis, unit))) {
-        recorder.tick(&pulse_interpolator::group::In {
-            write: true.into(),
-            write_axis: axis.into(),
-            write_address: unit.into(),
-            write_half_period: (10 + (unit * 37 + axis * 101) % 491).into(),
-            write_direction: (unit / 8 % 2 == 1).into(),
+    const WRITTEN: u64 = 8 * WORDS;
+    let circuit = Group::new(8, Widths::default(), Variant::Safe, 1000);
+    let idle = zero(&circuit);
+    let drive = |tick, _: &State<'_, Group>| match tick {
+        0..WRITTEN => {
+            let (axis, unit) = (tick / WORDS, tick % WORDS);
+            group::In {
+                port: WritePort {
+                    write: true,
+                    write_axis: axis,
+                    write_address: unit,
+                    write_half_period: 10 + (unit * 37 + axis * 101) % 491,
+                    write_direction: unit / 8 % 2 == 1,
+                },
+                ..idle.clone()
+            }
+        }
+        WRITTEN => group::In {
+            command: true,
+            last: WORDS - 1,
+            cyclic: true,
+            run: true,
+            period: 1000,
             ..idle.clone()
-        });
-    }
-    recorder.tick(&pulse_interpolator::group::In {
-        command: true.into(),
-        last: (WORDS - 1).into(),
-        cyclic: true.into(),
-        run: true.into(),
-        period: 1000.into(),
-        ..idle.clone()
-    });
-    recorder.tick(&idle);
+        },
+        _ => idle.clone(),
+    };
+    let mut recorder = Recorder::new(&circuit, ticks);
+    let mut simulator = Simulator::new(&circuit).expect("a netlist");
+    let run = simulator.run(WRITTEN + 2, drive, &mut recorder);
+    run.expect("nobody objects");
     let mut stimulus = recorder.finish();
     stimulus.ticks = ticks;
-    let circuit = Group::new(Variant::Safe, 1000);
     Job { circuit, stimulus }
 }
 
-outputs!([] Controller<LinearInterpolator>:
+outputs!(Controller:
     scan command_x command_y feedback_x feedback_y reference_x reference_y start load ready busy
     late refused lost_x lost_y);
 
 /// The plotter's drawing.
-pub fn plotting(ticks: u64, clock: Clock) -> Job<Controller<LinearInterpolator>> {
+pub fn plotting(ticks: u64, clock: Clock) -> Job<Controller> {
     let whole = scenario("plotter", clock);
     let Scenario::LinearInterpolator(scenario) = &whole else {
         unreachable!("the linear interpolator's")
@@ -168,44 +177,38 @@ pub fn plotting(ticks: u64, clock: Clock) -> Job<Controller<LinearInterpolator>>
     let settings = scenario.settings();
     let targets = targets::compile(&drawing(&whole), &settings).expect("it fits");
     let circuit = plotter(settings.rule);
-    let mut recorder = Recorder::new(ticks);
-    let observer = Without(&mut recorder);
-    jobs::linear_interpolator::job::play(&circuit, &targets.targets, &settings, observer)
+    let mut recorder = Recorder::new(&circuit, ticks);
+    jobs::linear_interpolator::job::play(&circuit, &targets.targets, &settings, &mut recorder)
         .expect("nobody objects");
-    Job {
-        circuit: circuit.circuit,
-        stimulus: recorder.finish(),
-    }
+    let stimulus = recorder.finish();
+    Job { circuit, stimulus }
 }
 
-outputs!([] Compensator<ShiftLead>:
+outputs!(Compensator:
     ck position predicted target lead_time step busy drive reverse speed fire brake complete
     timed_out overrun error learned learned_time refused lost);
 
 /// The turntable's positionings.
-pub fn turntable(ticks: u64, clock: Clock) -> Job<Compensator<ShiftLead>> {
+pub fn turntable(ticks: u64, clock: Clock) -> Job<Compensator> {
     let Scenario::LeadAngle(scenario) = scenario("turntable", clock) else {
         unreachable!("the lead-angle compensator's")
     };
     let settings = scenario.settings();
-    let circuit = positioner::<ShiftLead>(&settings);
-    let mut recorder = Recorder::new(ticks);
-    jobs::lead_angle::job::play(&circuit, &settings, Without(&mut recorder))
-        .expect("nobody objects");
-    Job {
-        circuit: circuit.circuit,
-        stimulus: recorder.finish(),
-    }
+    let circuit = positioner(&settings, LeadFrom::Time(Memory::ShiftRegister));
+    let mut recorder = Recorder::new(&circuit, ticks);
+    jobs::lead_angle::job::play(&circuit, &settings, &mut recorder).expect("nobody objects");
+    let stimulus = recorder.finish();
+    Job { circuit, stimulus }
 }
 
-outputs!([] ArcGenerator: x y z sampled ready busy kind late starved);
+outputs!(ArcGenerator: x y z sampled ready busy kind late starved);
 
 /// The weld seam.
 pub fn weld(ticks: u64, clock: Clock) -> Job<ArcGenerator> {
     let Scenario::ArcGenerator(scenario) = scenario("weld", clock) else {
         unreachable!("the arc generator's")
     };
-    let (settings, widths) = (scenario.settings(), arc_generator::widths::Widths::FULL);
+    let (settings, widths) = (scenario.settings(), arc_generator::Widths::FULL);
     let taught = scenario.taught().expect("it is taught");
     let pieces = from_points(scenario.start_mm, &taught, Speeds::from(&settings));
     let timing = settings.timing(&widths).expect("it fits");
@@ -214,18 +217,18 @@ pub fn weld(ticks: u64, clock: Clock) -> Job<ArcGenerator> {
     let records = records(&prepared, scale, &widths, rounding).expect("it fits");
     let sample_ticks = settings.sample_ticks(&widths).expect("it fits");
     let circuit = arc_generator(rounding);
-    let mut recorder = Recorder::new(ticks);
+    let mut recorder = Recorder::new(&circuit, ticks);
     jobs::arc_generator::job::play(&circuit, &records, sample_ticks, &mut recorder)
         .expect("nobody objects");
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
 }
 
-outputs!([const AXES: usize] trajectory::Controller<AXES>:
+outputs!(TrajectoryController:
     torque position lost ready busy sampled fresh late profile_late starved);
 
 /// The pocket on three axes.
-pub fn pocket(ticks: u64, clock: Clock) -> Job<trajectory::Controller<3>> {
+pub fn pocket(ticks: u64, clock: Clock) -> Job<TrajectoryController> {
     let whole = scenario("pocket", clock);
     let Scenario::TrajectoryController(scenario) = &whole else {
         unreachable!("the trajectory controller's")
@@ -234,23 +237,22 @@ pub fn pocket(ticks: u64, clock: Clock) -> Job<trajectory::Controller<3>> {
     let drawing = drawing(&whole);
     let pieces = from_drawing(&drawing, Speeds::from(&settings)).expect("arcs");
     let machines = scenario.machines(3).expect("three");
-    let widths = trajectory_controller::widths::Widths::FULL;
+    let widths = trajectory_controller::Widths::FULL;
     let program = trajectory::Program::of(drawing.start, &pieces, &settings, &machines, &widths);
     let tick_s = 1.0 / settings.clock_hz as f64;
-    let plants: Vec<_> = machines
+    let plants = machines
         .iter()
         .map(|machine| TwoMassAxis::new(machine, tick_s).expect("slow enough"))
         .collect();
-    let plants = plants.try_into().expect("three");
-    let circuit = trajectory::Controller::new(settings.correction, settings.rounding);
-    let mut recorder = Recorder::new(ticks);
+    let circuit = trajectory::controller(3, settings.correction, settings.rounding);
+    let mut recorder = Recorder::new(&circuit, ticks);
     trajectory::play(&circuit, &program.expect("it fits"), plants, &mut recorder)
         .expect("nobody objects");
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
 }
 
-outputs!([] Machine:
+outputs!(Machine:
     step_x step_y dir_x dir_y pulse_ready pulse_busy counts_x counts_y lines_ready lines_busy
     arcs_ready arcs_busy profile_ready profile_busy torque_x torque_y position_x position_y drive
     reverse speed brake lift_busy fault);
@@ -264,11 +266,8 @@ pub fn machine(ticks: u64, clock: Clock) -> Job<Machine> {
     let settings = scenario.settings();
     let program = jobs::machine::Program::of(&drawing(&whole), &settings).expect("it fits");
     let circuit = jobs::machine::job::machine(&settings);
-    let mut recorder = Recorder::new(ticks);
-    let mut observer = Without(&mut recorder);
-    jobs::machine::job::play(&circuit, &program, &settings, &mut observer).expect("nobody objects");
-    Job {
-        circuit: circuit.circuit,
-        stimulus: recorder.finish(),
-    }
+    let mut recorder = Recorder::new(&circuit, ticks);
+    jobs::machine::job::play(&circuit, &program, &settings, &mut recorder).expect("nobody objects");
+    let stimulus = recorder.finish();
+    Job { circuit, stimulus }
 }

@@ -19,7 +19,7 @@ mod stimulus;
 mod theirs;
 
 use jobs::{Clock, Job};
-use motion_rtl::kernel::Simulator;
+use motion_rtl::hdl::Simulator;
 use ours::{Ours, Outputs, Waves, Way};
 use std::time::{Duration, Instant};
 use stimulus::Stimulus;
@@ -163,8 +163,8 @@ fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
 /// all ways to run it.
 fn alone<C: Outputs>(asked: &Asked, name: &str, circuit: &C, stimulus: &Stimulus) {
     let begun = Instant::now();
-    let simulator = Simulator::watching(circuit, false, C::outputs).expect("a netlist");
-    let _compiled = simulator.0.compiled();
+    let (mut simulator, _) = Simulator::watching(circuit, false, C::outputs).expect("a netlist");
+    simulator.compile();
     let ready = begun.elapsed().as_secs_f64() * 1e3;
     let times = [Way::Compiled, Way::Interpreted, Way::Forward].map(|way| {
         let ours = Ours::new(circuit, stimulus, way);

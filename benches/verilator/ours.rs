@@ -2,8 +2,7 @@
 
 use super::stimulus::{Replay, Stimulus};
 use super::theirs::ROTATION;
-use motion_rtl::kernel::{Circuit, Observer, Place, RunError, Sample, Simulator, Watcher};
-use motion_rtl::logic::netlist::{NetBit, NetInt, NetUInt};
+use motion_rtl::hdl::{At, Circuit, Observer, RunError, Sample, Simulator, Watcher};
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
 use std::fs::File;
 use std::ops::ControlFlow;
@@ -11,39 +10,24 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// A circuit whose outputs can be read.
-pub trait Outputs: Circuit + Sized {
+pub trait Outputs: Circuit {
     /// The leaves that they are, in the order of the ports, which are watched.
-    fn outputs(watch: &Watcher<Self>) -> Vec<usize>;
+    fn outputs(watch: &Watcher<'_, Self>) -> Vec<usize>;
 }
 
 /// A port out, or some.
 pub trait Port {
-    fn leaves<C: Circuit>(&self, watch: &Watcher<C>, leaves: &mut Vec<usize>);
+    fn leaves<C: Circuit>(&self, watch: &Watcher<'_, C>, leaves: &mut Vec<usize>);
 }
 
-impl Port for NetBit {
-    fn leaves<C: Circuit>(&self, watch: &Watcher<C>, leaves: &mut Vec<usize>) {
-        watch.at(*self);
-        leaves.push(self.leaf());
+impl<T> Port for At<T> {
+    fn leaves<C: Circuit>(&self, watch: &Watcher<'_, C>, leaves: &mut Vec<usize>) {
+        leaves.push(watch.at(*self).leaf());
     }
 }
 
-impl<const N: usize> Port for NetUInt<N> {
-    fn leaves<C: Circuit>(&self, watch: &Watcher<C>, leaves: &mut Vec<usize>) {
-        watch.at(*self);
-        leaves.push(self.leaf());
-    }
-}
-
-impl<const N: usize> Port for NetInt<N> {
-    fn leaves<C: Circuit>(&self, watch: &Watcher<C>, leaves: &mut Vec<usize>) {
-        watch.at(*self);
-        leaves.push(self.leaf());
-    }
-}
-
-impl<P: Port, const K: usize> Port for [P; K] {
-    fn leaves<C: Circuit>(&self, watch: &Watcher<C>, leaves: &mut Vec<usize>) {
+impl<P: Port> Port for Vec<P> {
+    fn leaves<C: Circuit>(&self, watch: &Watcher<'_, C>, leaves: &mut Vec<usize>) {
         self.iter().for_each(|port| port.leaves(watch, leaves));
     }
 }
@@ -131,7 +115,7 @@ impl<C: Outputs> Ours<C> {
         let watched = Simulator::watching(circuit, false, C::outputs);
         let (mut simulator, outputs) = watched.expect("a netlist");
         if way == Way::Interpreted {
-            simulator = simulator.interpreted();
+            simulator.interpret();
         }
         let ours = Ours {
             simulator,
@@ -146,9 +130,9 @@ impl<C: Outputs> Ours<C> {
 
     /// A run, and the checksum over the outputs of every so many ticks.
     pub fn run(&self, stimulus: &Stimulus, every: u64) -> (Duration, u64) {
-        let mut replay = Replay::<C>::new(stimulus);
+        let mut replay = Replay::new(self.simulator.circuit(), stimulus);
         let mut sum = Checksum::new(&self.outputs, every);
-        let simulator = self.simulator.clone();
+        let mut simulator = self.simulator.clone();
         let begun = Instant::now();
         let run = match self.way {
             Way::Forward => {
@@ -158,7 +142,7 @@ impl<C: Outputs> Ours<C> {
         };
         sum.until(stimulus.ticks);
         let taken = begun.elapsed();
-        drop(run.expect("no observer objects"));
+        run.expect("no observer objects");
         (taken, sum.sum)
     }
 }
@@ -218,20 +202,20 @@ fn seen<C: Outputs>(
     from: u64,
     observer: impl Observer<C>,
 ) -> (Instant, u64) {
-    let mut replay = Replay::<C>::new(stimulus);
+    let mut replay = Replay::new(circuit, stimulus);
     let watched = Simulator::watching(circuit, true, C::outputs);
-    let (simulator, outputs) = watched.expect("a netlist");
+    let (mut simulator, outputs) = watched.expect("a netlist");
     let mut sum = Checksum::new(&outputs, 1);
     let before = simulator.run(from, |tick, _| replay.tick(tick), &mut sum);
-    let before = before.expect("no observer objects");
+    before.expect("no observer objects");
     let observers = (observer, &mut sum);
     let begun = Instant::now();
-    let run = before.run(
+    let run = simulator.run(
         stimulus.ticks - from,
         |tick, _| replay.tick(tick),
         observers,
     );
     sum.until(stimulus.ticks);
-    drop(run.expect("room"));
+    run.expect("room");
     (begun, sum.sum)
 }

@@ -1,9 +1,9 @@
 //! What goes into a circuit during a job, recorded once and applied to both models.
 
-use motion_rtl::kernel::{
-    Circuit, Field, Observer, Probe, RunError, Sample, Shape, Signals, Source, zero,
+use motion_rtl::hdl::{
+    Cells, Circuit, Contents, Declarations, Field, MemoryShape, Observer, Record, Role, RunError,
+    Sample, Shape, Source, Value,
 };
-use motion_rtl::logic::Sim;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
@@ -48,17 +48,18 @@ const END: Change = Change {
 #[derive(Debug)]
 pub struct Recorder {
     stimulus: Stimulus,
+    /// Of the circuit's own ports in: others stand beside it.
     words: Vec<u64>,
-    port: usize,
     most: u64,
 }
 
 impl Recorder {
-    pub fn new(most: u64) -> Self {
+    pub fn new<C: Circuit>(circuit: &C, most: u64) -> Self {
+        let leaves = Declarations::of(circuit).leaves;
+        let ports = leaves.iter().take_while(|leaf| leaf.role == Role::Input);
         Recorder {
             stimulus: Stimulus::default(),
-            words: Vec::new(),
-            port: 0,
+            words: ports.map(|_| 0).collect(),
             most,
         }
     }
@@ -66,35 +67,22 @@ impl Recorder {
     pub fn finish(self) -> Stimulus {
         self.stimulus
     }
-
-    /// The tick that comes next.
-    pub fn tick<S: Signals<Sim>>(&mut self, i: &S) {
-        self.port = 0;
-        i.visit(const { &Field::named("") }, self);
-        self.stimulus.ticks += 1;
-    }
-}
-
-impl Probe for Recorder {
-    fn leaf(&mut self, _: &'static Field, _: Shape, value: u64) {
-        if self.port == self.words.len() {
-            self.words.push(0);
-        }
-        if self.words[self.port] != value {
-            self.words[self.port] = value;
-            self.stimulus.changes.push(Change {
-                tick: self.stimulus.ticks as u32,
-                port: self.port as u32,
-                value,
-            });
-        }
-        self.port += 1;
-    }
 }
 
 impl<C: Circuit> Observer<C> for Recorder {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        self.tick(&**now.i);
+        for (port, word) in self.words.iter_mut().enumerate() {
+            let value = now.engine().port(port);
+            if *word != value {
+                *word = value;
+                self.stimulus.changes.push(Change {
+                    tick: self.stimulus.ticks as u32,
+                    port: port as u32,
+                    value,
+                });
+            }
+        }
+        self.stimulus.ticks += 1;
         Ok(match self.stimulus.ticks < self.most {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
@@ -104,36 +92,37 @@ impl<C: Circuit> Observer<C> for Recorder {
 
 /// The recorded inputs, tick after tick.
 pub struct Replay<'a, C: Circuit> {
+    circuit: &'a C,
     changes: &'a [Change],
     /// Of the ports that have changed, and those before them.
     words: Vec<u64>,
-    i: C::In<Sim>,
     next: u64,
 }
 
 impl<'a, C: Circuit> Replay<'a, C> {
-    pub fn new(stimulus: &'a Stimulus) -> Self {
+    pub fn new(circuit: &'a C, stimulus: &'a Stimulus) -> Self {
         Replay {
+            circuit,
             next: stimulus
                 .changes
                 .first()
                 .map_or(u64::MAX, |change| change.tick.into()),
             changes: &stimulus.changes,
             words: Vec::new(),
-            i: zero::<C::In<Sim>>(),
         }
     }
 
-    pub fn tick(&mut self, tick: u64) -> C::In<Sim> {
+    pub fn tick(&mut self, tick: u64) -> C::In<Value> {
         if tick == self.next {
             self.apply();
         }
-        self.i.clone()
+        let field = const { &Field::part(Role::Input) };
+        C::In::make(self.circuit, field, &mut Given(self.words.iter()))
     }
 
     /// The same, and for how many ticks they are held: the next tick asked for is in these, or the
     /// one after them.
-    pub fn held(&mut self, tick: u64) -> (C::In<Sim>, u64) {
+    pub fn held(&mut self, tick: u64) -> (C::In<Value>, u64) {
         let i = self.tick(tick);
         (i, self.next - tick)
     }
@@ -152,7 +141,6 @@ impl<'a, C: Circuit> Replay<'a, C> {
             .changes
             .first()
             .map_or(u64::MAX, |change| change.tick.into());
-        self.i = C::In::make(const { &Field::named("") }, &mut Given(self.words.iter()));
     }
 }
 
@@ -160,7 +148,17 @@ impl<'a, C: Circuit> Replay<'a, C> {
 struct Given<'a>(std::slice::Iter<'a, u64>);
 
 impl Source for Given<'_> {
-    fn leaf(&mut self, _: &'static Field, _: Shape) -> u64 {
+    fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
         self.0.next().copied().unwrap_or_default()
+    }
+
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        _: MemoryShape,
+        _: &dyn Fn() -> Contents,
+    ) -> Cells {
+        unreachable!("a port in is a word")
     }
 }

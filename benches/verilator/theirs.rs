@@ -1,7 +1,7 @@
 //! The exported Verilog, compiled by Verilator.
 
 use super::stimulus::Stimulus;
-use motion_rtl::kernel::{Circuit, Role};
+use motion_rtl::hdl::{Circuit, Role};
 use motion_rtl::verilog::Verilog;
 use std::fmt::Write as _;
 use std::fs;
@@ -60,7 +60,7 @@ impl Verilated {
         fs::write(directory.join("ports.h"), ports(&verilog)).expect("room");
         stimulus.write(&directory.join("stimulus")).expect("room");
         let mut options: Vec<String> = OPTIONS.map(str::to_owned).to_vec();
-        options.extend(["--top-module".to_owned(), C::NAME.to_owned()]);
+        options.extend(["--top-module".to_owned(), circuit.name().to_owned()]);
         let flags = format!("-O3 -DSELDOM={}", super::SELDOM);
         options.extend(["-CFLAGS".to_owned(), flags]);
         match build {

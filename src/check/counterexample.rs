@@ -1,7 +1,6 @@
 use super::Fault;
 use crate::engine::Watch;
-use crate::kernel::{Circuit, Declaration, Model, Role, RunError, words};
-use crate::logic::Sim;
+use crate::hdl::{self, Circuit, Declaration, Model, Role, RunError, Value};
 use crate::trace::value::show;
 use crate::trace::{self, Clock};
 use std::fmt::{self, Write as _};
@@ -15,10 +14,9 @@ const ROWS: usize = 40;
 /// A shortest input sequence that violates an invariant.
 ///
 /// It prints as what is wrong at which tick, and a table of the last ticks.
-#[derive(Clone)]
 pub struct Counterexample<C: Circuit> {
     /// The inputs from power-on, the last one those of the tick at fault.
-    pub inputs: Vec<C::In<Sim>>,
+    pub inputs: Vec<C::In<Value>>,
     /// The tick at fault.
     pub tick: u64,
     /// The invariant that is violated.
@@ -33,16 +31,25 @@ pub struct Counterexample<C: Circuit> {
 impl<C: Circuit> Counterexample<C> {
     pub(super) fn new(
         model: &Model,
-        inputs: Vec<C::In<Sim>>,
+        inputs: Vec<C::In<Value>>,
         invariant: String,
         fault: Fault,
     ) -> Self {
         let Fault { signals, message } = fault;
+        let widths: Vec<usize> = model
+            .flat()
+            .inputs
+            .iter()
+            .map(|&width| width.into())
+            .collect();
         Counterexample {
             tick: (inputs.len() as u64).saturating_sub(1),
             table: table(
                 model,
-                &inputs.iter().map(words).collect::<Vec<_>>(),
+                &inputs
+                    .iter()
+                    .map(|i| hdl::pack::words(i, &widths))
+                    .collect::<Vec<_>>(),
                 &signals,
             ),
             inputs,
@@ -58,8 +65,10 @@ impl<C: Circuit> Counterexample<C> {
     /// # Errors
     /// The files cannot be written.
     pub fn save(&self, circuit: &C, clock: Clock, dir: &Path) -> Result<Vec<PathBuf>, RunError> {
-        let inputs = self.inputs.iter().cloned();
-        trace::replay(circuit, inputs, clock, dir, &stem(C::NAME, &self.invariant))
+        let widths = hdl::pack::input_widths(circuit);
+        let inputs = self.inputs.iter().map(|i| hdl::pack::words(i, &widths));
+        let stem = stem(circuit.name(), &self.invariant);
+        trace::replay(circuit, inputs, clock, dir, &stem)
     }
 }
 

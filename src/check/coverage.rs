@@ -1,4 +1,4 @@
-use crate::kernel::{Circuit, Declarations, Observer, Role, RunError, Sample, View};
+use crate::hdl::{Declarations, Described, LeafView as View, Role, RunError};
 use std::fmt;
 use std::ops::{ControlFlow, Range};
 
@@ -40,8 +40,8 @@ impl fmt::Display for Untoggled {
 
 impl Coverage {
     /// Nothing seen yet of a circuit of this kind.
-    pub fn new<C: Circuit>(circuit: &C) -> Self {
-        Self::of(&Declarations::of(circuit))
+    pub fn new(circuit: &impl Described) -> Self {
+        Self::of(&circuit.outlined().1)
     }
 
     /// The same of a circuit whose type is forgotten.
@@ -140,8 +140,8 @@ impl Coverage {
     }
 }
 
-impl<C: Circuit> Observer<C> for Coverage {
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+impl<C: crate::hdl::Circuit> crate::hdl::Observer<C> for Coverage {
+    fn sample(&mut self, now: &crate::hdl::Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.tick(now.tick, now.view());
         Ok(ControlFlow::Continue(()))
     }

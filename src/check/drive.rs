@@ -1,6 +1,6 @@
 use super::{Coverage, Stimulus};
 use crate::engine::Watch;
-use crate::kernel::{Circuit, Model, RunError, View};
+use crate::hdl::{Described, LeafView as View, Model, RunError};
 use crate::trace::{Clock, Dump, Layout, Lines, Options, VcdFile};
 use std::io::{self, Write};
 
@@ -32,13 +32,13 @@ pub struct Driven {
 ///
 /// # Errors
 /// A writer failed; a name that is used twice in a scope or that waves cannot carry.
-pub fn drive<C: Circuit>(
-    circuit: &C,
+pub fn drive(
+    circuit: &impl Described,
     drive: &Drive,
     mut waves: impl Write,
     mut stimulus: impl Write,
 ) -> Result<Driven, RunError> {
-    drive.run(&Model::of(circuit)?, &mut waves, &mut stimulus)
+    drive.run(&circuit.described()?, &mut waves, &mut stimulus)
 }
 
 impl Drive {

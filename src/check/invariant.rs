@@ -1,5 +1,5 @@
-use crate::kernel::{Circuit, Model, Observer, RunError, Sample};
-use crate::logic::Sim;
+use crate::hdl::RunError;
+use crate::hdl::{self, Circuit, Observer, Registers, Sample};
 use std::fmt;
 use std::ops::ControlFlow;
 
@@ -34,7 +34,7 @@ pub fn require<const N: usize>(
 }
 
 type Always<'f, C> = dyn Fn(&Sample<'_, C>) -> Verdict + 'f;
-type Step<'f, C> = dyn Fn(&Sample<'_, C>, &<C as Circuit>::Reg<Sim>) -> Verdict + 'f;
+type Step<'f, C> = dyn Fn(&Sample<'_, C>, &Registers<C>) -> Verdict + 'f;
 
 enum Holds<'f, C: Circuit> {
     /// One of the circuit's own, by its number, and the signals that it is about. A step property is
@@ -44,7 +44,7 @@ enum Holds<'f, C: Circuit> {
     Step(Box<Step<'f, C>>),
 }
 
-/// Named properties that hold on every tick: proved by [`reach`](super::reach), watched by a
+/// Named properties that hold on every tick: proved by [`reach`](super::reach()), watched by a
 /// [`Monitor`].
 ///
 /// They are checked in the order in which they were added. A property must not depend on
@@ -64,7 +64,7 @@ impl<'f, C: Circuit> Invariants<'f, C> {
     /// Of what is no netlist there are none: neither is there a proof of it, nor a run.
     pub fn of(circuit: &C) -> Self {
         let mut invariants = Invariants::new();
-        let Ok(model) = Model::of(circuit) else {
+        let Ok(model) = hdl::model(circuit) else {
             return invariants;
         };
         let known = model.design().modules.last();
@@ -93,7 +93,7 @@ impl<'f, C: Circuit> Invariants<'f, C> {
     pub fn step(
         mut self,
         name: impl Into<String>,
-        holds: impl Fn(&Sample<'_, C>, &C::Reg<Sim>) -> Verdict + 'f,
+        holds: impl Fn(&Sample<'_, C>, &Registers<C>) -> Verdict + 'f,
     ) -> Self {
         let property = Holds::Step(Box::new(holds));
         self.named.push((name.into(), property));
@@ -125,7 +125,7 @@ impl<'f, C: Circuit> Invariants<'f, C> {
     pub(super) fn check(
         &self,
         now: &Sample<'_, C>,
-        next: Option<&C::Reg<Sim>>,
+        next: Option<&Registers<C>>,
     ) -> Result<(), (&str, Fault)> {
         for (name, property) in &self.named {
             match (property, next) {

@@ -1,7 +1,10 @@
-use super::{Fault, Pair, SamePorts, Verdict};
+use super::Pair;
+use super::{Fault, Verdict};
 use crate::engine::Engine;
-use crate::kernel::{Circuit, Field, Kind, Observer, Outline, Path, Role, RunError, Sample, Shape};
-use crate::logic::netlist::parts;
+use crate::hdl::outline::Shown;
+use crate::hdl::pack::input_widths;
+use crate::hdl::{Circuit, Observer, Pass, Sample, view};
+use crate::hdl::{Field, Kind, Outline, Path, Role, RunError, Shape};
 use crate::trace::value::number;
 use std::fmt;
 use std::ops::ControlFlow;
@@ -32,9 +35,8 @@ pub enum LockstepError {
 /// every input sequence, or the whole as an observer of a run.
 ///
 /// ```no_run
-/// # use motion_rtl::{check::*, kernel::*};
-/// # fn agree<A: Circuit, B: SamePorts<A>>(left: A, right: B)
-/// # -> Result<(), Box<dyn std::error::Error>> {
+/// # use motion_rtl::{check::{Invariants, Lockstep, Pair, reach}, hdl::Circuit};
+/// # fn agree<A: Circuit, B: Circuit>(left: A, right: B) -> Result<(), Box<dyn std::error::Error>> {
 /// let pair = Pair { left, right };
 /// let lockstep = Lockstep::by_name(&pair)?;
 /// let agree = Invariants::new().always("agree", |now| lockstep.compare(now));
@@ -60,16 +62,16 @@ impl Lockstep {
     ///
     /// # Errors
     /// There are ports out without partner, or no ports out at all.
-    pub fn by_name<A: Circuit, B: Circuit>(_: &Pair<A, B>) -> Result<Self, LockstepError> {
-        let names: Vec<_> = ports_out::<A>();
+    pub fn by_name<A: Circuit, B: Circuit>(pair: &Pair<A, B>) -> Result<Self, LockstepError> {
+        let names: Vec<_> = ports_out(&pair.left);
         let names: Vec<_> = names
             .iter()
             .map(|name| (name.as_str(), name.as_str()))
             .collect();
-        let right = ports_out::<B>();
+        let right = ports_out(&pair.right);
         let shared = |(name, _): &(&str, &str)| right.iter().any(|other| other == name);
         let shared: Vec<_> = names.into_iter().filter(shared).collect();
-        let lockstep = Lockstep::pairing::<A, B>(&shared)?;
+        let lockstep = Lockstep::pairing(pair, &shared)?;
         match (lockstep.unpaired.is_empty(), lockstep.compared.is_empty()) {
             (true, false) => Ok(lockstep),
             (true, true) => Err(LockstepError::Nothing),
@@ -82,36 +84,44 @@ impl Lockstep {
     /// # Errors
     /// One of them does not exist, or the list is empty.
     pub fn of<A: Circuit, B: Circuit>(
-        _: &Pair<A, B>,
+        pair: &Pair<A, B>,
         signals: &[(&str, &str)],
     ) -> Result<Self, LockstepError> {
         if signals.is_empty() {
             return Err(LockstepError::Nothing);
         }
-        Lockstep::pairing::<A, B>(signals)
+        Lockstep::pairing(pair, signals)
     }
 
-    fn pairing<A: Circuit, B: Circuit>(signals: &[(&str, &str)]) -> Result<Self, LockstepError> {
-        let (left, right) = (Leaves::of::<A>(), Leaves::of::<B>());
-        // The registers of both come before the nets of both, those of the left one first.
+    fn pairing<A: Circuit, B: Circuit>(
+        pair: &Pair<A, B>,
+        signals: &[(&str, &str)],
+    ) -> Result<Self, LockstepError> {
+        let (left, right) = (Leaves::of(&pair.left), Leaves::of(&pair.right));
+        let ports = input_widths(&pair.left).len();
+        // The registers of both come before the nets of both, each with its ports in, those of the
+        // left one first.
         let of_left = |place: usize| match place.checked_sub(left.registers) {
             None => place,
-            Some(net) => left.registers + right.registers + net,
+            Some(net) => left.registers + right.registers + ports + net,
         };
         let of_right = |place: usize| match place.checked_sub(right.registers) {
             None => left.registers + place,
-            Some(net) => left.leaves.len() + right.registers + net,
+            Some(net) => left.leaves.len() + right.registers + 2 * ports + net,
         };
         let compared: Vec<_> = signals
             .iter()
             .map(|&(a, b)| {
-                let (l, r) = (left.place::<A>(a)?, right.place::<B>(b)?);
+                let (l, r) = (
+                    left.place(pair.left.name(), a)?,
+                    right.place(pair.right.name(), b)?,
+                );
                 Ok(Compared {
                     left: (of_left(l), left.leaves[l].shape),
                     right: (of_right(r), right.leaves[r].shape),
                     paths: [
-                        format!("{}.{a}", Pair::<A, B>::LEFT),
-                        format!("{}.{b}", Pair::<A, B>::RIGHT),
+                        format!("{}.{a}", Pair::<A, B>::SCOPES[0]),
+                        format!("{}.{b}", Pair::<A, B>::SCOPES[1]),
                     ],
                 })
             })
@@ -123,8 +133,8 @@ impl Lockstep {
             .public()
             .filter(|name| !signals.iter().any(|(_, b)| b == name));
         let unpaired = of_left
-            .map(|name| format!("{}.{name}", Pair::<A, B>::LEFT))
-            .chain(of_right.map(|name| format!("{}.{name}", Pair::<A, B>::RIGHT)))
+            .map(|name| format!("{}.{name}", Pair::<A, B>::SCOPES[0]))
+            .chain(of_right.map(|name| format!("{}.{name}", Pair::<A, B>::SCOPES[1])))
             .collect();
         Ok(Lockstep { compared, unpaired })
     }
@@ -138,11 +148,7 @@ impl Lockstep {
     ///
     /// # Errors
     /// They differ.
-    pub fn compare<A, B>(&self, now: &Sample<'_, Pair<A, B>>) -> Verdict
-    where
-        A: Circuit,
-        B: SamePorts<A>,
-    {
+    pub fn compare<A: Circuit, B: Circuit>(&self, now: &Sample<'_, Pair<A, B>>) -> Verdict {
         let engine = now.engine();
         for Compared {
             left: l,
@@ -176,11 +182,7 @@ impl fmt::Display for Lockstep {
     }
 }
 
-impl<A, B> Observer<Pair<A, B>> for Lockstep
-where
-    A: Circuit,
-    B: SamePorts<A>,
-{
+impl<A: Circuit, B: Circuit> Observer<Pair<A, B>> for Lockstep {
     fn sample(&mut self, now: &Sample<'_, Pair<A, B>>) -> Result<ControlFlow<()>, RunError> {
         match self.compare(now) {
             Ok(()) => Ok(ControlFlow::Continue(())),
@@ -199,8 +201,8 @@ fn value(engine: &Engine, (leaf, shape): (usize, Shape)) -> i128 {
     number(shape, engine.leaf(first + leaf))
 }
 
-fn ports_out<C: Circuit>() -> Vec<String> {
-    Leaves::of::<C>().public().map(str::to_owned).collect()
+fn ports_out<C: Circuit>(circuit: &C) -> Vec<String> {
+    Leaves::of(circuit).public().map(str::to_owned).collect()
 }
 
 /// The leaves of the registers and nets of one circuit.
@@ -222,11 +224,19 @@ struct Leaf {
 }
 
 impl Leaves {
-    fn of<C: Circuit>() -> Self {
+    fn of<C: Circuit>(circuit: &C) -> Self {
         let mut leaves = Leaves::default();
-        parts::<C>(&[Role::Register], &mut leaves);
+        let mut shown = Shown {
+            outline: &mut leaves,
+            pass: Pass::Registers,
+        };
+        view::registers(circuit, &mut shown);
         leaves.registers = leaves.leaves.len();
-        parts::<C>(&[Role::Net], &mut leaves);
+        let mut shown = Shown {
+            outline: &mut leaves,
+            pass: Pass::Nets,
+        };
+        view::nets(circuit, &mut shown);
         leaves
     }
 
@@ -235,12 +245,12 @@ impl Leaves {
         ports.map(|leaf| leaf.name.as_str())
     }
 
-    fn place<C: Circuit>(&self, signal: &str) -> Result<usize, LockstepError> {
+    fn place(&self, circuit: &'static str, signal: &str) -> Result<usize, LockstepError> {
         let mut places = (0..self.leaves.len()).filter(|&place| self.leaves[place].name == signal);
         match (places.next(), places.next()) {
             (Some(place), None) => Ok(place),
             _ => Err(LockstepError::NoSuchSignal {
-                circuit: C::NAME,
+                circuit,
                 signal: signal.to_owned(),
             }),
         }

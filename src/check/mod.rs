@@ -16,56 +16,33 @@
 //! to it, ghost registers that no hardware will have.
 //!
 //! ```
-//! use motion_rtl::check::{Invariants, Outcome, reach, require};
-//! use motion_rtl::kernel::{Circuit, Instance};
-//! use motion_rtl::logic::{Bit, Logic, Unsigned};
-//! use motion_rtl::signals;
+//! use motion_rtl::circuits::blocks::{EnableCounter, enable_counter};
+//! use motion_rtl::hdl::prelude::*;
 //!
-//! signals! { pub struct In<L> { period: L::U<3> } }
-//! signals! { pub struct Reg<L> { count: L::U<3> } }
-//! signals! { pub struct Net<L> { next: L::U<3>, pub unit_rst: L::Bit } }
-//!
-//! /// Pulses `unit_rst` every `period` ticks.
-//! pub struct Counter;
-//!
-//! impl Circuit for Counter {
-//!     const NAME: &'static str = "counter";
-//!     const ABOUT: &'static str = "divides the tick";
-//!     type In<L: Logic> = In<L>;
-//!     type Reg<L: Logic> = Reg<L>;
-//!     type Net<L: Logic> = Net<L>;
-//!     fn comb<L: Logic>(&self, q: &Reg<L>, i: &In<L>) -> Net<L> {
-//!         let next = q.count + 1;
-//!         Net { next, unit_rst: !next.below(i.period) }
-//!     }
-//!     fn next<L: Logic>(&self, _: Reg<L>, w: &Net<L>, _: &In<L>) -> Reg<L> {
-//!         Reg { count: w.unit_rst.mux(0.into(), w.next) }
-//!     }
-//! }
-//!
-//! signals! { pub struct GhostReg<L> { counter: Reg<L>, rst_before: L::Bit } }
-//! signals! { pub struct GhostNet<L> { counter: Instance<Counter, L> } }
-//!
-//! /// The counter, and whether it pulsed a tick ago.
+//! /// A counter, and whether it pulsed a tick ago.
+//! #[derive(Debug, Clone)]
 //! struct WithGhost;
+//!
+//! signals! { for WithGhost as _c;
+//!     struct In { period: U(3) }
+//!     struct Reg { enable_before: Bit }
+//!     struct Parts { counter: Part<EnableCounter>(EnableCounter { width: 3 }) }
+//! }
 //!
 //! impl Circuit for WithGhost {
 //!     const NAME: &'static str = "with_ghost";
 //!     const ABOUT: &'static str = "remembers the last pulse";
-//!     type In<L: Logic> = In<L>;
-//!     type Reg<L: Logic> = GhostReg<L>;
-//!     type Net<L: Logic> = GhostNet<L>;
-//!     fn comb<L: Logic>(&self, q: &GhostReg<L>, i: &In<L>) -> GhostNet<L> {
-//!         GhostNet { counter: Instance::settle(&Counter, &q.counter, i.clone()) }
-//!     }
-//!     fn next<L: Logic>(&self, q: GhostReg<L>, w: &GhostNet<L>, _: &In<L>) -> GhostReg<L> {
-//!         GhostReg { counter: w.counter.next(&Counter, q.counter), rst_before: w.counter.w.unit_rst }
+//!     records!(In, Reg, Nothing, Parts);
+//!
+//!     fn tick(&self, i: In, _: Reg, p: Parts) -> (Nothing, Reg<Edge>) {
+//!         let counter = p.counter.settle(enable_counter::In { period: i.period });
+//!         (Nothing, Reg { enable_before: counter.w.enable })
 //!     }
 //! }
 //!
 //! let invariants = Invariants::<WithGhost>::new().always("pulses stand alone", |now| {
-//!     let adjacent = now.q.rst_before.get() && now.w.counter.w.unit_rst.get();
-//!     require(!adjacent, ["counter.unit_rst", "rst_before"], || "two pulses side by side".into())
+//!     let adjacent = now.q.enable_before && now.p.counter.w.enable;
+//!     require(!adjacent, ["counter.enable", "enable_before"], || "two pulses side by side".into())
 //! });
 //!
 //! // With a period of 0 or 1 it pulses on every tick: found at tick 1, the earliest possible …
@@ -74,9 +51,7 @@
 //! assert_eq!((found.tick, found.inputs.len()), (1, 2));
 //!
 //! // … and with longer periods never, whatever the sequence of periods.
-//! let outcome = reach(&WithGhost, &invariants)
-//!     .assume(|_, i| i.period.get() >= 2)
-//!     .run()?;
+//! let outcome = reach(&WithGhost, &invariants).assume(|_, i| i.period >= 2).run()?;
 //! assert!(matches!(outcome, Outcome::Proof(_)), "{outcome}");
 //! # Ok::<(), motion_rtl::check::CheckError>(())
 //! ```
@@ -101,7 +76,7 @@ pub use drive::{Drive, Driven, drive};
 pub use enumerate::{CheckError, Random, TooWide, all};
 pub use invariant::{Fault, Invariants, Monitor, Verdict, require};
 pub use lockstep::{Lockstep, LockstepError};
-pub use pair::{Pair, SamePorts, Sides};
+pub use pair::{Pair, PairIn, Sides};
 pub use reach::{Outcome, Progress, Proof, Reach, reach};
 pub use specified::Specified;
 pub use stimulus::Stimulus;

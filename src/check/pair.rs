@@ -1,80 +1,20 @@
-use crate::kernel::{Circuit, Field, Make, Signals, Visit};
-use crate::logic::{Logic, Sim};
+//! Two circuits side by side.
+
+use crate::hdl::part::Counted;
+use crate::hdl::{
+    Cells, Circuit, Contents, Leaves, MemoryShape, Nothing, Record, Shapes, Sink, Site, Source,
+    View, Walk, Wire, view,
+};
+use crate::hdl::{Field, Role, Shape};
 use std::fmt;
-use std::marker::PhantomData;
+use std::ops::Deref;
 
-/// A circuit with the ports in of another.
-///
-/// Every circuit has its own. For two circuits whose `In` is one struct the function gives back
-/// what it is given:
-///
-/// ```
-/// # use motion_rtl::{check::{Lockstep, Pair, SamePorts}, kernel::{Circuit, Nothing}};
-/// # use motion_rtl::{logic::Logic, signals};
-/// signals! { pub struct In<L> { pub a: L::Bit, pub b: L::Bit } }
-/// signals! { pub struct Net<L> { pub both: L::Bit } }
-/// # struct And;
-/// # struct Nor;
-/// # impl Circuit for And {
-/// #     const NAME: &'static str = "and";
-/// #     const ABOUT: &'static str = "a and b";
-/// #     type In<L: Logic> = In<L>;
-/// #     type Reg<L: Logic> = Nothing<L>;
-/// #     type Net<L: Logic> = Net<L>;
-/// #     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L>) -> Net<L> {
-/// #         Net { both: i.a & i.b }
-/// #     }
-/// #     fn next<L: Logic>(&self, q: Nothing<L>, _: &Net<L>, _: &In<L>) -> Nothing<L> { q }
-/// # }
-/// # impl Circuit for Nor {
-/// #     const NAME: &'static str = "nor";
-/// #     const ABOUT: &'static str = "not (not a or not b)";
-/// #     type In<L: Logic> = In<L>;
-/// #     type Reg<L: Logic> = Nothing<L>;
-/// #     type Net<L: Logic> = Net<L>;
-/// #     fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L>) -> Net<L> {
-/// #         Net { both: !(!i.a | !i.b) }
-/// #     }
-/// #     fn next<L: Logic>(&self, q: Nothing<L>, _: &Net<L>, _: &In<L>) -> Nothing<L> { q }
-/// # }
-///
-/// impl SamePorts<And> for Nor {
-///     fn ports<L: Logic>(i: &In<L>) -> &In<L> {
-///         i
-///     }
-/// }
-///
-/// let lockstep = Lockstep::by_name(&Pair { left: And, right: Nor })?;
-/// assert_eq!(lockstep.to_string(), "and.both = nor.both");
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// Circuits with other ports are no [`Circuit`] side by side:
-///
-/// ```compile_fail,E0277
-/// # use motion_rtl::check::Pair;
-/// # use motion_rtl::kernel::Circuit;
-/// # use motion_rtl::pulse_interpolator::{SyncStage, UnitTimeCounter};
-/// fn simulate<C: Circuit>(_: &C) {}
-/// simulate(&Pair { left: UnitTimeCounter::<4>, right: SyncStage });
-/// ```
-// A bound would say so only for one meaning of the words: it cannot quantify over types.
-pub trait SamePorts<A: Circuit>: Circuit {
-    /// The ports in of `A` as the circuit's own.
-    fn ports<L: Logic>(i: &A::In<L>) -> &Self::In<L>;
-}
-
-impl<A: Circuit> SamePorts<A> for A {
-    fn ports<L: Logic>(i: &A::In<L>) -> &A::In<L> {
-        i
-    }
-}
-
-/// Two circuits side by side on the same inputs.
+/// Two circuits side by side on the same inputs: those of the left one, whose ports in the right one
+/// has too.
 ///
 /// Each stands in a scope of its own name or, where both have the same name, in `left` and
 /// `right`.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Pair<A, B> {
     /// The one.
     pub left: A,
@@ -83,17 +23,10 @@ pub struct Pair<A, B> {
 }
 
 impl<A: Circuit, B: Circuit> Pair<A, B> {
-    /// The scope of the left circuit.
-    pub const LEFT: &'static str = if same(A::NAME, B::NAME) {
-        "left"
-    } else {
-        A::NAME
-    };
-    /// The scope of the right circuit.
-    pub const RIGHT: &'static str = if same(A::NAME, B::NAME) {
-        "right"
-    } else {
-        B::NAME
+    /// The scopes of the circuits.
+    pub(super) const SCOPES: [&'static str; 2] = match same(A::NAME, B::NAME) {
+        true => ["left", "right"],
+        false => [A::NAME, B::NAME],
     };
 }
 
@@ -113,86 +46,142 @@ const fn same(a: &str, b: &str) -> bool {
     true
 }
 
-/// The registers or the nets of the two circuits of a [`Pair`].
-pub struct Sides<A, B, T, U> {
-    /// Those of the left circuit.
-    pub left: T,
-    /// Those of the right circuit.
-    pub right: U,
-    pair: PhantomData<fn() -> Pair<A, B>>,
+/// The ports in of a [`Pair`]: those of the left circuit.
+pub struct PairIn<A: Circuit, V: View = Wire>(pub A::In<V>);
+
+/// The circuits of a [`Pair`].
+pub struct Sides<A: Circuit, B: Circuit, V: View = Wire> {
+    /// The left one.
+    pub left: V::Part<A>,
+    /// The right one.
+    pub right: V::Part<B>,
 }
 
-impl<A, B, T, U> Sides<A, B, T, U> {
-    fn new(left: T, right: U) -> Self {
-        Sides {
-            left,
-            right,
-            pair: PhantomData,
-        }
+impl<A: Circuit, V: View> Deref for PairIn<A, V> {
+    type Target = A::In<V>;
+
+    fn deref(&self) -> &A::In<V> {
+        &self.0
     }
 }
 
-impl<A, B, T: Clone, U: Clone> Clone for Sides<A, B, T, U> {
-    fn clone(&self) -> Self {
-        Sides::new(self.left.clone(), self.right.clone())
-    }
-}
-
-impl<A, B, T: fmt::Debug, U: fmt::Debug> fmt::Debug for Sides<A, B, T, U> {
+impl<A: Circuit, V: View> fmt::Debug for PairIn<A, V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Sides")
-            .field("left", &self.left)
-            .field("right", &self.right)
-            .finish()
+        f.debug_struct(A::NAME).finish_non_exhaustive()
     }
 }
 
-impl<A, B, L, T, U> Signals<L> for Sides<A, B, T, U>
-where
-    A: Circuit,
-    B: Circuit,
-    L: Logic,
-    T: Signals<L>,
-    U: Signals<L>,
-{
-    fn visit<V: Visit<L>>(&self, field: &'static Field, visitor: &mut V) {
-        visitor.enter(field);
-        self.left
-            .visit(const { &Field::named(Pair::<A, B>::LEFT) }, visitor);
-        self.right
-            .visit(const { &Field::named(Pair::<A, B>::RIGHT) }, visitor);
-        visitor.leave();
-    }
-
-    fn make<M: Make<L>>(field: &'static Field, maker: &mut M) -> Self {
-        maker.enter(field);
-        let left = T::make(const { &Field::named(Pair::<A, B>::LEFT) }, maker);
-        let right = U::make(const { &Field::named(Pair::<A, B>::RIGHT) }, maker);
-        maker.leave();
-        Sides::new(left, right)
+impl<A: Circuit, B: Circuit, V: View> fmt::Debug for Sides<A, B, V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} and {}", A::NAME, B::NAME)
     }
 }
 
-impl<A: Circuit, B: SamePorts<A>> Circuit for Pair<A, B> {
+const HERE: Site = Site {
+    file: file!(),
+    line: line!(),
+    column: column!(),
+};
+
+impl<A: Circuit, B: Circuit, V: View> Record<Pair<A, B>, V> for PairIn<A, V> {
+    fn make(of: &Pair<A, B>, field: &'static Field, source: &mut dyn Source) -> Self {
+        PairIn(A::In::make(&of.left, field, source))
+    }
+}
+
+impl<A: Circuit, V: View> Walk<V> for PairIn<A, V> {
+    const SITE: Site = HERE;
+    fn visit(&self, field: &'static Field, sink: &mut dyn Sink) {
+        self.0.visit(field, sink);
+    }
+}
+
+const fn side(name: &'static str) -> Field {
+    Field {
+        public: true,
+        ..Field::named(name)
+    }
+}
+
+impl<A: Circuit, B: Circuit, V: View> Record<Pair<A, B>, V> for Sides<A, B, V> {
+    fn make(of: &Pair<A, B>, field: &'static Field, source: &mut dyn Source) -> Self {
+        source.enter(field);
+        let left = const { &side(Pair::<A, B>::SCOPES[0]) };
+        let right = const { &side(Pair::<A, B>::SCOPES[1]) };
+        let sides = Sides {
+            left: V::part(&of.left, left, source),
+            right: V::part(&of.right, right, source),
+        };
+        source.leave();
+        sides
+    }
+}
+
+impl<A: Circuit, B: Circuit, V: View> Walk<V> for Sides<A, B, V> {
+    const SITE: Site = HERE;
+    fn visit(&self, _: &'static Field, _: &mut dyn Sink) {}
+}
+
+/// The ports in of a circuit: names and shapes.
+fn ports<C: Circuit>(circuit: &C) -> Vec<(String, Shape)> {
+    let mut ports = Counted::default();
+    C::In::<Shapes>::make(circuit, view::role(Role::Input), &mut ports);
+    let ports = ports.leaves.into_iter();
+    ports.map(|port| (port.name, port.shape)).collect()
+}
+
+impl<A: Circuit, B: Circuit> Circuit for Pair<A, B> {
     const NAME: &'static str = "pair";
     const ABOUT: &'static str = "two circuits side by side on the same inputs";
-    type In<L: Logic> = A::In<L>;
-    type Reg<L: Logic> = Sides<A, B, A::Reg<L>, B::Reg<L>>;
-    type Net<L: Logic> = Sides<A, B, A::Net<L>, B::Net<L>>;
+    type In<V: View> = PairIn<A, V>;
+    type Reg<V: View> = Nothing;
+    type Net<V: View> = Nothing;
+    type Parts<V: View> = Sides<A, B, V>;
 
-    fn comb<L: Logic>(&self, q: &Self::Reg<L>, i: &Self::In<L>) -> Self::Net<L> {
-        let left = self.left.comb(&q.left, i);
-        let right = self.right.comb(&q.right, B::ports(i));
-        Sides::new(left, right)
+    fn objection(&self) -> Option<String> {
+        let (left, right) = (ports(&self.left), ports(&self.right));
+        if left == right {
+            return None;
+        }
+        let names = |ports: &[(String, Shape)]| {
+            let ports = ports.iter();
+            let ports = ports.map(|(name, shape)| format!("{name} of {}", shape.width));
+            ports.collect::<Vec<_>>().join(", ")
+        };
+        Some(format!(
+            "the ports in of both are not the same: {}; {}",
+            names(&left),
+            names(&right)
+        ))
     }
 
-    fn next<L: Logic>(&self, q: Self::Reg<L>, w: &Self::Net<L>, i: &Self::In<L>) -> Self::Reg<L> {
-        let left = self.left.next(q.left, &w.left, i);
-        let right = self.right.next(q.right, &w.right, B::ports(i));
-        Sides::new(left, right)
+    fn tick(&self, i: PairIn<A>, _: Nothing, p: Sides<A, B>) -> (Nothing, Nothing) {
+        let mut tokens = Counted::default();
+        i.0.visit(view::role(Role::Input), &mut tokens);
+        let tokens: Vec<u64> = tokens.leaves.iter().map(|leaf| leaf.token).collect();
+        p.left.settle(i.0);
+        let mut again = Again(tokens.into_iter());
+        let i = B::In::make(&self.right, view::role(Role::Input), &mut again);
+        p.right.settle(i);
+        (Nothing, Nothing)
     }
+}
 
-    fn power_on(&self) -> Self::Reg<Sim> {
-        Sides::new(self.left.power_on(), self.right.power_on())
+/// The same nodes for other ports.
+struct Again(std::vec::IntoIter<u64>);
+
+impl Source for Again {
+    fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
+        // There are as many: otherwise there was an objection.
+        self.0.next().unwrap_or(0)
+    }
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        shape: MemoryShape,
+        _: &dyn Fn() -> Contents,
+    ) -> Cells {
+        Leaves::no_cells(shape)
     }
 }

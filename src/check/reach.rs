@@ -1,11 +1,14 @@
-use super::enumerate::{all, from_word, scramble, to_word};
+use super::enumerate::scramble;
 use super::search::{Report, Search};
 use super::visited::Visited;
-use super::{CheckError, Counterexample, Fault, Invariants, TooWide};
+use super::{CheckError, Fault, TooWide};
+use super::{Counterexample, Invariants};
 use crate::engine::sliced::{LANES, Tick, Ticks};
 use crate::engine::{Engine, Watch};
-use crate::kernel::{Circuit, Model, Role, Sample, Signals, record, words};
-use crate::logic::Sim;
+use crate::hdl::pack::{bits_of, given, input_widths, joined, register_bits, registers_of, words};
+use crate::hdl::sample::{Known, all_registers};
+use crate::hdl::{self, Circuit, Model, Registers, Role, Sample, Value};
+use std::cell::RefCell;
 use std::fmt;
 
 /// The widest inputs: all their values are tried in every state.
@@ -99,8 +102,8 @@ impl<C: Circuit> fmt::Debug for Outcome<C> {
     }
 }
 
-type Only<'a, C> = dyn Fn(&<C as Circuit>::In<Sim>) -> bool + 'a;
-type Assume<'a, C> = dyn Fn(&<C as Circuit>::Reg<Sim>, &<C as Circuit>::In<Sim>) -> bool + 'a;
+type Only<'a, C> = dyn Fn(&<C as Circuit>::In<Value>) -> bool + 'a;
+type Assume<'a, C> = dyn Fn(&Registers<C>, &<C as Circuit>::In<Value>) -> bool + 'a;
 
 /// A search to be run; see [`reach`].
 #[must_use = "nothing is searched before it runs"]
@@ -135,14 +138,14 @@ pub fn reach<'a, C: Circuit>(circuit: &'a C, invariants: &'a Invariants<'a, C>) 
 impl<'a, C: Circuit> Reach<'a, C> {
     /// Leaves out the inputs that are never applied, whatever the state: sorted out once, they cost
     /// nothing in each state, as those that an assumption excludes do.
-    pub fn inputs(mut self, possible: impl Fn(&C::In<Sim>) -> bool + 'a) -> Self {
+    pub fn inputs(mut self, possible: impl Fn(&C::In<Value>) -> bool + 'a) -> Self {
         self.only = Some(Box::new(possible));
         self
     }
 
     /// Leaves out the inputs that the surroundings never apply in a state; of several assumptions
     /// all hold.
-    pub fn assume(mut self, possible: impl Fn(&C::Reg<Sim>, &C::In<Sim>) -> bool + 'a) -> Self {
+    pub fn assume(mut self, possible: impl Fn(&Registers<C>, &C::In<Value>) -> bool + 'a) -> Self {
         self.assume.push(Box::new(possible));
         self
     }
@@ -185,62 +188,188 @@ impl<'a, C: Circuit> Reach<'a, C> {
     }
 
     fn search(mut self, simulated: bool) -> Result<Outcome<C>, CheckError> {
-        TooWide::check::<C::In<Sim>>("the inputs", INPUT_BITS)?;
-        let bits = TooWide::check::<C::Reg<Sim>>("the registers", STATE_BITS)?;
-        let model = Model::of(self.circuit)?;
-        let inputs: Vec<C::In<Sim>> = all()?
+        let model = hdl::model(self.circuit)?;
+        let widths = input_widths(self.circuit);
+        let wide = widths.iter().sum();
+        TooWide::check_bits("the inputs", wide, INPUT_BITS)?;
+        let bits = register_bits(self.circuit);
+        TooWide::check_bits("the registers", bits, STATE_BITS)?;
+        let inputs: Vec<C::In<Value>> = (0..1u64 << wide)
+            .map(|word| given(self.circuit, bits_of(word)))
             .filter(|i| self.only.as_ref().is_none_or(|possible| possible(i)))
             .collect();
-        let states = Packing::of(&model);
+        let ports: Vec<Vec<u64>> = inputs.iter().map(|i| words(i, &widths)).collect();
+        let progress = self.progress.take();
+        let judge = Of {
+            reach: &self,
+            known: Known::of(self.circuit, &model, 0),
+            inputs,
+            last: RefCell::new(None),
+            records: RefCell::new((0..1 << 10).map(|_| None).collect()),
+        };
+        let searching = Searching {
+            words: ports.iter().map(|words| joined(words, &widths)).collect(),
+            ports,
+            judge: &judge,
+            assumes: !self.assume.is_empty(),
+            looks_ahead: self.invariants.look_ahead(),
+            own: self.invariants.own(),
+        };
         let visited = Visited::new(bits, self.bitmap_bits);
+        Ok(
+            match searching.run(&model, visited, (self.limit, progress), simulated) {
+                Ended::Proof(proof) => Outcome::Proof(proof),
+                Ended::Limit(progress) => Outcome::Limit(progress),
+                Ended::Fault(way, name, fault) => {
+                    let given = |word| given(self.circuit, bits_of(word));
+                    let way = way.into_iter().map(|index| given(searching.words[index]));
+                    let found = Counterexample::new(&model, way.collect(), name, fault);
+                    Outcome::Counterexample(Box::new(found))
+                }
+            },
+        )
+    }
+}
+
+/// What a search asks about a circuit: all that depends on its type.
+trait Judge {
+    /// Whether an input, by its number, is assumed possible in a state.
+    fn possible(&self, state: u64, input: usize) -> bool;
+    /// Whether a settled tick, of this state and input, is as it has to be, with the registers after
+    /// its edge.
+    fn check(
+        &self,
+        depth: u64,
+        engine: &Engine,
+        of: (u64, usize),
+        next: Next<'_>,
+    ) -> Result<(), (String, Fault)>;
+}
+
+/// The registers after an edge, if they are looked at.
+#[derive(Clone, Copy)]
+enum Next<'a> {
+    Nobody,
+    State(u64),
+    Engine(&'a Engine),
+}
+
+/// The registers of a state, if they are kept.
+type Kept<C> = Option<(u64, Registers<C>)>;
+
+/// The circuit's own records of what the search has as numbers.
+struct Of<'r, 'a, C: Circuit> {
+    reach: &'r Reach<'a, C>,
+    known: Known<C>,
+    inputs: Vec<C::In<Value>>,
+    /// The state that was asked about last.
+    last: RefCell<Kept<C>>,
+    /// Records of states that were looked at of late: many transitions lead to the same one.
+    records: RefCell<Vec<Kept<C>>>,
+}
+
+impl<C: Circuit> Of<'_, '_, C> {
+    fn registers<'l>(&self, last: &'l mut Kept<C>, state: u64) -> &'l Registers<C> {
+        if last.as_ref().is_some_and(|(known, _)| *known != state) {
+            *last = None;
+        }
+        &last
+            .get_or_insert_with(|| (state, registers_of(self.reach.circuit, state)))
+            .1
+    }
+}
+
+impl<C: Circuit> Judge for Of<'_, '_, C> {
+    fn possible(&self, state: u64, input: usize) -> bool {
+        let mut last = self.last.borrow_mut();
+        let q = self.registers(&mut last, state);
+        let mut assume = self.reach.assume.iter();
+        assume.all(|possible| possible(q, &self.inputs[input]))
+    }
+
+    fn check(
+        &self,
+        depth: u64,
+        engine: &Engine,
+        (state, input): (u64, usize),
+        next: Next<'_>,
+    ) -> Result<(), (String, Fault)> {
+        let mut last = self.last.borrow_mut();
+        let here = self.registers(&mut last, state);
+        let given = (Some(&self.inputs[input]), Some(&here.q));
+        let checked = |next: Option<&Registers<C>>| {
+            Sample::show_given(depth, &self.known, engine, given, |now| {
+                let checked = self.reach.invariants.check(now, next);
+                checked.map_err(|(name, fault)| (name.to_owned(), fault))
+            })
+        };
+        match next {
+            Next::Nobody => checked(None),
+            Next::Engine(after) => checked(Some(&all_registers(self.reach.circuit, after))),
+            Next::State(state) => {
+                let mut records = self.records.borrow_mut();
+                let place = scramble(state) as usize % records.len();
+                let slot = &mut records[place];
+                if slot.as_ref().is_some_and(|(known, _)| *known != state) {
+                    *slot = None;
+                }
+                let made = || (state, registers_of(self.reach.circuit, state));
+                checked(Some(&slot.get_or_insert_with(made).1))
+            }
+        }
+    }
+}
+
+/// A search, whatever the circuit's type.
+struct Searching<'j> {
+    /// All inputs that are applied, as one word each, and port by port.
+    words: Vec<u64>,
+    ports: Vec<Vec<u64>>,
+    judge: &'j dyn Judge,
+    /// Whether some inputs are not possible in some states.
+    assumes: bool,
+    /// Whether the registers after an edge are looked at.
+    looks_ahead: bool,
+    /// The numbers of the circuit's own properties, if there are no others.
+    own: Option<Vec<usize>>,
+}
+
+impl Searching<'_> {
+    fn run(
+        &self,
+        model: &Model,
+        visited: Visited,
+        (limit, progress): (u32, Option<Box<Report<'_>>>),
+        simulated: bool,
+    ) -> Ended {
+        let states = Packing::of(model);
         let power_on = states.pack(&model.engine(Watch::All));
-        let search = Search::new(power_on, visited, self.limit, self.progress.take());
-        let own = self.invariants.own();
+        let search = Search::new(power_on, visited, limit, progress);
         let tick = match simulated {
             true => None,
-            false => Tick::of(model.flat(), own.as_deref().unwrap_or(&[])).ok(),
+            false => Tick::of(model.flat(), self.own.as_deref().unwrap_or(&[])).ok(),
         };
         let mut one = One {
-            invariants: self.invariants,
+            name: model.name(),
+            judge: self.judge,
             engine: Engine::straight(model.program(Watch::All)),
             states,
             state: None,
         };
-        let ended = match &tick {
-            Some(tick) => self.side_by_side(search, &inputs, tick, own.is_some(), &mut one),
-            None => self.one_by_one(search, &inputs, &mut one),
-        };
-        Ok(match ended {
-            Ended::Proof(proof) => Outcome::Proof(proof),
-            Ended::Limit(progress) => Outcome::Limit(progress),
-            Ended::Fault(way, name, fault) => {
-                let way = way.into_iter().map(|index| inputs[index].clone());
-                let found = Counterexample::new(&model, way.collect(), name, fault);
-                Outcome::Counterexample(Box::new(found))
-            }
-        })
-    }
-
-    fn is_possible(&self, q: &C::Reg<Sim>, i: &C::In<Sim>) -> bool {
-        self.assume.iter().all(|possible| possible(q, i))
+        match &tick {
+            Some(tick) => self.side_by_side(search, tick, &mut one),
+            None => self.one_by_one(search, &mut one),
+        }
     }
 
     /// Transition by transition.
-    fn one_by_one(
-        &self,
-        mut search: Search<'_>,
-        inputs: &[C::In<Sim>],
-        one: &mut One<'_, C>,
-    ) -> Ended {
-        let words: Vec<Vec<u64>> = inputs.iter().map(words).collect();
+    fn one_by_one(&self, mut search: Search<'_>, one: &mut One<'_>) -> Ended {
         let mut after = one.engine.clone();
-        let looks_ahead = self.invariants.look_ahead();
         while let Some(state) = search.state() {
-            let q: C::Reg<Sim> = from_word(state);
             one.states.unpack(state, &mut one.engine);
             let before = search.transitions;
-            for (index, (i, words)) in inputs.iter().zip(&words).enumerate() {
-                if !self.is_possible(&q, i) {
+            for (index, words) in self.ports.iter().enumerate() {
+                if self.assumes && !self.judge.possible(state, index) {
                     continue;
                 }
                 search.transitions += 1;
@@ -249,8 +378,12 @@ impl<'a, C: Circuit> Reach<'a, C> {
                 // The edge is another engine's, so that the registers stay for the next inputs.
                 after.restore(one.engine.slab());
                 after.edge();
-                let next = looks_ahead.then(|| record(Role::Register, &after));
-                if let Err((name, fault)) = one.check(search.depth, (i, &q), next.as_ref()) {
+                let next = match self.looks_ahead {
+                    true => Next::Engine(&after),
+                    false => Next::Nobody,
+                };
+                let of = (state, index);
+                if let Err((name, fault)) = self.judge.check(search.depth, &one.engine, of, next) {
                     return Ended::Fault(search.way(index), name, fault);
                 }
                 if !search.found(one.states.pack(&after), index) {
@@ -263,18 +396,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
     }
 
     /// Many transitions at once, as gates: in the same order, with the same outcome.
-    fn side_by_side(
-        &self,
-        mut search: Search<'_>,
-        inputs: &[C::In<Sim>],
-        tick: &Tick,
-        own: bool,
-        one: &mut One<'_, C>,
-    ) -> Ended {
-        let looks_ahead = self.invariants.look_ahead();
-        let words: Vec<u64> = inputs.iter().map(to_word).collect();
-        let ports: Vec<Vec<u64>> = inputs.iter().map(self::words).collect();
-        let mut records = Records::new();
+    fn side_by_side(&self, mut search: Search<'_>, tick: &Tick, one: &mut One<'_>) -> Ended {
         let mut ticks = Ticks::new(tick);
         // The next case: a state by its number, and an input.
         let (mut at, mut index) = (0, 0);
@@ -290,19 +412,15 @@ impl<'a, C: Circuit> Reach<'a, C> {
             while let Some(from) = search.nth(at)
                 && cases.len() < LANES
             {
-                let q = (!self.assume.is_empty()).then(|| from_word::<C::Reg<Sim>>(from));
-                while index < inputs.len() && cases.len() < LANES {
-                    let possible = q
-                        .as_ref()
-                        .is_none_or(|q| self.is_possible(q, &inputs[index]));
-                    if possible {
+                while index < self.words.len() && cases.len() < LANES {
+                    if !self.assumes || self.judge.possible(from, index) {
                         cases.push((at, index));
                         before.push(from);
-                        given.push(words[index]);
+                        given.push(self.words[index]);
                     }
                     index += 1;
                 }
-                if index == inputs.len() {
+                if index == self.words.len() {
                     (at, index) = (at + 1, 0);
                 }
             }
@@ -316,17 +434,19 @@ impl<'a, C: Circuit> Reach<'a, C> {
                     state = search.state();
                 }
                 search.transitions += 1;
-                if !own {
-                    let next = looks_ahead.then(|| records.of(after[lane]));
-                    let i = (&inputs[index], &ports[index][..]);
-                    let checked = one.at(search.depth, before[lane], i, next);
+                let ports = &self.ports[index];
+                if self.own.is_none() {
+                    let next = match self.looks_ahead {
+                        true => Next::State(after[lane]),
+                        false => Next::Nobody,
+                    };
+                    let checked = one.at(search.depth, (before[lane], index), ports, next);
                     if let Err((name, fault)) = checked {
                         return Ended::Fault(search.way(index), name, fault);
                     }
                 }
                 if broken == Some(lane) {
-                    let (name, fault) =
-                        one.fault(search.depth, before[lane], (&inputs[index], &ports[index]));
+                    let (name, fault) = one.fault(search.depth, (before[lane], index), ports);
                     return Ended::Fault(search.way(index), name, fault);
                 }
                 if !search.found(after[lane], index) {
@@ -354,76 +474,43 @@ enum Ended {
 }
 
 /// What looks at one transition.
-struct One<'i, C: Circuit> {
-    invariants: &'i Invariants<'i, C>,
+struct One<'j> {
+    name: &'static str,
+    judge: &'j dyn Judge,
     engine: Engine,
     states: Packing,
     /// The state that was looked at last.
-    state: Option<(u64, C::Reg<Sim>)>,
+    state: Option<u64>,
 }
 
-impl<C: Circuit> One<'_, C> {
-    /// Whether a settled tick is as it has to be.
-    fn check(
-        &self,
-        depth: u64,
-        (i, q): (&C::In<Sim>, &C::Reg<Sim>),
-        next: Option<&C::Reg<Sim>>,
-    ) -> Result<(), (String, Fault)> {
-        Sample::show_given(depth, &self.engine, (i, q), |now| {
-            let checked = self.invariants.check(now, next);
-            checked.map_err(|(name, fault)| (name.to_owned(), fault))
-        })
-    }
-
+impl One<'_> {
     /// Settles a tick and looks at it.
     fn at(
         &mut self,
         depth: u64,
-        state: u64,
-        (i, ports): (&C::In<Sim>, &[u64]),
-        next: Option<&C::Reg<Sim>>,
+        (state, input): (u64, usize),
+        ports: &[u64],
+        next: Next<'_>,
     ) -> Result<(), (String, Fault)> {
-        if self.state.as_ref().is_none_or(|(word, _)| *word != state) {
+        if self.state != Some(state) {
             self.states.unpack(state, &mut self.engine);
-            self.state = Some((state, from_word(state)));
+            self.state = Some(state);
         }
         self.engine.inputs(ports);
         self.engine.settle();
-        match &self.state {
-            Some((_, q)) => self.check(depth, (i, q), next),
-            None => Ok(()),
-        }
+        self.judge.check(depth, &self.engine, (state, input), next)
     }
 
     /// What is wrong with a transition of which one of the circuit's own properties does not hold.
-    fn fault(&mut self, depth: u64, state: u64, i: (&C::In<Sim>, &[u64])) -> (String, Fault) {
+    fn fault(&mut self, depth: u64, of: (u64, usize), ports: &[u64]) -> (String, Fault) {
         // Where the engine disagrees with the gates: a fault of these, and no reason to be silent.
-        let disagreed = || {
+        let disagreed = |name: &str| {
             let message = "the gates of a tick say so, the engine does not".to_owned();
             let signals = Vec::new();
-            (C::NAME.to_owned(), Fault { signals, message })
+            (name.to_owned(), Fault { signals, message })
         };
-        let fault = self.at(depth, state, i, None);
-        fault.err().unwrap_or_else(disagreed)
-    }
-}
-
-/// Records of states that were asked for of late: many transitions lead to the same one.
-struct Records<S>(Vec<Option<(u64, S)>>);
-
-impl<S: Signals<Sim>> Records<S> {
-    fn new() -> Self {
-        Records((0..1 << 10).map(|_| None).collect())
-    }
-
-    fn of(&mut self, state: u64) -> &S {
-        let place = scramble(state) as usize % self.0.len();
-        let slot = &mut self.0[place];
-        if slot.as_ref().is_some_and(|(known, _)| *known != state) {
-            *slot = None;
-        }
-        &slot.get_or_insert_with(|| (state, from_word(state))).1
+        let fault = self.at(depth, of, ports, Next::Nobody);
+        fault.err().unwrap_or_else(|| disagreed(self.name))
     }
 }
 

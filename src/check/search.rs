@@ -6,10 +6,10 @@ use super::{Progress, Proof};
 /// A report of progress after this many states, and after every depth.
 const REPORT_EVERY: usize = 1 << 16;
 
-pub(super) type Report<'a> = dyn FnMut(&Progress) + 'a;
+pub(crate) type Report<'a> = dyn FnMut(&Progress) + 'a;
 
 /// The states found, in the order of their distance from power-on, and how each was reached.
-pub(super) struct Search<'a> {
+pub(crate) struct Search<'a> {
     visited: Visited,
     states: Vec<u64>,
     /// For every state the one before it on a shortest way and the input that leads on; both fit,
@@ -20,14 +20,14 @@ pub(super) struct Search<'a> {
     /// The state that is tried.
     at: usize,
     /// How many edges it is from power-on, and the first state that is farther.
-    pub(super) depth: u64,
+    pub(crate) depth: u64,
     deeper_from: usize,
-    pub(super) transitions: u64,
+    pub(crate) transitions: u64,
     dead_ends: u64,
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(
+    pub(crate) fn new(
         power_on: u64,
         mut visited: Visited,
         limit: u32,
@@ -49,17 +49,17 @@ impl<'a> Search<'a> {
     }
 
     /// The state that was found as the nth.
-    pub(super) fn nth(&self, at: usize) -> Option<u64> {
+    pub(crate) fn nth(&self, at: usize) -> Option<u64> {
         self.states.get(at).copied()
     }
 
     /// Which one is tried.
-    pub(super) fn at(&self) -> usize {
+    pub(crate) fn at(&self) -> usize {
         self.at
     }
 
     /// The state to be tried with every input.
-    pub(super) fn state(&mut self) -> Option<u64> {
+    pub(crate) fn state(&mut self) -> Option<u64> {
         let state = *self.states.get(self.at)?;
         let deeper = self.at == self.deeper_from;
         if deeper {
@@ -76,14 +76,14 @@ impl<'a> Search<'a> {
     }
 
     /// It was tried; there were this many transitions before.
-    pub(super) fn tried(&mut self, before: u64) {
+    pub(crate) fn tried(&mut self, before: u64) {
         self.dead_ends += u64::from(self.transitions == before);
         self.at += 1;
     }
 
     /// A state after the one that is tried; whether there is room for it.
     #[inline]
-    pub(super) fn found(&mut self, state: u64, input: usize) -> bool {
+    pub(crate) fn found(&mut self, state: u64, input: usize) -> bool {
         if self.visited.insert(state) {
             if self.states.len() >= self.limit {
                 return false;
@@ -95,7 +95,7 @@ impl<'a> Search<'a> {
     }
 
     /// The inputs from power-on to the state that is tried and one more.
-    pub(super) fn way(&self, last: usize) -> Vec<usize> {
+    pub(crate) fn way(&self, last: usize) -> Vec<usize> {
         let mut way = vec![last];
         let mut at = self.at;
         while at != 0 {
@@ -107,7 +107,7 @@ impl<'a> Search<'a> {
         way
     }
 
-    pub(super) fn progress(&self) -> Progress {
+    pub(crate) fn progress(&self) -> Progress {
         Progress {
             states: self.states.len() as u64,
             frontier: (self.states.len() - self.at) as u64,
@@ -116,7 +116,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    pub(super) fn proof(&self) -> Proof {
+    pub(crate) fn proof(&self) -> Proof {
         Proof {
             states: self.states.len() as u64,
             transitions: self.transitions,

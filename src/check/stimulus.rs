@@ -1,7 +1,6 @@
 use super::Random;
 use crate::engine::Engine;
-use crate::kernel::{Field, Shape, Signals, Source};
-use crate::logic::Sim;
+use crate::hdl::{Circuit, Value, pack::given};
 
 /// A stretch in which a port keeps to one way of changing has up to this many binary digits of
 /// ticks. Longer ones bring single counters further, and fewer combinations of ports.
@@ -24,12 +23,13 @@ const PACE: u64 = 11;
 ///
 /// ```
 /// use motion_rtl::check::Stimulus;
-/// use motion_rtl::logic::{Sim, sim::UInt};
+/// use motion_rtl::circuits::blocks::EnableCounter;
 ///
 /// let mut stimulus = Stimulus::new(1);
-/// let words: Vec<[UInt<24>; 2]> = (0..10_000).map(|_| stimulus.inputs()).collect();
-/// assert!(words.iter().any(|[period, _]| period.get() < 8));
-/// assert!(words.iter().any(|[period, _]| period.get() > 1 << 20));
+/// let counter = EnableCounter { width: 24 };
+/// let periods: Vec<u64> = (0..10_000).map(|_| stimulus.inputs(&counter).period).collect();
+/// assert!(periods.iter().any(|period| *period < 8));
+/// assert!(periods.iter().any(|period| *period > 1 << 20));
 /// ```
 #[derive(Debug, Clone)]
 pub struct Stimulus {
@@ -57,8 +57,9 @@ impl Stimulus {
     }
 
     /// The inputs of the tick that comes next. Give them all to one circuit.
-    pub fn inputs<S: Signals<Sim>>(&mut self) -> S {
-        S::make(const { &Field::named("") }, &mut self.ports())
+    pub fn inputs<C: Circuit>(&mut self, circuit: &C) -> C::In<Value> {
+        let mut ports = self.ports();
+        given(circuit, |shape| ports.port(shape.width))
     }
 
     /// Sets the ports in of an engine for the tick that comes next.
@@ -113,12 +114,6 @@ impl Ports<'_> {
         let value = courses[self.next].tick(random, width);
         self.next += 1;
         value
-    }
-}
-
-impl Source for Ports<'_> {
-    fn leaf(&mut self, _: &'static Field, shape: Shape) -> u64 {
-        self.port(shape.width)
     }
 }
 
@@ -211,29 +206,27 @@ fn magnitude(random: &mut Random, digits: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::logic::sim::{Int, UInt};
 
     const TICKS: usize = 100_000;
 
-    fn words<const N: usize>(seed: u64) -> Vec<u64> {
+    fn words(width: usize, seed: u64) -> Vec<u64> {
         let mut stimulus = Stimulus::new(seed);
-        let words = (0..TICKS).map(|_| stimulus.inputs::<UInt<N>>().get());
-        words.collect()
+        (0..TICKS).map(|_| stimulus.ports().port(width)).collect()
     }
 
     #[test]
     fn the_same_seed_gives_the_same_inputs() {
-        assert_eq!(words::<24>(1), words::<24>(1));
-        assert_ne!(words::<24>(1), words::<24>(2));
+        assert_eq!(words(24, 1), words(24, 1));
+        assert_ne!(words(24, 1), words(24, 2));
     }
 
     #[test]
     fn wide_words_are_small_and_large_and_hold() {
-        for width in [words::<24>(5), words::<64>(5), words::<2>(5)] {
+        for width in [words(24, 5), words(64, 5), words(2, 5)] {
             let holds = width.windows(2).filter(|pair| pair[0] == pair[1]).count();
             assert!(holds > TICKS / 4 && holds < TICKS, "{holds} holds");
         }
-        let words = words::<24>(5);
+        let words = words(24, 5);
         let small = words.iter().filter(|&&word| word < 8).count();
         let large = words.iter().filter(|&&word| word >= 1 << 20).count();
         assert!(small > TICKS / 10 && large > TICKS / 10, "{small} {large}");
@@ -244,7 +237,7 @@ mod tests {
 
     #[test]
     fn a_bit_has_rare_and_frequent_pulses_and_rare_gaps() {
-        let bits = words::<1>(11);
+        let bits = words(1, 11);
         let mut lengths = [[0; 2]; 18];
         for run in bits.chunk_by(|a, b| a == b) {
             lengths[run.len().ilog2() as usize][run[0] as usize] += 1;
@@ -258,10 +251,9 @@ mod tests {
 
     #[test]
     fn signed_words_are_of_both_signs() {
-        let mut stimulus = Stimulus::new(5);
-        let words: Vec<Int<12>> = (0..TICKS).map(|_| stimulus.inputs()).collect();
-        for end in [-2048, 2047, -1, 0] {
-            assert!(words.iter().any(|word| word.get() == end), "{end}");
+        let words = words(12, 5);
+        for end in [-2048i64, 2047, -1, 0] {
+            assert!(words.contains(&(end as u64 & 0xfff)), "{end}");
         }
     }
 

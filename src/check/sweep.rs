@@ -1,13 +1,12 @@
-mod simulated;
-mod unrolled;
-
-use super::enumerate::{from_word, to_word};
-use super::{CheckError, Counterexample, Fault, TooWide};
-use crate::kernel::{Circuit, Field, Model, Moment, Path, Probe, Role, Shape, Signals, part};
-use crate::logic::{Logic, Sim};
+use super::Counterexample;
+use super::{CheckError, Fault, TooWide};
+use crate::engine::sliced::{LANES, Run, Sliced};
+use crate::engine::{Engine, Watch, passes};
+use crate::hdl::pack::{bits_of, given, input_widths, joined, widths, words};
+use crate::hdl::{self, Circuit, Shapes, Value};
+use crate::hdl::{Declaration, Model};
 use crate::trace::value::show;
 use rayon::prelude::*;
-use simulated::Simulated;
 use std::fmt;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -18,35 +17,17 @@ const CHUNK: u64 = 1 << 14;
 /// What a circuit makes of a fixed number of ticks from power-on, for every case of a finite space:
 /// checked case by case by [`sweep()`].
 ///
-/// A case is a bundle of words; its index is what they are packed. What goes in and what is seen is
-/// written in words of any meaning, as a circuit is. What is expected is plain arithmetic on
-/// numbers, by other means than the circuit's.
-pub trait Law: Sync {
-    /// The circuit.
-    type Circuit: Circuit + Sync;
-    /// The words of a case, at most 63 bits.
-    type Case<L: Logic>: Signals<L>;
-    /// What is seen of it, at most 64 bits.
-    type Seen<L: Logic>: Signals<L>;
-
+/// A law is a circuit around the one it is about: its ports in are a case, and stay as they are; its
+/// own nets are what is seen, in the last tick. A register that counts the ticks, and others that
+/// remember what was seen before, cost nothing: the law is unrolled. What is expected is plain
+/// arithmetic on numbers, by other means than the circuit's.
+pub trait Law: Circuit {
     /// What holds.
-    fn name(&self) -> &str;
-    /// The circuit.
-    fn circuit(&self) -> &Self::Circuit;
-    /// How many ticks a case takes.
+    fn law(&self) -> &str;
+    /// How many ticks a case takes, at least one.
     fn ticks(&self) -> u64;
-    /// The inputs of a tick.
-    fn input<L: Logic>(&self, case: &Self::Case<L>, tick: u64)
-    -> <Self::Circuit as Circuit>::In<L>;
-    /// What is seen with this tick; `seen` is that of the ticks before, all bits low in tick 0.
-    fn see<L: Logic>(
-        &self,
-        seen: Self::Seen<L>,
-        tick: u64,
-        now: &Moment<'_, Self::Circuit, L>,
-    ) -> Self::Seen<L>;
     /// What is to be seen in the end; nothing for a case that is not meant.
-    fn expected(&self, case: &Self::Case<Sim>) -> Option<Self::Seen<Sim>>;
+    fn expected(&self, case: &Self::In<Value>) -> Option<Self::Net<Value>>;
 }
 
 /// How a sweep ended.
@@ -108,9 +89,12 @@ pub fn sweep<W: Law>(law: &W) -> Sweep<'_, W> {
 ///
 /// # Errors
 /// A case has more than 63 bits, or what is seen more than 64.
-pub fn cases<W: Law>() -> Result<u64, CheckError> {
-    TooWide::check::<W::Seen<Sim>>("the signals seen", 64)?;
-    Ok(1 << TooWide::check::<W::Case<Sim>>("the cases", 63)?)
+pub fn cases<W: Law>(law: &W) -> Result<u64, CheckError> {
+    let seen = widths::<W, W::Net<Shapes>>(law);
+    TooWide::check_bits("the signals seen", seen.iter().sum(), 64)?;
+    let bits = input_widths(law).iter().sum();
+    TooWide::check_bits("the cases", bits, 63)?;
+    Ok(1 << bits)
 }
 
 impl<'a, W: Law> Sweep<'a, W> {
@@ -127,17 +111,23 @@ impl<'a, W: Law> Sweep<'a, W> {
     }
 
     /// Runs it: the law is unrolled once into gates from the bits of a case to those of what is seen,
-    /// which many cases run through side by side. A circuit with memories, and one of which there
-    /// would be too many gates, is run case by case as by [`run_simulated`](Self::run_simulated).
+    /// which many cases run through side by side. A circuit with memories that are written, and one of
+    /// which there would be too many gates, is run case by case as by
+    /// [`run_simulated`](Self::run_simulated).
     ///
     /// # Errors
     /// A case has more than 63 bits, or what is seen more than 64, or the circuit cannot be run.
-    pub fn run(self) -> Result<Swept<W::Circuit>, CheckError> {
-        cases::<W>()?;
-        let law = self.law;
-        let model = Model::of(law.circuit())?;
-        match unrolled::unrolled(law) {
-            Some(sliced) => self.checked(&model, |chunk| unrolled::check(law, &sliced, chunk)),
+    pub fn run(self) -> Result<Swept<W>, CheckError> {
+        let model = hdl::model(self.law)?;
+        cases(self.law)?;
+        let cases = Cases::of(self.law);
+        let unrolled = model
+            .flat()
+            .unrolled(self.law.ticks(), cases.seen.len())
+            // What does not depend on the case is no more than constants from here on.
+            .map(|flat| passes::all(&flat, &vec![true; flat.leaves.len()]));
+        match unrolled.and_then(|flat| Sliced::of(&flat).ok()) {
+            Some(sliced) => self.checked(&model, |chunk| cases.side_by_side(&sliced, chunk)),
             None => self.run_simulated(),
         }
     }
@@ -146,12 +136,18 @@ impl<'a, W: Law> Sweep<'a, W> {
     ///
     /// # Errors
     /// A case has more than 63 bits, or what is seen more than 64, or the circuit cannot be run.
-    pub fn run_simulated(self) -> Result<Swept<W::Circuit>, CheckError> {
-        cases::<W>()?;
-        let law = self.law;
-        let model = Model::of(law.circuit())?;
-        let simulated = Simulated::new(&model);
-        self.checked(&model, |chunk| simulated.check(law, chunk))
+    pub fn run_simulated(self) -> Result<Swept<W>, CheckError> {
+        let model = hdl::model(self.law)?;
+        cases(self.law)?;
+        let cases = Cases::of(self.law);
+        let engine = std::sync::Mutex::new(Engine::straight(model.program(Watch::All)));
+        self.checked(&model, |chunk| {
+            let engine = engine.lock();
+            let mut engine = engine
+                .unwrap_or_else(std::sync::PoisonError::into_inner)
+                .clone();
+            cases.one_by_one(&mut engine, chunk)
+        })
     }
 
     /// Checks chunk by chunk on all threads; `check` says how many cases of one are meant, and which
@@ -160,7 +156,7 @@ impl<'a, W: Law> Sweep<'a, W> {
         self,
         model: &Model,
         check: impl Fn(Range<u64>) -> (u64, Option<u64>) + Sync,
-    ) -> Result<Swept<W::Circuit>, CheckError> {
+    ) -> Result<Swept<W>, CheckError> {
         let held = AtomicU64::new(0);
         let first = self.first(|chunk| {
             let (meant, first) = check(chunk);
@@ -178,7 +174,7 @@ impl<'a, W: Law> Sweep<'a, W> {
         &self,
         check: impl Fn(Range<u64>) -> Option<u64> + Sync,
     ) -> Result<Option<u64>, CheckError> {
-        let all = cases::<W>()?;
+        let all = cases(self.law)?;
         let range = self.range.clone().unwrap_or(0..all);
         let (from, to) = (range.start, range.end.min(all));
         if from >= to {
@@ -200,70 +196,134 @@ impl<'a, W: Law> Sweep<'a, W> {
 impl<W: Law> fmt::Debug for Sweep<'_, W> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Sweep")
-            .field("circuit", &W::Circuit::NAME)
-            .field("law", &self.law.name())
+            .field("circuit", &W::NAME)
+            .field("law", &self.law.law())
             .field("range", &self.range)
             .finish_non_exhaustive()
     }
 }
 
+/// The cases of a law.
+struct Cases<'a, W: Law> {
+    law: &'a W,
+    /// The widths of what is seen.
+    seen: Vec<usize>,
+}
+
+impl<'a, W: Law> Cases<'a, W> {
+    fn of(law: &'a W) -> Self {
+        Cases {
+            law,
+            seen: widths::<W, W::Net<Shapes>>(law),
+        }
+    }
+
+    /// What is expected of a case, as one word.
+    fn expected(&self, index: u64) -> Option<u64> {
+        let case = given(self.law, bits_of(index));
+        let expected = self.law.expected(&case)?;
+        Some(joined(&words(&expected, &self.seen), &self.seen))
+    }
+
+    /// How many cases are meant, and the first that is wrong.
+    fn side_by_side(&self, sliced: &Sliced, chunk: Range<u64>) -> (u64, Option<u64>) {
+        let mut run = Run::new(sliced);
+        let mut meant = 0;
+        let lanes = LANES as u64;
+        let whole = chunk.start / lanes * lanes;
+        for first in (whole..chunk.end).step_by(LANES) {
+            run.run(first);
+            for word in 0..LANES / 64 {
+                let first = first + 64 * word as u64;
+                if first + 64 <= chunk.start || first >= chunk.end {
+                    continue;
+                }
+                for (index, seen) in (first..).zip(run.seen(word)) {
+                    if !chunk.contains(&index) {
+                        continue;
+                    }
+                    if let Some(expected) = self.expected(index) {
+                        meant += 1;
+                        if expected != seen {
+                            return (meant, Some(index));
+                        }
+                    }
+                }
+            }
+        }
+        (meant, None)
+    }
+
+    /// The same, as a simulation runs.
+    fn one_by_one(&self, engine: &mut Engine, chunk: Range<u64>) -> (u64, Option<u64>) {
+        let power_on = engine.slab().to_vec();
+        let mut meant = 0;
+        for index in chunk {
+            if let Some(expected) = self.expected(index) {
+                meant += 1;
+                engine.restore(&power_on);
+                if expected != joined(&self.run(engine, index), &self.seen) {
+                    return (meant, Some(index));
+                }
+            }
+        }
+        (meant, None)
+    }
+
+    /// What is seen of a case in the end, from power-on.
+    fn run(&self, engine: &mut Engine, index: u64) -> Vec<u64> {
+        let ports = input_widths(self.law);
+        let case: W::In<Value> = given(self.law, bits_of(index));
+        engine.inputs(&words(&case, &ports));
+        for tick in 0..self.law.ticks() {
+            if tick > 0 {
+                engine.edge();
+            }
+            engine.settle();
+        }
+        let leaves = engine.leaves();
+        let seen = leaves - self.seen.len()..leaves;
+        seen.map(|leaf| engine.leaf(leaf)).collect()
+    }
+}
+
 /// A case that is wrong, played in simulation.
-fn replayed<W: Law>(law: &W, model: &Model, index: u64) -> Counterexample<W::Circuit> {
-    let case: W::Case<Sim> = from_word(index);
-    let inputs = (0..law.ticks())
-        .map(|tick| law.input(&case, tick))
-        .collect();
-    let seen = Simulated::new(model).seen(law, &case);
-    let seen = Named::of(&seen);
-    let expected = law.expected(&case).map(|expected| Named::of(&expected));
-    let differing: Vec<_> = expected.into_iter().flatten().zip(seen).collect();
-    let differing = differing.iter().filter(|(expected, seen)| expected != seen);
+fn replayed<W: Law>(law: &W, model: &Model, index: u64) -> Counterexample<W> {
+    let cases = Cases::of(law);
+    let case: W::In<Value> = given(law, bits_of(index));
+    let leaves = &model.declarations().leaves;
+    let own = &leaves[leaves.len() - cases.seen.len()..];
+    let seen = cases.run(&mut model.engine(Watch::All), index);
+    let expected = law.expected(&case);
+    let expected = expected.map(|expected| words(&expected, &cases.seen));
     let (mut signals, mut found) = (Vec::new(), Vec::new());
-    for ((name, expected), (_, seen)) in differing {
-        signals.push(name.clone());
-        found.push(format!("{name} is {seen}, not {expected}"));
+    for ((leaf, seen), expected) in own.iter().zip(&seen).zip(expected.iter().flatten()) {
+        if seen != expected {
+            let value = |word| show(leaf.shape, leaf.field.format, word);
+            signals.push(leaf.name.clone());
+            let (seen, expected) = (value(*seen), value(*expected));
+            found.push(format!("{} is {seen}, not {expected}", leaf.name));
+        }
     }
     if found.is_empty() {
         // The gates and the simulation disagree: a fault of the former, and no reason to be silent.
         found.push("the unrolled circuit says so, simulation does not".to_owned());
     }
-    let case = Named::of(&case).map(|(name, value)| format!("{name} = {value}"));
-    let case = case.collect::<Vec<_>>().join(", ");
-    let message = format!("{} with {case} (case {index})", found.join(", "));
+    let ports = words(&case, &input_widths(law));
+    let named = leaves.iter().zip(&ports).map(|(leaf, word)| {
+        let value = show(leaf.shape, leaf.field.format, *word);
+        format!("{} = {value}", name(leaf))
+    });
+    let named = named.collect::<Vec<_>>().join(", ");
+    let message = format!("{} with {named} (case {index})", found.join(", "));
     let fault = Fault { signals, message };
-    Counterexample::new(model, inputs, law.name().to_owned(), fault)
+    let inputs = (0..law.ticks()).map(|_| given(law, bits_of(index)));
+    Counterexample::new(model, inputs.collect(), law.law().to_owned(), fault)
 }
 
-/// The leaves of a bundle by name, as numbers.
-#[derive(Default)]
-struct Named {
-    path: Path,
-    leaves: Vec<(String, String)>,
-}
-
-impl Named {
-    fn of<S: Signals<Sim>>(signals: &S) -> impl Iterator<Item = (String, String)> + use<S> {
-        let mut named = Named::default();
-        signals.visit(part(Role::Net), &mut named);
-        named.leaves.into_iter()
-    }
-}
-
-impl Probe for Named {
-    fn enter(&mut self, field: &'static Field) {
-        self.path.enter(field);
-    }
-    fn leave(&mut self) {
-        self.path.leave();
-    }
-    fn element(&mut self, index: usize) {
-        self.path.element(index);
-    }
-    fn leaf(&mut self, field: &'static Field, shape: Shape, bits: u64) {
-        let name = self.path.name(field);
-        let scopes = self.path.scopes().iter().cloned();
-        let path: Vec<_> = scopes.chain([name]).collect();
-        let value = show(shape, field.format, bits);
-        self.leaves.push((path.join("."), value));
-    }
+/// A port by its name in the circuit's scope.
+fn name(leaf: &Declaration) -> String {
+    let scopes = leaf.scopes.iter().skip(1).cloned();
+    let path: Vec<_> = scopes.chain([leaf.name.clone()]).collect();
+    path.join(".")
 }

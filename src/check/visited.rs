@@ -7,7 +7,7 @@ use std::hash::{BuildHasherDefault, Hasher};
 const WIDEST_BITMAP: usize = 36;
 
 /// The packed states that were seen.
-pub(super) enum Visited {
+pub(crate) enum Visited {
     /// A bit for every state there could be.
     Bitmap(BitVec<u64, Lsb0>),
     /// The states that there are.
@@ -16,7 +16,7 @@ pub(super) enum Visited {
 
 impl Visited {
     /// An empty set for states of `bits` bits, as a bitmap where they have at most `bitmap_bits`.
-    pub(super) fn new(bits: usize, bitmap_bits: usize) -> Self {
+    pub(crate) fn new(bits: usize, bitmap_bits: usize) -> Self {
         if bits <= bitmap_bits.min(WIDEST_BITMAP) {
             // From zeroed words and not by `repeat`: the pages that no state falls on then never
             // become resident.
@@ -28,7 +28,7 @@ impl Visited {
 
     /// Adds a state; whether it is new.
     #[inline]
-    pub(super) fn insert(&mut self, state: u64) -> bool {
+    pub(crate) fn insert(&mut self, state: u64) -> bool {
         match self {
             Visited::Bitmap(bits) => !bits.replace(state as usize, true),
             Visited::Set(states) => states.insert(state),
@@ -38,7 +38,7 @@ impl Visited {
 
 /// Hashes one `u64`; the keyed default hash would cost more than the circuit.
 #[derive(Default)]
-pub(super) struct WordHasher(u64);
+pub(crate) struct WordHasher(u64);
 
 impl Hasher for WordHasher {
     fn finish(&self) -> u64 {

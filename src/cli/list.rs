@@ -1,9 +1,11 @@
-//! `list`: circuits with ports and widths, and scenarios.
+//! `list`: circuits with ports and widths, and scenarios; or one circuit with its parts.
 
+use super::check::entry;
+use super::connections::Connections;
 use super::shipped::SHIPPED;
 use super::{Failure, print, print_json};
 use clap::Args;
-use motion_rtl::kernel::{Declaration, Role};
+use motion_rtl::hdl::{Declaration, Role, RunError};
 use motion_rtl::registry::{CATALOGUE, Entry};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -12,6 +14,8 @@ use std::fmt::Write as _;
 /// How to list.
 #[derive(Debug, Args)]
 pub struct Arguments {
+    /// Only this circuit, with what it is made of: its parts, and what drives their ports in.
+    circuit: Option<String>,
     /// Prints the list as JSON.
     #[arg(long)]
     json: bool,
@@ -20,6 +24,7 @@ pub struct Arguments {
 #[derive(Debug, Serialize)]
 struct Listing {
     circuits: Vec<Circuit>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     scenarios: Vec<Scenario>,
 }
 
@@ -35,6 +40,8 @@ struct Circuit {
     outputs: Vec<Port>,
     registers: usize,
     nets: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    connections: Option<Connections>,
 }
 
 #[derive(Debug, Serialize)]
@@ -52,15 +59,27 @@ struct Scenario {
 
 /// Lists.
 pub fn list(arguments: &Arguments) -> Result<(), Failure> {
-    let listing = Listing {
-        circuits: CATALOGUE.iter().map(circuit).collect(),
-        scenarios: SHIPPED
-            .iter()
-            .map(|shipped| Scenario {
-                file: shipped.file,
-                about: shipped.about,
-            })
-            .collect(),
+    let listing = match &arguments.circuit {
+        None => Listing {
+            circuits: CATALOGUE.iter().map(circuit).collect(),
+            scenarios: SHIPPED
+                .iter()
+                .map(|shipped| Scenario {
+                    file: shipped.file,
+                    about: shipped.about,
+                })
+                .collect(),
+        },
+        Some(name) => {
+            let entry = entry(name)?;
+            let connections = entry.full().connections().map_err(RunError::from)?;
+            let mut circuit = circuit(entry);
+            circuit.connections = Connections::of(connections);
+            Listing {
+                circuits: vec![circuit],
+                scenarios: Vec::new(),
+            }
+        }
     };
     match arguments.json {
         true => print_json(&listing),
@@ -86,12 +105,13 @@ fn circuit(entry: &Entry) -> Circuit {
         name: entry.name,
         about: entry.about,
         source: entry.source,
-        widths: entry.widths.iter().copied().collect(),
+        widths: entry.widths().into_iter().collect(),
         made_with: entry.arguments,
         inputs: inputs.collect(),
         outputs: outputs.map(port).collect(),
         registers: count(Role::Register),
         nets: count(Role::Net),
+        connections: None,
     }
 }
 
@@ -115,6 +135,12 @@ fn text(listing: &Listing) -> String {
         let _ = writeln!(text, "    made    {}", circuit.made_with);
         let _ = writeln!(text, "    in      {}", ports(&circuit.inputs));
         let _ = writeln!(text, "    out     {}", ports(&circuit.outputs));
+        if let Some(connections) = &circuit.connections {
+            let _ = write!(text, "\n{}", connections.text());
+        }
+    }
+    if listing.scenarios.is_empty() {
+        return text;
     }
     text.push_str("\nscenarios\n\n");
     for scenario in &listing.scenarios {

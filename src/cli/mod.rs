@@ -4,6 +4,7 @@ mod arc;
 pub mod check;
 mod chosen;
 pub mod compare;
+mod connections;
 mod faults;
 mod files;
 mod lead_angle;
@@ -27,8 +28,8 @@ mod traces;
 mod trajectory;
 pub mod verilog;
 
+use motion_rtl::hdl::RunError;
 use motion_rtl::input::{Fault, LISTED, SHOWN, shown};
-use motion_rtl::kernel::RunError;
 use motion_rtl::settings::JobError;
 use std::io::{self, Write};
 use std::process::ExitCode;

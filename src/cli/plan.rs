@@ -5,7 +5,7 @@ use super::{Failure, print};
 use clap::Args;
 use motion_rtl::check::Stimulus;
 use motion_rtl::engine::{Engine, Inputs, Watch, report};
-use motion_rtl::kernel::{Circuit, Model, Observer, RunError, Sample};
+use motion_rtl::hdl::{Circuit, Described, Model, Observer, RunError, Sample};
 use std::ops::ControlFlow;
 
 /// What to plan.
@@ -46,8 +46,8 @@ pub fn plan(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The plan of a job's circuit, and what of it its inputs have woken.
-pub(super) fn of_job<C: Circuit>(circuit: &C, inputs: &Inputs) -> Result<String, Failure> {
-    let model = Model::of(circuit).map_err(RunError::from)?;
+pub(super) fn of_job(circuit: &impl Described, inputs: &Inputs) -> Result<String, Failure> {
+    let model = circuit.described().map_err(RunError::from)?;
     let mut engine = counting(&model);
     inputs.play(&mut engine);
     Ok(text(&model, &engine, inputs.ticks()))

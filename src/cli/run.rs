@@ -5,7 +5,7 @@ use super::traces::Format;
 use super::{Failure, arc, lead_angle, linear, machine, pulse, trajectory};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
-use motion_rtl::kernel::{Circuit, Observer, RunError, Sample};
+use motion_rtl::hdl::{Circuit, Observer, RunError, Sample};
 use motion_rtl::scenario::{Loaded, Scenario};
 use motion_rtl::trace::{Clock, Options};
 use std::ops::ControlFlow;

@@ -7,7 +7,7 @@ use super::plan::{Noted, of_job};
 use super::run::{Arguments, clock};
 use clap::ValueEnum;
 use motion_rtl::files::AtomicFile;
-use motion_rtl::kernel::{Circuit, RunError};
+use motion_rtl::hdl::{Described, RunError};
 use motion_rtl::scenario::Loaded;
 use motion_rtl::trace::{Clock, LayoutError, Options, StimulusFile, WaveFile, WaveFormat, gtkw};
 use motion_rtl::verilog::Verilog;
@@ -18,17 +18,16 @@ use std::path::Path;
 /// Scopes that a refusal lists.
 const MOST_SCOPES: usize = 40;
 
-/// The files of a run of `C`, whose Verilog is that of `V`: the same, or what stands in it without
-/// its plant.
-pub struct Traces<'a, C: Circuit, V: Circuit> {
+/// The files of a run.
+pub struct Traces<'a> {
     stem: &'a str,
     format: Format,
     options: &'a Options,
     clock: Clock,
     /// Every signal at every tick.
-    pub waves: Option<WaveFile<C>>,
+    pub waves: Option<WaveFile>,
     /// The inputs.
-    pub stimulus: Option<StimulusFile<V, AtomicFile>>,
+    pub stimulus: Option<StimulusFile<AtomicFile>>,
     /// The inputs once more, for the plan.
     pub noted: Option<Noted>,
     // Last, as their directory can go only when the files above are gone.
@@ -75,10 +74,11 @@ pub struct Focus {
     pub overview: &'static [&'static str],
 }
 
-impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
-    /// Begins what is asked for of a run of about so many ticks.
+impl<'a> Traces<'a> {
+    /// Begins what is asked for of a run of about so many ticks; `printed` is what is printed as
+    /// Verilog: the same circuit, or what stands in it without its plant.
     pub fn begin(
-        (circuit, printed): (&C, &V),
+        (circuit, printed): (&impl Described, &impl Described),
         arguments: &Arguments,
         (loaded, stem): (&Loaded, &'a str),
         options: &'a Options,
@@ -119,7 +119,12 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
 
     /// Closes them after so many ticks, and writes the save file; refuses a window of which the run
     /// has no tick.
-    pub fn finish(mut self, circuit: &C, focus: &Focus, ticks: u64) -> Result<Files, Failure> {
+    pub fn finish(
+        mut self,
+        circuit: &impl Described,
+        focus: &Focus,
+        ticks: u64,
+    ) -> Result<Files, Failure> {
         no_such_tick(self.options, ticks)?;
         if let Some(stimulus) = self.stimulus {
             self.files.push(stimulus.finish()?);
@@ -149,17 +154,17 @@ impl<'a, C: Circuit, V: Circuit> Traces<'a, C, V> {
 }
 
 /// The circuit's Verilog and its testbench; returns what writes the stimulus.
-fn verilog<C: Circuit>(
-    circuit: &C,
+fn verilog(
+    circuit: &impl Described,
     files: &mut Files,
-) -> Result<StimulusFile<C, AtomicFile>, Failure> {
+) -> Result<StimulusFile<AtomicFile>, Failure> {
     // Every circuit of the crate is printed by a test, so only a new one can fail here.
     let verilog = Verilog::of(circuit).map_err(|error| Failure::Check(error.to_string()))?;
     for source in verilog.sources().iter().chain(&verilog.testbench()) {
         files.write_as(&source.name, &source.text)?;
     }
-    let stimulus = files.create_as(&format!("{}.stimulus", C::NAME))?;
-    Ok(StimulusFile::new(stimulus))
+    let stimulus = files.create_as(&format!("{}.stimulus", circuit.outlined().0))?;
+    Ok(StimulusFile::new(stimulus, circuit))
 }
 
 fn refused(error: io::Error) -> Failure {

@@ -5,7 +5,7 @@ use super::files::Files;
 use super::{Failure, print};
 use clap::Args;
 use motion_rtl::check::Drive;
-use motion_rtl::kernel::Role;
+use motion_rtl::hdl::Role;
 use motion_rtl::trace::Clock;
 use motion_rtl::verilog::Verilog;
 use std::fmt::Write as _;

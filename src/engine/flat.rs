@@ -261,9 +261,9 @@ impl fmt::Debug for Instance {
 /// What cannot be run.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum EngineError {
-    /// It cannot be said as a netlist.
-    #[error("{}", texts(.0))]
-    Netlist(Vec<crate::logic::netlist::NetlistError>),
+    /// Something is wrong with the circuit.
+    #[error(transparent)]
+    Circuit(#[from] crate::hdl::Wrong),
     /// A node is computed from itself.
     #[error("{module}: node {node} is computed from nodes that are not settled before it")]
     Circle {
@@ -295,11 +295,6 @@ pub enum EngineError {
     Empty,
 }
 
-fn texts(errors: &[crate::logic::netlist::NetlistError]) -> String {
-    let texts: Vec<_> = errors.iter().map(ToString::to_string).collect();
-    texts.join("\n")
-}
-
 /// All bits of a word of so many.
 #[inline]
 pub(crate) const fn mask(width: u8) -> u64 {
@@ -323,12 +318,12 @@ impl Flat {
     }
 
     /// The leaves of a part of the circuit.
-    pub fn part(&self, role: crate::kernel::Role) -> std::ops::Range<usize> {
+    pub fn part(&self, role: crate::hdl::Role) -> std::ops::Range<usize> {
         let [inputs, registers] = self.parts;
         match role {
-            crate::kernel::Role::Input => 0..inputs,
-            crate::kernel::Role::Register => inputs..registers,
-            crate::kernel::Role::Net => registers..self.leaves.len(),
+            crate::hdl::Role::Input => 0..inputs,
+            crate::hdl::Role::Register => inputs..registers,
+            crate::hdl::Role::Net => registers..self.leaves.len(),
         }
     }
 

@@ -1,15 +1,15 @@
 //! A design of modules becomes one netlist.
 
 use super::flat::{EngineError, Flat, Id, Instance, Memory, Node, Op, Place, Port, Register, mask};
-use crate::kernel::{Kind, Role, Shape};
-use crate::logic::netlist::{self, Design, Module, Operator, Value};
+use crate::hdl::netlist::{self, Design, Module, Operator, Value};
+use crate::hdl::{Kind, Role, Shape};
 use std::collections::HashMap;
 
 impl Flat {
     /// The netlist of a design.
     ///
     /// # Errors
-    /// The design is not what [`elaborate`](crate::logic::netlist::elaborate) makes: a node or an
+    /// The design is not what [`elaborate`](crate::hdl::elaborate()) makes: a node or an
     /// instance is computed from itself, a word has no bits or more than 64, a register or net is
     /// driven by nothing.
     pub fn of(design: &Design) -> Result<Flat, EngineError> {
@@ -283,8 +283,6 @@ impl<'d> Flattening<'d> {
                 let child = self.child(part, instance)?;
                 return self.net(child, leaf);
             }
-            // Registers take their next values from the part that they belong to.
-            Node::Next(_) => Op::Constant(0),
             // Of properties alone, which are made by themselves.
             Node::Past(a) => return of(a),
             Node::Read(memory, a) => {
@@ -392,9 +390,7 @@ impl<'d> Flattening<'d> {
                 Some(register) => self.flat.registers[register as usize].next,
                 None => self.made(0, id)?,
             },
-            Node::Constant(_) | Node::Parameter(_) | Node::Port { .. } | Node::Next(_) => {
-                self.made(0, id)?
-            }
+            Node::Constant(_) | Node::Parameter(_) | Node::Port { .. } => self.made(0, id)?,
             node => {
                 let mut operands = Vec::new();
                 for operand in node.operands() {
@@ -519,10 +515,8 @@ fn operation(
         Node::Cast(a) | Node::Past(a) => Op::Slice(of(a)?, 0),
         Node::Constant(bits) => Op::Constant(bits),
         // The rest is made by who knows the parts.
-        Node::Parameter(_)
-        | Node::Signal(_)
-        | Node::Port { .. }
-        | Node::Next(_)
-        | Node::Read(..) => Op::Constant(0),
+        Node::Parameter(_) | Node::Signal(_) | Node::Port { .. } | Node::Read(..) => {
+            Op::Constant(0)
+        }
     })
 }

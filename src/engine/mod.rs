@@ -21,6 +21,7 @@ mod report;
 mod run;
 pub(crate) mod sliced;
 mod tier;
+mod unroll;
 mod value;
 
 pub use flat::{EngineError, Flat, Id, Instance, Memory, Node, Op, Place, Port, Register};

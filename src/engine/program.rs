@@ -1,7 +1,7 @@
 use super::flat::{EngineError, Flat};
 use super::passes;
 use super::plan::Plan;
-use crate::logic::netlist::Design;
+use crate::hdl::netlist::Design;
 use std::sync::Arc;
 
 /// A circuit that is ready to run, for as many engines as are wanted.
@@ -32,7 +32,7 @@ impl Program {
     /// Plans a design.
     ///
     /// # Errors
-    /// The design is not what [`elaborate`](crate::logic::netlist::elaborate) makes.
+    /// The design is not what [`elaborate`](crate::hdl::elaborate()) makes.
     pub fn of(design: &Design, watch: Watch<'_>) -> Result<Program, EngineError> {
         let flat = Arc::new(Flat::of(design)?);
         Ok(Program::planned(&flat, watch, &ports_out(design)))
@@ -87,7 +87,7 @@ impl Program {
 
 /// The leaves that are ports out of a design: its outermost module's own public nets and registers.
 pub(crate) fn ports_out(design: &Design) -> Vec<usize> {
-    use crate::logic::netlist::Register;
+    use crate::hdl::netlist::Register;
     let Some(module) = design.modules.last() else {
         return Vec::new();
     };

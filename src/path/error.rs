@@ -115,7 +115,7 @@ pub enum Reason {
         /// What the memory holds.
         most: usize,
         /// The width that its address would need.
-        needed: u32,
+        needed: usize,
     },
     /// The path leaves the plane of two axes.
     #[error("leaves the plane of x and y by {off} mm")]
@@ -133,9 +133,9 @@ pub enum Reason {
         /// The farthest that fits.
         most: i64,
         /// The width of the words.
-        width: u32,
+        width: usize,
         /// The width that it would need.
-        needed: u32,
+        needed: usize,
     },
 }
 

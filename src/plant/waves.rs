@@ -1,30 +1,28 @@
 //! What a plant shows in the waves of the circuit that drives it.
 
 use super::{BrakedBody, ServoAxis, TwoMassAxis};
-use crate::kernel::Beside;
-use crate::logic::{Logic, Sim};
-use crate::signals;
+use crate::hdl::{Beside, Value, View, signals};
 use fixed::types::I56F8;
 
-signals! {
+signals! { for Axes as _c;
     /// One axis as it really is.
-    pub struct AxisSignals<L> {
+    pub struct AxisSignals {
         /// True position in 1/256 of a count.
-        pub position: L::I<48> as Analog,
+        pub position: I(48) as Analog,
         /// True speed in counts a second.
-        pub speed: L::I<32> as Analog,
+        pub speed: I(32) as Analog,
         /// The driver's torque in thousandths of a newton metre.
-        pub torque: L::I<32> as Analog,
+        pub torque: I(32) as Analog,
     }
 }
 
-signals! {
+signals! { for Axes as _c;
     /// The axes of an X-Y machine.
-    pub struct Signals<L> {
+    pub struct Signals {
         /// X.
-        pub x: AxisSignals<L>,
+        pub x: AxisSignals(_c),
         /// Y.
-        pub y: AxisSignals<L>,
+        pub y: AxisSignals(_c),
     }
 }
 
@@ -34,10 +32,10 @@ pub struct Axes;
 
 impl Beside for Axes {
     const SCOPE: &'static str = "plant";
-    type Signals<L: Logic> = Signals<L>;
+    type Signals<V: View> = Signals<V>;
 }
 
-impl Signals<Sim> {
+impl Signals<Value> {
     /// The axes as they stand.
     pub fn of([x, y]: &[ServoAxis; 2]) -> Self {
         Signals {
@@ -47,29 +45,29 @@ impl Signals<Sim> {
     }
 }
 
-impl AxisSignals<Sim> {
+impl AxisSignals<Value> {
     fn of(axis: &ServoAxis) -> Self {
         // A cast to a whole number saturates.
         AxisSignals {
-            position: fine(axis.position_counts()).into(),
-            speed: (axis.speed_counts_per_s().round() as i64).into(),
-            torque: ((axis.torque_nm() * 1e3).round() as i64).into(),
+            position: fine(axis.position_counts()),
+            speed: axis.speed_counts_per_s().round() as i64,
+            torque: (axis.torque_nm() * 1e3).round() as i64,
         }
     }
 }
 
-signals! {
+signals! { for Body as _c;
     /// A braked body as it really is.
-    pub struct BodySignals<L> {
+    pub struct BodySignals {
         /// True position in 1/256 of a count.
-        pub position: L::I<48> as Analog,
+        pub position: I(48) as Analog,
         /// True speed in counts a second.
-        pub speed: L::I<32> as Analog,
+        pub speed: I(32) as Analog,
         /// The brake is on: its signal has stood for the dead time.
-        pub engaged: L::Bit,
+        pub engaged: Bit,
         /// Friction torque of the bearings and of an engaged brake, in thousandths of a newton
         /// metre.
-        pub friction: L::I<32> as Analog,
+        pub friction: I(32) as Analog,
     }
 }
 
@@ -79,82 +77,85 @@ pub struct Body;
 
 impl Beside for Body {
     const SCOPE: &'static str = "plant";
-    type Signals<L: Logic> = BodySignals<L>;
+    type Signals<V: View> = BodySignals<V>;
 }
 
-impl BodySignals<Sim> {
+impl BodySignals<Value> {
     /// The body as it stands.
     pub fn of(body: &BrakedBody) -> Self {
         BodySignals {
-            position: fine(body.position_counts()).into(),
-            speed: (body.speed_counts_per_s().round() as i64).into(),
-            engaged: body.engaged().into(),
-            friction: ((body.friction_nm() * 1e3).round() as i64).into(),
+            position: fine(body.position_counts()),
+            speed: body.speed_counts_per_s().round() as i64,
+            engaged: body.engaged(),
+            friction: (body.friction_nm() * 1e3).round() as i64,
         }
     }
 
     /// Something that goes its own way, at a position in counts and a speed in counts a second.
     pub fn at(position: f64, speed: f64) -> Self {
         BodySignals {
-            position: fine(position).into(),
-            speed: (speed.round() as i64).into(),
-            engaged: false.into(),
-            friction: 0.into(),
+            position: fine(position),
+            speed: speed.round() as i64,
+            engaged: false,
+            friction: 0,
         }
     }
 }
 
-signals! {
+signals! { for Machine as _c;
     /// A motor with an elastic load as it really is.
-    pub struct TwoMassSignals<L> {
+    pub struct TwoMassSignals {
         /// True position of the motor in 1/256 of a count.
-        pub position: L::I<48> as Analog,
+        pub position: I(48) as Analog,
         /// True speed of the motor in counts a second.
-        pub speed: L::I<32> as Analog,
+        pub speed: I(32) as Analog,
         /// True position of the load in 1/256 of a count.
-        pub load_position: L::I<48> as Analog,
+        pub load_position: I(48) as Analog,
         /// By how much the motor is ahead of the load, in millionths of a radian.
-        pub twist: L::I<32> as Analog,
+        pub twist: I(32) as Analog,
         /// The amplifier's torque in thousandths of a newton metre.
-        pub torque: L::I<32> as Analog,
+        pub torque: I(32) as Analog,
     }
 }
 
-signals! {
+signals! { for Machine as c;
     /// The axes of a machine with elastic loads.
-    pub struct MachineSignals<L, const AXES: usize> {
+    pub struct MachineSignals {
         /// X, Y and, of three axes, Z.
-        pub axes: [TwoMassSignals<L>; AXES] as Elements(&["x", "y", "z"]),
+        pub axes: [TwoMassSignals(c); c.axes] as Elements(&["x", "y", "z"]),
     }
 }
 
-/// `AXES` motors with elastic loads beside the circuit that drives them.
-#[derive(Debug)]
-pub struct Machine<const AXES: usize>;
-
-impl<const AXES: usize> Beside for Machine<AXES> {
-    const SCOPE: &'static str = "plant";
-    type Signals<L: Logic> = MachineSignals<L, AXES>;
+/// Motors with elastic loads beside the circuit that drives them.
+#[derive(Debug, Clone, Copy)]
+pub struct Machine {
+    /// How many.
+    pub axes: usize,
 }
 
-impl<const AXES: usize> MachineSignals<Sim, AXES> {
+impl Beside for Machine {
+    const SCOPE: &'static str = "plant";
+    type Signals<V: View> = MachineSignals<V>;
+}
+
+impl MachineSignals<Value> {
     /// The axes as they stand.
-    pub fn of(axes: &[TwoMassAxis; AXES]) -> Self {
+    pub fn of(axes: &[TwoMassAxis]) -> Self {
         MachineSignals {
-            axes: axes.each_ref().map(TwoMassSignals::of),
+            axes: axes.iter().map(TwoMassSignals::of).collect(),
         }
     }
 }
 
-impl TwoMassSignals<Sim> {
+impl TwoMassSignals<Value> {
     /// The axis as it stands.
     pub fn of(axis: &TwoMassAxis) -> Self {
         TwoMassSignals {
-            position: fine(axis.position_counts()).into(),
-            speed: (axis.speed_counts_per_s().round() as i64).into(),
-            load_position: fine(axis.load_position_counts()).into(),
-            twist: ((axis.twist_rad() * 1e6).round() as i64).into(),
-            torque: ((axis.torque_nm() * 1e3).round() as i64).into(),
+            position: fine(axis.position_counts()),
+            speed: axis.speed_counts_per_s().round() as i64,
+            load_position: fine(axis.load_position_counts()),
+            twist: (axis.twist_rad() * 1e6).round() as i64,
+            torque: (axis.torque_nm() * 1e3).round() as i64,
         }
     }
 }

@@ -6,7 +6,7 @@ mod model;
 mod sweep;
 
 pub use circuits::CATALOGUE;
-pub use entry::{Entry, WIDTHS};
+pub use entry::{Entry, Refused, Request, WIDTHS};
 pub use model::{AnyCircuit, AnyModel, Verdict};
 pub use sweep::{AnySweep, SWEEPS, SweepEntry};
 

@@ -3,10 +3,10 @@
 use crate::check::{CheckError, Drive, Driven, Outcome, Progress, Proof, Specified, reach};
 use crate::engine::EngineError;
 use crate::files::Directory;
-use crate::kernel::{Circuit, Declarations, Model, RunError};
+use crate::hdl::{self, Circuit, Declarations, Model, RunError};
 use crate::trace::chart::{Chart, ChartFailure};
 use crate::trace::{Clock, Layout, LayoutError};
-use crate::verilog::{Verilog, VerilogError};
+use crate::verilog::{Connections, Verilog, VerilogError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ pub trait AnyModel {
     /// It elaborated.
     ///
     /// # Errors
-    /// It is no netlist.
+    /// All that is wrong with it.
     fn model(&self) -> Result<Model, EngineError>;
     /// Its signals, in the order of its waves.
     fn outline(&self) -> Declarations;
@@ -27,19 +27,19 @@ pub trait AnyModel {
 
 impl<C: Circuit> AnyModel for C {
     fn name(&self) -> &'static str {
-        C::NAME
+        Circuit::name(self)
     }
 
     fn about(&self) -> &'static str {
-        C::ABOUT
+        Circuit::about(self)
     }
 
     fn model(&self) -> Result<Model, EngineError> {
-        Model::of(self)
+        hdl::model(self)
     }
 
     fn outline(&self) -> Declarations {
-        Declarations::outline::<C>()
+        Declarations::of(self)
     }
 }
 
@@ -74,6 +74,14 @@ impl dyn AnyModel + '_ {
     /// It cannot be printed.
     pub fn verilog(&self) -> Result<Verilog, VerilogError> {
         Verilog::of_model(self.model())
+    }
+
+    /// What it is made of, and how that is connected.
+    ///
+    /// # Errors
+    /// It is no netlist.
+    pub fn connections(&self) -> Result<Connections, EngineError> {
+        Ok(Connections::of(self.model()?.design(), &self.outline()))
     }
 
     /// Drives it with random inputs, see [`drive`](crate::check::drive()).

@@ -3,24 +3,24 @@
 use super::Verdict;
 use super::circuits::make::{RULES, one_of};
 use crate::check::{CheckError, Law, Swept, cases, sweep};
+use crate::circuits::linear_interpolator::{Integrator, LineSweep};
 use crate::files::Directory;
-use crate::linear_interpolator::{Integrator, LineSweep, Rule};
 use crate::trace::Clock;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
 /// A law of a circuit of the catalogue.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct SweepEntry {
     /// The circuit's name.
     pub circuit: &'static str,
     /// Makes it from the numbers that the circuit's [`Entry`](super::Entry) takes; `None` where
     /// there is none with them.
     pub make: fn(&[u64]) -> Option<Box<dyn AnySweep>>,
-    /// The widths it takes.
-    pub widths: &'static [u64],
     /// The width it is swept at unless another is asked for.
     pub width: u64,
+    /// The widths of which there are not too many cases.
+    pub widths: RangeInclusive<u64>,
 }
 
 /// Every law.
@@ -28,20 +28,16 @@ pub static SWEEPS: &[SweepEntry] = &[SweepEntry {
     circuit: "integrator",
     make: |given| {
         let rule = one_of(given, RULES)?;
-        Some(match given.first()? {
-            3 => line::<3, 6>(rule),
-            6 => line::<6, 12>(rule),
-            8 => line::<8, 16>(rule),
-            _ => return None,
-        })
+        let position = usize::try_from(*given.first()?).ok()?;
+        // A case is four positions.
+        if !(2..=15).contains(&position) {
+            return None;
+        }
+        Some(Box::new(LineSweep::new(Integrator { position, rule })))
     },
-    widths: &[3, 6, 8],
     width: 6,
+    widths: 2..=8,
 }];
-
-fn line<const P: usize, const R: usize>(rule: Rule) -> Box<dyn AnySweep> {
-    Box::new(LineSweep::<P, R>::new(Integrator::new(rule)))
-}
 
 /// A law with its circuit, its type forgotten.
 pub trait AnySweep: Sync {
@@ -67,11 +63,11 @@ pub trait AnySweep: Sync {
 
 impl<W: Law> AnySweep for W {
     fn law(&self) -> &str {
-        self.name()
+        Law::law(self)
     }
 
     fn cases(&self) -> Result<u64, CheckError> {
-        cases::<W>()
+        cases(self)
     }
 
     fn sweep(
@@ -87,7 +83,7 @@ impl<W: Law> AnySweep for W {
                 report: found.to_string(),
                 waves: waves.map_or(Ok(Vec::new()), |directory| {
                     let _directory = Directory::create(directory)?;
-                    found.save(self.circuit(), Clock::default(), directory)
+                    found.save(self, Clock::default(), directory)
                 }),
             },
         })

@@ -2,7 +2,7 @@
 
 use super::exactly::exactly;
 use super::{Program, Runnable};
-use crate::arc_generator::Rounding;
+use crate::circuits::arc_generator::Rounding;
 use crate::input::Point;
 use crate::jobs::arc_generator::settings::{Settings, ShortPieces};
 use crate::path::pieces::Taught;

@@ -2,8 +2,8 @@
 
 use super::exactly::exactly;
 use super::{Program, Runnable};
+use crate::circuits::linear_interpolator::Rule;
 use crate::jobs::linear_interpolator::settings::{AxisSettings, Settings, ShortMoves};
-use crate::linear_interpolator::Rule;
 use serde::Deserialize;
 use std::path::PathBuf;
 

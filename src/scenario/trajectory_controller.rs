@@ -3,12 +3,12 @@
 use super::arc_generator::{PieceKeys, taught};
 use super::exactly::exactly;
 use super::{Program, Runnable};
+use crate::circuits::trajectory_controller::Rounding;
 use crate::input::Point;
 use crate::jobs::trajectory_controller::settings::{Correction, Settings};
 use crate::path::pieces::Taught;
 use crate::plant::TwoMassParameters;
 use crate::settings::SettingError;
-use crate::trajectory_controller::Rounding;
 use serde::Deserialize;
 use std::path::PathBuf;
 

@@ -33,7 +33,7 @@ pub use run::{ChartFailure, Mismatch};
 /// A timing chart, read but not yet run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Chart {
-    /// The name of the circuit: its [`NAME`](crate::kernel::Circuit::NAME).
+    /// The name of the circuit: its [`NAME`](crate::hdl::Circuit::NAME).
     pub circuit: String,
     /// What stands in brackets behind it: widths and whatever else the circuit is built with.
     pub args: Vec<u64>,

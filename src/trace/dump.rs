@@ -3,7 +3,7 @@
 use super::layout::Layout;
 use super::walk::{Change, Walk};
 use super::{Clock, Options};
-use crate::kernel::{Circuit, RunError, Sample, View};
+use crate::hdl::{LeafView as View, RunError};
 use std::io;
 use std::ops::{ControlFlow, Range};
 
@@ -44,9 +44,9 @@ impl<F: Format> Dump<F> {
     }
 
     /// Sees a tick, if it is one of those that are asked for.
-    pub fn sample<C: Circuit>(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if self.ticks.contains(&now.tick) {
-            self.tick(now.tick, now.view())?;
+    pub fn sample(&mut self, tick: u64, view: View<'_>) -> Result<ControlFlow<()>, RunError> {
+        if self.ticks.contains(&tick) {
+            self.tick(tick, view)?;
         }
         Ok(ControlFlow::Continue(()))
     }
@@ -63,3 +63,23 @@ impl<F: Format> Dump<F> {
         self.format.finish(end)
     }
 }
+
+/// What writes a dump looks at every tick of it.
+macro_rules! observes {
+    ([$($bounds:tt)*] $name:ty) => {
+        impl<Watched: $crate::hdl::Circuit, $($bounds)*> $crate::hdl::Observer<Watched> for $name {
+            fn next_look(&self, tick: u64) -> u64 {
+                self.dump.next_look(tick)
+            }
+
+            fn sample(
+                &mut self,
+                now: &$crate::hdl::Sample<'_, Watched>,
+            ) -> Result<std::ops::ControlFlow<()>, $crate::hdl::RunError> {
+                self.dump.sample(now.tick, now.view())
+            }
+        }
+    };
+}
+
+pub(super) use observes;

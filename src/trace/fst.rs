@@ -8,13 +8,11 @@ mod sorted;
 mod varint;
 
 use super::behind::Behind;
-use super::dump::Dump;
+use super::dump::{Dump, observes};
 use super::layout::Layout;
 use super::{Clock, Options};
-use crate::kernel::{Circuit, Observer, RunError, Sample};
+use crate::hdl::Described;
 use std::io::{self, Seek, Write};
-use std::marker::PhantomData;
-use std::ops::ControlFlow;
 
 pub(super) use encoder::Encoder;
 
@@ -26,23 +24,26 @@ pub(super) use encoder::Encoder;
 /// without it the file cannot be read. The file holds no date: the same run gives the same bytes.
 #[derive(Debug)]
 #[must_use]
-pub struct Fst<C, W> {
+pub struct Fst<W> {
     dump: Dump<Behind<Encoder<W>>>,
-    circuit: PhantomData<fn(&C)>,
 }
 
-impl<C: Circuit, W: Write + Seek + Send + 'static> Fst<C, W> {
+impl<W: Write + Seek + Send + 'static> Fst<W> {
     /// Begins a dump of `circuit` to `out` and writes what stands at its head.
     ///
     /// # Errors
     /// A name that is used twice in a scope or cannot be written or a selected path that does not
     /// exist, as a [`LayoutError`](super::LayoutError) within; the writer failed.
-    pub fn new(out: W, _: &C, clock: Clock, options: &Options) -> io::Result<Self> {
-        let layout = Layout::of::<C>(options.only.as_deref())?;
+    pub fn new(
+        out: W,
+        circuit: &impl Described,
+        clock: Clock,
+        options: &Options,
+    ) -> io::Result<Self> {
+        let layout = Layout::of(circuit, options.only.as_deref())?;
         let file = Behind::new(Encoder::new(out, &layout, clock)?)?;
         Ok(Fst {
             dump: Dump::new(&layout, clock, options, file),
-            circuit: PhantomData,
         })
     }
 
@@ -56,12 +57,4 @@ impl<C: Circuit, W: Write + Seek + Send + 'static> Fst<C, W> {
     }
 }
 
-impl<C: Circuit, W: Write + Seek + Send + 'static> Observer<C> for Fst<C, W> {
-    fn next_look(&self, tick: u64) -> u64 {
-        self.dump.next_look(tick)
-    }
-
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        self.dump.sample(now)
-    }
-}
+observes!([W: Write + Seek + Send + 'static] Fst<W>);

@@ -2,7 +2,7 @@
 
 use super::layout::{CLK, Layout, Scope, companion, is_stage, is_word};
 use super::{Clock, LayoutError, Options};
-use crate::kernel::{Circuit, Declaration, Format, Kind, Role};
+use crate::hdl::{Declaration, Described, Format, Kind, Role};
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -48,8 +48,8 @@ const FRAME: f64 = 200.0;
 ///
 /// # Errors
 /// What [`Vcd::new`](super::Vcd::new) refuses.
-pub fn save_file<C: Circuit>(
-    circuit: &C,
+pub fn save_file(
+    circuit: &impl Described,
     clock: Clock,
     options: &Options,
     dump: &str,
@@ -63,15 +63,15 @@ pub fn save_file<C: Circuit>(
 ///
 /// # Errors
 /// What [`Vcd::new`](super::Vcd::new) refuses.
-pub fn save_file_with<C: Circuit>(
-    _: &C,
+pub fn save_file_with(
+    circuit: &impl Described,
     clock: Clock,
     options: &Options,
     dump: &str,
     focus: Range<u64>,
     overview: &[&str],
 ) -> Result<String, LayoutError> {
-    let layout = Layout::of::<C>(options.only.as_deref())?;
+    let layout = Layout::of(circuit, options.only.as_deref())?;
     Ok(save(&layout, clock, dump, focus, overview))
 }
 

@@ -1,4 +1,4 @@
-use crate::kernel::{Circuit, Declaration, Declarations, Format, STAGE, WORD};
+use crate::hdl::{Declaration, Described, Format, STAGE, WORD};
 use std::borrow::Cow;
 use std::collections::HashSet;
 use std::io;
@@ -84,8 +84,9 @@ pub(crate) struct Scope {
 
 impl Layout {
     /// The signals of a circuit.
-    pub fn of<C: Circuit>(only: Option<&[String]>) -> Result<Self, LayoutError> {
-        Layout::new(C::NAME, Declarations::outline::<C>().leaves, only)
+    pub fn of(circuit: &impl Described, only: Option<&[String]>) -> Result<Self, LayoutError> {
+        let (name, declarations) = circuit.outlined();
+        Layout::new(name, declarations.leaves, only)
     }
 
     /// Those of a circuit of that name.

@@ -34,41 +34,28 @@ pub use wave_file::{WaveFile, WaveFormat};
 
 use crate::engine::Watch;
 use crate::files::{AtomicFile, commit_all};
-use crate::kernel::{Circuit, Model, RunError, View, words};
-use crate::logic::Sim;
+use crate::hdl::{Described, LeafView as View, RunError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Ticks that the window of a replay shows at first.
 const FOCUS: u64 = 40;
 
-/// Runs a circuit from power-on on these inputs, one a tick, and writes `<stem>.vcd` and the save
+/// Runs a circuit from power-on on these words of its ports in, a tick each, and writes `<stem>.vcd` and the save
 /// file `<stem>.gtkw` into `dir`. Returns both paths.
 ///
 /// Both files appear whole; where something fails, no new file is there.
 ///
 /// # Errors
 /// The files cannot be written; two signals of the circuit have the same name.
-pub fn replay<C: Circuit>(
-    circuit: &C,
-    inputs: impl IntoIterator<Item = C::In<Sim>>,
+pub fn replay(
+    circuit: &impl Described,
+    inputs: impl IntoIterator<Item = Vec<u64>>,
     clock: Clock,
     dir: &Path,
     stem: &str,
 ) -> Result<Vec<PathBuf>, RunError> {
-    let model = Model::of(circuit)?;
-    let mut inputs = inputs.into_iter().map(|i| words(&i));
-    replay_words(&model, &mut inputs, clock, dir, stem)
-}
-
-/// The same of a circuit whose type is forgotten.
-fn replay_words(
-    model: &Model,
-    inputs: &mut dyn Iterator<Item = Vec<u64>>,
-    clock: Clock,
-    dir: &Path,
-    stem: &str,
-) -> Result<Vec<PathBuf>, RunError> {
+    let model = circuit.described()?;
     let name = format!("{stem}.vcd");
     let mut dump = AtomicFile::create(dir.join(&name))?;
     let leaves = model.declarations().leaves.clone();
@@ -77,8 +64,16 @@ fn replay_words(
     let mut waves = Dump::new(&layout, clock, &Options::default(), file);
     let mut engine = model.engine(Watch::All);
     let mut ticks = 0;
+    let masks = model
+        .flat()
+        .inputs
+        .iter()
+        .map(|width| u64::MAX >> (64 - width));
+    let masks: Vec<u64> = masks.collect();
     for i in inputs {
-        engine.inputs(&i);
+        for (port, (word, mask)) in i.iter().zip(&masks).enumerate() {
+            engine.input(port, word & mask);
+        }
         engine.settle();
         waves.tick(ticks, View::of(&engine))?;
         engine.edge();

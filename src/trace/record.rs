@@ -1,9 +1,9 @@
 use super::layout::select;
 use super::{LayoutError, Options};
-use crate::kernel::{Circuit, Declaration, Declarations, Observer, RunError, Sample, View};
+use crate::hdl;
+use crate::hdl::{Declaration, Described, LeafView as View, RunError};
 use std::collections::HashMap;
 use std::io;
-use std::marker::PhantomData;
 use std::ops::{ControlFlow, Range};
 
 /// Keeps what a run does in memory: a column of values for every chosen signal.
@@ -11,9 +11,8 @@ use std::ops::{ControlFlow, Range};
 /// It costs eight bytes per signal and tick, and every word of a memory is a signal: choose the
 /// signals, or the ticks, of a long run.
 #[derive(Debug)]
-pub struct Recorder<C> {
+pub struct Recorder {
     record: Record,
-    circuit: PhantomData<fn(&C)>,
 }
 
 /// What was asked of a [`Recorder`] that it does not hold.
@@ -37,20 +36,19 @@ pub enum RecordError {
     },
 }
 
-impl<C: Circuit> Recorder<C> {
+impl Recorder {
     /// A recorder for the ticks and signals that `options` chooses.
     ///
     /// # Errors
     /// A chosen path that does not exist.
-    pub fn new(_: &C, options: &Options) -> Result<Self, LayoutError> {
+    pub fn new(circuit: &impl Described, options: &Options) -> Result<Self, LayoutError> {
         Ok(Recorder {
-            record: Record::new(Declarations::outline::<C>().leaves, options)?,
-            circuit: PhantomData,
+            record: Record::new(circuit.outlined().1.leaves, options)?,
         })
     }
 }
 
-impl<C> Recorder<C> {
+impl Recorder {
     /// The recorded signals, in the order of the walk.
     pub fn leaves(&self) -> &[Declaration] {
         &self.record.leaves
@@ -92,8 +90,8 @@ impl<C> Recorder<C> {
     }
 }
 
-impl<C: Circuit> Observer<C> for Recorder<C> {
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+impl<C: hdl::Circuit> hdl::Observer<C> for Recorder {
+    fn sample(&mut self, now: &hdl::Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.record.tick(now.tick, now.view())?;
         Ok(ControlFlow::Continue(()))
     }

@@ -1,10 +1,7 @@
 use crate::engine::Engine;
-use crate::kernel::{
-    Circuit, Field, Observer, Probe, RunError, Sample, Shape, Signals, width, widths,
-};
-use crate::logic::Sim;
+use crate::hdl;
+use crate::hdl::{Described, Role, RunError};
 use std::io::{self, Write};
-use std::marker::PhantomData;
 use std::ops::ControlFlow;
 
 /// Bytes that are gathered before they are written.
@@ -13,45 +10,48 @@ const BUFFER: usize = 64 * 1024;
 /// Writes what goes into a circuit as text, a line a tick, for a Verilog testbench that reads it
 /// by `$fscanf(file, "%h", word)`.
 ///
-/// A line is one hexadecimal word: the ports in side by side, the first in the lowest bits as
-/// [`pack`](crate::kernel::pack) has them, and above them one bit for a synchronous reset in this
-/// tick, which every word has. The word has as many digits as that takes.
+/// A line is one hexadecimal word: the ports in side by side, the first in the lowest bits, and above
+/// them one bit for a synchronous reset in this tick, which every word has. The word has as many digits as that takes.
 ///
 /// As an observer it writes the inputs of a run tick by tick, which has no reset; a runner that resets calls
 /// [`line`](StimulusFile::line) instead. It gathers its own blocks, so the writer needs no buffer.
 /// Call [`finish`](StimulusFile::finish) after the run; without it the end is missing.
 #[derive(Debug)]
 #[must_use]
-pub struct StimulusFile<C, W> {
+pub struct StimulusFile<W> {
     out: W,
     lines: Lines,
     /// The tick seen last.
     last: Option<u64>,
-    circuit: PhantomData<fn(&C)>,
 }
 
-impl<C: Circuit, W: Write> StimulusFile<C, W> {
+impl<W: Write> StimulusFile<W> {
     /// Begins the stimulus of a circuit.
-    pub fn new(out: W) -> Self {
+    pub fn new(out: W, circuit: &impl Described) -> Self {
+        let (_, declarations) = circuit.outlined();
+        let ports = declarations.leaves.iter();
+        let ports = ports.take_while(|leaf| leaf.role == Role::Input);
         StimulusFile {
             out,
-            lines: Lines::new(widths::<C::In<Sim>>()),
+            lines: Lines::new(ports.map(|port| port.shape.width).collect()),
             last: None,
-            circuit: PhantomData,
         }
     }
 
     /// The bits of a word: those of the ports in and that of the reset.
-    pub fn bits() -> usize {
-        width::<C::In<Sim>>() + 1
+    pub fn bits(&self) -> usize {
+        self.lines.widths.iter().sum::<usize>() + 1
     }
 
-    /// Writes the tick that comes next.
+    /// Writes the tick that comes next: the words of its ports in.
     ///
     /// # Errors
     /// The writer failed.
-    pub fn line(&mut self, i: &C::In<Sim>, rst: bool) -> io::Result<()> {
-        i.visit(const { &Field::named("") }, self.lines.begin());
+    pub fn line(&mut self, i: &[u64], rst: bool) -> io::Result<()> {
+        self.lines.word.clear();
+        for (word, &width) in i.iter().zip(&self.lines.widths) {
+            self.lines.word.push(*word, width);
+        }
         self.lines.end(rst, &mut self.out)
     }
 
@@ -65,20 +65,26 @@ impl<C: Circuit, W: Write> StimulusFile<C, W> {
     }
 }
 
-impl<C: Circuit, W: Write> Observer<C> for StimulusFile<C, W> {
+impl<W: Write> StimulusFile<W> {
+    fn note(&mut self, tick: u64, engine: &Engine) -> Result<ControlFlow<()>, RunError> {
+        if let Some(last) = self.last.replace(tick)
+            && last.checked_add(1) != Some(tick)
+        {
+            let problem = format!("tick {tick} does not follow tick {last}");
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, problem).into());
+        }
+        self.lines.tick(engine, false, &mut self.out)?;
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+impl<C: hdl::Circuit, W: Write> hdl::Observer<C> for StimulusFile<W> {
     fn needs_all(&self) -> bool {
         false
     }
 
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if let Some(last) = self.last.replace(now.tick)
-            && last.checked_add(1) != Some(now.tick)
-        {
-            let problem = format!("tick {} does not follow tick {last}", now.tick);
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, problem).into());
-        }
-        self.lines.tick(now.engine(), false, &mut self.out)?;
-        Ok(ControlFlow::Continue(()))
+    fn sample(&mut self, now: &hdl::Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        self.note(now.tick, now.engine())
     }
 }
 
@@ -102,12 +108,6 @@ impl Lines {
             digits: bits.div_ceil(4),
             buffer: Vec::with_capacity(BUFFER + BUFFER / 8),
         }
-    }
-
-    /// Begins a line; the word is to see the ports in.
-    fn begin(&mut self) -> &mut Word {
-        self.word.clear();
-        &mut self.word
     }
 
     /// Ends it.
@@ -179,34 +179,24 @@ impl Word {
     }
 }
 
-impl Probe for Word {
-    fn leaf(&mut self, _: &'static Field, shape: Shape, bits: u64) {
-        self.push(bits, shape.width);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::check::Random;
-    use crate::kernel::pack;
-    use crate::logic::sim::{Int, UInt};
+    use bitvec::prelude::*;
 
     #[test]
-    fn a_word_is_packed_as_pack_does_it() {
-        type Bundle = [[UInt<13>; 3]; 4];
+    fn words_stand_side_by_side() {
         let mut random = Random::new(3);
         for _ in 0..100 {
-            let (unsigned, signed): (Bundle, [Int<64>; 3]) = (random.signals(), random.signals());
+            let words: Vec<u64> = (0..12).map(|_| random.word() >> 51).collect();
             let mut word = Word::default();
-            unsigned.visit(const { &Field::named("") }, &mut word);
-            assert_eq!(
-                (word.filled, &word.parts),
-                (156, &pack(&unsigned).into_vec())
-            );
-            word.clear();
-            signed.visit(const { &Field::named("") }, &mut word);
-            assert_eq!((word.filled, &word.parts), (192, &pack(&signed).into_vec()));
+            let mut bits = BitVec::<u64, Lsb0>::new();
+            for part in &words {
+                word.push(*part, 13);
+                bits.extend_from_bitslice(&part.view_bits::<Lsb0>()[..13]);
+            }
+            assert_eq!((word.filled, &word.parts), (156, &bits.into_vec()));
         }
     }
 

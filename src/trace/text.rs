@@ -3,7 +3,7 @@
 use super::Recorder;
 use super::layout::is_word;
 use super::value::show;
-use crate::kernel::Declaration;
+use crate::hdl::Declaration;
 use std::ops::Range;
 
 /// Draws recorded signals as text, a line a signal, a column a tick.
@@ -18,7 +18,7 @@ use std::ops::Range;
 /// count    1   2   0   1
 /// last          ____####________
 /// ```
-pub fn waves<C>(recorder: &Recorder<C>, ticks: Range<u64>) -> String {
+pub fn waves(recorder: &Recorder, ticks: Range<u64>) -> String {
     let recorded = recorder.ticks();
     let start = ticks.start.max(recorded.start);
     let end = ticks.end.min(recorded.end).max(start);

@@ -1,4 +1,4 @@
-use crate::kernel::{Format, Kind, Shape};
+use crate::hdl::{Format, Kind, Shape};
 
 /// The number that the bits of a word mean.
 pub fn number(shape: Shape, bits: u64) -> i128 {

@@ -4,13 +4,11 @@ mod text;
 mod time;
 
 use super::behind::Behind;
-use super::dump::Dump;
+use super::dump::{Dump, observes};
 use super::layout::Layout;
 use super::{Clock, LayoutError, Options};
-use crate::kernel::{Circuit, Observer, RunError, Sample};
+use crate::hdl::Described;
 use std::io::{self, Write};
-use std::marker::PhantomData;
-use std::ops::ControlFlow;
 
 pub(crate) use file::VcdFile;
 pub(super) use text::eight_digits;
@@ -28,23 +26,26 @@ pub(super) use text::eight_digits;
 /// core to be had, [`VcdBehind`] takes less time.
 #[derive(Debug)]
 #[must_use]
-pub struct Vcd<C, W> {
+pub struct Vcd<W> {
     dump: Dump<VcdFile<W>>,
-    circuit: PhantomData<fn(&C)>,
 }
 
-impl<C: Circuit, W: Write> Vcd<C, W> {
+impl<W: Write> Vcd<W> {
     /// Prepares a dump of `circuit` to `out`.
     ///
     /// # Errors
     /// A name that is used twice in a scope or cannot be written, a selected path that does not
     /// exist. Nothing is written to `out` before the run.
-    pub fn new(out: W, _: &C, clock: Clock, options: &Options) -> Result<Self, LayoutError> {
-        let layout = Layout::of::<C>(options.only.as_deref())?;
+    pub fn new(
+        out: W,
+        circuit: &impl Described,
+        clock: Clock,
+        options: &Options,
+    ) -> Result<Self, LayoutError> {
+        let layout = Layout::of(circuit, options.only.as_deref())?;
         let file = VcdFile::new(out, &layout, clock);
         Ok(Vcd {
             dump: Dump::new(&layout, clock, options, file),
-            circuit: PhantomData,
         })
     }
 
@@ -57,15 +58,7 @@ impl<C: Circuit, W: Write> Vcd<C, W> {
     }
 }
 
-impl<C: Circuit, W: Write> Observer<C> for Vcd<C, W> {
-    fn next_look(&self, tick: u64) -> u64 {
-        self.dump.next_look(tick)
-    }
-
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        self.dump.sample(now)
-    }
-}
+observes!([W: Write] Vcd<W>);
 
 /// [`Vcd`] on two threads: the run finds out what changes, a thread of its own makes text of that
 /// and writes it. The bytes are the same.
@@ -75,24 +68,27 @@ impl<C: Circuit, W: Write> Observer<C> for Vcd<C, W> {
 /// after the run; without it the end of the dump is missing.
 #[derive(Debug)]
 #[must_use]
-pub struct VcdBehind<C, W> {
+pub struct VcdBehind<W> {
     dump: Dump<Behind<VcdFile<W>>>,
-    circuit: PhantomData<fn(&C)>,
 }
 
-impl<C: Circuit, W: Write + Send + 'static> VcdBehind<C, W> {
+impl<W: Write + Send + 'static> VcdBehind<W> {
     /// Prepares a dump of `circuit` to `out` and starts the thread.
     ///
     /// # Errors
     /// A name that is used twice in a scope or cannot be written or a selected path that does not
     /// exist, as a [`LayoutError`] within; there is no thread to be had. Nothing is written to
     /// `out` before the run.
-    pub fn new(out: W, _: &C, clock: Clock, options: &Options) -> io::Result<Self> {
-        let layout = Layout::of::<C>(options.only.as_deref())?;
+    pub fn new(
+        out: W,
+        circuit: &impl Described,
+        clock: Clock,
+        options: &Options,
+    ) -> io::Result<Self> {
+        let layout = Layout::of(circuit, options.only.as_deref())?;
         let file = Behind::new(VcdFile::new(out, &layout, clock))?;
         Ok(VcdBehind {
             dump: Dump::new(&layout, clock, options, file),
-            circuit: PhantomData,
         })
     }
 
@@ -106,14 +102,4 @@ impl<C: Circuit, W: Write + Send + 'static> VcdBehind<C, W> {
     }
 }
 
-impl<C: Circuit, W: Write + Send + 'static> Observer<C> for VcdBehind<C, W> {
-    fn next_look(&self, tick: u64) -> u64 {
-        self.dump.next_look(tick)
-    }
-
-    /// # Errors
-    /// The writer failed with earlier ticks.
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        self.dump.sample(now)
-    }
-}
+observes!([W: Write + Send + 'static] VcdBehind<W>);

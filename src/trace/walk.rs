@@ -2,7 +2,7 @@
 
 use super::Clock;
 use super::layout::Layout;
-use crate::kernel::View;
+use crate::hdl::LeafView as View;
 use std::io;
 
 /// What stands for the tick before the first: all but words of 64 bits differ from it.

@@ -1,15 +1,13 @@
 use super::behind::Behind;
-use super::dump::{Dump, Format};
+use super::dump::{Dump, Format, observes};
 use super::fst::Encoder;
 use super::layout::Layout;
 use super::vcd::VcdFile;
 use super::walk::Change;
 use super::{Clock, Options};
 use crate::files::AtomicFile;
-use crate::kernel::{Circuit, Observer, RunError, Sample};
+use crate::hdl::Described;
 use std::io;
-use std::marker::PhantomData;
-use std::ops::ControlFlow;
 
 /// A format of waves.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
@@ -28,12 +26,11 @@ pub enum WaveFormat {
 /// do the same with any writer.
 #[derive(Debug)]
 #[must_use]
-pub struct WaveFile<C> {
+pub struct WaveFile {
     dump: Dump<Either>,
-    circuit: PhantomData<fn(&C)>,
 }
 
-impl<C: Circuit> WaveFile<C> {
+impl WaveFile {
     /// Begins a dump of `circuit` to `file`.
     ///
     /// # Errors
@@ -42,18 +39,17 @@ impl<C: Circuit> WaveFile<C> {
     pub fn new(
         file: AtomicFile,
         format: WaveFormat,
-        _: &C,
+        circuit: &impl Described,
         clock: Clock,
         options: &Options,
     ) -> io::Result<Self> {
-        let layout = Layout::of::<C>(options.only.as_deref())?;
+        let layout = Layout::of(circuit, options.only.as_deref())?;
         let file = match format {
             WaveFormat::Vcd => Either::Vcd(Behind::new(VcdFile::new(file, &layout, clock))?),
             WaveFormat::Fst => Either::Fst(Behind::new(Encoder::new(file, &layout, clock)?)?),
         };
         Ok(WaveFile {
             dump: Dump::new(&layout, clock, options, file),
-            circuit: PhantomData,
         })
     }
 
@@ -67,15 +63,7 @@ impl<C: Circuit> WaveFile<C> {
     }
 }
 
-impl<C: Circuit> Observer<C> for WaveFile<C> {
-    fn next_look(&self, tick: u64) -> u64 {
-        self.dump.next_look(tick)
-    }
-
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        self.dump.sample(now)
-    }
-}
+observes!([] WaveFile);
 
 /// One walk for both, or the circuit would be compiled with each of them.
 #[derive(Debug)]

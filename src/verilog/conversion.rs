@@ -1,8 +1,8 @@
 //! Parts, extensions and signs of words, and constants.
 
 use super::expression::{Expressions, Rank, Text};
-use crate::kernel::{Kind, Shape};
-use crate::logic::netlist::{Id, Node};
+use crate::hdl::netlist::{Id, Node};
+use crate::hdl::{Kind, Shape};
 
 impl Expressions<'_> {
     /// The bits of a word from `low` up.

@@ -1,7 +1,7 @@
 use super::conversion::literal;
 use super::text::range;
-use crate::kernel::{Kind, Role, Shape};
-use crate::logic::netlist::{Memory, Module, Port, Setting, Value};
+use crate::hdl::netlist::{Memory, Module, Port, Setting, Value};
+use crate::hdl::{Kind, Role, Shape};
 
 /// The modules of a design, the circuit itself last, and what they are set to.
 pub(super) struct Modules<'d> {

@@ -1,7 +1,7 @@
 use super::conversion::{constant, wrap};
 use super::names::{Names, index_width};
-use crate::kernel::{Kind, Shape};
-use crate::logic::netlist::{Id, Module, Node, Operator, Port};
+use crate::hdl::netlist::{Id, Module, Node, Operator, Port};
+use crate::hdl::{Kind, Shape};
 use std::cell::RefCell;
 use std::collections::HashMap;
 
@@ -153,7 +153,7 @@ impl<'m> Expressions<'m> {
             Node::Parameter(parameter) => {
                 Text::atom(self.module.parameters[parameter].name.to_uppercase())
             }
-            Node::Signal(_) | Node::Port { .. } | Node::Next(_) => {
+            Node::Signal(_) | Node::Port { .. } => {
                 Text::atom(self.names.get(id).unwrap_or_default().to_owned())
             }
             Node::Not(a) => self.not(a),

@@ -3,7 +3,7 @@
 use super::design::Modules;
 use super::expression::Expressions;
 use super::names::Names;
-use crate::logic::netlist::Module;
+use crate::hdl::netlist::Module;
 use std::fmt::Write as _;
 
 /// Low in the first tick, whose past is not known.

@@ -1,8 +1,8 @@
 use super::conversion::literal;
 use super::design::Modules;
 use super::text::{annotated, column, comment, range};
-use crate::kernel::Role;
-use crate::logic::netlist::{Module, Signal};
+use crate::hdl::Role;
+use crate::hdl::netlist::{Module, Signal};
 use std::fmt::Write as _;
 
 impl Modules<'_> {

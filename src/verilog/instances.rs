@@ -3,8 +3,8 @@ use super::design::{Modules, unsigned};
 use super::expression::Expressions;
 use super::names::Names;
 use super::text::Body;
-use crate::kernel::{Role, Shape};
-use crate::logic::netlist::{Module, Node};
+use crate::hdl::netlist::{Module, Node};
+use crate::hdl::{Role, Shape};
 
 /// How the ports out of instances are connected.
 pub(super) struct Outputs {

@@ -6,14 +6,15 @@
 //! what is clocked.
 //!
 //! ```
-//! use motion_rtl::{pulse_interpolator::UnitTimeCounter, verilog::Verilog};
+//! use motion_rtl::{circuits::blocks::EnableCounter, verilog::Verilog};
 //!
-//! let sources = Verilog::of(&UnitTimeCounter::<24>)?.sources();
-//! assert_eq!(sources[0].name, "unit_time_counter.v");
+//! let sources = Verilog::of(&EnableCounter { width: 24 })?.sources();
+//! assert_eq!(sources[0].name, "enable_counter.v");
 //! assert!(sources[0].text.contains("wire [23:0] next = count + 24'd1;"));
 //! # Ok::<(), motion_rtl::verilog::VerilogError>(())
 //! ```
 
+mod connections;
 mod conversion;
 mod design;
 mod expression;
@@ -30,8 +31,9 @@ mod text;
 mod unused;
 
 use crate::engine::EngineError;
-use crate::kernel::{Circuit, Model};
-use crate::logic::netlist::{Design, Value};
+use crate::hdl::netlist::{Design, Value};
+use crate::hdl::{Described, Model};
+pub use connections::{Connection, Connections, Part};
 use design::Modules;
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -80,8 +82,8 @@ impl Verilog {
     ///
     /// # Errors
     /// The circuit is no netlist, or has names that Verilog does not take.
-    pub fn of<C: Circuit>(circuit: &C) -> Result<Self, VerilogError> {
-        Self::of_model(Model::of(circuit))
+    pub fn of(circuit: &impl Described) -> Result<Self, VerilogError> {
+        Self::of_model(circuit.described())
     }
 
     /// Those of a circuit that was elaborated, if it could be.
@@ -128,7 +130,7 @@ impl Verilog {
     }
 
     /// What the circuit's own module asserts for formal tools: the names of its
-    /// [properties](Circuit::properties).
+    /// [properties](crate::hdl::Circuit::properties).
     pub fn assertions(&self) -> Vec<&'static str> {
         let top = self.design.modules.last();
         let assertions = top.map(|module| module.assertions.iter());

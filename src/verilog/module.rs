@@ -6,8 +6,8 @@ use super::names::Names;
 use super::statements::edge;
 use super::text::{Body, annotated, column, comment, range};
 use super::unused::unused;
-use crate::kernel::Role;
-use crate::logic::netlist::{Module, Node, Signal};
+use crate::hdl::Role;
+use crate::hdl::netlist::{Module, Node, Signal};
 use std::fmt::Write as _;
 
 /// The room for a definition before it is broken into lines.

@@ -1,5 +1,5 @@
-use crate::kernel::{Kind, Role};
-use crate::logic::netlist::{Id, Module, Node, Operator, Port};
+use crate::hdl::netlist::{Id, Module, Node, Operator, Port};
+use crate::hdl::{Kind, Role};
 use std::collections::{HashMap, HashSet};
 
 /// Names longer than this say less than a number.
@@ -18,22 +18,7 @@ pub(super) struct Names {
 impl Names {
     /// Names the nodes of `module`; `modules` are those that it may contain.
     pub(super) fn new(module: &Module, modules: &[Module]) -> Self {
-        let mut names = Names {
-            of: HashMap::new(),
-            shared: Vec::new(),
-            taken: HashSet::new(),
-        };
-        names.taken.extend(reserved(module, modules));
-        for (id, (node, _)) in module.nodes.iter().enumerate() {
-            let name = match *node {
-                Node::Signal(signal) => signal_name(module, modules, signal),
-                Node::Port { instance, leaf } => port_name(module, modules, instance, leaf),
-                _ => None,
-            };
-            if let Some(name) = name {
-                names.of.insert(id, name);
-            }
-        }
+        let mut names = Names::of_signals(module, modules, str::to_owned);
         for signal in &module.signals {
             let Some(driver) = signal.driver.filter(|_| signal.role == Role::Net) else {
                 continue;
@@ -56,6 +41,47 @@ impl Names {
             }
         }
         names.share(module);
+        names
+    }
+
+    /// Names for who reads `module` beside the modules inside it: what comes out of an instance
+    /// keeps the name that it has there. `shown` is how a name is written.
+    pub(super) fn of_parts(
+        module: &Module,
+        modules: &[Module],
+        shown: impl Fn(&str) -> String,
+    ) -> Self {
+        let mut names = Names::of_signals(module, modules, &shown);
+        for signal in &module.signals {
+            let computed = |id: &Id| !matches!(module.nodes[*id].0, Node::Constant(_));
+            if let Some(driver) = signal.driver.filter(computed)
+                && signal.role == Role::Net
+            {
+                let name = names.of.entry(driver);
+                name.or_insert_with(|| shown(&signal.name));
+            }
+        }
+        names.share(module);
+        names
+    }
+
+    /// Only ports in, registers and ports of instances have names.
+    fn of_signals(module: &Module, modules: &[Module], shown: impl Fn(&str) -> String) -> Self {
+        let mut names = Names {
+            of: HashMap::new(),
+            shared: Vec::new(),
+            taken: reserved(module, modules).collect(),
+        };
+        for (id, (node, _)) in module.nodes.iter().enumerate() {
+            let name = match *node {
+                Node::Signal(signal) => signal_name(module, modules, signal),
+                Node::Port { instance, leaf } => port_name(module, modules, instance, leaf),
+                _ => None,
+            };
+            if let Some(name) = name {
+                names.of.insert(id, shown(&name));
+            }
+        }
         names
     }
 
@@ -98,7 +124,7 @@ impl Names {
         }
         for id in 0..module.nodes.len() {
             let (node, _) = module.nodes[id];
-            let constant = matches!(node, Node::Constant(_) | Node::Parameter(_) | Node::Next(_));
+            let constant = matches!(node, Node::Constant(_) | Node::Parameter(_));
             if !live[id] || self.of.contains_key(&id) || constant {
                 continue;
             }
@@ -193,6 +219,8 @@ impl Names {
             Node::Read(memory, _) => format!("{}_read", module.memories[memory].name),
             _ => return None,
         };
+        // Only names of parts have dots.
+        let name = name.replace('.', "_");
         (name.len() <= LONGEST && name.starts_with(|c: char| c.is_ascii_alphabetic()))
             .then_some(name)
     }

@@ -1,7 +1,7 @@
 use super::conversion::literal;
 use super::expression::Expressions;
 use super::module::is_own_register;
-use crate::logic::netlist::{Id, Module, Node};
+use crate::hdl::netlist::{Id, Module, Node};
 
 /// What happens at a rising edge.
 #[derive(Debug, PartialEq)]

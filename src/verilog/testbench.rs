@@ -1,7 +1,7 @@
 use super::SourceFile;
 use super::design::Modules;
-use crate::kernel::Role;
-use crate::logic::netlist::{Module, Signal};
+use crate::hdl::Role;
+use crate::hdl::netlist::{Module, Signal};
 use std::fmt::Write as _;
 
 /// A testbench for the last of `modules`: it applies a stimulus file and dumps every signal.

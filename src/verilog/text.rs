@@ -1,5 +1,5 @@
-use crate::kernel::{Format, Kind, Shape};
-use crate::logic::netlist::Signal;
+use crate::hdl::netlist::Signal;
+use crate::hdl::{Format, Kind, Shape};
 use std::fmt::Write as _;
 
 /// The length of a line, and the room that a comment has at least.

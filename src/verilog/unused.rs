@@ -2,8 +2,8 @@ use super::expression::Expressions;
 use super::instances::Outputs;
 use super::module::is_own_register;
 use super::text::{Body, LINE};
-use crate::kernel::Role;
-use crate::logic::netlist::Module;
+use crate::hdl::Role;
+use crate::hdl::netlist::Module;
 
 /// What reads the bits that nothing else reads.
 pub(super) const UNUSED: &str = "_unused";

@@ -1,262 +1,213 @@
 //! Small circuits.
 
-use motion_rtl::check::SamePorts;
-use motion_rtl::kernel::Circuit;
-use motion_rtl::logic::{Bit, Image, Logic, Ram, ShiftRegister, Signed, Unsigned};
-use motion_rtl::signals;
+use motion_rtl::hdl::prelude::*;
 
-/// Writes the head of a circuit whose three structs are `$In`, `$Reg` and `$Net`.
-macro_rules! parts {
-    ($name:literal, $in:ident, $reg:ident, $net:ident) => {
+/// Writes the head of a circuit whose records are these.
+macro_rules! head {
+    ($name:literal, $($record:ident),+) => {
         const NAME: &'static str = $name;
         const ABOUT: &'static str = "a circuit to be checked";
-        type In<L: Logic> = $in<L>;
-        type Reg<L: Logic> = $reg<L>;
-        type Net<L: Logic> = $net<L>;
+        records!($($record),+);
     };
 }
 
-signals! { pub struct Enable<L> { pub enable: L::Bit } }
-signals! { pub struct UpReg<L> { pub count: L::U<4> } }
-signals! { pub struct UpNet<L> { pub last: L::Bit, carry: L::Bit } }
+signals! { for (Up, Down, Toggle, Noise) as _c;
+    pub struct Enable { pub enable: Bit }
+}
 
 /// Counts modulo `n`.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Up {
     pub n: u64,
 }
 
+signals! { for Up as _c;
+    pub struct UpReg { pub count: U(4) }
+    pub struct UpNet { pub last: Bit, carry: Bit }
+}
+
 impl Circuit for Up {
-    parts!("modulo", Enable, UpReg, UpNet);
-    fn comb<L: Logic>(&self, q: &UpReg<L>, i: &Enable<L>) -> UpNet<L> {
-        let last = q.count.equals((self.n - 1).into());
-        UpNet {
-            last,
-            carry: last & i.enable,
-        }
-    }
-    fn next<L: Logic>(&self, q: UpReg<L>, w: &UpNet<L>, i: &Enable<L>) -> UpReg<L> {
-        let step = w.carry.mux(0.into(), q.count + 1);
-        UpReg {
-            count: i.enable.mux(step, q.count),
-        }
+    head!("modulo", Enable, UpReg, UpNet);
+    fn tick(&self, i: Enable, q: UpReg, _: Nothing) -> (UpNet, UpReg<Edge>) {
+        let last = q.count.equals(self.n - 1);
+        let carry = last & i.enable;
+        let step = carry.mux(0, q.count + 1);
+        let count = i.enable.mux(step, q.count);
+        (UpNet { last, carry }, UpReg { count })
     }
 }
 
-signals! { pub struct DownReg<L> { left: L::I<6> = 4 } }
-signals! { pub struct DownNet<L> { pub last: L::Bit, pub count: L::U<6> } }
-
 /// Counts modulo 5 too, as what is left to count; it shows the count on a net, two bits wider.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Down {
     /// What is added on top of the count where it is 4.
     pub flaw: u64,
 }
 
+signals! { for Down as _c;
+    pub struct DownReg { left: I(6) = 4 }
+    pub struct DownNet { pub last: Bit, pub count: U(6) }
+}
+
 impl Circuit for Down {
-    parts!("modulo", Enable, DownReg, DownNet);
-    fn comb<L: Logic>(&self, q: &DownReg<L>, _: &Enable<L>) -> DownNet<L> {
+    head!("modulo", Enable, DownReg, DownNet);
+    fn tick(&self, i: Enable, q: DownReg, _: Nothing) -> (DownNet, DownReg<Edge>) {
         let last = q.left.is_zero();
         let count = (-q.left + 4).unsigned();
-        DownNet {
-            last,
-            count: last.mux(count + self.flaw, count),
-        }
-    }
-    fn next<L: Logic>(&self, q: DownReg<L>, w: &DownNet<L>, i: &Enable<L>) -> DownReg<L> {
-        let step = w.last.mux(4.into(), q.left - 1);
-        DownReg {
-            left: i.enable.mux(step, q.left),
-        }
+        let count = last.mux(count + self.flaw, count);
+        let left = i.enable.mux(last.mux(4, q.left - 1), q.left);
+        (DownNet { last, count }, DownReg { left })
     }
 }
-
-signals! { pub struct ToggleReg<L> { pub last: L::Bit } }
-signals! { pub struct ToggleNet<L> { hidden: L::Bit, pub parity: L::Bit } }
 
 /// Has one port out in common with the counters.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Toggle;
 
+signals! { for Toggle as _c;
+    pub struct ToggleReg { pub last: Bit }
+    pub struct ToggleNet { hidden: Bit, pub parity: Bit }
+}
+
 impl Circuit for Toggle {
-    parts!("toggle", Enable, ToggleReg, ToggleNet);
-    fn comb<L: Logic>(&self, q: &ToggleReg<L>, i: &Enable<L>) -> ToggleNet<L> {
-        ToggleNet {
-            hidden: !q.last,
-            parity: q.last ^ i.enable,
-        }
-    }
-    fn next<L: Logic>(&self, _: ToggleReg<L>, w: &ToggleNet<L>, _: &Enable<L>) -> ToggleReg<L> {
-        ToggleReg { last: w.parity }
+    head!("toggle", Enable, ToggleReg, ToggleNet);
+    fn tick(&self, i: Enable, q: ToggleReg, _: Nothing) -> (ToggleNet, ToggleReg<Edge>) {
+        let (hidden, parity) = (!q.last, q.last ^ i.enable);
+        (ToggleNet { hidden, parity }, ToggleReg { last: parity })
     }
 }
-
-/// Circuits with the one port in.
-macro_rules! enabled {
-    ($($left:ty, $right:ty;)*) => {$(
-        impl SamePorts<$left> for $right {
-            fn ports<L: Logic>(i: &Enable<L>) -> &Enable<L> {
-                i
-            }
-        }
-    )*};
-}
-enabled! { Up, Down; Up, Toggle; Toggle, Up; }
-
-signals! { pub struct Digit<L> { pub digit: L::U<2> } }
-signals! { pub struct LockReg<L> { pub right: L::U<2> as States(&["shut", "one", "two", "open"]) } }
-signals! { pub struct LockNet<L> { wanted: L::U<2>, pub fits: L::Bit } }
 
 /// A lock that opens on three digits in a row and then stays open.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Lock {
     pub code: [u64; 3],
 }
 
+signals! { for Lock as _c;
+    pub struct Digit { pub digit: U(2) }
+    pub struct LockReg { pub right: U(2) as States(&["shut", "one", "two", "open"]) }
+    pub struct LockNet { wanted: U(2), pub fits: Bit }
+}
+
 impl Circuit for Lock {
-    parts!("lock", Digit, LockReg, LockNet);
-    fn comb<L: Logic>(&self, q: &LockReg<L>, i: &Digit<L>) -> LockNet<L> {
-        let code = Image::<2, 2>::new(self.code);
-        let wanted = code.read::<L>(q.right);
-        LockNet {
-            wanted,
-            fits: i.digit.equals(wanted),
-        }
-    }
-    fn next<L: Logic>(&self, q: LockReg<L>, w: &LockNet<L>, _: &Digit<L>) -> LockReg<L> {
-        let step = w.fits.mux(q.right + 1, 0.into());
-        LockReg {
-            right: q.right.equals(3.into()).mux(q.right, step),
-        }
+    head!("lock", Digit, LockReg, LockNet);
+    fn tick(&self, i: Digit, q: LockReg, _: Nothing) -> (LockNet, LockReg<Edge>) {
+        let wanted = Image::of(2, 2, self.code).rom(q.right);
+        let fits = i.digit.equals(wanted);
+        let step = fits.mux(q.right + 1, 0);
+        let right = q.right.equals(3).mux(q.right, step);
+        (LockNet { wanted, fits }, LockReg { right })
     }
 }
 
-signals! { pub struct Requests<L> { pub request: [L::Bit; 2] } }
-signals! { pub struct ArbiterReg<L> { pub served: L::Bit } }
-signals! { pub struct ArbiterNet<L> { pub grant: [L::Bit; 2] } }
-
 /// Grants one of two requests, in turn where both ask.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Arbiter {
     /// Grants both where both ask and it is the turn of the first.
     pub flawed: bool,
 }
 
-impl Circuit for Arbiter {
-    parts!("arbiter", Requests, ArbiterReg, ArbiterNet);
-    fn comb<L: Logic>(&self, q: &ArbiterReg<L>, i: &Requests<L>) -> ArbiterNet<L> {
-        let [a, b] = i.request;
-        let first = a & (!b | q.served);
-        let spare = L::Bit::from(self.flawed) & q.served;
-        ArbiterNet {
-            grant: [first, b & (!first | spare)],
-        }
-    }
-    fn next<L: Logic>(
-        &self,
-        q: ArbiterReg<L>,
-        w: &ArbiterNet<L>,
-        _: &Requests<L>,
-    ) -> ArbiterReg<L> {
-        let [first, second] = w.grant;
-        ArbiterReg {
-            served: second.mux(true.into(), first.mux(false.into(), q.served)),
-        }
-    }
+signals! { for Arbiter as _c;
+    pub struct Requests { pub request: [Bit; 2] }
+    pub struct ArbiterReg { pub served: Bit }
+    pub struct ArbiterNet { pub grant: [Bit; 2] }
 }
 
-signals! { pub struct Port<L> { write: L::Bit, read: L::Bit, address: L::U<1>, data: L::U<2> } }
-signals! { pub struct StoreReg<L> { ram: L::Ram<1, 2>, pub out: L::U<2> = 2 } }
-signals! { pub struct StoreNet<L> { next_out: L::U<2> } }
+impl Circuit for Arbiter {
+    head!("arbiter", Requests, ArbiterReg, ArbiterNet);
+    fn tick(&self, i: Requests, q: ArbiterReg, _: Nothing) -> (ArbiterNet, ArbiterReg<Edge>) {
+        let (a, b) = (i.request[0], i.request[1]);
+        let first = a & (!b | q.served);
+        let second = b & (!first | q.served & self.flawed);
+        let served = second.mux(true, first.mux(false, q.served));
+        let grant = vec![first, second];
+        (ArbiterNet { grant }, ArbiterReg { served })
+    }
+}
 
 /// Two words of two bits behind an output register.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Store;
 
-impl Circuit for Store {
-    parts!("store", Port, StoreReg, StoreNet);
-    fn comb<L: Logic>(&self, q: &StoreReg<L>, i: &Port<L>) -> StoreNet<L> {
-        StoreNet {
-            next_out: q.ram.read_when(i.read, i.address, q.out),
-        }
-    }
-    fn next<L: Logic>(&self, q: StoreReg<L>, w: &StoreNet<L>, i: &Port<L>) -> StoreReg<L> {
-        // The third value is never stored: so not every packed state is reachable.
-        let write = i.write & !i.data.equals(3.into());
-        StoreReg {
-            ram: q.ram.write(write, i.address, i.data),
-            out: w.next_out,
-        }
-    }
+signals! { for Store as _c;
+    pub struct Port { write: Bit, read: Bit, address: U(1), data: U(2) }
+    pub struct StoreReg { ram: Ram(1, 2), pub out: U(2) = 2 }
+    pub struct StoreNet { next_out: U(2) }
 }
 
-signals! { pub struct Choice<L> { pub way: L::Bit } }
-signals! { pub struct TableReg<L> { pub state: L::U<4> } }
-signals! { pub struct TableNet<L> { pub next: L::U<4> } }
+impl Circuit for Store {
+    head!("store", Port, StoreReg, StoreNet);
+    fn tick(&self, i: Port, q: StoreReg, _: Nothing) -> (StoreNet, StoreReg<Edge>) {
+        let next_out = q.ram.read_when(i.read, i.address, q.out);
+        // The third value is never stored: so not every packed state is reachable.
+        let write = i.write & !i.data.equals(3);
+        let next = StoreReg {
+            ram: q.ram.write(write, i.address, i.data),
+            out: next_out,
+        };
+        (StoreNet { next_out }, next)
+    }
+}
 
 /// An automaton by its table: the state after `state` on `way` stands at `2 * state + way`.
-#[derive(Debug)]
-pub struct Table(pub Image<5, 4>);
+#[derive(Debug, Clone)]
+pub struct Table(pub Image);
+
+signals! { for Table as _c;
+    pub struct Choice { pub way: Bit }
+    pub struct TableReg { pub state: U(4) }
+    pub struct TableNet { pub next: U(4) }
+}
 
 impl Circuit for Table {
-    parts!("table", Choice, TableReg, TableNet);
-    fn comb<L: Logic>(&self, q: &TableReg<L>, i: &Choice<L>) -> TableNet<L> {
-        let address = q.state.join(i.way.word());
-        TableNet {
-            next: self.0.read::<L>(address),
-        }
-    }
-    fn next<L: Logic>(&self, _: TableReg<L>, w: &TableNet<L>, _: &Choice<L>) -> TableReg<L> {
-        TableReg { state: w.next }
+    head!("table", Choice, TableReg, TableNet);
+    fn tick(&self, i: Choice, q: TableReg, _: Nothing) -> (TableNet, TableReg<Edge>) {
+        let next = self.0.rom(q.state.join(i.way.word()));
+        (TableNet { next }, TableReg { state: next })
     }
 }
 
-signals! { pub struct Word<L, const W: usize> { word: L::U<W> } }
-signals! { pub struct Line<L, const K: usize> { line: L::ShiftRegister<K, 13>, above: L::U<12> } }
-signals! { pub struct Through<L> { some: L::Bit } }
+/// So many stages of 13 bits and 12 more bits; it takes words of `width` bits.
+#[derive(Debug, Clone)]
+pub struct Wide {
+    pub width: usize,
+    pub stages: usize,
+}
 
-/// `K` words of 13 bits and 12 more bits; it takes words of `W` bits.
-#[derive(Debug)]
-pub struct Wide<const W: usize, const K: usize>;
+signals! { for Wide as c;
+    pub struct Word { pub word: U(c.width) }
+    pub struct Line { line: Shift(c.stages, 13), above: U(12) }
+    pub struct Through { some: Bit }
+}
 
-impl<const W: usize, const K: usize> Circuit for Wide<W, K> {
-    const NAME: &'static str = "wide";
-    const ABOUT: &'static str = "a circuit to be checked";
-    type In<L: Logic> = Word<L, W>;
-    type Reg<L: Logic> = Line<L, K>;
-    type Net<L: Logic> = Through<L>;
-    fn comb<L: Logic>(&self, _: &Line<L, K>, i: &Word<L, W>) -> Through<L> {
-        Through {
-            some: !i.word.is_zero(),
-        }
-    }
-    fn next<L: Logic>(&self, q: Line<L, K>, w: &Through<L>, i: &Word<L, W>) -> Line<L, K> {
-        Line {
-            line: q.line.shift(w.some, i.word.resize()),
+impl Circuit for Wide {
+    head!("wide", Word, Line, Through);
+    fn tick(&self, i: Word, q: Line, _: Nothing) -> (Through, Line<Edge>) {
+        let some = !i.word.is_zero();
+        let next = Line {
+            line: q.line.shift(some, i.word.resize(13)),
             above: q.above + 1,
-        }
+        };
+        (Through { some }, next)
     }
 }
-
-signals! { pub struct Lfsr<L> { pub state: L::U<20> = 1 } }
-signals! { pub struct Feedback<L> { bit: L::Bit } }
 
 /// A linear feedback shift register of 20 bits with the primitive polynomial x^20 + x^17 + 1,
 /// stopped by its input.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Noise;
 
+signals! { for Noise as _c;
+    pub struct Lfsr { pub state: U(20) = 1 }
+    pub struct Feedback { bit: Bit }
+}
+
 impl Circuit for Noise {
-    parts!("noise", Enable, Lfsr, Feedback);
-    fn comb<L: Logic>(&self, q: &Lfsr<L>, _: &Enable<L>) -> Feedback<L> {
-        Feedback {
-            bit: q.state.bit(19) ^ q.state.bit(16),
-        }
-    }
-    fn next<L: Logic>(&self, q: Lfsr<L>, w: &Feedback<L>, i: &Enable<L>) -> Lfsr<L> {
-        let shifted: L::U<20> = q.state.join(w.bit.word());
-        Lfsr {
-            state: i.enable.mux(shifted, q.state),
-        }
+    head!("noise", Enable, Lfsr, Feedback);
+    fn tick(&self, i: Enable, q: Lfsr, _: Nothing) -> (Feedback, Lfsr<Edge>) {
+        let bit = q.state.bit(19) ^ q.state.bit(16);
+        let shifted = q.state.slice(0, 19).join(bit.word());
+        let state = i.enable.mux(shifted, q.state);
+        (Feedback { bit }, Lfsr { state })
     }
 }

@@ -2,13 +2,21 @@
 
 use crate::circuits::*;
 use motion_rtl::check::{Invariants, Lockstep, LockstepError, Pair, Random, reach};
-use motion_rtl::kernel::{Declarations, Part, RunError, Simulator, zero};
+use motion_rtl::hdl::{Circuit, Declarations, RunError, Simulator, zero};
 
 fn counters(flaw: u64) -> Pair<Up, Down> {
     Pair {
         left: Up { n: 5 },
         right: Down { flaw },
     }
+}
+
+/// Runs a pair on random inputs.
+fn run(pair: &Pair<Up, Down>, ticks: u64, lockstep: Lockstep) -> Result<u64, RunError> {
+    let mut random = Random::new(3);
+    let mut simulator = Simulator::new(pair)?;
+    simulator.run(ticks, |_, _| random.inputs(pair), lockstep)?;
+    Ok(simulator.tick())
 }
 
 #[test]
@@ -40,11 +48,7 @@ fn the_first_difference_is_found() {
     assert_eq!(found.message, "left.count is 4, right.count is 20");
     assert!(found.to_string().contains("* left.count"), "{found}");
 
-    let mut random = Random::new(3);
-    let stimulus = |_: u64, _: &Part<'_, _>| random.signals();
-    let end = Simulator::new(&pair)
-        .unwrap()
-        .run(1000, stimulus, lockstep.clone());
+    let end = run(&pair, 1000, lockstep.clone());
     let Err(RunError::Violation {
         tick,
         signals,
@@ -60,14 +64,8 @@ fn the_first_difference_is_found() {
 #[test]
 fn equal_circuits_agree_on_long_runs() {
     let pair = counters(0);
-    let mut lockstep = Lockstep::by_name(&pair).unwrap();
-    let mut random = Random::new(3);
-    let stimulus = |_: u64, _: &Part<'_, _>| random.signals();
-    let end = Simulator::new(&pair)
-        .unwrap()
-        .run(10_000, stimulus, &mut lockstep)
-        .unwrap();
-    assert_eq!(end.tick(), 10_000);
+    let lockstep = Lockstep::by_name(&pair).unwrap();
+    assert_eq!(run(&pair, 10_000, lockstep).unwrap(), 10_000);
 }
 
 #[test]
@@ -114,38 +112,48 @@ fn a_list_may_name_what_is_private_and_what_has_another_name() {
     assert_eq!(found.message, "modulo.last is 0, toggle.parity is 1");
     assert_eq!(found.tick, 0);
 
-    assert!(Lockstep::of(&pair, &[("last", "hidden")]).is_ok());
-    let error = Lockstep::of(&pair, &[("last", "enable")]).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "toggle has not exactly one signal enable"
-    );
-    let error = Lockstep::of(&pair, &[("lost", "last")]).unwrap_err();
-    assert_eq!(error.to_string(), "modulo has not exactly one signal lost");
+    let named = |left, right| {
+        let lockstep = Lockstep::of(&pair, &[(left, right)]);
+        lockstep.map_err(|error| error.to_string())
+    };
+    assert!(named("last", "hidden").is_ok());
+    let error = named("last", "enable").unwrap_err();
+    assert_eq!(error, "toggle has not exactly one signal enable");
+    let error = named("lost", "last").unwrap_err();
+    assert_eq!(error, "modulo has not exactly one signal lost");
     assert_eq!(
         Lockstep::of(&pair, &[]).unwrap_err(),
         LockstepError::Nothing
     );
 }
 
+const WIDE: Wide = Wide {
+    width: 1,
+    stages: 1,
+};
+
 #[test]
 fn circuits_without_a_name_in_common_have_no_partners() {
     let pair = Pair {
         left: Up { n: 2 },
-        right: Wide::<1, 1>,
+        right: WIDE,
     };
     let alone = ["modulo.count", "modulo.last"].map(str::to_owned);
     assert_eq!(
         Lockstep::by_name(&pair).unwrap_err(),
         LockstepError::Unpaired(alone.into())
     );
+    // They have no ports in common either.
+    let error = Simulator::new(&pair).unwrap_err().to_string();
+    let what = "pair: the ports in of both are not the same: enable of 1; word of 1";
+    assert!(error.ends_with(what), "{error}");
 }
 
 #[test]
 fn circuits_without_ports_out_are_not_equal_by_default() {
     let pair = Pair {
-        left: Wide::<1, 1>,
-        right: Wide::<1, 1>,
+        left: WIDE,
+        right: WIDE,
     };
     assert_eq!(
         Lockstep::by_name(&pair).unwrap_err(),
@@ -159,16 +167,20 @@ fn circuits_without_ports_out_are_not_equal_by_default() {
 
 #[test]
 fn a_pair_stands_in_two_scopes() {
-    let paths =
-        |leaves: Declarations| -> Vec<_> { leaves.leaves.iter().map(|leaf| leaf.path()).collect() };
+    fn paths<C: Circuit>(circuit: &C) -> Vec<String> {
+        let leaves = Declarations::of(circuit).leaves;
+        leaves.iter().map(|leaf| leaf.path()).collect()
+    }
     assert_eq!(
-        paths(Declarations::of(&counters(0))),
+        paths(&counters(0)),
         [
             "pair.enable",
             "pair.left.count",
             "pair.right.left",
+            "pair.left.enable",
             "pair.left.last",
             "pair.left.carry",
+            "pair.right.enable",
             "pair.right.last",
             "pair.right.count"
         ]
@@ -177,8 +189,7 @@ fn a_pair_stands_in_two_scopes() {
         left: Toggle,
         right: Up { n: 3 },
     };
-    let simulator = Simulator::new(&pair).unwrap();
-    let (_, shown) = simulator.step(zero(), |now| now.w.left.parity.get());
-    assert!(!shown);
-    assert_eq!(paths(Declarations::of(&pair))[1], "pair.toggle.last");
+    let mut simulator = Simulator::new(&pair).unwrap();
+    assert!(!simulator.step_with(&zero(&pair), |now| now.p.left.w.parity));
+    assert_eq!(paths(&pair)[1], "pair.toggle.last");
 }

@@ -11,4 +11,5 @@ mod reach;
 mod report;
 mod search;
 mod sweep;
+mod widths;
 mod words;

@@ -2,27 +2,26 @@
 
 use crate::circuits::*;
 use motion_rtl::check::{Invariants, Monitor, Random, require};
-use motion_rtl::kernel::{Registers, RunError, Sample, Simulator};
+use motion_rtl::hdl::{RunError, Sample, Simulator, State, Value};
 
-fn on(_: u64, _: &Registers<'_, Up>) -> Enable<motion_rtl::logic::Sim> {
-    Enable {
-        enable: true.into(),
-    }
+fn on(_: u64, _: &State<'_, Up>) -> Enable<Value> {
+    Enable { enable: true }
+}
+
+/// Runs a counter so many ticks; how many it has gone.
+fn run(ticks: u64, invariants: &Invariants<'_, Up>) -> Result<u64, RunError> {
+    let mut simulator = Simulator::new(&Up { n: 9 })?;
+    simulator.run(ticks, on, Monitor::new(invariants))?;
+    Ok(simulator.tick())
 }
 
 #[test]
 fn a_violation_ends_the_run_and_names_everything() {
-    let circuit = Up { n: 9 };
-    let low = Invariants::new().always("at most 4", |now: &Sample<Up>| {
-        require(now.q.count.get() <= 4, ["count"], || "it is 5".into())
+    let low = Invariants::new().always("at most 4", |now: &Sample<'_, Up>| {
+        require(now.q.count <= 4, ["count"], || "it is 5".into())
     });
-    let run = |ticks| {
-        Simulator::new(&circuit)
-            .unwrap()
-            .run(ticks, on, Monitor::new(&low))
-    };
-    assert_eq!(run(5).unwrap().tick(), 5);
-    let error = run(6).unwrap_err();
+    assert_eq!(run(5, &low).unwrap(), 5);
+    let error = run(6, &low).unwrap_err();
     assert_eq!(
         error.to_string(),
         "tick 5: at most 4: it is 5 (signals: count)"
@@ -32,35 +31,28 @@ fn a_violation_ends_the_run_and_names_everything() {
 
 #[test]
 fn a_step_property_is_watched_too() {
-    let circuit = Up { n: 9 };
     let invariants = Invariants::new()
-        .always("fine", |_: &Sample<Up>| Ok(()))
-        .step("never back", |now: &Sample<Up>, next| {
-            let back = next.count < now.q.count;
+        .always("fine", |_: &Sample<'_, Up>| Ok(()))
+        .step("never back", |now, next| {
+            let back = next.q.count < now.q.count;
             require(!back, ["count"], || "back".into())
         });
-    let run = |ticks| {
-        Simulator::new(&circuit)
-            .unwrap()
-            .run(ticks, on, Monitor::new(&invariants))
-    };
-    assert!(run(8).is_ok());
-    assert!(matches!(run(9), Err(RunError::Violation { tick: 8, .. })));
+    assert!(run(8, &invariants).is_ok());
+    let end = run(9, &invariants);
+    assert!(matches!(end, Err(RunError::Violation { tick: 8, .. })));
 }
 
 #[test]
 fn random_stimulus_finds_it_in_the_end() {
     let circuit = Lock { code: [2, 2, 1] };
-    let shut = Invariants::new().always("shut", |now: &Sample<Lock>| {
-        require(now.q.right.get() < 3, ["right"], || "open".into())
+    let shut = Invariants::new().always("shut", |now: &Sample<'_, Lock>| {
+        require(now.q.right < 3, ["right"], || "open".into())
     });
     let run = |seed| {
         let mut random = Random::new(seed);
-        let stimulus = move |_: u64, _: &motion_rtl::kernel::Part<'_, _>| random.signals();
-        let end = Simulator::new(&circuit)
-            .unwrap()
-            .run(10_000, stimulus, Monitor::new(&shut));
-        match end {
+        let stimulus = |_: u64, _: &State<'_, Lock>| random.inputs(&circuit);
+        let mut simulator = Simulator::new(&circuit).unwrap();
+        match simulator.run(10_000, stimulus, Monitor::new(&shut)) {
             Err(RunError::Violation { tick, .. }) => tick,
             other => panic!("{other:?}"),
         }

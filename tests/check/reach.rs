@@ -1,11 +1,9 @@
 //! Proofs and shortest counterexamples.
 
 use crate::circuits::*;
-use motion_rtl::check::{Invariants, Proof, Random, all, reach, require};
-use motion_rtl::kernel::{Circuit, Moment, Property, Sample, Simulator};
-use motion_rtl::logic::sim::UInt;
-use motion_rtl::logic::{Bit, Image, Logic, Unsigned};
-use motion_rtl::signals;
+use motion_rtl::check::{Proof, Random};
+use motion_rtl::hdl::prelude::*;
+use motion_rtl::hdl::{Sample, State};
 use std::collections::{BTreeSet, HashSet};
 
 pub fn proof(states: u64, transitions: u64, depth: u64) -> Proof {
@@ -33,34 +31,28 @@ fn both<C: Circuit>(circuit: &C, invariants: &Invariants<'_, C>, limit: u32) -> 
 }
 
 /// Counts up to a number and stays there; one of its properties is wrong about the number.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Climb(u64);
 
-signals! { struct ClimbReg<L> { count: L::U<4> } }
-signals! { struct ClimbNet<L> { top: L::Bit } }
+signals! { for Climb as _c;
+    struct ClimbIn { enable: Bit }
+    struct ClimbReg { count: U(4) }
+    struct ClimbNet { top: Bit }
+}
 
 impl Circuit for Climb {
     const NAME: &'static str = "climb";
     const ABOUT: &'static str = "counts up to 9 and stays there";
-    type In<L: Logic> = Enable<L>;
-    type Reg<L: Logic> = ClimbReg<L>;
-    type Net<L: Logic> = ClimbNet<L>;
-    fn comb<L: Logic>(&self, q: &ClimbReg<L>, _: &Enable<L>) -> ClimbNet<L> {
-        let top = q.count.equals(9.into());
-        ClimbNet { top }
+    records!(ClimbIn, ClimbReg, ClimbNet);
+    fn tick(&self, i: ClimbIn, q: ClimbReg, _: Nothing) -> (ClimbNet, ClimbReg<Edge>) {
+        let top = q.count.equals(9);
+        let count = (i.enable & !top).mux(q.count + 1, q.count);
+        (ClimbNet { top }, ClimbReg { count })
     }
-    fn next<L: Logic>(&self, q: ClimbReg<L>, w: &ClimbNet<L>, i: &Enable<L>) -> ClimbReg<L> {
-        let count = (i.enable & !w.top).mux(q.count + 1, q.count);
-        ClimbReg { count }
-    }
-    fn properties<L: Logic>(
-        &self,
-        now: &Moment<'_, Self, L>,
-        next: &ClimbReg<L>,
-    ) -> Vec<Property<L>> {
-        let most = next.count.below(self.0.into());
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let most = now.next.q.count.below(self.0);
         vec![
-            Property::always("it is a digit", &["count"], now.q.count.below(10.into())),
+            Property::always("it is a digit", &["count"], now.q.count.below(10)),
             Property::step("it stays below", &["count", "top"], most),
         ]
     }
@@ -81,11 +73,11 @@ fn gates_and_simulation_find_the_same() {
     for code in [[0, 3, 0], [1, 1, 1]] {
         let circuit = Lock { code };
         let shut = Invariants::new()
-            .always("shut", |now: &Sample<Lock>| {
-                require(now.q.right.get() != 3, ["right"], || "open".into())
+            .always("shut", |now: &Sample<'_, Lock>| {
+                require(now.q.right != 3, ["right"], || "open".into())
             })
             .step("never from two to open", |now, next| {
-                let opens = now.q.right.get() == 2 && next.right.get() == 3;
+                let opens = now.q.right == 2 && next.q.right == 3;
                 require(!opens, ["right"], || "opens".into())
             });
         assert!(both(&circuit, &shut, 100).contains("never from two to open"));
@@ -95,8 +87,8 @@ fn gates_and_simulation_find_the_same() {
 #[test]
 fn a_counter_has_as_many_states_as_it_counts() {
     for n in 1..=16 {
-        let below = Invariants::new().always("below n", |now: &Sample<Up>| {
-            require(now.q.count.get() < n, ["count"], || "too far".into())
+        let below = Invariants::new().always("below n", |now: &Sample<'_, Up>| {
+            require(now.q.count < n, ["count"], || "too far".into())
         });
         let circuit = Up { n };
         let outcome = reach(&circuit, &below).run().unwrap();
@@ -108,8 +100,8 @@ fn a_counter_has_as_many_states_as_it_counts() {
 fn a_violation_is_found_on_its_first_tick() {
     let circuit = Up { n: 9 };
     for bound in 0..9 {
-        let below = Invariants::new().always("below the bound", |now: &Sample<Up>| {
-            require(now.q.count.get() < bound, ["count", "last"], || {
+        let below = Invariants::new().always("below the bound", |now: &Sample<'_, Up>| {
+            require(now.q.count < bound, ["count", "last"], || {
                 format!("{} ticks", now.tick)
             })
         });
@@ -119,7 +111,7 @@ fn a_violation_is_found_on_its_first_tick() {
         assert_eq!(found.tick, bound);
         assert_eq!(found.inputs.len() as u64, bound + 1);
         let steps = &found.inputs[..bound as usize];
-        assert!(steps.iter().all(|i| i.enable.get()));
+        assert!(steps.iter().all(|i| i.enable));
         assert_eq!(found.invariant, "below the bound");
         assert_eq!(found.signals, ["count", "last"]);
         assert_eq!(found.message, format!("{bound} ticks"));
@@ -128,15 +120,15 @@ fn a_violation_is_found_on_its_first_tick() {
 
 #[test]
 fn the_lock_is_opened_by_its_code() {
-    for code in all::<[UInt<2>; 3]>().unwrap() {
-        let code = code.map(|digit| digit.get());
+    for number in 0..64 {
+        let code = [number & 3, number >> 2 & 3, number >> 4];
         let circuit = Lock { code };
-        let shut = Invariants::new().always("shut", |now: &Sample<Lock>| {
-            require(now.q.right.get() < 3, ["right"], || "open".into())
+        let shut = Invariants::new().always("shut", |now: &Sample<'_, Lock>| {
+            require(now.q.right < 3, ["right"], || "open".into())
         });
         let found = reach(&circuit, &shut).run().unwrap();
         let found = found.counterexample().unwrap();
-        let tried: Vec<_> = found.inputs.iter().map(|i| i.digit.get()).collect();
+        let tried: Vec<_> = found.inputs.iter().map(|i| i.digit).collect();
         assert_eq!(tried[..3], code);
         assert_eq!(tried.len(), 4);
         // States 0 to 3, four digits in each.
@@ -146,13 +138,13 @@ fn the_lock_is_opened_by_its_code() {
 
 #[test]
 fn the_arbiter_never_grants_twice() {
-    let exclusive = Invariants::new().always("exclusive", |now: &Sample<Arbiter>| {
-        let [a, b] = now.w.grant;
-        require(!(a & b).get(), ["grant0", "grant1"], || "both".into())
+    let exclusive = Invariants::new().always("exclusive", |now: &Sample<'_, Arbiter>| {
+        let both = now.w.grant[0] && now.w.grant[1];
+        require(!both, ["grant0", "grant1"], || "both".into())
     });
-    let served = exclusive.step("served", |now: &Sample<Arbiter>, next| {
-        let alone = now.w.grant[1].get() != now.w.grant[0].get();
-        let right = next.served.get() == now.w.grant[1].get();
+    let served = exclusive.step("served", |now: &Sample<'_, Arbiter>, next| {
+        let alone = now.w.grant[1] != now.w.grant[0];
+        let right = next.q.served == now.w.grant[1];
         require(!alone || right, ["served"], || "another".into())
     });
 
@@ -164,11 +156,7 @@ fn the_arbiter_never_grants_twice() {
     let found = reach(&flawed, &served).run().unwrap();
     let found = found.counterexample().unwrap();
     assert_eq!((found.tick, found.invariant.as_str()), (1, "exclusive"));
-    let requests: Vec<_> = found
-        .inputs
-        .iter()
-        .map(|i| i.request.map(|r| r.get()))
-        .collect();
+    let requests: Vec<_> = found.inputs.iter().map(|i| &i.request[..]).collect();
     // The second is served first: alone, for the flaw shows when both ask a tick later.
     assert_eq!(requests[1], [true, true]);
     assert!(requests[0][1]);
@@ -178,22 +166,22 @@ fn the_arbiter_never_grants_twice() {
 fn a_step_property_sees_the_registers_after_the_edge() {
     let circuit = Up { n: 5 };
     let held = Invariants::new()
-        .step("counts", |now: &Sample<Up>, next| {
-            let sum = (now.q.count.get() + u64::from(now.i.enable.get())) % 5;
-            require(next.count.get() == sum, ["count"], || "miscounted".into())
+        .step("counts", |now: &Sample<'_, Up>, next| {
+            let sum = (now.q.count + u64::from(now.i.enable)) % 5;
+            require(next.q.count == sum, ["count"], || "miscounted".into())
         })
         .step("never one", |_, next| {
-            require(next.count.get() != 1, ["count"], || "one".into())
+            require(next.q.count != 1, ["count"], || "one".into())
         });
     let found = reach(&circuit, &held).run().unwrap();
     let found = found.counterexample().unwrap();
     assert_eq!((found.tick, found.invariant.as_str()), (0, "never one"));
-    assert!(found.inputs[0].enable.get());
+    assert!(found.inputs[0].enable);
 }
 
 #[test]
 fn of_two_violations_the_one_added_first_is_named() {
-    let no = |_: &Sample<Up>| require(false, [], || "no".into());
+    let no = |_: &Sample<'_, Up>| require(false, [], || "no".into());
     let both = Invariants::new().always("first", no).always("second", no);
     assert_eq!(both.names().collect::<Vec<_>>(), ["first", "second"]);
     let circuit = Up { n: 2 };
@@ -258,18 +246,20 @@ fn bitmap_and_hash_set_see_the_same() {
     }
 }
 
+/// The state after so many ticks.
+fn state_after(table: &Table, ticks: u64, way: impl Fn(u64) -> bool) -> u64 {
+    let mut simulator = Simulator::new(table).unwrap();
+    let way = |tick, _: &State<'_, Table>| Choice { way: way(tick) };
+    simulator.run(ticks, way, ()).unwrap();
+    simulator.registers().q.state
+}
+
 /// The length of the shortest input sequence after which `state` is `bad`, by trying all of them.
 fn by_brute_force(table: &Table, bad: u64, longest: usize) -> Option<usize> {
     (0..=longest).find(|&length| {
         (0..1u64 << length).any(|choices| {
-            let way = |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| Choice {
-                way: (choices >> tick & 1 == 1).into(),
-            };
-            let end = Simulator::new(table)
-                .unwrap()
-                .run(length as u64, way, ())
-                .unwrap();
-            end.registers().state.get() == bad
+            let way = |tick| choices >> tick & 1 == 1;
+            state_after(table, length as u64, way) == bad
         })
     })
 }
@@ -280,23 +270,17 @@ fn no_counterexample_is_longer_than_need_be() {
     let mut lengths = HashSet::new();
     for _ in 0..40 {
         let words: Vec<_> = (0..32).map(|_| random.word()).collect();
-        let table = Table(Image::new(words));
+        let table = Table(Image::of(5, 4, words));
         let mut reachable = 0;
         for bad in 0..16 {
-            let good = Invariants::new().always("good", |now: &Sample<Table>| {
-                require(now.q.state.get() != bad, ["state"], || "bad".into())
+            let good = Invariants::new().always("good", |now: &Sample<'_, Table>| {
+                require(now.q.state != bad, ["state"], || "bad".into())
             });
             let found = reach(&table, &good).run().unwrap();
             let expected = by_brute_force(&table, bad, 10);
             let length = found.counterexample().map(|found| {
-                let inputs = &found.inputs[..found.tick as usize];
-                let way =
-                    |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| inputs[tick as usize].clone();
-                let end = Simulator::new(&table)
-                    .unwrap()
-                    .run(found.tick, way, ())
-                    .unwrap();
-                assert_eq!(end.registers().state.get(), bad, "it replays");
+                let way = |tick| found.inputs[tick as usize].way;
+                assert_eq!(state_after(&table, found.tick, way), bad, "it replays");
                 found.tick as usize
             });
             if length.is_none_or(|length| length <= 10) {

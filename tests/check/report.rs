@@ -3,14 +3,14 @@
 use crate::circuits::*;
 use expect_test::expect;
 use motion_rtl::check::{Invariants, reach, require};
-use motion_rtl::kernel::Sample;
+use motion_rtl::hdl::Sample;
 use motion_rtl::trace::Clock;
 
 #[test]
 fn a_counterexample_prints_its_last_ticks() {
     let circuit = Lock { code: [3, 1, 2] };
-    let shut = Invariants::new().always("shut", |now: &Sample<Lock>| {
-        require(now.q.right.get() < 3, ["right"], || "it is open".into())
+    let shut = Invariants::new().always("shut", |now: &Sample<'_, Lock>| {
+        require(now.q.right < 3, ["right"], || "it is open".into())
     });
     let outcome = reach(&circuit, &shut).run().unwrap();
     expect![[r#"
@@ -27,8 +27,8 @@ fn a_counterexample_prints_its_last_ticks() {
 #[test]
 fn only_the_last_ticks_are_printed() {
     let circuit = Down { flaw: 0 };
-    let low = Invariants::new().always("not for long", |now: &Sample<Down>| {
-        require(now.w.count.get() < 4, ["count"], || "four".into())
+    let low = Invariants::new().always("not for long", |now: &Sample<'_, Down>| {
+        require(now.w.count < 4, ["count"], || "four".into())
     });
     let outcome = reach(&circuit, &low).run().unwrap();
     expect![[r#"
@@ -42,8 +42,8 @@ fn only_the_last_ticks_are_printed() {
     .assert_eq(&format!("{outcome:?}"));
 
     let circuit = Up { n: 16 };
-    let low = Invariants::new().always("below 12", |now: &Sample<Up>| {
-        require(now.q.count.get() < 12, ["modulo.count"], || "12".into())
+    let low = Invariants::new().always("below 12", |now: &Sample<'_, Up>| {
+        require(now.q.count < 12, ["modulo.count"], || "12".into())
     });
     let found = reach(&circuit, &low)
         .run()
@@ -64,8 +64,8 @@ fn only_the_last_ticks_are_printed() {
 #[test]
 fn a_counterexample_is_saved_as_waves() {
     let circuit = Lock { code: [3, 1, 2] };
-    let shut = Invariants::new().always("shut, always", |now: &Sample<Lock>| {
-        require(now.q.right.get() < 3, ["right"], || "it is open".into())
+    let shut = Invariants::new().always("shut, always", |now: &Sample<'_, Lock>| {
+        require(now.q.right < 3, ["right"], || "it is open".into())
     });
     let found = reach(&circuit, &shut).run().unwrap();
     let found = found.counterexample().unwrap();

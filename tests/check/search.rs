@@ -5,19 +5,17 @@ use crate::reach::proof;
 use motion_rtl::check::{
     CheckError, Invariants, Outcome, Progress, Proof, TooWide, all, reach, require,
 };
-use motion_rtl::kernel::{Sample, pack};
-use motion_rtl::logic::Sim;
-use motion_rtl::logic::sim::UInt;
+use motion_rtl::hdl::Sample;
 use std::collections::HashSet;
 
 #[test]
 fn assumptions_are_honoured() {
     let circuit = Up { n: 9 };
-    let low = Invariants::new().always("at most 4", |now: &Sample<Up>| {
-        require(now.q.count.get() <= 4, ["count"], || "above".into())
+    let low = Invariants::new().always("at most 4", |now: &Sample<'_, Up>| {
+        require(now.q.count <= 4, ["count"], || "above".into())
     });
     let assumed = reach(&circuit, &low)
-        .assume(|q, i| q.count.get() < 4 || !i.enable.get())
+        .assume(|q, i| q.q.count < 4 || !i.enable)
         .run()
         .unwrap();
     // Counts 0 to 4, two inputs in each but the last.
@@ -25,8 +23,8 @@ fn assumptions_are_honoured() {
 
     // Two assumptions that leave no input at 4, and only one at 0.
     let stuck = reach(&circuit, &low)
-        .assume(|q, i| q.count.get() < 4 || !i.enable.get())
-        .assume(|q, i| (1..4).contains(&q.count.get()) || i.enable.get())
+        .assume(|q, i| q.q.count < 4 || !i.enable)
+        .assume(|q, i| (1..4).contains(&q.q.count) || i.enable)
         .run()
         .unwrap();
     let expected = Proof {
@@ -46,15 +44,15 @@ fn assumptions_are_honoured() {
 #[test]
 fn the_inputs_of_a_counterexample_obey_the_assumption() {
     let circuit = Lock { code: [1, 2, 3] };
-    let shut = Invariants::new().always("shut", |now: &Sample<Lock>| {
-        require(now.q.right.get() < 3, ["right"], || "open".into())
+    let shut = Invariants::new().always("shut", |now: &Sample<'_, Lock>| {
+        require(now.q.right < 3, ["right"], || "open".into())
     });
     let outcome = reach(&circuit, &shut)
-        .assume(|q, i| q.right.get() != 3 || i.digit.get() == 2)
+        .assume(|q, i| q.q.right != 3 || i.digit == 2)
         .run()
         .unwrap();
     let tried = outcome.counterexample().unwrap().inputs;
-    let tried: Vec<_> = tried.iter().map(|i| i.digit.get()).collect();
+    let tried: Vec<_> = tried.iter().map(|i| i.digit).collect();
     assert_eq!(tried, [1, 2, 3, 2]);
 }
 
@@ -83,8 +81,8 @@ fn a_limit_is_no_proof() {
     assert_eq!(outcome.proof(), Some(proof(9, 18, 8)));
 
     // A violation before the limit counts.
-    let below = Invariants::new().always("below 3", |now: &Sample<Up>| {
-        require(now.q.count.get() < 3, ["count"], || "3".into())
+    let below = Invariants::new().always("below 3", |now: &Sample<'_, Up>| {
+        require(now.q.count < 3, ["count"], || "3".into())
     });
     let outcome = reach(&circuit, &below).limit(4).run().unwrap();
     assert_eq!(outcome.counterexample().unwrap().tick, 3);
@@ -112,19 +110,20 @@ fn progress_is_reported_at_every_depth() {
     // make none, one or both were shifted.
     let mut reports = Vec::new();
     let report = |progress: &Progress| reports.push((progress.depth, progress.frontier));
-    let none = none_wide::<3, 2>();
-    let search = reach(&Wide::<3, 2>, &none).progress(report).limit(100);
+    let (circuit, none) = (wide(3, 2), Invariants::new());
+    let search = reach(&circuit, &none).progress(report).limit(100);
     assert!(matches!(search.run(), Ok(Outcome::Limit(_))));
     assert_eq!(reports, [(0, 1), (1, 8), (2, 1 + 7 + 7 * 7)]);
 }
 
-fn none_wide<const W: usize, const K: usize>() -> Invariants<'static, Wide<W, K>> {
-    Invariants::new()
+const fn wide(width: usize, stages: usize) -> Wide {
+    Wide { width, stages }
 }
 
 #[test]
 fn what_is_too_wide_is_refused() {
-    let found = reach(&Wide::<1, 5>, &none_wide()).run();
+    let none = Invariants::new();
+    let found = reach(&wide(1, 5), &none).run();
     let what = "the registers";
     let expected = TooWide {
         what,
@@ -136,7 +135,7 @@ fn what_is_too_wide_is_refused() {
         expected.to_string(),
         "the registers have 77 bits, at most 64 can be enumerated"
     );
-    let found = reach(&Wide::<21, 1>, &none_wide()).run();
+    let found = reach(&wide(21, 1), &none).run();
     let what = "the inputs";
     assert_eq!(
         found.unwrap_err(),
@@ -148,12 +147,9 @@ fn what_is_too_wide_is_refused() {
     );
 
     // 64 and 20 bits are still possible, with the highest bits in use.
-    let found = reach(&Wide::<20, 4>, &none_wide()).limit(1 << 14).run();
+    let found = reach(&wide(20, 4), &none).limit(1 << 14).run();
     assert!(matches!(found, Ok(Outcome::Limit(_))));
-    let invariants = none_wide::<1, 4>();
-    let outcome = reach(&Wide::<1, 4>, &invariants)
-        .assume(|_, i| pack(i)[0])
-        .run();
+    let outcome = reach(&wide(1, 4), &none).assume(|_, i| i.word == 1).run();
     // The input shifts ones in: four stages fill, while the count runs through 2^12.
     assert_eq!(
         outcome.unwrap().proof(),
@@ -164,8 +160,8 @@ fn what_is_too_wide_is_refused() {
 #[test]
 fn every_run_ends_the_same() {
     let run = || {
-        let shut = Invariants::new().always("shut", |now: &Sample<Lock>| {
-            require(now.q.right.get() < 3, ["right"], || "open".into())
+        let shut = Invariants::new().always("shut", |now: &Sample<'_, Lock>| {
+            require(now.q.right < 3, ["right"], || "open".into())
         });
         let found = reach(&Lock { code: [0, 3, 0] }, &shut).bitmap_bits(0).run();
         found.unwrap().to_string()
@@ -175,12 +171,10 @@ fn every_run_ends_the_same() {
 }
 
 #[test]
-fn all_values_of_a_bundle_come_once() {
-    let bundles: HashSet<_> = all::<Port<Sim>>()
-        .unwrap()
-        .map(|port| pack(&port))
-        .collect();
-    assert_eq!(bundles.len(), 32);
-    assert!(all::<[UInt<32>; 2]>().is_err());
-    assert!(all::<[UInt<9>; 7]>().is_ok());
+fn all_inputs_come_once() {
+    let text = |port| format!("{port:?}");
+    let ports: HashSet<_> = all(&Store).unwrap().map(text).collect();
+    assert_eq!(ports.len(), 32);
+    assert!(all(&wide(64, 1)).is_err());
+    assert!(all(&wide(63, 1)).is_ok());
 }

@@ -1,13 +1,15 @@
 //! What the tests of the pulse interpolator share.
 
-use motion_rtl::kernel::{Sample, Simulator, StopWhen, zero};
-use motion_rtl::logic::Sim;
-use motion_rtl::pulse_interpolator::group::{Group, In};
-use motion_rtl::pulse_interpolator::{Pattern, Variant};
+use motion_rtl::circuits::pulse_interpolator::{Group, Pattern, Variant, Widths};
+use motion_rtl::hdl::{Sample, Simulator, StopWhen, zero};
 
-/// All ports in low.
-pub fn idle<const N: usize, const T: usize, const A: usize>() -> In<Sim, N, T, A> {
-    zero()
+/// Widths of half-period, unit time and address.
+pub fn widths(half_period: usize, period: usize, address: usize) -> Widths {
+    Widths {
+        half_period,
+        period,
+        address,
+    }
 }
 
 /// The step line in each tick of one unit time, from the definition: it toggles every
@@ -25,42 +27,36 @@ pub fn rises(wave: &[bool]) -> u64 {
 }
 
 /// A free-running group of one axis with the given half-periods as its one pattern.
-pub fn player<const N: usize, const T: usize, const A: usize>(
+pub fn player(
+    widths: Widths,
     variant: Variant,
     half_periods: &[u64],
     period: u64,
     cyclic: bool,
-) -> Group<1, N, T, A> {
-    let last = half_periods.len() as u64 - 1;
-    let base = 0;
-    let mut group = Group::free_running(
-        variant,
-        Pattern {
-            base,
-            last,
-            cyclic,
-            period,
-        },
-    );
+) -> Group {
+    let pattern = Pattern {
+        base: 0,
+        last: half_periods.len() as u64 - 1,
+        cyclic,
+        period,
+    };
+    let mut group = Group::free_running(1, widths, variant, pattern);
     for (address, half_period) in half_periods.iter().enumerate() {
-        group.axes[0].memory.half_periods.set(address, *half_period);
+        group.memories[0].half_periods.set(address, *half_period);
     }
     group
 }
 
 /// The step line of a group of one axis over `ticks` ticks.
-pub fn steps<const N: usize, const T: usize, const A: usize>(
-    group: &Group<1, N, T, A>,
-    ticks: u64,
-) -> Vec<bool> {
+pub fn steps(group: &Group, ticks: u64) -> Vec<bool> {
     let mut wave = Vec::new();
-    let look = |now: &Sample<Group<1, N, T, A>>| {
-        wave.push(now.w.step[0].get());
+    let look = |now: &Sample<'_, Group>| {
+        wave.push(now.w.step[0]);
         false
     };
     Simulator::new(group)
         .unwrap()
-        .run(ticks, |_, _| idle(), StopWhen(look))
+        .run(ticks, |_, _| zero(group), StopWhen(look))
         .expect("no observer fails");
     wave
 }

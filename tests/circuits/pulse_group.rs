@@ -1,14 +1,22 @@
 //! The group at cycle level: start-up, patterns, commands, unit times.
 
-use super::common::{idle, player, rises, steps, unit_wave};
-use motion_rtl::kernel::{Circuit, Sample, Simulator, StopWhen};
-use motion_rtl::logic::Sim;
-use motion_rtl::pulse_interpolator::Pattern;
-use motion_rtl::pulse_interpolator::Variant::Safe;
-use motion_rtl::pulse_interpolator::group::{Group, In};
+use super::common::{player, rises, steps, unit_wave, widths};
+use motion_rtl::circuits::pulse_interpolator::Variant::Safe;
+use motion_rtl::circuits::pulse_interpolator::group::{Group, In};
+use motion_rtl::circuits::pulse_interpolator::{Pattern, Widths, pattern_memory::WritePort};
+use motion_rtl::hdl::{Declarations, Role, Sample, Simulator, StopWhen, Value, zero};
 
-type Small = Group<1, 4, 4, 3>;
-type Port = In<Sim, 4, 4, 3>;
+type Port = In<Value>;
+
+/// Widths of most groups here.
+fn small() -> Widths {
+    widths(4, 4, 3)
+}
+
+/// All ports in low.
+fn idle() -> Port {
+    zero(&Group::new(1, small(), Safe, 1))
+}
 
 /// What one tick shows of the group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,17 +31,17 @@ struct Seen {
 }
 
 /// Runs the group under a stimulus and shows every tick.
-fn run(group: &Small, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Vec<Seen> {
+fn run(group: &Group, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Vec<Seen> {
     let mut seen = Vec::new();
-    let look = |now: &Sample<Small>| {
+    let look = |now: &Sample<'_, Group>| {
         seen.push(Seen {
-            unit_rst: now.w.unit_rst.get(),
-            busy: now.w.busy.get(),
-            ready: now.w.ready.get(),
-            address: now.q.sequencer.address.get(),
-            period: now.q.unit_time.active.get(),
-            step: now.w.step[0].get(),
-            dir: now.w.dir[0].get(),
+            unit_rst: now.w.unit_rst,
+            busy: now.w.busy,
+            ready: now.w.ready,
+            address: now.p.sequencer.q.address,
+            period: now.p.unit_time.q.active,
+            step: now.w.step[0],
+            dir: now.w.dir[0],
         });
         false
     };
@@ -47,22 +55,22 @@ fn run(group: &Small, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Vec<Seen> {
 /// A command that starts the pattern `base..=last`.
 fn start(base: u64, last: u64, cyclic: bool, now: bool, period: u64) -> Port {
     Port {
-        command: true.into(),
-        base: base.into(),
-        last: last.into(),
-        cyclic: cyclic.into(),
-        run: true.into(),
-        now: now.into(),
-        period: period.into(),
+        command: true,
+        base,
+        last,
+        cyclic,
+        run: true,
+        now,
+        period,
         ..idle()
     }
 }
 
 /// A group whose memory holds half-period 1 at every address, and which waits for commands.
-fn waiting(period: u64) -> Small {
-    let mut group = Small::new(Safe, period);
+fn waiting(period: u64) -> Group {
+    let mut group = Group::new(1, small(), Safe, period);
     for address in 0..8 {
-        group.axes[0].memory.half_periods.set(address, 1);
+        group.memories[0].half_periods.set(address, 1);
     }
     group
 }
@@ -93,7 +101,7 @@ fn resets(seen: &[Seen]) -> Vec<u64> {
 fn the_first_unit_time_after_power_on_is_silent() {
     for period in 1..=15u64 {
         for half_period in 1..=15u64 {
-            let group = player::<4, 4, 3>(Safe, &[half_period], period, true);
+            let group = player(small(), Safe, &[half_period], period, true);
             let first = (period + half_period) as usize;
             let wave = steps(&group, 3 * period);
             for (tick, level) in wave.iter().enumerate().take(first) {
@@ -113,7 +121,7 @@ fn the_first_unit_time_after_power_on_is_silent() {
 fn a_looping_pattern_skips_no_address() {
     for last in 0..8u64 {
         let half_periods = vec![0; last as usize + 1];
-        let group = player::<4, 4, 3>(Safe, &half_periods, 3, true);
+        let group = player(small(), Safe, &half_periods, 3, true);
         let seen = run(&group, 3 + 3 * 40, |_| idle());
         let expected: Vec<_> = (0..40).map(|unit| unit % (last + 1)).collect();
         assert_eq!(units(&seen), expected);
@@ -125,7 +133,7 @@ fn a_looping_pattern_skips_no_address() {
 fn a_pattern_that_stops_holds_its_last_address_without_pulses() {
     for last in 0..8u64 {
         let half_periods = vec![1; last as usize + 1];
-        let group = player::<4, 4, 3>(Safe, &half_periods, 3, false);
+        let group = player(small(), Safe, &half_periods, 3, false);
         let seen = run(&group, 3 * 40, |_| idle());
         assert_eq!(units(&seen), (0..=last).collect::<Vec<_>>());
         let end = 3 + 3 * (last as usize + 1);
@@ -153,10 +161,10 @@ fn a_new_unit_time_is_in_force_only_from_the_next_reset_on() {
     for old in 1..=7u64 {
         for new in 1..=15u64 {
             for write in 0..3 * old {
-                let group = player::<4, 4, 3>(Safe, &[2], old, true);
+                let group = player(small(), Safe, &[2], old, true);
                 let seen = run(&group, 80, |tick| Port {
-                    write_period: (tick == write).into(),
-                    period: new.into(),
+                    write_period: tick == write,
+                    period: new,
                     ..idle()
                 });
                 // The pattern loads its own unit time at tick `old`; a write in the tick before
@@ -219,7 +227,7 @@ fn a_command_is_for_the_first_reset_after_the_tick_it_was_given_in() {
 fn a_restart_in_mid_unit_leaves_the_unit_whole() {
     let mut group = waiting(5);
     for address in 0..8 {
-        group.axes[0].memory.half_periods.set(address, 2);
+        group.memories[0].half_periods.set(address, 2);
     }
     for given in 10..15u64 {
         let seen = run(&group, 30, |tick| match tick {
@@ -237,7 +245,7 @@ fn a_restart_in_mid_unit_leaves_the_unit_whole() {
 #[test]
 fn a_stop_command_ends_the_pattern_at_the_next_reset() {
     let stop = Port {
-        run: false.into(),
+        run: false,
         ..start(0, 0, false, true, 4)
     };
     let seen = run(&waiting(4), 40, |tick| match tick {
@@ -275,12 +283,15 @@ fn a_command_without_now_does_not_disturb_the_one_that_waits() {
 fn a_word_written_while_it_is_read_is_read_as_it_was() {
     for write in 0..8u64 {
         let mut group = waiting(4);
-        group.axes[0].memory.half_periods.set(1, 0);
+        group.memories[0].half_periods.set(1, 0);
         let seen = run(&group, 40, |tick| Port {
-            write: (tick == write).into(),
-            write_address: 1.into(),
-            write_half_period: 2.into(),
-            write_direction: true.into(),
+            port: WritePort {
+                write: tick == write,
+                write_axis: 0,
+                write_address: 1,
+                write_half_period: 2,
+                write_direction: true,
+            },
             ..match tick {
                 0 => start(0, 1, false, false, 4),
                 _ => idle(),
@@ -297,26 +308,28 @@ fn a_word_written_while_it_is_read_is_read_as_it_was() {
 
 #[test]
 fn a_write_goes_to_the_axis_it_names() {
-    type Two = Group<2, 3, 3, 1>;
+    let group = Group::new(2, widths(3, 3, 1), Safe, 4);
     for axis in 0..8u64 {
-        let group = Two::new(Safe, 4);
         let mut rose = [0; 2];
         let mut before = [false; 2];
-        let look = |now: &Sample<Two>| {
-            for (line, level) in now.w.step.map(|step| step.get()).into_iter().enumerate() {
-                rose[line] += u32::from(level && !before[line]);
-                before[line] = level;
+        let look = |now: &Sample<'_, Group>| {
+            for (line, level) in now.w.step.iter().enumerate() {
+                rose[line] += u32::from(*level && !before[line]);
+                before[line] = *level;
             }
             false
         };
         let drive = |tick| In {
-            write: (tick == 0).into(),
-            write_axis: axis.into(),
-            write_half_period: 1.into(),
-            command: (tick == 1).into(),
-            run: true.into(),
-            period: 4.into(),
-            ..idle::<3, 3, 1>()
+            port: WritePort {
+                write: tick == 0,
+                write_axis: axis,
+                write_half_period: 1,
+                ..zero(&group).port
+            },
+            command: tick == 1,
+            run: true,
+            period: 4,
+            ..zero(&group)
         };
         Simulator::new(&group)
             .unwrap()
@@ -331,7 +344,7 @@ fn half_periods_at_the_edges() {
     // n = 1 toggles every tick, n = T - 1 rises in the last tick, n = T and beyond never.
     for period in 2..=15u64 {
         for (half_period, count) in [(1, period / 2), (period - 1, 1), (period, 0), (15, 0)] {
-            let group = player::<4, 4, 3>(Safe, &[half_period], period, false);
+            let group = player(small(), Safe, &[half_period], period, false);
             assert_eq!(
                 rises(&steps(&group, 3 * period)),
                 count,
@@ -343,17 +356,24 @@ fn half_periods_at_the_edges() {
 
 #[test]
 fn default_word_lengths() {
-    let group = Group::<2>::new(Safe, 1000);
-    let registers = group.power_on();
-    assert_eq!(motion_rtl::kernel::pack(&registers.unit_time).len(), 2 * 24);
-    let memory = motion_rtl::kernel::pack(&registers.axes).len() / 2;
+    let group = Group::new(2, Widths::default(), Safe, 1000);
+    let leaves = Declarations::of(&group).leaves;
+    let bits = |scope: &str| -> usize {
+        let inside = leaves.iter().filter(|leaf| {
+            let scopes = leaf.scopes.get(1).is_some_and(|inner| inner == scope);
+            scopes && leaf.role == Role::Register
+        });
+        inside.map(|leaf| leaf.shape.width).sum()
+    };
+    assert_eq!(bits("unit_time"), 2 * 24);
     // Words with direction, their output register, then count, toggle and step.
-    assert_eq!(memory, 4096 * 17 + 17 + 16 + 1 + 1);
+    for axis in ["x", "y"] {
+        assert_eq!(bits(axis), 4096 * 17 + 17 + 16 + 1 + 1);
+    }
 }
 
 #[test]
 fn eight_axes_under_one_unit_time_counter() {
-    type Eight = Group<8>;
     let half_periods = [1, 2, 3, 5, 40, 99, 100, 0];
     let pattern = Pattern {
         base: 4090,
@@ -361,21 +381,21 @@ fn eight_axes_under_one_unit_time_counter() {
         cyclic: true,
         period: 100,
     };
-    let mut group = Eight::free_running(Safe, pattern);
-    for (axis, half_period) in group.axes.iter_mut().zip(half_periods) {
-        axis.memory.half_periods.set(4090, half_period);
-        axis.memory.half_periods.set(4091, 100 - half_period);
+    let mut group = Group::free_running(8, Widths::default(), Safe, pattern);
+    for (memory, half_period) in group.memories.iter_mut().zip(half_periods) {
+        memory.half_periods.set(4090, half_period);
+        memory.half_periods.set(4091, 100 - half_period);
     }
     let mut waves = vec![Vec::new(); 8];
-    let look = |now: &Sample<Eight>| {
-        for (wave, step) in waves.iter_mut().zip(now.w.step) {
-            wave.push(step.get());
+    let look = |now: &Sample<'_, Group>| {
+        for (wave, step) in waves.iter_mut().zip(&now.w.step) {
+            wave.push(*step);
         }
         false
     };
     Simulator::new(&group)
         .unwrap()
-        .run(500, |_, _| idle(), StopWhen(look))
+        .run(500, |_, _| zero(&group), StopWhen(look))
         .expect("no observer fails");
     for (wave, half_period) in waves.iter().zip(half_periods) {
         assert_eq!(wave[..100], [false; 100], "before the first unit time");

@@ -1,15 +1,14 @@
 //! The group against a second model of it, written as a program, under random control computers.
 
-use super::common::idle;
-use motion_rtl::kernel::{Sample, Simulator, StopWhen};
-use motion_rtl::logic::Sim;
-use motion_rtl::pulse_interpolator::Variant::Safe;
-use motion_rtl::pulse_interpolator::group::{Group, In};
+use super::common::widths;
+use motion_rtl::circuits::pulse_interpolator::Variant::Safe;
+use motion_rtl::circuits::pulse_interpolator::group::{Group, In};
+use motion_rtl::circuits::pulse_interpolator::pattern_memory::WritePort;
+use motion_rtl::hdl::{Sample, Simulator, State, StopWhen, Value, zero};
 use proptest::prelude::*;
 
 const WORDS: u64 = 4;
-type Circuit = Group<2, 3, 3, 2>;
-type Port = In<Sim, 3, 3, 2>;
+type Port = In<Value>;
 
 #[derive(Debug, Clone, Copy)]
 struct Command {
@@ -50,7 +49,7 @@ impl Program {
     }
 
     fn is_last_tick(&self, i: &Port) -> bool {
-        i.unit_end.get() || self.elapsed + 1 >= self.period
+        i.unit_end || self.elapsed + 1 >= self.period
     }
 
     /// Step, direction; then unit_rst, ready, busy.
@@ -105,22 +104,23 @@ impl Program {
         } else {
             self.elapsed += 1;
         }
-        if i.write_period.get() {
-            self.next_period = i.period.get();
+        if i.write_period {
+            self.next_period = i.period;
         }
-        if i.command.get() && (!was_waiting || i.now.get()) {
+        if i.command && (!was_waiting || i.now) {
             self.waiting = Some(Command {
-                base: i.base.get(),
-                last: i.last.get(),
-                cyclic: i.cyclic.get(),
-                run: i.run.get(),
-                now: i.now.get(),
-                period: i.period.get(),
+                base: i.base,
+                last: i.last,
+                cyclic: i.cyclic,
+                run: i.run,
+                now: i.now,
+                period: i.period,
             });
         }
-        if i.write.get() && i.write_axis.get() < 2 {
-            self.memory[i.write_axis.get() as usize][i.write_address.get() as usize] =
-                (i.write_half_period.get(), i.write_direction.get());
+        let port = &i.port;
+        if port.write && port.write_axis < 2 {
+            self.memory[port.write_axis as usize][port.write_address as usize] =
+                (port.write_half_period, port.write_direction);
         }
     }
 }
@@ -133,20 +133,22 @@ fn port() -> impl Strategy<Value = Port> {
         let [cyclic, run, now, halt, dir, set] = flags;
         let [base, last, period, address, half_period, axis] = words;
         Port {
-            command: (act == 0).into(),
-            base: base.into(),
-            last: last.into(),
-            cyclic: cyclic.into(),
-            run: (run || !halt).into(),
-            now: now.into(),
-            period: period.into(),
-            write_period: (act == 1 && set).into(),
-            unit_end: (act == 2 && set && dir).into(),
-            write: (act >= 5).into(),
-            write_axis: axis.into(),
-            write_address: address.into(),
-            write_half_period: half_period.into(),
-            write_direction: dir.into(),
+            command: act == 0,
+            base,
+            last,
+            cyclic,
+            run: run || !halt,
+            now,
+            period,
+            write_period: act == 1 && set,
+            unit_end: act == 2 && set && dir,
+            port: WritePort {
+                write: act >= 5,
+                write_axis: axis,
+                write_address: address,
+                write_half_period: half_period,
+                write_direction: dir,
+            },
         }
     })
 }
@@ -159,7 +161,7 @@ proptest! {
         period in 0..8u64,
         ports in prop::collection::vec(port(), 1..600),
     ) {
-        let circuit = Circuit::new(Safe, period);
+        let circuit = Group::new(2, widths(3, 3, 2), Safe, period);
         let mut program = Program::new(period);
         let mut expected = Vec::new();
         for port in &ports {
@@ -167,12 +169,14 @@ proptest! {
             program.tick(port);
         }
         let mut seen = Vec::new();
-        let look = |now: &Sample<Circuit>| {
-            let lines = [0, 1].map(|axis| (now.w.step[axis].get(), now.w.dir[axis].get()));
-            seen.push((lines, [now.w.unit_rst, now.w.ready, now.w.busy].map(|bit| bit.get())));
+        let look = |now: &Sample<'_, Group>| {
+            let lines = [0, 1].map(|axis| (now.w.step[axis], now.w.dir[axis]));
+            seen.push((lines, [now.w.unit_rst, now.w.ready, now.w.busy]));
             false
         };
-        let drive = |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| ports.get(tick as usize).cloned().unwrap_or_else(idle);
+        let drive = |tick: u64, _: &State<'_, Group>| {
+            ports.get(tick as usize).cloned().unwrap_or_else(|| zero(&circuit))
+        };
         Simulator::new(&circuit).unwrap()
             .run(ports.len() as u64, drive, StopWhen(look))
             .map_err(|error| TestCaseError::fail(error.to_string()))?;

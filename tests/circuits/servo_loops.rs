@@ -1,9 +1,9 @@
 //! Position loops as circuits around behavioural servo axes, tick by tick: what they settle at, how
 //! far they lag behind, and what two of them make of a line.
 
-use motion_rtl::kernel::Simulator;
-use motion_rtl::linear_interpolator::PositionLoop;
-use motion_rtl::linear_interpolator::position_loop::In;
+use motion_rtl::circuits::linear_interpolator::PositionLoop;
+use motion_rtl::circuits::linear_interpolator::position_loop::In;
+use motion_rtl::hdl::Simulator;
 use motion_rtl::plant::{ServoAxis, ServoParameters};
 use proptest::prelude::*;
 
@@ -27,7 +27,7 @@ struct Seen {
 
 /// One axis: the circuit and its plant.
 struct Axis {
-    simulator: Option<Simulator<PositionLoop>>,
+    simulator: Simulator<PositionLoop>,
     servo: ServoAxis,
     levels: (bool, bool),
     gain: u64,
@@ -43,7 +43,7 @@ impl Axis {
     ) -> Self {
         let servo = ServoAxis::new(parameters, TICK_S).expect("they are in range");
         Axis {
-            simulator: Some(Simulator::new(circuit).unwrap()),
+            simulator: Simulator::new(circuit).unwrap(),
             levels: servo.channels(),
             servo,
             gain,
@@ -52,24 +52,23 @@ impl Axis {
     }
 
     fn tick(&mut self, scan: bool, command: i64) -> Seen {
+        let (a, b) = self.levels;
         let i = In {
-            scan: scan.into(),
-            command: command.into(),
-            a: self.levels.0.into(),
-            b: self.levels.1.into(),
-            clear: false.into(),
-            gain: self.gain.into(),
-            window: 0.into(),
+            scan,
+            command,
+            a,
+            b,
+            clear: false,
+            gain: self.gain,
+            window: 0,
         };
-        let simulator = self.simulator.take().expect("it is put back");
-        let (after, seen) = simulator.step(i, |now| Seen {
-            deviation: now.w.deviation.get(),
-            in_position: now.w.in_position.get(),
-            speed_ref: now.w.speed_ref.get(),
-            saturated: now.w.saturated.get(),
-            lost: now.w.lost.get(),
+        let seen = self.simulator.step_with(&i, |now| Seen {
+            deviation: now.w.deviation,
+            in_position: now.w.in_position,
+            speed_ref: now.w.speed_ref,
+            saturated: now.w.saturated,
+            lost: now.w.lost,
         });
-        self.simulator = Some(after);
         self.levels = self.servo.step(seen.speed_ref, FULL);
         seen
     }

@@ -1,9 +1,10 @@
 //! The step/direction timing monitor on lines whose times are known.
 
+use super::common::{player, widths};
+use motion_rtl::circuits::pulse_interpolator::Variant;
+use motion_rtl::hdl::{RunError, Simulator, zero};
 use motion_rtl::jobs::pulse_interpolator::StepTiming;
 use motion_rtl::jobs::pulse_interpolator::step_dir::{Driver, Drivers, TimingMinima, TooShort};
-use motion_rtl::kernel::{RunError, Simulator, zero};
-use motion_rtl::pulse_interpolator::{Group, Pattern, Variant};
 
 /// Runs a driver over lines drawn as `_` and `#`; the first complaint with its tick.
 fn watch(limits: StepTiming, step: &str, dir: &str) -> (Driver, Option<(u64, TooShort)>) {
@@ -103,32 +104,24 @@ fn a_step_in_the_tick_of_the_turn_has_no_setup() {
 
 #[test]
 fn drivers_on_a_group_end_the_run_at_the_first_time_too_short() {
-    let pattern = Pattern {
-        base: 0,
-        last: 0,
-        cyclic: true,
-        period: 10,
-    };
-    let mut group = Group::<1, 4, 4, 1>::free_running(Variant::Safe, pattern);
-    group.axes[0].memory.half_periods.set(0, 3);
+    let group = player(widths(4, 4, 1), Variant::Safe, &[3], 10, true);
     // The first pulse rises at tick 13 and falls at 16; the next rises at 19 and is cut at 20.
     for (min_high, ends) in [(1, None), (2, Some(20)), (3, Some(20)), (4, Some(16))] {
-        let drivers = Drivers::new(StepTiming {
+        let limits = StepTiming {
             min_high,
             ..StepTiming::default()
-        });
-        let run = Simulator::new(&group)
-            .unwrap()
-            .run(60, |_, _| zero(), drivers);
+        };
+        let mut simulator = Simulator::new(&group).unwrap();
+        let run = simulator.run(60, |_, _| zero(&group), Drivers::new(1, limits));
         match (run, ends) {
-            (Ok(simulator), None) => assert_eq!(simulator.tick(), 60),
+            (Ok(()), None) => assert_eq!(simulator.tick(), 60),
             (Err(RunError::Violation { tick, signals, .. }), Some(end)) => {
                 assert_eq!(
                     (tick, signals),
                     (end, vec!["step_x".into(), "dir_x".into()])
                 );
             }
-            (run, _) => panic!("min_high = {min_high}: {:?}", run.map(|run| run.tick())),
+            (run, _) => panic!("min_high = {min_high}: {run:?}"),
         }
     }
 }

@@ -1,13 +1,17 @@
 //! Every circuit of the catalogue driven with random inputs: the run can be repeated from its
 //! stimulus file, and it moves every bit that can move.
 
-use motion_rtl::arc_generator::ArcGenerator;
 use motion_rtl::check::{Drive, Driven, drive};
-use motion_rtl::kernel::{Bits, Circuit, Observer, Simulator, unpack, width, zero};
-use motion_rtl::linear_interpolator::LinearInterpolator;
-use motion_rtl::logic::Sim;
-use motion_rtl::pulse_interpolator::{Axis, Group, UnitLaw, Variant};
-use motion_rtl::registry::{AnyModel, CATALOGUE};
+use motion_rtl::circuits::arc_generator::ArcGenerator;
+use motion_rtl::circuits::linear_interpolator::LinearInterpolator;
+use motion_rtl::circuits::pulse_interpolator::{
+    Axis, Group, PatternMemory, UnitLaw, Variant, Widths,
+};
+use motion_rtl::hdl::{
+    Cells, Circuit, Contents, Field, MemoryShape, Observer, Record, Role, Shape, Simulator, Source,
+    Value, zero,
+};
+use motion_rtl::registry::{AnyModel, CATALOGUE, Request};
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -30,17 +34,63 @@ fn files<C: Circuit>(circuit: &C, run: &Drive) -> (Vec<u8>, String, Driven) {
     (waves, stimulus, driven)
 }
 
-/// A line of a stimulus file: the ports in, and the reset.
-fn parse<C: Circuit>(line: &str) -> (C::In<Sim>, bool) {
-    let ports = width::<C::In<Sim>>();
-    assert_eq!(line.len(), (ports + 1).div_ceil(4), "{line}");
-    let mut bits = Bits::new();
-    for digit in line.chars().rev() {
-        let digit = digit.to_digit(16).expect("a hexadecimal digit");
-        bits.extend((0..4).map(|bit| digit >> bit & 1 == 1));
+/// Bits of a line of a stimulus file, the lowest first.
+struct Bits<'a>(&'a mut dyn Iterator<Item = u64>);
+
+impl Bits<'_> {
+    fn take(&mut self, width: usize) -> u64 {
+        let mut bit = |place| self.0.next().expect("a bit") << place;
+        (0..width).map(&mut bit).sum()
     }
-    assert!(bits[ports + 1..].not_any(), "{line}");
-    (unpack(&bits[..ports]), bits[ports])
+}
+
+impl Source for Bits<'_> {
+    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
+        self.take(shape.width)
+    }
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        _: MemoryShape,
+        _: &dyn Fn() -> Contents,
+    ) -> Cells {
+        unreachable!("a port in is a word")
+    }
+}
+
+/// A line of a stimulus file: the ports in, and the reset.
+fn parse<C: Circuit>(circuit: &C, line: &str) -> (C::In<Value>, bool) {
+    let digits = line.chars().rev();
+    let mut bits = digits.flat_map(|digit| {
+        let digit = digit.to_digit(16).expect("a hexadecimal digit");
+        (0..4).map(move |bit| u64::from(digit >> bit & 1))
+    });
+    let mut words = Bits(&mut bits);
+    let i = C::In::make(circuit, const { &Field::part(Role::Input) }, &mut words);
+    let reset = words.take(1) == 1;
+    let above: Vec<u64> = bits.collect();
+    assert!(
+        above.len() < 4 && above.iter().all(|bit| *bit == 0),
+        "{line}"
+    );
+    (i, reset)
+}
+
+fn group(axes: usize, half_period: usize, period: usize, address: usize) -> Group {
+    let widths = Widths {
+        half_period,
+        period,
+        address,
+    };
+    Group::new(axes, widths, Variant::Safe, 10)
+}
+
+fn axis(half_period: usize, address: usize) -> Axis {
+    Axis {
+        memory: PatternMemory::new(half_period, address, 0),
+        variant: Variant::Safe,
+    }
 }
 
 /// One of the two looks at everything in every tick, the other passes over what rests.
@@ -51,10 +101,9 @@ fn repeats<C: Circuit>(circuit: &C) {
     let mut simulator = Simulator::new(circuit).unwrap();
     let (mut ticks, mut resets) = (0, 0);
     for line in stimulus.lines() {
-        let (i, rst) = parse::<C>(line);
-        let (next, seen) = simulator.step_with_reset(rst, i, |now| vcd.sample(now).map(drop));
+        let (i, rst) = parse(circuit, line);
+        let seen = simulator.step_with_reset(rst, &i, |now| vcd.sample(now).map(drop));
         seen.expect("waves");
-        simulator = next;
         ticks += 1;
         resets += u64::from(rst);
     }
@@ -65,16 +114,19 @@ fn repeats<C: Circuit>(circuit: &C) {
 
 #[test]
 fn the_stimulus_file_repeats_the_run() {
-    repeats(&UnitLaw::<5>::default());
-    repeats(&Axis::<16, 12>::new(0, Variant::Safe));
-    repeats(&Group::<3, 8, 9, 4>::new(Variant::Safe, 10));
-    repeats::<LinearInterpolator>(&LinearInterpolator::default());
-    repeats::<ArcGenerator>(&ArcGenerator::default());
+    repeats(&UnitLaw {
+        width: 5,
+        variant: Variant::Safe,
+    });
+    repeats(&axis(16, 12));
+    repeats(&group(3, 8, 9, 4));
+    repeats(&LinearInterpolator::default());
+    repeats(&ArcGenerator::default());
 }
 
 #[test]
 fn the_same_drive_gives_the_same_bytes() {
-    let circuit = Group::<2, 8, 8, 3>::new(Variant::Safe, 10);
+    let circuit = group(2, 8, 8, 3);
     let (waves, stimulus, _) = files(&circuit, &run(7, 3_000, true));
     let again = files(&circuit, &run(7, 3_000, true));
     assert!(waves == again.0 && stimulus == again.1);
@@ -84,20 +136,18 @@ fn the_same_drive_gives_the_same_bytes() {
 
 #[test]
 fn without_resets_it_is_an_ordinary_run_with_its_observers() {
-    let circuit = Axis::<6, 3>::new(0, Variant::Safe);
+    let circuit = axis(6, 3);
     let (waves, stimulus, driven) = files(&circuit, &run(2, 2_000, false));
     assert_eq!(driven.resets, 0);
     let mut lines = stimulus.lines();
     let mut vcd =
         Vcd::new(Vec::new(), &circuit, Clock::default(), &Options::default()).expect("waves");
-    let mut file = StimulusFile::new(Vec::new());
-    let i = |_, _: &motion_rtl::kernel::Part<'_, _>| {
-        parse::<Axis<6, 3>>(lines.next().expect("a line a tick")).0
-    };
+    let mut file = StimulusFile::new(Vec::new(), &circuit);
     let observers = (&mut vcd, &mut file);
+    let mut i = || parse(&circuit, lines.next().expect("a line a tick")).0;
     Simulator::new(&circuit)
         .unwrap()
-        .run(2_000, i, observers)
+        .run(2_000, |_, _| i(), observers)
         .expect("waves");
     assert!(vcd.finish().expect("waves") == waves);
     assert_eq!(file.finish().expect("a file"), stimulus.as_bytes());
@@ -106,12 +156,11 @@ fn without_resets_it_is_an_ordinary_run_with_its_observers() {
 /// A line left out would shift all that follow.
 #[test]
 fn a_stimulus_file_refuses_a_run_that_goes_over_ticks() {
-    let circuit = Group::<2, 8, 8, 3>::new(Variant::Safe, 10);
-    let mut file = StimulusFile::new(Vec::new());
-    let quiet = |_, _: &motion_rtl::kernel::Part<'_, _>| (zero(), u64::MAX);
+    let circuit = group(2, 8, 8, 3);
+    let mut file = StimulusFile::new(Vec::new(), &circuit);
     let error = Simulator::new(&circuit)
         .unwrap()
-        .fast_forward(2_000, quiet, &mut file)
+        .fast_forward(2_000, |_, _| (zero(&circuit), u64::MAX), &mut file)
         .expect_err("a gap");
     assert!(
         error.to_string().contains("does not follow tick 0"),
@@ -119,37 +168,46 @@ fn a_stimulus_file_refuses_a_run_that_goes_over_ticks() {
     );
 }
 
+/// The signals of a circuit.
+fn signals(model: &dyn AnyModel) -> HashSet<(String, Shape)> {
+    let leaves = model.outline().leaves;
+    let leaves = leaves.iter().map(|leaf| (leaf.path(), leaf.shape));
+    leaves.collect()
+}
+
 #[test]
-fn every_circuit_is_made_at_its_widths_and_no_other() {
+fn every_circuit_is_made_at_its_widths() {
     for entry in CATALOGUE {
         let name = entry.name;
-        let full = (entry.full)();
+        let full = entry.full();
         assert_eq!((full.name(), full.about()), (name, entry.about));
         full.layout().expect(name);
-        if entry.widths.is_empty() {
-            assert!((entry.model)(&[]).is_some(), "{name}");
-            assert!(entry.offered.is_empty(), "{name}");
+        let widths = entry.widths();
+        if widths.is_empty() {
+            assert!(entry.model(&[]).is_some(), "{name}");
             continue;
         }
-        let made: Vec<_> = (0..=64)
-            .filter(|&width| (entry.model)(&[width]).is_some())
-            .collect();
-        assert_eq!(made, entry.offered, "{name}");
-        let narrow = made.contains(&3) || made.contains(&4);
-        assert!(narrow && made.contains(&8), "{name}");
-        for &width in entry.offered {
-            let model = (entry.model)(&[width]).expect("it was made");
+        // Every width has its name.
+        let named = widths.iter();
+        let named = named.map(|(name, width)| (name.to_string(), *width as u64));
+        let request = Request {
+            named: named.collect(),
+            ..Request::default()
+        };
+        let requested = entry.requested(&request).expect(name);
+        assert_eq!(signals(&*requested), signals(&*full), "{name}");
+
+        let made = |width: &u64| {
+            let model = entry.model(&[*width]);
+            model.is_some_and(|model| model.model().is_ok())
+        };
+        assert!(made(&8) && (made(&3) || made(&4)), "{name}");
+        for width in [2, 3, 4, 8, 13, 16].into_iter().filter(made) {
+            let model = entry.model(&[width]).expect("it was made");
             assert_eq!(model.name(), name);
             model.layout().expect(name);
-            if let Some(circuit) = (entry.make)(&[width]) {
-                let paths = |model: &dyn AnyModel| -> HashSet<_> {
-                    let leaves = model.outline().leaves;
-                    leaves
-                        .iter()
-                        .map(|leaf| (leaf.path(), leaf.shape))
-                        .collect()
-                };
-                assert_eq!(paths(&*circuit), paths(&*model), "{name}[{width}]");
+            if let Some(circuit) = entry.make(&[width]) {
+                assert_eq!(signals(&*circuit), signals(&*model), "{name}[{width}]");
             }
         }
     }
@@ -168,8 +226,6 @@ const FAR: &[(&str, u32)] = &[
     ("enables.ck_counter.next", 11),
     ("enables.sample_counter.count", 11),
     ("enables.sample_counter.next", 11),
-    ("unit_time_counter.count", 11),
-    ("unit_time_counter.next", 11),
     ("pulse_generator.count", 9),
     ("pulse_generator.next", 9),
     ("axis.generator.count", 8),
@@ -410,10 +466,10 @@ fn every_bit_that_can_move_moves() {
     let entries = CATALOGUE.par_iter().rev().with_max_len(1);
     let left = entries.map(|entry| {
         let mut left = Vec::new();
-        let full = ("full", (entry.full)(), FAR);
+        let full = ("full", entry.full(), FAR);
         // One without a width is the same at all.
-        let narrow = entry.offered.contains(&8).then(|| (entry.model)(&[8]));
-        let narrow = narrow.map(|model| ("8", model.expect(entry.name), NEVER));
+        let narrow = (!entry.widths().is_empty()).then(|| entry.model(&[8]).expect(entry.name));
+        let narrow = narrow.map(|model| ("8", model, NEVER));
         for (size, model, allowed) in [full].into_iter().chain(narrow) {
             let driven = model.drive(&run(3, 100_000, true), &mut io::sink(), &mut io::sink());
             let Driven { coverage, resets } = driven.expect(entry.name);

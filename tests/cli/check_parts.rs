@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 const WORK: [&str; 7] = [
     "check",
     "sync_stage",
-    "unit_time_counter",
+    "address_sequencer",
     "integrator",
     "enable_counter",
     "--width",
@@ -72,7 +72,7 @@ fn the_table_is_printed_as_json() {
         .collect();
     let expected = [
         ("sync_stage", "proof"),
-        ("unit_time_counter", "proof"),
+        ("address_sequencer", "proof"),
         ("integrator", "sweep"),
         ("enable_counter", "proof"),
     ];
@@ -221,7 +221,7 @@ fn a_part_that_there_is_not_is_refused() {
 
 #[test]
 fn a_width_of_a_sweep_is_refused_by_its_own() {
-    let text = "--width: is 9; allowed: 3, 6, 8";
+    let text = "--width: is 9; allowed: 2 to 8";
     Bench::new().refuse(&["check", "integrator", "--width", "9"], text);
 }
 
@@ -259,7 +259,7 @@ fn parts_that_do_not_belong_together_are_refused() {
     refuse(
         &["part1.json", "other.json"],
         "other.json: asked: check sync_stage --width 3 --limit 9, that of part1.json check \
-         sync_stage unit_time_counter integrator enable_counter --width 3 --limit 67108864; \
+         sync_stage address_sequencer integrator enable_counter --width 3 --limit 67108864; \
          allowed: parts of one work",
     );
     part(&bench, &WORK, "2/3", "third.json");
@@ -308,9 +308,9 @@ fn parts_that_do_not_belong_together_are_refused() {
         "spoilt.json: shard: is 3 of 2; allowed: 1 to 2",
     );
     spoilt(
-        "\"circuit\": \"unit_time_counter\"",
+        "\"circuit\": \"address_sequencer\"",
         "\"circuit\": \"sync_stage\"",
-        "spoilt.json: rows[0].circuit: is sync_stage; allowed: unit_time_counter",
+        "spoilt.json: rows[0].circuit: is sync_stage; allowed: address_sequencer",
     );
     bench.write("spoilt.json", &two[..two.len() / 2]);
     let done = merge(&bench, &["spoilt.json".to_owned()]);

@@ -20,8 +20,8 @@ fn a_proof_names_states_and_invariants() {
 #[test]
 fn a_width_is_taken_up() {
     let bench = Bench::new();
-    let text = bench.succeed(&["check", "unit_time_counter", "--width", "2"]);
-    assert!(text.contains("unit_time_counter          2 "), "{text}");
+    let text = bench.succeed(&["check", "enable_counter", "--width", "2"]);
+    assert!(text.contains("enable_counter             2 "), "{text}");
     assert!(bench.names().is_empty(), "a proof writes nothing");
 }
 
@@ -149,7 +149,7 @@ fn the_list_has_every_circuit_with_ports_and_widths() {
         circuit[way].as_array().unwrap().iter().map(port).collect()
     };
     let generator = find("pulse_generator");
-    assert_eq!(generator["widths"]["N"], 16);
+    assert_eq!(generator["widths"]["width"], 16);
     let half_period = ("half_period".to_owned(), 16);
     assert!(
         ports(generator, "inputs").contains(&half_period),
@@ -168,4 +168,36 @@ fn the_list_has_every_circuit_with_ports_and_widths() {
         assert!(text.contains(&format!("\n  {name} (")), "{name}");
     }
     assert!(bench.names().is_empty());
+}
+
+#[test]
+fn a_circuit_is_listed_with_what_drives_its_parts() {
+    let bench = Bench::new();
+    let list = bench.json(&["list", "axis"]);
+    assert_eq!(keys(&list), ["circuits"]);
+    let connections = &list["circuits"][0]["connections"];
+    let memory = &connections["parts"][0];
+    assert_eq!(memory["name"], "memory");
+    assert_eq!(memory["circuit"], "pattern_memory");
+    assert_eq!(memory["parameters"]["AXIS"], 0);
+    let half_period = &connections["parts"][1]["inputs"][0];
+    let expected = serde_json::json!({
+        "name": "half_period", "width": 16, "driver": "memory.half_period"
+    });
+    assert_eq!(*half_period, expected);
+    assert_eq!(connections["outputs"][0]["driver"], "sync.step");
+    let text = bench.succeed(&["list", "axis"]);
+    let part = "    generator: pulse_generator\n      half_period[16] = memory.half_period\n";
+    assert!(text.contains(part), "{text}");
+    assert!(!text.contains("scenarios"), "{text}");
+    // One without parts.
+    let list = bench.json(&["list", "sync_stage"]);
+    assert!(list["circuits"][0].get("connections").is_none());
+    let refused = bench.run(&["list", "sync"]);
+    assert_eq!(refused.code, 2);
+    assert!(
+        refused.stderr.contains("there is no sync; allowed: "),
+        "{}",
+        refused.stderr
+    );
 }

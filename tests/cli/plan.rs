@@ -3,7 +3,7 @@
 use super::support::{Bench, LINE, SHORT};
 
 const COUNTER: &str = "\
-unit_time_counter, 10000 ticks: blocks: 2, of which 1 make the edge; steps: 4; registers: 1; memories: 0; words of state: 16
+enable_counter, 10000 ticks: blocks: 2, of which 1 make the edge; steps: 4; registers: 1; memories: 0; words of state: 16
 
 block  part     does       steps     ran  woken by
     0  (whole)  settles 3      3  84.0 %  period, count
@@ -13,18 +13,15 @@ block  part     does       steps     ran  woken by
 #[test]
 fn a_plan_names_blocks_and_what_wakes_them() {
     let bench = Bench::new();
-    assert_eq!(bench.succeed(&["plan", "unit_time_counter"]), COUNTER);
-    let narrow = bench.succeed(&["plan", "unit_time_counter", "--width", "4", "--ticks", "0"]);
-    assert!(
-        narrow.starts_with("unit_time_counter, 0 ticks: "),
-        "{narrow}"
-    );
+    assert_eq!(bench.succeed(&["plan", "enable_counter"]), COUNTER);
+    let narrow = bench.succeed(&["plan", "enable_counter", "--width", "4", "--ticks", "0"]);
+    assert!(narrow.starts_with("enable_counter, 0 ticks: "), "{narrow}");
     assert!(
         narrow.contains("settles 3      3    -  period, count\n"),
         "{narrow}"
     );
     // Another stimulus, other shares.
-    let other = bench.succeed(&["plan", "unit_time_counter", "--seed", "2"]);
+    let other = bench.succeed(&["plan", "enable_counter", "--seed", "2"]);
     assert_ne!(other, COUNTER);
     assert!(bench.names().is_empty());
 }
@@ -52,8 +49,8 @@ fn what_is_no_circuit_or_number_is_refused() {
     let bench = Bench::new();
     for arguments in [
         &["plan", "nobody"][..],
-        &["plan", "unit_time_counter", "--width", "7"],
-        &["plan", "unit_time_counter", "--ticks", "-1"],
+        &["plan", "enable_counter", "--width", "0"],
+        &["plan", "enable_counter", "--ticks", "-1"],
     ] {
         let done = bench.run(arguments);
         assert_eq!((done.code, done.stdout.as_str()), (2, ""), "{arguments:?}");

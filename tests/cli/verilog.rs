@@ -11,19 +11,19 @@ fn verilog<'a>(circuit: &'a str, arguments: &[&'a str]) -> Vec<&'a str> {
 #[test]
 fn a_module_each_is_written_and_named() {
     let bench = Bench::new();
-    let said = bench.succeed(&verilog("unit_time_counter", &["--out", "a/b"]));
-    assert_eq!(said, "a/b/unit_time_counter.v\n");
-    assert_eq!(bench.names(), ["a/", "a/b/", "a/b/unit_time_counter.v"]);
-    let text = bench.read("a/b/unit_time_counter.v");
-    assert!(text.contains("\nmodule unit_time_counter (\n"), "{text}");
+    let said = bench.succeed(&verilog("enable_counter", &["--out", "a/b"]));
+    assert_eq!(said, "a/b/enable_counter.v\n");
+    assert_eq!(bench.names(), ["a/", "a/b/", "a/b/enable_counter.v"]);
+    let text = bench.read("a/b/enable_counter.v");
+    assert!(text.contains("\nmodule enable_counter (\n"), "{text}");
 }
 
 #[test]
 fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
     let bench = Bench::new();
-    let said = bench.succeed(&verilog("unit_time_counter", &TESTBENCH));
+    let said = bench.succeed(&verilog("enable_counter", &TESTBENCH));
     let files = [".v", "_tb.v", ".vcd", ".stimulus"];
-    let files = files.map(|end| format!("v/unit_time_counter{end}"));
+    let files = files.map(|end| format!("v/enable_counter{end}"));
     let (stimulus, names) = said.split_at(said.find("v/").unwrap());
     assert_eq!(
         stimulus,
@@ -71,13 +71,13 @@ fn a_width_is_refused_where_there_is_none_to_choose() {
 fn the_golden_waves_have_the_clock_that_is_asked_for() {
     let bench = Bench::new();
     bench.succeed(&verilog(
-        "unit_time_counter",
+        "enable_counter",
         &[&TESTBENCH[..], &["--clock-hz", "100000000"]].concat(),
     ));
-    let waves = bench.read("v/unit_time_counter.vcd");
+    let waves = bench.read("v/enable_counter.vcd");
     assert!(waves.contains("period 10 x 1 ns"), "{}", &waves[..300]);
     let done = bench.run(&verilog(
-        "unit_time_counter",
+        "enable_counter",
         &[&TESTBENCH[..], &["--clock-hz", "0"]].concat(),
     ));
     assert_eq!(done.code, 2);
@@ -124,22 +124,64 @@ fn circuits_that_are_not_there_are_refused() {
     let done = bench.run(&verilog("no_such_thing", &["--out", "v"]));
     assert_eq!((done.code, done.stdout.as_str()), (2, ""));
     assert!(done.stderr.contains("no_such_thing"), "{}", done.stderr);
-    assert!(done.stderr.contains("unit_time_counter"), "{}", done.stderr);
+    assert!(done.stderr.contains("enable_counter"), "{}", done.stderr);
     assert!(bench.names().is_empty());
 }
 
 #[test]
-fn widths_that_are_not_offered_are_refused() {
+fn widths_and_numbers_that_are_not_taken_are_refused() {
     let bench = Bench::new();
     bench.refuse(
-        &verilog("unit_time_counter", &["--width", "5", "--out", "v"]),
-        "--width: unit_time_counter cannot be made with [5]; allowed: width, the first of them \
-         one of 2, 3, 4, 8",
+        &verilog("enable_counter", &["--width", "0", "--out", "v"]),
+        "--width: enable_counter cannot be made with [0]; allowed: width, the width 1 to 64",
     );
     bench.refuse(
         &verilog("unit_law", &["--width", "8", "--with", "99", "--out", "v"]),
-        "--with: unit_law cannot be made with [8, 99]; allowed: width, 0 for safe or 1 for \
-         literal, the first of them one of 4, 8, 16",
+        "--with: unit_law cannot be made with [8, 99]; allowed: width, 0 for safe or 1 for literal",
+    );
+    bench.refuse(
+        &verilog("axis", &["--width", "nonsense=4", "--out", "v"]),
+        "--width: axis: there is no width nonsense; allowed: half_period, address",
+    );
+    let twice = ["--width", "4", "--width", "5", "--out", "v"];
+    bench.refuse(
+        &verilog("axis", &twice),
+        "--width: is 4 and 5; allowed: one width of all words, and others by their names",
+    );
+    let done = bench.run(&verilog(
+        "axis",
+        &["--width", "half_period=65", "--out", "v"],
+    ));
+    assert_eq!(done.code, 2);
+    let problem = "axis: `write_half_period` has 65 bits; a word has 1 to 64";
+    assert!(done.stderr.contains(problem), "{}", done.stderr);
+    assert!(bench.names().is_empty());
+}
+
+#[test]
+fn widths_are_chosen_by_their_names_and_variants_with_full_widths() {
+    let bench = Bench::new();
+    let widths = [
+        "--width",
+        "half_period=9",
+        "--width",
+        "address=5",
+        "--with",
+        "1",
+    ];
+    bench.succeed(&verilog("axis", &[&widths[..], &["--out", "v"]].concat()));
+    let text = bench.read("v/axis.v");
+    for port in [
+        "input  wire [8:0] write_half_period",
+        "input  wire [4:0] address",
+    ] {
+        assert!(text.contains(port), "{text}");
+    }
+    bench.succeed(&verilog("axis", &["--with", "1", "--out", "w"]));
+    let full = bench.read("w/axis.v");
+    assert!(
+        full.contains("input  wire [15:0] write_half_period"),
+        "{full}"
     );
 }
 
@@ -152,11 +194,11 @@ fn a_directory_that_cannot_be_written_stays_as_it_is() {
         &format!("--out: file: File exists (os error 17); {WRITABLE}"),
     );
     // Of several files not even the first.
-    for taken in ["unit_time_counter_tb.v", "unit_time_counter.stimulus"] {
+    for taken in ["enable_counter_tb.v", "enable_counter.stimulus"] {
         let bench = Bench::new();
         bench.write(&format!("v/{taken}/inside"), "");
         bench.refuse(
-            &verilog("unit_time_counter", &TESTBENCH),
+            &verilog("enable_counter", &TESTBENCH),
             &format!("--out: v/{taken}: is a directory; {WRITABLE}"),
         );
     }

@@ -2,14 +2,13 @@
 //! Verilog.
 
 use super::tools::{Simulator, complete, write};
+use motion_rtl::circuits::linear_interpolator::{Controller, Rule};
+use motion_rtl::hdl::{Circuit, Declarations, Without};
 use motion_rtl::input::read_text;
-use motion_rtl::jobs::linear_interpolator::job::{Drive, Plotter, conventional, play, plotter};
+use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::jobs::linear_interpolator::settings::Settings;
 use motion_rtl::jobs::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
 use motion_rtl::jobs::linear_interpolator::ways::Way;
-use motion_rtl::kernel::{Circuit, Declarations, Without};
-use motion_rtl::linear_interpolator::CommandSource;
-use motion_rtl::linear_interpolator::Rule;
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;
@@ -37,21 +36,21 @@ fn cycles(settings: &Settings) -> Vec<Target> {
 }
 
 /// Plays some cycles, and drives the Verilog with the same inputs.
-fn hold<C: CommandSource<32, 12, N>, const N: usize>(
-    circuit: &Plotter<C, N>,
+fn hold<const N: usize>(
+    circuit: &Controller,
     targets: &[Target<N>],
     settings: &Settings,
     simulator: Simulator,
 ) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
-    let inner = &circuit.circuit;
-    let verilog = Verilog::of(inner).unwrap();
+    let verilog = Verilog::of(circuit).unwrap();
     let modules = write(path, &verilog);
-    let name = <Drive<C, N> as Circuit>::NAME;
+    let name = circuit.name();
     let create = |extension: &str| File::create(path.join(format!("{name}.{extension}"))).unwrap();
-    let mut vcd = Vcd::new(create("vcd"), inner, Clock::default(), &Options::default()).unwrap();
-    let mut stimulus = StimulusFile::new(create("stimulus"));
+    let options = Options::default();
+    let mut vcd = Vcd::new(create("vcd"), circuit, Clock::default(), &options).unwrap();
+    let mut stimulus = StimulusFile::new(create("stimulus"), circuit);
     let observers = (Without(&mut vcd), Without(&mut stimulus));
     let played = play(circuit, targets, settings, observers).unwrap();
     vcd.finish().unwrap();
@@ -59,7 +58,8 @@ fn hold<C: CommandSource<32, 12, N>, const N: usize>(
     assert_eq!(played.cycles.len(), targets.len());
     assert!(!played.late && !played.unsettled && played.lost == [false; 2]);
     let report = simulator.hold(path, name, &modules);
-    complete(&report, played.ticks, Declarations::of(inner).leaves.len());
+    let leaves = Declarations::of(circuit).leaves.len();
+    complete(&report, played.ticks, leaves);
 }
 
 #[test]
@@ -87,10 +87,6 @@ fn some_cycles_of_the_other_rules_are_the_same_in_icarus() {
 fn some_cycles_of_the_conventional_system_are_the_same_in_icarus() {
     let settings = settings(Rule::Floor);
     let targets = Way::InProportion.targets(&cycles(&settings), &settings);
-    hold(
-        &conventional(),
-        &targets[26..30],
-        &settings,
-        Simulator::Icarus,
-    );
+    let targets = &targets[26..30];
+    hold(&conventional(), targets, &settings, Simulator::Icarus);
 }

@@ -2,8 +2,8 @@
 
 use super::tools::{Simulator, complete};
 use assert_cmd::Command;
-use motion_rtl::kernel::Declarations;
-use motion_rtl::pulse_interpolator::{Group, Variant};
+use motion_rtl::circuits::pulse_interpolator::{Group, Variant, Widths};
+use motion_rtl::hdl::Declarations;
 use std::fs;
 use std::path::Path;
 
@@ -31,10 +31,8 @@ fn hold(scenario: &str, simulator: Simulator) {
     let stimulus = fs::read_to_string(path.join(format!("{name}.stimulus"))).unwrap();
     let ticks = stimulus.lines().count() as u64;
     let report = simulator.hold(path, name, &modules);
-    let signals = Declarations::of(&Group::<2>::new(Variant::Safe, 1))
-        .leaves
-        .len();
-    complete(&report, ticks, signals);
+    let group = Group::new(2, Widths::default(), Variant::Safe, 1);
+    complete(&report, ticks, Declarations::of(&group).leaves.len());
 }
 
 #[test]

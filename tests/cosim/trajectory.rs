@@ -2,15 +2,14 @@
 //! the encoders say, applied to its Verilog.
 
 use super::tools::{Simulator, complete, write};
-use motion_rtl::arc_generator::Rounding;
+use motion_rtl::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
+use motion_rtl::hdl::Declarations;
 use motion_rtl::input::Point;
-use motion_rtl::jobs::trajectory_controller::job::{Controller, Program, play};
+use motion_rtl::jobs::trajectory_controller::job::{Program, play};
 use motion_rtl::jobs::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
-use motion_rtl::kernel::Declarations;
 use motion_rtl::path::pieces::{Speeds, Taught, from_points};
 use motion_rtl::plant::{TwoMassAxis, TwoMassParameters};
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
-use motion_rtl::trajectory_controller::widths::Widths;
 use motion_rtl::verilog::Verilog;
 use std::fs::File;
 
@@ -24,11 +23,13 @@ fn pieces(z: f64) -> [(Point, Option<Point>); 3] {
 }
 
 /// Four segments in memory: of as many as a job has no simulator writes the waves in good time.
-const A: usize = 2;
-const E: usize = A + 4;
+const WIDTHS: Widths = Widths {
+    segment: 2,
+    ..Widths::FULL
+};
 
 /// Plays the path in the shortest periods, and drives the Verilog with the same inputs.
-fn hold<const AXES: usize>(correction: Correction, rounding: Rounding, simulator: Simulator) {
+fn hold(axes: usize, correction: Correction, rounding: Rounding, simulator: Simulator) {
     let settings = Settings {
         clock_hz: 1000 * LEAST_PERIOD_TICKS,
         feed_mm_per_s: Some(30.0),
@@ -38,27 +39,24 @@ fn hold<const AXES: usize>(correction: Correction, rounding: Rounding, simulator
         correction,
         ..Settings::default()
     };
-    let taught = pieces(if AXES == 3 { 0.4 } else { 0.0 }).map(|(to, via)| Taught {
+    let taught = pieces(if axes == 3 { 0.4 } else { 0.0 }).map(|(to, via)| Taught {
         to,
         via,
         speed: None,
     });
     let start = [0.0; 3];
     let pieces = from_points(start, &taught, Speeds::from(&settings)).unwrap();
-    let machine = [TwoMassParameters {
+    let axis = TwoMassParameters {
         load_friction_nm: 0.1,
         ..TwoMassParameters::default()
-    }; AXES];
-    let widths = Widths {
-        segment: A as u32,
-        ..Widths::FULL
     };
-    let program = Program::of(start, &pieces, &settings, &machine, &widths).unwrap();
+    let machine = vec![axis; axes];
+    let program = Program::of(start, &pieces, &settings, &machine, &WIDTHS).unwrap();
     assert_eq!(program.path.stretches.len(), 3);
     let tick_s = 1.0 / settings.clock_hz as f64;
-    let plants = machine.map(|axis| TwoMassAxis::new(&axis, tick_s).unwrap());
+    let plants = vec![TwoMassAxis::new(&axis, tick_s).unwrap(); axes];
 
-    let circuit = Controller::<AXES, A, E>::new(correction, rounding);
+    let circuit = TrajectoryController::new(WIDTHS, axes, correction, rounding);
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
     let modules = write(path, &Verilog::of(&circuit).unwrap());
@@ -66,7 +64,7 @@ fn hold<const AXES: usize>(correction: Correction, rounding: Rounding, simulator
     let create = |extension| File::create(path.join(format!("{name}.{extension}"))).unwrap();
     let (clock, options) = (Clock::default(), Options::default());
     let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &options).unwrap();
-    let mut stimulus = StimulusFile::new(create("stimulus"));
+    let mut stimulus = StimulusFile::new(create("stimulus"), &circuit);
     let played = play(&circuit, &program, plants, (&mut vcd, &mut stimulus)).unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
@@ -87,11 +85,16 @@ fn hold<const AXES: usize>(correction: Correction, rounding: Rounding, simulator
 #[test]
 #[ignore = "needs Verilator"]
 fn a_corrected_path_in_space_is_the_same_in_verilator() {
-    hold::<3>(Correction::Vector, Rounding::Nearest, Simulator::Verilator);
+    hold(
+        3,
+        Correction::Vector,
+        Rounding::Nearest,
+        Simulator::Verilator,
+    );
 }
 
 #[test]
 #[ignore = "needs Icarus Verilog"]
 fn the_prior_art_that_rounds_down_is_the_same_in_icarus() {
-    hold::<2>(Correction::Steady, Rounding::Floor, Simulator::Icarus);
+    hold(2, Correction::Steady, Rounding::Floor, Simulator::Icarus);
 }

@@ -2,12 +2,10 @@
 //! their Verilog.
 
 use super::tools::{Simulator, complete, write};
-use motion_rtl::jobs::lead_angle::job::{
-    Conventional, Played, RamLead, ShiftLead, play, positioner,
-};
+use motion_rtl::circuits::lead_angle::{LeadFrom, Memory};
+use motion_rtl::hdl::{Circuit, Declarations, Without};
+use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
 use motion_rtl::jobs::lead_angle::settings::{Comparing, Placement, Settings, Step};
-use motion_rtl::kernel::{Circuit, Declarations, Without};
-use motion_rtl::lead_angle::{Compensator, LeadSource};
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;
@@ -32,33 +30,36 @@ fn settings(positionings: u32) -> Settings {
     settings
 }
 
+const SHIFT: LeadFrom = LeadFrom::Time(Memory::ShiftRegister);
+
 /// Plays positionings, and drives the Verilog with the same inputs.
-fn hold<P: LeadSource<11, 24, 16> + 'static>(settings: &Settings, simulator: Simulator) -> Played {
-    let circuit = positioner::<P>(settings);
+fn hold(settings: &Settings, lead_from: LeadFrom, simulator: Simulator) -> Played {
+    let circuit = positioner(settings, lead_from);
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
-    let inner = &circuit.circuit;
-    let verilog = Verilog::of(inner).unwrap();
+    let verilog = Verilog::of(&circuit).unwrap();
     let modules = write(path, &verilog);
-    let name = <Compensator<P> as Circuit>::NAME;
+    let name = circuit.name();
     let create = |extension: &str| File::create(path.join(format!("{name}.{extension}"))).unwrap();
-    let mut vcd = Vcd::new(create("vcd"), inner, Clock::default(), &Options::default()).unwrap();
-    let mut stimulus = StimulusFile::new(create("stimulus"));
-    let observers = (Without(&mut vcd), Without(&mut stimulus));
+    let (clock, all) = (Clock::default(), Options::default());
+    let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &all).unwrap();
+    let mut stimulus = StimulusFile::new(create("stimulus"), &circuit);
+    let observers = (Without(&mut vcd), &mut stimulus);
     let played = play(&circuit, settings, observers).unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
     assert_eq!(played.positionings.len(), settings.positionings as usize);
     assert!(!played.lost && !played.unsettled);
     let report = simulator.hold(path, name, &modules);
-    complete(&report, played.ticks, Declarations::of(inner).leaves.len());
+    let leaves = Declarations::of(&circuit).leaves.len();
+    complete(&report, played.ticks, leaves);
     played
 }
 
 #[test]
 #[ignore = "needs Verilator"]
 fn positionings_are_the_same_in_verilator() {
-    let played = hold::<ShiftLead>(&settings(6), Simulator::Verilator);
+    let played = hold(&settings(6), SHIFT, Simulator::Verilator);
     assert!(played.positionings.iter().all(|one| one.learned.is_some()));
 }
 
@@ -69,17 +70,17 @@ fn other_variants_are_the_same_in_icarus() {
         placement: Placement::Halves,
         ..settings(2)
     };
-    hold::<RamLead>(&halves, Simulator::Icarus);
+    hold(&halves, LeadFrom::Time(Memory::Ram), Simulator::Icarus);
     let equal = Settings {
         comparing: Comparing::Equal,
         placement: Placement::Target,
         ..settings(2)
     };
-    hold::<ShiftLead>(&equal, Simulator::Icarus);
+    hold(&equal, SHIFT, Simulator::Icarus);
 }
 
 #[test]
 #[ignore = "needs Icarus Verilog"]
 fn the_conventional_compensator_is_the_same_in_icarus() {
-    hold::<Conventional>(&settings(2), Simulator::Icarus);
+    hold(&settings(2), LeadFrom::Speed, Simulator::Icarus);
 }

@@ -1,15 +1,14 @@
 //! Paths of the arc generator: what the control computer writes, applied to its Verilog.
 
 use super::tools::{Simulator, complete, write};
-use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::{Rounding, Widths};
+use motion_rtl::hdl::Declarations;
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::job::{Played, arc_generator, play};
 use motion_rtl::jobs::arc_generator::prepare::{Timing, prepare};
 use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::reference::commands;
 use motion_rtl::jobs::arc_generator::settings::{LEAST_SAMPLE_TICKS, Settings, ShortPieces};
-use motion_rtl::kernel::Declarations;
 use motion_rtl::path::pieces::{Taught, from_points};
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
@@ -54,7 +53,7 @@ fn hold(rounding: Rounding, simulator: Simulator) -> Played {
     let create = |extension| File::create(path.join(format!("arc_generator.{extension}"))).unwrap();
     let (clock, options) = (Clock::default(), Options::default());
     let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &options).unwrap();
-    let mut stimulus = StimulusFile::new(create("stimulus"));
+    let mut stimulus = StimulusFile::new(create("stimulus"), &circuit);
     let observers = (&mut vcd, &mut stimulus);
     let played = play(&circuit, &records, LEAST_SAMPLE_TICKS as u32, observers).unwrap();
     vcd.finish().unwrap();

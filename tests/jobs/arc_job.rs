@@ -1,7 +1,6 @@
 //! Paths on the arc generator: what it commands, against integers and against the exact curves.
 
-use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::bounds::{command_error, rotation_error};
 use motion_rtl::jobs::arc_generator::job::{arc_generator, play};

@@ -1,11 +1,11 @@
 //! Drawings played on the group with the default word lengths, against the table they came from.
 //! Each is played tick by tick and over idle ticks in one.
 
+use motion_rtl::circuits::pulse_interpolator::{Group, Variant, Widths};
 use motion_rtl::input::{Drawing, gcode};
 use motion_rtl::jobs::pulse_interpolator::job::{Played, fast_forward, group, play};
 use motion_rtl::jobs::pulse_interpolator::{Report, Settings, StepTiming, Table, compile};
 use motion_rtl::plan::MotionLimits;
-use motion_rtl::pulse_interpolator::Variant;
 
 /// Unit times of 40 ticks for lines and 25 for arcs, at 20 kHz.
 fn settings(axes: usize) -> Settings {
@@ -29,14 +29,14 @@ fn read(program: &str) -> Drawing {
     gcode::read("t.ngc", program.as_bytes()).expect("a good program")
 }
 
-fn run<const AXES: usize>(program: &str, variant: Variant) -> (Table, Report, Played) {
-    let (table, report) = compile(&read(program), &settings(AXES)).expect("it compiles");
-    let played = play_twice::<AXES>(&table, variant);
+fn run(axes: usize, program: &str, variant: Variant) -> (Table, Report, Played) {
+    let (table, report) = compile(&read(program), &settings(axes)).expect("it compiles");
+    let played = play_twice(&table, variant);
     (table, report, played)
 }
 
-fn play_twice<const AXES: usize>(table: &Table, variant: Variant) -> Played {
-    let group = group::<AXES>(table, variant);
+fn play_twice(table: &Table, variant: Variant) -> Played {
+    let group = group(table, variant);
     let played = play(&group, table, ()).expect("no observer objects");
     let jumped = fast_forward(&group, table, ()).expect("no observer objects");
     assert!(played == jumped, "another run without the idle ticks");
@@ -67,7 +67,7 @@ fn expected(table: &Table) -> Vec<i32> {
 #[test]
 fn lines_and_arcs_with_their_own_unit_times() {
     let program = "F1000\nG1 X3 Y1\nG3 X5 Y3 I0 J2\nG2 X6 Y4 R1\nG1 X0\nG2 I1\nG0 Y0\n";
-    let (table, report, played) = run::<2>(program, Variant::Safe);
+    let (table, report, played) = run(2, program, Variant::Safe);
     let periods: Vec<_> = table
         .patterns()
         .iter()
@@ -95,7 +95,7 @@ fn lines_and_arcs_with_their_own_unit_times() {
 #[test]
 fn a_table_longer_than_the_memory_goes_through_its_halves() {
     let program = "F1200\nG1 X200 Y90\nG1 X10 Y150\n";
-    let (table, _, played) = run::<2>(program, Variant::Safe);
+    let (table, _, played) = run(2, program, Variant::Safe);
     assert!(table.units() > 3 * 2048, "{} unit times", table.units());
     assert_eq!(played.positions, expected(&table));
     assert_eq!(played.idle_units, 0);
@@ -104,12 +104,12 @@ fn a_table_longer_than_the_memory_goes_through_its_halves() {
 
 #[test]
 fn three_axes_and_one() {
-    let (table, report, played) = run::<3>("F600\nG1 X4 Y-3 Z2\nG2 X4 Y-3 I2 Z5\n", Variant::Safe);
+    let (table, report, played) = run(3, "F600\nG1 X4 Y-3 Z2\nG2 X4 Y-3 I2 Z5\n", Variant::Safe);
     assert_eq!(played.positions, expected(&table));
     let ends: Vec<_> = played.axes.iter().map(|axis| axis.position()).collect();
     assert_eq!(ends, [80, 30, 200]);
     assert_eq!(report.axes.len(), 3);
-    let (table, _, played) = run::<1>("F600\nG1 X-7.5\n", Variant::Safe);
+    let (table, _, played) = run(1, "F600\nG1 X-7.5\n", Variant::Safe);
     assert_eq!(played.positions, expected(&table));
     assert_eq!(played.axes[0].position(), -150);
     assert_eq!(played.axes[0].pulses_up, 0);
@@ -123,7 +123,7 @@ fn a_pattern_that_comes_too_late_costs_time_and_no_pulse() {
     settings.clock_hz = 100;
     let program = format!("F1200\n{}", "G1 X0.1\nG3 X0 I-0.05\n".repeat(20));
     let (table, report) = compile(&read(&program), &settings).expect("it compiles");
-    let played = play_twice::<2>(&table, Variant::Safe);
+    let played = play_twice(&table, Variant::Safe);
     assert_eq!(played.positions, expected(&table));
     assert!(
         played.idle_units > 0,
@@ -137,7 +137,7 @@ fn a_pattern_that_comes_too_late_costs_time_and_no_pulse() {
 
 #[test]
 fn the_literal_variant_ends_elsewhere() {
-    let (table, report, played) = run::<2>("F3700\nG1 X300 Y70\n", Variant::Literal);
+    let (table, report, played) = run(2, "F3700\nG1 X300 Y70\n", Variant::Literal);
     assert_ne!(played.positions, expected(&table));
     let ends: Vec<_> = played.axes.iter().map(|axis| axis.position()).collect();
     let demanded: Vec<_> = report.axes.iter().map(|axis| axis.steps_demanded).collect();
@@ -150,7 +150,7 @@ fn a_table_that_the_group_has_no_room_for_is_refused() {
     let drawing = read("G1 X5 Y1 F1200\n");
     let refused = |settings: &Settings| {
         let (table, _) = compile(&drawing, settings).expect("it compiles");
-        let group = group::<2>(&table, Variant::Safe);
+        let group = Group::new(2, Widths::default(), Variant::Safe, 40);
         let both = [play(&group, &table, ()), fast_forward(&group, &table, ())];
         let [played, jumped] = both.map(|run| run.map_err(|error| error.to_string()));
         assert_eq!(played, jumped);

@@ -1,13 +1,12 @@
 //! The lead-angle compensator on a body with a brake: whole runs of the scenario that ships, and
 //! position logs.
 
+use motion_rtl::circuits::lead_angle::codes::{LARGEST, STAGES, code};
+use motion_rtl::circuits::lead_angle::{LeadFrom, Memory};
 use motion_rtl::input::position_log::{Columns, PositionLog, read};
-use motion_rtl::jobs::lead_angle::job::{
-    Conventional, Played, Positioning, RamLead, ShiftLead, play, positioner,
-};
+use motion_rtl::jobs::lead_angle::job::{Played, Positioning, play, positioner};
 use motion_rtl::jobs::lead_angle::replay::{replay, settings_for};
 use motion_rtl::jobs::lead_angle::settings::{Comparing, Placement, Settings, Sign, Step};
-use motion_rtl::lead_angle::codes::{LARGEST, STAGES, code};
 use motion_rtl::scenario::{Loaded, Scenario};
 use std::fmt::Write;
 use std::path::Path;
@@ -22,8 +21,11 @@ fn turntable() -> Settings {
     scenario.settings()
 }
 
+const SHIFT: LeadFrom = LeadFrom::Time(Memory::ShiftRegister);
+const RAM: LeadFrom = LeadFrom::Time(Memory::Ram);
+
 fn with_lead(settings: &Settings) -> Played {
-    let played = play(&positioner::<ShiftLead>(settings), settings, ()).expect("it runs");
+    let played = play(&positioner(settings, SHIFT), settings, ()).expect("it runs");
     assert!(!played.lost && !played.unsettled);
     assert_eq!(played.positionings.len(), settings.positionings as usize);
     played
@@ -94,7 +96,7 @@ fn without_learning_the_load_change_stays_in_the_errors() {
     for step in &mut none.steps {
         step.lead_ms = 0.0;
     }
-    let by_speed = play(&positioner::<Conventional>(&fixed), &fixed, ()).expect("it runs");
+    let by_speed = play(&positioner(&fixed, LeadFrom::Speed), &fixed, ()).expect("it runs");
     let last = |played: &Played| -> Vec<f64> {
         let all = &played.positionings;
         all[all.len() - settings.steps.len()..]
@@ -152,7 +154,7 @@ fn the_literal_sign_diverges() {
 fn forms_and_placements_give_the_same_positionings() {
     let settings = turntable();
     let played = with_lead(&settings);
-    let ram = play(&positioner::<RamLead>(&settings), &settings, ()).expect("it runs");
+    let ram = play(&positioner(&settings, RAM), &settings, ()).expect("it runs");
     assert_eq!(ram.positionings, played.positionings);
     for placement in [Placement::Target, Placement::Halves] {
         let settings = Settings {
@@ -235,7 +237,7 @@ fn a_log_at_constant_speed_is_predicted_within_the_bound() {
         ..Settings::default()
     };
     let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner::<ShiftLead>(&settings), &settings, &log, ()).unwrap();
+    let replayed = replay(&positioner(&settings, SHIFT), &settings, &log, ()).unwrap();
     let signals = &replayed.signals;
     assert_eq!(signals.len(), 3, "{signals:?}");
     for (signal, ratio) in signals.iter().zip([2.0, 10.0, 1.0]) {
@@ -270,7 +272,7 @@ fn a_log_is_taken_from_its_first_sample_on() {
         ..Settings::default()
     };
     let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner::<RamLead>(&settings), &settings, &log, ()).unwrap();
+    let replayed = replay(&positioner(&settings, RAM), &settings, &log, ()).unwrap();
     let targets: Vec<_> = replayed
         .signals
         .iter()

@@ -1,5 +1,6 @@
 //! The reference of the linear interpolator, and the measures that runs are judged by.
 
+use motion_rtl::circuits::linear_interpolator::Rule;
 use motion_rtl::input::read_text;
 use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::jobs::linear_interpolator::measure::{
@@ -10,7 +11,6 @@ use motion_rtl::jobs::linear_interpolator::reference::{self, Integrator, Pattern
 use motion_rtl::jobs::linear_interpolator::settings::Settings;
 use motion_rtl::jobs::linear_interpolator::targets::{LATENCY_TICKS, Target, compile};
 use motion_rtl::jobs::linear_interpolator::ways::Way;
-use motion_rtl::linear_interpolator::Rule;
 use proptest::prelude::*;
 
 const RULES: [Rule; 3] = [Rule::Floor, Rule::Truncating, Rule::Centred];
@@ -612,7 +612,7 @@ fn a_motor_that_is_too_slow_is_counted_as_saturated() {
 fn a_setting_that_is_no_number_is_refused() {
     let mut settings = short_scans();
     settings.axes[1].position_gain_per_s = f64::NAN;
-    let error = play(&plotter(Rule::Floor), &[], &settings, ()).expect_err("not a number");
+    let error = play::<1>(&plotter(Rule::Floor), &[], &settings, ()).expect_err("not a number");
     assert!(
         error.to_string().starts_with("position_gain_per_s: "),
         "{error}"

@@ -1,11 +1,12 @@
 //! Jobs on the machine of all five circuits.
 
+use motion_rtl::circuits::machine::Machine;
+use motion_rtl::circuits::pulse_interpolator::{Group, Variant};
+use motion_rtl::hdl::{At, Observer, RunError, Sample, Signals};
 use motion_rtl::input::gcode;
-use motion_rtl::jobs::machine::job::{Plant, Played, machine, play};
+use motion_rtl::jobs::machine::job::{Played, machine, play};
 use motion_rtl::jobs::machine::{Program, Settings};
 use motion_rtl::jobs::pulse_interpolator::job;
-use motion_rtl::kernel::{Observer, RunError, Sample};
-use motion_rtl::pulse_interpolator::Variant;
 use std::ops::ControlFlow;
 
 /// A line, an arc, rapid moves, pen down and up twice.
@@ -31,7 +32,7 @@ fn settings() -> Settings {
     settings
 }
 
-fn run(text: &str, settings: &Settings, observer: &mut dyn Observer<Plant>) -> (Program, Played) {
+fn run(text: &str, settings: &Settings, observer: &mut dyn Observer<Machine>) -> (Program, Played) {
     let drawing = gcode::read("job", text.as_bytes()).expect("a part program");
     let program = Program::of(&drawing, settings).expect("a program");
     let played = play(&machine(settings), &program, settings, observer).expect("a run");
@@ -61,30 +62,48 @@ struct Watch {
     enables: [u64; 4],
 }
 
-impl Observer<Plant> for Watch {
-    fn sample(&mut self, now: &Sample<'_, Plant>) -> Result<ControlFlow<()>, RunError> {
-        let w = now.w;
-        let enables = [
-            [w.enables.w.unit, w.pulse_interpolator.w.unit_rst],
-            [w.enables.w.scan, w.enables.w.scan],
-            [w.enables.w.ck, w.lead_angle.w.ck],
-            [
-                w.enables.w.sample,
-                w.trajectory_controller.w.period_counter.w.enable,
-            ],
-        ];
-        let also = w.arc_generator.w.sample_counter.w.enable;
-        assert_eq!(also, w.enables.w.sample, "tick {}", now.tick);
-        for (count, [leads, follows]) in self.enables.iter_mut().zip(enables) {
+/// Where a bit is.
+type Bit = fn(&Signals<Machine>) -> At<bool>;
+
+/// An enable, and the one that it leads in a circuit.
+const LED: [[Bit; 2]; 5] = [
+    [
+        |s| s.p.enables.w.unit,
+        |s| s.p.pulse_interpolator.w.unit_rst,
+    ],
+    [|s| s.p.enables.w.scan, |s| s.p.enables.w.scan],
+    [|s| s.p.enables.w.ck, |s| s.p.lead_angle.w.ck],
+    [
+        |s| s.p.enables.w.sample,
+        |s| s.p.trajectory_controller.p.period_counter.w.enable,
+    ],
+    [
+        |s| s.p.enables.w.sample,
+        |s| s.p.arc_generator.p.sample_counter.w.enable,
+    ],
+];
+
+/// Step and direction of X and Y.
+const LINES: [[Bit; 2]; 2] = [
+    [|s| s.w.step_x, |s| s.w.dir_x],
+    [|s| s.w.step_y, |s| s.w.dir_y],
+];
+
+impl Observer<Machine> for Watch {
+    fn sample(&mut self, now: &Sample<'_, Machine>) -> Result<ControlFlow<()>, RunError> {
+        for (led, bits) in LED.into_iter().enumerate() {
+            let [leads, follows] = bits.map(|bit| now.see(bit));
             assert_eq!(leads, follows, "tick {}", now.tick);
-            *count += u64::from(leads.get());
-        }
-        let lines = [(w.step_x, w.dir_x), (w.step_y, w.dir_y)];
-        for (axis, (step, dir)) in lines.into_iter().enumerate() {
-            if step.get() && !self.before[axis] {
-                self.pulses.push((now.tick, axis, dir.get()));
+            if let Some(count) = self.enables.get_mut(led) {
+                *count += u64::from(leads);
             }
-            self.before[axis] = step.get();
+        }
+        for (axis, line) in LINES.into_iter().enumerate() {
+            let [step, dir] = line.map(|bit| now.see(bit));
+            if step && !self.before[axis] {
+                self.pulses.push((now.tick, axis, dir));
+            }
+            self.before[axis] = step;
         }
         Ok(ControlFlow::Continue(()))
     }
@@ -155,15 +174,12 @@ fn the_pulses_are_those_of_the_pulse_interpolator_alone() {
     let mut watch = Watch::default();
     let (program, _) = run(JOB, &settings, &mut watch);
     struct Alone(Vec<(u64, usize, bool)>, [bool; 2]);
-    impl Observer<job::JobGroup<2>> for Alone {
-        fn sample(
-            &mut self,
-            now: &Sample<'_, job::JobGroup<2>>,
-        ) -> Result<ControlFlow<()>, RunError> {
+    impl Observer<Group> for Alone {
+        fn sample(&mut self, now: &Sample<'_, Group>) -> Result<ControlFlow<()>, RunError> {
             for axis in 0..2 {
-                let step = now.w.step[axis].get();
+                let step = now.see(|s| s.w.step[axis]);
                 if step && !self.1[axis] {
-                    self.0.push((now.tick, axis, now.w.dir[axis].get()));
+                    self.0.push((now.tick, axis, now.see(|s| s.w.dir[axis])));
                 }
                 self.1[axis] = step;
             }
@@ -171,7 +187,7 @@ fn the_pulses_are_those_of_the_pulse_interpolator_alone() {
         }
     }
     let mut alone = Alone(Vec::new(), [false; 2]);
-    let group = job::group::<2>(&program.table, Variant::Safe);
+    let group = job::group(&program.table, Variant::Safe);
     job::play(&group, &program.table, &mut alone).expect("a run");
     assert!(alone.0.len() > 100);
     assert_eq!(watch.pulses, alone.0);

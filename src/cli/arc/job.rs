@@ -3,7 +3,7 @@
 use crate::cli::Failure;
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::input::{Drawing, Point};
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::prepared::Prepared;

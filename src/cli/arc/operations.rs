@@ -2,8 +2,8 @@
 //! the circuit.
 
 use super::Job;
-use motion_rtl::arc_generator::widths::Widths;
-use motion_rtl::blocks::CoefficientControl;
+use motion_rtl::circuits::arc_generator::Widths;
+use motion_rtl::circuits::blocks::CoefficientControl;
 use motion_rtl::jobs::arc_generator::conventional::{
     Conventional, DIFFERENCE_ENGINE, blend, blend_terms, rotation,
 };
@@ -11,7 +11,10 @@ use motion_rtl::path::vector::rodrigues;
 use serde::Serialize;
 
 /// Ticks of a step of the rotation.
-const ROTATION_TICKS: u64 = CoefficientControl::<{ Widths::FULL.coefficient as usize }>::LATENCY;
+const ROTATION_TICKS: u64 = CoefficientControl {
+    coefficient: Widths::FULL.coefficient,
+}
+.latency();
 
 /// Operations of a sample.
 #[derive(Debug, Serialize)]

@@ -2,7 +2,7 @@
 
 use super::Job;
 use super::figures::{ArcFigures, Figures};
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::bounds::command_error;
 use motion_rtl::jobs::arc_generator::measure::{ArcMeasured, BlendMeasured, Measured};

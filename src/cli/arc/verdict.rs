@@ -4,7 +4,7 @@ use super::Job;
 use super::figures::Figures;
 use super::rows::{ArcRow, bound};
 use crate::cli::report::first;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::jobs::arc_generator::job::Played;
 use motion_rtl::path::vector::distance;
 
@@ -41,7 +41,7 @@ pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]
 fn end(job: &Job, played: &Played) -> Option<String> {
     let (last, piece) = (played.commands.last()?, job.prepared.pieces.last()?);
     let wanted = piece.to.map(|mm| mm * job.settings.counts_per_mm);
-    let tolerance = 0.5 + (-f64::from(Widths::FULL.guard())).exp2();
+    let tolerance = 0.5 + (-(Widths::FULL.guard() as f64)).exp2();
     let mut pairs = last.counts.iter().zip(wanted);
     // Written so that NaN fails.
     let exact = pairs.all(|(counts, wanted)| (*counts as f64 - wanted).abs() <= tolerance);
@@ -78,7 +78,7 @@ pub fn bounds(job: &Job, figures: &Figures) -> Vec<f64> {
 /// The same on lines and blends, whose points are exact but for the rounding: √3/2 counts, and the
 /// same of a guard unit for what goes in and for what comes out.
 fn straight(job: &Job) -> f64 {
-    let unit = (-f64::from(Widths::FULL.guard())).exp2();
+    let unit = (-(Widths::FULL.guard() as f64)).exp2();
     3f64.sqrt() / 2.0 * (1.0 + 2.0 * unit) / job.settings.counts_per_mm
 }
 

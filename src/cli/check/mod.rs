@@ -5,6 +5,7 @@ mod report;
 mod tasks;
 mod work;
 
+use super::chosen::{self, Width};
 use super::{Failure, print, print_json};
 use clap::Args;
 use motion_rtl::registry::{CATALOGUE, Entry, find};
@@ -18,9 +19,9 @@ pub struct Arguments {
     /// Circuits; without them all.
     #[arg(value_name = "CIRCUIT")]
     circuits: Vec<String>,
-    /// Width of the words, in bits.
-    #[arg(long, value_name = "BITS", allow_negative_numbers = true)]
-    width: Option<u64>,
+    /// Width of the words, in bits, or of one of them by its name (`position=3`).
+    #[arg(long, value_name = "[NAME=]BITS", allow_negative_numbers = true)]
+    width: Vec<Width>,
     /// What else the circuit is made with, as `list` tells: `--with 1` is the literal variant of
     /// unit_law, pulse_generator and axis.
     #[arg(
@@ -68,9 +69,11 @@ pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
 /// Proves and sweeps, or puts together what was proved and swept elsewhere.
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let report = if arguments.merge.is_empty() {
+        let (width, widths) = chosen::widths(&arguments.width)?;
         let asked = Asked {
             circuits: arguments.circuits.clone(),
-            width: arguments.width,
+            width,
+            widths,
             with: arguments.with.clone(),
             limit: arguments.limit,
         };

@@ -225,6 +225,9 @@ fn told(asked: &Asked) -> String {
     let circuits = asked.circuits.join(" ");
     add("", (!circuits.is_empty()).then_some(circuits));
     add("--width ", asked.width.map(|width| width.to_string()));
+    for (name, bits) in &asked.widths {
+        add("--width ", Some(format!("{name}={bits}")));
+    }
     add("--with ", (!numbers.is_empty()).then(|| numbers.join(",")));
     add("--limit ", Some(asked.limit.to_string()));
     text

@@ -11,6 +11,9 @@ use std::fmt::Write as _;
 pub struct Asked {
     pub circuits: Vec<String>,
     pub width: Option<u64>,
+    /// Single widths, by their names.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub widths: Vec<(String, u64)>,
     pub with: Vec<u64>,
     pub limit: u32,
 }

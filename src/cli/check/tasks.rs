@@ -2,13 +2,13 @@
 
 use super::entry;
 use super::report::{Asked, Kind};
-use crate::cli::Failure;
-use motion_rtl::registry::{CATALOGUE, Entry, SweepEntry, WIDTHS, sweeps};
+use crate::cli::{Failure, chosen};
+use motion_rtl::registry::{CATALOGUE, Entry, Request, SweepEntry, WIDTHS, sweeps};
 
 /// A proof or a sweep.
 #[derive(Debug, Clone)]
 pub enum Task {
-    Proof(&'static Entry, Vec<u64>),
+    Proof(&'static Entry, Request),
     Sweep(&'static SweepEntry, Vec<u64>),
 }
 
@@ -45,12 +45,20 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
     let (mut tasks, mut others) = (Vec::new(), Vec::new());
     for entry in entries {
         let before = tasks.len();
-        let given = |width: u64| [&[asked.width.unwrap_or(width)], &asked.with[..]].concat();
         if let Some(width) = entry.proof_width {
-            tasks.push(Task::Proof(entry, given(width)));
+            let request = Request {
+                width: Some(asked.width.unwrap_or(width)),
+                named: asked.widths.clone(),
+                with: asked.with.clone(),
+            };
+            tasks.push(Task::Proof(entry, request));
         }
-        let sweeps = sweeps(entry.name).map(|sweep| Task::Sweep(sweep, given(sweep.width)));
-        tasks.extend(sweeps);
+        // The words of a law follow from one width.
+        if asked.widths.is_empty() {
+            let given = |width: u64| [&[asked.width.unwrap_or(width)], &asked.with[..]].concat();
+            let sweeps = sweeps(entry.name).map(|sweep| Task::Sweep(sweep, given(sweep.width)));
+            tasks.extend(sweeps);
+        }
         if tasks.len() == before {
             others.push(entry.name.to_owned());
         }
@@ -64,8 +72,15 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
             allowed: "its blocks; what is tested of it stands in its note".into(),
         });
     }
-    if let Some(width) = asked.width {
-        widths(width, &tasks)?;
+    if let Some(width) = asked.width
+        && asked.circuits.is_empty()
+        && !WIDTHS.contains(&width)
+    {
+        return Err(Failure::Argument {
+            field: "--width",
+            problem: format!("is {width}"),
+            allowed: format!("{} to {}", WIDTHS.start(), WIDTHS.end()),
+        });
     }
     for task in &tasks {
         made(task)?;
@@ -73,49 +88,25 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
     Ok((tasks, others))
 }
 
-/// A width that no proof is made at is refused; where there are sweeps alone, one that none has.
-fn widths(width: u64, tasks: &[Task]) -> Result<(), Failure> {
-    let sweeps = tasks.iter().map(|task| match task {
-        Task::Sweep(sweep, _) => Some(sweep.widths),
-        Task::Proof(..) => None,
-    });
-    let allowed = match sweeps.collect::<Option<Vec<_>>>() {
-        Some(widths) if !widths.concat().contains(&width) => {
-            let widths = widths.concat();
-            let widths: Vec<_> = widths.iter().map(u64::to_string).collect();
-            Some(widths.join(", "))
-        }
-        None if !WIDTHS.contains(&width) => Some(format!("{} to {}", WIDTHS.start(), WIDTHS.end())),
-        _ => None,
-    };
-    match allowed {
-        None => Ok(()),
-        Some(allowed) => Err(Failure::Argument {
-            field: "--width",
-            problem: format!("is {width}"),
-            allowed,
-        }),
-    }
-}
-
 /// Whether it can be made.
 fn made(task: &Task) -> Result<(), Failure> {
-    let (name, given, made, arguments) = match task {
-        Task::Proof(entry, given) => {
-            let made = (entry.make)(given).is_some();
-            (entry.name, given, made, entry.arguments)
-        }
-        Task::Sweep(sweep, given) => {
-            let made = (sweep.make)(given).is_some();
-            (sweep.circuit, given, made, entry(sweep.circuit)?.arguments)
-        }
-    };
-    match made {
-        true => Ok(()),
-        false => Err(Failure::Argument {
-            field: "--with",
-            problem: format!("{name} cannot be made with {given:?}"),
-            allowed: arguments.to_owned(),
-        }),
+    match task {
+        Task::Proof(entry, request) => match entry.proved(request) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(chosen::refused(entry, request, &error)),
+        },
+        Task::Sweep(sweep, given) => match (sweep.make)(given) {
+            Some(_) if !sweep.widths.contains(&given[0]) => Err(Failure::Argument {
+                field: "--width",
+                problem: format!("is {}", given[0]),
+                allowed: format!("{} to {}", sweep.widths.start(), sweep.widths.end()),
+            }),
+            Some(_) => Ok(()),
+            None => Err(Failure::Argument {
+                field: "--with",
+                problem: format!("{} cannot be made with {given:?}", sweep.circuit),
+                allowed: entry(sweep.circuit)?.arguments.to_owned(),
+            }),
+        },
     }
 }

@@ -6,7 +6,7 @@ use super::tasks::Task;
 use crate::cli::{Failure, threads};
 use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::check::Proof;
-use motion_rtl::kernel::RunError;
+use motion_rtl::hdl::RunError;
 use motion_rtl::registry::{AnyCircuit, AnySweep, Verdict};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -72,9 +72,12 @@ fn row(
 ) -> Result<Row, Failure> {
     let begun = Instant::now();
     let mut row = match task {
-        Task::Proof(entry, given) => match (entry.make)(given) {
-            Some(circuit) => prove(entry.name, given[0], &*circuit, limit, out, line)?,
-            None => return Err(unmade(task)),
+        Task::Proof(entry, request) => match entry.proved(request) {
+            Ok(circuit) => {
+                let width = request.width.or(entry.proof_width).unwrap_or(0);
+                prove(entry.name, width, &*circuit, limit, out, line)?
+            }
+            Err(_) => return Err(unmade(task)),
         },
         Task::Sweep(entry, given) => match (entry.make)(given) {
             Some(law) => sweep(entry.circuit, given[0], &*law, shard, out, line)?,

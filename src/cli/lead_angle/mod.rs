@@ -15,11 +15,11 @@ use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
-use motion_rtl::jobs::lead_angle::job::{
-    Conventional, JobLead, Played, RamLead, ShiftLead, play, positioner,
-};
-use motion_rtl::jobs::lead_angle::settings::{History, Settings};
-use motion_rtl::kernel::Without;
+use motion_rtl::circuits::lead_angle::{LeadFrom, Memory};
+use motion_rtl::hdl::{RunError, model_beside};
+use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
+use motion_rtl::jobs::lead_angle::settings::Settings;
+use motion_rtl::plant::waves::Body;
 use motion_rtl::trace::Options;
 use summary::Summary;
 use systems::{NONE, System, TUNED, systems, tuned};
@@ -51,10 +51,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     if let Some(log) = &job.log {
         return log::run(arguments, job, log, &options);
     }
-    let (own, mut files) = match job.settings.history {
-        History::ShiftRegister => simulate::<ShiftLead>(arguments, job, &options),
-        History::Ram => simulate::<RamLead>(arguments, job, &options),
-    }?;
+    let (own, mut files) = simulate(arguments, job, &options)?;
     let mut played: Vec<(System, Played)> = Vec::new();
     for mut system in systems(&job.settings) {
         if let (TUNED, Some(none)) = (system.name, summary::of(&played, NONE)) {
@@ -74,32 +71,33 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 /// Plays a system without waves.
 fn alone(system: &System) -> Result<Played, Failure> {
     let settings = &system.settings;
-    Ok(match system.conventional {
-        true => play(&positioner::<Conventional>(settings), settings, ())?,
+    let lead_from = match system.conventional {
+        true => LeadFrom::Speed,
         // The RAM gives the same in every tick.
-        false => play(&positioner::<ShiftLead>(settings), settings, ())?,
-    })
+        false => LeadFrom::Time(Memory::ShiftRegister),
+    };
+    Ok(play(&positioner(settings, lead_from), settings, ())?)
 }
 
 /// Plays the settings' own system with its waves.
-fn simulate<P: JobLead>(
+fn simulate(
     arguments: &Arguments,
     job: &Job,
     options: &Options,
 ) -> Result<(Played, Files), Failure> {
     let settings = &job.settings;
-    let circuit = positioner::<P>(settings);
+    let circuit = positioner(settings, settings.lead_from());
+    let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    let printed = &circuit.circuit;
-    let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
+    let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
-    let stimulus = traces.stimulus.as_mut().map(Without);
-    let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
+    let (waves, stimulus) = (traces.waves.as_mut(), traces.stimulus.as_mut());
+    let files = (waves, stimulus, traces.noted.as_mut());
     let played = play(&circuit, settings, (files, &mut progress))?;
     drop(progress);
     let first = played.positionings.first();
     let focus = focus(settings, first.map_or(0, |positioning| positioning.fired));
-    let files = traces.finish(&circuit, &focus, played.ticks)?;
+    let files = traces.finish(&shown, &focus, played.ticks)?;
     Ok((played, files))
 }
 

@@ -3,11 +3,11 @@
 use super::Job;
 use super::systems::{LEARNING, LITERAL, System};
 use crate::cli::report::Outcome;
+use motion_rtl::circuits::lead_angle::codes::{STAGES, code};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
     Comparing, Completion, History, Placement, Settings, Sign,
 };
-use motion_rtl::lead_angle::codes::{STAGES, code};
 use serde::Serialize;
 use std::ops::Range;
 

@@ -14,11 +14,12 @@ use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
 use super::{Failure, threads};
-use motion_rtl::jobs::linear_interpolator::job::{Drive, Plotter, conventional, play, plotter};
+use motion_rtl::circuits::linear_interpolator::Controller;
+use motion_rtl::hdl::{Model, RunError, Without, model_beside};
+use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::jobs::linear_interpolator::measure::Played;
 use motion_rtl::jobs::linear_interpolator::ways::Way;
-use motion_rtl::kernel::Without;
-use motion_rtl::linear_interpolator::LinearInterpolator;
+use motion_rtl::plant::waves::Axes;
 use picture::draw;
 use std::thread;
 use summary::Summary;
@@ -54,10 +55,10 @@ pub struct Runs {
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let circuit = plotter(job.settings.rule);
+    let model = model_beside(&circuit, &Axes).map_err(RunError::from)?;
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    let printed = &circuit.circuit;
     // Before the others run, as what it refuses would wait for them.
-    let traces = Traces::begin((&circuit, printed), arguments, scenario, &options, ticks)?;
+    let traces = Traces::begin((&model, &circuit), arguments, scenario, &options, ticks)?;
     let conventional = |way: Way| {
         let targets = way.targets(&job.compiled.targets, &job.settings);
         play(&conventional(), &targets, &job.settings, ())
@@ -66,7 +67,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         let start = |way| threads::beside(scope, move || conventional(way));
         let [same, inverse] = Way::ALL;
         let others = [start(same)?, start(inverse)?];
-        let (interpolator, files) = simulate(&circuit, job, traces)?;
+        let (interpolator, files) = simulate((&circuit, &model), job, traces)?;
         let [same, inverse] = others.map(threads::joined);
         Ok::<_, Failure>((interpolator, files, [same?, inverse?]))
     })?;
@@ -81,9 +82,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 
 /// Plays the job on the linear interpolator, with its waves.
 fn simulate(
-    circuit: &Plotter<LinearInterpolator, 1>,
+    (circuit, model): (&Controller, &Model),
     job: &Job,
-    mut traces: Traces<'_, Plotter<LinearInterpolator, 1>, Drive<LinearInterpolator, 1>>,
+    mut traces: Traces<'_>,
 ) -> Result<(Played, Files), Failure> {
     let (targets, settings) = (&job.compiled.targets, &job.settings);
     let mut progress = Progress::new(job.ticks_at_least());
@@ -99,6 +100,6 @@ fn simulate(
         shown: SCANS_SHOWN * scan,
         overview: &OVERVIEW,
     };
-    let files = traces.finish(circuit, &focus, played.ticks)?;
+    let files = traces.finish(model, &focus, played.ticks)?;
     Ok((played, files))
 }

@@ -2,11 +2,11 @@
 
 use super::{Job, Runs};
 use crate::cli::report::first;
+use motion_rtl::circuits::linear_interpolator::Rule;
 use motion_rtl::jobs::linear_interpolator::measure::{Played, Segment};
 use motion_rtl::jobs::linear_interpolator::settings::AXIS_NAMES;
 use motion_rtl::jobs::linear_interpolator::targets::Target;
 use motion_rtl::jobs::linear_interpolator::ways::Way;
-use motion_rtl::linear_interpolator::Rule;
 
 /// What is wrong with a run; empty where nothing is.
 pub fn complaints(job: &Job, runs: &Runs, segments: &[Vec<Segment>; 3]) -> Vec<String> {

@@ -14,9 +14,10 @@ use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
+use motion_rtl::hdl::{RunError, Without, model_beside};
 use motion_rtl::jobs::machine::job::{Played, machine, play};
 use motion_rtl::jobs::machine::measure::Measured;
-use motion_rtl::kernel::Without;
+use motion_rtl::jobs::machine::waves::Plants;
 use motion_rtl::trace::Options;
 use summary::Summary;
 
@@ -77,8 +78,8 @@ fn simulate(
     let (program, settings) = (&job.program, &job.settings);
     let circuit = machine(settings);
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    let printed = &circuit.circuit;
-    let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
+    let model = model_beside(&circuit, &Plants).map_err(RunError::from)?;
+    let mut traces = Traces::begin((&model, &circuit), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
     let played = {
         let stimulus = traces.stimulus.as_mut().map(Without);
@@ -100,6 +101,6 @@ fn simulate(
         shown: SAMPLES_SHOWN * sample,
         overview: &OVERVIEW,
     };
-    let files = traces.finish(&circuit, &focus, played.ticks)?;
+    let files = traces.finish(&model, &focus, played.ticks)?;
     Ok((played, files))
 }

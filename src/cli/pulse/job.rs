@@ -2,9 +2,9 @@
 
 use crate::cli::Failure;
 use crate::cli::source::{Source, compiling, drawing_fault, plan_fault};
+use motion_rtl::circuits::pulse_interpolator::Variant;
 use motion_rtl::input::{DRAWINGS, Drawing, Fault};
 use motion_rtl::jobs::pulse_interpolator::{Report, Settings, Table, TableError, compile};
-use motion_rtl::pulse_interpolator::Variant;
 use motion_rtl::scenario::pulse_interpolator::VariantName;
 use motion_rtl::scenario::{Loaded, Scenario};
 

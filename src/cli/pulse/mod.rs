@@ -49,11 +49,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         });
     }
     let options = options(arguments, job.vcd_ticks)?;
-    let (played, mut files) = match job.table.axes() {
-        1 => simulate::<1>(arguments, job, &options),
-        2 => simulate::<2>(arguments, job, &options),
-        _ => simulate::<3>(arguments, job, &options),
-    }?;
+    let (played, mut files) = simulate(arguments, job, &options)?;
     let following =
         Following::new(job, &played).map_err(|error| Failure::Check(error.to_string()))?;
     let summary = Summary::new(job, &played, &following.largest);
@@ -62,12 +58,12 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 }
 
 /// Plays the job on the pulse interpolator, with its waves.
-fn simulate<const AXES: usize>(
+fn simulate(
     arguments: &Arguments,
     job: &Job,
     options: &Options,
 ) -> Result<(Played, Files), Failure> {
-    let group = group::<AXES>(&job.table, job.variant);
+    let group = group(&job.table, job.variant);
     let ticks = job.table.total_ticks();
     let scenario = (&job.loaded, job.stem.as_str());
     let mut traces = Traces::begin((&group, &group), arguments, scenario, options, ticks)?;

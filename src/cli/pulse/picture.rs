@@ -1,12 +1,12 @@
 //! The picture of a run: the path as commanded and as pulsed, and the following error over time.
 
 use super::Job;
+use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::input::Course;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::{FollowingError, TableError, follow};
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
 use motion_rtl::plan::outline;
-use motion_rtl::pulse_interpolator::AXIS_NAMES;
 
 /// Chords of a full circle.
 const CHORDS: u32 = 180;

@@ -3,10 +3,10 @@
 use super::Job;
 use super::verdict::complaints;
 use crate::cli::report::Outcome;
+use motion_rtl::circuits::pulse_interpolator::{AXIS_NAMES, Variant};
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::step_dir::TimingMinima;
 use motion_rtl::jobs::pulse_interpolator::{FollowingError, Remedy, StepTiming};
-use motion_rtl::pulse_interpolator::{AXIS_NAMES, Variant};
 use serde::Serialize;
 use std::collections::BTreeMap;
 

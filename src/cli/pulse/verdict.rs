@@ -2,10 +2,10 @@
 
 use super::Job;
 use super::summary::Minima;
+use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
+use motion_rtl::circuits::pulse_interpolator::counts::pulses;
 use motion_rtl::jobs::pulse_interpolator::Word;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
-use motion_rtl::pulse_interpolator::AXIS_NAMES;
-use motion_rtl::pulse_interpolator::counts::pulses;
 
 /// What is wrong with a run, axis by axis; empty where nothing is.
 pub fn complaints(job: &Job, played: &Played) -> Vec<String> {

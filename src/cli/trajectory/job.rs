@@ -3,6 +3,7 @@
 use crate::cli::Failure;
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
+use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::input::Drawing;
 use motion_rtl::jobs::trajectory_controller::program::{Program, ProgramError};
 use motion_rtl::jobs::trajectory_controller::settings::Settings;
@@ -12,7 +13,6 @@ use motion_rtl::plant::TwoMassParameters;
 use motion_rtl::scenario::Loaded;
 use motion_rtl::scenario::trajectory_controller::Scenario;
 use motion_rtl::settings::{Place, SettingError};
-use motion_rtl::trajectory_controller::widths::Widths;
 
 /// A path ready to be run.
 #[derive(Debug)]

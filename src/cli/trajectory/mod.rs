@@ -15,7 +15,8 @@ use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
 use super::{Failure, threads};
-use motion_rtl::jobs::trajectory_controller::job::{Controller, Played, play};
+use motion_rtl::circuits::trajectory_controller::TrajectoryController;
+use motion_rtl::jobs::trajectory_controller::job::{Played, controller, play};
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::settings::JobError;
@@ -55,30 +56,23 @@ const CORRECTIONS: [Correction; 3] = [Correction::None, Correction::Steady, Corr
 /// Runs a path.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
-    let (runs, mut files) = match job.axes() {
-        2 => all::<2>(arguments, job, &options),
-        _ => all::<3>(arguments, job, &options),
-    }?;
+    let (runs, mut files) = all(arguments, job, &options)?;
     files.write("svg", &draw(job, &runs))?;
     let summary = Summary::new(job, &runs);
     conclude(arguments, &options, files, summary)
 }
 
 /// Plays the path by every correction, that of the scenario with its waves.
-fn all<const AXES: usize>(
-    arguments: &Arguments,
-    job: &Job,
-    options: &Options,
-) -> Result<(Runs, Files), Failure> {
+fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Files), Failure> {
     let traced = job.settings.correction;
-    let circuit = Controller::<AXES>::new(traced, job.settings.rounding);
+    let circuit = controller(job.axes(), traced, job.settings.rounding);
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     // Before the others run, as what it refuses would wait for them.
     let traces = Traces::begin((&circuit, &circuit), arguments, scenario, options, ticks)?;
     thread::scope(|scope| {
         let mut others = Vec::new();
         for correction in CORRECTIONS {
-            let untraced = move || untraced::<AXES>(job, correction);
+            let untraced = move || untraced(job, correction);
             let started = (correction != traced).then(|| threads::beside(scope, untraced));
             others.push(started.transpose()?);
         }
@@ -102,29 +96,25 @@ fn all<const AXES: usize>(
 }
 
 /// Motors and loads at rest.
-fn plants<const AXES: usize>(job: &Job) -> Result<[TwoMassAxis; AXES], Failure> {
+fn plants(job: &Job) -> Result<Vec<TwoMassAxis>, Failure> {
     let tick_s = 1.0 / job.settings.clock_hz as f64;
-    let plants = job
-        .machines
-        .iter()
-        .map(|machine| TwoMassAxis::new(machine, tick_s).map_err(JobError::from));
-    let plants: Vec<_> = plants.collect::<Result<_, _>>()?;
-    let wanted = format!("{AXES} axes, not {}", plants.len());
-    plants.try_into().map_err(|_| Failure::Check(wanted))
+    let plants = job.machines.iter();
+    let plants = plants.map(|machine| TwoMassAxis::new(machine, tick_s).map_err(JobError::from));
+    Ok(plants.collect::<Result<_, _>>()?)
 }
 
 /// Plays the path without waves.
-fn untraced<const AXES: usize>(job: &Job, correction: Correction) -> Result<Played<AXES>, Failure> {
-    let circuit = Controller::<AXES>::new(correction, job.settings.rounding);
+fn untraced(job: &Job, correction: Correction) -> Result<Played, Failure> {
+    let circuit = controller(job.axes(), correction, job.settings.rounding);
     Ok(play(&circuit, &job.program, plants(job)?, ())?)
 }
 
 /// Plays the path with its waves.
-fn simulate<const AXES: usize>(
-    circuit: &Controller<AXES>,
+fn simulate(
+    circuit: &TrajectoryController,
     job: &Job,
-    mut traces: Traces<'_, Controller<AXES>, Controller<AXES>>,
-) -> Result<(Played<AXES>, Files), Failure> {
+    mut traces: Traces<'_>,
+) -> Result<(Played, Files), Failure> {
     let plants = plants(job)?;
     let mut progress = Progress::new(job.ticks_at_least());
     let files = (

@@ -26,7 +26,7 @@ impl Runs {
     }
 }
 
-/// The run by one correction, whatever the number of axes.
+/// The run by one correction.
 #[derive(Debug)]
 pub struct Run {
     /// The correction.
@@ -74,11 +74,7 @@ pub struct CircleError {
 
 impl Run {
     /// Of what was played; none where there is no period.
-    pub fn of<const AXES: usize>(
-        job: &Job,
-        correction: Correction,
-        played: &Played<AXES>,
-    ) -> Option<Self> {
+    pub fn of(job: &Job, correction: Correction, played: &Played) -> Option<Self> {
         let program = &job.program;
         let measured = Measured::of(program, played)?;
         let last = played.periods.last()?;
@@ -89,15 +85,11 @@ impl Run {
             load_mm: steady.mean_mm(&measured.load),
         });
         // Commands are from where the path begins.
-        let command = |command: [i64; AXES]| -> Point {
-            std::array::from_fn(|axis| {
-                let moved = command.get(axis).copied().unwrap_or(0);
-                program.origin[axis] as f64 + moved as f64
-            })
-        };
-        let off = |at: [i64; AXES], length: f64| {
+        let off = |command: [i64; 3], length: f64| {
             let exact = program.path.point(length);
-            distance(command(at), exact) / program.motion.units_per_mm
+            let at: Point =
+                std::array::from_fn(|axis| program.origin[axis] as f64 + command[axis] as f64);
+            distance(at, exact) / program.motion.units_per_mm
         };
         let commands = played.periods.iter();
         let errors = commands.map(|period| off(period.command, period.length as f64));
@@ -109,7 +101,7 @@ impl Run {
             taken: played.periods.iter().map(|period| period.tick).collect(),
             command_error_mm: errors.fold(0.0, f64::max),
             end_mm: off(last.command, program.path.length as f64),
-            end_counts: last.motor.to_vec(),
+            end_counts: last.motor[..played.axes].to_vec(),
             measured,
             circle,
             late: played.late,

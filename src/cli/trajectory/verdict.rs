@@ -57,17 +57,16 @@ mod tests {
     use super::*;
     use crate::cli::source::{Input, Source};
     use crate::cli::trajectory::CORRECTIONS;
+    use motion_rtl::circuits::trajectory_controller::Widths;
     use motion_rtl::jobs::trajectory_controller::job::{Period, Played};
     use motion_rtl::jobs::trajectory_controller::profile_record::lengths;
     use motion_rtl::scenario::Scenario;
-    use motion_rtl::trajectory_controller::widths::Widths;
-    use std::array::from_fn;
 
     /// Guard units of a count.
     const COUNT: i64 = 1 << 16;
 
     /// The corner that ships, and a run that is on its path all the time.
-    fn corner() -> (Job, Played<2>) {
+    fn corner() -> (Job, Played) {
         let input = Input {
             input: Some("waves/corner.toml".into()),
             ..Input::default()
@@ -80,7 +79,7 @@ mod tests {
         let lengths = lengths(&job.program.records, &Widths::FULL);
         let periods = lengths.into_iter().zip(0..).map(|(length, tick)| {
             let exact = job.program.path.point(length as f64);
-            let at: [i64; 2] = from_fn(|axis| exact[axis].round() as i64);
+            let at = exact.map(|units| units.round() as i64);
             Period {
                 tick,
                 length,
@@ -92,11 +91,12 @@ mod tests {
                 model: at,
                 motor: at.map(|units| units / COUNT),
                 load: at.map(|units| units as f64 / COUNT as f64),
-                torque: [0; 2],
-                saturated: [false; 2],
+                torque: [0; 3],
+                saturated: [false; 3],
             }
         });
         let played = Played {
+            axes: 2,
             periods: periods.collect(),
             settled: true,
             ..Played::default()
@@ -104,7 +104,7 @@ mod tests {
         (job, played)
     }
 
-    fn judged(job: &Job, played: &Played<2>) -> Vec<String> {
+    fn judged(job: &Job, played: &Played) -> Vec<String> {
         let run = |correction| Run::of(job, correction, played);
         let runs = Runs {
             runs: CORRECTIONS.into_iter().filter_map(run).collect(),

@@ -5,8 +5,7 @@
 //! |ρ| <= √3·2^-(G+1) to the nearest, twice that towards minus infinity. R keeps lengths, so with
 //! ε = 3·2^-(B+1) the error follows e ← (1 + ε)·e + ε·r + |ρ|, in first order n·(ε·r + |ρ|).
 
-use crate::arc_generator::Rounding;
-use crate::arc_generator::widths::Widths;
+use crate::circuits::arc_generator::{Rounding, Widths};
 
 /// How far the `f64` of a coefficient may be off: the sine, the cosine, and three roundings.
 const COEFFICIENT_F64: f64 = 4.0 * f64::EPSILON;
@@ -16,7 +15,7 @@ const COEFFICIENT_F64: f64 = 4.0 * f64::EPSILON;
 /// rounding of every step.
 #[must_use]
 pub fn rotation_error(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64 {
-    let half = |bits: u32| (-f64::from(bits + 1)).exp2();
+    let half = |bits: usize| (-((bits + 1) as f64)).exp2();
     let guard = 3f64.sqrt() * half(widths.guard());
     let coefficients = 3.0 * (half(widths.coefficient_fraction()) + COEFFICIENT_F64);
     let rounded = match rounding {

@@ -1,16 +1,11 @@
 //! A path on the arc generator: the control computer that feeds it, and the commands that come out.
 
-use crate::arc_generator::{ArcGenerator, Rounding, generator};
+use crate::circuits::arc_generator::{ArcGenerator, Rounding, generator};
+use crate::hdl::{At, Observer, RunError, Simulator, Value};
 use crate::input::COORDINATES;
-use crate::kernel::{At, Observer, RunError, Simulator};
-use crate::logic::Sim;
 use crate::path::record::Record;
 use crate::path::record_writer::RecordWriter;
 
-/// Width of a data word of the generator that plays a job.
-const D: usize = 42;
-/// Width of its sampling period.
-const T: usize = 24;
 /// Records that wait before the path begins, where there are so many: the memory is full then.
 const HEAD_START: usize = 16;
 
@@ -60,19 +55,21 @@ impl Host<'_> {
         self.quiet && self.records.stands(usize::MAX)
     }
 
-    fn ports(&mut self) -> generator::In<Sim, D, T> {
+    fn ports(&mut self) -> generator::In<Value> {
         let start = !self.started && self.records.written() == self.waiting;
         self.started |= start;
         let record = self.records.write();
         self.quiet = self.started && !start && !record.write;
         generator::In {
-            write: record.write.into(),
-            write_word: record.word.into(),
-            write_data: record.data.into(),
-            push: record.push.into(),
-            start: start.into(),
-            halt: false.into(),
-            sample_period: self.sample_ticks.into(),
+            segments: generator::Segments {
+                write: record.write,
+                write_word: record.word,
+                write_data: record.data,
+                push: record.push,
+                start,
+            },
+            halt: false,
+            sample_period: self.sample_ticks,
         }
     }
 }
@@ -108,7 +105,7 @@ pub fn play(
     let mut played = Played::default();
     let all = observer.needs_all();
     let (mut simulator, see) = Simulator::watching(circuit, all, |watch| {
-        let (q, w) = (&watch.q.sequencer, &watch.w);
+        let (q, w) = (&watch.p.sequencer.q, &watch.w);
         See {
             ready: watch.at(w.ready),
             busy: watch.at(w.busy),
@@ -121,7 +118,7 @@ pub fn play(
     let (mut over, mut stopped) = (records.is_empty(), false);
     while !over && !stopped {
         let i = host.ports();
-        let (started, pushed) = (i.start.get(), i.push.get());
+        let (started, pushed) = (i.segments.start, i.segments.push);
         let mut quiet = true;
         let (busy, flow) = simulator.look(&i, &mut observer, |now| {
             host.records.free = now.get(see.ready) && !pushed;

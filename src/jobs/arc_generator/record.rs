@@ -2,8 +2,7 @@
 
 use super::bounds::rotation_error;
 use super::prepared::{Prepared, Segment, Shape};
-use crate::arc_generator::Rounding;
-use crate::arc_generator::widths::Widths;
+use crate::circuits::arc_generator::{Rounding, Widths};
 use crate::input::{COORDINATES, Point};
 use crate::path::circle::Circle;
 use crate::path::error::{PathError, Reason};
@@ -63,7 +62,7 @@ fn fits(
     };
     let names = ["x", "y", "z"];
     // A point is rounded to a guard unit before it is rounded to a count.
-    let unit = (-f64::from(widths.guard())).exp2();
+    let unit = (-(widths.guard() as f64)).exp2();
     match &segment.shape {
         // A blend stays within the triangle of its points.
         Shape::Blend {
@@ -96,10 +95,10 @@ fn fits(
 fn record(segment: &Segment, counts_per_mm: f64, widths: &Widths) -> Record {
     let units =
         |point: Point| scale(point, counts_per_mm).map(|counts| quantise(counts, widths.guard()));
-    let signed = |value: i64, bits: u32| value as u64 & ((1 << bits) - 1);
+    let signed = |value: i64, bits: usize| value as u64 & ((1 << bits) - 1);
     let mut words = [0; WORDS];
     words[0] = segment.kind() as u64 | u64::from(segment.ends_at_rest) << 2 | segment.samples << 3;
-    let mut put = |first: usize, values: [i64; COORDINATES], bits: u32| {
+    let mut put = |first: usize, values: [i64; COORDINATES], bits: usize| {
         for (word, value) in words[first..].iter_mut().zip(values) {
             *word = signed(value, bits);
         }
@@ -165,7 +164,7 @@ fn blend_differences([before, corner, behind]: [i64; 3], samples: u64) -> [i128;
 }
 
 /// The nearest multiple of 2^-`fraction`, in units of it, a half away from zero.
-fn quantise(value: f64, fraction: u32) -> i64 {
+fn quantise(value: f64, fraction: usize) -> i64 {
     // A number of 64 bits on either side of the point holds whatever fits into a word.
     let units = I64F64::saturating_from_num(value).saturating_mul(I64F64::ONE << fraction);
     units.round().saturating_to_num()

@@ -1,8 +1,7 @@
 //! The samples of records by plain integer arithmetic: every sample of a blend or line from its
 //! polynomial by a division, every rotation by whole products.
 
-use crate::arc_generator::Rounding;
-use crate::arc_generator::widths::Widths;
+use crate::circuits::arc_generator::{Rounding, Widths};
 use crate::input::COORDINATES;
 use crate::path::record::{Record, coordinate_word};
 
@@ -117,7 +116,7 @@ pub fn commands(
 }
 
 /// A word of so many bits in two's complement.
-fn signed(word: u64, bits: u32) -> i64 {
+fn signed(word: u64, bits: usize) -> i64 {
     let unused = 64 - bits;
     (word << unused) as i64 >> unused
 }

@@ -1,8 +1,7 @@
 //! What the arc generator is run with: clock and sampling, machine, motion.
 
 use super::prepare::Timing;
-use crate::arc_generator::widths::Widths;
-use crate::arc_generator::{ArcGenerator, Rounding};
+use crate::circuits::arc_generator::{ArcGenerator, Rounding, Widths};
 use crate::path::pieces::Speeds;
 use crate::settings::{
     CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, whole, whole_ticks, within,
@@ -11,21 +10,10 @@ use serde::Deserialize;
 use std::ops::RangeInclusive;
 
 /// Shortest sampling period in ticks: a record is fetched and a rotation done within it.
-pub const LEAST_SAMPLE_TICKS: u64 = <ArcGenerator>::LEAST_PERIOD;
+pub const LEAST_SAMPLE_TICKS: u64 = ArcGenerator::new(Rounding::Nearest).least_period();
 
 /// Speeds that are accepted, in mm/s.
 pub const SPEED_RANGE_MM_PER_S: RangeInclusive<f64> = 1e-6..=1e9;
-
-impl Rounding {
-    /// The name it has in scenarios.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Rounding::Nearest => "nearest",
-            Rounding::Floor => "floor",
-        }
-    }
-}
 
 /// What becomes of a piece that is too short or too tight for its speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]

@@ -1,63 +1,47 @@
 //! Positionings one after the other: a compensator, a body, and its brake.
 
 use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings};
-use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn, zero};
-use crate::lead_angle::compensator;
-use crate::lead_angle::{
-    Compensator, LeadSource, PositionHistory, RamHistory, SpeedLead, TimeLead, Variant,
-};
-use crate::logic::{Image, Sim};
-use crate::plant::{BrakedBody, waves};
+use crate::circuits::lead_angle::codes::STAGES;
+use crate::circuits::lead_angle::compensator::In;
+use crate::circuits::lead_angle::{Compensator, LeadFrom, Variant, Widths};
+use crate::hdl::{At, Image, Observer, Sample, Simulator, Value, Watcher, zero};
+use crate::plant::BrakedBody;
+use crate::plant::waves::{Body, BodySignals};
 use crate::settings::JobError;
 
-/// Width of a lead time.
-pub(super) const C: usize = 11;
-/// Width of a position.
-pub(super) const W: usize = 24;
-/// Width of a step number.
-pub(super) const A: usize = 4;
-/// Width of a speed.
-pub(super) const D: usize = 16;
-/// Width of a time in CKs.
-pub(super) const N: usize = 16;
-/// Width of the CK period.
-pub(super) const S: usize = 24;
+/// Widths of the compensator that jobs run on.
+pub(super) const WIDTHS: Widths = Widths {
+    stages: STAGES as usize,
+    position: 24,
+    step: 4,
+    speed: 16,
+    cks: 16,
+    ck_period: 24,
+};
 
 /// How far past its target a body is stopped by hand, in seconds of its way.
 const MISSED_S: f64 = 0.1;
 /// Seconds after which a positioning is given up that is not complete.
 const PATIENCE_S: f64 = 600.0;
 
-/// A compensator with the body beside it in the waves.
-pub type Positioner<P> = With<Compensator<P>, waves::Body>;
-
-/// A lead source of the widths that jobs have.
-pub trait JobLead: LeadSource<C, W, N> + 'static {}
-
-impl<P: LeadSource<C, W, N> + 'static> JobLead for P {}
-
-/// Lead of a time, with the history as a shift register.
-pub type ShiftLead = TimeLead<PositionHistory<199, 8, W>, 199, 8, C, W>;
-/// Lead of a time, with the history as a RAM.
-pub type RamLead = TimeLead<RamHistory<199, 8, W>, 199, 8, C, W>;
-/// The conventional lead.
-pub type Conventional = SpeedLead<W, N>;
-
 /// The ports in of a compensator.
-pub type Ports = compensator::In<Sim, C, W, A, D, N, S>;
+pub(super) type Ports = In<Value>;
 
-/// The compensator of these settings whose lead comes from `P`.
-pub fn positioner<P: JobLead>(settings: &Settings) -> Positioner<P> {
-    let variant = Variant {
-        placement: settings.placement,
-        comparing: settings.comparing,
-        sign: settings.sign,
-    };
-    let codes = settings
-        .steps
-        .iter()
-        .map(|step| settings.code(step.lead_ms).unwrap_or(0));
-    With::new(Compensator::new(variant, Image::new(codes)))
+/// The compensator of these settings, its lead from where it is said;
+/// [`Settings::lead_from`] is what they say themselves.
+pub fn positioner(settings: &Settings, lead_from: LeadFrom) -> Compensator {
+    let steps = settings.steps.iter();
+    let codes = steps.map(|step| settings.code(step.lead_ms).unwrap_or(0));
+    Compensator {
+        widths: WIDTHS,
+        lead_from,
+        variant: Variant {
+            placement: settings.placement,
+            comparing: settings.comparing,
+            sign: settings.sign,
+        },
+        rom: Image::of(WIDTHS.step, WIDTHS.time(), codes),
+    }
 }
 
 /// The control computer: writes a step a tick, then lets them run.
@@ -71,28 +55,28 @@ impl<'a> ControlComputer<'a> {
         ControlComputer { settings }
     }
 
-    /// What it gives in every tick, with all else low.
-    pub(super) fn standing(&self) -> Ports {
+    /// What it gives `circuit` in every tick, with all else low.
+    pub(super) fn standing(&self, circuit: &Compensator) -> Ports {
         let settings = self.settings;
         let cks = |ms: f64| u64::from(settings.cks(ms));
         let standstill = match settings.completion {
             Completion::Standstill => cks(settings.standstill_ms),
             // No standstill is so long.
-            Completion::FixedTime => (1 << N) - 1,
+            Completion::FixedTime => (1 << WIDTHS.cks) - 1,
         };
         // The times are in the ROM.
         Ports {
-            learn: settings.learn.into(),
-            common: settings.common_time.into(),
-            last_step: (settings.steps.len().saturating_sub(1) as u64).into(),
-            ck_period: u64::from(settings.ck_ticks).into(),
-            standstill: standstill.into(),
-            time_out: cks(settings.time_out_ms).into(),
-            rest: cks(settings.rest_ms).into(),
-            seed: settings.code(settings.seed_ms).unwrap_or(0).into(),
-            lead_parameter: self.parameter(settings.speed_lead_ms).into(),
-            gate: cks(settings.speed_gate_ms).into(),
-            ..zero()
+            learn: settings.learn,
+            common: settings.common_time,
+            last_step: settings.steps.len().saturating_sub(1) as u64,
+            ck_period: u64::from(settings.ck_ticks),
+            standstill,
+            time_out: cks(settings.time_out_ms),
+            rest: cks(settings.rest_ms),
+            seed: settings.code(settings.seed_ms).unwrap_or(0),
+            lead_parameter: self.parameter(settings.speed_lead_ms),
+            gate: cks(settings.speed_gate_ms),
+            ..zero(circuit)
         }
     }
 
@@ -106,7 +90,7 @@ impl<'a> ControlComputer<'a> {
     fn choose_parameter(&self, i: &mut Ports, step: u64) {
         let step = usize::try_from(step).unwrap_or(usize::MAX);
         if let Some(ms) = self.settings.speed_leads_ms.get(step) {
-            i.lead_parameter = self.parameter(*ms).into();
+            i.lead_parameter = self.parameter(*ms);
         }
     }
 
@@ -116,11 +100,11 @@ impl<'a> ControlComputer<'a> {
         let place = usize::try_from(tick).unwrap_or(usize::MAX);
         let step = steps.get(place);
         let speed = step.map_or(0, |step| step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S);
-        i.write_target = step.is_some().into();
-        i.write_step = step.map_or(0, |_| tick).into();
-        i.step_target = step.map_or(0, |step| step.target).into();
-        i.step_speed = u64::from(speed).into();
-        i.run = (step.is_none() && run).into();
+        i.write_target = step.is_some();
+        i.write_step = step.map_or(0, |_| tick);
+        i.step_target = step.map_or(0, |step| step.target);
+        i.step_speed = u64::from(speed);
+        i.run = step.is_none() && run;
     }
 }
 
@@ -196,24 +180,24 @@ struct See {
 }
 
 impl See {
-    fn of<P: JobLead>(watch: &Watcher<Positioner<P>>) -> Self {
-        let (q, w) = (&watch.q, &watch.w);
+    fn of(watch: &Watcher<'_, Compensator>) -> Self {
+        let (p, w) = (&watch.p, &watch.w);
         See {
-            speed: watch.at(q.target_setter.speed),
-            drive: watch.at(q.sequencer.drive),
-            reverse: watch.at(q.sequencer.reverse),
-            control: watch.at(q.comparator.control),
-            arm: watch.at(q.sequencer.arm),
+            speed: watch.at(p.target_setter.q.speed),
+            drive: watch.at(p.sequencer.q.drive),
+            reverse: watch.at(p.sequencer.q.reverse),
+            control: watch.at(p.comparator.q.control),
+            arm: watch.at(p.sequencer.q.arm),
             fire: watch.at(w.fire),
-            halting: watch.at(q.sequencer.halting),
+            halting: watch.at(p.sequencer.q.halting),
             complete: watch.at(w.complete),
             learned: watch.at(w.learned),
             learned_time: watch.at(w.learned_time),
             busy: watch.at(w.busy),
             lost: watch.at(w.lost),
             timed_out: watch.at(w.timed_out),
-            missed: watch.at(q.sequencer.missed),
-            step: watch.at(w.step),
+            missed: watch.at(p.sequencer.q.missed),
+            step: watch.at(p.sequencer.q.step),
             position: watch.at(w.position),
             target: watch.at(w.target),
             time: watch.at(w.lead_time),
@@ -242,12 +226,7 @@ impl Bench<'_> {
     }
 
     /// Takes the tick up; whether the run goes on.
-    fn take<P: JobLead>(
-        &mut self,
-        now: &Sample<'_, Positioner<P>>,
-        see: &See,
-        body: &BrakedBody,
-    ) -> bool {
+    fn take(&mut self, now: &Sample<'_, Compensator>, see: &See, body: &BrakedBody) -> bool {
         let tick = self.played.ticks;
         self.played.ticks += 1;
         self.idle += 1;
@@ -319,10 +298,10 @@ impl Bench<'_> {
 ///
 /// # Errors
 /// A setting or a parameter of the body is out of range, or what `observer` objects to.
-pub fn play<P: JobLead>(
-    circuit: &Positioner<P>,
+pub fn play(
+    circuit: &Compensator,
     settings: &Settings,
-    mut observer: impl Observer<Positioner<P>>,
+    mut observer: impl Observer<Compensator>,
 ) -> Result<Played, JobError> {
     settings.validate()?;
     let clock = settings.clock_hz as f64;
@@ -337,27 +316,27 @@ pub fn play<P: JobLead>(
         played: Played::default(),
     };
     let computer = ControlComputer::new(settings);
-    let mut i = WithIn::<Sim, Compensator<P>, waves::Body> {
-        i: computer.standing(),
-        beside: waves::BodySignals::of(&body),
-    };
+    let mut i = computer.standing(circuit);
     let mut loaded = false;
-    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
+    let (mut simulator, see) =
+        Simulator::watching_beside(circuit, &Body, observer.needs_all(), See::of)?;
     loop {
         if settings.load_change_after == Some(bench.completed) && !loaded {
             body.set_load(settings.load)?;
             loaded = true;
         }
-        let speed = simulator.get(see.speed) * u64::from(SPEED_UNIT_COUNTS_PER_S);
-        let (drive, reverse) = (simulator.get(see.drive), simulator.get(see.reverse));
-        let (a, b) = body.step(drive, reverse, speed as f64, simulator.get(see.control));
-        computer.tick(&mut i.i, bench.played.ticks, bench.run());
-        computer.choose_parameter(&mut i.i, simulator.get(see.step));
-        i.i.a = a.into();
-        i.i.b = b.into();
-        i.i.halt = (bench.past && drive).into();
+        let [speed, step] = simulator.state(|q| [see.speed, see.step].map(|at| q.get(at)));
+        let signals = [see.drive, see.reverse, see.control];
+        let [drive, reverse, control] = simulator.state(|q| signals.map(|at| q.get(at)));
+        let speed = speed * u64::from(SPEED_UNIT_COUNTS_PER_S);
+        let (a, b) = body.step(drive, reverse, speed as f64, control);
+        computer.tick(&mut i, bench.played.ticks, bench.run());
+        computer.choose_parameter(&mut i, step);
+        i.a = a;
+        i.b = b;
+        i.halt = bench.past && drive;
         if observer.looks(bench.played.ticks) {
-            i.beside = waves::BodySignals::of(&body);
+            simulator.show::<Body>(&BodySignals::of(&body));
         }
         let take = |now: &Sample<'_, _>| bench.take(now, &see, &body);
         let (goes_on, flow) = simulator.step_watched(&i, &mut observer, take)?;

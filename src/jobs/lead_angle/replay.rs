@@ -1,12 +1,11 @@
 //! A position log on a compensator: where it would have given its signals, and how good its
 //! predictions were.
 
-use super::job::{ControlComputer, JobLead, Positioner};
+use super::job::ControlComputer;
 use super::settings::Settings;
+use crate::circuits::lead_angle::Compensator;
+use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
 use crate::input::position_log::PositionLog;
-use crate::kernel::{At, Observer, Sample, Simulator, Watcher, WithIn};
-use crate::lead_angle::Compensator;
-use crate::logic::Sim;
 use crate::plant::Encoder;
 use crate::plant::waves::{Body, BodySignals};
 use crate::settings::JobError;
@@ -98,19 +97,18 @@ struct See {
 }
 
 impl See {
-    fn of<P: JobLead>(watch: &Watcher<Positioner<P>>) -> Self {
-        let w = &watch.w;
-        let source = P::outputs(&watch.q.lead_source, &w.lead_source.w);
+    fn of(watch: &Watcher<'_, Compensator>) -> Self {
+        let (w, comparator) = (&watch.w, &watch.p.comparator.i);
         See {
             fire: watch.at(w.fire),
-            fresh: watch.at(source.fresh),
-            enough: watch.at(source.enough),
+            fresh: watch.at(comparator.evaluate),
+            enough: watch.at(comparator.valid),
             lost: watch.at(w.lost),
             step: watch.at(w.step),
             time: watch.at(w.lead_time),
             position: watch.at(w.position),
             target: watch.at(w.target),
-            lead: watch.at(source.lead),
+            lead: watch.at(watch.p.placement.i.lead),
         }
     }
 }
@@ -152,11 +150,11 @@ impl Sums {
 ///
 /// # Errors
 /// What `observer` objects to.
-pub fn replay<P: JobLead>(
-    circuit: &Positioner<P>,
+pub fn replay(
+    circuit: &Compensator,
     settings: &Settings,
     log: &PositionLog,
-    mut observer: impl Observer<Positioner<P>>,
+    mut observer: impl Observer<Compensator>,
 ) -> Result<Replayed, JobError> {
     settings.validate()?;
     let origin = origin(log);
@@ -167,23 +165,21 @@ pub fn replay<P: JobLead>(
     let (mut replayed, mut sums) = (Replayed::default(), Sums::default());
     sums.parts = vec![[f64::NAN; 2]; PARTS];
     let computer = ControlComputer::new(settings);
-    let mut i = WithIn::<Sim, Compensator<P>, Body> {
-        i: computer.standing(),
-        beside: BodySignals::at(0.0, 0.0),
-    };
+    let mut i = computer.standing(circuit);
     let mut before = 0.0;
-    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
+    let (mut simulator, see) =
+        Simulator::watching_beside(circuit, &Body, observer.needs_all(), See::of)?;
     for tick in 0..=ticks {
         let seconds = tick as f64 * tick_s;
         let position = at(seconds);
         let (a, b) = Encoder::default().channels(position);
-        computer.tick(&mut i.i, tick, true);
-        i.i.a = a.into();
-        i.i.b = b.into();
+        computer.tick(&mut i, tick, true);
+        i.a = a;
+        i.b = b;
         let speed = (position - before) / tick_s;
         before = position;
         if observer.looks(tick) {
-            i.beside = BodySignals::at(position, speed);
+            simulator.show::<Body>(&BodySignals::at(position, speed));
         }
         let take = |now: &Sample<'_, _>| {
             let (fire, time) = (now.get(see.fire), now.get(see.time));

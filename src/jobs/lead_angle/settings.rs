@@ -1,8 +1,9 @@
 //! What the lead-angle compensator is run with: clock and CK, steps, learning, body and load.
 
-use super::job::{A, D, N, S, W};
-use crate::lead_angle::codes::{LARGEST, STAGES, code, neighbours};
-pub use crate::lead_angle::{Comparing, Placement, Sign};
+use super::job::WIDTHS;
+use crate::circuits::lead_angle::codes::{LARGEST, STAGES, code, neighbours};
+pub use crate::circuits::lead_angle::{Comparing, Placement, Sign};
+use crate::circuits::lead_angle::{LeadFrom, Memory};
 use crate::plant::{BodyParameters, Load};
 use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
 use serde::{Deserialize, Serialize};
@@ -12,15 +13,16 @@ use std::ops::RangeInclusive;
 pub const SPEED_UNIT_COUNTS_PER_S: u32 = 10;
 
 /// Ticks of a CK that are accepted.
-pub const CK_RANGE_TICKS: RangeInclusive<u32> = 4..=(1 << S) - 1;
+pub const CK_RANGE_TICKS: RangeInclusive<u32> = 4..=(1 << WIDTHS.ck_period) - 1;
 /// Targets that are accepted, in counts: no way between two of them is half of what wraps.
-pub const TARGET_RANGE_COUNTS: RangeInclusive<i64> = -(1 << (W - 3))..=1 << (W - 3);
+pub const TARGET_RANGE_COUNTS: RangeInclusive<i64> =
+    -(1 << (WIDTHS.position - 3))..=1 << (WIDTHS.position - 3);
 /// How many steps there may be. With one there would be no way to go from the second cycle on.
-pub const STEPS_RANGE: RangeInclusive<usize> = 2..=1 << A;
+pub const STEPS_RANGE: RangeInclusive<usize> = 2..=1 << WIDTHS.step;
 /// How many positionings a run may have.
 pub const POSITIONINGS_RANGE: RangeInclusive<u32> = 1..=10_000;
 /// Times other than lead times that are accepted, in CKs.
-pub const TIME_RANGE_CKS: RangeInclusive<u16> = 1..=((1u32 << N) - 1) as u16;
+pub const TIME_RANGE_CKS: RangeInclusive<u16> = 1..=((1u32 << WIDTHS.cks) - 1) as u16;
 
 /// What keeps the positions of the past (11).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -143,6 +145,15 @@ impl Settings {
         1e3 * f64::from(self.ck_ticks) / self.clock_hz as f64
     }
 
+    /// Where the lead of their compensator comes from.
+    #[must_use]
+    pub fn lead_from(&self) -> LeadFrom {
+        LeadFrom::Time(match self.history {
+            History::ShiftRegister => Memory::ShiftRegister,
+            History::Ram => Memory::Ram,
+        })
+    }
+
     /// A time other than a lead time in whole CKs; saturates.
     #[must_use]
     pub fn cks(&self, ms: f64) -> u16 {
@@ -162,7 +173,7 @@ impl Settings {
     /// The fastest speed of a step in counts a second: an encoder is counted at one count per tick.
     #[must_use]
     pub fn fastest_counts_per_s(&self) -> u32 {
-        let word = ((1 << D) - 1) * SPEED_UNIT_COUNTS_PER_S;
+        let word = ((1 << WIDTHS.speed) - 1) * SPEED_UNIT_COUNTS_PER_S;
         u64::from(word).min(self.clock_hz) as u32
     }
 

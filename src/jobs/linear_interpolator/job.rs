@@ -4,40 +4,30 @@
 use super::measure::{Cycle, Played, ScanRecord};
 use super::profile::Profile;
 use super::settings::{AxisSettings, Settings};
-use super::targets::{TIME_BITS, Target};
-use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn, zero};
-use crate::linear_interpolator::{
-    CommandSource, Controller, Conventional, LinearInterpolator, Rule, controller,
+use super::targets::Target;
+use crate::circuits::linear_interpolator::command_source::Orders;
+use crate::circuits::linear_interpolator::{
+    CommandSource, Controller, Conventional, LinearInterpolator, Rule, Widths, controller,
 };
-use crate::logic::Sim;
+use crate::hdl::{At, Observer, Sample, Simulator, Value, Watcher, zero};
 use crate::plant::{Ahead, ServoAxis, ServoParameters, waves};
 use crate::settings::JobError;
 use fixed::types::U8F8;
-use std::array::from_fn;
 
-/// Position width of the controller that plays a job.
-const P: usize = 32;
-/// Width of its times.
-const T: usize = TIME_BITS;
 /// Full scale of its D/A converters of 16 bits.
 const FULL_SCALE: i64 = (1 << 15) - 1;
 /// Scans without a new command after which an axis that is not in position is given up.
 const PATIENCE: u64 = 20_000;
 
-/// A controller with the motors beside it in the waves.
-pub type Plotter<C, const N: usize> = With<Drive<C, N>, waves::Axes>;
-
-/// The controller of a job, for targets with `N` settings of speed and times.
-pub type Drive<C, const N: usize> = Controller<C, P, T, 16, 8, 16, 48, 24, N>;
-
 /// The plotter with the linear interpolator.
-pub fn plotter(rule: Rule) -> Plotter<LinearInterpolator, 1> {
-    With::new(Controller::new(LinearInterpolator::new(rule)))
+pub fn plotter(rule: Rule) -> Controller {
+    let widths = Widths::FULL;
+    Controller::new(CommandSource::Linear(LinearInterpolator { widths, rule }))
 }
 
 /// The plotter with the conventional system of Fig. 3.
-pub fn conventional() -> Plotter<Conventional, 2> {
-    With::new(Controller::new(Conventional::default()))
+pub fn conventional() -> Controller {
+    Controller::new(CommandSource::Conventional(Conventional::default()))
 }
 
 impl AxisSettings {
@@ -77,10 +67,11 @@ struct See {
 }
 
 impl See {
-    fn of<C: CommandSource<P, T, N>, const N: usize>(watch: &Watcher<Plotter<C, N>>) -> Self {
-        let (q, w) = (&watch.q, &watch.w);
+    fn of(watch: &Watcher<'_, Controller>) -> Self {
+        let w = &watch.w;
+        let loops = [&watch.p.loop_x, &watch.p.loop_y];
         See {
-            reference: [&q.loop_x, &q.loop_y].map(|axis| watch.at(axis.control.speed_ref)),
+            reference: loops.map(|axis| watch.at(axis.p.control.q.speed_ref)),
             scan: watch.at(w.scan),
             start: watch.at(w.start),
             load: watch.at(w.load),
@@ -89,7 +80,7 @@ impl See {
             late: watch.at(w.late),
             refused: watch.at(w.refused),
             lost: [w.lost_x, w.lost_y].map(|lost| watch.at(lost)),
-            saturated: [&w.loop_x, &w.loop_y].map(|axis| watch.at(axis.w.saturated)),
+            saturated: loops.map(|axis| watch.at(axis.w.saturated)),
             command: [w.command_x, w.command_y].map(|command| watch.at(command)),
         }
     }
@@ -131,12 +122,7 @@ impl<const N: usize> Bench<'_, N> {
     }
 
     /// Whether the run goes on.
-    fn take<C: CommandSource<P, T, N>>(
-        &mut self,
-        now: &Sample<'_, Plotter<C, N>>,
-        see: &See,
-        motor: [f64; 2],
-    ) -> bool {
+    fn take(&mut self, now: &Sample<'_, Controller>, see: &See, motor: [f64; 2]) -> bool {
         let played = &mut self.played;
         let command = || see.command.map(|command| now.get(command));
         played.ticks = now.tick + 1;
@@ -196,15 +182,30 @@ impl<const N: usize> Bench<'_, N> {
     }
 }
 
-/// Plays the cycles on `circuit`, with motors as `settings` have them, seen by `observer` too.
+/// Gives a target, or none.
+fn give<const N: usize>(orders: &mut Orders<Value>, target: Option<Target<N>>) {
+    orders.push = target.is_some();
+    orders.target_x = target.map_or(0, |target| target.x);
+    orders.target_y = target.map_or(0, |target| target.y);
+    let settings = &mut orders.settings;
+    for n in 0..N {
+        let word = |of: fn(Profile) -> u64| target.map_or(0, |target| of(target.profiles[n]));
+        settings.speed[n] = word(|profile| profile.speed);
+        settings.acceleration_time[n] = word(|profile| profile.acceleration_scans);
+        settings.deceleration_time[n] = word(|profile| profile.deceleration_scans);
+    }
+}
+
+/// Plays the cycles on `circuit`, whose targets have as many settings, with motors as `settings`
+/// have them, which stand in the waves beside it; seen by `observer` too.
 ///
 /// # Errors
 /// A setting is out of range, or what `observer` objects to.
-pub fn play<C: CommandSource<P, T, N>, const N: usize>(
-    circuit: &Plotter<C, N>,
+pub fn play<const N: usize>(
+    circuit: &Controller,
     targets: &[Target<N>],
     settings: &Settings,
-    mut observer: impl Observer<Plotter<C, N>>,
+    mut observer: impl Observer<Controller>,
 ) -> Result<Played, JobError> {
     settings.validate()?;
     let tick_s = 1.0 / settings.clock_hz as f64;
@@ -214,16 +215,13 @@ pub fn play<C: CommandSource<P, T, N>, const N: usize>(
         ServoAxis::new(&y.servo(), tick_s)?,
     ];
     let gains = [x, y].map(|axis| u64::from(axis.gain().to_bits()));
-    let mut i = WithIn::<Sim, Drive<C, N>, waves::Axes> {
-        i: controller::In::<Sim, P, T, 16, 24, N> {
-            exact_stop: settings.exact_stop.into(),
-            scan_period: u64::from(settings.scan_ticks).into(),
-            gain_x: gains[0].into(),
-            gain_y: gains[1].into(),
-            window: u64::from(settings.in_position_counts).into(),
-            ..zero()
-        },
-        beside: waves::Signals::of(&servos),
+    let mut i = controller::In {
+        exact_stop: settings.exact_stop,
+        scan_period: u64::from(settings.scan_ticks),
+        gain_x: gains[0],
+        gain_y: gains[1],
+        window: u64::from(settings.in_position_counts),
+        ..zero(circuit)
     };
     let mut bench = Bench {
         targets,
@@ -236,32 +234,20 @@ pub fn play<C: CommandSource<P, T, N>, const N: usize>(
         idle: 0,
         quiet: false,
     };
-    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
+    let (mut simulator, see) =
+        Simulator::watching_beside(circuit, &waves::Axes, observer.needs_all(), See::of)?;
     let mut motors = Ahead::new(servos);
     loop {
-        let references = see.reference.map(|axis| simulator.get(axis));
+        let references = simulator.state(|q| see.reference.map(|axis| q.get(axis)));
         let step = |[x, y]: &mut [ServoAxis; 2]| {
             [(x, references[0]), (y, references[1])]
                 .map(|(axis, reference)| axis.step(reference, FULL_SCALE))
         };
-        let [(a_x, b_x), (a_y, b_y)] = motors.step(step);
-        let target = bench.push();
-        let ports = &mut i.i;
-        ports.push = target.is_some().into();
-        ports.target_x = target.map_or(0, |target| target.x).into();
-        ports.target_y = target.map_or(0, |target| target.y).into();
-        let setting =
-            |of: fn(&Profile) -> u64, n: usize| target.map_or(0, |target| of(&target.profiles[n]));
-        ports.speed = from_fn(|n| setting(|profile| profile.speed, n).into());
-        ports.acceleration_time =
-            from_fn(|n| setting(|profile| profile.acceleration_scans, n).into());
-        ports.deceleration_time =
-            from_fn(|n| setting(|profile| profile.deceleration_scans, n).into());
-        (ports.a_x, ports.b_x) = (a_x.into(), b_x.into());
-        (ports.a_y, ports.b_y) = (a_y.into(), b_y.into());
+        [(i.a_x, i.b_x), (i.a_y, i.b_y)] = motors.step(step);
+        give(&mut i.orders, bench.push());
         let servos = &motors.plants;
         if observer.looks(simulator.tick()) {
-            i.beside = waves::Signals::of(servos);
+            simulator.show::<waves::Axes>(&waves::Signals::of(servos));
         }
         let motor = [0, 1].map(|axis: usize| servos[axis].position_counts());
         let take = |now: &Sample<'_, _>| bench.take(now, &see, motor);

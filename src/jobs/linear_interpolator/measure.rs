@@ -1,6 +1,6 @@
 //! What a run is judged by: how far the commands and the motors were off the ideal lines.
 
-use crate::linear_interpolator::Rule;
+use crate::circuits::linear_interpolator::Rule;
 use std::ops::Range;
 
 /// One scan of a run.

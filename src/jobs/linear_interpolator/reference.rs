@@ -7,7 +7,7 @@ use super::measure::{Cycle, Played, ScanRecord};
 use super::profile::{Profile, SPEED_ONE};
 use super::settings::{AxisSettings, Settings};
 use super::targets::Target;
-use crate::linear_interpolator::Rule;
+use crate::circuits::linear_interpolator::Rule;
 
 /// The position pattern generator 14: x(n) of one cycle.
 ///

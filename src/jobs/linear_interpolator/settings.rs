@@ -2,7 +2,7 @@
 
 use super::profile::speed_word;
 use super::targets::{LATENCY_TICKS, LONGEST_RAMP};
-use crate::linear_interpolator::Rule;
+use crate::circuits::linear_interpolator::Rule;
 use crate::plan::FEED_RANGE;
 use crate::settings::{
     CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, IN_POSITION_RANGE, Place, SettingError, WholeTime, within,

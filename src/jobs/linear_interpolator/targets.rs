@@ -5,20 +5,23 @@
 
 use super::profile::{Profile, SLOWEST, SPEED_ONE, speed_word};
 use super::settings::{AXIS_NAMES, Settings};
+use crate::circuits::linear_interpolator::{LinearInterpolator, Rule, Widths};
 use crate::input::{Drawing, Point};
-use crate::linear_interpolator::LinearInterpolator;
 use crate::plan::digits::round_up;
 use crate::plan::{PlanError, check, chords};
 use crate::settings::SettingError;
 
 /// Ticks that the dividers need within a scan.
-pub const LATENCY_TICKS: u32 = LinearInterpolator::<6>::LATENCY as u32;
+pub const LATENCY_TICKS: u32 = {
+    let (widths, rule) = (Widths::FULL, Rule::Floor);
+    LinearInterpolator { widths, rule }.latency() as u32
+};
 
 /// Longest time of acceleration and of deceleration, in scans.
 pub const LONGEST_RAMP: u64 = (1 << TIME_BITS) - 1;
 
 /// Width of these times.
-pub(super) const TIME_BITS: usize = 12;
+pub(super) const TIME_BITS: usize = Widths::FULL.time;
 
 /// Farthest position, in counts on either side of zero.
 pub const REACH_COUNTS: i64 = 1 << 30;

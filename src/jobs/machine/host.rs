@@ -5,21 +5,19 @@
 //! in time. Between a rapid move and one with the pen down the lift has its step first. Records go
 //! to arc generator and trajectory controller as they find room.
 
-use super::job::Plant;
 use super::program::{Program, Way};
 use super::settings::Settings;
+use crate::circuits::arc_generator::generator::Segments;
+use crate::circuits::machine::circuit::In;
+use crate::circuits::machine::{Machine, enables, ports};
+use crate::circuits::trajectory_controller::model_state::ModelGains;
+use crate::hdl::{At, Sample, State, Value, Watcher, zero};
 use crate::jobs::lead_angle::settings::{self as lead_angle, SPEED_UNIT_COUNTS_PER_S};
 use crate::jobs::pulse_interpolator::ControlComputer;
 use crate::jobs::trajectory_controller::path_writer::PathWriter;
-use crate::kernel::{At, Sample, Simulator, Watcher, zero};
-use crate::logic::Sim;
-use crate::machine::circuit::In;
-use crate::machine::{enables, ports};
+use crate::jobs::trajectory_controller::servo_gains::ServoGains;
 use crate::path::record_writer::RecordWriter;
-use std::array::from_fn;
 
-/// Address width of the pattern memory.
-const A: usize = 12;
 /// Ticks from the beginning of a move in which nobody says yet that it is busy.
 const DEAF: u32 = 8;
 /// Records of a move that wait before it begins, where there are so many.
@@ -46,6 +44,14 @@ pub(super) enum Stage {
     Done,
 }
 
+/// Gives a target for a line, or none.
+fn give_line(i: &mut ports::Lines<Value>, push: bool, target: [i64; 2], speed: u64, ramp: u64) {
+    (i.push, [i.target_x, i.target_y]) = (push, target);
+    i.settings.speed.fill(speed);
+    i.settings.acceleration_time.fill(ramp);
+    i.settings.deceleration_time.fill(ramp);
+}
+
 /// What is looked at.
 #[derive(Debug)]
 struct See {
@@ -63,17 +69,17 @@ struct See {
 }
 
 impl See {
-    fn of(watch: &Watcher<Plant>) -> Self {
-        let (q, w) = (&watch.q, &watch.w);
-        let arcs = [&q.arc_generator.command_x, &q.arc_generator.command_y];
+    fn of(watch: &Watcher<'_, Machine>) -> Self {
+        let (p, w) = (&watch.p, &watch.w);
+        let arcs = &p.arc_generator.p;
         See {
-            pending: watch.at(q.pulse_interpolator.port.pending),
-            arcs: arcs.map(|axis| watch.at(axis.command)),
+            pending: watch.at(p.pulse_interpolator.p.port.q.pending),
+            arcs: [&arcs.command_x, &arcs.command_y].map(|axis| watch.at(axis.q.command)),
             arcs_ready: watch.at(w.arcs_ready),
             profile_ready: watch.at(w.profile_ready),
             busy: [w.lines_busy, w.arcs_busy, w.profile_busy].map(|busy| watch.at(busy)),
             lift_busy: watch.at(w.lift_busy),
-            sample: watch.at(w.enables.w.sample),
+            sample: watch.at(p.enables.w.sample),
             counts: [w.counts_x, w.counts_y].map(|counts| watch.at(counts)),
             position: [w.position_x, w.position_y].map(|position| watch.at(position)),
         }
@@ -86,7 +92,8 @@ pub(super) struct Host<'a> {
     see: See,
     program: &'a Program,
     settings: &'a Settings,
-    pulses: ControlComputer<'a, A>,
+    pulses: ControlComputer<'a>,
+    no_pulse: ports::Pulse<Value>,
     path: PathWriter<'a>,
     arcs: RecordWriter<'a>,
     profile: RecordWriter<'a>,
@@ -107,31 +114,19 @@ pub(super) struct Host<'a> {
     calm: u32,
 }
 
-/// What the lift is given in every tick.
-fn standing(lift: &lead_angle::Settings) -> ports::Lift<Sim> {
-    let cks = |ms: f64| u64::from(lift.cks(ms)).into();
-    ports::Lift {
-        learn: true.into(),
-        last_step: (lift.steps.len().saturating_sub(1) as u64).into(),
-        standstill: cks(lift.standstill_ms),
-        time_out: cks(lift.time_out_ms),
-        rest: cks(lift.rest_ms),
-        seed: lift.code(lift.seed_ms).unwrap_or(0).into(),
-        ..zero()
-    }
-}
-
 impl<'a> Host<'a> {
     pub(super) fn new(
+        circuit: &Machine,
         program: &'a Program,
         settings: &'a Settings,
-        watch: &Watcher<Plant>,
+        watch: &Watcher<'_, Machine>,
     ) -> Self {
         Host {
             see: See::of(watch),
             program,
             settings,
-            pulses: ControlComputer::new(&program.table),
+            pulses: ControlComputer::new(&circuit.pulse_interpolator, &program.table),
+            no_pulse: zero(circuit).pulse,
             path: PathWriter::new(&program.path),
             arcs: RecordWriter::new(&program.arcs),
             profile: RecordWriter::new(&program.profile),
@@ -149,32 +144,43 @@ impl<'a> Host<'a> {
     }
 
     /// What it gives in every tick, with all else low.
-    pub(super) fn standing(&self) -> In<Sim> {
-        let settings = self.settings;
-        let period = |ticks: u32| u64::from(ticks).into();
-        let program = &self.program.path;
-        let servo = &program.servo;
+    pub(super) fn standing(&self, circuit: &Machine) -> In<Value> {
+        let (settings, program) = (self.settings, &self.program.path);
+        let low = zero(circuit);
+        let gain = |of: fn(&ServoGains) -> u64| program.servo.iter().take(2).map(of).collect();
+        let lift = settings.lift();
+        let cks = |ms: f64| u64::from(lift.cks(ms));
         In {
             rates: enables::In {
-                unit_period: period(settings.unit_ticks),
-                scan_period: period(settings.scan_ticks),
-                ck_period: period(settings.ck_ticks),
-                sample_period: period(settings.sample_ticks),
+                unit_period: settings.unit_ticks.into(),
+                scan_period: settings.scan_ticks.into(),
+                ck_period: settings.ck_ticks.into(),
+                sample_period: settings.sample_ticks.into(),
             },
             trajectory: ports::Trajectory {
-                last: (program.path.stretches.len().saturating_sub(1) as u64).into(),
-                path_end: (program.path.length as i64).into(),
-                gain_1: program.gains.k1.into(),
-                gain_2: program.gains.k2.into(),
-                position_gain: from_fn(|axis| servo[axis].position.into()),
-                speed_gain: from_fn(|axis| servo[axis].speed.into()),
-                integral_gain: from_fn(|axis| servo[axis].integral.into()),
-                inertia: from_fn(|axis| servo[axis].inertia.into()),
-                limit: from_fn(|axis| servo[axis].limit.into()),
-                ..zero()
+                last: program.path.stretches.len().saturating_sub(1) as u64,
+                path_end: program.path.length as i64,
+                model_gains: ModelGains {
+                    gain_1: program.gains.k1,
+                    gain_2: program.gains.k2,
+                },
+                position_gain: gain(|servo| servo.position),
+                speed_gain: gain(|servo| servo.speed),
+                integral_gain: gain(|servo| servo.integral),
+                inertia: gain(|servo| servo.inertia),
+                limit: gain(|servo| servo.limit),
+                ..low.trajectory
             },
-            lift: standing(&settings.lift()),
-            ..zero()
+            lift: ports::Lift {
+                learn: true,
+                last_step: lift.steps.len().saturating_sub(1) as u64,
+                standstill: cks(lift.standstill_ms),
+                time_out: cks(lift.time_out_ms),
+                rest: cks(lift.rest_ms),
+                seed: lift.code(lift.seed_ms).unwrap_or(0),
+                ..low.lift
+            },
+            ..low
         }
     }
 
@@ -195,19 +201,19 @@ impl<'a> Host<'a> {
     }
 
     /// What it gives in this tick, from the registers; the encoders are left as they are.
-    pub(super) fn drive(&mut self, i: &mut In<Sim>, now: &Simulator<Plant>) {
+    pub(super) fn drive(&mut self, i: &mut In<Value>, now: &State<'_, Machine>) {
         i.pulse = self.pulse(now.get(self.see.pending));
-        i.lines = zero();
-        i.arcs = self.arc_words();
+        give_line(&mut i.lines, false, [0; 2], 0, 0);
+        self.arc_words(&mut i.arcs);
         self.trajectory(&mut i.trajectory);
         self.lift(&mut i.lift);
-        self.pushed = [i.arcs.push.get(), i.trajectory.push.get()];
+        self.pushed = [i.arcs.push, i.trajectory.push];
         match self.stage {
             Stage::Write if self.path.is_done() && self.lift_words > 2 => {
                 self.stage = self.turn_to(0);
             }
             Stage::Ready => self.begin(now, i),
-            Stage::Lift(begun) => i.lift.run = (!begun).into(),
+            Stage::Lift(begun) => i.lift.run = !begun,
             Stage::Close(0) => {
                 let to = self.program.moves.last().map_or([0; 2], |step| step.to);
                 self.push_line(now, to, 1, i);
@@ -216,7 +222,7 @@ impl<'a> Host<'a> {
         }
         let strobes = [
             i.pulse.command,
-            i.pulse.write,
+            i.pulse.port.write,
             i.lines.push,
             i.arcs.write,
             i.arcs.start,
@@ -227,17 +233,17 @@ impl<'a> Host<'a> {
             i.lift.run,
         ];
         let written = self.lift_words > self.lift_steps.len();
-        self.quiet = written && strobes.iter().all(|strobe| !strobe.get());
+        self.quiet = written && strobes == [false; 10];
     }
 
     /// Begins the next move, or what must come before it.
-    fn begin(&mut self, now: &Simulator<Plant>, i: &mut In<Sim>) {
+    fn begin(&mut self, now: &State<'_, Machine>, i: &mut In<Value>) {
         let Some(step) = self.program.moves.get(self.index) else {
             return;
         };
         if step.rapid == self.pen_down {
             self.stage = Stage::Lift(false);
-            i.lift.run = true.into();
+            i.lift.run = true;
             return;
         }
         let written = [
@@ -253,80 +259,70 @@ impl<'a> Host<'a> {
         }
         match step.way {
             Way::Line { speed } => self.push_line(now, step.to, speed, i),
-            Way::Arc { .. } => i.arcs.start = true.into(),
+            Way::Arc { .. } => i.arcs.start = true,
         }
-        i.trajectory.start = true.into();
+        i.trajectory.start = true;
         self.stage = Stage::Move(0);
     }
 
     /// Gives a target: what lines have to add to the arcs' way.
-    fn push_line(&self, now: &Simulator<Plant>, to: [i64; 2], speed: u64, i: &mut In<Sim>) {
+    fn push_line(&self, now: &State<'_, Machine>, to: [i64; 2], speed: u64, i: &mut In<Value>) {
         let arcs = self.see.arcs.map(|axis| now.get(axis));
-        i.lines = ports::Lines {
-            push: true.into(),
-            target_x: (to[0] - arcs[0]).into(),
-            target_y: (to[1] - arcs[1]).into(),
-            speed: speed.into(),
-            acceleration_time: self.program.ramp_scans.into(),
-            deceleration_time: self.program.ramp_scans.into(),
-        };
+        let target = [to[0] - arcs[0], to[1] - arcs[1]];
+        give_line(&mut i.lines, true, target, speed, self.program.ramp_scans);
     }
 
-    fn pulse(&mut self, pending: bool) -> ports::Pulse<Sim> {
-        let Some(given) = self.pulses.drive::<16, 24>(pending) else {
-            return zero();
-        };
-        ports::Pulse {
-            command: given.command,
-            base: given.base,
-            last: given.last,
-            run: given.run,
-            now: given.now,
-            write: given.write,
-            write_axis: given.write_axis,
-            write_address: given.write_address,
-            write_half_period: given.write_half_period,
-            write_direction: given.write_direction,
+    fn pulse(&mut self, pending: bool) -> ports::Pulse<Value> {
+        match self.pulses.drive(pending) {
+            None => self.no_pulse.clone(),
+            Some(given) => ports::Pulse {
+                command: given.command,
+                base: given.base,
+                last: given.last,
+                run: given.run,
+                now: given.now,
+                port: given.port,
+            },
         }
     }
 
-    fn arc_words(&mut self) -> ports::Arcs<Sim> {
+    fn arc_words(&mut self, i: &mut Segments<Value>) {
         let written = self.arcs.write_up_to(self.arcs_due);
-        ports::Arcs {
-            write: written.write.into(),
-            write_word: written.word.into(),
-            write_data: written.data.into(),
-            push: written.push.into(),
-            start: false.into(),
-        }
+        *i = Segments {
+            write: written.write,
+            write_word: written.word,
+            write_data: written.data,
+            push: written.push,
+            start: false,
+        };
     }
 
-    fn trajectory(&mut self, i: &mut ports::Trajectory<Sim>) {
+    fn trajectory(&mut self, i: &mut ports::Trajectory<Value>) {
         let written = self.profile.write_up_to(self.profile_due);
-        i.write = written.write.into();
-        i.write_word = written.word.into();
-        i.write_data = written.data.into();
-        i.push = written.push.into();
-        i.start = false.into();
+        i.write = written.write;
+        i.write_word = written.word;
+        i.write_data = written.data;
+        i.push = written.push;
+        i.start = false;
         let path = self.path.write();
-        i.write_begin = path.write_begin.into();
-        i.begin_segment = path.segment.into();
-        i.begin_length = path.begin.into();
-        i.write_path = path.write.into();
-        i.path_address = (path.segment << 4 | path.word).into();
-        i.path_data = path.data.into();
+        i.write_begin = path.write_begin;
+        i.begin_segment = path.segment;
+        i.begin_length = path.begin;
+        i.write_path = path.write;
+        i.path_address = path.segment << 4 | path.word;
+        i.path_data = path.data;
     }
 
-    fn lift(&mut self, i: &mut ports::Lift<Sim>) {
+    fn lift(&mut self, i: &mut ports::Lift<Value>) {
         let steps = &self.lift_steps;
         let (place, step) = (self.lift_words, steps.get(self.lift_words));
         self.lift_words = (place + 1).min(steps.len() + 1);
         let speed = step.map_or(0, |step| step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S);
-        i.write_target = step.is_some().into();
-        i.write_step = (place as u64).into();
-        i.step_target = step.map_or(0, |step| step.target).into();
-        i.step_speed = u64::from(speed).into();
-        i.run = false.into();
+        i.write_target = step.is_some();
+        i.write_step = place as u64;
+        i.step_target = step.map_or(0, |step| step.target);
+        i.step_speed = speed.into();
+        i.run = false;
     }
 
     /// Whether the steppers' table is given whole.
@@ -345,7 +341,7 @@ impl<'a> Host<'a> {
     }
 
     /// Takes up what the tick shows.
-    pub(super) fn take(&mut self, now: &Sample<'_, Plant>) {
+    pub(super) fn take(&mut self, now: &Sample<'_, Machine>) {
         let see = &self.see;
         self.arcs.free = now.get(see.arcs_ready) && !self.pushed[0];
         self.profile.free = now.get(see.profile_ready) && !self.pushed[1];
@@ -366,7 +362,7 @@ impl<'a> Host<'a> {
     }
 
     /// Both motors within the window for some sampling times: the move is over.
-    fn settle(&mut self, now: &Sample<'_, Plant>) -> Stage {
+    fn settle(&mut self, now: &Sample<'_, Machine>) -> Stage {
         if !now.get(self.see.sample) {
             return Stage::Settle;
         }

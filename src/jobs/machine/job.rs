@@ -4,43 +4,29 @@ use super::host::{Host, Stage};
 use super::program::Program;
 use super::settings::Settings;
 use super::waves::{Plants, Signals};
+use crate::circuits::lead_angle;
+use crate::circuits::machine::Machine;
+use crate::circuits::machine::circuit::In;
+use crate::hdl::{At, Image, Observer, Sample, Simulator, State, Value, Watcher};
 use crate::jobs::lead_angle::settings::SPEED_UNIT_COUNTS_PER_S;
 use crate::jobs::pulse_interpolator::StepTiming;
 use crate::jobs::pulse_interpolator::step_dir::Driver;
 use crate::jobs::trajectory_controller::job::patience;
-use crate::kernel::{At, Observer, Sample, Simulator, Watcher, With, WithIn};
-use crate::lead_angle::{Compensator, Variant};
-use crate::logic::{Image, Sim};
-use crate::machine::circuit::{In, Machine};
 use crate::plant::brake::BodyState;
 use crate::plant::{Ahead, BrakedBody, Plant as Motion, TwoMassAxis};
-use crate::pulse_interpolator as pulse;
 use crate::settings::{JobError, SettingError};
 use std::array::from_fn;
 
-/// The machine with its plants beside it in the waves.
-pub type Plant = With<Machine, Plants>;
-
 /// The machine of these settings.
 #[must_use]
-pub fn machine(settings: &Settings) -> Plant {
-    let lift = settings.lift();
+pub fn machine(settings: &Settings) -> Machine {
+    let (lift, widths) = (settings.lift(), lead_angle::Widths::default());
     let codes = lift
         .steps
         .iter()
         .map(|step| lift.code(step.lead_ms).unwrap_or(0));
-    With::new(Machine {
-        enables: Default::default(),
-        pulse_interpolator: pulse::Group::new(pulse::Variant::Safe, u64::MAX),
-        linear_interpolator: Default::default(),
-        arc_generator: Default::default(),
-        command_join: Default::default(),
-        trajectory_controller: crate::machine::circuit::Trajectory::new(
-            settings.correction,
-            Default::default(),
-        ),
-        lead_angle: Compensator::new(Variant::default(), Image::new(codes)),
-    })
+    let lead_times = Image::of(widths.step, widths.time(), codes);
+    Machine::new(settings.correction, lead_times)
 }
 
 /// Where everything is at a sampling time of the servos, from where the job begins.
@@ -148,14 +134,15 @@ struct Drives {
 }
 
 impl Drives {
-    fn of(watch: &Watcher<Plant>) -> Self {
-        let (axes, lift) = (&watch.q.trajectory_controller.axes, &watch.q.lead_angle);
+    fn of(watch: &Watcher<'_, Machine>) -> Self {
+        let axes = &watch.p.trajectory_controller.p.axes;
+        let lift = &watch.p.lead_angle.p;
         Drives {
-            torque: from_fn(|axis| watch.at(axes[axis].servo.arithmetic.torque)),
-            speed: watch.at(lift.target_setter.speed),
-            drive: watch.at(lift.sequencer.drive),
-            reverse: watch.at(lift.sequencer.reverse),
-            brake: watch.at(lift.comparator.control),
+            torque: from_fn(|axis| watch.at(axes[axis].p.servo.p.arithmetic.q.torque)),
+            speed: watch.at(lift.target_setter.q.speed),
+            drive: watch.at(lift.sequencer.q.drive),
+            reverse: watch.at(lift.sequencer.q.reverse),
+            brake: watch.at(lift.comparator.q.control),
         }
     }
 }
@@ -226,7 +213,7 @@ impl Surroundings {
     }
 
     /// What the registers drive the plants by.
-    fn driven(&self, now: &Simulator<Plant>) -> Driven {
+    fn driven(&self, now: &State<'_, Machine>) -> Driven {
         let drives = &self.drives;
         let speed = now.get(drives.speed) * u64::from(SPEED_UNIT_COUNTS_PER_S);
         Driven {
@@ -239,15 +226,15 @@ impl Surroundings {
     }
 
     /// Steps the plants to the tick to come, and gives the encoders' channels.
-    fn step(&mut self, by: &Driven, i: &mut In<Sim>) {
+    fn step(&mut self, by: &Driven, i: &mut In<Value>) {
         let [x, y, lift] = self.plants.step(|plants| plants.step(by));
-        i.trajectory.a = [x.0.into(), y.0.into()];
-        i.trajectory.b = [x.1.into(), y.1.into()];
-        (i.lift.a, i.lift.b) = (lift.0.into(), lift.1.into());
+        i.trajectory.a.copy_from_slice(&[x.0, y.0]);
+        i.trajectory.b.copy_from_slice(&[x.1, y.1]);
+        (i.lift.a, i.lift.b) = lift;
     }
 
     /// What is shown of it in the waves.
-    fn signals(&self) -> Signals<Sim> {
+    fn signals(&self) -> Signals<Value> {
         let Bodies { servos, lift } = &self.plants.plants;
         Signals::of(servos, lift, &self.drivers)
     }
@@ -276,7 +263,7 @@ struct See {
 
 impl See {
     /// Whether a tick that shows the same again is written down no other than this one.
-    fn is_quiet(&self, now: &Sample<'_, Plant>) -> bool {
+    fn is_quiet(&self, now: &Sample<'_, Machine>) -> bool {
         let lift = &self.lift;
         let strobes = [
             self.unit,
@@ -301,16 +288,16 @@ struct SeeLift {
 }
 
 impl See {
-    fn of(watch: &Watcher<Plant>) -> Self {
-        let (q, w) = (&watch.q, &watch.w);
-        let (axes, lift) = (&q.trajectory_controller.axes, &w.lead_angle.w);
-        let (lines, arcs) = (&w.linear_interpolator.w, &w.arc_generator.w);
-        let trajectory = &w.trajectory_controller.w;
+    fn of(watch: &Watcher<'_, Machine>) -> Self {
+        let (p, w) = (&watch.p, &watch.w);
+        let lift = &p.lead_angle.w;
+        let (lines, arcs) = (&p.linear_interpolator.w, &p.arc_generator.w);
+        let (trajectory, axes) = (&p.trajectory_controller.w, &p.trajectory_controller.p.axes);
         See {
             lines: [(w.step_x, w.dir_x), (w.step_y, w.dir_y)]
                 .map(|(step, dir)| (watch.at(step), watch.at(dir))),
             pulse_busy: watch.at(w.pulse_busy),
-            unit: watch.at(w.enables.w.unit),
+            unit: watch.at(p.enables.w.unit),
             fault: watch.at(w.fault),
             scan: [lines.late, lines.refused].map(|bit| watch.at(bit)),
             sample: [
@@ -321,7 +308,7 @@ impl See {
                 trajectory.starved,
             ]
             .map(|bit| watch.at(bit)),
-            servo: trajectory.lost.map(|bit| watch.at(bit)),
+            servo: from_fn(|axis| watch.at(trajectory.lost[axis])),
             lift_lost: watch.at(lift.lost),
             lift: SeeLift {
                 fire: watch.at(lift.fire),
@@ -333,10 +320,10 @@ impl See {
                 target: watch.at(lift.target),
             },
             lift_busy: watch.at(w.lift_busy),
-            driven: watch.at(w.trajectory_controller.w.axes[0].w.driven),
-            command: [q.command_join.x, q.command_join.y].map(|axis| watch.at(axis)),
-            corrected: from_fn(|k| watch.at(axes[k].corrector.corrected)),
-            model: from_fn(|k| watch.at(axes[k].servo.model.integrators.position)),
+            driven: watch.at(axes[0].w.driven),
+            command: [p.command_join.q.x, p.command_join.q.y].map(|axis| watch.at(axis)),
+            corrected: from_fn(|k| watch.at(axes[k].p.corrector.q.corrected)),
+            model: from_fn(|k| watch.at(axes[k].p.servo.p.model.p.integrators.q.position)),
             counts: [w.counts_x, w.counts_y].map(|axis| watch.at(axis)),
             motor: [w.position_x, w.position_y].map(|axis| watch.at(axis)),
         }
@@ -355,7 +342,7 @@ struct Bench {
 }
 
 impl Bench {
-    fn take(&mut self, now: &Sample<'_, Plant>, around: &mut Surroundings, host: &Host<'_>) {
+    fn take(&mut self, now: &Sample<'_, Machine>, around: &mut Surroundings, host: &Host<'_>) {
         let (see, played) = (&self.see, &mut self.played);
         for (driver, (step, dir)) in around.drivers.iter_mut().zip(see.lines) {
             // The drivers ask for nothing here; the table was compiled for what they need.
@@ -434,21 +421,18 @@ impl Bench {
 /// # Errors
 /// A parameter of a plant is out of range, or what `observer` objects to.
 pub fn play(
-    circuit: &Plant,
+    circuit: &Machine,
     program: &Program,
     settings: &Settings,
-    observer: &mut dyn Observer<Plant>,
+    observer: &mut dyn Observer<Machine>,
 ) -> Result<Played, JobError> {
     let (mut simulator, (drives, mut host, see)) =
-        Simulator::watching(circuit, observer.needs_all(), |watch| {
-            let host = Host::new(program, settings, watch);
+        Simulator::watching_beside(circuit, &Plants, observer.needs_all(), |watch| {
+            let host = Host::new(circuit, program, settings, watch);
             (Drives::of(watch), host, See::of(watch))
         })?;
     let mut around = Surroundings::new(settings, drives)?;
-    let mut i = WithIn {
-        i: host.standing(),
-        beside: around.signals(),
-    };
+    let mut i = host.standing(circuit);
     let mut bench = Bench {
         see,
         played: Played::default(),
@@ -459,11 +443,13 @@ pub fn play(
     let patience = patience(&program.path);
     loop {
         let before = host.stage;
-        host.drive(&mut i.i, &simulator);
-        let by = around.driven(&simulator);
-        around.step(&by, &mut i.i);
+        let by = simulator.state(|now| {
+            host.drive(&mut i, now);
+            around.driven(now)
+        });
+        around.step(&by, &mut i);
         if observer.looks(simulator.tick()) {
-            i.beside = around.signals();
+            simulator.show::<Plants>(&around.signals());
         }
         let mut quiet = true;
         let (pulsing, flow) = simulator.look(&i, &mut *observer, |now| {

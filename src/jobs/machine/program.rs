@@ -2,7 +2,8 @@
 //! rest to rest, with the words of its line or arc and of its length in time.
 
 use super::settings::Settings;
-use crate::arc_generator::widths::Widths as ArcWidths;
+use crate::circuits::arc_generator::Widths as ArcWidths;
+use crate::circuits::trajectory_controller::Widths;
 use crate::input::{Drawing, Point};
 use crate::jobs::arc_generator::prepare::prepare;
 use crate::jobs::arc_generator::record::records as arc_records;
@@ -22,7 +23,6 @@ use crate::path::pieces::{Course, Piece, Speeds, from_drawing};
 use crate::path::record::Record;
 use crate::path::vector::{add, sub};
 use crate::settings::SettingError;
-use crate::trajectory_controller::Widths;
 
 /// What a move of the servos is.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,11 +2,10 @@
 
 use crate::jobs::arc_generator::settings::{self as arcs, ShortPieces};
 use crate::jobs::lead_angle::settings as lift;
-use crate::jobs::linear_interpolator::targets::LONGEST_RAMP;
+use crate::jobs::linear_interpolator::targets::{LATENCY_TICKS, LONGEST_RAMP};
 use crate::jobs::pulse_interpolator::{self as pulse, StepTiming};
 use crate::jobs::trajectory_controller::settings as trajectory;
 pub use crate::jobs::trajectory_controller::settings::Correction;
-use crate::linear_interpolator::LinearInterpolator;
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
 use crate::settings::{CLOCK_RANGE_HZ, IN_POSITION_RANGE, Place, SettingError, WholeTime, within};
@@ -15,7 +14,7 @@ use std::ops::RangeInclusive;
 /// Ticks of a period that the counters hold.
 const PERIOD: RangeInclusive<u32> = 1..=(1 << 24) - 1;
 /// Shortest scan in ticks: the linear interpolator makes its commands within it.
-pub const LEAST_SCAN_TICKS: u64 = <LinearInterpolator>::LATENCY;
+pub const LEAST_SCAN_TICKS: u64 = LATENCY_TICKS as u64;
 /// Shortest sampling time in ticks: arc generator and trajectory controller are done within it.
 pub const LEAST_SAMPLE_TICKS: u64 = {
     let (arcs, trajectory) = (arcs::LEAST_SAMPLE_TICKS, trajectory::LEAST_PERIOD_TICKS);

@@ -1,25 +1,26 @@
 //! What the plants of the machine show in its waves.
 
+use crate::hdl::{Beside, Value, View, signals};
 use crate::jobs::pulse_interpolator::step_dir::Driver;
-use crate::kernel::Beside;
-use crate::logic::{Logic, Sim};
-use crate::plant::waves::{BodySignals, TwoMassSignals};
+use crate::plant::waves::{Body, BodySignals, Machine, TwoMassSignals};
 use crate::plant::{BrakedBody, TwoMassAxis};
-use crate::signals;
 
-signals! {
+/// The servos.
+const SERVOS: Machine = Machine { axes: 2 };
+
+signals! { for Plants as _c;
     /// Motors, loads and drivers as they really are.
-    pub struct Signals<L> {
+    pub struct Signals {
         /// Servo of X.
-        pub servo_x: TwoMassSignals<L>,
+        pub servo_x: TwoMassSignals(&SERVOS),
         /// Servo of Y.
-        pub servo_y: TwoMassSignals<L>,
+        pub servo_y: TwoMassSignals(&SERVOS),
         /// Pen lift.
-        pub lift: BodySignals<L>,
+        pub lift: BodySignals(&Body),
         /// Steps that the driver of X has counted.
-        pub stepper_x: L::I<32> as Analog,
+        pub stepper_x: I(32) as Analog,
         /// Steps that the driver of Y has counted.
-        pub stepper_y: L::I<32> as Analog,
+        pub stepper_y: I(32) as Analog,
     }
 }
 
@@ -29,10 +30,10 @@ pub struct Plants;
 
 impl Beside for Plants {
     const SCOPE: &'static str = "plant";
-    type Signals<L: Logic> = Signals<L>;
+    type Signals<V: View> = Signals<V>;
 }
 
-impl Signals<Sim> {
+impl Signals<Value> {
     /// The plants as they stand.
     #[must_use]
     pub fn of(
@@ -44,8 +45,8 @@ impl Signals<Sim> {
             servo_x: TwoMassSignals::of(x),
             servo_y: TwoMassSignals::of(y),
             lift: BodySignals::of(lift),
-            stepper_x: step_x.position().into(),
-            stepper_y: step_y.position().into(),
+            stepper_x: step_x.position(),
+            stepper_y: step_y.position(),
         }
     }
 }

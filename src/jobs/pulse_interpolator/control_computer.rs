@@ -7,9 +7,10 @@
 //! stand between two patterns; no pulse is lost.
 
 use super::table::{Table, Word};
-use crate::kernel::zero;
-use crate::logic::Sim;
-use crate::pulse_interpolator::group::In;
+use crate::circuits::pulse_interpolator::Group;
+use crate::circuits::pulse_interpolator::group::In;
+use crate::circuits::pulse_interpolator::pattern_memory::WritePort;
+use crate::hdl::{Value, zero};
 
 /// Words of the table that are played as one pattern.
 #[derive(Debug, Clone, Copy)]
@@ -21,8 +22,12 @@ struct Chunk {
 
 /// A control computer with a table to play.
 #[derive(Debug, Clone)]
-pub struct ControlComputer<'t, const A: usize> {
+pub struct ControlComputer<'t> {
     axes: usize,
+    /// Words of an axis in one half of the memory.
+    half: usize,
+    /// All outputs low.
+    quiet: In<Value>,
     words: &'t [Word],
     chunks: Vec<Chunk>,
     /// The chunk that is being written, or waits to be.
@@ -32,21 +37,21 @@ pub struct ControlComputer<'t, const A: usize> {
     commands: usize,
 }
 
-impl<'t, const A: usize> ControlComputer<'t, A> {
-    /// Words of an axis in one half of the memory.
-    const HALF: usize = 1 << (A - 1);
-
-    /// A computer that plays `table` once.
-    pub fn new(table: &'t Table) -> Self {
+impl<'t> ControlComputer<'t> {
+    /// A computer that plays `table` once on a group.
+    pub fn new(group: &Group, table: &'t Table) -> Self {
+        let half = 1 << (group.widths.address - 1);
         let chunks = table.patterns().iter().flat_map(|pattern| {
-            (0..pattern.length).step_by(Self::HALF).map(|start| Chunk {
+            (0..pattern.length).step_by(half).map(move |start| Chunk {
                 first: pattern.first_unit + start,
-                length: Self::HALF.min(pattern.length - start),
+                length: half.min(pattern.length - start),
                 period: pattern.period,
             })
         });
         ControlComputer {
             axes: table.axes(),
+            half,
+            quiet: zero(group),
             words: table.words(),
             chunks: chunks.collect(),
             chunk: 0,
@@ -62,13 +67,10 @@ impl<'t, const A: usize> ControlComputer<'t, A> {
 
     /// Its outputs in one tick, in which the group's port holds a command or not; none where all
     /// stay low until a command is taken, or for good.
-    pub fn drive<const N: usize, const T: usize>(
-        &mut self,
-        pending: bool,
-    ) -> Option<In<Sim, N, T, A>> {
+    pub fn drive(&mut self, pending: bool) -> Option<In<Value>> {
         let chunk = self.chunks.get(self.chunk).copied()?;
         let taken = self.commands - usize::from(pending);
-        let base = (self.chunk % 2 * Self::HALF) as u64;
+        let base = (self.chunk % 2 * self.half) as u64;
         if self.written < chunk.length * self.axes {
             // The half is free when the pattern after the one it holds has begun.
             if self.chunk >= 2 && taken < self.chunk {
@@ -78,12 +80,14 @@ impl<'t, const A: usize> ControlComputer<'t, A> {
             let word = self.words[(chunk.first + unit) * self.axes + axis];
             self.written += 1;
             return Some(In {
-                write: true.into(),
-                write_axis: (axis as u64).into(),
-                write_address: (base + unit as u64).into(),
-                write_half_period: u64::from(word.half_period()).into(),
-                write_direction: word.negative().into(),
-                ..zero()
+                port: WritePort {
+                    write: true,
+                    write_axis: axis as u64,
+                    write_address: base + unit as u64,
+                    write_half_period: word.half_period().into(),
+                    write_direction: word.negative(),
+                },
+                ..self.quiet.clone()
             });
         }
         if pending {
@@ -93,12 +97,12 @@ impl<'t, const A: usize> ControlComputer<'t, A> {
         self.written = 0;
         self.commands += 1;
         Some(In {
-            command: true.into(),
-            base: base.into(),
-            last: (base + chunk.length as u64 - 1).into(),
-            run: true.into(),
-            period: u64::from(chunk.period).into(),
-            ..zero()
+            command: true,
+            base,
+            last: base + chunk.length as u64 - 1,
+            run: true,
+            period: chunk.period.into(),
+            ..self.quiet.clone()
         })
     }
 }

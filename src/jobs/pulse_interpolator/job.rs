@@ -3,21 +3,10 @@
 
 use super::step_dir::{Driver, TimingMinima};
 use super::{ControlComputer, StepTiming, Table};
-use crate::kernel::{At, Observer, Registers, RunError, Sample, Simulator, zero};
-use crate::pulse_interpolator::{Group, Variant};
+use crate::circuits::pulse_interpolator::{Group, Variant, Widths};
+use crate::hdl::{At, Observer, RunError, Sample, Simulator, State, zero};
 use crate::settings::{JobError, SettingError, within};
-use std::array::from_fn;
 use std::ops::ControlFlow;
-
-/// Half-period width of the group that plays a job.
-const N: usize = 16;
-/// Unit-time width of the group that plays a job.
-const T: usize = 24;
-/// Address width of the group that plays a job.
-const A: usize = 12;
-
-/// The group that plays a job of so many axes, with the default word lengths.
-pub type JobGroup<const AXES: usize> = Group<AXES, N, T, A>;
 
 /// What was seen at the drivers of a group that played a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,23 +45,23 @@ impl PlayedAxis {
 }
 
 /// What is looked at.
-struct See<const AXES: usize> {
+struct See {
     pending: At<bool>,
-    step: [At<bool>; AXES],
-    dir: [At<bool>; AXES],
+    step: Vec<At<bool>>,
+    dir: Vec<At<bool>>,
     unit_rst: At<bool>,
     busy: At<bool>,
 }
 
 /// Drivers on all axes, and where they are when a unit time ends.
-struct Bench<O, const AXES: usize> {
-    see: See<AXES>,
+struct Bench<O> {
+    see: See,
     observer: O,
     /// The run ends in pieces: with every tick in which a command can be taken.
     pieces: bool,
     /// The table is played, or the observer has stopped.
     over: bool,
-    drivers: [Driver; AXES],
+    drivers: Vec<Driver>,
     positions: Vec<i32>,
     units: usize,
     begun: Option<u64>,
@@ -81,12 +70,12 @@ struct Bench<O, const AXES: usize> {
     last_tick: u64,
 }
 
-impl<O: Observer<JobGroup<AXES>>, const AXES: usize> Observer<JobGroup<AXES>> for Bench<O, AXES> {
+impl<O: Observer<Group>> Observer<Group> for Bench<O> {
     fn needs_all(&self) -> bool {
         self.observer.needs_all()
     }
 
-    fn sample(&mut self, now: &Sample<'_, JobGroup<AXES>>) -> Result<ControlFlow<()>, RunError> {
+    fn sample(&mut self, now: &Sample<'_, Group>) -> Result<ControlFlow<()>, RunError> {
         let see = &self.see;
         let (rst, busy) = (now.get(see.unit_rst), now.get(see.busy));
         let taken = rst && self.pieces && now.get(see.pending);
@@ -104,7 +93,7 @@ impl<O: Observer<JobGroup<AXES>>, const AXES: usize> Observer<JobGroup<AXES>> fo
             self.begun = Some(now.tick);
         }
         self.last_tick = now.tick;
-        self.over = self.positions.len() == self.units * AXES && !busy;
+        self.over = self.positions.len() == self.units * self.drivers.len() && !busy;
         self.over |= self.observer.sample(now)?.is_break();
         Ok(if self.over || taken {
             ControlFlow::Break(())
@@ -114,7 +103,7 @@ impl<O: Observer<JobGroup<AXES>>, const AXES: usize> Observer<JobGroup<AXES>> fo
     }
 }
 
-impl<O, const AXES: usize> Bench<O, AXES> {
+impl<O> Bench<O> {
     fn unit_ends(&mut self, busy: bool) {
         if busy {
             let positions = self.drivers.iter().map(|driver| driver.position() as i32);
@@ -125,19 +114,20 @@ impl<O, const AXES: usize> Bench<O, AXES> {
     }
 }
 
-/// Plays `table` on a group of `AXES` axes, as `table` has them, seen by `observer` too.
+/// Plays `table` on a group, seen by `observer` too.
 ///
 /// # Errors
-/// The group is not as wide as the table, or what `observer` objects to.
-pub fn play<const AXES: usize>(
-    group: &JobGroup<AXES>,
+/// The group has not the axes of the table, or what `observer` objects to.
+pub fn play(
+    group: &Group,
     table: &Table,
-    observer: impl Observer<JobGroup<AXES>>,
+    observer: impl Observer<Group>,
 ) -> Result<Played, JobError> {
     played(group, table, observer, |simulator, computer, bench| {
-        let pending = bench.see.pending;
-        let drive = |_, q: &Registers<'_, JobGroup<AXES>>| {
-            computer.drive(q.get(pending)).unwrap_or_else(zero)
+        let (pending, quiet) = (bench.see.pending, zero(group));
+        let drive = |_, q: &State<'_, Group>| {
+            let given = computer.drive(q.get(pending));
+            given.unwrap_or_else(|| quiet.clone())
         };
         simulator.run(u64::MAX, drive, bench)
     })
@@ -148,71 +138,75 @@ pub fn play<const AXES: usize>(
 ///
 /// # Errors
 /// As [`play`].
-pub fn fast_forward<const AXES: usize>(
-    group: &JobGroup<AXES>,
+pub fn fast_forward(
+    group: &Group,
     table: &Table,
-    observer: impl Observer<JobGroup<AXES>>,
+    observer: impl Observer<Group>,
 ) -> Result<Played, JobError> {
-    played(group, table, observer, |mut simulator, computer, bench| {
-        let pending = bench.see.pending;
+    played(group, table, observer, |simulator, computer, bench| {
+        let (pending, quiet) = (bench.see.pending, zero(group));
         bench.pieces = true;
         while !bench.over {
             // All that the computer looks at is whether a command waits: no counter.
-            let drive = |_, q: &Registers<'_, JobGroup<AXES>>| match computer.drive(q.get(pending))
-            {
+            let drive = |_, q: &State<'_, Group>| match computer.drive(q.get(pending)) {
                 Some(i) => (i, 1),
-                None => (zero(), u64::MAX),
+                None => (quiet.clone(), u64::MAX),
             };
-            simulator = simulator.fast_forward(u64::MAX, drive, &mut *bench)?;
+            simulator.fast_forward(u64::MAX, drive, &mut *bench)?;
         }
-        Ok(simulator)
+        Ok(())
     })
 }
 
 /// Whether the words of a table have room in the group.
-fn fits<const AXES: usize>(table: &Table) -> Result<(), SettingError> {
+fn fits(group: &Group, table: &Table) -> Result<(), SettingError> {
     let (axes, bits) = (table.axes(), table.half_period_bits());
-    if axes != AXES {
-        return Err(SettingError::value("axes", axes, AXES.to_string()));
+    if axes != group.axes {
+        return Err(SettingError::value("axes", axes, group.axes.to_string()));
     }
     // A unit time that is a few of these at most has room then.
-    within("half_period_bits", bits, &(0..=N as u32))
+    within(
+        "half_period_bits",
+        bits,
+        &(0..=group.widths.half_period as u32),
+    )
 }
 
 /// What the drivers see of a group that is run to the end of `table`.
-fn played<O: Observer<JobGroup<AXES>>, const AXES: usize>(
-    group: &JobGroup<AXES>,
+fn played<O: Observer<Group>>(
+    group: &Group,
     table: &Table,
     observer: O,
     run: impl FnOnce(
-        Simulator<JobGroup<AXES>>,
-        &mut ControlComputer<'_, A>,
-        &mut Bench<O, AXES>,
-    ) -> Result<Simulator<JobGroup<AXES>>, RunError>,
+        &mut Simulator<Group>,
+        &mut ControlComputer<'_>,
+        &mut Bench<O>,
+    ) -> Result<(), RunError>,
 ) -> Result<Played, JobError> {
-    fits::<AXES>(table)?;
-    let (simulator, see) = Simulator::watching(group, observer.needs_all(), |watch| See {
-        pending: watch.at(watch.q.port.pending),
-        step: watch.w.step.map(|step| watch.at(step)),
-        dir: watch.w.dir.map(|dir| watch.at(dir)),
+    fits(group, table)?;
+    let all = observer.needs_all();
+    let (mut simulator, see) = Simulator::watching(group, all, |watch| See {
+        pending: watch.at(watch.p.port.q.pending),
+        step: watch.each(&watch.w.step),
+        dir: watch.each(&watch.w.dir),
         unit_rst: watch.at(watch.w.unit_rst),
         busy: watch.at(watch.w.busy),
     })?;
-    let mut computer = ControlComputer::<A>::new(table);
+    let mut computer = ControlComputer::new(group, table);
     let mut bench = Bench {
         see,
         observer,
         pieces: false,
         over: false,
-        drivers: from_fn(|_| Driver::new(StepTiming::default())),
-        positions: Vec::with_capacity(table.units() * AXES),
+        drivers: vec![Driver::new(StepTiming::default()); group.axes],
+        positions: Vec::with_capacity(table.units() * group.axes),
         units: table.units(),
         begun: None,
         first_step: None,
         idle_units: 0,
         last_tick: 0,
     };
-    let simulator = run(simulator, &mut computer, &mut bench)?;
+    run(&mut simulator, &mut computer, &mut bench)?;
     let axes = bench.drivers.iter().map(|driver| {
         let (pulses, position) = (driver.pulses() as i64, driver.position());
         PlayedAxis {
@@ -231,8 +225,9 @@ fn played<O: Observer<JobGroup<AXES>>, const AXES: usize>(
     })
 }
 
-/// The group for a table: its unit time at power-on is that of the first pattern.
-pub fn group<const AXES: usize>(table: &Table, variant: Variant) -> JobGroup<AXES> {
+/// The group for a table: its axes, the default word lengths, the unit time of the first pattern at
+/// power-on.
+pub fn group(table: &Table, variant: Variant) -> Group {
     let period = table.patterns().first().map_or(1, |pattern| pattern.period);
-    Group::new(variant, period.into())
+    Group::new(table.axes(), Widths::default(), variant, period.into())
 }

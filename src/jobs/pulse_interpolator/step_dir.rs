@@ -3,8 +3,8 @@
 //! Behavioural: it watches the lines as a driver with a step and a direction input would.
 
 use super::StepTiming;
-use crate::kernel::{Observer, RunError, Sample};
-use crate::pulse_interpolator::Group;
+use crate::circuits::pulse_interpolator::{AXIS_NAMES, Group};
+use crate::hdl::{Observer, RunError, Sample};
 use std::ops::ControlFlow;
 
 /// The shortest times seen so far, in ticks; `None` where there was no such pair of edges.
@@ -132,35 +132,29 @@ impl Driver {
 
 /// A driver on every axis of a [`Group`]; a limit broken ends the run.
 #[derive(Debug, Clone)]
-pub struct Drivers<const AXES: usize>(pub [Driver; AXES]);
+pub struct Drivers(pub Vec<Driver>);
 
-impl<const AXES: usize> Drivers<AXES> {
-    /// Drivers that ask for `limits`.
-    pub fn new(limits: StepTiming) -> Self {
-        Drivers(std::array::from_fn(|_| Driver::new(limits)))
+impl Drivers {
+    /// Drivers on so many axes that ask for `limits`.
+    pub fn new(axes: usize, limits: StepTiming) -> Self {
+        Drivers(vec![Driver::new(limits); axes])
     }
 }
 
-impl<const AXES: usize, const N: usize, const T: usize, const A: usize>
-    Observer<Group<AXES, N, T, A>> for Drivers<AXES>
-{
-    fn sample(
-        &mut self,
-        now: &Sample<'_, Group<AXES, N, T, A>>,
-    ) -> Result<ControlFlow<()>, RunError> {
-        for (axis, driver) in self.0.iter_mut().enumerate() {
-            let (step, dir) = (now.w.step[axis].get(), now.w.dir[axis].get());
-            driver.sample(now.tick, step, dir).map_err(|short| {
-                let name = crate::pulse_interpolator::AXIS_NAMES[axis];
-                RunError::Violation {
+impl Observer<Group> for Drivers {
+    fn sample(&mut self, now: &Sample<'_, Group>) -> Result<ControlFlow<()>, RunError> {
+        let lines = now.w.step.iter().zip(&now.w.dir).zip(AXIS_NAMES);
+        for (driver, ((step, dir), name)) in self.0.iter_mut().zip(lines) {
+            driver
+                .sample(now.tick, *step, *dir)
+                .map_err(|short| RunError::Violation {
                     tick: now.tick,
                     signals: vec![format!("step_{name}"), format!("dir_{name}")],
                     message: format!(
                         "{} of {} ticks on axis {name}, the driver asks for {}",
                         short.what, short.ticks, short.limit
                     ),
-                }
-            })?;
+                })?;
         }
         Ok(ControlFlow::Continue(()))
     }

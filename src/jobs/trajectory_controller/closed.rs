@@ -13,7 +13,7 @@ use super::job::{Played, Program};
 use super::measure::Errors;
 use super::segments::Segment;
 use super::settings::Correction;
-use crate::trajectory_controller::widths::Widths;
+use crate::circuits::trajectory_controller::Widths;
 use std::ops::Range;
 
 /// After so many times of its slowest decay a model has forgotten what was before.
@@ -105,7 +105,7 @@ pub struct Steady {
 impl Steady {
     /// The longest such part; none where there is no period of one.
     #[must_use]
-    pub fn of<const AXES: usize>(program: &Program, played: &Played<AXES>) -> Option<Self> {
+    pub fn of(program: &Program, played: &Played) -> Option<Self> {
         let motion = &program.motion;
         let [k1, k2] = program.gains.parts(&Widths::FULL);
         let root = (k2 * k2 - 4.0 * k1 * k2).max(0.0).sqrt();

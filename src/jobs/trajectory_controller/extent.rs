@@ -1,7 +1,7 @@
 //! Whether a piece of a path fits in the words of its segment, and what is beside it in those of
 //! commands.
 
-use crate::arc_generator::widths::Widths as RecordWidths;
+use crate::circuits::arc_generator::Widths as RecordWidths;
 use crate::input::{COORDINATES, Point};
 use crate::path::error::Reason;
 use crate::path::pieces::{Course, Piece};

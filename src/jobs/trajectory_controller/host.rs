@@ -1,11 +1,14 @@
 //! The control computer of a job: what it writes to the trajectory controller, tick by tick.
 
-use super::job::Ports;
 use super::path_writer::PathWriter;
 use super::program::Program;
-use crate::kernel::zero;
+use super::servo_gains::ServoGains;
+use crate::circuits::trajectory_controller::TrajectoryController;
+use crate::circuits::trajectory_controller::controller::In;
+use crate::circuits::trajectory_controller::model_state::ModelGains;
+use crate::hdl::{Value, zero};
+use crate::input::COORDINATES;
 use crate::path::record_writer::RecordWriter;
-use std::array::from_fn;
 
 /// Records of the profile that wait before the path begins, where there are so many.
 const HEAD_START: usize = 16;
@@ -32,23 +35,26 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// What it gives in every tick, with all else low.
-    pub(super) fn standing<const AXES: usize, const A: usize, const E: usize>(
-        &self,
-    ) -> Ports<AXES, A, E> {
+    /// What it gives to a circuit in every tick, with all else low.
+    pub(super) fn standing(&self, circuit: &TrajectoryController) -> In<Value> {
         let program = self.program;
-        Ports {
-            last: (program.path.stretches.len().saturating_sub(1) as u64).into(),
-            path_end: (program.path.length as i64).into(),
-            period: u64::from(program.period_ticks).into(),
-            gain_1: program.gains.k1.into(),
-            gain_2: program.gains.k2.into(),
-            position_gain: from_fn(|axis| program.servo[axis].position.into()),
-            speed_gain: from_fn(|axis| program.servo[axis].speed.into()),
-            integral_gain: from_fn(|axis| program.servo[axis].integral.into()),
-            inertia: from_fn(|axis| program.servo[axis].inertia.into()),
-            limit: from_fn(|axis| program.servo[axis].limit.into()),
-            ..zero()
+        let servo = |word: fn(&ServoGains) -> u64| -> Vec<u64> {
+            program.servo[..circuit.axes].iter().map(word).collect()
+        };
+        In {
+            last: program.path.stretches.len().saturating_sub(1) as u64,
+            path_end: program.path.length as i64,
+            period: u64::from(program.period_ticks),
+            model_gains: ModelGains {
+                gain_1: program.gains.k1,
+                gain_2: program.gains.k2,
+            },
+            position_gain: servo(|gains| gains.position),
+            speed_gain: servo(|gains| gains.speed),
+            integral_gain: servo(|gains| gains.integral),
+            inertia: servo(|gains| gains.inertia),
+            limit: servo(|gains| gains.limit),
+            ..zero(circuit)
         }
     }
 
@@ -59,29 +65,26 @@ impl<'a> Host<'a> {
     }
 
     /// What it gives in this tick, with the encoders' channels.
-    pub(super) fn drive<const AXES: usize, const A: usize, const E: usize>(
-        &mut self,
-        i: &mut Ports<AXES, A, E>,
-        channels: [(bool, bool); AXES],
-    ) {
+    pub(super) fn drive(&mut self, i: &mut In<Value>, channels: [(bool, bool); COORDINATES]) {
         let waiting = self.program.records.len().min(HEAD_START);
         let start = !self.started && self.path.is_done() && self.records.written() == waiting;
         self.started |= start;
-        i.start = start.into();
+        i.start = start;
         let record = self.records.write();
-        i.write = record.write.into();
-        i.write_word = record.word.into();
-        i.write_data = record.data.into();
-        i.push = record.push.into();
+        i.write = record.write;
+        i.write_word = record.word;
+        i.write_data = record.data;
+        i.push = record.push;
         let path = self.path.write();
-        i.write_begin = path.write_begin.into();
-        i.begin_segment = path.segment.into();
-        i.begin_length = path.begin.into();
-        i.write_path = path.write.into();
-        i.path_address = (path.segment << 4 | path.word).into();
-        i.path_data = path.data.into();
+        i.write_begin = path.write_begin;
+        i.begin_segment = path.segment;
+        i.begin_length = path.begin;
+        i.write_path = path.write;
+        i.path_address = path.segment << 4 | path.word;
+        i.path_data = path.data;
         self.quiet = self.started && !start && !record.write && self.path.is_done() && !path.write;
-        i.a = channels.map(|(a, _)| a.into());
-        i.b = channels.map(|(_, b)| b.into());
+        for ((a, b), given) in i.a.iter_mut().zip(&mut i.b).zip(channels) {
+            (*a, *b) = given;
+        }
     }
 }

@@ -3,26 +3,23 @@
 
 use super::host::Host;
 pub use super::program::{Program, ProgramError};
-use crate::kernel::{At, Observer, Sample, Simulator, Watcher};
-use crate::logic::Sim;
-use crate::plant::{Ahead, TwoMassAxis};
+use super::settings::Correction;
+use crate::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
+use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
+use crate::input::COORDINATES;
+use crate::plant::{Ahead, Plant, TwoMassAxis};
 use crate::settings::{JobError, SettingError};
-use crate::trajectory_controller::{TrajectoryController, Widths, controller};
 use std::array::from_fn;
 
-const P: usize = 47;
-const D: usize = 55;
-const K: usize = 16;
-const G: usize = 24;
-const T: usize = 16;
-const U: usize = 24;
-
-/// The controller that plays a job, on paths of up to 2^`A` segments; `E` = `A` + 4.
-pub type Controller<const AXES: usize, const A: usize = 12, const E: usize = 16> =
-    TrajectoryController<AXES, A, 31, P, 55, 42, 57, 44, 52, D, E, 41, 20, K, 64, G, 58, T, U>;
-/// Its ports in.
-pub(super) type Ports<const AXES: usize, const A: usize, const E: usize> =
-    controller::In<Sim, AXES, A, P, D, E, K, G, T, U>;
+/// The controller that plays a job on so many axes.
+#[must_use]
+pub const fn controller(
+    axes: usize,
+    correction: Correction,
+    rounding: Rounding,
+) -> TrajectoryController {
+    TrajectoryController::new(Widths::FULL, axes, correction, rounding)
+}
 
 /// Periods in a row in which models and motors are where they belong: then they have settled.
 const CALM: u32 = 10;
@@ -30,9 +27,9 @@ const CALM: u32 = 10;
 const NEAR_COUNTS: f64 = 2.0;
 
 /// An interpolation period. Positions are from where the path begins, in guard units where nothing
-/// else is said.
+/// else is said; an axis that there is not stays at 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Period<const AXES: usize> {
+pub struct Period {
     /// The tick in which the servo's models have moved, and the motors are compared with them.
     pub tick: u64,
     /// q_c.
@@ -40,30 +37,32 @@ pub struct Period<const AXES: usize> {
     /// q_s.
     pub answered: i64,
     /// P_c.
-    pub command: [i64; AXES],
+    pub command: [i64; COORDINATES],
     /// P_r.
-    pub reference: [i64; AXES],
+    pub reference: [i64; COORDINATES],
     /// P_s.
-    pub response: [i64; AXES],
+    pub response: [i64; COORDINATES],
     /// P_d.
-    pub corrected: [i64; AXES],
+    pub corrected: [i64; COORDINATES],
     /// Of the servo's own model.
-    pub model: [i64; AXES],
+    pub model: [i64; COORDINATES],
     /// Of the motor, in encoder counts.
-    pub motor: [i64; AXES],
+    pub motor: [i64; COORDINATES],
     /// Of the load, in encoder counts.
-    pub load: [f64; AXES],
+    pub load: [f64; COORDINATES],
     /// Torque from this period on, in words of the amplifier.
-    pub torque: [i64; AXES],
+    pub torque: [i64; COORDINATES],
     /// It is limited.
-    pub saturated: [bool; AXES],
+    pub saturated: [bool; COORDINATES],
 }
 
 /// What came out of a path.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Played<const AXES: usize> {
+pub struct Played {
+    /// How many axes there are.
+    pub axes: usize,
     /// The periods from the path's start on, its first length 0.
-    pub periods: Vec<Period<AXES>>,
+    pub periods: Vec<Period>,
     /// The tick in which the path was started: before it, it was written.
     pub start: u64,
     /// The ticks of the run.
@@ -79,7 +78,7 @@ pub struct Played<const AXES: usize> {
 }
 
 /// What is looked at.
-struct See<const AXES: usize> {
+struct See {
     ready: At<bool>,
     busy: At<bool>,
     late: [At<bool>; 2],
@@ -89,7 +88,7 @@ struct See<const AXES: usize> {
     driven: At<bool>,
     length: At<i64>,
     answered: At<i64>,
-    axes: [SeeAxis; AXES],
+    axes: Vec<SeeAxis>,
 }
 
 /// What is looked at of an axis.
@@ -107,48 +106,53 @@ struct SeeAxis {
     lost: At<bool>,
 }
 
-impl<const AXES: usize> See<AXES> {
-    fn of<const A: usize, const E: usize>(watch: &Watcher<Controller<AXES, A, E>>) -> Self {
-        let (q, w) = (&watch.q, &watch.w);
+impl See {
+    fn of(watch: &Watcher<'_, TrajectoryController>) -> Self {
+        let (w, p) = (&watch.w, &watch.p);
+        let axes = p.axes.iter().zip(&p.distribution.p.axes);
+        let axes = axes.zip(&p.reference_point.p.axes);
+        let axes = axes.map(|((axis, placed), referred)| {
+            let (servo, nets) = (&axis.p.servo.p, &axis.w);
+            SeeAxis {
+                command: watch.at(placed.q.point),
+                reference: watch.at(referred.q.point),
+                response: watch.at(axis.p.response.p.integrators.q.position),
+                corrected: watch.at(axis.p.corrector.q.corrected),
+                model: watch.at(servo.model.p.integrators.q.position),
+                motor: watch.at(nets.position),
+                drive: watch.at(servo.arithmetic.q.torque),
+                torque: watch.at(nets.torque),
+                saturated: watch.at(nets.saturated),
+                lost: watch.at(nets.lost),
+            }
+        });
         See {
             ready: watch.at(w.ready),
             busy: watch.at(w.busy),
             late: [w.late, w.profile_late].map(|late| watch.at(late)),
-            starved: watch.at(q.sequencer.starved),
-            waiting: watch.at(q.progress.waiting),
-            fresh: watch.at(w.axes[0].w.servo.w.model.w.fresh),
-            driven: watch.at(w.axes[0].w.driven),
-            length: watch.at(q.progress.length),
-            answered: watch.at(q.tangential.integrators.position),
-            axes: from_fn(|k| {
-                let (axis, nets) = (&q.axes[k], &w.axes[k].w);
-                SeeAxis {
-                    command: watch.at(q.distribution.axes[k].point),
-                    reference: watch.at(q.reference_point.axes[k].point),
-                    response: watch.at(axis.response.integrators.position),
-                    corrected: watch.at(axis.corrector.corrected),
-                    model: watch.at(axis.servo.model.integrators.position),
-                    motor: watch.at(nets.position),
-                    drive: watch.at(axis.servo.arithmetic.torque),
-                    torque: watch.at(nets.torque),
-                    saturated: watch.at(nets.saturated),
-                    lost: watch.at(nets.lost),
-                }
-            }),
+            starved: watch.at(p.sequencer.q.starved),
+            waiting: watch.at(p.progress.q.waiting),
+            fresh: watch.at(p.axes[0].p.servo.p.model.w.fresh),
+            driven: watch.at(p.axes[0].w.driven),
+            length: watch.at(p.progress.q.length),
+            answered: watch.at(p.tangential.p.integrators.q.position),
+            axes: axes.collect(),
         }
+    }
+
+    /// What is at a place of every axis; of one that there is not, what nothing is.
+    fn each<T: Default>(&self, mut of: impl FnMut(&SeeAxis) -> T) -> [T; COORDINATES] {
+        from_fn(|k| self.axes.get(k).map(&mut of).unwrap_or_default())
     }
 
     /// The period in which the motors are compared with their models: all of it stands, but for the
     /// loads and the torques.
-    fn period<const A: usize, const E: usize>(
-        &self,
-        now: &Sample<'_, Controller<AXES, A, E>>,
-    ) -> Option<Period<AXES>> {
+    fn period(&self, now: &Sample<'_, TrajectoryController>) -> Option<Period> {
         // Without a path the servo controls hold the machine: a period that began before the start.
         if !now.get(self.fresh) || now.get(self.waiting) {
             return None;
         }
-        let words = |of: fn(&SeeAxis) -> At<i64>| from_fn(|k| now.get(of(&self.axes[k])));
+        let words = |of: fn(&SeeAxis) -> At<i64>| self.each(|axis| now.get(of(axis)));
         Some(Period {
             tick: now.tick,
             length: now.get(self.length),
@@ -159,10 +163,39 @@ impl<const AXES: usize> See<AXES> {
             corrected: words(|axis| axis.corrected),
             model: words(|axis| axis.model),
             motor: words(|axis| axis.motor),
-            load: [0.0; AXES],
-            torque: [0; AXES],
-            saturated: [false; AXES],
+            load: [0.0; COORDINATES],
+            torque: [0; COORDINATES],
+            saturated: [false; COORDINATES],
         })
+    }
+}
+
+/// Motors with their loads, one for each axis.
+struct Motors(Vec<TwoMassAxis>);
+
+impl Motors {
+    /// Steps them under these torques; gives the channels of their encoders.
+    fn step(&mut self, torques: [i64; COORDINATES]) -> [(bool, bool); COORDINATES] {
+        let mut channels = [(false, false); COORDINATES];
+        let motors = self.0.iter_mut().zip(torques);
+        for ((motor, torque), channels) in motors.zip(&mut channels) {
+            *channels = motor.step(torque);
+        }
+        channels
+    }
+}
+
+impl Plant for Motors {
+    type State = [Option<<TwoMassAxis as Plant>::State>; COORDINATES];
+
+    fn state(&self) -> Self::State {
+        from_fn(|axis| self.0.get(axis).map(Plant::state))
+    }
+
+    fn set_state(&mut self, states: Self::State) {
+        for (motor, state) in self.0.iter_mut().zip(states.into_iter().flatten()) {
+            motor.set_state(state);
+        }
     }
 }
 
@@ -174,51 +207,58 @@ pub(crate) fn patience(program: &Program) -> usize {
     (20.0 * slowest + 1.0 / program.motion.period) as usize
 }
 
-/// Plays a program of up to 2^`A` segments on `circuit`, with `plants` on its axes, seen by
-/// `observer` too, until the path is over and models and motors have settled, for a bounded time.
+/// Plays a program on `circuit`, with `plants` on its axes, seen by `observer` too, until the path is
+/// over and models and motors have settled, for a bounded time.
 ///
 /// The path is written to the circuit before it begins, a word a tick, and the profile's records as
 /// they find room. The plants are stepped once a tick, with the torques of the tick before.
 ///
 /// # Errors
-/// The path has more segments, or what `observer` objects to.
-pub fn play<const AXES: usize, const A: usize, const E: usize>(
-    circuit: &Controller<AXES, A, E>,
+/// The path has more segments than the circuit holds, there is not a plant for each axis, or what
+/// `observer` objects to.
+pub fn play(
+    circuit: &TrajectoryController,
     program: &Program,
-    plants: [TwoMassAxis; AXES],
-    mut observer: impl Observer<Controller<AXES, A, E>>,
-) -> Result<Played<AXES>, JobError> {
-    let segments = program.path.stretches.len();
-    if segments > 1 << A {
-        let allowed = format!("up to {}", 1u64 << A);
+    plants: Vec<TwoMassAxis>,
+    mut observer: impl Observer<TrajectoryController>,
+) -> Result<Played, JobError> {
+    let (segments, most) = (program.path.stretches.len(), circuit.widths.most_segments());
+    if segments > most {
+        let allowed = format!("up to {most}");
         return Err(SettingError::value("segments", segments, allowed).into());
     }
+    let axes = circuit.axes;
+    if plants.len() != axes {
+        return Err(SettingError::value("axes", plants.len(), axes.to_string()).into());
+    }
     let mut host = Host::new(program);
-    let mut i = host.standing();
-    let mut played = Played::default();
+    let mut i = host.standing(circuit);
+    let mut played = Played {
+        axes,
+        ..Played::default()
+    };
     let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
     let mut compared = None;
     let (mut rests, mut calm, patience) = (0, 0, patience(program));
-    let unit = f64::from(Widths::FULL.guard()).exp2();
-    let mut motors = Ahead::new(plants);
+    let unit = (Widths::FULL.guard() as f64).exp2();
+    let mut motors = Ahead::new(Motors(plants));
     loop {
-        let drives: [i64; AXES] = from_fn(|axis| simulator.get(see.axes[axis].drive));
-        let step = |plants: &mut [TwoMassAxis; AXES]| {
-            from_fn::<_, AXES, _>(|axis| plants[axis].step(drives[axis]))
-        };
+        let drives = see.each(|axis| simulator.get(axis.drive));
+        let step = |motors: &mut Motors| motors.step(drives);
         host.drive(&mut i, motors.step(step));
-        let (starts, pushed) = (i.start.get(), i.push.get());
+        let (starts, pushed) = (i.start, i.push);
         if starts {
             played.start = played.ticks;
         }
-        let plants = &motors.plants;
+        let plants = &motors.plants.0;
         let (mut quiet, mut ended) = (true, false);
         let take = |now: &Sample<'_, _>| {
             host.records.free = now.get(see.ready) && !pushed;
             quiet = !now.get(see.fresh) && !now.get(see.driven);
             if let Some(period) = see.period(now) {
+                let load = |plant: &TwoMassAxis| plant.load_position_counts();
                 compared = Some(Period {
-                    load: from_fn(|axis| plants[axis].load_position_counts()),
+                    load: from_fn(|axis| plants.get(axis).map_or(0.0, load)),
                     ..period
                 });
             }
@@ -228,8 +268,8 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
             if now.get(see.driven)
                 && let Some(mut period) = compared.take()
             {
-                period.torque = from_fn(|k| now.get(see.axes[k].torque));
-                period.saturated = from_fn(|k| now.get(see.axes[k].saturated));
+                period.torque = see.each(|axis| now.get(axis.torque));
+                period.saturated = see.each(|axis| now.get(axis.saturated));
                 played.periods.push(period);
                 ended = !now.get(see.busy);
             }
@@ -240,7 +280,7 @@ pub fn play<const AXES: usize, const A: usize, const E: usize>(
             && !starts
         {
             rests += 1;
-            let near = (0..AXES).all(|axis| {
+            let near = (0..axes).all(|axis| {
                 let model = period.model[axis] as f64 / unit;
                 let target = period.corrected[axis] as f64 / unit;
                 let motor = period.motor[axis] as f64;

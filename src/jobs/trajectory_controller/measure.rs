@@ -2,9 +2,9 @@
 
 use super::job::{Period, Played, Program};
 use super::segments::{Path, Segment};
+use crate::circuits::trajectory_controller::Widths;
 use crate::input::Point;
 use crate::path::vector::{distance, dot, norm, scale, sub};
-use crate::trajectory_controller::widths::Widths;
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
@@ -76,40 +76,33 @@ pub struct Measured {
 impl Measured {
     /// Measures a run; `None` of one without periods.
     #[must_use]
-    pub fn of<const AXES: usize>(program: &Program, played: &Played<AXES>) -> Option<Self> {
+    pub fn of(program: &Program, played: &Played) -> Option<Self> {
         played.periods.first()?;
-        let model = |period: &Period<AXES>, axis: usize| period.model[axis] as f64;
-        let motor = |period: &Period<AXES>, axis: usize| period.motor[axis] as f64 * COUNT;
-        let load = |period: &Period<AXES>, axis: usize| period.load[axis] * COUNT;
+        let model = |period: &Period, axis: usize| period.model[axis] as f64;
+        let motor = |period: &Period, axis: usize| period.motor[axis] as f64 * COUNT;
+        let load = |period: &Period, axis: usize| period.load[axis] * COUNT;
         let each = |axis: usize| played.periods.iter().map(move |period| (period, axis));
-        let torque = |(period, axis): (&Period<AXES>, usize)| period.torque[axis].abs();
-        let limited = |(period, axis): &(&Period<AXES>, usize)| period.saturated[*axis];
+        let torque = |(period, axis): (&Period, usize)| period.torque[axis].abs();
+        let limited = |(period, axis): &(&Period, usize)| period.saturated[*axis];
         Some(Measured {
             model: errors(program, played, model),
             motor: errors(program, played, motor),
             load: errors(program, played, load),
-            torque: (0..AXES)
+            torque: (0..played.axes)
                 .map(|axis| each(axis).map(torque).max().unwrap_or(0))
                 .collect(),
-            saturated: (0..AXES)
+            saturated: (0..played.axes)
                 .map(|axis| each(axis).filter(limited).count())
                 .collect(),
         })
     }
 }
 
-fn errors<const AXES: usize>(
-    program: &Program,
-    played: &Played<AXES>,
-    position: impl Fn(&Period<AXES>, usize) -> f64,
-) -> Errors {
+fn errors(program: &Program, played: &Played, position: impl Fn(&Period, usize) -> f64) -> Errors {
     let path = &program.path;
     let (mm, end) = (1.0 / program.motion.units_per_mm, path.length as f64);
     let place = |from_start: &dyn Fn(usize) -> f64| -> Point {
-        from_fn(|axis| {
-            let moved = if axis < AXES { from_start(axis) } else { 0.0 };
-            program.origin[axis] as f64 + moved
-        })
+        from_fn(|axis| program.origin[axis] as f64 + from_start(axis))
     };
     let mut final_mm = 0.0;
     let deviations = played.periods.iter().enumerate().map(|(index, period)| {

@@ -1,7 +1,7 @@
 //! What a control computer gives to the segment stores: the path, a word a tick.
 
 use super::program::Program;
-use crate::trajectory_controller::{Widths, segment_store};
+use crate::circuits::trajectory_controller::{Widths, segment_store};
 
 /// Words of a segment that are written.
 const SEGMENT_WORDS: usize = 13;

@@ -14,9 +14,9 @@
 //! L.
 
 use super::profile::{Cubic, Profile};
+use crate::circuits::trajectory_controller::{Rounding, Widths};
 use crate::jobs::arc_generator::reference::Decoded;
 use crate::path::record::{Record, WORDS, coordinate_word};
-use crate::trajectory_controller::widths::Widths;
 
 /// The most samples of a record: within them, third differences that are rounded to 2^-40 do not
 /// add up to a fiftieth of a guard unit.
@@ -122,10 +122,7 @@ fn record(
 pub fn lengths(records: &[Record], widths: &Widths) -> Vec<i64> {
     let samples = records.iter().enumerate().flat_map(|(index, record)| {
         let decoded = Decoded::of(record, &widths.record());
-        let points = decoded.points(
-            &widths.record(),
-            crate::trajectory_controller::Rounding::Nearest,
-        );
+        let points = decoded.points(&widths.record(), Rounding::Nearest);
         points.into_iter().skip(usize::from(index > 0))
     });
     samples.map(|[length, ..]| length).collect()

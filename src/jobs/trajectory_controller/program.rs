@@ -7,13 +7,13 @@ use super::segments::Path;
 use super::servo_gains::ServoGains;
 use super::settings::{Gains, Motion, Settings};
 use super::speed_limits::spans;
+use crate::circuits::trajectory_controller::Widths;
 use crate::input::{COORDINATES, Point, ZERO_MM};
 use crate::path::error::{PathError, Reason};
 use crate::path::pieces::{Course, Piece};
 use crate::path::record::Record;
 use crate::plant::TwoMassParameters;
 use crate::settings::{Place, SettingError};
-use crate::trajectory_controller::widths::Widths;
 
 /// How far the counts of a millimetre on the path and at the encoder may be apart, as a part.
 const SAME: f64 = 1e-9;

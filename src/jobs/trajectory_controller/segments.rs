@@ -18,14 +18,14 @@
 
 use super::extent::{fits, hold, margin};
 use super::speed_limits::Span;
+use crate::circuits::trajectory_controller::Widths;
+use crate::circuits::trajectory_controller::cordic_state::GAIN;
+use crate::circuits::trajectory_controller::segment_store::WORDS;
 use crate::input::{COORDINATES, Point};
 use crate::path::circle::Circle;
 use crate::path::error::{PathError, Reason};
 use crate::path::pieces::{Course, Piece};
 use crate::path::vector::{add, cross, scale, sub, unit};
-use crate::trajectory_controller::cordic_state::GAIN;
-use crate::trajectory_controller::segment_store::WORDS;
-use crate::trajectory_controller::widths::Widths;
 use std::f64::consts::TAU;
 
 /// What a length within a segment becomes a point by. All in guard units.
@@ -62,9 +62,9 @@ impl Segment {
         let mut words = [0; WORDS];
         if let Some(arc) = self.arc {
             // 2^(n − 4) < turn <= 2^(n − 3): the mantissa has its leading bit set.
-            let n = (arc.turn.log2().ceil() as u32 + 3).min(widths.angle);
+            let n = (arc.turn.log2().ceil() as usize + 3).min(widths.angle);
             let mantissa = two_to(widths.curvature + n - 4) / arc.turn;
-            words[0] = 1 | u64::from(widths.angle - n) << 1;
+            words[0] = 1 | ((widths.angle - n) as u64) << 1;
             words[1] = (mantissa.round() as u64).min((1 << widths.curvature) - 1);
             let inside = two_to(widths.radius - widths.point);
             let radius = |radius: f64| (radius / GAIN * inside).round() as u64;
@@ -197,7 +197,7 @@ impl Path {
                 reason: Reason::Segments {
                     count,
                     most,
-                    needed: count.next_power_of_two().ilog2(),
+                    needed: count.next_power_of_two().ilog2() as usize,
                 },
             });
         }
@@ -276,6 +276,6 @@ fn segment(from: Point, piece: &Piece, unit_per_mm: f64) -> Option<(Segment, u64
     (length >= 1.0).then_some((segment, length as u64))
 }
 
-fn two_to(exponent: u32) -> f64 {
-    f64::from(exponent).exp2()
+fn two_to(exponent: usize) -> f64 {
+    (exponent as f64).exp2()
 }

@@ -1,9 +1,9 @@
 //! The gains of a servo control as words, from what its axis is made of.
 
 use super::settings::Settings;
+use crate::circuits::trajectory_controller::Widths;
 use crate::plant::{TwoMassAxis, TwoMassParameters};
 use crate::settings::{Place, SettingError, within};
-use crate::trajectory_controller::widths::Widths;
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
@@ -59,10 +59,10 @@ impl ServoGains {
         within("integral_ms", settings.integral_ms, &INTEGRAL_RANGE_MS)?;
         let inertia = axis.motor_inertia_kg_m2 + axis.load_inertia_kg_m2;
         let full_scale = TwoMassAxis::FULL_SCALE as f64;
-        let units_per_rad = axis.counts_per_rad() * f64::from(widths.guard()).exp2();
+        let units_per_rad = axis.counts_per_rad() * (widths.guard() as f64).exp2();
         // Torque word for 1 N·m, of an angle in guard units.
         let torque = full_scale / axis.max_torque_nm / units_per_rad;
-        let fine = f64::from(widths.torque_fraction).exp2();
+        let fine = (widths.torque_fraction() as f64).exp2();
         let speed = inertia * TAU * hz * torque / period * fine;
         let integral = match settings.integral_ms > 0.0 {
             true => speed * period / (settings.integral_ms / 1e3),
@@ -86,7 +86,7 @@ impl ServoGains {
             );
             Err(SettingError::new(field, problem, allowed))
         };
-        let one = f64::from(widths.servo_gain - 1).exp2();
+        let one = ((widths.servo_gain - 1) as f64).exp2();
         let (torque_nm, inertia) = (axis.max_torque_nm, inertia * torque / (period * period));
         Ok(ServoGains {
             position: word("position_gain_per_s", rate, rate * period * one, true)?,

@@ -1,20 +1,20 @@
 //! What the trajectory controller is run with: clock and period, machine, motion, reference model.
 
-use super::job::Controller;
+use super::job::controller;
 use super::ramp::Slope;
+pub use crate::circuits::trajectory_controller::vector_correction::Correction;
+use crate::circuits::trajectory_controller::{Rounding, Widths};
 use crate::input::COORDINATES;
 use crate::jobs::arc_generator::settings::SPEED_RANGE_MM_PER_S;
 use crate::path::pieces::Speeds;
 use crate::plan::ACCELERATION_RANGE;
 use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, whole_ticks, within};
-use crate::trajectory_controller::Rounding;
-pub use crate::trajectory_controller::vector_correction::Correction;
-use crate::trajectory_controller::widths::Widths;
 use std::ops::RangeInclusive;
 
 /// Shortest interpolation period in ticks: two points on the path, three model steps and a servo
 /// step are done within it.
-pub const LEAST_PERIOD_TICKS: u64 = Controller::<COORDINATES>::LEAST_PERIOD;
+pub const LEAST_PERIOD_TICKS: u64 =
+    controller(COORDINATES, Correction::Vector, Rounding::Nearest).least_period();
 
 /// Longest jerk time that is accepted, in ms.
 pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;
@@ -113,7 +113,7 @@ impl Gains {
     /// K1·Δt and K2·Δt as numbers.
     #[must_use]
     pub fn parts(&self, widths: &Widths) -> [f64; 2] {
-        let one = f64::from(widths.gain - 1).exp2();
+        let one = ((widths.gain - 1) as f64).exp2();
         [self.k1, self.k2].map(|word| word as f64 / one)
     }
 
@@ -189,7 +189,7 @@ impl Settings {
         within("jerk_time_ms", self.jerk_time_ms, &JERK_TIME_RANGE_MS)?;
         let corners = 0.0..=*SPEED_RANGE_MM_PER_S.end();
         within("corner_mm_per_s", self.corner_mm_per_s, &corners)?;
-        let units_per_mm = self.counts_per_mm * f64::from(widths.guard()).exp2();
+        let units_per_mm = self.counts_per_mm * (widths.guard() as f64).exp2();
         Ok(Motion {
             units_per_mm,
             period,

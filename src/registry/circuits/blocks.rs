@@ -1,87 +1,96 @@
-use crate::blocks::{
+use crate::circuits::blocks::{
     CoefficientControl, DifferenceColumn, DifferenceEngine, EnableCounter, MulDiv,
-    QuadratureCounter, RecordMemory, RecordSequencer,
+    QuadratureCounter, RecordMemory, RecordSequencer, difference_column::Widths,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
+use crate::registry::entry::{alone, entry, nothing};
 
-/// A first difference of x.
-fn column<const P: usize, const F: usize, const D: usize>() -> DifferenceColumn<P, F, D> {
-    DifferenceEngine::new(0).d1
+/// The engine of x.
+fn engine(widths: Widths) -> DifferenceEngine {
+    DifferenceEngine {
+        widths,
+        coordinate: 0,
+    }
+}
+
+/// Its first difference.
+fn column(widths: Widths) -> DifferenceColumn {
+    engine(widths).difference(1)
 }
 
 /// Blocks that more than one circuit is made of.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
-        MulDiv<25, 58>,
-        MulDiv,
-        Some(3),
-        "block: sequential arithmetic",
-        ["M" = 25, "Q" = 58],
-        "width of the words; the multiplier has one bit less",
-        proved_at!([3]; [4 8], |W| MulDiv::<{ W - 1 }, W>)
+        MulDiv, "block: sequential arithmetic",
+        full: || MulDiv { multiplier: 25, word: 58 },
+        widths: [multiplier, word],
+        from: "width of the words; the multiplier has one bit less",
+        |given| alone(given, |word| MulDiv { multiplier: word.saturating_sub(1), word }),
+        with: nothing,
+        proved: 3,
     ),
     entry!(
-        EnableCounter<24>,
-        EnableCounter,
-        Some(3),
-        "block: scan and sample enables",
-        ["W" = 24],
-        "width",
-        proved_at!([3]; [3 8], |W| EnableCounter::<W>)
+        EnableCounter, "block: scan and sample enables, 30 of JP3640909B2",
+        full: || EnableCounter { width: 24 },
+        widths: [width],
+        from: "width", |given| alone(given, |width| EnableCounter { width }),
+        with: nothing,
+        proved: 3,
     ),
     entry!(
-        QuadratureCounter<32>,
-        QuadratureCounter,
-        Some(3),
-        "block: 13 of JP3608587B2 and others",
-        ["W" = 32],
-        "width",
-        proved_at!([3]; [2 4 8], |W| QuadratureCounter::<W>)
+        QuadratureCounter, "block: 13 of JP3608587B2 and others",
+        full: || QuadratureCounter { width: 32 },
+        widths: [width],
+        from: "width", |given| alone(given, |width| QuadratureCounter { width }),
+        with: nothing,
+        proved: 3,
     ),
     entry!(
-        DifferenceColumn<40, 41, 42>,
-        column(),
-        Some(3),
-        "block: a difference of JPH0743606B2 [5], [10]",
-        ["P" = 40, "F" = 41, "D" = 42],
-        "width of wholes and parts",
-        proved_at!([3]; [4 8], |W| column::<W, W, W>())
+        DifferenceColumn, "block: a difference of JPH0743606B2 [5], [10]",
+        full: || column(Widths::default()),
+        widths: [whole = widths.whole, part = widths.part, data = widths.data],
+        from: "width of wholes and parts", |given| alone(given, |width| {
+            column(Widths { whole: width, part: width, data: width })
+        }),
+        with: nothing,
+        proved: 3,
     ),
     entry!(
-        DifferenceEngine<40, 41, 42>,
-        DifferenceEngine::default(),
-        None,
-        "block: polynomials of JPH0743606B2, CN104204977",
-        ["P" = 40, "F" = 41, "D" = 42],
-        "width of points",
-        some_widths!([4 8], |W| DifferenceEngine::<W, { 2 * W + 1 }, { 2 * W + 1 }>::default())
+        DifferenceEngine, "block: polynomials of JPH0743606B2, CN104204977",
+        full: || engine(Widths::default()),
+        widths: [whole = widths.whole, part = widths.part, data = widths.data],
+        from: "width of points", |given| alone(given, |whole| {
+            engine(Widths { whole, part: 2 * whole + 1, data: 2 * whole + 1 })
+        }),
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        CoefficientControl<42>,
-        CoefficientControl,
-        Some(4),
-        "block: which bit of a sequential product",
-        ["C" = 42],
-        "width of a coefficient",
-        proved_at!([4]; [4 8], |W| CoefficientControl::<W>)
+        CoefficientControl, "block: which bit of a sequential product",
+        full: || CoefficientControl { coefficient: 42 },
+        widths: [coefficient],
+        from: "width of a coefficient",
+        |given| alone(given, |coefficient| CoefficientControl { coefficient }),
+        with: nothing,
+        proved: 4,
     ),
     entry!(
-        RecordMemory<4, 9, 42>,
-        RecordMemory,
-        None,
-        "block: records that wait",
-        ["A" = 4, "K" = 9, "D" = 42],
-        "width of a word (two records)",
-        some_widths!([4 8], |W| RecordMemory::<1, 6, W>)
+        RecordMemory, "block: records that wait",
+        full: || RecordMemory { record: 4, data: 42 },
+        widths: [record, data],
+        from: "width of a word (two records)",
+        |given| alone(given, |data| RecordMemory { record: 1, data }),
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        RecordSequencer<41, 20, 42>,
-        RecordSequencer,
-        Some(2),
-        "block: record after record",
-        ["F" = 41, "N" = 20, "D" = 42],
-        "width of moduli; a word has three bits more",
-        proved_at!([2]; [4 8], |W| RecordSequencer::<W, W, { W + 3 }>)
+        RecordSequencer, "block: record after record",
+        full: || RecordSequencer { modulus: 41, samples: 20, data: 42 },
+        widths: [modulus, samples, data],
+        from: "width of moduli; a word has three bits more", |given| alone(given, |width| {
+            RecordSequencer { modulus: width, samples: width, data: width + 3 }
+        }),
+        with: nothing,
+        proved: 2,
     ),
 ];

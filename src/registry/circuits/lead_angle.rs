@@ -1,304 +1,295 @@
-use super::make::{choice, one_of, words};
-use crate::lead_angle::{
+use super::make::{choice, one_of, only, width, words};
+use crate::circuits::lead_angle::{
     Comparator, Comparing, Compensator, CompletionDetector, Correction, CorrectionArithmetic, Lead,
-    LeadPlacement, Placement, PositionHistory, RamHistory, RatioLogic, Sign, SpeedLead,
-    StepSequencer, StopError, TargetSetter, TimeData, TimeLead, Variant,
+    LeadFrom, LeadPlacement, Memory, Placement, PositionHistory, RamHistory, RatioLogic, Sign,
+    SpeedLead, StepSequencer, StopError, TargetSetter, TimeData, TimeLead, Variant, Widths,
 };
-use crate::logic::Image;
+use crate::hdl::Image;
 use crate::registry::Entry;
-use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
+use crate::registry::entry::{alone, entry, nothing};
 
 /// Stages of history where positions have `width` bits.
 const fn stages(width: usize) -> usize {
     match width {
-        2 => 2,
+        0..=2 => 2,
         3 | 4 => 3,
         _ => 15,
     }
-}
-
-/// Bits of a tap of so many stages.
-const fn tap_bits(width: usize) -> usize {
-    if width <= 4 { 2 } else { 4 }
-}
-
-/// Bits of a lead time of ten times as many.
-const fn time_bits(width: usize) -> usize {
-    if width <= 4 { 5 } else { 8 }
 }
 
 const PLACEMENTS: &[Placement] = &[Placement::Position, Placement::Target, Placement::Halves];
 const COMPARINGS: &[Comparing] = &[Comparing::Crossing, Comparing::Equal];
 const SIGNS: &[Sign] = &[Sign::Converging, Sign::Literal];
 
-/// The variant that follows the width.
-fn variant(given: &[u64]) -> Option<Variant> {
-    Some(Variant {
-        placement: choice(given, 1, PLACEMENTS)?,
-        comparing: choice(given, 2, COMPARINGS)?,
-        sign: choice(given, 3, SIGNS)?,
+/// The numbers of placement, comparing and sign, then the times of the ROM, one in each word from
+/// step 0 up.
+fn chosen(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
+    let variant = Variant {
+        placement: choice(given, 0, PLACEMENTS)?,
+        comparing: choice(given, 1, COMPARINGS)?,
+        sign: choice(given, 2, SIGNS)?,
+    };
+    let rom = rom(circuit.rom.address(), circuit.rom.width(), given, 3)?;
+    Some(Compensator {
+        variant,
+        rom,
+        ..circuit
     })
 }
 
 /// The times from a place on, one in each word from step 0 up.
-fn rom<const A: usize, const C: usize>(given: &[u64], place: usize) -> Option<Image<A, C>> {
-    let times = words(given, place, 1 << A, C)?;
-    Some(Image::new(times.iter().copied()))
+fn rom(step: usize, time: usize, given: &[u64], place: usize) -> Option<Image> {
+    let times = words(given, place, 1 << step, time)?;
+    Some(Image::of(step, time, times.iter().copied()))
 }
 
-/// A time lead of the widths that go with positions of `$width` bits.
-macro_rules! time_lead {
-    ($history:ident, $width:ident) => {
-        TimeLead::<
-            $history<{ stages($width) }, { tap_bits($width) }, $width>,
-            { stages($width) },
-            { tap_bits($width) },
-            { time_bits($width) },
-            $width,
-        >
-    };
+/// A compensator without any time.
+fn compensator(lead_from: LeadFrom, widths: Widths) -> Compensator {
+    Compensator {
+        widths,
+        lead_from,
+        variant: Variant::default(),
+        rom: Image::new(widths.step, widths.time()),
+    }
 }
 
-/// A compensator with such a lead, or with another.
-macro_rules! compensator {
-    ($lead:ty, $width:ident, $given:ident) => {
-        Compensator::<
-            $lead,
-            { stages($width) },
-            { tap_bits($width) },
-            { time_bits($width) },
-            $width,
-            2,
-            $width,
-            { $width + time_bits($width) },
-            $width,
-            $width,
-        >::new(variant($given)?, rom($given, 4)?)
+/// A compensator with positions, speeds, times and CK of the width that is given, and what follows.
+fn small(lead_from: LeadFrom, given: &[u64]) -> Option<Compensator> {
+    let width = width(given)?;
+    let widths = Widths {
+        stages: stages(width),
+        position: width,
+        step: 2,
+        speed: width,
+        cks: width,
+        ck_period: width,
     };
+    chosen(compensator(lead_from, widths), &given[1..])
 }
+
+/// Times of steps, as wide as is given, and those of the ROM.
+fn time_data(given: &[u64]) -> Option<TimeData> {
+    let (step, time) = (2, width(given)?);
+    let rom = rom(step, time, given, 1)?;
+    Some(TimeData { step, time, rom })
+}
+
+/// A time lead of positions that have `position` bits.
+fn time_lead(memory: Memory, position: usize) -> TimeLead {
+    TimeLead {
+        stages: stages(position),
+        position,
+        memory,
+    }
+}
+
+const SHIFT: LeadFrom = LeadFrom::Time(Memory::ShiftRegister);
+const RAM: LeadFrom = LeadFrom::Time(Memory::Ram);
 
 /// The circuits of JPH0646367B2.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
-        RatioLogic<199, 8, 11>,
-        RatioLogic,
-        Some(4),
-        "JPH0646367B2 13",
-        ["K" = 199, "T" = 8, "C" = 11],
-        "4 for 3 stages, 8 for 15",
-        proved_at!([4]; [4 8], |W| RatioLogic::<{ stages(W) }, { tap_bits(W) }, { time_bits(W) }>)
+        RatioLogic, "JPH0646367B2 13",
+        full: || RatioLogic { stages: 199 },
+        widths: [stages],
+        from: "4 for 3 stages, 8 for 15", |given| alone(given, |width| RatioLogic {
+            stages: stages(width),
+        }),
+        with: nothing,
+        proved: 4,
     ),
     entry!(
-        PositionHistory<199, 8, 24>,
-        PositionHistory,
-        Some(2),
-        "JPH0646367B2 11 + 14",
-        ["K" = 199, "T" = 8, "W" = 24],
-        "width: 2 stages for 2, 3 for 4, 15 for 8",
-        proved_at!([2]; [2 4 8], |W| PositionHistory::<{ stages(W) }, { tap_bits(W) }, W>)
+        PositionHistory, "JPH0646367B2 11 + 14",
+        full: || PositionHistory { stages: 199, position: 24 },
+        widths: [stages, position],
+        from: "width: 2 stages for 2, 3 for 4, 15 for 8", |given| {
+            alone(given, |position| PositionHistory { stages: stages(position), position })
+        },
+        with: nothing,
+        proved: 2,
     ),
     entry!(
-        RamHistory<199, 8, 24>,
-        RamHistory,
-        Some(2),
-        "JPH0646367B2 11 + 14, as a RAM",
-        ["K" = 199, "T" = 8, "W" = 24],
-        "width: 2 stages for 2, 3 for 4, 15 for 8",
-        proved_at!([2]; [4 8], |W| RamHistory::<{ stages(W) }, { tap_bits(W) }, W>)
+        RamHistory, "JPH0646367B2 11 + 14, as a RAM",
+        full: || RamHistory { stages: 199, position: 24 },
+        widths: [stages, position],
+        from: "width: 2 stages for 2, 3 for 4, 15 for 8", |given| {
+            alone(given, |position| RamHistory { stages: stages(position), position })
+        },
+        with: nothing,
+        proved: 2,
     ),
     entry!(
-        Lead<24>,
-        Lead,
-        Some(4),
-        "JPH0646367B2 15 + 16",
-        ["W" = 24],
-        "width",
-        proved_at!([4]; [4 8], |W| Lead::<W>)
+        Lead, "JPH0646367B2 15 + 16",
+        full: || Lead { position: 24 },
+        widths: [position],
+        from: "width", |given| alone(given, |position| Lead { position }),
+        with: nothing,
+        proved: 4,
     ),
     entry!(
-        TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>,
-        TimeLead::default(),
-        None,
-        "JPH0646367B2 11, 13–16",
-        ["K" = 199, "T" = 8, "C" = 11, "W" = 24],
-        "width of positions: 3 stages for 4, 15 for 8",
-        some_widths!([4 8], |W| <time_lead!(PositionHistory, W)>::default())
+        TimeLead, "JPH0646367B2 11, 13–16",
+        full: || TimeLead { stages: 199, position: 24, memory: Memory::ShiftRegister },
+        widths: [stages, position],
+        from: "width of positions: 3 stages for 4, 15 for 8", |given| {
+            alone(given, |position| time_lead(Memory::ShiftRegister, position))
+        },
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        TimeLead<RamHistory<199, 8, 24>, 199, 8, 11, 24>,
-        TimeLead::default(),
-        None,
-        "JPH0646367B2 11, 13–16, with a RAM",
-        ["K" = 199, "T" = 8, "C" = 11, "W" = 24],
-        "width of positions: 3 stages for 4, 15 for 8",
-        some_widths!([4 8], |W| <time_lead!(RamHistory, W)>::default())
+        TimeLead, "JPH0646367B2 11, 13–16, with a RAM",
+        full: || TimeLead { stages: 199, position: 24, memory: Memory::Ram },
+        widths: [stages, position],
+        from: "width of positions: 3 stages for 4, 15 for 8", |given| {
+            alone(given, |position| time_lead(Memory::Ram, position))
+        },
+        with: nothing,
+        proved: none,
+        named: "ram_time_lead", "the lead of a time, from a RAM of samples",
     ),
     entry!(
-        SpeedLead<24, 16>,
-        SpeedLead,
-        Some(2),
-        "JPH0646367B2 1 + 2 of Fig. 7",
-        ["W" = 24, "N" = 16],
-        "width",
-        proved_at!([2]; [4 8], |W| SpeedLead::<W, W>)
+        SpeedLead, "JPH0646367B2 1 + 2 of Fig. 7",
+        full: || SpeedLead { position: 24, gate: 16 },
+        widths: [position, gate],
+        from: "width", |given| alone(given, |width| SpeedLead { position: width, gate: width }),
+        with: nothing,
+        proved: 2,
     ),
     entry!(
-        LeadPlacement<24>,
-        LeadPlacement::default(),
-        Some(4),
-        "JPH0646367B2 17, 20",
-        ["W" = 24],
-        "width, 0 for the position, 1 for the target or 2 for halves",
-        proved_at!([4]; [4 8], |given, W| LeadPlacement::<W> {
-            placement: one_of(given, PLACEMENTS)?
-        })
+        LeadPlacement, "JPH0646367B2 17, 20",
+        full: || LeadPlacement { position: 24, placement: Placement::Position },
+        widths: [position],
+        from: "width, 0 for the position, 1 for the target or 2 for halves", |given| {
+            Some(LeadPlacement { position: width(given)?, placement: one_of(given, PLACEMENTS)? })
+        },
+        with: |circuit, given| {
+            Some(LeadPlacement { placement: only(given, PLACEMENTS)?, ..circuit })
+        },
+        proved: 4,
     ),
     entry!(
-        Comparator<24>,
-        Comparator::default(),
-        Some(4),
-        "JPH0646367B2 19",
-        ["W" = 24],
-        "width, 0 for crossing or 1 for equal",
-        proved_at!([4]; [4 8], |given, W| Comparator::<W> {
-            comparing: one_of(given, COMPARINGS)?
-        })
+        Comparator, "JPH0646367B2 19",
+        full: || Comparator { position: 24, comparing: Comparing::Crossing },
+        widths: [position],
+        from: "width, 0 for crossing or 1 for equal", |given| {
+            Some(Comparator { position: width(given)?, comparing: one_of(given, COMPARINGS)? })
+        },
+        with: |circuit, given| Some(Comparator { comparing: only(given, COMPARINGS)?, ..circuit }),
+        proved: 4,
     ),
     entry!(
-        TargetSetter<4, 24, 16>,
-        TargetSetter,
-        Some(2),
-        "JPH0646367B2 18",
-        ["A" = 4, "W" = 24, "D" = 16],
-        "width of positions and speeds (steps have two bits)",
-        proved_at!([2]; [4 8], |W| TargetSetter::<2, W, W>)
+        TargetSetter, "JPH0646367B2 18",
+        full: || TargetSetter { step: 4, position: 24, speed: 16 },
+        widths: [step, position, speed],
+        from: "width of positions and speeds (steps have two bits)", |given| {
+            alone(given, |width| TargetSetter { step: 2, position: width, speed: width })
+        },
+        with: nothing,
+        proved: 2,
     ),
     entry!(
-        TimeData<4, 11>,
-        TimeData::default(),
-        Some(2),
-        "JPH0646367B2 21 = 24 + 25, 29",
-        ["A" = 4, "C" = 11],
-        "width (steps have two bits), and the times of the ROM",
-        proved_at!([2]; [4 8], |given, W| TimeData::<2, W> { rom: rom(given, 1)? })
+        TimeData, "JPH0646367B2 21 = 24 + 25, 29",
+        full: || TimeData::new(4, 11),
+        widths: [step, time],
+        from: "width (steps have two bits), and the times of the ROM", time_data,
+        with: |circuit, given| {
+            Some(TimeData { rom: rom(circuit.step, circuit.time, given, 0)?, ..circuit })
+        },
+        proved: 2,
     ),
     entry!(
-        CompletionDetector<24, 16>,
-        CompletionDetector,
-        Some(2),
-        "JPH0646367B2 26",
-        ["W" = 24, "N" = 16],
-        "width",
-        proved_at!([2]; [4 8], |W| CompletionDetector::<W, W>)
+        CompletionDetector, "JPH0646367B2 26",
+        full: || CompletionDetector { position: 24, time: 16 },
+        widths: [position, time],
+        from: "width", |given| {
+            alone(given, |width| CompletionDetector { position: width, time: width })
+        },
+        with: nothing,
+        proved: 2,
     ),
     entry!(
-        StopError<24>,
-        StopError::default(),
-        Some(4),
-        "JPH0646367B2 27, 30, 31",
-        ["W" = 24],
-        "width, 0 for the converging sign or 1 for the literal one",
-        proved_at!([4]; [4 8], |given, W| StopError::<W> {
-            sign: one_of(given, SIGNS)?
-        })
+        StopError, "JPH0646367B2 27, 30, 31",
+        full: || StopError { position: 24, sign: Sign::Converging },
+        widths: [position],
+        from: "width, 0 for the converging sign or 1 for the literal one", |given| {
+            Some(StopError { position: width(given)?, sign: one_of(given, SIGNS)? })
+        },
+        with: |circuit, given| Some(StopError { sign: only(given, SIGNS)?, ..circuit }),
+        proved: 4,
     ),
     entry!(
-        CorrectionArithmetic<199, 11, 24, 35>,
-        CorrectionArithmetic,
-        None,
-        "JPH0646367B2 28",
-        ["K" = 199, "C" = 11, "W" = 24, "R" = 35],
-        "width of positions: 3 stages for 4, 15 for 8",
-        some_widths!([4 8], |W| CorrectionArithmetic::<
-            { stages(W) },
-            { time_bits(W) },
-            W,
-            { W + time_bits(W) },
-        >)
+        CorrectionArithmetic, "JPH0646367B2 28",
+        full: || CorrectionArithmetic { stages: 199, position: 24 },
+        widths: [stages, position],
+        from: "width of positions: 3 stages for 4, 15 for 8", |given| {
+            alone(given, |position| CorrectionArithmetic { stages: stages(position), position })
+        },
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        Correction<199, 8, 11, 24, 35>,
-        Correction::default(),
-        None,
-        "JPH0646367B2 23 = 27, 28, 30, 31",
-        ["K" = 199, "T" = 8, "C" = 11, "W" = 24, "R" = 35],
-        "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for the \
-         literal one",
-        some_widths!([4 8], |given, W| Correction::<
-            { stages(W) },
-            { tap_bits(W) },
-            { time_bits(W) },
-            W,
-            { W + time_bits(W) },
-        >::new(one_of(given, SIGNS)?))
+        Correction, "JPH0646367B2 23 = 27, 28, 30, 31",
+        full: || Correction { stages: 199, position: 24, sign: Sign::Converging },
+        widths: [stages, position],
+        from: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
+               the literal one", |given| {
+            let position = width(given)?;
+            let (stages, sign) = (stages(position), one_of(given, SIGNS)?);
+            Some(Correction { stages, position, sign })
+        },
+        with: |circuit, given| Some(Correction { sign: only(given, SIGNS)?, ..circuit }),
+        proved: none,
     ),
     entry!(
-        StepSequencer<4, 24, 16>,
-        StepSequencer,
-        Some(2),
-        "JPH0646367B2, step numbers",
-        ["A" = 4, "W" = 24, "N" = 16],
-        "width of positions and times (steps have two bits)",
-        proved_at!([2]; [4 8], |W| StepSequencer::<2, W, W>)
+        StepSequencer, "JPH0646367B2, step numbers",
+        full: || StepSequencer { step: 4, position: 24, rest: 16 },
+        widths: [step, position, rest],
+        from: "width of positions and times (steps have two bits)", |given| {
+            alone(given, |width| StepSequencer { step: 2, position: width, rest: width })
+        },
+        with: nothing,
+        proved: 2,
     ),
     entry!(
-        Compensator<TimeLead<PositionHistory<199, 8, 24>, 199, 8, 11, 24>>,
-        Compensator::default(),
-        None,
-        "JPH0646367B2, Figs 1, 5 and 6",
-        [
-            "K" = 199,
-            "T" = 8,
-            "C" = 11,
-            "W" = 24,
-            "A" = 4,
-            "D" = 16,
-            "R" = 35,
-            "N" = 16,
-            "S" = 24
+        Compensator, "JPH0646367B2, Figs 1, 5 and 6",
+        full: || compensator(SHIFT, Widths::default()),
+        widths: [
+            stages = widths.stages, position = widths.position, step = widths.step,
+            speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
         ],
-        "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
-         placement, comparing and sign as 0, 1 and 2, times of the ROM",
-        some_widths!([4 8], |given, W| compensator!(time_lead!(PositionHistory, W), W, given))
+        from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
+               placement, comparing and sign as 0, 1 and 2, times of the ROM",
+            |given| small(SHIFT, given),
+        with: chosen,
+        proved: none,
     ),
     entry!(
-        Compensator<TimeLead<RamHistory<199, 8, 24>, 199, 8, 11, 24>>,
-        Compensator::default(),
-        None,
-        "JPH0646367B2, Figs 1, 5 and 6, with a RAM",
-        [
-            "K" = 199,
-            "T" = 8,
-            "C" = 11,
-            "W" = 24,
-            "A" = 4,
-            "D" = 16,
-            "R" = 35,
-            "N" = 16,
-            "S" = 24
+        Compensator, "JPH0646367B2, Figs 1, 5 and 6, with a RAM",
+        full: || compensator(RAM, Widths::default()),
+        widths: [
+            stages = widths.stages, position = widths.position, step = widths.step,
+            speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
         ],
-        "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
-         placement, comparing and sign as 0, 1 and 2, times of the ROM",
-        some_widths!([4 8], |given, W| compensator!(time_lead!(RamHistory, W), W, given))
+        from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
+               placement, comparing and sign as 0, 1 and 2, times of the ROM",
+            |given| small(RAM, given),
+        with: chosen,
+        proved: none,
+        named: "ram_compensator", "lead-angle compensator with its history in a RAM",
     ),
     entry!(
-        Compensator<SpeedLead<24, 16>>,
-        Compensator::default(),
-        None,
-        "JPH0646367B2, Fig. 7",
-        [
-            "K" = 199,
-            "T" = 8,
-            "C" = 11,
-            "W" = 24,
-            "A" = 4,
-            "D" = 16,
-            "R" = 35,
-            "N" = 16,
-            "S" = 24
+        Compensator, "JPH0646367B2, Fig. 7",
+        full: || compensator(LeadFrom::Speed, Widths::default()),
+        widths: [
+            stages = widths.stages, position = widths.position, step = widths.step,
+            speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
         ],
-        "width of positions, speeds and CK (steps have two bits), placement, comparing and sign \
-         as 0, 1 and 2, times of the ROM",
-        some_widths!([4 8], |given, W| compensator!(SpeedLead::<W, W>, W, given))
+        from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
+               sign as 0, 1 and 2, times of the ROM",
+            |given| small(LeadFrom::Speed, given),
+        with: chosen,
+        proved: none,
+        named: "conventional_compensator",
+            "compensator whose lead is measured speed times a parameter",
     ),
 ];

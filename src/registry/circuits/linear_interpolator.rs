@@ -1,211 +1,276 @@
-use super::make::{RULES, one_of};
-use crate::linear_interpolator::{
-    Accumulator, AxisSwitch, Controller, Conventional, CycleGate, Differentiator, Integrator,
-    LineLaw, LinearInterpolator, PatternGenerator, PositionControl, PositionLoop, Sequencer,
-    TargetData, Trapezoid,
+use super::make::{RULES, one_of, only};
+use crate::circuits::linear_interpolator::{
+    Accumulator, AxisSwitch, CommandSource, Controller, Conventional, CycleGate, Differentiator,
+    Integrator, LineLaw, LinearInterpolator, LoopWidths, PatternGenerator, PositionControl,
+    PositionLoop, Rule, Sequencer, TargetData, Trapezoid, Widths,
 };
+use crate::hdl::Circuit;
 use crate::registry::Entry;
-use crate::registry::entry::{Made, alone, at_width, entry, proved_at, some_widths};
+use crate::registry::entry::{Of, Width, alone, entry, nothing};
+
+/// Widths of the circuits around a pattern, from that of positions.
+fn widths(position: usize) -> Widths {
+    Widths {
+        address: 2,
+        position,
+        time: position / 2,
+    }
+}
+
+/// Widths of a position loop, from that of positions.
+fn loop_widths(position: usize) -> LoopWidths {
+    LoopWidths {
+        position,
+        gain: position,
+        fraction: position / 2,
+        converter: position,
+    }
+}
+
+/// What is made from a width and the number of a rule.
+fn ruled<C>(given: &[u64], circuit: impl FnOnce(usize, Rule) -> C) -> Option<C> {
+    let rule = one_of(given, RULES)?;
+    alone(given.get(..1)?, |width| circuit(width, rule))
+}
+
+fn integrator(position: usize, rule: Rule) -> Integrator {
+    Integrator { position, rule }
+}
+
+fn interpolator(position: usize, rule: Rule) -> LinearInterpolator {
+    LinearInterpolator {
+        widths: widths(position),
+        rule,
+    }
+}
+
+fn conventional(position: usize) -> Conventional {
+    Conventional {
+        widths: widths(position),
+    }
+}
+
+/// A controller from the width of positions.
+fn controller(scan: usize, source: CommandSource) -> Controller {
+    Controller {
+        loops: loop_widths(scan),
+        scan,
+        source,
+    }
+}
+
+/// The widths of what makes a controller's commands.
+fn source(circuit: &mut Controller) -> &mut Widths {
+    match &mut circuit.source {
+        CommandSource::Linear(source) => &mut source.widths,
+        CommandSource::Conventional(source) => &mut source.widths,
+    }
+}
+
+/// The widths of a controller.
+const CONTROLLER: &[Width<Controller>] = &[
+    ("address", |circuit| &mut source(circuit).address),
+    ("position", |circuit| &mut source(circuit).position),
+    ("time", |circuit| &mut source(circuit).time),
+    ("gain", |circuit| &mut circuit.loops.gain),
+    ("fraction", |circuit| &mut circuit.loops.fraction),
+    ("converter", |circuit| &mut circuit.loops.converter),
+    ("scan", |circuit| &mut circuit.scan),
+];
 
 /// The circuits of JP3608587B2.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
-        TargetData<6, 32, 12>, TargetData, Some(2), "JP3608587B2 20", ["A" = 6, "P" = 32, "T" = 12],
-        "width of positions and times (addresses have two bits)",
-        proved_at!([2]; [3 8], |W| TargetData::<2, W, W>)
-    ),
-    entry!(
-        Sequencer<32>,
-        Sequencer,
-        Some(2),
-        "JP3608587B2 ¶0005, ¶0014",
-        ["P" = 32],
-        "width",
-        proved_at!([2]; [4 8], |W| Sequencer::<W>)
-    ),
-    entry!(
-        Trapezoid<32, 12, 25, 58>,
-        Trapezoid,
-        None,
-        "JP3608587B2 14, control",
-        ["P" = 32, "T" = 12, "M" = 25, "Q" = 58],
-        "width of positions; times have half of it",
-        some_widths!([4 8], |W| Trapezoid::<W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>)
-    ),
-    entry!(
-        PatternGenerator<32, 12, 25, 58>,
-        PatternGenerator::default(),
-        None,
-        "JP3608587B2 14",
-        ["P" = 32, "T" = 12, "M" = 25, "Q" = 58],
-        "width of positions; times have half of it",
-        some_widths!([2 4 8], |W| {
-            PatternGenerator::<W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>::default()
-        })
-    ),
-    entry!(
-        Differentiator<32>,
-        Differentiator,
-        Some(3),
-        "JP3608587B2 21 = 22 + 23",
-        ["P" = 32],
-        "width",
-        proved_at!([3]; [4 8], |W| Differentiator::<W>)
-    ),
-    entry!(
-        Accumulator<32, 64>,
-        Accumulator::default(),
-        None,
-        "JP3608587B2 24, registers",
-        ["P" = 32, "R" = 64],
-        "width, 0 for floor, 1 for truncating or 2 for centred",
-        some_widths!([3 8], |given, W| Accumulator::<W, { 2 * W }> {
-            rule: one_of(given, RULES)?
-        })
-    ),
-    entry!(
-        Integrator<32, 64>,
-        Integrator::default(),
-        None,
-        "JP3608587B2 24",
-        ["P" = 32, "R" = 64],
-        "width, 0 for floor, 1 for truncating or 2 for centred",
-        some_widths!([3 8], |given, W| Integrator::<W, { 2 * W }>::new(one_of(given, RULES)?))
-    ),
-    entry!(
-        LineLaw<32, 64>,
-        LineLaw::default(),
-        Some(3),
-        "JP3608587B2 24, with ghosts",
-        ["P" = 32, "R" = 64],
-        "width, 0 for floor, 1 for truncating or 2 for centred",
-        proved_at!([3]; [3 8], |given, W| LineLaw::<W, { 2 * W }>::new(one_of(given, RULES)?))
-    ),
-    entry!(
-        AxisSwitch<32>,
-        AxisSwitch,
-        Some(2),
-        "JP3608587B2 25, Figs 5 and 6",
-        ["P" = 32],
-        "width",
-        proved_at!([2]; [4 8], |W| AxisSwitch::<W>)
-    ),
-    entry!(
-        CycleGate,
-        CycleGate,
-        Some(2),
-        "JP3608587B2, in-position check",
-        [],
-        "nothing",
-        Made {
-            make: |given| Some(Box::new(alone(given, CycleGate)?)),
-            model: |given| Some(Box::new(alone(given, CycleGate)?)),
-            offered: &[],
-        }
-    ),
-    entry!(
-        LinearInterpolator<6>,
-        LinearInterpolator::default(),
-        None,
-        "JP3608587B2 14, 20, 21, 24, 25",
-        ["A" = 6, "P" = 32, "T" = 12, "M" = 25, "Q" = 58, "R" = 64],
-        "width of positions (times have half of it, addresses two bits), 0 for floor, 1 for \
-         truncating or 2 for centred",
-        some_widths!([4 8], |given, W| LinearInterpolator::<
-            2,
-            W,
-            { W / 2 },
-            { W + 1 },
-            { 2 * W + 2 },
-            { 2 * W },
-        >::new(one_of(given, RULES)?))
-    ),
-    entry!(
-        PositionControl,
-        PositionControl,
-        Some(3),
-        "JP3608587B2 10 + 11 + 12",
-        ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
-        "width of positions, gain and D/A converter; half of the gain is its fraction",
-        proved_at!([3]; [4 8], |W| PositionControl::<W, W, { W / 2 }, W, { 2 * W }>)
-    ),
-    entry!(
-        PositionLoop,
-        PositionLoop::default(),
-        Some(2),
-        "JP3608587B2 10–13",
-        ["P" = 32, "G" = 16, "F" = 8, "D" = 16, "R" = 48],
-        "width of positions, gain and D/A converter; half of the gain is its fraction",
-        proved_at!([2]; [4 8], |W| PositionLoop::<W, W, { W / 2 }, W, { 2 * W }>::default())
-    ),
-    entry!(
-        Conventional<6>,
-        Conventional::default(),
-        None,
-        "JP3608587B2 14, 20, Fig. 3",
-        ["A" = 6, "P" = 32, "T" = 12, "M" = 25, "Q" = 58],
-        "width of positions (times have half of it, addresses two bits)",
-        some_widths!([4 8], |W| Conventional::<
-            2,
-            W,
-            { W / 2 },
-            { W + 1 },
-            { 2 * W + 2 },
-        >::default())
-    ),
-    entry!(
-        Controller<LinearInterpolator>,
-        Controller::new(LinearInterpolator::default()),
-        None,
-        "JP3608587B2 1, Fig. 5",
-        [
-            "P" = 32,
-            "T" = 12,
-            "G" = 16,
-            "F" = 8,
-            "D" = 16,
-            "K" = 48,
-            "S" = 24
+        TargetData, "JP3608587B2 20",
+        full: || LinearInterpolator::default().targets(),
+        widths: [
+            address = widths.address,
+            position = widths.position,
+            time = widths.time,
         ],
-        "width of positions, gains, references and the scan (times have half of it, addresses two \
-         bits), 0 for floor, 1 for truncating or 2 for centred",
-        some_widths!([4 8], |given, W| Controller::<
-            LinearInterpolator<2, W, { W / 2 }, { W + 1 }, { 2 * W + 2 }, { 2 * W }>,
-            W,
-            { W / 2 },
-            W,
-            { W / 2 },
-            W,
-            { 2 * W },
-            W,
-        >::new(LinearInterpolator::new(one_of(given, RULES)?)))
+        from: "width of positions and times (addresses have two bits)",
+        |given| alone(given, |width| TargetData {
+            widths: Widths { time: width, ..widths(width) },
+            settings: 1,
+        }),
+        with: nothing,
+        proved: 2,
     ),
     entry!(
-        Controller<Conventional, 32, 12, 16, 8, 16, 48, 24, 2>,
-        Controller::new(Conventional::default()),
-        None,
-        "JP3608587B2 1, Fig. 3",
-        [
-            "P" = 32,
-            "T" = 12,
-            "G" = 16,
-            "F" = 8,
-            "D" = 16,
-            "K" = 48,
-            "S" = 24
-        ],
-        "width of positions, gains, references and the scan (times have half of it, addresses two \
-         bits)",
-        some_widths!([4 8], |W| Controller::<
-            Conventional<2, W, { W / 2 }, { W + 1 }, { 2 * W + 2 }>,
-            W,
-            { W / 2 },
-            W,
-            { W / 2 },
-            W,
-            { 2 * W },
-            W,
-            2,
-        >::new(Conventional::default()))
+        Sequencer, "JP3608587B2 ¶0005, ¶0014",
+        full: || Sequencer { position: 32 },
+        widths: [position],
+        from: "width", |given| alone(given, |position| Sequencer { position }),
+        with: nothing,
+        proved: 2,
     ),
+    entry!(
+        Trapezoid, "JP3608587B2 14, control",
+        full: || Trapezoid { position: 32, time: 12 },
+        widths: [position, time],
+        from: "width of positions; times have half of it",
+        |given| alone(given, |position| Trapezoid { position, time: position / 2 }),
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        PatternGenerator, "JP3608587B2 14",
+        full: || PatternGenerator { position: 32, time: 12 },
+        widths: [position, time],
+        from: "width of positions; times have half of it",
+        |given| alone(given, |position| PatternGenerator { position, time: position / 2 }),
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        Differentiator, "JP3608587B2 21 = 22 + 23",
+        full: || Differentiator { position: 32 },
+        widths: [position],
+        from: "width", |given| alone(given, |position| Differentiator { position }),
+        with: nothing,
+        proved: 3,
+    ),
+    entry!(
+        Accumulator, "JP3608587B2 24, registers",
+        full: || Accumulator { position: 32, rule: Rule::Floor },
+        widths: [position],
+        from: "width, 0 for floor, 1 for truncating or 2 for centred",
+        |given| ruled(given, |position, rule| Accumulator { position, rule }),
+        with: |circuit, given| Some(Accumulator { rule: only(given, RULES)?, ..circuit }),
+        proved: none,
+    ),
+    entry!(
+        Integrator, "JP3608587B2 24",
+        full: || integrator(32, Rule::Floor),
+        widths: [position],
+        from: "width, 0 for floor, 1 for truncating or 2 for centred",
+        |given| ruled(given, integrator),
+        with: |circuit, given| Some(Integrator { rule: only(given, RULES)?, ..circuit }),
+        proved: none,
+    ),
+    entry!(
+        LineLaw, "JP3608587B2 24, with ghosts",
+        full: || LineLaw { integrator: integrator(32, Rule::Floor) },
+        widths: [position = integrator.position],
+        from: "width, 0 for floor, 1 for truncating or 2 for centred",
+        |given| Some(LineLaw { integrator: ruled(given, integrator)? }),
+        with: |circuit, given| Some(LineLaw {
+            integrator: integrator(circuit.integrator.position, only(given, RULES)?),
+        }),
+        proved: 3,
+    ),
+    entry!(
+        AxisSwitch, "JP3608587B2 25, Figs 5 and 6",
+        full: || AxisSwitch { position: 32 },
+        widths: [position],
+        from: "width", |given| alone(given, |position| AxisSwitch { position }),
+        with: nothing,
+        proved: 2,
+    ),
+    entry!(
+        CycleGate, "JP3608587B2, in-position check",
+        full: || CycleGate,
+        widths: [],
+        from: "nothing", |given| (given.len() <= 1).then_some(CycleGate),
+        with: nothing,
+        proved: 2,
+    ),
+    entry!(
+        LinearInterpolator, "JP3608587B2 14, 20, 21, 24, 25",
+        full: LinearInterpolator::default,
+        widths: [
+            address = widths.address,
+            position = widths.position,
+            time = widths.time,
+        ],
+        from: "width of positions (times have half of it, addresses two bits), 0 for floor, 1 for \
+               truncating or 2 for centred",
+        |given| ruled(given, interpolator),
+        with: |circuit, given| Some(LinearInterpolator { rule: only(given, RULES)?, ..circuit }),
+        proved: none,
+    ),
+    entry!(
+        PositionControl, "JP3608587B2 10 + 11 + 12",
+        full: PositionControl::default,
+        widths: [
+            position = widths.position,
+            gain = widths.gain,
+            fraction = widths.fraction,
+            converter = widths.converter,
+        ],
+        from: "width of positions, gain and D/A converter; half of the gain is its fraction",
+        |given| alone(given, |width| PositionControl { widths: loop_widths(width) }),
+        with: nothing,
+        proved: 3,
+    ),
+    entry!(
+        PositionLoop, "JP3608587B2 10–13",
+        full: PositionLoop::default,
+        widths: [
+            position = widths.position,
+            gain = widths.gain,
+            fraction = widths.fraction,
+            converter = widths.converter,
+        ],
+        from: "width of positions, gain and D/A converter; half of the gain is its fraction",
+        |given| alone(given, |width| PositionLoop { widths: loop_widths(width) }),
+        with: nothing,
+        proved: 2,
+    ),
+    entry!(
+        Conventional, "JP3608587B2 14, 20, Fig. 3",
+        full: Conventional::default,
+        widths: [
+            address = widths.address,
+            position = widths.position,
+            time = widths.time,
+        ],
+        from: "width of positions (times have half of it, addresses two bits)",
+        |given| alone(given, conventional),
+        with: nothing,
+        proved: none,
+    ),
+    Entry {
+        name: Controller::NAME,
+        about: Controller::ABOUT,
+        source: "JP3608587B2 1, Fig. 5",
+        arguments: "width of positions, gains, references and the scan (times have half of it, \
+                    addresses two bits), 0 for floor, 1 for truncating or 2 for centred",
+        proof_width: None,
+        maker: &Of::<Controller> {
+            full: || Controller::new(CommandSource::Linear(LinearInterpolator::default())),
+            from: |given| {
+                ruled(given, |width, rule| {
+                    controller(width, CommandSource::Linear(interpolator(width, rule)))
+                })
+            },
+            with: |circuit, given| {
+                let rule = only(given, RULES)?;
+                let widths = circuit.source.targets().widths;
+                let source = CommandSource::Linear(LinearInterpolator { widths, rule });
+                Some(Controller { source, ..circuit })
+            },
+            widths: CONTROLLER,
+            proved: None,
+        },
+    },
+    Entry {
+        name: "conventional_controller",
+        about: "a position pattern for each axis, with the position loops of X and Y",
+        source: "JP3608587B2 1, Fig. 3",
+        arguments: "width of positions, gains, references and the scan (times have half of it, \
+                    addresses two bits)",
+        proof_width: None,
+        maker: &Of::<Controller> {
+            full: || Controller::new(CommandSource::Conventional(Conventional::default())),
+            from: |given| {
+                alone(given, |width| {
+                    controller(width, CommandSource::Conventional(conventional(width)))
+                })
+            },
+            with: nothing,
+            widths: CONTROLLER,
+            proved: None,
+        },
+    },
 ];

@@ -1,44 +1,44 @@
 //! The machine of all circuits, and what it has besides them.
 
-use crate::jobs::machine::{Settings, job};
-use crate::machine::{CommandJoin, Enables, Machine};
+use crate::circuits::machine::{CommandJoin, Enables, Machine};
+use crate::circuits::trajectory_controller::vector_correction::Correction;
+use crate::hdl::Image;
 use crate::registry::Entry;
-use crate::registry::entry::{Made, alone, at_width, entry, proved_at};
+use crate::registry::entry::{alone, entry, nothing};
+
+/// Lead time of the pen lift's brake, down and up, in CKs of 0.1 ms.
+const LEAD_TIMES: [u64; 2] = [250; 2];
 
 /// They.
-pub const CIRCUITS: &[Entry] = &[
+pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
-        Enables,
-        Enables::default(),
-        Some(2),
-        "system, rates",
-        ["W" = 24],
-        "width of the counters",
-        proved_at!([2]; [4 8], |W| Enables::<W>::default())
+        Enables, "system, rates",
+        full: Enables::default,
+        widths: [width],
+        from: "width of the counters", |given| alone(given, |width| Enables { width }),
+        with: nothing,
+        proved: 2,
     ),
     entry!(
-        CommandJoin<32, 24>,
-        CommandJoin,
-        Some(3),
-        "system, commands",
-        ["W" = 32, "V" = 24],
-        "width of the lines' way; that of the arcs is a bit less",
-        proved_at!([3]; [4 8], |W| CommandJoin::<W, { W - 1 }>)
+        CommandJoin, "system, commands",
+        full: || CommandJoin { line: 32, arc: 24 },
+        widths: [line, arc],
+        from: "width of the lines' way; that of the arcs is a bit less",
+        |given| alone(given, |line| CommandJoin { line, arc: line.saturating_sub(1) }),
+        with: nothing,
+        proved: 3,
     ),
     entry!(
-        Machine,
-        job::machine(&Settings::default()).circuit,
-        None,
-        "system",
-        [],
-        "nothing",
-        Made {
-            make: |_given| None,
-            model: |given| {
-                let machine = job::machine(&Settings::default()).circuit;
-                Some(Box::new(alone(given, machine)?))
-            },
-            offered: &[],
-        }
+        Machine, "system",
+        full: machine,
+        widths: [],
+        from: "nothing", |given| nothing(machine(), given),
+        with: nothing,
+        proved: none,
     ),
 ];
+
+/// The machine as its default settings have it.
+fn machine() -> Machine {
+    Machine::new(Correction::default(), Image::of(4, 11, LEAD_TIMES))
+}

@@ -31,7 +31,7 @@ const COUNT: usize = {
 };
 
 /// Every circuit, blocks before what is made of them. A static, which stands in this crate alone: a
-/// constant is compiled again, with all circuits at all widths, in each program that names it.
+/// constant is compiled again, with all circuits, in each program that names it.
 pub static CATALOGUE: &[Entry] = &{
     let mut all = [PARTS[0][0]; COUNT];
     let (mut count, mut part) = (0, 0);

@@ -1,109 +1,204 @@
-use super::make::{VARIANTS, address_bits, at_most, group, group_model, memory, one_of, second};
-use crate::pulse_interpolator::{
-    AddressSequencer, Axis, CommandPort, Group, PatternMemory, PulseGenerator, SyncStage, UnitLaw,
-    UnitTimeCounter, UnitTimeRegister, Variant,
+use super::make::words;
+use super::make::{VARIANTS, address_bits, at_most, choice, one_of, only, second, width, word};
+use crate::circuits::pulse_interpolator::pattern_memory::Contents;
+use crate::circuits::pulse_interpolator::{
+    AddressSequencer, Axis, CommandPort, Group, Pattern, PatternMemory, PulseGenerator, SyncStage,
+    UnitLaw, UnitTimeRegister, Variant, Widths,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{Made, alone, at_width, entry, proved_at};
+use crate::registry::entry::{alone, entry, nothing};
+
+/// The full widths of a memory.
+fn full_memory() -> PatternMemory {
+    let widths = Widths::default();
+    PatternMemory::new(widths.half_period, widths.address, 0)
+}
+
+/// Fills a memory from address 0 up; a word is a half-period, 2^its width more for the direction
+/// down.
+fn fill(contents: &mut Contents, words: impl Iterator<Item = u64>) {
+    let width = contents.half_periods.width() as u32;
+    for (address, word) in words.enumerate() {
+        contents.half_periods.set(address, word);
+        let down = word.checked_shr(width).unwrap_or(0);
+        contents.directions.set(address, down);
+    }
+}
+
+/// A memory of axis 0, or of the one that is given, with the words given after that.
+fn memory(memory: PatternMemory, given: &[u64]) -> Option<PatternMemory> {
+    let most = 1usize.checked_shl(memory.address as u32)?;
+    let words = words(given, 1, most, memory.half_period + 1)?;
+    let axis = word(given.first().copied().unwrap_or(0), 3)?;
+    let mut memory = PatternMemory { axis, ..memory };
+    fill(&mut memory.contents, words.iter().copied());
+    Some(memory)
+}
+
+/// A group whose words have all that width, but for its addresses.
+fn group(axes: usize, width: usize, address: usize) -> Group {
+    let widths = Widths {
+        half_period: width,
+        period: width,
+        address,
+    };
+    Group::new(axes, widths, Variant::Safe, 3)
+}
+
+/// A group as small as a proof needs: one axis whose memory holds half-periods 1 and 2 in turn, the
+/// second downwards.
+fn small_group(width: usize, given: &[u64]) -> Option<Group> {
+    let mut small = group(1, width, 1);
+    small.period = second(given, small.period, width)?;
+    let down = 1u64.checked_shl(width as u32).unwrap_or(0);
+    fill(&mut small.memories[0], [1, 2 | down].into_iter());
+    Some(small)
+}
+
+/// A group with T at power-on, a variant, whether it plays by itself, and words of its axes in turn.
+fn playing(group: Group, given: &[u64]) -> Option<Group> {
+    let Widths {
+        half_period,
+        period: bits,
+        address,
+    } = group.widths;
+    let period = word(given.first().copied().unwrap_or(group.period), bits)?;
+    let variant = choice(given, 1, VARIANTS)?;
+    let cyclic = choice(given, 2, &[None, Some(false), Some(true)])?;
+    let words = words(given, 3, group.axes << address, half_period + 1)?;
+    let mut memories = vec![Contents::new(half_period, address); group.axes];
+    for (axis, contents) in memories.iter_mut().enumerate() {
+        fill(
+            contents,
+            words.iter().skip(axis).step_by(group.axes).copied(),
+        );
+    }
+    let last = words.len().div_ceil(group.axes) as u64;
+    Some(Group {
+        period,
+        free_running: cyclic.map(|cyclic| Pattern {
+            base: 0,
+            last: last.saturating_sub(1),
+            cyclic,
+            period,
+        }),
+        variant,
+        memories,
+        ..group
+    })
+}
 
 /// The circuits of JP3640909B2.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
-        UnitTimeCounter<24>,
-        UnitTimeCounter,
-        Some(3),
-        "JP3640909B2 30",
-        ["T" = 24],
-        "width",
-        proved_at!([2 3]; [2 3 4 8], |W| UnitTimeCounter::<W>)
-    ),
-    entry!(
-        UnitTimeRegister<24>,
-        UnitTimeRegister { period: 1000 },
-        Some(3),
-        "JP3640909B2 ¶0016",
-        ["T" = 24],
-        "width, T at power-on",
-        proved_at!([3]; [4 8], |given, W| {
+        UnitTimeRegister, "JP3640909B2 ¶0016",
+        full: || UnitTimeRegister { width: 24, period: 1000 },
+        widths: [width],
+        from: "width, T at power-on", |given| {
             at_most(given, 2)?;
-            UnitTimeRegister::<W> {
-                period: second(given, 1, W)?,
-            }
-        })
+            let width = width(given)?;
+            Some(UnitTimeRegister { width, period: second(given, 1, width)? })
+        },
+        with: |circuit, given| {
+            at_most(given, 1)?;
+            let period = word(given.first().copied().unwrap_or(circuit.period), circuit.width)?;
+            Some(UnitTimeRegister { period, ..circuit })
+        },
+        proved: 3,
     ),
     entry!(
-        PulseGenerator<16>,
-        PulseGenerator::default(),
-        Some(3),
-        "JP3640909B2 20 = 201 + 202",
-        ["N" = 16],
-        "width, 0 for safe or 1 for literal",
-        proved_at!([3]; [2 4 8 16], |given, W| PulseGenerator::<W> {
-            variant: one_of(given, VARIANTS)?
-        })
+        PulseGenerator, "JP3640909B2 20 = 201 + 202",
+        full: || PulseGenerator { width: 16, variant: Variant::Safe },
+        widths: [width],
+        from: "width, 0 for safe or 1 for literal", |given| {
+            Some(PulseGenerator { width: width(given)?, variant: one_of(given, VARIANTS)? })
+        },
+        with: |circuit, given| {
+            Some(PulseGenerator { variant: only(given, VARIANTS)?, ..circuit })
+        },
+        proved: 3,
     ),
     entry!(
-        SyncStage,
-        SyncStage,
-        Some(3),
-        "JP3640909B2 40",
-        [],
-        "nothing",
-        Made {
-            make: |given| Some(Box::new(alone(given, SyncStage)?)),
-            model: |given| Some(Box::new(alone(given, SyncStage)?)),
-            offered: &[],
-        }
+        SyncStage, "JP3640909B2 40",
+        full: || SyncStage,
+        widths: [],
+        from: "nothing", |given| {
+            at_most(given, 1)?;
+            Some(SyncStage)
+        },
+        with: nothing,
+        proved: 3,
     ),
     entry!(
-        PatternMemory<16, 12>, PatternMemory::new(0), Some(3), "JP3640909B2 10", ["N" = 16, "A" = 12],
-        "width of the half-period (addresses have one bit, above a width of 4 four), axis, words \
-         at power-on (a half-period, 2^width more for down)",
-        proved_at!([3]; [4 8], |given, W| memory::<W, { address_bits(W) }>(given)?)
+        PatternMemory, "JP3640909B2 10",
+        full: full_memory,
+        widths: [half_period, address],
+        from: "width of the half-period (addresses have one bit, above a width of 4 four), axis, \
+               words at power-on (a half-period, 2^width more for down)",
+        |given| {
+            let width = width(given)?;
+            memory(PatternMemory::new(width, address_bits(width), 0), &given[1..])
+        },
+        with: memory,
+        proved: 3,
     ),
     entry!(
-        AddressSequencer<12>,
-        AddressSequencer,
-        Some(3),
-        "JP3640909B2 50",
-        ["A" = 12],
-        "width",
-        proved_at!([3]; [4 8], |W| AddressSequencer::<W>)
+        AddressSequencer, "JP3640909B2 50",
+        full: || AddressSequencer { width: 12 },
+        widths: [width],
+        from: "width", |given| alone(given, |width| AddressSequencer { width }),
+        with: nothing,
+        proved: 3,
     ),
     entry!(
-        CommandPort<12, 24>, CommandPort::default(), Some(3), "JP3640909B2 ¶0018, ¶0026", ["A" = 12, "T" = 24],
-        "width",
-        proved_at!([3]; [4 8], |W| CommandPort::<W, W>::default())
+        CommandPort, "JP3640909B2 ¶0018, ¶0026",
+        full: || CommandPort { address: 12, period: 24, free_running: None },
+        widths: [address, period],
+        from: "width", |given| alone(given, |width| {
+            CommandPort { address: width, period: width, free_running: None }
+        }),
+        with: nothing,
+        proved: 3,
     ),
     entry!(
-        Axis<16, 12>, Axis::new(0, Variant::Safe), Some(3), "JP3640909B2 10 + 20 + 40", ["N" = 16, "A" = 12],
-        "width of the half-period (addresses have one bit, above a width of 4 four), 0 for safe or \
-         1 for literal",
-        proved_at!([3]; [4 8], |given, W| Axis::<W, { address_bits(W) }>::new(0, one_of(given, VARIANTS)?))
+        Axis, "JP3640909B2 10 + 20 + 40",
+        full: || Axis { memory: full_memory(), variant: Variant::Safe },
+        widths: [half_period = memory.half_period, address = memory.address],
+        from: "width of the half-period (addresses have one bit, above a width of 4 four), 0 for \
+               safe or 1 for literal",
+        |given| {
+            let width = width(given)?;
+            let memory = PatternMemory::new(width, address_bits(width), 0);
+            Some(Axis { memory, variant: one_of(given, VARIANTS)? })
+        },
+        with: |circuit, given| Some(Axis { variant: only(given, VARIANTS)?, ..circuit }),
+        proved: 3,
     ),
     entry!(
-        UnitLaw<16>,
-        UnitLaw::default(),
-        Some(3),
-        "JP3640909B2 30 + 20 + 40, with ghosts",
-        ["W" = 16],
-        "width, 0 for safe or 1 for literal",
-        proved_at!([3 4]; [4 8 16], |given, W| UnitLaw::<W>::new(one_of(given, VARIANTS)?))
+        UnitLaw, "JP3640909B2 30 + 20 + 40, with ghosts",
+        full: || UnitLaw { width: 16, variant: Variant::Safe },
+        widths: [width],
+        from: "width, 0 for safe or 1 for literal", |given| {
+            Some(UnitLaw { width: width(given)?, variant: one_of(given, VARIANTS)? })
+        },
+        with: |circuit, given| Some(UnitLaw { variant: only(given, VARIANTS)?, ..circuit }),
+        proved: 3,
     ),
     entry!(
-        Group<2>,
-        Group::new(Variant::Safe, 1000),
-        Some(2),
-        "JP3640909B2 1",
-        ["AXES" = 2, "N" = 16, "T" = 24, "A" = 12],
-        "width of half-period and T, T at power-on: one axis, two words of memory (1 up, 2 down); \
-         then 0 for safe or 1 for literal, and 0 to wait, 1 to play once or 2 to loop by itself: two \
-         axes of eight words (width 8 always), without proofs; then words of x and y in turn (a \
-         half-period, 2^width more for down)",
-        Made {
-            make: group,
-            model: group_model,
-            offered: &[4, 8],
-        }
+        Group, "JP3640909B2 1",
+        full: || Group { memories: Vec::new(), ..Group::new(2, Widths::default(), Variant::Safe, 1000) },
+        widths: [
+            axes, half_period = widths.half_period, period = widths.period, address = widths.address,
+        ],
+        from: "width of half-period and T, T at power-on: one axis, two words of memory (1 up, 2 \
+               down); then 0 for safe or 1 for literal, and 0 to wait, 1 to play once or 2 to loop \
+               by itself: two axes of eight words (above a width of 4 always); then words of x and \
+               y in turn (a half-period, 2^width more for down)",
+        |given| match (width(given)?, given) {
+            (width @ ..=4, [_] | [_, _]) => small_group(width, given),
+            (width, _) => playing(group(2, width, 3), &given[1..]),
+        },
+        with: playing,
+        proved: 2,
     ),
 ];

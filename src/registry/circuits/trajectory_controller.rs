@@ -1,183 +1,386 @@
-use super::make::{ROUNDINGS, at_most, one_of};
-use crate::registry::Entry;
-use crate::registry::entry::{Made, at_width, entry, proved_at, some_widths};
-use crate::trajectory_controller::{
+use super::make::{ROUNDINGS, at_most, one_of, only, width};
+use crate::circuits::trajectory_controller::model_state::ModelWidths;
+use crate::circuits::trajectory_controller::point_sequencer::RADIUS;
+use crate::circuits::trajectory_controller::servo_arithmetic::ServoWidths;
+use crate::circuits::trajectory_controller::vector_correction::Correction;
+use crate::circuits::trajectory_controller::widths::PointWidths;
+use crate::circuits::trajectory_controller::{
     ArcAngle, AxisRow, ControlledAxis, Cordic, CordicState, LengthClamp, ModelState, PathLength,
     PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, Scaler, SegmentSearch,
-    SegmentStore, Servo, ServoArithmetic, Shifter, TrajectoryController, VectorCorrection,
-    vector_correction::Correction,
+    SegmentStore, Servo, ServoArithmetic, Shifter, TrajectoryController, VectorCorrection, Widths,
 };
+use crate::registry::Entry;
+use crate::registry::entry::{alone, entry, nothing};
 
 /// The corrections by their numbers.
 const CORRECTIONS: &[Correction] = &[Correction::Vector, Correction::None, Correction::Steady];
 
-/// A join that waits for so many ticks.
-fn join(given: &[u64]) -> Option<PeriodJoin> {
-    at_most(given, 1)?;
-    let wait = given.first().copied().unwrap_or(0);
-    Some(PeriodJoin { wait })
+/// The circuit's own widths, for paths of up to 256 segments.
+const FULL: Widths = Widths {
+    segment: 8,
+    ..Widths::FULL
+};
+
+/// Points, lengths, coefficients and angles of one width, two bits more inside, and two segments.
+fn points(width: usize) -> PointWidths {
+    PointWidths {
+        point: width,
+        radius: width + 2,
+        coefficient: width,
+        curvature: width,
+        angle: width,
+        data: width + 2,
+        segment: 1,
+    }
+}
+
+/// Positions and gains of one width.
+fn models(width: usize) -> ModelWidths {
+    ModelWidths {
+        position: width,
+        gain: width,
+    }
+}
+
+/// Counts, gains and torques of one width, and two guard bits.
+fn servos(width: usize) -> ServoWidths {
+    ServoWidths {
+        count: width,
+        position: width + 2,
+        model_gain: width,
+        gain: width,
+        torque: width,
+    }
+}
+
+/// The same for all of the controller, with two segments.
+fn widths(width: usize) -> Widths {
+    Widths {
+        position: width,
+        point: width + 2,
+        radius: width + 4,
+        coefficient: width + 2,
+        curvature: width + 2,
+        angle: width + 2,
+        data: 2 * width + 4,
+        segment: 1,
+        fraction: 2 * width + 1,
+        samples: (2 * width).saturating_sub(2),
+        period: 2 * width,
+        gain: width,
+        servo_gain: width,
+        torque: width,
+    }
+}
+
+fn sequencer(widths: PointWidths) -> PointSequencer {
+    PointSequencer {
+        widths,
+        radius_word: RADIUS,
+    }
+}
+
+fn point(widths: PointWidths, axes: usize) -> PathPoint {
+    PathPoint {
+        widths,
+        axes,
+        radius_word: RADIUS,
+    }
+}
+
+fn servo(widths: ServoWidths) -> Servo {
+    Servo {
+        widths,
+        rounding: Rounding::Nearest,
+    }
+}
+
+fn axis(widths: ServoWidths, correction: Correction) -> ControlledAxis {
+    ControlledAxis {
+        servo: servo(widths),
+        correction,
+    }
 }
 
 /// The circuits of CN104204977.
 pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
-        Scaler<24, 58>, Scaler, Some(3), "CN104204977 21, 23, 27, 29, 30: a gain",
-        ["K" = 24, "Q" = 58], "width of a gain; a value has as many bits",
-        proved_at!([3]; [4 8], |W| Scaler::<W, { W + 1 }>)
+        Scaler, "CN104204977 21, 23, 27, 29, 30: a gain",
+        full: || Scaler { gain: FULL.servo_gain, value: FULL.servo().product() },
+        widths: [gain, value],
+        from: "width of a gain; a value has as many bits", |given| {
+            alone(given, |gain| Scaler { gain, value: gain + 1 })
+        },
+        with: nothing,
+        proved: 3,
     ),
     entry!(
-        ModelState<47, 16, 64>, ModelState::default(), None, "CN104204977 20, 22, 24, 25",
-        ["P" = 47, "K" = 16, "Q" = 64], "width of positions and gains, 1 for rounding down",
-        some_widths!([4 8], |given, W| ModelState::<W, W, { 2 * W + 1 }> {
-            rounding: one_of(given, ROUNDINGS)?,
-        })
+        ModelState, "CN104204977 20, 22, 24, 25",
+        full: || ModelState { widths: FULL.model(), rounding: Rounding::Nearest },
+        widths: [position = widths.position, gain = widths.gain],
+        from: "width of positions and gains, 1 for rounding down", |given| {
+            let (widths, rounding) = (models(width(given)?), one_of(given, ROUNDINGS)?);
+            Some(ModelState { widths, rounding })
+        },
+        with: |model, given| Some(ModelState { rounding: only(given, ROUNDINGS)?, ..model }),
+        proved: none,
     ),
     entry!(
-        ReferenceModel<47, 16, 64>, ReferenceModel::default(), None, "CN104204977 12, 50, 51, 52",
-        ["P" = 47, "K" = 16, "Q" = 64], "width of positions and gains, 1 for rounding down",
-        some_widths!([4 8], |given, W| {
-            ReferenceModel::<W, W, { 2 * W + 1 }>::new(one_of(given, ROUNDINGS)?)
-        })
+        ReferenceModel, "CN104204977 12, 50, 51, 52",
+        full: || ReferenceModel { widths: FULL.model(), rounding: Rounding::Nearest },
+        widths: [position = widths.position, gain = widths.gain],
+        from: "width of positions and gains, 1 for rounding down", |given| {
+            let (widths, rounding) = (models(width(given)?), one_of(given, ROUNDINGS)?);
+            Some(ReferenceModel { widths, rounding })
+        },
+        with: |model, given| Some(ReferenceModel { rounding: only(given, ROUNDINGS)?, ..model }),
+        proved: none,
     ),
     entry!(
-        SegmentSearch<8, 47>, SegmentSearch, None, "CN104204977 2, 3: segment",
-        ["A" = 8, "P" = 47], "width of lengths (four segments)",
-        some_widths!([4 8], |W| SegmentSearch::<2, W>)
+        SegmentSearch, "CN104204977 2, 3: segment",
+        full: || SegmentSearch { widths: FULL.point() },
+        widths: [segment = widths.segment, point = widths.point],
+        from: "width of lengths (four segments)", |given| {
+            alone(given, |width| {
+                let widths = PointWidths { segment: 2, ..points(width) };
+                SegmentSearch { widths }
+            })
+        },
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        SegmentStore<8, 12, 55>, SegmentStore, None, "CN104204977 2, 3: segments",
-        ["A" = 8, "K" = 12, "D" = 55], "width of a word (two segments)",
-        some_widths!([4 8], |W| SegmentStore::<1, 5, W>)
+        SegmentStore, "CN104204977 2, 3: segments",
+        full: || SegmentStore { widths: FULL.point() },
+        widths: [segment = widths.segment, data = widths.data],
+        from: "width of a word (two segments)", |given| {
+            alone(given, |data| {
+                let widths = PointWidths { data, ..points(data) };
+                SegmentStore { widths }
+            })
+        },
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        ArcAngle<47, 44, 44, 52>, ArcAngle, None, "CN104204977 2, 3: arc",
-        ["P" = 47, "M" = 44, "H" = 44, "X" = 52], "width of lengths, curvatures and angles",
-        some_widths!([4 8], |W| ArcAngle::<W, W, W, { W + 5 }>)
+        ArcAngle, "CN104204977 2, 3: arc",
+        full: || ArcAngle { widths: FULL.point() },
+        widths: [point = widths.point, curvature = widths.curvature, angle = widths.angle],
+        from: "width of lengths, curvatures and angles", |given| {
+            alone(given, |width| ArcAngle { widths: points(width) })
+        },
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        Shifter<55>,
-        Shifter,
-        Some(4),
-        "CN104204977 2, 3: arc",
-        ["R" = 55],
-        "width",
-        proved_at!([4]; [4 8], |W| Shifter::<W>)
+        Shifter, "CN104204977 2, 3: arc",
+        full: || Shifter { width: FULL.radius },
+        widths: [width],
+        from: "width", |given| alone(given, |width| Shifter { width }),
+        with: nothing,
+        proved: 4,
     ),
     entry!(
-        CordicState<55, 44>, CordicState::default(), None, "CN104204977 2, 3: arc",
-        ["R" = 55, "H" = 44], "width of coordinates and angles",
-        some_widths!([4 8], |W| CordicState::<W, W>::default())
+        CordicState, "CN104204977 2, 3: arc",
+        full: || CordicState { widths: FULL.point() },
+        widths: [radius = widths.radius, angle = widths.angle],
+        from: "width of coordinates and angles", |given| {
+            alone(given, |radius| {
+                let widths = PointWidths { radius, ..points(radius) };
+                CordicState { widths }
+            })
+        },
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        Cordic<55, 44>, Cordic::default(), None, "CN104204977 2, 3: arc",
-        ["R" = 55, "H" = 44], "width of coordinates and angles",
-        some_widths!([4 8], |W| Cordic::<W, W>::default())
+        Cordic, "CN104204977 2, 3: arc",
+        full: || Cordic { widths: FULL.point() },
+        widths: [radius = widths.radius, angle = widths.angle],
+        from: "width of coordinates and angles", |given| {
+            alone(given, |radius| {
+                let widths = PointWidths { radius, ..points(radius) };
+                Cordic { widths }
+            })
+        },
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        AxisRow<47, 55, 42, 57, 55>, AxisRow::default(), None, "CN104204977 (1), (5)",
-        ["P" = 47, "R" = 55, "C" = 42, "S" = 57, "D" = 55],
-        "width of points and coefficients; two bits more inside",
-        some_widths!([4 8], |W| AxisRow::<W, { W + 2 }, W, { W + 4 }, { W + 2 }>::default())
-    ),
-    entry!(
-        PointSequencer<47, 55, 44, 55>, PointSequencer::default(), None, "CN104204977 2, 3",
-        ["P" = 47, "R" = 55, "M" = 44, "D" = 55], "width of lengths; two bits more inside",
-        some_widths!([4 8], |W| PointSequencer::<W, { W + 2 }, W, { W + 2 }>::default())
-    ),
-    entry!(
-        PathPoint<3, 8, 47, 55, 42, 57, 44, 44, 52, 55, 12>, PathPoint::default(), None,
-        "CN104204977 2, 3",
-        [
-            "AXES" = 3, "A" = 8, "P" = 47, "R" = 55, "C" = 42, "S" = 57, "M" = 44, "H" = 44,
-            "X" = 52, "D" = 55, "K" = 12
+        AxisRow, "CN104204977 (1), (5)",
+        full: || AxisRow { widths: FULL.point(), coordinate: 0 },
+        widths: [
+            point = widths.point,
+            radius = widths.radius,
+            coefficient = widths.coefficient,
+            data = widths.data,
         ],
-        "width of points, lengths, coefficients and angles (two axes, two segments)",
-        some_widths!([4 8], |W| {
-            PathPoint::<2, 1, W, { W + 2 }, W, { W + 4 }, W, W, { W + 5 }, { W + 2 }, 5>::default()
-        })
+        from: "width of points and coefficients; two bits more inside", |given| {
+            alone(given, |width| AxisRow { widths: points(width), coordinate: 0 })
+        },
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        LengthClamp<47>,
-        LengthClamp,
-        Some(4),
-        "CN104204977 2, ends",
-        ["P" = 47],
-        "width",
-        proved_at!([4]; [4 8], |W| LengthClamp::<W>)
+        PointSequencer, "CN104204977 2, 3",
+        full: || sequencer(FULL.point()),
+        widths: [
+            point = widths.point,
+            radius = widths.radius,
+            curvature = widths.curvature,
+            data = widths.data,
+        ],
+        from: "width of lengths; two bits more inside", |given| {
+            alone(given, |width| sequencer(points(width)))
+        },
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        PathLength<47>,
-        PathLength,
-        Some(4),
-        "CN104204977 1, qc",
-        ["P" = 47],
-        "width",
-        proved_at!([4]; [4 8], |W| PathLength::<W>)
+        PathPoint, "CN104204977 2, 3",
+        full: || point(FULL.point(), 3),
+        widths: [
+            axes,
+            segment = widths.segment,
+            point = widths.point,
+            radius = widths.radius,
+            coefficient = widths.coefficient,
+            curvature = widths.curvature,
+            angle = widths.angle,
+            data = widths.data,
+        ],
+        from: "width of points, lengths, coefficients and angles (two axes, two segments)",
+        |given| alone(given, |width| point(points(width), 2)),
+        with: nothing,
+        proved: none,
     ),
     entry!(
-        VectorCorrection<47>,
-        VectorCorrection::default(),
-        Some(3),
-        "CN104204977 4",
-        ["P" = 47],
-        "width, 1 for no correction, 2 for the steady one",
-        proved_at!([3]; [4 8], |given, W| VectorCorrection::<W> {
+        LengthClamp, "CN104204977 2, ends",
+        full: || LengthClamp { width: FULL.point },
+        widths: [width],
+        from: "width", |given| alone(given, |width| LengthClamp { width }),
+        with: nothing,
+        proved: 4,
+    ),
+    entry!(
+        PathLength, "CN104204977 1, qc",
+        full: || PathLength { width: FULL.point },
+        widths: [width],
+        from: "width", |given| alone(given, |width| PathLength { width }),
+        with: nothing,
+        proved: 4,
+    ),
+    entry!(
+        VectorCorrection, "CN104204977 4",
+        full: || VectorCorrection { width: FULL.point, correction: Correction::Vector },
+        widths: [width],
+        from: "width, 1 for no correction, 2 for the steady one", |given| {
+            let (width, correction) = (width(given)?, one_of(given, CORRECTIONS)?);
+            Some(VectorCorrection { width, correction })
+        },
+        with: |corrector, given| {
+            let correction = only(given, CORRECTIONS)?;
+            Some(VectorCorrection { correction, ..corrector })
+        },
+        proved: 3,
+    ),
+    entry!(
+        PeriodJoin, "CN104204977 Fig. 1, order",
+        full: || PeriodJoin { wait: 200 },
+        widths: [],
+        from: "ticks to wait", |given| {
+            at_most(given, 1)?;
+            let wait = given.first().copied().unwrap_or(0);
+            Some(PeriodJoin { wait })
+        },
+        with: |join, given| {
+            at_most(given, 1)?;
+            let wait = given.first().copied().unwrap_or(join.wait);
+            Some(PeriodJoin { wait })
+        },
+        proved: 2,
+    ),
+    entry!(
+        ServoArithmetic, "CN104204977 26 to 31",
+        full: || ServoArithmetic { widths: FULL.servo() },
+        widths: [
+            count = widths.count,
+            position = widths.position,
+            gain = widths.gain,
+            torque = widths.torque,
+        ],
+        from: "width of counts, gains and torques; two guard bits", |given| {
+            alone(given, |width| ServoArithmetic { widths: servos(width) })
+        },
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        Servo, "CN104204977 11",
+        full: || servo(FULL.servo()),
+        widths: [
+            count = widths.count,
+            position = widths.position,
+            model_gain = widths.model_gain,
+            gain = widths.gain,
+            torque = widths.torque,
+        ],
+        from: "width of counts, gains and torques; two guard bits", |given| {
+            alone(given, |width| servo(servos(width)))
+        },
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        ControlledAxis, "CN104204977 4, 11, 51",
+        full: || axis(FULL.servo(), Correction::Vector),
+        widths: [
+            count = servo.widths.count,
+            position = servo.widths.position,
+            model_gain = servo.widths.model_gain,
+            gain = servo.widths.gain,
+            torque = servo.widths.torque,
+        ],
+        from: "width of counts, gains and torques, 1 for no correction, 2 for the steady one; two guard bits",
+        |given| Some(axis(servos(width(given)?), one_of(given, CORRECTIONS)?)),
+        with: |axis, given| {
+            let correction = only(given, CORRECTIONS)?;
+            Some(ControlledAxis { correction, ..axis })
+        },
+        proved: none,
+    ),
+    entry!(
+        TrajectoryController, "CN104204977 10",
+        full: || TrajectoryController::new(FULL, 2, Correction::Vector, Rounding::Nearest),
+        widths: [
+            axes,
+            segment = widths.segment,
+            position = widths.position,
+            point = widths.point,
+            radius = widths.radius,
+            coefficient = widths.coefficient,
+            curvature = widths.curvature,
+            angle = widths.angle,
+            data = widths.data,
+            fraction = widths.fraction,
+            samples = widths.samples,
+            gain = widths.gain,
+            servo_gain = widths.servo_gain,
+            torque = widths.torque,
+            period = widths.period,
+        ],
+        from: "width of counts, gains and torques, 1 for no correction, 2 for the steady one (two axes, two segments; no wait)",
+        |given| Some(TrajectoryController {
+            widths: widths(width(given)?),
+            axes: 2,
             correction: one_of(given, CORRECTIONS)?,
-        })
-    ),
-    entry!(
-        PeriodJoin,
-        PeriodJoin { wait: 200 },
-        Some(2),
-        "CN104204977 Fig. 1, order",
-        [],
-        "ticks to wait",
-        Made {
-            make: |given| Some(Box::new(join(given)?)),
-            model: |given| Some(Box::new(join(given)?)),
-            offered: &[],
-        }
-    ),
-    entry!(
-        ServoArithmetic<31, 47, 24, 58, 16>, ServoArithmetic, None, "CN104204977 26 to 31",
-        ["W" = 31, "P" = 47, "G" = 24, "Q" = 58, "T" = 16],
-        "width of counts, gains and torques; two guard bits",
-        some_widths!([4 8], |W| ServoArithmetic::<W, { W + 2 }, W, { W + 13 }, W>)
-    ),
-    entry!(
-        Servo<31, 47, 16, 64, 24, 58, 16>, Servo::default(), None, "CN104204977 11",
-        ["W" = 31, "P" = 47, "K" = 16, "M" = 64, "G" = 24, "Q" = 58, "T" = 16],
-        "width of counts, gains and torques; two guard bits",
-        some_widths!([4 8], |W| Servo::<W, { W + 2 }, W, { 2 * W + 3 }, W, { W + 13 }, W>::default())
-    ),
-    entry!(
-        ControlledAxis<31, 47, 16, 64, 24, 58, 16>, ControlledAxis::default(), None,
-        "CN104204977 4, 11, 51",
-        ["W" = 31, "P" = 47, "K" = 16, "M" = 64, "G" = 24, "Q" = 58, "T" = 16],
-        "width of counts, gains and torques, 1 for no correction, 2 for the steady one; two guard bits",
-        some_widths!([4 8], |given, W| {
-            ControlledAxis::<W, { W + 2 }, W, { 2 * W + 3 }, W, { W + 13 }, W>::new(one_of(given, CORRECTIONS)?, Rounding::Nearest)
-        })
-    ),
-    entry!(
-        TrajectoryController<2, 8, 31, 47, 55, 42, 57, 44, 52, 55, 12, 41, 20, 16, 64, 24, 58, 16, 24>,
-        TrajectoryController::new(Correction::Vector, Rounding::Nearest),
-        None,
-        "CN104204977 10",
-        [
-            "AXES" = 2, "A" = 8, "W" = 31, "P" = 47, "R" = 55, "C" = 42, "S" = 57, "H" = 44,
-            "X" = 52, "D" = 55, "E" = 12, "F" = 41, "N" = 20, "K" = 16, "M" = 64, "G" = 24,
-            "Q" = 58, "T" = 16, "U" = 24
-        ],
-        "width of counts, gains and torques, 1 for no correction, 2 for the steady one (two axes, two segments; no wait)",
-        some_widths!([4 8], |given, W| {
-            TrajectoryController::<
-                2, 1, W, { W + 2 }, { W + 4 }, { W + 2 }, { W + 6 }, { W + 2 }, { W + 7 },
-                { 2 * W + 4 }, 5, { 2 * W + 1 }, { 2 * W - 2 }, W, { 2 * W + 3 }, W, { W + 13 },
-                W,
-                { 2 * W },
-            >::new(one_of(given, CORRECTIONS)?, Rounding::Nearest)
-            .waiting(0)
-        })
+            rounding: Rounding::Nearest,
+            wait: 0,
+        }),
+        with: |controller, given| {
+            let correction = only(given, CORRECTIONS)?;
+            Some(TrajectoryController { correction, ..controller })
+        },
+        proved: none,
     ),
 ];

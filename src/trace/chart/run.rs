@@ -1,6 +1,6 @@
 use super::{Cell, Chart, ChartError, Problem, Row};
 use crate::engine::{EngineError, Watch};
-use crate::kernel::{Circuit, Declaration, Format, Model, RunError, View};
+use crate::hdl::{Declaration, Described, Format, LeafView as View, Model, RunError};
 use crate::trace::Options;
 use crate::trace::record::{Record, near};
 use crate::trace::value::{mask, read, show};
@@ -61,8 +61,8 @@ impl Chart {
     ///
     /// # Errors
     /// The chart does not fit the circuit, or the circuit does something else.
-    pub fn run<C: Circuit>(&self, circuit: &C) -> Result<(), ChartFailure> {
-        self.run_on(&Model::of(circuit)?)
+    pub fn run(&self, circuit: &impl Described) -> Result<(), ChartFailure> {
+        self.run_on(&circuit.described()?)
     }
 
     /// The same of a circuit whose type is forgotten.
@@ -258,7 +258,7 @@ fn no_value(row: &Row, leaf: &Declaration, cell: &str) -> ChartError {
     let bits = if width == 1 { "bit" } else { "bits" };
     let allowed = match leaf.field.format {
         Format::States(names) => format!("{width} {bits}: {}", names.join(", ")),
-        _ if leaf.shape.kind == crate::kernel::Kind::Signed => {
+        _ if leaf.shape.kind == crate::hdl::Kind::Signed => {
             let half = 1i128 << (width - 1);
             format!("{width} {bits}: {} to {}", -half, half - 1)
         }

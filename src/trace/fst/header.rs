@@ -1,7 +1,7 @@
 //! What stands at the head of the file: its header, the scopes and names, the widths.
 
 use super::varint::unsigned;
-use crate::kernel::{Format, Role};
+use crate::hdl::{Format, Role};
 use crate::trace::Clock;
 use crate::trace::layout::{CLK, Layout, Scope, companion};
 

@@ -1,7 +1,7 @@
 //! The declarations at the head of a dump.
 
 use super::file::CLK_CODE;
-use crate::kernel::Role;
+use crate::hdl::Role;
 use crate::trace::Clock;
 use crate::trace::layout::{CLK, Layout, Scope, companion};
 use std::io;

@@ -1,158 +1,232 @@
 //! Memories against vectors.
 
 use motion_rtl::check::Random;
-use motion_rtl::kernel::{Bits, Words, pack, unpack};
-use motion_rtl::logic::sim::{SimRam, SimShiftRegister, UInt};
-use motion_rtl::logic::{Image, Ram, ShiftRegister, Sim};
+use motion_rtl::hdl::prelude::*;
 use std::collections::VecDeque;
 
-/// The low `D` bits.
-fn cut<const D: usize>(word: u64) -> u64 {
-    (u128::from(word) % (1 << D)) as u64
+/// The low bits.
+fn cut(word: u64, width: usize) -> u64 {
+    word & u64::MAX >> (64 - width)
 }
 
-fn image<const A: usize, const D: usize>() {
-    let len = 1usize << A;
-    assert_eq!(Image::<A, D>::WORDS, len);
-    let mut image = Image::<A, D>::zeroed();
+fn image(address: usize, width: usize) {
+    let len = 1usize << address;
+    let mut image = Image::new(address, width);
+    assert_eq!(
+        (image.words(), image.address(), image.width()),
+        (len, address, width)
+    );
     let mut oracle = vec![0; len];
-    let mut random = Random::new(D as u64);
+    let mut random = Random::new(width as u64);
     for _ in 0..200 {
         let (address, word) = (random.word() as usize, random.word());
         image.set(address, word);
-        oracle[address % len] = cut::<D>(word);
+        oracle[address % len] = cut(word, width);
         for (address, word) in oracle.iter().enumerate() {
             assert_eq!(image.get(address), *word);
             assert_eq!(image.get(address + 3 * len), *word, "addresses wrap");
-            let read = image.read::<Sim>((address as u64).into());
-            assert_eq!(read.get(), *word);
         }
     }
     // A list that is too short is filled with zeros, of one that is too long the rest is left out.
     let words: Vec<_> = (0..len + 2).map(|_| random.word()).collect();
-    let full = Image::<A, D>::new(words.iter().copied());
-    let short = Image::<A, D>::new(words[..1].iter().copied());
+    let full = Image::of(address, width, words.iter().copied());
+    let short = Image::of(address, width, words[..1].iter().copied());
     for (address, word) in words[..len].iter().enumerate() {
-        assert_eq!(full.get(address), cut::<D>(*word));
-        let expected = if address == 0 { cut::<D>(*word) } else { 0 };
+        assert_eq!(full.get(address), cut(*word, width));
+        let expected = if address == 0 { cut(*word, width) } else { 0 };
         assert_eq!(short.get(address), expected);
     }
+    assert_eq!(full, Image::from_fn(address, width, |place| words[place]));
+    store(&image, &full);
 }
 
 #[test]
-fn images() {
-    image::<1, 1>();
-    image::<2, 3>();
-    image::<3, 13>();
-    image::<2, 63>();
-    image::<2, 64>();
+fn images_and_rams() {
+    image(1, 1);
+    image(2, 3);
+    image(3, 13);
+    image(4, 13);
+    image(2, 63);
+    image(2, 64);
 }
 
-fn ram<const A: usize, const D: usize>() {
-    let len = 1usize << A;
-    let mut random = Random::new(A as u64);
-    let words: Vec<_> = (0..len).map(|_| random.word()).collect();
-    let mut oracle: Vec<_> = words.iter().map(|word| cut::<D>(*word)).collect();
-    let mut ram = SimRam::<A, D>::from(Image::new(words));
-    assert_eq!((ram.width(), ram.len(), ram.is_empty()), (D, len, false));
-    let mut out = UInt::<D>::default();
-    for _ in 0..500 {
-        let (address, data, held): (UInt<A>, UInt<D>, UInt<D>) =
-            (random.signals(), random.signals(), random.signals());
-        let place = address.get() as usize;
-        let write = random.word() & 1 == 1;
+/// A memory with an output register, and a ROM.
+#[derive(Debug, Clone)]
+struct Store {
+    power_on: Image,
+    rom: Image,
+}
 
-        assert_eq!(ram.read(address).get(), oracle[place]);
-        assert_eq!(
-            ram.read_when(true.into(), address, held).get(),
-            oracle[place]
-        );
-        assert_eq!(ram.read_when(false.into(), address, held), held);
-
-        // Read and write at the same address in one tick: the output takes the old word.
-        let before = oracle[place];
-        let next_out = ram.read_when(write.into(), address, out);
-        ram = ram.write(write.into(), address, data);
-        if write {
-            oracle[place] = data.get();
-            assert_eq!(next_out.get(), before);
-        } else {
-            assert_eq!(next_out, out);
-        }
-        out = next_out;
-        let words: Vec<_> = (0..len).map(|index| ram.word(index)).collect();
-        assert_eq!(words, oracle);
+signals! { for Store as c;
+    struct StoreIn {
+        address: U(c.power_on.address()),
+        other: U(c.power_on.address()),
+        write: Bit,
+        data: U(c.power_on.width()),
+        held: U(c.power_on.width()),
     }
-    let packed = pack(&ram);
-    assert_eq!(packed.len(), len * D);
-    let again: SimRam<A, D> = unpack(&packed);
-    assert!((0..len).all(|index| again.word(index) == oracle[index]));
+    struct StoreReg {
+        ram: Ram(c.power_on.address(), c.power_on.width()) = &c.power_on,
+        kept: Ram(c.power_on.address(), c.power_on.width()) = &c.rom,
+        out: U(c.power_on.width()),
+    }
+    struct StoreNet {
+        read: U(c.power_on.width()),
+        read_other: U(c.power_on.width()),
+        read_kept: U(c.power_on.width()),
+        read_or_held: U(c.power_on.width()),
+        looked_up: U(c.rom.width()),
+    }
 }
 
-#[test]
-fn rams() {
-    ram::<1, 1>();
-    ram::<2, 3>();
-    ram::<4, 13>();
-    ram::<2, 63>();
-    ram::<2, 64>();
+impl Circuit for Store {
+    const NAME: &'static str = "store";
+    const ABOUT: &'static str = "reads and writes";
+    records!(StoreIn, StoreReg, StoreNet);
+
+    fn tick(&self, i: StoreIn, q: StoreReg, _: Nothing) -> (StoreNet, StoreReg<Edge>) {
+        let net = StoreNet {
+            read: q.ram.read(i.address),
+            read_other: q.ram.read(i.other),
+            read_kept: q.kept.read(i.other),
+            read_or_held: q.ram.read_when(!i.write, i.address, i.held),
+            looked_up: self.rom.rom(i.address),
+        };
+        // Read and write at the same address in one tick: the output takes the old word.
+        let next = StoreReg {
+            out: q.ram.read_when(i.write, i.address, q.out),
+            ram: q.ram.write(i.write, i.address, i.data),
+            kept: q.kept.keep(),
+        };
+        (net, next)
+    }
 }
 
-fn shift_register<const K: usize, const D: usize>() {
-    let mut random = Random::new(K as u64);
-    let words: Vec<_> = (0..K + 2).map(|_| random.word()).collect();
-    let mut oracle: VecDeque<_> = words[..K].iter().map(|word| cut::<D>(*word)).collect();
-    let mut register = SimShiftRegister::<K, D>::new(words);
-    assert_eq!(
-        (register.width(), register.len(), register.is_empty()),
-        (D, K, K == 0)
-    );
-    for _ in 0..500 {
-        for (index, word) in oracle.iter().enumerate() {
-            assert_eq!(register.stage(index).get(), *word);
-            assert_eq!(register.word(index), *word);
-            assert_eq!(register.tap(UInt::<5>::from(index as u64)).get(), *word);
+/// Reads and writes at random, interpreted and compiled.
+fn store(power_on: &Image, rom: &Image) {
+    let (power_on, rom) = (power_on.clone(), rom.clone());
+    let circuit = Store { power_on, rom };
+    let words =
+        |image: &Image| -> Vec<u64> { (0..image.words()).map(|word| image.get(word)).collect() };
+    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut compiled = simulator.clone();
+    simulator.interpret();
+    compiled.compile();
+    for simulator in [&mut simulator, &mut compiled] {
+        let (mut oracle, mut out) = (words(&circuit.power_on), 0);
+        let rom = words(&circuit.rom);
+        let mut random = Random::new(circuit.power_on.address() as u64);
+        for _ in 0..500 {
+            let i = random.inputs(&circuit);
+            let (address, other) = (i.address as usize, i.other as usize);
+            simulator.step_with(&i, |now| {
+                assert_eq!(now.q.ram[..], oracle[..]);
+                assert_eq!(now.q.kept[..], rom[..]);
+                assert_eq!(now.q.out, out);
+                assert_eq!(now.w.read, oracle[address]);
+                assert_eq!(now.w.read_other, oracle[other]);
+                assert_eq!(now.w.read_kept, rom[other]);
+                let or_held = if i.write { i.held } else { oracle[address] };
+                assert_eq!(now.w.read_or_held, or_held);
+                assert_eq!(now.w.looked_up, rom[address]);
+            });
+            if i.write {
+                out = std::mem::replace(&mut oracle[address], i.data);
+            }
         }
-        for past in [K, K + 1, 2 * K + 1, 31] {
-            assert_eq!(register.stage(past).get(), 0);
-            assert_eq!(register.tap(UInt::<64>::from(past as u64)).get(), 0);
+    }
+}
+
+/// A shift register.
+#[derive(Debug, Clone)]
+struct Row {
+    stages: usize,
+    width: usize,
+}
+
+/// Stages that are looked at, there or not.
+const LOOKED: usize = 20;
+
+signals! { for Row as c;
+    struct RowIn { shift: Bit, word: U(c.width), tap: U(5), far: U(64) }
+    struct RowReg { row: Shift(c.stages, c.width) }
+    struct RowNet {
+        stage: [U(c.width); LOOKED],
+        no_stage: U(c.width),
+        tapped: U(c.width),
+        by_far: U(c.width),
+        by_one_bit: U(c.width),
+    }
+}
+
+impl Circuit for Row {
+    const NAME: &'static str = "row";
+    const ABOUT: &'static str = "shifts";
+    records!(RowIn, RowReg, RowNet);
+
+    fn tick(&self, i: RowIn, q: RowReg, _: Nothing) -> (RowNet, RowReg<Edge>) {
+        let net = RowNet {
+            stage: (0..LOOKED).map(|stage| q.row.stage(stage)).collect(),
+            no_stage: q.row.stage(usize::MAX),
+            tapped: q.row.tap(i.tap),
+            by_far: q.row.tap(i.far),
+            by_one_bit: q.row.tap(i.tap.slice(0, 1)),
+        };
+        let row = q.row.shift(i.shift, i.word);
+        (net, RowReg { row })
+    }
+}
+
+fn shift_register(stages: usize, width: usize) {
+    let circuit = Row { stages, width };
+    let mut random = Random::new(stages as u64);
+    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut oracle = VecDeque::from(vec![0; stages]);
+    for tick in 0..500 {
+        if tick == 250 {
+            simulator.compile();
         }
-        assert_eq!(register.stage(usize::MAX).get(), 0);
-        assert_eq!(register.tap(UInt::<64>::from(u64::MAX)).get(), 0);
-
-        let packed = pack(&register);
-        assert_eq!(packed.len(), K * D);
-        let again: SimShiftRegister<K, D> = unpack(&packed);
-        assert!((0..K).all(|index| again.word(index) == oracle[index]));
-
-        let input: UInt<D> = random.signals();
-        let shift = !random.word().is_multiple_of(3);
-        register = register.shift(shift.into(), input);
-        if shift {
-            oracle.push_front(input.get());
-            oracle.truncate(K);
+        let mut i = random.inputs(&circuit);
+        i.shift = !random.word().is_multiple_of(3);
+        // Near, and everywhere.
+        i.far = random.word() >> (random.word() & 63);
+        let at = |index: u64| {
+            usize::try_from(index)
+                .ok()
+                .and_then(|index| oracle.get(index))
+        };
+        let at = |index: u64| at(index).copied().unwrap_or(0);
+        simulator.step_with(&i, |now| {
+            assert_eq!(now.q.row.to_vec(), Vec::from(oracle.clone()));
+            for (index, stage) in (0..).zip(&now.w.stage) {
+                assert_eq!(*stage, at(index), "stage {index}");
+            }
+            assert_eq!(now.w.no_stage, 0);
+            assert_eq!(now.w.tapped, at(i.tap), "{i:?}");
+            assert_eq!(now.w.by_far, at(i.far), "{i:?}");
+            assert_eq!(now.w.by_one_bit, at(i.tap & 1), "{i:?}");
+        });
+        if i.shift {
+            oracle.push_front(i.word);
+            oracle.truncate(stages);
         }
     }
 }
 
 #[test]
 fn shift_registers() {
-    shift_register::<0, 3>();
-    shift_register::<1, 1>();
-    shift_register::<2, 5>();
-    shift_register::<7, 13>();
-    shift_register::<3, 64>();
-}
-
-#[test]
-fn a_short_list_leaves_zeros_in_a_shift_register() {
-    let register = SimShiftRegister::<3, 4>::new([17]);
-    let stages: Vec<_> = (0..3).map(|index| register.word(index)).collect();
-    assert_eq!(stages, [1, 0, 0]);
-}
-
-#[test]
-fn missing_bits_read_zero() {
-    let words: [UInt<4>; 3] = unpack(&Bits::from_element(0xfff)[..6]);
-    assert_eq!(words.map(|word| word.get()), [15, 3, 0]);
+    shift_register(1, 1);
+    shift_register(2, 5);
+    shift_register(7, 13);
+    shift_register(8, 2);
+    shift_register(3, 64);
+    let none = Row {
+        stages: 0,
+        width: 3,
+    };
+    let wrong = Simulator::new(&none).unwrap_err().to_string();
+    assert!(
+        wrong.contains("memory `row` has 0 words of 3 bits"),
+        "{wrong}"
+    );
 }

@@ -1,88 +1,141 @@
-//! `Int` at small widths, every value with every other.
+//! What is done with signed words.
 
-use super::{small_widths, wrap, wrap_signed};
-use motion_rtl::logic::sim::{Int, Wire};
-use motion_rtl::logic::{Bit, Signed, Unsigned};
+use super::{List, Words, unsigned::distances, wrap_signed};
+use motion_rtl::hdl::I;
 
-/// Every word of `N` bits as a number, made from a number that is `beyond` ranges away.
-fn words<const N: usize>(beyond: i64) -> impl Iterator<Item = (i128, Int<N>)> {
-    let half = 1i64 << (N - 1);
-    (-half..half).map(move |value| (value.into(), Int::from(value + (beyond << N))))
+/// Every operation on a word of `n` bits and one of `m` bits.
+pub fn of_two(n: usize, m: usize) -> List<I> {
+    let mut list = List(Vec::new());
+    two(&mut list, n, m);
+    if n == m {
+        of_one_width(&mut list, n);
+    }
+    list
 }
 
-fn one_operand<const N: usize>() {
-    assert_eq!(Int::<N>::default().get(), 0);
-    for (a, x) in words::<N>(3).chain(words::<N>(-2)) {
-        assert_eq!(i128::from(x.get()), a);
-        assert_eq!((-x).get(), wrap_signed(-a, N));
-        assert_eq!(x.is_zero().get(), a == 0);
-        assert_eq!(x.is_negative().get(), a < 0);
-        assert_eq!(i128::from(x.magnitude().get()), a.abs());
-        assert_eq!(x.unsigned().get(), wrap(a, N));
-        assert_eq!(x.unsigned().signed(), x);
-        assert_eq!(x.resize::<3>().get(), wrap_signed(a, 3));
-        assert_eq!(x.resize::<64>().get(), wrap_signed(a, 64));
-        for bits in 0..2 * N + 1 {
-            assert_eq!(x.shift_left(bits).get(), wrap_signed(a << bits, N));
-            assert_eq!(
-                i128::from(x.shift_right(bits).get()),
-                a.div_euclid(1 << bits)
+/// Small constants, those around the ends of the range, and far ones.
+fn constants(n: usize) -> Vec<i64> {
+    let (most, least) = (i64::MAX >> (64 - n), i64::MIN >> (64 - n));
+    let ends = [
+        most - 1,
+        most,
+        most.wrapping_add(1),
+        least.wrapping_sub(1),
+        least,
+        least + 1,
+    ];
+    let far = [i64::MIN, i64::MAX, i64::MIN / 2, i64::MAX / 2];
+    let mut constants: Vec<i64> = (-4..5).chain(ends).chain(far).collect();
+    constants.sort_unstable();
+    constants.dedup();
+    constants
+}
+
+/// Every operation on a word of `n` bits.
+pub fn of_one(n: usize) -> List<I> {
+    let mut list = List(Vec::new());
+    list.add("s", n, |i| i.s, |v| v.s);
+    list.add("-s", n, |i| -i.s, |v| -v.s);
+    list.add("a with its sign", n, |i| i.a.signed(), |v| v.a);
+    let negated = |i: &Words| i.s.negated_by(i.choose);
+    list.add("s or -s", n, negated, |v| if v.choose { -v.s } else { v.s });
+    for width in [1, 3, n, n + 1, 64] {
+        if width <= 64 {
+            list.add("s resized", width, move |i| i.s.resize(width), |v| v.s);
+        }
+    }
+    for by in distances(n) {
+        list.add(
+            format!("s << {by}"),
+            n,
+            move |i| i.s.shift_left(by),
+            move |v| v.s << by,
+        );
+        list.add(
+            format!("s >> {by}"),
+            n,
+            move |i| i.s.shift_right(by),
+            move |v| v.s >> by,
+        );
+    }
+    list.add("s << far", n, |i| i.s.shift_left(usize::MAX), |_| 0);
+    list.add(
+        "s >> far",
+        n,
+        |i| i.s.shift_right(usize::MAX),
+        |v| v.s >> 127,
+    );
+    for constant in constants(n) {
+        let number = i128::from(constant);
+        let cut: i128 = wrap_signed(number, n).into();
+        list.add(
+            format!("s + {constant}"),
+            n,
+            move |i| i.s + constant,
+            move |v| v.s + number,
+        );
+        list.add(
+            format!("s - {constant}"),
+            n,
+            move |i| i.s - constant,
+            move |v| v.s - number,
+        );
+        list.add(
+            format!("{constant}"),
+            n,
+            move |_| I::new(constant, n),
+            move |_| number,
+        );
+        list.add(
+            format!("s or {constant}"),
+            n,
+            move |i| i.choose.mux(i.s, constant),
+            move |v| if v.choose { v.s } else { number },
+        );
+        list.add(
+            format!("{constant} or s"),
+            n,
+            move |i| i.choose.mux(constant, i.s),
+            move |v| if v.choose { number } else { v.s },
+        );
+        let equals = move |i: &Words| i.s.equals(constant).word().signed();
+        list.add(format!("s = {constant}"), 1, equals, move |v| {
+            (v.s == cut).into()
+        });
+        let below = move |i: &Words| i.s.below(constant).word().signed();
+        list.add(format!("s < {constant}"), 1, below, move |v| {
+            (v.s < cut).into()
+        });
+    }
+    list
+}
+
+fn two(list: &mut List<I>, n: usize, m: usize) {
+    for width in [1, 3, n, m, n + m, 12, 64] {
+        if width <= 64 {
+            list.add(
+                "s · t",
+                width,
+                move |i| i.s.times(i.t, width),
+                |v| v.s.wrapping_mul(v.t),
             );
         }
-        for far in [63, 64, 65, 127, 128, usize::MAX] {
-            assert_eq!(x.shift_left(far).get(), 0);
-            assert_eq!(x.shift_right(far).get(), if a < 0 { -1 } else { 0 });
-        }
+    }
+    let wider = n.max(m) + 1;
+    if wider <= 64 {
+        list.add("s + t, exact", wider, |i| i.s.plus(i.t), |v| v.s + v.t);
+        list.add("s - t, exact", wider, |i| i.s.minus(i.t), |v| v.s - v.t);
     }
 }
 
-fn two_operands<const N: usize>() {
-    for (a, x) in words::<N>(0) {
-        for (b, y) in words::<N>(0) {
-            assert_eq!((x + y).get(), wrap_signed(a + b, N));
-            assert_eq!((x - y).get(), wrap_signed(a - b, N));
-            assert_eq!(x.equals(y).get(), a == b);
-            assert_eq!(x.below(y).get(), a < b);
-            assert_eq!(Wire::from(true).mux(x, y), x);
-            assert_eq!(Wire::from(false).mux(x, y), y);
-        }
-        for constant in (-1i64 << N..1i64 << N).chain([i64::MIN, i64::MAX]) {
-            assert_eq!(
-                (x + constant).get(),
-                wrap_signed(a + i128::from(constant), N)
-            );
-            assert_eq!(
-                (x - constant).get(),
-                wrap_signed(a - i128::from(constant), N)
-            );
-        }
-    }
-}
-
-fn two_widths<const N: usize, const M: usize>() {
-    for (a, x) in words::<N>(0) {
-        for (b, y) in words::<M>(0) {
-            assert_eq!(x.times::<M, 12>(y).get(), wrap_signed(a * b, 12));
-            assert_eq!(x.times::<M, 3>(y).get(), wrap_signed(a * b, 3));
-        }
-    }
-}
-
-#[test]
-fn one() {
-    small_widths!(one_operand);
-}
-
-#[test]
-fn two() {
-    small_widths!(two_operands);
-}
-
-#[test]
-fn of_different_widths() {
-    two_widths::<1, 1>();
-    two_widths::<1, 6>();
-    two_widths::<3, 2>();
-    two_widths::<5, 5>();
-    two_widths::<6, 3>();
+fn of_one_width(list: &mut List<I>, n: usize) {
+    list.add("s + t", n, |i| i.s + i.t, |v| v.s + v.t);
+    list.add("s - t", n, |i| i.s - i.t, |v| v.s - v.t);
+    list.add(
+        "s or t",
+        n,
+        |i| i.choose.mux(i.s, i.t),
+        |v| if v.choose { v.s } else { v.t },
+    );
+    list.add("a chain", n, |i| -(i.s + i.t) - -i.t - 1, |v| -v.s - 1);
 }

@@ -1,11 +1,22 @@
 //! The difference engine against the polynomial of the text.
 
 use super::program::differences;
-use motion_rtl::blocks::DifferenceEngine;
-use motion_rtl::blocks::difference_engine::{In, Reg};
-use motion_rtl::kernel::Simulator;
-use motion_rtl::logic::Sim;
+use motion_rtl::circuits::blocks::DifferenceEngine;
+use motion_rtl::circuits::blocks::difference_column::Widths;
+use motion_rtl::circuits::blocks::difference_engine::In;
+use motion_rtl::hdl::{Simulator, zero};
 use proptest::prelude::*;
+
+const SMALL: Widths = Widths {
+    whole: 5,
+    part: 18,
+    data: 18,
+};
+const FULL: Widths = Widths {
+    whole: 40,
+    part: 41,
+    data: 42,
+};
 
 /// x·M⁴ after `sample` of M samples, as [5] and [10] have it: h = sample / M.
 pub fn quartic([before, at, behind]: [i128; 3], samples: i128, sample: i128) -> i128 {
@@ -16,13 +27,14 @@ pub fn quartic([before, at, behind]: [i128; 3], samples: i128, sample: i128) -> 
 
 /// What the engine shows after its loads and after each of `steps` steps: value as whole and part,
 /// and the nearest.
-fn run<const P: usize, const F: usize, const D: usize>(
+fn run(
+    widths: Widths,
     coordinate: u64,
     modulus: i128,
     words: [i128; 5],
     steps: i128,
 ) -> Vec<(i128, i128, i128)> {
-    let circuit = DifferenceEngine::<P, F, D>::new(coordinate);
+    let circuit = DifferenceEngine { widths, coordinate };
     let mut simulator = Simulator::new(&circuit).unwrap();
     let mut loads = vec![(2 + coordinate, words[0])];
     for (order, difference) in words[1..].iter().enumerate() {
@@ -30,50 +42,48 @@ fn run<const P: usize, const F: usize, const D: usize>(
         loads.push((first, difference.div_euclid(modulus)));
         loads.push((first + 1, difference.rem_euclid(modulus)));
     }
-    let idle = In::<Sim, F, D> {
-        load: false.into(),
-        word: 0.into(),
-        data: 0.into(),
-        modulus: (modulus as u64).into(),
-        step: false.into(),
+    let idle = In {
+        modulus: modulus as u64,
+        ..zero(&circuit)
     };
     for (word, data) in loads {
         let i = In {
-            load: true.into(),
-            word: word.into(),
-            data: (data as u64).into(),
+            load: true,
+            word,
+            data: data as u64,
             ..idle.clone()
         };
-        simulator = simulator.step(i, |_| ()).0;
+        simulator.step_with(&i, |_| ());
     }
-    let shown = |q: &Reg<Sim, P, F>| (q.value.whole.get().into(), q.value.part.get().into());
     let mut seen = Vec::new();
     for sample in 0..=steps {
         // Without a step it stays.
-        simulator = simulator.step(idle.clone(), |_| ()).0;
-        let (whole, part) = shown(&simulator.registers());
+        simulator.step_with(&idle, |_| ());
         let i = In {
-            step: (sample < steps).into(),
+            step: sample < steps,
             ..idle.clone()
         };
-        let (next, nearest) = simulator.step(i, |now| now.w.nearest.get());
-        seen.push((whole, part, nearest.into()));
-        simulator = next;
+        seen.push(simulator.step_with(&i, |now| {
+            let value = &now.p.value.q;
+            (value.whole.into(), value.part.into(), now.w.nearest.into())
+        }));
     }
     seen
 }
 
 /// Runs a blend and compares every sample.
-fn blends<const P: usize, const F: usize, const D: usize>(
-    coordinate: u64,
-    points: [i128; 3],
-    samples: i128,
-) {
+fn blends(widths: Widths, coordinate: u64, points: [i128; 3], samples: i128) {
     let modulus = samples.pow(4);
     let [start, ..] = points;
     let differences = differences(|sample| quartic(points, samples, sample));
     let [_, d1, d2, d3, d4] = differences;
-    let seen = run::<P, F, D>(coordinate, modulus, [start, d1, d2, d3, d4], samples);
+    let seen = run(
+        widths,
+        coordinate,
+        modulus,
+        [start, d1, d2, d3, d4],
+        samples,
+    );
     for (sample, &(whole, part, nearest)) in seen.iter().enumerate() {
         let exact = quartic(points, samples, sample as i128);
         assert_eq!(
@@ -110,11 +120,11 @@ fn points() -> impl Iterator<Item = [i128; 3]> {
 fn every_small_blend_is_the_polynomial() {
     for (index, points) in points().enumerate() {
         for samples in [2, 4, 8, 16] {
-            blends::<5, 18, 18>(index as u64 % 3, points, samples);
+            blends(SMALL, index as u64 % 3, points, samples);
         }
         // Samples that are no power of two divide as well.
         for samples in [6, 10] {
-            blends::<5, 18, 18>(index as u64 % 3, points, samples);
+            blends(SMALL, index as u64 % 3, points, samples);
         }
     }
 }
@@ -125,7 +135,7 @@ fn every_small_line_ends_on_its_end() {
         for end in -4..=4i128 {
             for samples in 1..=17 {
                 let words = [start, end - start, 0, 0, 0];
-                let seen = run::<5, 18, 18>(1, samples, words, samples);
+                let seen = run(SMALL, 1, samples, words, samples);
                 for (sample, &(whole, part, _)) in seen.iter().enumerate() {
                     let exact = start * samples + (end - start) * sample as i128;
                     assert_eq!(whole * samples + part, exact, "{start} to {end}");
@@ -146,6 +156,6 @@ proptest! {
         coordinate in 0..3u64,
     ) {
         // A blend may overshoot its points; what fits into the word is exact.
-        blends::<40, 41, 42>(coordinate, points.map(|point| point / 4), 2 * half);
+        blends(FULL, coordinate, points.map(|point| point / 4), 2 * half);
     }
 }

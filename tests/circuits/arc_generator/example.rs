@@ -1,9 +1,8 @@
 //! The path of the note, word by word.
 
-use motion_rtl::arc_generator::ArcGenerator;
-use motion_rtl::arc_generator::generator::In;
-use motion_rtl::kernel::Simulator;
-use motion_rtl::logic::Sim;
+use motion_rtl::circuits::arc_generator::ArcGenerator;
+use motion_rtl::circuits::arc_generator::generator::{In, Segments};
+use motion_rtl::hdl::Simulator;
 
 /// Words that are not 0: from rest to 64 counts, on to 128, to rest at 192.
 const RECORDS: [&[(usize, i64)]; 3] = [
@@ -30,8 +29,7 @@ const COMMANDS: [i64; 11] = [0, 2, 12, 34, 64, 96, 128, 158, 180, 190, 192];
 
 #[test]
 fn the_path_of_the_note() {
-    let circuit: ArcGenerator = ArcGenerator::default();
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = Simulator::new(&ArcGenerator::default()).unwrap();
     let mut seen = Vec::new();
     for tick in 0..1300 {
         let (record, word) = (tick / 32, tick % 32);
@@ -39,25 +37,24 @@ fn the_path_of_the_note() {
         let data = words
             .and_then(|words| words.iter().find(|(number, _)| *number == word))
             .map_or(0, |(_, data)| *data);
-        let i = In::<Sim, 42, 24> {
-            write: words.is_some().into(),
-            write_word: (word as u64).into(),
-            write_data: (data as u64).into(),
-            push: (words.is_some() && word == 31).into(),
-            start: (tick == 96).into(),
-            halt: false.into(),
-            sample_period: 100.into(),
+        let i = In {
+            segments: Segments {
+                write: words.is_some(),
+                write_word: word as u64,
+                write_data: data as u64,
+                push: words.is_some() && word == 31,
+                start: tick == 96,
+            },
+            halt: false,
+            sample_period: 100,
         };
-        let (next, command) = simulator.step(i, |now| {
+        seen.extend(simulator.step_with(&i, |now| {
             let w = now.w;
-            w.sampled.get().then(|| (tick, w.x.get(), w.y.get()))
-        });
-        simulator = next;
-        seen.extend(command);
+            w.sampled.then(|| (tick, w.x, w.y))
+        }));
     }
     let ticks = (200..).step_by(100);
     let expected: Vec<_> = ticks.zip(COMMANDS).map(|(tick, x)| (tick, x, 0)).collect();
     assert_eq!(seen, expected);
-    let q = &simulator.registers().sequencer;
-    assert!(!q.late.get() && !q.starved.get());
+    assert!(!simulator.see(|s| s.w.late) && !simulator.see(|s| s.w.starved));
 }

@@ -1,11 +1,10 @@
 //! The record memory against a queue.
 
 use super::below;
-use motion_rtl::blocks::RecordMemory;
-use motion_rtl::blocks::record_memory::{In, RECORD};
 use motion_rtl::check::Random;
-use motion_rtl::kernel::Simulator;
-use motion_rtl::logic::Sim;
+use motion_rtl::circuits::blocks::RecordMemory;
+use motion_rtl::circuits::blocks::record_memory::{In, RECORD};
+use motion_rtl::hdl::{Simulator, Value};
 use std::collections::VecDeque;
 
 /// A memory as a queue of records; what goes out is told by the tick of each word.
@@ -20,18 +19,19 @@ struct Program {
     loaded: bool,
 }
 
+const MEMORY: RecordMemory = RecordMemory { record: 1, data: 8 };
 const RECORDS: usize = 2;
 
 impl Program {
     /// The next tick.
-    fn clock(&mut self, i: &In<Sim, 8>) {
+    fn clock(&mut self, i: &In<Value>) {
         let ready = self.waiting.len() < RECORDS;
-        self.loaded = matches!(self.bus, Some((31, _))) && !i.flush.get();
+        self.loaded = matches!(self.bus, Some((31, _))) && !i.flush;
         self.bus = self
             .reading
             .map(|word| (word as u64, self.waiting[0][word]))
-            .filter(|_| !i.flush.get());
-        let takes = i.take.get() && !self.waiting.is_empty();
+            .filter(|_| !i.flush);
+        let takes = i.take && !self.waiting.is_empty();
         self.reading = match self.reading {
             None => takes.then_some(0),
             Some(word) => (word + 1 < RECORD).then_some(word + 1),
@@ -39,13 +39,13 @@ impl Program {
         if matches!(self.bus, Some((31, _))) {
             self.waiting.pop_front();
         }
-        if ready && i.write.get() {
-            self.free[i.write_word.get() as usize] = i.write_data.get();
+        if ready && i.write {
+            self.free[i.write_word as usize] = i.write_data;
         }
-        if ready && i.push.get() {
+        if ready && i.push {
             self.waiting.push_back(self.free);
         }
-        if i.flush.get() {
+        if i.flush {
             self.waiting.clear();
             self.reading = None;
         }
@@ -54,8 +54,7 @@ impl Program {
 
 #[test]
 fn it_is_a_queue_of_records() {
-    let circuit = RecordMemory::<1, 6, 8>;
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = Simulator::new(&MEMORY).unwrap();
     let mut random = Random::new(1);
     let mut program = Program::default();
     let (mut went, mut flushed) = (0, 0);
@@ -74,39 +73,36 @@ fn it_is_a_queue_of_records() {
             true => chance(&mut random, 2),
             false => written >= RECORD as u64 - 1 && write && chance(&mut random, 8),
         };
-        let i = In::<Sim, 8> {
-            write: write.into(),
-            write_word: word.into(),
-            write_data: below(&mut random, 256).into(),
-            push: push.into(),
-            take: chance(&mut random, 16).into(),
-            kind: below(&mut random, 3).into(),
-            flush: chance(&mut random, 3000).into(),
+        let i = In {
+            write,
+            write_word: word,
+            write_data: below(&mut random, 256),
+            push,
+            take: chance(&mut random, 16),
+            kind: below(&mut random, 3),
+            flush: chance(&mut random, 3000),
         };
         if !full && write {
             written += 1;
         }
-        if !full && (push || i.flush.get()) {
+        if !full && (push || i.flush) {
             written = 0;
         }
-        let arc = i.kind.get() == 2;
-        let (next, (ready, available, to_engines, to_rotation)) =
-            simulator.step(i.clone(), |now| {
-                let w = now.w;
-                (w.ready, w.available, w.load_engines, w.load_rotation)
-            });
-        assert_eq!(ready.get(), program.waiting.len() < RECORDS);
-        assert_eq!(available.get(), !program.waiting.is_empty());
-        assert_eq!(to_engines.get(), program.bus.is_some() && !arc);
-        assert_eq!(to_rotation.get(), program.bus.is_some() && arc);
-        simulator = next;
+        let arc = i.kind == 2;
+        simulator.step_with(&i, |now| {
+            let w = now.w;
+            assert_eq!(w.ready, program.waiting.len() < RECORDS);
+            assert_eq!(w.available, !program.waiting.is_empty());
+            assert_eq!(w.load_engines, program.bus.is_some() && !arc);
+            assert_eq!(w.load_rotation, program.bus.is_some() && arc);
+        });
         program.clock(&i);
-        let q = simulator.registers();
-        let bus = q.load.get().then(|| (q.word.get(), q.data.get()));
+        let load = simulator.see(|s| s.q.load);
+        let bus = load.then(|| (simulator.see(|s| s.q.word), simulator.see(|s| s.q.data)));
         assert_eq!(bus, program.bus);
-        assert_eq!(q.loaded.get(), program.loaded);
+        assert_eq!(simulator.see(|s| s.q.loaded), program.loaded);
         went += u64::from(program.loaded);
-        flushed += u64::from(i.flush.get());
+        flushed += u64::from(i.flush);
     }
     assert!(
         went > 1000 && flushed > 50,
@@ -116,29 +112,25 @@ fn it_is_a_queue_of_records() {
 
 #[test]
 fn a_record_takes_its_latency() {
-    let circuit = RecordMemory::<1, 6, 8>;
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = Simulator::new(&MEMORY).unwrap();
     for tick in 0..200 {
-        let i = In::<Sim, 8> {
-            write: (tick < 32).into(),
-            write_word: tick.into(),
-            write_data: (tick * 7).into(),
-            push: (tick == 31).into(),
-            take: (tick == 50).into(),
-            kind: 0.into(),
-            flush: false.into(),
+        let i = In {
+            write: tick < 32,
+            write_word: tick,
+            write_data: tick * 7,
+            push: tick == 31,
+            take: tick == 50,
+            kind: 0,
+            flush: false,
         };
-        simulator = simulator.step(i, |_| ()).0;
-        let q = simulator.registers();
+        simulator.step_with(&i, |_| ());
+        let q = simulator.registers().q;
         let shown = tick + 1;
-        assert_eq!(q.load.get(), (52..84).contains(&shown), "tick {shown}");
-        let done = shown == 50 + RecordMemory::<1, 6, 8>::LATENCY;
-        assert_eq!(q.loaded.get(), done, "tick {shown}");
-        if q.load.get() {
-            assert_eq!(
-                (q.word.get(), q.data.get()),
-                (shown - 52, (shown - 52) * 7 % 256)
-            );
+        assert_eq!(q.load, (52..84).contains(&shown), "tick {shown}");
+        let done = shown == 50 + MEMORY.latency();
+        assert_eq!(q.loaded, done, "tick {shown}");
+        if q.load {
+            assert_eq!((q.word, q.data), (shown - 52, (shown - 52) * 7 % 256));
         }
     }
 }

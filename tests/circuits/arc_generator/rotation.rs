@@ -1,79 +1,71 @@
 //! The rotation stage against products of wide numbers.
 
 use super::program::{rotated, wrap};
-use motion_rtl::arc_generator::rotation::{In, Reg};
-use motion_rtl::arc_generator::{Rotation, Rounding};
-use motion_rtl::kernel::Simulator;
-use motion_rtl::logic::Sim;
+use motion_rtl::circuits::arc_generator::rotation::In;
+use motion_rtl::circuits::arc_generator::{Rotation, Rounding, Widths};
+use motion_rtl::hdl::{Simulator, Value};
 use proptest::prelude::*;
 
-const IDLE: fn() -> Wires = Wires::default;
-
-/// Ports in as numbers.
-#[derive(Default)]
-struct Wires {
-    load: Option<(u64, i128)>,
-    step: bool,
-    halt: bool,
-}
-
-impl Wires {
-    fn ports<const D: usize>(&self) -> In<Sim, D> {
-        let (word, data) = self.load.unwrap_or_default();
-        In {
-            load: self.load.is_some().into(),
-            word: word.into(),
-            data: (data as u64).into(),
-            step: self.step.into(),
-            halt: self.halt.into(),
-        }
+/// Ports in with a word that is loaded.
+fn word((word, data): (u64, i128)) -> In<Value> {
+    In {
+        load: true,
+        word,
+        data: data as u64,
+        ..idle()
     }
 }
 
-type Bench<'c, const P: usize, const C: usize, const S: usize, const D: usize> =
-    Simulator<Rotation<P, C, S, D>>;
-
-fn tick<'c, const P: usize, const C: usize, const S: usize, const D: usize>(
-    simulator: Bench<'c, P, C, S, D>,
-    wires: &Wires,
-) -> Bench<'c, P, C, S, D> {
-    simulator.step(wires.ports(), |_| ()).0
+fn idle() -> In<Value> {
+    In {
+        load: false,
+        word: 0,
+        data: 0,
+        step: false,
+        halt: false,
+    }
 }
 
-fn load<'c, const P: usize, const C: usize, const S: usize, const D: usize>(
-    simulator: Bench<'c, P, C, S, D>,
-    word: u64,
-    data: i128,
-) -> Bench<'c, P, C, S, D> {
-    let load = Some((word, data));
-    tick(simulator, &Wires { load, ..IDLE() })
+/// A rotation for points, coefficients and words of records of these widths.
+fn simulator(
+    (point, coefficient, data): (usize, usize, usize),
+    rounding: Rounding,
+) -> Simulator<Rotation> {
+    let widths = Widths {
+        point,
+        coefficient,
+        data,
+        ..Widths::FULL
+    };
+    Simulator::new(&Rotation { widths, rounding }).unwrap()
 }
 
-fn vector<const P: usize, const C: usize, const S: usize>(q: &Reg<Sim, P, C, S>) -> [i128; 3] {
-    [&q.row_x, &q.row_y, &q.row_z].map(|row| row.offset.get().into())
+fn load(simulator: &mut Simulator<Rotation>, words: impl IntoIterator<Item = (u64, i128)>) {
+    for loaded in words {
+        simulator.step_with(&word(loaded), |_| ());
+    }
+}
+
+fn vector(simulator: &mut Simulator<Rotation>) -> [i128; 3] {
+    let at = simulator.signals();
+    let at = [at.w.x, at.w.y, at.w.z];
+    at.map(|word| simulator.get(word).into())
 }
 
 /// A step, with every tick of it looked at: nothing changes before its end.
-fn step<'c, const P: usize, const C: usize, const S: usize, const D: usize>(
-    mut simulator: Bench<'c, P, C, S, D>,
-) -> (Bench<'c, P, C, S, D>, [i128; 3]) {
-    let before = vector(&simulator.registers());
-    let latency = Rotation::<P, C, S, D>::LATENCY;
+fn step(simulator: &mut Simulator<Rotation>) -> [i128; 3] {
+    let before = vector(simulator);
+    let latency = simulator.circuit().latency();
     for ticks in 1..=latency {
         let step = ticks == 1;
-        simulator = tick(simulator, &Wires { step, ..IDLE() });
-        let q = simulator.registers();
-        assert_eq!(
-            q.control.done.get(),
-            ticks == latency,
-            "after {ticks} ticks"
-        );
+        simulator.step_with(&In { step, ..idle() }, |_| ());
+        let done = simulator.see(|s| s.w.done);
+        assert_eq!(done, ticks == latency, "after {ticks} ticks");
         if ticks < latency {
-            assert_eq!(vector(&q), before, "after {ticks} ticks");
+            assert_eq!(vector(simulator), before, "after {ticks} ticks");
         }
     }
-    let after = vector(&simulator.registers());
-    (simulator, after)
+    vector(simulator)
 }
 
 fn coefficients(matrix: &[[i128; 3]; 3]) -> impl Iterator<Item = (u64, i128)> {
@@ -86,23 +78,17 @@ fn every_small_product_is_right_under_both_roundings() {
     const P: usize = 3;
     const C: usize = 4;
     for rounding in [Rounding::Nearest, Rounding::Floor] {
-        let circuit = Rotation::<P, C, 6, 4>::new(rounding);
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = simulator((P, C, 4), rounding);
         // Three rows at a time: every triple of coefficients comes in some row.
         for first in (0..4096i128).step_by(3) {
             let triple = |index: i128| [0, 4, 8].map(|low| wrap(index >> low, C));
             let matrix = [0, 1, 2].map(|row| triple((first + row) % 4096));
-            for (word, data) in coefficients(&matrix) {
-                simulator = load(simulator, word, data);
-            }
+            load(&mut simulator, coefficients(&matrix));
             // Every vector comes with every 8th matrix.
             for index in (first / 3 % 8..512).step_by(8) {
                 let from = [0, 3, 6].map(|low| wrap(index >> low, P));
-                for (word, data) in (2..).zip(from) {
-                    simulator = load(simulator, word, data);
-                }
-                let (after, to) = step(simulator);
-                simulator = after;
+                load(&mut simulator, (2..).zip(from));
+                let to = step(&mut simulator);
                 let expected = rotated(&matrix, from, C - 2, rounding == Rounding::Nearest);
                 assert_eq!(
                     to,
@@ -116,35 +102,32 @@ fn every_small_product_is_right_under_both_roundings() {
 
 #[test]
 fn words_of_other_blocks_and_steps_under_way_change_nothing() {
-    let circuit = Rotation::<8, 8, 11, 8>::new(Rounding::Nearest);
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = simulator((8, 8, 8), Rounding::Nearest);
     let matrix = [[40, -20, 7], [3, 64, -9], [-31, 5, 50]];
-    for (word, data) in coefficients(&matrix).chain([(2, 100), (3, -60), (4, 33)]) {
-        simulator = load(simulator, word, data);
-    }
-    for word in (0..32).filter(|word| !(2..5).contains(word) && (*word < 8 || word % 8 > 2)) {
-        simulator = load(simulator, word, 85);
-    }
+    let vector_words = [(2, 100), (3, -60), (4, 33)];
+    load(&mut simulator, coefficients(&matrix).chain(vector_words));
+    let others = (0..32).filter(|word| !(2..5).contains(word) && (*word < 8 || word % 8 > 2));
+    load(&mut simulator, others.map(|word| (word, 85)));
     let expected = rotated(&matrix, [100, -60, 33], 6, true);
     // A second start in the middle of a step is not taken.
-    for ticks in 1..=Rotation::<8, 8, 11, 8>::LATENCY {
+    for ticks in 1..=simulator.circuit().latency() {
         let step = ticks == 1 || ticks == 5;
-        simulator = tick(simulator, &Wires { step, ..IDLE() });
+        simulator.step_with(&In { step, ..idle() }, |_| ());
     }
-    assert_eq!(vector(&simulator.registers()), expected);
+    assert_eq!(vector(&mut simulator), expected);
     // After a halt nothing comes, and the next step is right.
     for ticks in 1..=30 {
         let (step, halt) = (ticks == 1, ticks == 6);
-        let load = None;
-        simulator = tick(simulator, &Wires { load, step, halt });
-        assert_eq!(
-            vector(&simulator.registers()),
-            expected,
-            "after {ticks} ticks"
-        );
-        assert!(!simulator.registers().control.done.get());
+        let i = In {
+            step,
+            halt,
+            ..idle()
+        };
+        simulator.step_with(&i, |_| ());
+        assert_eq!(vector(&mut simulator), expected, "after {ticks} ticks");
+        assert!(!simulator.see(|s| s.w.done));
     }
-    let (_, after) = step(simulator);
+    let after = step(&mut simulator);
     assert_eq!(after, rotated(&matrix, expected, 6, true));
 }
 
@@ -158,14 +141,11 @@ proptest! {
         nearest in any::<bool>(),
     ) {
         let rounding = if nearest { Rounding::Nearest } else { Rounding::Floor };
-        let circuit = Rotation::<40, 42, 43, 42>::new(rounding);
-        let mut simulator = Simulator::new(&circuit).unwrap();
-        for (word, data) in coefficients(&matrix).chain((2..).zip(from)) {
-            simulator = load(simulator, word, data);
-        }
-        let (simulator, first) = step(simulator);
+        let mut simulator = simulator((40, 42, 42), rounding);
+        load(&mut simulator, coefficients(&matrix).chain((2..).zip(from)));
+        let first = step(&mut simulator);
         prop_assert_eq!(first, rotated(&matrix, from, 40, nearest).map(|word| wrap(word, 40)));
-        let (_, second) = step(simulator);
+        let second = step(&mut simulator);
         prop_assert_eq!(second, rotated(&matrix, first, 40, nearest).map(|word| wrap(word, 40)));
     }
 }

@@ -3,14 +3,12 @@
 use super::below;
 use super::engine::quartic;
 use super::program::{differences, rotated, wrap};
-use motion_rtl::arc_generator::generator::In;
-use motion_rtl::arc_generator::{ArcGenerator, Rounding};
 use motion_rtl::check::Random;
-use motion_rtl::kernel::Simulator;
-use motion_rtl::logic::Sim;
+use motion_rtl::circuits::arc_generator::generator::{In, Segments};
+use motion_rtl::circuits::arc_generator::{ArcGenerator, Rounding};
+use motion_rtl::hdl::{Simulator, Value};
 
-type Full = ArcGenerator;
-
+const FULL: ArcGenerator = ArcGenerator::new(Rounding::Nearest);
 const GUARD: u32 = 16;
 
 /// A segment as its record and the points it makes.
@@ -139,31 +137,33 @@ struct Host<'a> {
 }
 
 impl Host<'_> {
-    fn ports(&mut self, ready: bool, period: u64) -> In<Sim, 42, 24> {
-        let mut i = In {
-            write: false.into(),
-            write_word: 0.into(),
-            write_data: 0.into(),
-            push: false.into(),
-            start: false.into(),
-            halt: false.into(),
-            sample_period: period.into(),
+    fn ports(&mut self, ready: bool, period: u64) -> In<Value> {
+        let mut segments = Segments {
+            write: false,
+            write_word: 0,
+            write_data: 0,
+            push: false,
+            start: false,
         };
         if self.segment == self.segments.len().min(self.start_with) && !self.started {
             self.started = true;
-            i.start = true.into();
+            segments.start = true;
         }
         if let Some(segment) = self.segments.get(self.segment).filter(|_| ready) {
-            i.write = true.into();
-            i.write_word = (self.word as u64).into();
-            i.write_data = (segment.record[self.word] as u64).into();
+            segments.write = true;
+            segments.write_word = self.word as u64;
+            segments.write_data = segment.record[self.word] as u64;
             self.word += 1;
             if self.word == 32 {
-                i.push = true.into();
+                segments.push = true;
                 (self.word, self.segment) = (0, self.segment + 1);
             }
         }
-        i
+        In {
+            segments,
+            halt: false,
+            sample_period: period,
+        }
     }
 }
 
@@ -176,8 +176,7 @@ struct Run {
 }
 
 fn run(segments: &[Segment], rounding: Rounding, period: u64, start_with: usize) -> Run {
-    let circuit = Full::new(rounding);
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = Simulator::new(&ArcGenerator::new(rounding)).unwrap();
     let mut host = Host {
         segments,
         segment: 0,
@@ -192,13 +191,12 @@ fn run(segments: &[Segment], rounding: Rounding, period: u64, start_with: usize)
         let tick = simulator.tick();
         assert!(tick < 1_000_000, "no end");
         let i = host.ports(ready, period);
-        let pushed = i.push.get();
-        let (next, (now, sampled, busy, free)) = simulator.step(i, |now| {
+        let pushed = i.segments.push;
+        let (now, sampled, busy, free) = simulator.step_with(&i, |now| {
             let w = now.w;
-            let command = [w.x, w.y, w.z].map(|word| i128::from(word.get()));
-            (command, w.sampled.get(), w.busy.get(), w.ready.get())
+            let command = [w.x, w.y, w.z].map(i128::from);
+            (command, w.sampled, w.busy, w.ready)
         });
-        simulator = next;
         // A push may make it not ready: it is looked at again a tick later.
         ready = free && !pushed;
         match sampled {
@@ -209,11 +207,10 @@ fn run(segments: &[Segment], rounding: Rounding, period: u64, start_with: usize)
         let ended = host.started && !busy && host.segment == segments.len() && tick > 10_000;
         over = if ended { over + 1 } else { 0 };
     }
-    let q = &simulator.registers().sequencer;
     Run {
         commands,
-        late: q.late.get(),
-        starved: q.starved.get(),
+        late: simulator.see(|s| s.w.late),
+        starved: simulator.see(|s| s.w.starved),
     }
 }
 
@@ -234,7 +231,7 @@ fn random_paths_are_those_of_the_program_in_both_roundings() {
             .map(|_| random_segment(&mut random, rounding))
             .collect();
         // The host writes a record in 33 ticks: it keeps up with the shortest segments.
-        let period = Full::LEAST_PERIOD + below(&mut random, 100);
+        let period = FULL.least_period() + below(&mut random, 100);
         let run = run(
             &segments,
             rounding,
@@ -284,7 +281,7 @@ fn a_quarter_turn_is_exact() {
 
 #[test]
 fn the_least_period_is_enough_and_a_tick_less_is_late() {
-    let least = Full::LEAST_PERIOD;
+    let least = FULL.least_period();
     for period in [least - 1, least, least + 1] {
         let run = run(&line_and_arc(), Rounding::Nearest, period, 2);
         assert_eq!(run.late, period < least, "{period} ticks");
@@ -302,7 +299,7 @@ fn the_first_point_is_ready_after_its_latency() {
         let run = run(&segments[..1], Rounding::Nearest, period, 1);
         let start = 32;
         // A sampling time is over in the ticks k·period − 1.
-        let due = (start + Full::FIRST + 1).div_ceil(period) * period;
+        let due = (start + FULL.first() + 1).div_ceil(period) * period;
         assert_eq!(run.commands[0].0, due, "period {period}");
     }
 }
@@ -311,8 +308,7 @@ fn the_first_point_is_ready_after_its_latency() {
 fn halt_leaves_the_commands_where_they_are() {
     let segments = line_and_arc();
     for halted in 300..900 {
-        let circuit = Full::default();
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = Simulator::new(&FULL).unwrap();
         let mut host = Host {
             segments: &segments,
             segment: 0,
@@ -324,14 +320,12 @@ fn halt_leaves_the_commands_where_they_are() {
         let mut ready = true;
         for tick in 0..1_500 {
             let mut i = host.ports(ready, 100);
-            i.halt = (tick == halted).into();
-            let pushed = i.push.get();
-            let (next, (free, command, sampled, busy)) = simulator.step(i, |now| {
+            i.halt = tick == halted;
+            let pushed = i.segments.push;
+            let (free, command, sampled, busy) = simulator.step_with(&i, |now| {
                 let w = now.w;
-                let command = [w.x, w.y, w.z].map(|word| word.get());
-                (w.ready.get(), command, w.sampled.get(), w.busy.get())
+                (w.ready, [w.x, w.y, w.z], w.sampled, w.busy)
             });
-            simulator = next;
             ready = free && !pushed;
             if tick > halted {
                 assert!(
@@ -343,7 +337,7 @@ fn halt_leaves_the_commands_where_they_are() {
             }
         }
         // What waited is forgotten, and a new path runs as from power-on.
-        assert!(!simulator.registers().sequencer.starved.get());
+        assert!(!simulator.see(|s| s.w.starved));
         host = Host {
             segments: &segments,
             segment: 0,
@@ -355,12 +349,11 @@ fn halt_leaves_the_commands_where_they_are() {
         ready = true;
         for _ in 0..1_500 {
             let i = host.ports(ready, 100);
-            let pushed = i.push.get();
-            let (next, (free, command, sampled)) = simulator.step(i, |now| {
-                let command = [now.w.x, now.w.y, now.w.z].map(|word| i128::from(word.get()));
-                (now.w.ready.get(), command, now.w.sampled.get())
+            let pushed = i.segments.push;
+            let (free, command, sampled) = simulator.step_with(&i, |now| {
+                let command = [now.w.x, now.w.y, now.w.z].map(i128::from);
+                (now.w.ready, command, now.w.sampled)
             });
-            simulator = next;
             ready = free && !pushed;
             seen.extend(sampled.then_some(command));
         }
@@ -375,8 +368,7 @@ fn a_path_that_begins_right_after_a_halt_is_that_of_its_record() {
     let segments = line_and_arc();
     let [_, behind] = &segments;
     for halted in 560..680 {
-        let circuit = Full::default();
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = Simulator::new(&FULL).unwrap();
         let mut host = Host {
             segments: &segments,
             segment: 0,
@@ -389,19 +381,18 @@ fn a_path_that_begins_right_after_a_halt_is_that_of_its_record() {
         for tick in 0..halted + 500 {
             let mut i = host.ports(true, 100);
             if (200..232).contains(&tick) {
-                i.write = true.into();
-                i.write_word = (tick - 200).into();
-                i.write_data = (behind.record[tick as usize - 200] as u64).into();
+                i.segments.write = true;
+                i.segments.write_word = tick - 200;
+                i.segments.write_data = behind.record[tick as usize - 200] as u64;
             }
-            i.halt = (tick == halted).into();
-            i.push = (i.push.get() || tick == halted + 1).into();
-            i.start = (i.start.get() || tick == halted + 2).into();
-            was_rotating |= tick == halted && simulator.registers().rotation.control.busy.get();
-            let (next, (command, sampled)) = simulator.step(i, |now| {
-                let command = [now.w.x, now.w.y, now.w.z].map(|word| i128::from(word.get()));
-                (command, now.w.sampled.get())
+            i.halt = tick == halted;
+            i.segments.push |= tick == halted + 1;
+            i.segments.start |= tick == halted + 2;
+            was_rotating |= tick == halted && simulator.see(|s| s.p.rotation.p.control.q.busy);
+            let (command, sampled) = simulator.step_with(&i, |now| {
+                let command = [now.w.x, now.w.y, now.w.z].map(i128::from);
+                (command, now.w.sampled)
             });
-            simulator = next;
             seen.extend((sampled && tick > halted + 1).then_some(command));
         }
         let expected = commands(std::slice::from_ref(behind));

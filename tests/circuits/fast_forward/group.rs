@@ -1,21 +1,21 @@
 //! Groups under random control computers, and drawings that ship with the crate.
 
-use crate::common;
+use super::registers;
 use motion_rtl::check::Random;
+use motion_rtl::circuits::pulse_interpolator::group::{Group, In};
+use motion_rtl::circuits::pulse_interpolator::pattern_memory::WritePort;
+use motion_rtl::circuits::pulse_interpolator::{Pattern, Variant, Widths};
+use motion_rtl::hdl::{Observer, RunError, Sample, Simulator, Value, zero};
 use motion_rtl::input::{Drawing, read_text};
 use motion_rtl::jobs::pulse_interpolator::job::{fast_forward, group, play};
 use motion_rtl::jobs::pulse_interpolator::{Settings, compile};
-use motion_rtl::kernel::{Observer, RunError, Sample, Simulator, pack};
-use motion_rtl::logic::Sim;
-use motion_rtl::pulse_interpolator::group::{Group, In};
-use motion_rtl::pulse_interpolator::{Pattern, Variant};
 use motion_rtl::scenario::{Loaded, Scenario};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 
 /// Words of the memories that are played.
 const WORDS: u64 = 6;
-type Port = In<Sim, 16, 24, 12>;
+type Port = In<Value>;
 
 /// Every change of a port out with its tick; ends the run when it has seen so many.
 #[derive(Debug)]
@@ -32,11 +32,11 @@ impl Events {
     }
 }
 
-impl<const AXES: usize> Observer<Group<AXES>> for Events {
-    fn sample(&mut self, now: &Sample<'_, Group<AXES>>) -> Result<ControlFlow<()>, RunError> {
+impl Observer<Group> for Events {
+    fn sample(&mut self, now: &Sample<'_, Group>) -> Result<ControlFlow<()>, RunError> {
         let lines = now.w.step.iter().chain(&now.w.dir);
         let lines = lines.chain([&now.w.ready, &now.w.busy, &now.w.unit_rst]);
-        let lines = lines.fold(0, |bits, line| bits << 1 | u32::from(line.get()));
+        let lines = lines.fold(0, |bits, line| bits << 1 | u32::from(*line));
         let same = self.seen.last().is_some_and(|(_, before)| *before == lines);
         if !same {
             self.seen.push((now.tick, lines));
@@ -67,20 +67,22 @@ fn act() -> impl Strategy<Value = (u64, Port)> {
         let [cyclic, stop, now, write_direction] = flags;
         let (base, last, period, axis, half_period) = words;
         let port = Port {
-            command: (kind < 4).into(),
-            base: base.into(),
-            last: last.into(),
-            cyclic: cyclic.into(),
-            run: (!stop || kind != 0).into(),
-            now: now.into(),
-            period: period.into(),
-            write_period: (kind == 4).into(),
-            unit_end: (kind == 5).into(),
-            write: (kind > 5).into(),
-            write_axis: axis.into(),
-            write_address: base.into(),
-            write_half_period: half_period.into(),
-            write_direction: write_direction.into(),
+            command: kind < 4,
+            base,
+            last,
+            cyclic,
+            run: !stop || kind != 0,
+            now,
+            period,
+            write_period: kind == 4,
+            unit_end: kind == 5,
+            port: WritePort {
+                write: kind > 5,
+                write_axis: axis,
+                write_address: base,
+                write_half_period: half_period,
+                write_direction,
+            },
         };
         (wait, port)
     })
@@ -99,46 +101,39 @@ fn schedule(acts: &[(u64, Port)]) -> Vec<(u64, Port)> {
 
 /// The outputs of a computer in a tick, and for how many ticks it holds them. Between two acts the
 /// lines without strobes stand somewhere.
-fn drive(acts: &[(u64, Port)], tick: u64) -> (Port, u64) {
+fn drive(group: &Group, acts: &[(u64, Port)], tick: u64) -> (Port, u64) {
     let next = acts.partition_point(|(due, _)| *due < tick);
     match acts.get(next) {
         Some((due, port)) if *due == tick => (port.clone(), 1),
         other => {
             let held = other.map_or(u64::MAX, |(due, _)| due - tick);
-            let lines: Port = Random::new(next as u64).signals();
-            let quiet = Port {
-                command: false.into(),
-                write_period: false.into(),
-                unit_end: false.into(),
-                write: false.into(),
-                ..lines
-            };
-            (quiet, held)
+            let mut lines = Random::new(next as u64).inputs(group);
+            for strobe in [
+                &mut lines.command,
+                &mut lines.write_period,
+                &mut lines.unit_end,
+                &mut lines.port.write,
+            ] {
+                *strobe = false;
+            }
+            (lines, held)
         }
     }
 }
 
-fn same<const AXES: usize>(
-    group: &Group<AXES>,
-    acts: &[(u64, Port)],
-    ticks: u64,
-    most: usize,
-) -> Result<(), TestCaseError> {
+fn same(group: &Group, acts: &[(u64, Port)], ticks: u64, most: usize) -> Result<(), TestCaseError> {
     let (mut stepped, mut jumped) = (Events::new(most), Events::new(most));
-    let run =
-        Simulator::new(group)
-            .unwrap()
-            .run(ticks, |tick, _| drive(acts, tick).0, &mut stepped);
-    let forward = Simulator::new(group).unwrap().fast_forward(
-        ticks,
-        |tick, _| drive(acts, tick),
-        &mut jumped,
-    );
+    let mut run = Simulator::new(group).unwrap();
+    let mut forward = run.clone();
     let failed = |error: RunError| TestCaseError::fail(error.to_string());
-    let (run, forward) = (run.map_err(failed)?, forward.map_err(failed)?);
+    run.run(ticks, |tick, _| drive(group, acts, tick).0, &mut stepped)
+        .map_err(failed)?;
+    forward
+        .fast_forward(ticks, |tick, _| drive(group, acts, tick), &mut jumped)
+        .map_err(failed)?;
     prop_assert_eq!(stepped.seen, jumped.seen);
     prop_assert_eq!(run.tick(), forward.tick());
-    prop_assert_eq!(pack(&*run.registers()), pack(&*forward.registers()));
+    prop_assert_eq!(registers(&run), registers(&forward));
     Ok(())
 }
 
@@ -156,9 +151,9 @@ proptest! {
     ) {
         let variant = if literal { Variant::Literal } else { Variant::Safe };
         let pattern = Pattern { base: 1, last: WORDS - 1, cyclic: true, period };
-        let mut group = Group::<3>::free_running(variant, pattern);
+        let mut group = Group::free_running(3, Widths::default(), variant, pattern);
         for (index, (half_period, negative)) in words.into_iter().enumerate() {
-            let memory = &mut group.axes[index % 3].memory;
+            let memory = &mut group.memories[index % 3];
             memory.half_periods.set(index / 3, half_period);
             memory.directions.set(index / 3, negative.into());
         }
@@ -175,25 +170,24 @@ fn a_run_cut_into_pieces_is_the_same_run() {
         cyclic: true,
         period,
     };
-    let mut group = Group::<1>::free_running(Variant::Safe, pattern);
-    group.axes[0].memory.half_periods.set(0, 5);
-    let quiet = |_, _: &motion_rtl::kernel::Part<'_, _>| (common::idle(), u64::MAX);
+    let mut group = Group::free_running(1, Widths::default(), Variant::Safe, pattern);
+    group.memories[0].half_periods.set(0, 5);
     for piece in 1..50 {
         let mut events = Events::new(usize::MAX);
         let mut simulator = Simulator::new(&group).unwrap();
         while simulator.tick() < 300 {
             let ticks = piece.min(300 - simulator.tick());
-            simulator = simulator
-                .fast_forward(ticks, quiet, &mut events)
+            simulator
+                .fast_forward(ticks, |_, _| (zero(&group), u64::MAX), &mut events)
                 .expect("no objection");
         }
         let mut whole = Events::new(usize::MAX);
-        let stepped = Simulator::new(&group)
-            .unwrap()
-            .run(300, |_, _| common::idle(), &mut whole)
+        let mut stepped = Simulator::new(&group).unwrap();
+        stepped
+            .run(300, |_, _| zero(&group), &mut whole)
             .expect("no objection");
         assert_eq!(events.seen, whole.seen, "pieces of {piece} ticks");
-        assert_eq!(pack(&*simulator.registers()), pack(&*stepped.registers()));
+        assert_eq!(registers(&simulator), registers(&stepped));
     }
 }
 
@@ -214,7 +208,7 @@ fn shipped(name: &str, text: &str, input: (&str, &[u8]), times: u32) -> (Drawing
 /// Plays a drawing both ways.
 fn both((drawing, settings): &(Drawing, Settings), variant: Variant) {
     let (table, _) = compile(drawing, settings).expect("it compiles");
-    let group = group::<2>(&table, variant);
+    let group = group(&table, variant);
     let stepped = play(&group, &table, ()).expect("no observer objects");
     let jumped = fast_forward(&group, &table, ()).expect("no observer objects");
     assert!(stepped == jumped, "the drivers saw something else");

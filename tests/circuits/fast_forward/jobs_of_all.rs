@@ -2,8 +2,9 @@
 
 use super::jobs::{self, Clock, Job};
 use super::ours::{Outputs, word};
+use super::registers;
 use super::stimulus::Replay;
-use motion_rtl::kernel::{Observer, RunError, Sample, Simulator, pack};
+use motion_rtl::hdl::{Observer, RunError, Sample, Simulator};
 use std::ops::ControlFlow;
 
 /// A word of the ports out for every tick; where a tick is not seen they are held.
@@ -38,54 +39,46 @@ impl<C: Outputs> Observer<C> for Words<'_> {
 fn same<C: Outputs>(job: Job<C>) {
     let Job { circuit, stimulus } = job;
     let ticks = stimulus.ticks;
-    let whole = Simulator::watching(&circuit, true, C::outputs);
-    let (whole, outputs) = whole.expect("a netlist");
-    let ports = Simulator::watching(&circuit, false, C::outputs);
-    let (ports, _) = ports.expect("a netlist");
+    let watching = |all| Simulator::watching(&circuit, all, C::outputs).expect("a netlist");
+    let ((whole, outputs), (ports, _)) = (watching(true), watching(false));
+    let interpreted = |simulator: &Simulator<C>| {
+        let mut simulator = simulator.clone();
+        simulator.interpret();
+        simulator
+    };
 
-    let mut replay = Replay::<C>::new(&stimulus);
-    let mut step = whole.clone().interpreted();
+    let mut replay = Replay::new(&circuit, &stimulus);
+    let mut step = interpreted(&whole);
     let mut words = Vec::new();
     for tick in 0..ticks {
-        let (next, word) = step.step(replay.tick(tick), |now| word(&outputs, now));
-        step = next;
-        words.push(word);
+        words.push(step.step_with(&replay.tick(tick), |now| word(&outputs, now)));
     }
-    let registers = pack(&*step.registers());
+    let due = registers(&step);
 
     let ways = [
-        ("run", &whole, Way::Run),
-        ("only ports out watched", &ports, Way::Run),
-        ("changes", &ports, Way::Changes),
-        (
-            "changes, interpreted",
-            &ports.clone().interpreted(),
-            Way::Changes,
-        ),
-        ("gone over", &ports, Way::Forward),
-        ("gone over, all watched", &whole, Way::Forward),
-        (
-            "gone over, interpreted",
-            &ports.clone().interpreted(),
-            Way::Forward,
-        ),
+        ("run", whole.clone(), Way::Run),
+        ("only ports out watched", ports.clone(), Way::Run),
+        ("changes", ports.clone(), Way::Changes),
+        ("changes, interpreted", interpreted(&ports), Way::Changes),
+        ("gone over", ports.clone(), Way::Forward),
+        ("gone over, all watched", whole, Way::Forward),
+        ("gone over, interpreted", interpreted(&ports), Way::Forward),
     ];
-    for (how, simulator, way) in ways {
-        let simulator = simulator.clone();
+    for (how, mut simulator, way) in ways {
         let mut seen = Words::new(&outputs);
-        let mut replay = Replay::<C>::new(&stimulus);
+        let mut replay = Replay::new(&circuit, &stimulus);
         let run = match way {
             Way::Run => simulator.run(ticks, |tick, _| replay.tick(tick), &mut seen),
             Way::Changes => simulator.run_changes(ticks, |tick, _| replay.held(tick), &mut seen),
             Way::Forward => simulator.fast_forward(ticks, |tick, _| replay.held(tick), &mut seen),
         };
-        let run = run.expect("no objection");
+        run.expect("no objection");
         seen.hold(ticks);
         let differs = words.iter().zip(&seen.words).position(|(a, b)| a != b);
         assert_eq!(differs, None, "{how}: the first tick that differs");
         assert_eq!(words.len(), seen.words.len(), "{how}");
-        assert_eq!(run.tick(), ticks, "{how}");
-        assert!(registers == pack(&*run.registers()), "{how}");
+        assert_eq!(simulator.tick(), ticks, "{how}");
+        assert!(due == registers(&simulator), "{how}");
     }
 }
 

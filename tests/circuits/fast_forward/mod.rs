@@ -15,3 +15,15 @@ mod stimulus;
 mod theirs {
     pub const ROTATION: u32 = 7;
 }
+
+use motion_rtl::hdl::{Circuit, Declarations, Role, Simulator};
+
+/// All registers, words of memories among them.
+fn registers<C: Circuit>(simulator: &Simulator<C>) -> Vec<u64> {
+    let leaves = Declarations::of(simulator.circuit()).leaves;
+    let leaves = leaves.iter().enumerate();
+    let registers = leaves.filter(|(_, leaf)| leaf.role == Role::Register);
+    registers
+        .map(|(leaf, _)| simulator.engine().leaf(leaf))
+        .collect()
+}

@@ -1,21 +1,28 @@
 //! The comparator on whole walks, against positions without bounds.
 
-use motion_rtl::kernel::Simulator;
-use motion_rtl::lead_angle::comparator::In;
-use motion_rtl::lead_angle::{Comparator, Comparing};
-use motion_rtl::logic::Sim;
+use motion_rtl::circuits::lead_angle::comparator::In;
+use motion_rtl::circuits::lead_angle::{Comparator, Comparing};
+use motion_rtl::hdl::{Sample, Simulator, Value};
 
 const RANGE: i64 = 16;
 
-fn look(position: i64, target: i64, arm: bool) -> In<Sim, 4> {
+fn look(position: i64, target: i64, arm: bool) -> In<Value> {
     In {
-        evaluate: (!arm).into(),
-        valid: true.into(),
-        position: position.into(),
-        target: target.into(),
-        arm: arm.into(),
-        halt: false.into(),
+        evaluate: !arm,
+        valid: true,
+        position,
+        target,
+        arm,
+        halt: false,
     }
+}
+
+fn comparator(position: usize, comparing: Comparing) -> Simulator<Comparator> {
+    let circuit = Comparator {
+        position,
+        comparing,
+    };
+    Simulator::new(&circuit).unwrap()
 }
 
 /// Whether a step from `from` to `to` gets to an image of the target, or over it.
@@ -27,7 +34,7 @@ fn reaches(from: i64, to: i64, target: i64) -> bool {
 /// All walks of five steps of up to 3 counts on a ring of 16, from every start.
 #[test]
 fn a_crossing_is_counted_once_in_either_direction() {
-    let ready = Simulator::new(&Comparator::<4>::default()).unwrap();
+    let ready = comparator(4, Comparing::default());
     let mut crossings = [0u64; 2];
     for start in 0..RANGE {
         for walk in 0..7i64.pow(5) {
@@ -39,28 +46,24 @@ fn a_crossing_is_counted_once_in_either_direction() {
             let mut simulator = ready.clone();
             let mut position = start;
             let target = walk % 5;
-            simulator = simulator.step(look(position, target, true), |_| ()).0;
+            simulator.step_with(&look(position, target, true), |_| ());
             // The first look finds a side, or the target itself.
-            let (next, at_once) =
-                simulator.step(look(position, target, false), |now| now.w.fire.get());
-            simulator = next;
+            let at_once = simulator.step_with(&look(position, target, false), |now| now.w.fire);
             assert_eq!(at_once, (position - target) % RANGE == 0);
             let mut fired = at_once;
             for step in steps {
                 let to = position + step;
-                let (next, (crossing, fire)) = simulator.step(look(to, target, false), |now| {
-                    (now.w.crossing.get(), now.w.fire.get())
-                });
-                simulator = next;
+                let show = |now: &Sample<'_, Comparator>| (now.w.crossing, now.w.fire);
+                let (crossing, fire) = simulator.step_with(&look(to, target, false), show);
                 let reached = reaches(position, to, target);
                 assert_eq!(crossing, reached, "{position} to {to} for {target}");
                 assert_eq!(fire, reached && !fired);
                 if fire {
-                    assert_eq!(simulator.registers().upward.get(), step > 0);
+                    assert_eq!(simulator.registers().q.upward, step > 0);
                     crossings[usize::from(step > 0)] += 1;
                 }
                 fired |= reached;
-                assert_eq!(simulator.registers().control.get(), fired);
+                assert_eq!(simulator.registers().q.control, fired);
                 position = to;
             }
         }
@@ -73,22 +76,22 @@ fn a_crossing_is_counted_once_in_either_direction() {
 
 /// How many of `speed` neighbouring targets are hit at that speed.
 fn hits(comparing: Comparing, speed: i64) -> usize {
-    let ready = Simulator::new(&Comparator::<12> { comparing }).unwrap();
+    let ready = comparator(12, comparing);
     let mut targets = 500..500 + speed;
     let hit = |target: &i64| {
         let mut simulator = ready.clone();
         for ck in 0..1000 / speed {
-            let i = In::<Sim, 12> {
-                evaluate: true.into(),
-                valid: true.into(),
-                position: (ck * speed).into(),
-                target: (*target).into(),
-                arm: (ck == 0).into(),
-                halt: false.into(),
+            let i = In {
+                evaluate: true,
+                valid: true,
+                position: ck * speed,
+                target: *target,
+                arm: ck == 0,
+                halt: false,
             };
-            simulator = simulator.step(i, |_| ()).0;
+            simulator.step_with(&i, |_| ());
         }
-        simulator.registers().control.get()
+        simulator.registers().q.control
     };
     targets.by_ref().filter(hit).count()
 }

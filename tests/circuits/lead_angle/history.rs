@@ -1,23 +1,21 @@
 //! The position history in both forms.
 
 use super::below;
-use motion_rtl::check::{Invariants, Lockstep, Outcome, Pair, Random, reach};
-use motion_rtl::kernel::{Circuit, Simulator};
-use motion_rtl::lead_angle::position_history::{self, In};
-use motion_rtl::lead_angle::{History, PositionHistory, RamHistory};
-use motion_rtl::logic::{Signed, Sim};
+use motion_rtl::check::{Invariants, Lockstep, Outcome, Pair, PairIn, Random, reach};
+use motion_rtl::circuits::lead_angle::position_history::{self, In};
+use motion_rtl::circuits::lead_angle::{PositionHistory, RamHistory};
+use motion_rtl::hdl::{Circuit, Place, Signals, Simulator, State, Value};
 
 /// Runs a history over `samples` random samples with the tap `tap`, restarted after `start` of
 /// them, a CK every few ticks, against the list of all samples.
-fn is_the_sample_k_old<H, const K: usize, const T: usize, const W: usize>(
+fn is_the_sample_k_old<H: Circuit<In<Value> = In<Value>>>(
+    mut simulator: Simulator<H>,
+    pair: fn(&Signals<H>) -> &position_history::Pair<Place>,
     tap: u64,
     start: usize,
     samples: usize,
-) where
-    H: History<T, W> + Circuit<In<Sim> = In<Sim, T, W>>,
-{
-    let circuit = H::default();
-    let mut simulator = Simulator::new(&circuit).unwrap();
+) {
+    let width = pair(simulator.signals()).present.width();
     let mut random = Random::new(tap * 1000 + start as u64);
     let mut taken: Vec<i64> = Vec::new();
     let mut restarted = 0;
@@ -26,19 +24,16 @@ fn is_the_sample_k_old<H, const K: usize, const T: usize, const W: usize>(
         for between in (0..=gap).rev() {
             let ck = between == 0;
             let restart = ck && start > 0 && taken.len() + 1 == start;
-            let position = random.word() as i64 % (1 << (W - 1));
+            let position = random.word() as i64 % (1 << (width - 1));
             let i = In {
-                ck: ck.into(),
-                restart: restart.into(),
-                position: position.into(),
-                tap: tap.into(),
-                ratio: 1.into(),
+                ck,
+                restart,
+                position,
+                tap,
+                ratio: 1,
             };
-            let (next, ()) = simulator.step(i, |_| ());
-            simulator = next;
-            let registers = simulator.registers();
-            let pair = H::pair(&registers);
-            assert_eq!(pair.fresh.get(), ck && !restart);
+            simulator.step_with(&i, |_| ());
+            assert_eq!(simulator.see(|s| pair(s).fresh), ck && !restart);
             if restart {
                 restarted = taken.len() + 1;
             }
@@ -48,42 +43,49 @@ fn is_the_sample_k_old<H, const K: usize, const T: usize, const W: usize>(
             let Some(&newest) = taken.last() else {
                 continue;
             };
-            assert_eq!(pair.present.get(), newest);
+            assert_eq!(simulator.see(|s| pair(s).present), newest);
             let since = taken.len() - restarted;
             let enough = since as u64 > tap;
-            assert_eq!(pair.enough.get(), enough, "tap {tap} after {since}");
+            let given = simulator.see(|s| pair(s).enough);
+            assert_eq!(given, enough, "tap {tap} after {since}");
             if enough {
                 let old = taken[taken.len() - 1 - tap as usize];
-                assert_eq!(pair.old.get(), old, "tap {tap}, sample {}", taken.len());
+                let given = simulator.see(|s| pair(s).old);
+                assert_eq!(given, old, "tap {tap}, sample {}", taken.len());
             }
+        }
+    }
+}
+
+/// Every tap with these starts, in both forms.
+fn every_tap(stages: usize, position: usize, starts: &[usize], samples: usize) {
+    let shift = Simulator::new(&PositionHistory { stages, position }).unwrap();
+    let ram = Simulator::new(&RamHistory { stages, position }).unwrap();
+    for tap in 1..=stages as u64 {
+        for &start in starts {
+            is_the_sample_k_old(shift.clone(), |s| &s.q.pair, tap, start, samples);
+            is_the_sample_k_old(ram.clone(), |s| &s.q.pair, tap, start, samples);
         }
     }
 }
 
 #[test]
 fn tap_k_is_the_sample_k_cks_old_for_every_k_and_every_start() {
-    for tap in 1..=15 {
-        for start in 0..=36 {
-            is_the_sample_k_old::<PositionHistory<15, 4, 8>, 15, 4, 8>(tap, start, 60);
-            is_the_sample_k_old::<RamHistory<15, 4, 8>, 15, 4, 8>(tap, start, 60);
-        }
-    }
+    every_tap(15, 8, &Vec::from_iter(0..=36), 60);
 }
 
 #[test]
 fn so_it_is_with_199_stages() {
-    for tap in 1..=199 {
-        for start in [0, 1, 57, 199, 256] {
-            is_the_sample_k_old::<PositionHistory<199, 8, 24>, 199, 8, 24>(tap, start, 480);
-            is_the_sample_k_old::<RamHistory<199, 8, 24>, 199, 8, 24>(tap, start, 480);
-        }
-    }
+    every_tap(199, 24, &[0, 1, 57, 199, 256], 480);
 }
 
 /// A tap that is changed takes effect with the next CK, together with its ratio.
 #[test]
 fn pair_and_ratio_belong_together_when_the_tap_changes() {
-    let circuit = PositionHistory::<15, 4, 8>;
+    let circuit = PositionHistory {
+        stages: 15,
+        position: 8,
+    };
     let mut simulator = Simulator::new(&circuit).unwrap();
     let mut taken = Vec::new();
     let mut random = Random::new(5);
@@ -91,57 +93,58 @@ fn pair_and_ratio_belong_together_when_the_tap_changes() {
         let (ck, tap) = (below(&mut random, 3) == 0, below(&mut random, 16));
         let position = random.word() as i64 % 128;
         let i = In {
-            ck: ck.into(),
-            restart: false.into(),
-            position: position.into(),
-            tap: tap.into(),
-            ratio: (tap ^ 5).into(),
+            ck,
+            restart: false,
+            position,
+            tap,
+            ratio: tap ^ 5,
         };
-        let before = simulator.registers().pair.clone();
-        let (next, ()) = simulator.step(i, |_| ());
-        simulator = next;
-        let pair = &simulator.registers().pair;
+        let before = simulator.registers().q.pair;
+        simulator.step_with(&i, |_| ());
+        let pair = simulator.registers().q.pair;
         if !ck {
             assert_eq!(pair.old, before.old);
             assert_eq!(pair.pair_ratio, before.pair_ratio);
             continue;
         }
         taken.push(position);
-        assert_eq!(pair.pair_ratio.get(), tap ^ 5, "tick {tick}");
+        assert_eq!(pair.pair_ratio, tap ^ 5, "tick {tick}");
         if tap > 0 && taken.len() > tap as usize {
             let old = taken[taken.len() - 1 - tap as usize];
-            assert_eq!((pair.old.get(), pair.enough.get()), (old, true));
+            assert_eq!((pair.old, pair.enough), (old, true));
         }
+    }
+}
+
+/// Both forms side by side.
+fn both(stages: usize, position: usize) -> Pair<PositionHistory, RamHistory> {
+    Pair {
+        left: PositionHistory { stages, position },
+        right: RamHistory { stages, position },
     }
 }
 
 /// The RAM equals the shift register in every tick, under every input.
 #[test]
 fn both_forms_are_proved_equal() {
-    let pair = Pair {
-        left: PositionHistory::<2, 2, 2>,
-        right: RamHistory::<2, 2, 2>,
-    };
+    let pair = both(2, 2);
     let lockstep = Lockstep::by_name(&pair).unwrap();
     let agree = Invariants::new().always("agree", |now| lockstep.compare(now));
     // The ratio is only handed on: it may depend on the position.
-    let tied = |i: &In<Sim, 2, 2>| i.ratio.get() == i.position.unsigned().get() % 2 * 15;
+    let tied = |i: &PairIn<PositionHistory, Value>| i.ratio == i.position.rem_euclid(2) as u64 * 15;
     let outcome = reach(&pair, &agree).inputs(tied).run().unwrap();
     assert!(matches!(outcome, Outcome::Proof(_)), "{outcome}");
 }
 
 #[test]
 fn both_forms_agree_at_full_width() {
-    let pair = Pair {
-        left: PositionHistory::<199, 8, 24>,
-        right: RamHistory::<199, 8, 24>,
-    };
+    let pair = both(199, 24);
     let lockstep = Lockstep::by_name(&pair).unwrap();
     let mut random = Random::new(11);
-    let stimulus = |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| {
-        let mut i: position_history::In<Sim, 8, 24> = random.signals();
+    let stimulus = |tick: u64, _: &State<'_, _>| {
+        let mut i = random.inputs(&pair);
         // Rarely, so that the history fills.
-        i.restart = tick.is_multiple_of(2503).into();
+        i.0.restart = tick.is_multiple_of(2503);
         i
     };
     let end = Simulator::new(&pair)

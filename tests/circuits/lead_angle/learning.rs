@@ -1,10 +1,9 @@
 //! The correction against plain arithmetic, and what learning comes to.
 
-use motion_rtl::kernel::Simulator;
-use motion_rtl::lead_angle::codes;
-use motion_rtl::lead_angle::correction::In;
-use motion_rtl::lead_angle::{Correction, Sign};
-use motion_rtl::logic::Sim;
+use motion_rtl::circuits::lead_angle::codes;
+use motion_rtl::circuits::lead_angle::correction::In;
+use motion_rtl::circuits::lead_angle::{Correction, Sign};
+use motion_rtl::hdl::Simulator;
 
 /// What came of a correction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,30 +15,28 @@ struct Seen {
 }
 
 /// One positioning: control signal at −`overrun`, standstill at 0, target at −`error`.
-fn correct<const K: usize, const T: usize, const C: usize, const W: usize, const R: usize>(
-    ready: &Simulator<Correction<K, T, C, W, R>>,
+fn correct(
+    ready: &Simulator<Correction>,
     [time, seed]: [u64; 2],
     [overrun, error]: [i64; 2],
 ) -> Seen {
-    let input = |fire: bool, complete: bool, position: i64| In::<Sim, C, W> {
-        fire: fire.into(),
-        complete: complete.into(),
-        position: position.into(),
-        target: (-error).into(),
-        lead_time: time.into(),
-        learn: true.into(),
-        missed: false.into(),
-        seed: seed.into(),
+    let input = |fire: bool, complete: bool, position: i64| In {
+        fire,
+        complete,
+        position,
+        target: -error,
+        lead_time: time,
+        learn: true,
+        missed: false,
+        seed,
     };
     let mut simulator = ready.clone();
-    simulator = simulator.step(input(true, false, -overrun), |_| ()).0;
-    simulator = simulator.step(input(false, true, 0), |_| ()).0;
-    for ticks in 1..=2 * Correction::<K, T, C, W, R>::LATENCY {
-        let (next, (corrected, learned, time)) = simulator.step(input(false, false, 0), |now| {
-            let w = now.w;
-            (w.corrected.get(), w.learned.get(), w.learned_time.get())
+    simulator.step_with(&input(true, false, -overrun), |_| ());
+    simulator.step_with(&input(false, true, 0), |_| ());
+    for ticks in 1..=2 * ready.circuit().latency() {
+        let (corrected, learned, time) = simulator.step_with(&input(false, false, 0), |now| {
+            (now.w.corrected, now.w.learned, now.w.learned_time)
         });
-        simulator = next;
         assert!(corrected || !learned);
         if corrected {
             let learned = learned.then_some(time);
@@ -79,18 +76,22 @@ fn expected(stages: u64, time: u64, overrun: i64, error: i64, sign: i64) -> u64 
     snapped(stages, sum as u64)
 }
 
-fn every_correction<
-    const K: usize,
-    const T: usize,
-    const C: usize,
-    const W: usize,
-    const R: usize,
->() {
-    let (stages, half) = (K as u64, 1i64 << (W - 1));
+/// The correction with so many stages and positions of so many bits, ready to run.
+fn ready(stages: usize, position: usize, sign: Sign) -> Simulator<Correction> {
+    let circuit = Correction {
+        stages,
+        position,
+        sign,
+    };
+    Simulator::new(&circuit).unwrap()
+}
+
+fn every_correction(stages: u64, position: usize) {
+    let half = 1i64 << (position - 1);
     let codes = codes::grid(stages);
     let on_grid = |time: u64| codes.iter().any(|code| code.time == time);
     for sign in [Sign::Converging, Sign::Literal] {
-        let ready = Simulator::new(&Correction::<K, T, C, W, R>::new(sign)).unwrap();
+        let ready = ready(stages as usize, position, sign);
         let factor = if sign == Sign::Converging { 1 } else { -1 };
         for time in std::iter::once(0).chain(codes.iter().map(|code| code.time)) {
             for overrun in -half..half {
@@ -105,7 +106,7 @@ fn every_correction<
                         (_, 0) => (None, 1),
                         _ => {
                             let time = expected(stages, time, overrun, error, factor);
-                            (Some(time), Correction::<K, T, C, W, R>::LATENCY)
+                            (Some(time), ready.circuit().latency())
                         }
                     };
                     let right = Seen { ticks, learned };
@@ -119,22 +120,24 @@ fn every_correction<
 
 #[test]
 fn every_correction_of_four_bits_is_right_and_on_the_grid() {
-    every_correction::<3, 2, 5, 4, 9>();
+    every_correction(3, 4);
 }
 
 #[test]
 fn every_correction_of_six_bits_is_right_and_on_the_grid() {
-    every_correction::<7, 3, 7, 6, 13>();
+    every_correction(7, 6);
 }
 
-type Full = Correction<199, 8, 11, 24, 35>;
+/// The correction at full width.
+fn full(sign: Sign) -> Simulator<Correction> {
+    ready(199, 24, sign)
+}
 
 /// The next time of a body that stops `true_time` CKs after the control signal, at `speed` counts
 /// per CK, where the control signal is right but for the lead time.
-fn next(circuit: &Full, time: u64, true_time: u64, speed: i64) -> u64 {
+fn next(ready: &Simulator<Correction>, time: u64, true_time: u64, speed: i64) -> u64 {
     let (overrun, lead) = (speed * true_time as i64, speed * time as i64);
-    let ready = Simulator::new(circuit).unwrap();
-    let seen = correct(&ready, [time, 1], [overrun, overrun - lead]);
+    let seen = correct(ready, [time, 1], [overrun, overrun - lead]);
     seen.learned.expect("a time")
 }
 
@@ -148,7 +151,7 @@ fn pitch(time: u64) -> f64 {
 
 #[test]
 fn with_the_right_sign_the_error_is_squared_every_time_and_with_the_literal_one_the_ratio() {
-    let (right, literal) = (Full::new(Sign::Converging), Full::new(Sign::Literal));
+    let (right, literal) = (full(Sign::Converging), full(Sign::Literal));
     for true_time in [30u64, 150, 350, 900] {
         for share in [0.3, 0.6, 0.9, 1.1, 1.5] {
             for speed in [-40, 3, 1000] {
@@ -175,7 +178,7 @@ fn with_the_right_sign_the_error_is_squared_every_time_and_with_the_literal_one_
 /// From a third of the true time to nearly twice of it, within six positionings.
 #[test]
 fn six_positionings_are_enough_and_the_literal_sign_runs_away() {
-    let (right, literal) = (Full::new(Sign::Converging), Full::new(Sign::Literal));
+    let (right, literal) = (full(Sign::Converging), full(Sign::Literal));
     for true_time in [20u64, 57, 150, 333, 700, 1500] {
         for start in [true_time / 3, true_time / 2, true_time * 9 / 5] {
             let (mut time, mut lost) = (snapped(199, start), snapped(199, start));

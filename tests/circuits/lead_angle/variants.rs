@@ -12,7 +12,7 @@ fn every_variant_is_proved() {
     for (name, all) in variants {
         let entry = find(name).expect("it is in the catalogue");
         for arguments in all {
-            let circuit = (entry.make)(arguments).expect("it can be made");
+            let circuit = entry.make(arguments).expect("it can be made");
             let verdict = circuit.prove(10_000_000, None, &mut |_| ()).unwrap();
             let proved = matches!(verdict, Verdict::Proved(_));
             assert!(proved, "{name} {arguments:?}: {verdict:?}");

@@ -1,19 +1,11 @@
 //! The whole compensator: its variants side by side, and what must hold whatever comes in.
 
 use super::below;
-use motion_rtl::check::{Lockstep, Pair, Random};
-use motion_rtl::kernel::{Observer, Simulator};
-use motion_rtl::lead_angle::codes;
-use motion_rtl::lead_angle::compensator::In;
-use motion_rtl::lead_angle::{
-    Compensator, LeadSource, Placement, PositionHistory, RamHistory, TimeLead, Variant,
-};
-use motion_rtl::logic::{Image, Sim};
-
-type Small<H> = Compensator<TimeLead<H, 15, 4, 8, 8>, 15, 4, 8, 8, 2, 8, 16, 8, 8>;
-type Shift = PositionHistory<15, 4, 8>;
-type Ram = RamHistory<15, 4, 8>;
-type SmallIn = In<Sim, 8, 8, 2, 8, 8, 8>;
+use motion_rtl::check::{Lockstep, Pair, PairIn, Random};
+use motion_rtl::circuits::lead_angle::codes;
+use motion_rtl::circuits::lead_angle::compensator::In;
+use motion_rtl::circuits::lead_angle::{Compensator, LeadFrom, Memory, Placement, Variant, Widths};
+use motion_rtl::hdl::{Image, Observer, Simulator, State, Value};
 
 /// What the outputs of a run are compared by.
 const OUTPUTS: [&str; 12] = [
@@ -31,8 +23,29 @@ const OUTPUTS: [&str; 12] = [
     "error",
 ];
 
-fn times() -> Image<2, 8> {
-    Image::new([7, 15, 40, 110])
+fn small(memory: Memory, placement: Placement) -> Compensator {
+    let widths = Widths {
+        stages: 15,
+        position: 8,
+        step: 2,
+        speed: 8,
+        cks: 8,
+        ck_period: 8,
+    };
+    Compensator {
+        widths,
+        lead_from: LeadFrom::Time(memory),
+        variant: Variant {
+            placement,
+            ..Variant::default()
+        },
+        rom: Image::of(2, widths.time(), [7, 15, 40, 110]),
+    }
+}
+
+/// One whose lead is on the position, with its history in such a memory.
+fn plain(memory: Memory) -> Compensator {
+    small(memory, Placement::Position)
 }
 
 /// A control computer at random, and an encoder that goes to and fro.
@@ -40,14 +53,14 @@ struct Bench {
     random: Random,
     position: i64,
     up: bool,
-    settings: SmallIn,
+    settings: In<Value>,
 }
 
 impl Bench {
     fn new(seed: u64) -> Self {
         let mut random = Random::new(seed);
         Bench {
-            settings: random.signals(),
+            settings: random.inputs(&plain(Memory::Ram)),
             random,
             position: 0,
             up: true,
@@ -55,10 +68,10 @@ impl Bench {
     }
 
     /// The inputs of a tick, with the motor following the drive that the tick before showed.
-    fn tick(&mut self, drive: Option<bool>) -> SmallIn {
+    fn tick(&mut self, drive: Option<bool>) -> In<Value> {
         let random = &mut self.random;
         if below(random, 400) == 0 {
-            self.settings = random.signals();
+            self.settings = random.inputs(&plain(Memory::Ram));
         }
         if below(random, 60) == 0 {
             self.up = below(random, 2) == 0;
@@ -68,22 +81,22 @@ impl Bench {
             self.position += if up { 1 } else { -1 };
         }
         let quarter = self.position.rem_euclid(4);
-        let rarely = |random: &mut Random| (below(random, 50) == 0).into();
-        SmallIn {
-            a: (quarter == 1 || quarter == 2).into(),
-            b: (quarter >= 2).into(),
-            clear: (below(random, 2000) == 0).into(),
-            run: (below(random, 20) > 0).into(),
-            halt: (below(random, 300) == 0).into(),
-            ck_period: below(random, 6).into(),
-            standstill: below(random, 4).into(),
-            time_out: below(random, 40).into(),
-            rest: below(random, 4).into(),
+        let rarely = |random: &mut Random| below(random, 50) == 0;
+        In {
+            a: quarter == 1 || quarter == 2,
+            b: quarter >= 2,
+            clear: below(random, 2000) == 0,
+            run: below(random, 20) > 0,
+            halt: below(random, 300) == 0,
+            ck_period: below(random, 6),
+            standstill: below(random, 4),
+            time_out: below(random, 40),
+            rest: below(random, 4),
             write_target: rarely(random),
             write_time: rarely(random),
-            write_step: below(random, 4).into(),
-            step_target: (random.word() as i64 % 128).into(),
-            step_time: below(random, 256).into(),
+            write_step: below(random, 4),
+            step_target: random.word() as i64 % 128,
+            step_time: below(random, 256),
             ..self.settings.clone()
         }
     }
@@ -92,14 +105,14 @@ impl Bench {
 #[test]
 fn the_ram_compensator_is_the_compensator_in_every_tick() {
     let pair = Pair {
-        left: Small::<Shift>::new(Variant::default(), times()),
-        right: Small::<Ram>::new(Variant::default(), times()),
+        left: plain(Memory::ShiftRegister),
+        right: plain(Memory::Ram),
     };
     let outputs = OUTPUTS.map(|name| (name, name));
     for seed in 0..4 {
         let lockstep = Lockstep::of(&pair, &outputs).unwrap();
         let mut bench = Bench::new(seed);
-        let stimulus = |_, _: &motion_rtl::kernel::Part<'_, _>| bench.tick(None);
+        let stimulus = |_, _: &State<'_, _>| PairIn(bench.tick(None));
         let end = Simulator::new(&pair)
             .unwrap()
             .run(100_000, stimulus, lockstep);
@@ -109,29 +122,21 @@ fn the_ram_compensator_is_the_compensator_in_every_tick() {
 
 #[test]
 fn the_three_placements_fire_in_the_same_tick() {
-    let of = |placement| {
-        let variant = Variant {
-            placement,
-            ..Variant::default()
-        };
-        Small::<Shift>::new(variant, times())
-    };
+    let of = |placement| small(Memory::ShiftRegister, placement);
     for other in [Placement::Target, Placement::Halves] {
         let pair = Pair {
             left: of(Placement::Position),
             right: of(other),
         };
         let outputs = OUTPUTS.map(|name| (name, name));
-        let lockstep = Lockstep::of(&pair, &outputs).unwrap();
+        let mut lockstep = Lockstep::of(&pair, &outputs).unwrap();
         let mut bench = Bench::new(9);
         let mut fired = 0;
         let mut simulator = Simulator::new(&pair).unwrap();
-        let mut observer = lockstep;
         for _ in 0..100_000 {
-            let i = bench.tick(None);
-            let (next, seen) =
-                simulator.step(i, |now| observer.sample(now).map(|_| now.w.left.fire.get()));
-            simulator = next;
+            let seen = simulator.step_with(&PairIn(bench.tick(None)), |now| {
+                lockstep.sample(now).map(|_| now.p.left.w.fire)
+            });
             fired += u64::from(seen.unwrap());
         }
         assert!(fired > 300, "{fired}");
@@ -139,10 +144,7 @@ fn the_three_placements_fire_in_the_same_tick() {
 }
 
 /// Runs a compensator and counts, beside it, the samples since the history began anew.
-fn never_fires_too_early<P: LeadSource<8, 8, 8>>(
-    circuit: &Compensator<P, 15, 4, 8, 8, 2, 8, 16, 8, 8>,
-    wanted: impl Fn(u64) -> Option<u64>,
-) {
+fn never_fires_too_early(circuit: &Compensator, wanted: impl Fn(u64) -> Option<u64>) {
     let (mut samples, mut fired, mut early) = (0u64, 0u64, 0u64);
     let mut bench = Bench::new(21);
     let mut simulator = Simulator::new(circuit).unwrap();
@@ -150,13 +152,11 @@ fn never_fires_too_early<P: LeadSource<8, 8, 8>>(
     let mut pair: Option<(u64, u64)> = None;
     for tick in 0..400_000 {
         let i = bench.tick(None);
-        let restart = i.clear.get();
-        let (next, (ck, fire, halting, time)) = simulator.step(i, |now| {
-            let w = now.w;
-            let halting = now.q.sequencer.halting.get();
-            (w.ck.get(), w.fire.get(), halting, w.lead_time.get())
+        let restart = i.clear;
+        let (ck, fire, halting, time) = simulator.step_with(&i, |now| {
+            let halting = now.p.sequencer.q.halting;
+            (now.w.ck, now.w.fire, halting, now.w.lead_time)
         });
-        simulator = next;
         let covered = pair.is_some_and(|(time, samples)| {
             wanted(time).is_some_and(|samples_wanted| samples > samples_wanted)
         });
@@ -175,6 +175,6 @@ fn nothing_fires_before_the_history_is_valid() {
         0 => Some(0),
         time => codes::code(15, time).map(|code| code.tap),
     };
-    never_fires_too_early(&Small::<Shift>::new(Variant::default(), times()), tap);
-    never_fires_too_early(&Small::<Ram>::new(Variant::default(), times()), tap);
+    never_fires_too_early(&plain(Memory::ShiftRegister), tap);
+    never_fires_too_early(&plain(Memory::Ram), tap);
 }

@@ -1,19 +1,30 @@
 //! Whole positioning cycles through the interpolator at 5 bits, with scans as short as they may
 //! be.
 
-use motion_rtl::kernel::{Circuit, Simulator};
-use motion_rtl::linear_interpolator::interpolator::{In, Net, Reg};
-use motion_rtl::linear_interpolator::{LinearInterpolator, Rule};
-use motion_rtl::logic::Sim;
+use motion_rtl::circuits::linear_interpolator::command_source::Orders;
+use motion_rtl::circuits::linear_interpolator::interpolator::In;
+use motion_rtl::circuits::linear_interpolator::target_data::Settings;
+use motion_rtl::circuits::linear_interpolator::{LinearInterpolator, Rule, Widths};
+use motion_rtl::hdl::{Simulator, Value};
 
-type Small = LinearInterpolator<2, 5, 2, 5, 11, 10>;
-type SmallReg = Reg<Sim, 2, 5, 2, 5, 11, 10>;
-type SmallNet = Net<Sim, 2, 5, 2, 5, 11, 10>;
 const WORDS: std::ops::Range<i64> = -16..16;
-const SCAN: u64 = Small::LATENCY;
+const SCAN: u64 = small(Rule::Floor).latency();
+
+const fn small(rule: Rule) -> LinearInterpolator {
+    let widths = Widths {
+        address: 2,
+        position: 5,
+        time: 2,
+    };
+    LinearInterpolator { widths, rule }
+}
+
+fn at_power_on(rule: Rule) -> Simulator<LinearInterpolator> {
+    Simulator::new(&small(rule)).unwrap()
+}
 
 /// Where to, how fast in quarters of a count a scan, and with which times.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Target {
     x: i64,
     y: i64,
@@ -21,11 +32,45 @@ struct Target {
     times: [u64; 2],
 }
 
+/// Ports in, with a target if there is one.
+fn ports(scan: bool, push: Option<Target>, halt: bool) -> In<Value> {
+    let Target { x, y, speed, times } = push.unwrap_or_default();
+    In {
+        scan,
+        hold: false,
+        orders: Orders {
+            push: push.is_some(),
+            target_x: x,
+            target_y: y,
+            settings: Settings {
+                speed: vec![speed],
+                acceleration_time: vec![times[0]],
+                deceleration_time: vec![times[1]],
+            },
+            halt,
+        },
+        clear: false,
+    }
+}
+
+/// The commands that stand.
+fn command(simulator: &Simulator<LinearInterpolator>) -> [i64; 2] {
+    let q = &simulator.signals().p.switch.q;
+    simulator.state(|now| [q.x, q.y].map(|at| now.get(at)))
+}
+
+/// What a tick shows.
+struct Seen {
+    start: bool,
+    load: bool,
+    busy: bool,
+    late: bool,
+    refused: bool,
+}
+
 /// The interpolator with its scan.
-struct Run<'a> {
-    circuit: &'a Small,
-    q: SmallReg,
-    tick: u64,
+struct Run {
+    simulator: Simulator<LinearInterpolator>,
     scan: u64,
     /// Every command with the tick in which it began to stand.
     points: Vec<(u64, [i64; 2])>,
@@ -33,12 +78,10 @@ struct Run<'a> {
     refused: bool,
 }
 
-impl<'a> Run<'a> {
-    fn new(circuit: &'a Small, scan: u64) -> Self {
+impl Run {
+    fn new(at_power_on: &Simulator<LinearInterpolator>, scan: u64) -> Self {
         Run {
-            circuit,
-            q: circuit.power_on(),
-            tick: 0,
+            simulator: at_power_on.clone(),
             scan,
             points: Vec::new(),
             late: false,
@@ -47,49 +90,38 @@ impl<'a> Run<'a> {
     }
 
     fn command(&self) -> [i64; 2] {
-        [self.q.switch.x.get(), self.q.switch.y.get()]
+        command(&self.simulator)
     }
 
-    fn tick(&mut self, push: Option<Target>, abort: bool) -> SmallNet {
-        let target = push.unwrap_or(Target {
-            x: 0,
-            y: 0,
-            speed: 0,
-            times: [0, 0],
-        });
-        let i = In {
-            scan: (self.tick % self.scan == self.scan - 1).into(),
-            hold: false.into(),
-            push: push.is_some().into(),
-            target_x: target.x.into(),
-            target_y: target.y.into(),
-            speed: target.speed.into(),
-            acceleration_time: target.times[0].into(),
-            deceleration_time: target.times[1].into(),
-            halt: abort.into(),
-            clear: false.into(),
-        };
+    fn tick(&mut self, push: Option<Target>, abort: bool) -> Seen {
+        let scan = self.simulator.tick() % self.scan == self.scan - 1;
         let before = self.command();
-        let w = self.circuit.comb(&self.q, &i);
-        self.q = self.circuit.next(self.q.clone(), &w, &i);
-        self.tick += 1;
-        self.late |= w.late.get();
-        self.refused |= w.refused.get();
-        let loaded = w.load.get();
-        assert!(loaded || self.command() == before, "moved by itself");
-        if loaded {
+        let i = ports(scan, push, abort);
+        // By places, as whole records take longer than the tick itself.
+        let seen = self.simulator.step_with(&i, |now| Seen {
+            start: now.see(|s| s.w.start),
+            load: now.see(|s| s.w.load),
+            busy: now.see(|s| s.w.busy),
+            late: now.see(|s| s.w.late),
+            refused: now.see(|s| s.w.refused),
+        });
+        self.late |= seen.late;
+        self.refused |= seen.refused;
+        assert!(seen.load || self.command() == before, "moved by itself");
+        if seen.load {
             // The commands of a scan stand exactly as long after it as is said.
-            let since = self.tick - Small::LATENCY + 1;
-            assert_eq!(since % self.scan, 0, "tick {}", self.tick);
-            self.points.push((self.tick, self.command()));
+            let tick = self.simulator.tick();
+            let since = tick - SCAN + 1;
+            assert_eq!(since % self.scan, 0, "tick {tick}");
+            self.points.push((tick, self.command()));
         }
-        w
+        seen
     }
 
     /// Until the cycle is over.
     fn finish(&mut self) {
         for _ in 0..5_000 {
-            if !self.tick(None, false).busy.get() {
+            if !self.tick(None, false).busy {
                 return;
             }
         }
@@ -133,7 +165,7 @@ fn on_the_line(rule: Rule, from: [i64; 2], delta: [i64; 2], point: [i64; 2]) -> 
 #[test]
 fn every_cycle_runs_on_its_line_and_ends_exactly() {
     for rule in [Rule::Floor, Rule::Truncating, Rule::Centred] {
-        let circuit = Small::new(rule);
+        let circuit = at_power_on(rule);
         let mut cycles = 0;
         for (speed, times) in shapes() {
             for x in WORDS {
@@ -170,7 +202,7 @@ fn every_cycle_runs_on_its_line_and_ends_exactly() {
 #[test]
 fn x_and_y_exchanged_give_the_path_exchanged() {
     for rule in [Rule::Floor, Rule::Truncating, Rule::Centred] {
-        let circuit = Small::new(rule);
+        let circuit = at_power_on(rule);
         let (speed, times) = (12, [2, 3]);
         for x in WORDS {
             for y in WORDS {
@@ -185,7 +217,7 @@ fn x_and_y_exchanged_give_the_path_exchanged() {
 
 #[test]
 fn the_way_back_goes_over_points_of_the_same_line() {
-    let circuit = Small::new(Rule::Floor);
+    let circuit = at_power_on(Rule::Floor);
     for (speed, times) in shapes() {
         for x in WORDS.start + 1..WORDS.end {
             for y in WORDS.start + 1..WORDS.end {
@@ -217,13 +249,13 @@ fn an_abort_stops_on_the_line_and_leaves_nothing_behind() {
         speed: 16,
         times: [2, 2],
     };
-    let circuit = Small::new(Rule::Floor);
+    let circuit = at_power_on(Rule::Floor);
     let mut aborted = 0;
     let mut check = |x: i64, y: i64, speed, times, at: u64, with: bool| {
         let mut run = Run::new(&circuit, SCAN);
         run.tick(Some(Target { x, y, speed, times }), false);
         for _ in 0..at {
-            if !run.tick(None, false).busy.get() {
+            if !run.tick(None, false).busy {
                 return false;
             }
         }
@@ -233,7 +265,7 @@ fn an_abort_stops_on_the_line_and_leaves_nothing_behind() {
             // The next cycle begins where this one stops: the last point before its start.
             loop {
                 let before = run.command();
-                if run.tick(None, false).start.get() {
+                if run.tick(None, false).start {
                     break before;
                 }
             }
@@ -289,7 +321,7 @@ fn an_abort_stops_on_the_line_and_leaves_nothing_behind() {
 
 #[test]
 fn a_scan_that_is_a_tick_too_short_is_late_and_the_line_still_holds() {
-    let circuit = Small::new(Rule::Floor);
+    let circuit = at_power_on(Rule::Floor);
     for scan in [SCAN - 1, SCAN / 2, 1] {
         let mut run = Run::new(&circuit, scan);
         run.tick(
@@ -303,7 +335,7 @@ fn a_scan_that_is_a_tick_too_short_is_late_and_the_line_still_holds() {
         );
         let mut late = false;
         for _ in 0..3_000 {
-            late |= run.tick(None, false).late.get();
+            late |= run.tick(None, false).late;
         }
         assert!(late, "{scan}");
         assert_eq!(run.command(), [13, 5], "{scan}");
@@ -313,52 +345,44 @@ fn a_scan_that_is_a_tick_too_short_is_late_and_the_line_still_holds() {
 /// With a target waiting: from the last load of a cycle on.
 #[test]
 fn the_next_cycle_takes_a_scan_after_the_turnaround_and_not_before() {
-    let circuit = Small::new(Rule::Floor);
-    let inputs = |scan: bool, x: Option<i64>| In {
-        scan: scan.into(),
-        hold: false.into(),
-        push: x.is_some().into(),
-        target_x: x.unwrap_or(0).into(),
-        target_y: 2.into(),
-        speed: 12.into(),
-        acceleration_time: 1.into(),
-        deceleration_time: 1.into(),
-        halt: false.into(),
-        clear: false.into(),
+    let target = |x| Target {
+        x,
+        y: 2,
+        speed: 12,
+        times: [1, 1],
     };
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut simulator = at_power_on(Rule::Floor);
     for x in [9, -5] {
-        simulator = simulator.step(inputs(false, Some(x)), |_| ()).0;
+        simulator.step_with(&ports(false, Some(target(x)), false), |_| ());
     }
     // The run after the last load before the second cycle begins.
     let (mut loaded, mut starts) = (simulator.clone(), 0);
     while starts < 2 {
         let scan = simulator.tick().is_multiple_of(SCAN);
-        let (next, (load, start)) = simulator.step(inputs(scan, None), |now| {
-            (now.w.load.get(), now.w.start.get())
-        });
-        simulator = next;
+        let i = ports(scan, None, false);
+        let (load, start) = simulator.step_with(&i, |now| (now.w.load, now.w.start));
         starts += u32::from(start);
         if load {
             loaded = simulator.clone();
         }
     }
-    assert_eq!(loaded.registers().switch.x.get(), 9);
+    assert_eq!(command(&loaded)[0], 9);
     let is_taken = |ticks: u64| {
         let mut run = loaded.clone();
         for tick in 1..=ticks {
-            run = run.step(inputs(tick == ticks, None), |_| ()).0;
+            run.step_with(&ports(tick == ticks, None, false), |_| ());
         }
-        run.registers().sequencer.advance.get()
+        run.see(|s| s.p.sequencer.q.advance)
     };
     let first = (1..1_000).find(|ticks| is_taken(*ticks));
-    assert_eq!(first, Some(Small::TURNAROUND));
-    assert!(is_taken(Small::TURNAROUND + 7));
+    let turnaround = small(Rule::Floor).turnaround();
+    assert_eq!(first, Some(turnaround));
+    assert!(is_taken(turnaround + 7));
 }
 
 #[test]
 fn a_target_out_of_reach_is_refused_and_the_next_one_taken() {
-    let circuit = Small::new(Rule::Floor);
+    let circuit = at_power_on(Rule::Floor);
     for (x, y) in [(-16, 0), (0, -16), (-2, 3), (-3, 3)] {
         let mut run = Run::new(&circuit, SCAN);
         run.go(Target {
@@ -388,32 +412,24 @@ fn a_target_out_of_reach_is_refused_and_the_next_one_taken() {
 /// One cycle at full width, tick for tick as the default circuit is built.
 #[test]
 fn a_long_line_at_full_width() {
-    type Full = LinearInterpolator;
-    let circuit = Full::new(Rule::Floor);
+    let circuit = LinearInterpolator::default();
     let (x, y) = (1_999_999_999i64, -1_234_567_891);
+    let target = Target {
+        x,
+        y,
+        // A million counts.
+        speed: 1_000_000 << 12,
+        times: [20, 35],
+    };
     let mut simulator = Simulator::new(&circuit).unwrap();
     let mut points = Vec::new();
-    for tick in 0..2100 * Full::LATENCY {
-        let push = tick == 0;
-        let i = In {
-            scan: (tick % Full::LATENCY == 0).into(),
-            hold: false.into(),
-            push: push.into(),
-            target_x: x.into(),
-            target_y: y.into(),
-            // A million counts.
-            speed: (1_000_000 << 12).into(),
-            acceleration_time: 20.into(),
-            deceleration_time: 35.into(),
-            halt: false.into(),
-            clear: false.into(),
-        };
-        let (next, (loaded, late)) = simulator.step(i, |now| (now.w.load.get(), now.w.late.get()));
-        simulator = next;
+    for tick in 0..2100 * circuit.latency() {
+        let mut i = ports(tick % circuit.latency() == 0, Some(target), false);
+        i.orders.push = tick == 0;
+        let (loaded, late) = simulator.step_with(&i, |now| (now.w.load, now.w.late));
         assert!(!late);
         if loaded {
-            let q = &simulator.registers().switch;
-            points.push([q.x.get(), q.y.get()]);
+            points.push(command(&simulator));
         }
     }
     // Tc = ceil((2·1,999,999,999 − 1,000,000·55) / 2,000,000) = 1973.

@@ -2,29 +2,35 @@
 //! segment, monotone or not and of any length. A sequence leads from one state at rest to the next,
 //! so every state is tried with every increment.
 
-use motion_rtl::kernel::{Circuit, Simulator};
-use motion_rtl::linear_interpolator::integrator::{In, Reg};
-use motion_rtl::linear_interpolator::{Integrator, Rule};
-use motion_rtl::logic::Sim;
+use motion_rtl::circuits::linear_interpolator::integrator::In;
+use motion_rtl::circuits::linear_interpolator::{Integrator, Rule};
+use motion_rtl::hdl::{Simulator, State};
 use std::collections::HashSet;
 
 const P: usize = 5;
-type Small = Integrator<P, { 2 * P }>;
+const LATENCY: u64 = small(Rule::Floor).latency();
 const WORDS: std::ops::Range<i64> = -(1 << (P - 1))..1 << (P - 1);
 
+const fn small(rule: Rule) -> Integrator {
+    Integrator { position: P, rule }
+}
+
+fn at_power_on(rule: Rule) -> Simulator<Integrator> {
+    Simulator::new(&small(rule)).unwrap()
+}
+
 /// An integrator in the middle of a cycle.
-struct Cycle<'a> {
-    circuit: &'a Small,
-    q: Reg<Sim, P, { 2 * P }>,
+#[derive(Clone)]
+struct Cycle {
+    simulator: Simulator<Integrator>,
     master: i64,
     slave: i64,
 }
 
-impl<'a> Cycle<'a> {
-    fn begin(circuit: &'a Small, master: i64, slave: i64) -> Self {
+impl Cycle {
+    fn begin(at_power_on: &Simulator<Integrator>, master: i64, slave: i64) -> Self {
         let mut cycle = Cycle {
-            circuit,
-            q: circuit.power_on(),
+            simulator: at_power_on.clone(),
             master,
             slave,
         };
@@ -35,44 +41,45 @@ impl<'a> Cycle<'a> {
     /// One tick; tells whether `valid` stood in it.
     fn tick(&mut self, clear: bool, increment: Option<i64>) -> bool {
         let i = In {
-            clear: clear.into(),
-            master: self.master.into(),
-            slave: self.slave.into(),
-            start: increment.is_some().into(),
-            increment: increment.unwrap_or(0).into(),
+            clear,
+            master: self.master,
+            slave: self.slave,
+            start: increment.is_some(),
+            increment: increment.unwrap_or(0),
         };
-        let w = self.circuit.comb(&self.q, &i);
-        self.q = self.circuit.next(self.q.clone(), &w, &i);
-        w.valid.get()
+        self.simulator.step_with(&i, |now| now.see(|s| s.w.valid))
     }
 
     /// Takes an increment; `valid` stands in the tick that it should, and in no other.
     fn scan(&mut self, increment: i64) {
         assert!(!self.tick(false, Some(increment)));
-        for tick in 1..=Small::LATENCY {
+        for tick in 1..=LATENCY {
             let valid = self.tick(false, None);
-            assert_eq!(valid, tick == Small::LATENCY, "tick {tick}");
+            assert_eq!(valid, tick == LATENCY, "tick {tick}");
         }
     }
 
     /// I and B.
     fn words(&self) -> (i64, i64) {
-        let q = &self.q.accumulator;
-        (q.integral.get(), q.remainder.get())
+        let q = &self.simulator.signals().p.accumulator.q;
+        let words = |now: &State<'_, _>| (now.get(q.integral), now.get(q.remainder));
+        self.simulator.state(words)
     }
 }
 
-/// Every state of a cycle, with the sum of the increments that lead there, under `rule`.
-fn explore(circuit: &Small, master: i64, slave: i64, mut look: impl FnMut(i64, i64, [i64; 4])) {
+/// Every state of a cycle, with the sum of the increments that lead there.
+fn explore(
+    at_power_on: &Simulator<Integrator>,
+    master: i64,
+    slave: i64,
+    mut look: impl FnMut(i64, i64, [i64; 4]),
+) {
     let mut seen = HashSet::new();
-    let first = Cycle::begin(circuit, master, slave);
+    let first = Cycle::begin(at_power_on, master, slave);
     let (_, first_remainder) = first.words();
-    let mut open = vec![(0, first.q)];
-    while let Some((sum, q)) = open.pop() {
-        let (integral, remainder) = {
-            let words = &q.accumulator;
-            (words.integral.get(), words.remainder.get())
-        };
+    let mut open = vec![(0, first)];
+    while let Some((sum, at)) = open.pop() {
+        let (integral, remainder) = at.words();
         if !seen.insert((sum, integral, remainder)) {
             continue;
         }
@@ -82,12 +89,7 @@ fn explore(circuit: &Small, master: i64, slave: i64, mut look: impl FnMut(i64, i
             if !WORDS.contains(&increment) {
                 continue;
             }
-            let mut cycle = Cycle {
-                circuit,
-                q: q.clone(),
-                master,
-                slave,
-            };
+            let mut cycle = at.clone();
             cycle.scan(increment);
             let (after, left) = cycle.words();
             look(
@@ -95,7 +97,7 @@ fn explore(circuit: &Small, master: i64, slave: i64, mut look: impl FnMut(i64, i
                 after - integral,
                 [to, after, left, first_remainder],
             );
-            open.push((to, cycle.q));
+            open.push((to, cycle));
         }
     }
 }
@@ -108,7 +110,7 @@ fn floor(a: i64, b: i64) -> i64 {
 #[test]
 fn the_slave_is_on_the_line_after_every_sequence_of_increments() {
     for rule in [Rule::Floor, Rule::Truncating, Rule::Centred] {
-        let circuit = Small::new(rule);
+        let circuit = at_power_on(rule);
         let mut scans = 0u64;
         for master in WORDS.filter(|&master| master != 0) {
             for slave in WORDS {
@@ -151,7 +153,7 @@ fn the_slave_is_on_the_line_after_every_sequence_of_increments() {
 #[test]
 fn the_way_back_goes_over_the_same_points_with_the_floor_and_not_with_truncation() {
     let differs = |rule| {
-        let circuit = Small::new(rule);
+        let circuit = at_power_on(rule);
         let mut wrong = 0;
         for master in 1..WORDS.end {
             for slave in WORDS.start + 1..WORDS.end {
@@ -193,7 +195,7 @@ fn bresenham(dx: i64, dy: i64) -> Vec<i64> {
 
 #[test]
 fn unit_increments_draw_bresenhams_line() {
-    let circuit = Small::new(Rule::Centred);
+    let circuit = at_power_on(Rule::Centred);
     for dx in 1..WORDS.end {
         for dy in 0..=dx {
             let mut cycle = Cycle::begin(&circuit, dx, dy);
@@ -211,7 +213,7 @@ fn unit_increments_draw_bresenhams_line() {
 /// What the text is silent of: B that is left by a cycle that was broken off.
 #[test]
 fn a_stale_remainder_ends_in_the_wrong_place() {
-    let circuit = Small::new(Rule::Floor);
+    let circuit = at_power_on(Rule::Floor);
     let (mut wrong, mut all) = (0, 0);
     for master in 1..10 {
         for slave in 0..=master {
@@ -243,15 +245,15 @@ fn a_stale_remainder_ends_in_the_wrong_place() {
 
 #[test]
 fn a_start_that_comes_too_early_and_a_clear_in_mid_division_leave_nothing_behind() {
-    let circuit = Small::new(Rule::Floor);
-    for tick in 0..=Small::LATENCY {
+    let circuit = at_power_on(Rule::Floor);
+    for tick in 0..=LATENCY {
         let mut cycle = Cycle::begin(&circuit, 7, 3);
         cycle.tick(false, Some(5));
         let mut valid = 0;
-        for at in 1..=Small::LATENCY {
+        for at in 1..=LATENCY {
             let early = (at == tick).then_some(1);
             // A start is taken again in the tick in which the result shows.
-            valid += u32::from(cycle.tick(false, early.filter(|_| at < Small::LATENCY)));
+            valid += u32::from(cycle.tick(false, early.filter(|_| at < LATENCY)));
         }
         assert_eq!((valid, cycle.words()), (1, (2, 1)), "start at {tick}");
 
@@ -262,7 +264,7 @@ fn a_start_that_comes_too_early_and_a_clear_in_mid_division_leave_nothing_behind
         }
         (cycle.master, cycle.slave) = (9, 4);
         cycle.tick(true, None);
-        for _ in 0..Small::LATENCY {
+        for _ in 0..LATENCY {
             let valid = cycle.tick(false, None);
             assert!(!valid, "cleared at {tick}");
         }
@@ -274,18 +276,15 @@ fn a_start_that_comes_too_early_and_a_clear_in_mid_division_leave_nothing_behind
 
 #[test]
 fn a_master_that_does_not_move_divides_nothing() {
-    let circuit = Small::new(Rule::Floor);
-    let mut simulator = Simulator::new(&circuit).unwrap();
-    for tick in 0..3 * Small::LATENCY {
+    let mut simulator = at_power_on(Rule::Floor);
+    for tick in 0..3 * LATENCY {
         let i = In {
-            clear: (tick == 0).into(),
-            master: 0.into(),
-            slave: 5.into(),
-            start: true.into(),
-            increment: 3.into(),
+            clear: tick == 0,
+            master: 0,
+            slave: 5,
+            start: true,
+            increment: 3,
         };
-        let (next, valid) = simulator.step(i, |now| now.w.valid.get() || now.w.busy.get());
-        assert!(!valid);
-        simulator = next;
+        assert!(!simulator.step_with(&i, |now| now.w.valid || now.w.busy));
     }
 }

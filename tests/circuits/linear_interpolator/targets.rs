@@ -1,8 +1,8 @@
 //! The buffer of targets against a queue.
 
-use motion_rtl::kernel::Simulator;
-use motion_rtl::linear_interpolator::TargetData;
-use motion_rtl::linear_interpolator::target_data::In;
+use motion_rtl::circuits::linear_interpolator::target_data::{In, Settings};
+use motion_rtl::circuits::linear_interpolator::{TargetData, Widths};
+use motion_rtl::hdl::Simulator;
 use proptest::prelude::*;
 use std::collections::VecDeque;
 
@@ -15,29 +15,30 @@ proptest! {
         ),
     ) {
         let mut queue = VecDeque::new();
-        let mut simulator = Simulator::new(&TargetData::<2, 32, 12>).unwrap();
+        let widths = Widths { address: 2, ..Widths::FULL };
+        let mut simulator = Simulator::new(&TargetData { widths, settings: 1 }).unwrap();
         let mut shown = ([0, 0], 0, [0, 0]);
         for (push, [x, y], speed, times, pop, flush) in ticks {
             let flush = flush == 0;
             let [up, down] = times.map(|time| u64::from(time) % 4096);
             let i = In {
-                push: push.into(),
-                x: i64::from(x).into(),
-                y: i64::from(y).into(),
-                speed: [u64::from(speed).into()],
-                acceleration_time: [up.into()],
-                deceleration_time: [down.into()],
-                pop: pop.into(),
-                flush: flush.into(),
+                push,
+                x: x.into(),
+                y: y.into(),
+                settings: Settings {
+                    speed: vec![speed.into()],
+                    acceleration_time: vec![up],
+                    deceleration_time: vec![down],
+                },
+                pop,
+                flush,
             };
-            let (next, seen) = simulator.step(i, |now| {
+            let seen = simulator.step_with(&i, |now| {
                 let q = now.q;
-                let place = [q.target_x.get(), q.target_y.get()];
-                let times = [q.target_acceleration[0].get(), q.target_deceleration[0].get()];
-                let outputs = (place, q.target_speed[0].get(), times);
-                (now.w.ready.get(), now.w.available.get(), outputs)
+                let times = [q.target_acceleration[0], q.target_deceleration[0]];
+                let outputs = ([q.target_x, q.target_y], q.target_speed[0], times);
+                (now.w.ready, now.w.available, outputs)
             });
-            simulator = next;
             prop_assert_eq!(seen, (queue.len() < 3, !queue.is_empty(), shown));
             let full = queue.len() == 3;
             if flush {

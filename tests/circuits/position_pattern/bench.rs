@@ -1,74 +1,64 @@
 //! The circuit and the program side by side.
 
 use super::program::{Outputs, Ports, Program};
-use motion_rtl::kernel::Simulator;
-use motion_rtl::linear_interpolator::{PatternGenerator, pattern_generator};
-use motion_rtl::logic::Sim;
-
-type Circuit<const P: usize, const T: usize, const M: usize, const Q: usize> =
-    PatternGenerator<P, T, M, Q>;
+use motion_rtl::circuits::linear_interpolator::{PatternGenerator, pattern_generator};
+use motion_rtl::hdl::Simulator;
 
 /// Both, fed with the same ports; they are compared in every tick.
-pub struct Bench<const P: usize, const T: usize, const M: usize, const Q: usize> {
-    simulator: Option<Simulator<Circuit<P, T, M, Q>>>,
+pub struct Bench {
+    simulator: Simulator<PatternGenerator>,
     program: Program,
+    /// Ticks from a start to `ready`, and from an advance to `valid`.
+    pub prepare: u64,
+    pub scan_latency: u64,
     pub ticks: u64,
 }
 
-impl<const P: usize, const T: usize, const M: usize, const Q: usize> Bench<P, T, M, Q> {
-    pub const PREPARE: u64 = Circuit::<P, T, M, Q>::PREPARE_LATENCY;
-    pub const SCAN_LATENCY: u64 = Circuit::<P, T, M, Q>::SCAN_LATENCY;
-
-    pub fn new() -> Self {
-        let circuit = const {
-            &PatternGenerator {
-                trapezoid: motion_rtl::linear_interpolator::Trapezoid,
-                mul_div: motion_rtl::blocks::MulDiv,
-            }
+impl Bench {
+    /// With so many bits of positions and times.
+    pub fn new([position, time]: [u32; 2]) -> Self {
+        let circuit = PatternGenerator {
+            position: position as usize,
+            time: time as usize,
         };
         Bench {
-            simulator: Some(Simulator::new(circuit).unwrap()),
-            program: Program::new(P as u32, T as u32),
+            simulator: Simulator::new(&circuit).unwrap(),
+            program: Program::new(position, time),
+            prepare: circuit.prepare_latency(),
+            scan_latency: circuit.scan_latency(),
             ticks: 0,
         }
     }
 
     /// What the circuit shows in the tick to come.
     pub fn outputs(&self) -> Outputs {
-        let q = &self
-            .simulator
-            .as_ref()
-            .expect("it runs")
-            .registers()
-            .trapezoid;
+        let q = self.simulator.registers().p.trapezoid.q;
         Outputs {
-            position: q.position.get(),
-            valid: q.valid.get(),
-            ready: q.ready.get(),
-            active: q.active.get(),
+            position: q.position,
+            valid: q.valid,
+            ready: q.ready,
+            active: q.active,
         }
     }
 
     /// A tick.
     pub fn step(&mut self, ports: &Ports) {
-        let i: pattern_generator::In<Sim, P, T> = pattern_generator::In {
-            start: ports.start.into(),
-            from: ports.from.into(),
-            distance: ports.distance.into(),
-            speed: ports.speed.into(),
-            acceleration_time: ports.times[0].into(),
-            deceleration_time: ports.times[1].into(),
-            advance: ports.advance.into(),
-            halt: ports.halt.into(),
+        let i = pattern_generator::In {
+            start: ports.start,
+            from: ports.from,
+            distance: ports.distance,
+            speed: ports.speed,
+            acceleration_time: ports.times[0],
+            deceleration_time: ports.times[1],
+            advance: ports.advance,
+            halt: ports.halt,
         };
-        let simulator = self.simulator.take().expect("it runs");
-        let (next, shown) = simulator.step(i, |now| Outputs {
-            position: now.w.position.get(),
-            valid: now.w.valid.get(),
-            ready: now.w.ready.get(),
-            active: now.w.active.get(),
+        let shown = self.simulator.step_with(&i, |now| Outputs {
+            position: now.w.position,
+            valid: now.w.valid,
+            ready: now.w.ready,
+            active: now.w.active,
         });
-        self.simulator = Some(next);
         let expected = self.program.outputs();
         let plan = self.program.plan();
         assert_eq!(shown, expected, "tick {} of {plan:?}", self.ticks);
@@ -86,7 +76,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Bench<P, T,
             for _ in 0..pause {
                 self.step(&Ports::default());
             }
-            for within in 0..Self::SCAN_LATENCY {
+            for within in 0..self.scan_latency {
                 let strobes = Ports {
                     advance: within == 0,
                     halt: abort == Some((scan, within)),
@@ -97,7 +87,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Bench<P, T,
             if self.outputs().valid {
                 positions.push(self.outputs().position);
             }
-            if abort == Some((scan, Self::SCAN_LATENCY)) {
+            if abort == Some((scan, self.scan_latency)) {
                 self.step(&Ports {
                     halt: true,
                     ..Ports::default()
@@ -111,7 +101,7 @@ impl<const P: usize, const T: usize, const M: usize, const Q: usize> Bench<P, T,
     /// A cycle: prepared, then scan by scan.
     pub fn cycle(&mut self, ports: &Ports, abort: Option<(u64, u64)>, pause: u64) -> Vec<i64> {
         self.step(ports);
-        for tick in 1..Self::PREPARE {
+        for tick in 1..self.prepare {
             let early = self.outputs().ready;
             assert!(!early, "ready {tick} ticks after the start");
             if ports.distance != 0 {

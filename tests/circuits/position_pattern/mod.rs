@@ -5,6 +5,7 @@ mod bench;
 mod program;
 
 use bench::Bench;
+use motion_rtl::circuits::linear_interpolator::PatternGenerator;
 use program::{Plan, Ports};
 use proptest::prelude::*;
 
@@ -82,7 +83,7 @@ fn start_inside(distance: i64, bits: u32, n: u64) -> i64 {
 
 #[test]
 fn every_cycle_of_4_bits() {
-    let mut bench = Bench::<4, 3, 7, 12>::new();
+    let mut bench = Bench::new([4, 3]);
     for (distance, speed, times, n) in all(4, 3) {
         let ports = cycle(start_inside(distance, 4, n), distance, speed, times);
         let positions = bench.cycle(&ports, None, n % 3);
@@ -97,7 +98,7 @@ fn every_cycle_of_4_bits() {
 /// The longest ramps and the largest W that fit, and the longest steady stretches.
 #[test]
 fn every_cycle_of_6_bits_that_is_slow_or_fast() {
-    let mut bench = Bench::<6, 2, 5, 12>::new();
+    let mut bench = Bench::new([6, 2]);
     for (distance, speed, times, n) in all(6, 2) {
         if distance != 0 && !(3..=61).contains(&speed) {
             let ports = cycle(start_inside(distance, 6, n), distance, speed, times);
@@ -109,7 +110,7 @@ fn every_cycle_of_6_bits_that_is_slow_or_fast() {
 
 #[test]
 fn positions_wrap_at_the_ends_of_the_word() {
-    let mut bench = Bench::<4, 2, 5, 10>::new();
+    let mut bench = Bench::new([4, 2]);
     let mut wrapped = 0;
     for from in -8..8 {
         for distance in (-8..8).filter(|&distance| distance != 0) {
@@ -132,14 +133,9 @@ fn positions_wrap_at_the_ends_of_the_word() {
 }
 
 /// Aborts a cycle in every scan, and between any two, and starts another.
-fn abort_everywhere<const P: usize, const T: usize, const M: usize, const Q: usize>(
-    bench: &mut Bench<P, T, M, Q>,
-    ports: &Ports,
-    n: u64,
-) {
-    let bits = [P as u32, T as u32];
+fn abort_everywhere(bench: &mut Bench, bits: [u32; 2], ports: &Ports, n: u64) {
     let plan = Plan::new(ports, bits);
-    let latency = Bench::<P, T, M, Q>::SCAN_LATENCY;
+    let latency = bench.scan_latency;
     for scan in 0..plan.scans() as u64 {
         // With its advance, in the scan, with its end.
         for within in [0, 1, 1 + n % latency, latency] {
@@ -167,19 +163,21 @@ fn abort_everywhere<const P: usize, const T: usize, const M: usize, const Q: usi
 
 #[test]
 fn an_abort_in_any_scan_ramps_down_on_the_way() {
-    let mut bench = Bench::<3, 2, 5, 9>::new();
+    let bits = [3, 2];
+    let mut bench = Bench::new(bits);
     for (distance, speed, times, n) in all(3, 2) {
         // 0 counts as 1.
         if distance != 0 && speed > 0 && !times.contains(&0) && (n + n / 8) % 2 == 0 {
             let ports = cycle(start_inside(distance, 3, n), distance, speed, times);
-            abort_everywhere(&mut bench, &ports, n);
+            abort_everywhere(&mut bench, bits, &ports, n);
         }
     }
-    let mut bench = Bench::<4, 3, 7, 12>::new();
+    let bits = [4, 3];
+    let mut bench = Bench::new(bits);
     for (distance, speed, times, n) in all(4, 3).step_by(251) {
         if distance != 0 {
             let ports = cycle(start_inside(distance, 4, n), distance, speed, times);
-            abort_everywhere(&mut bench, &ports, n);
+            abort_everywhere(&mut bench, bits, &ports, n);
         }
     }
 }
@@ -187,14 +185,11 @@ fn an_abort_in_any_scan_ramps_down_on_the_way() {
 /// In any tick at all, and the next cycle begins in any tick after it.
 #[test]
 fn an_abort_in_any_tick_leaves_nothing_behind() {
-    let mut bench = Bench::<4, 2, 5, 10>::new();
+    let mut bench = Bench::new([4, 2]);
     let ports = cycle(-3, 6, 12, [2, 3]);
     let other = cycle(5, -7, 8, [1, 2]);
     let mut latest = 0;
-    let (prepare, scan) = (
-        Bench::<4, 2, 5, 10>::PREPARE,
-        Bench::<4, 2, 5, 10>::SCAN_LATENCY,
-    );
+    let (prepare, scan) = (bench.prepare, bench.scan_latency);
     for abort in 0..prepare + 5 * scan - 1 {
         for wait in 0..20 {
             bench.step(&ports);
@@ -231,15 +226,16 @@ fn an_abort_in_any_tick_leaves_nothing_behind() {
             check(&other, [4, 2], &positions, true);
         }
     }
-    assert_eq!(
-        latest,
-        motion_rtl::linear_interpolator::PatternGenerator::<4, 2, 5, 10>::PREPARE_DELAY
-    );
+    let circuit = PatternGenerator {
+        position: 4,
+        time: 2,
+    };
+    assert_eq!(latest, circuit.prepare_delay());
 }
 
 #[test]
 fn an_abort_with_the_start_leaves_the_position_only() {
-    let mut bench = Bench::<4, 2, 5, 10>::new();
+    let mut bench = Bench::new([4, 2]);
     for abort in [false, true] {
         for distance in -8..8 {
             let ports = Ports {
@@ -261,17 +257,18 @@ fn an_abort_with_the_start_leaves_the_position_only() {
     }
 }
 
-type Full = Bench<32, 12, 25, 58>;
+/// Bits of positions and times.
+const FULL: [u32; 2] = [32, 12];
 
 /// As many scans as that are made of a cycle at most, then it is aborted.
 const SCANS: u64 = 300;
 
 fn at_full_width(ports: &Ports, most: u64) {
-    let mut bench = Full::new();
-    let scans = Plan::new(ports, [32, 12]).scans();
+    let mut bench = Bench::new(FULL);
+    let scans = Plan::new(ports, FULL).scans();
     let abort = (scans > i128::from(most)).then_some((most, 0));
     let positions = bench.cycle(ports, abort, 0);
-    check(ports, [32, 12], &positions, abort.is_none());
+    check(ports, FULL, &positions, abort.is_none());
 }
 
 #[test]
@@ -335,7 +332,7 @@ proptest! {
 
     #[test]
     fn any_ports_at_any_time((stretches, rates) in wiggle(), seed in 0..u32::MAX) {
-        let mut bench = Full::new();
+        let mut bench = Bench::new(FULL);
         let mut random = seed;
         let mut strobe = |rate: u32| {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

@@ -1,8 +1,8 @@
 //! The controller without motors: commands, responses and corrections on paths.
 
-use super::bench::{Path, Period, Record, plane};
+use super::bench::{PLANE, Path, Period, Record};
 use super::point::{Segment, two_to};
-use motion_rtl::trajectory_controller::vector_correction::Correction;
+use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use std::f64::consts::TAU;
 
 const P: usize = 47;
@@ -76,9 +76,9 @@ fn run(
     gains: [u64; 2],
     correction: Correction,
     periods: usize,
-) -> Vec<Period<2>> {
+) -> Vec<Period> {
     let profile: Vec<Record> = profile.iter().map(Phase::words).collect();
-    plane::run(
+    PLANE.run(
         &path(segments),
         &profile,
         gains,
@@ -187,7 +187,7 @@ fn contour_error(correction: Correction, period_ms: f64) -> f64 {
     let profile = trapezoid(length, periods(ramp), cruise);
     let seen = run(&path, &profile, gains, correction, last);
     let errors = seen[first..].iter().map(|period| {
-        let [x, y] = period.model.map(|word| word as f64);
+        let [x, y] = [0, 1].map(|axis| period.model[axis] as f64);
         (radius - (x + radius).hypot(y)) / UNIT / 1000.0
     });
     errors.sum::<f64>() / (last - first) as f64

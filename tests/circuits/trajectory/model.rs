@@ -1,59 +1,53 @@
 //! The reference model against its equations, and what the note says of gains and words.
 
-use motion_rtl::kernel::{Circuit, Simulator};
-use motion_rtl::logic::Sim;
-use motion_rtl::trajectory_controller::reference_model::{In, Reg};
-use motion_rtl::trajectory_controller::{ReferenceModel, Rounding};
+use motion_rtl::circuits::trajectory_controller::model_state::{ModelGains, ModelWidths};
+use motion_rtl::circuits::trajectory_controller::reference_model::In;
+use motion_rtl::circuits::trajectory_controller::{ReferenceModel, Rounding};
+use motion_rtl::hdl::{Simulator, Value};
 use proptest::prelude::*;
+use std::collections::HashSet;
 
-type Bench<'c, const P: usize, const K: usize, const Q: usize> = Simulator<ReferenceModel<P, K, Q>>;
+type Bench = Simulator<ReferenceModel>;
+
+/// A model of positions and gains of so many bits.
+fn bench(position: usize, gain: usize, rounding: Rounding) -> Bench {
+    let widths = ModelWidths { position, gain };
+    Simulator::new(&ReferenceModel { widths, rounding }).unwrap()
+}
 
 /// p, v and a.
 type State = [i128; 3];
 
-fn state<const P: usize, const K: usize, const Q: usize>(q: &Reg<Sim, P, K, Q>) -> State {
-    let q = &q.integrators;
-    [q.position, q.velocity, q.acceleration].map(|word| word.get().into())
+fn state(simulator: &mut Bench) -> State {
+    let q = &simulator.signals().p.integrators.q;
+    let words = [q.position, q.velocity, q.acceleration];
+    words.map(|word| simulator.get(word).into())
 }
 
-fn ports<const P: usize, const K: usize>(
-    target: i128,
-    gains: [u64; 2],
-    [step, preset]: [bool; 2],
-) -> In<Sim, P, K> {
+fn ports(target: i128, gains: [u64; 2], [step, preset]: [bool; 2]) -> In<Value> {
     In {
-        step: step.into(),
-        preset: preset.into(),
-        target: (target as i64).into(),
-        gain_1: gains[0].into(),
-        gain_2: gains[1].into(),
+        step,
+        preset,
+        target: target as i64,
+        gains: ModelGains {
+            gain_1: gains[0],
+            gain_2: gains[1],
+        },
     }
 }
 
 /// A step, with every tick of it looked at.
-fn step<'c, const P: usize, const K: usize, const Q: usize>(
-    mut simulator: Bench<'c, P, K, Q>,
-    target: i128,
-    gains: [u64; 2],
-) -> (Bench<'c, P, K, Q>, State) {
-    let before = state(&simulator.registers());
-    let latency = ReferenceModel::<P, K, Q>::LATENCY;
+fn step(simulator: &mut Bench, target: i128, gains: [u64; 2]) -> State {
+    let before = state(simulator);
+    let latency = simulator.circuit().latency();
     for ticks in 1..=latency {
         let i = ports(target, gains, [ticks == 1, false]);
-        simulator = simulator.step(i, |_| ()).0;
-        let q = simulator.registers();
-        assert_eq!(
-            q.integrators.fresh.get(),
-            ticks == latency,
-            "after {ticks} ticks"
-        );
-        assert!(
-            ticks == latency || state(&q) == before,
-            "after {ticks} ticks"
-        );
+        simulator.step_with(&i, |_| ());
+        let (last, fresh) = (ticks == latency, simulator.see(|s| s.w.fresh));
+        assert_eq!(fresh, last, "after {ticks} ticks");
+        assert!(last || state(simulator) == before, "after {ticks} ticks");
     }
-    let after = state(&simulator.registers());
-    (simulator, after)
+    state(simulator)
 }
 
 /// The same by the equations: gains are `gains` / 2^(K − 1).
@@ -89,8 +83,7 @@ proptest! {
         nearest in any::<bool>(),
     ) {
         let rounding = if nearest { Rounding::Nearest } else { Rounding::Floor };
-        let circuit = ReferenceModel::<40, 16, 57>::new(rounding);
-        let mut simulator = Simulator::new(&circuit).unwrap();
+        let mut simulator = bench(40, 16, rounding);
         let mut expected = [0; 3];
         for &target in &targets {
             expected = model(expected, target, gains, 16, rounding);
@@ -98,16 +91,13 @@ proptest! {
             if expected.iter().any(|word| word.abs() >= 1 << 38) {
                 break;
             }
-            let (after, seen) = step(simulator, target, gains);
-            simulator = after;
-            prop_assert_eq!(seen, expected);
+            prop_assert_eq!(step(&mut simulator, target, gains), expected);
         }
     }
 }
 
 const P: usize = 12;
 const K: usize = 7;
-const Q: usize = 20;
 
 /// The gain 2^−`a`.
 fn power(a: u32) -> u64 {
@@ -115,14 +105,12 @@ fn power(a: u32) -> u64 {
 }
 
 /// Positions on the way to `target` from rest at 0, until nothing changes any more.
-fn run(target: i128, gains: [u64; 2], rounding: Rounding) -> Vec<i128> {
-    let circuit = ReferenceModel::<P, K, Q>::new(rounding);
-    let mut simulator = Simulator::new(&circuit).unwrap();
+fn run(bench: &Bench, target: i128, gains: [u64; 2]) -> Vec<i128> {
+    let mut simulator = bench.clone();
     let mut positions = vec![0];
     let mut before = [0; 3];
     loop {
-        let (after, seen) = step(simulator, target, gains);
-        simulator = after;
+        let seen = step(&mut simulator, target, gains);
         positions.push(seen[0]);
         if seen == before {
             return positions;
@@ -144,10 +132,12 @@ fn counts(position: i128, fraction: u32) -> i128 {
 
 #[test]
 fn the_target_is_reached_with_as_many_fraction_bits_as_the_gains_have() {
-    for [a, b] in monotone() {
-        for (rounding, fraction) in [(Rounding::Nearest, a + b), (Rounding::Floor, a + b + 1)] {
+    for (rounding, more) in [(Rounding::Nearest, 0), (Rounding::Floor, 1)] {
+        let bench = bench(P, K, rounding);
+        for [a, b] in monotone() {
+            let fraction = a + b + more;
             for target in -12..=12i128 {
-                let positions = run(target << fraction, [power(a), power(b)], rounding);
+                let positions = run(&bench, target << fraction, [power(a), power(b)]);
                 let end = *positions.last().expect("positions");
                 let seen = counts(end, fraction);
                 assert_eq!(seen, target, "2^-{a}, 2^-{b}, {rounding:?}: {end}");
@@ -157,9 +147,9 @@ fn the_target_is_reached_with_as_many_fraction_bits_as_the_gains_have() {
 }
 
 /// Whether some target is missed with so many bits of fraction.
-fn misses([a, b]: [u32; 2], rounding: Rounding, fraction: u32) -> bool {
+fn misses(bench: &Bench, [a, b]: [u32; 2], fraction: u32) -> bool {
     (-12..=12i128).any(|target| {
-        let positions = run(target << fraction, [power(a), power(b)], rounding);
+        let positions = run(bench, target << fraction, [power(a), power(b)]);
         counts(*positions.last().expect("positions"), fraction) != target
     })
 }
@@ -167,7 +157,8 @@ fn misses([a, b]: [u32; 2], rounding: Rounding, fraction: u32) -> bool {
 #[test]
 fn with_a_bit_less_a_target_is_missed() {
     let missed = |rounding, less: u32| -> Vec<[u32; 2]> {
-        let pairs = monotone().filter(|&[a, b]| misses([a, b], rounding, a + b - less));
+        let bench = bench(P, K, rounding);
+        let pairs = monotone().filter(|&[a, b]| misses(&bench, [a, b], a + b - less));
         pairs.collect()
     };
     // The other pairs happen to come to rest near enough.
@@ -183,31 +174,28 @@ fn with_a_bit_less_a_target_is_missed() {
 /// modulo the word of positions.
 #[test]
 fn no_product_overflows_in_any_state() {
-    type Small = ReferenceModel<4, 3, 8>;
-    let circuit = Small::new(Rounding::Nearest);
     let wrap = |word: i128| (word + 8).rem_euclid(16) - 8;
-    let after = |q: &Reg<Sim, 4, 3, 8>, target: i128, gains: [u64; 2]| {
-        let mut q = q.clone();
-        for tick in 0..Small::LATENCY {
+    let after = |before: &Bench, target: i128, gains: [u64; 2]| {
+        let mut simulator = before.clone();
+        for tick in 0..simulator.circuit().latency() {
             let i = ports(target, gains, [tick == 0, false]);
-            let w = circuit.comb(&q, &i);
-            q = circuit.next(q, &w, &i);
+            simulator.step_with(&i, |_| ());
         }
-        q
+        simulator
     };
-    let mut found = std::collections::HashSet::from([[0, 0]]);
-    let mut open = vec![circuit.power_on()];
-    while let Some(q) = open.pop() {
-        let [p, v, _] = state(&q);
+    let mut found = HashSet::from([[0, 0]]);
+    let mut open = vec![bench(4, 3, Rounding::Nearest)];
+    while let Some(mut simulator) = open.pop() {
+        let [p, v, _] = state(&mut simulator);
         for target in -8..8i128 {
             for first in 0..8 {
                 for second in 0..8 {
                     let gains = [first, second];
-                    let next = after(&q, target, gains);
+                    let mut next = after(&simulator, target, gains);
                     // The distance is a word of positions too.
                     let near = p + wrap(target - p);
                     let exact = model([p, v, 0], near, gains, 3, Rounding::Nearest);
-                    let seen = state(&next);
+                    let seen = state(&mut next);
                     assert_eq!(seen, exact.map(wrap), "{p}, {v} to {target}, {gains:?}");
                     if found.insert([seen[0], seen[1]]) {
                         open.push(next);
@@ -224,13 +212,11 @@ const ONE: u64 = 1 << 4;
 const FRACTION: u32 = 4;
 
 /// All stable positions that the model goes through at the end of its way to a target.
-fn ends(target: i128, gains: [u64; 2]) -> Vec<i128> {
-    let circuit = ReferenceModel::<14, 5, 20>::new(Rounding::Nearest);
-    let mut simulator = Simulator::new(&circuit).unwrap();
+fn ends(bench: &Bench, target: i128, gains: [u64; 2]) -> Vec<i128> {
+    let mut simulator = bench.clone();
     let mut states: Vec<State> = Vec::new();
     loop {
-        let (after, seen) = step(simulator, target, gains);
-        simulator = after;
+        let seen = step(&mut simulator, target, gains);
         if let Some(begin) = states.iter().position(|state| state[..2] == seen[..2]) {
             return states[begin..].iter().map(|state| state[0]).collect();
         }
@@ -243,9 +229,10 @@ fn ends(target: i128, gains: [u64; 2]) -> Vec<i128> {
 /// response that never ends.
 #[test]
 fn targets_are_reached_by_all_pairs_of_gains() {
+    let bench = bench(14, 5, Rounding::Nearest);
     let reached = |gains: [u64; 2]| {
         (-6..=6i128).all(|target| {
-            let ends = ends(target << FRACTION, gains);
+            let ends = ends(&bench, target << FRACTION, gains);
             ends.iter().all(|&end| counts(end, FRACTION) == target)
         })
     };
@@ -266,12 +253,13 @@ fn targets_are_reached_by_all_pairs_of_gains() {
 
 #[test]
 fn the_response_is_monotone_and_mirrored() {
+    let bench = bench(P, K, Rounding::Nearest);
     for [a, b] in monotone() {
         for target in 0..=300i128 {
             let gains = [power(a), power(b)];
-            let up = run(target, gains, Rounding::Nearest);
+            let up = run(&bench, target, gains);
             assert!(up.is_sorted(), "2^-{a}, 2^-{b} to {target}: {up:?}");
-            let down = run(-target, gains, Rounding::Nearest);
+            let down = run(&bench, -target, gains);
             let mirrored: Vec<_> = down.iter().map(|position| -position).collect();
             assert_eq!(up, mirrored);
         }
@@ -280,16 +268,16 @@ fn the_response_is_monotone_and_mirrored() {
 
 #[test]
 fn preset_gives_up_a_step_in_every_tick_of_it() {
-    let circuit = ReferenceModel::<P, K, Q>::default();
-    for given_up in 1..=ReferenceModel::<P, K, Q>::LATENCY + 2 {
-        let mut simulator = Simulator::new(&circuit).unwrap();
+    let bench = bench(P, K, Rounding::Nearest);
+    for given_up in 1..=bench.circuit().latency() + 2 {
+        let mut simulator = bench.clone();
         for tick in 0..=given_up {
             let i = ports(500, [33, 50], [tick == 0, tick == given_up]);
-            simulator = simulator.step(i, |_| ()).0;
+            simulator.step_with(&i, |_| ());
         }
-        assert_eq!(state(&simulator.registers()), [500, 0, 0]);
+        assert_eq!(state(&mut simulator), [500, 0, 0]);
         // And the next step is right, at once.
-        let (_, seen) = step(simulator, -200, [33, 50]);
+        let seen = step(&mut simulator, -200, [33, 50]);
         let expected = model([500, 0, 0], -200, [33, 50], K, Rounding::Nearest);
         assert_eq!(seen, expected, "given up in tick {given_up}");
     }

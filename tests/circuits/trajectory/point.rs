@@ -1,10 +1,11 @@
 //! Points on paths of lines and arcs in space, against sine and cosine.
 
-use motion_rtl::kernel::Simulator;
-use motion_rtl::logic::Sim;
-use motion_rtl::trajectory_controller::PathPoint;
-use motion_rtl::trajectory_controller::cordic_state::GAIN;
-use motion_rtl::trajectory_controller::path_point::In;
+use motion_rtl::circuits::trajectory_controller::cordic_state::GAIN;
+use motion_rtl::circuits::trajectory_controller::path_point::In;
+use motion_rtl::circuits::trajectory_controller::point_sequencer::RADIUS;
+use motion_rtl::circuits::trajectory_controller::widths::PointWidths;
+use motion_rtl::circuits::trajectory_controller::{PathPoint, Widths};
+use motion_rtl::hdl::{Simulator, Value};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -15,8 +16,6 @@ const C: usize = 42;
 const M: usize = 44;
 const H: usize = 44;
 const D: usize = 55;
-const K: usize = 8;
-type Full = PathPoint<3, A, P, R, C, 57, M, H, 52, D, K>;
 pub type Vector = [f64; 3];
 
 /// A segment in guard units.
@@ -125,17 +124,17 @@ fn segment() -> impl Strategy<Value = Segment> {
     )
 }
 
-fn idle(last: u64) -> In<Sim, A, P, D, K> {
+fn idle(last: u64) -> In<Value> {
     In {
-        start: false.into(),
-        length: 0.into(),
-        last: last.into(),
-        write_begin: false.into(),
-        begin_segment: 0.into(),
-        begin_length: 0.into(),
-        write: false.into(),
-        write_address: 0.into(),
-        write_data: 0.into(),
+        start: false,
+        length: 0,
+        last,
+        write_begin: false,
+        begin_segment: 0,
+        begin_length: 0,
+        write: false,
+        write_address: 0,
+        write_data: 0,
     }
 }
 
@@ -147,7 +146,8 @@ proptest! {
         path in prop::collection::vec(segment(), 1..16),
         shares in prop::collection::vec((0.0..1.0f64, any::<prop::sample::Index>()), 20),
     ) {
-        let circuit = Full::default();
+        let widths = PointWidths { segment: A, ..Widths::FULL.point() };
+        let circuit = PathPoint { widths, axes: 3, radius_word: RADIUS };
         let mut simulator = Simulator::new(&circuit).unwrap();
         let last = path.len() as u64 - 1;
         let mut begins = vec![0];
@@ -156,15 +156,15 @@ proptest! {
             begins.push(begin + segment.length);
             for (word, data) in (0u64..).zip(segment.words()) {
                 let i = In {
-                    write_begin: (word == 0).into(),
-                    begin_segment: index.into(),
-                    begin_length: begin.into(),
-                    write: true.into(),
-                    write_address: (index << 4 | word).into(),
-                    write_data: data.into(),
+                    write_begin: word == 0,
+                    begin_segment: index,
+                    begin_length: begin,
+                    write: true,
+                    write_address: index << 4 | word,
+                    write_data: data,
                     ..idle(last)
                 };
-                simulator = simulator.step(i, |_| ()).0;
+                simulator.step_with(&i, |_| ());
             }
         }
         // The ends of each segment too, the path's own among them.
@@ -179,16 +179,16 @@ proptest! {
             let segment = &path[index];
             let latency = segment.latency();
             for ticks in 1..=latency {
-                let i = In { start: (ticks == 1).into(), length: length.into(), ..idle(last) };
-                simulator = simulator.step(i, |_| ()).0;
-                let done = simulator.registers().sequencer.done.get();
+                let i = In { start: ticks == 1, length, ..idle(last) };
+                simulator.step_with(&i, |_| ());
+                let done = simulator.see(|s| s.p.sequencer.q.done);
                 prop_assert_eq!(done, ticks == latency, "after {} ticks", ticks);
             }
-            let q = simulator.registers();
-            prop_assert_eq!(q.search.segment.get(), index as u64);
+            let p = simulator.registers().p;
+            prop_assert_eq!(p.search.q.segment, index as u64);
             let exact = segment.point(length - begins[index]);
             for (axis, exact) in exact.into_iter().enumerate() {
-                let off = q.axes[axis].point.get() as f64 - exact;
+                let off = p.axes[axis].q.point as f64 - exact;
                 let bound = segment.bound();
                 prop_assert!(off.abs() <= bound, "axis {}: {} off, {}", axis, off, bound);
             }

@@ -1,22 +1,21 @@
 //! The segment search against a look at every segment.
 
 use motion_rtl::check::Random;
-use motion_rtl::kernel::Simulator;
-use motion_rtl::logic::Sim;
-use motion_rtl::trajectory_controller::SegmentSearch;
-use motion_rtl::trajectory_controller::segment_search::In;
+use motion_rtl::circuits::trajectory_controller::segment_search::In;
+use motion_rtl::circuits::trajectory_controller::widths::PointWidths;
+use motion_rtl::circuits::trajectory_controller::{SegmentSearch, Widths};
+use motion_rtl::hdl::{Simulator, Value};
 
 const A: usize = 4;
-const Q: usize = 8;
 
-fn idle(last: u64) -> In<Sim, A, Q> {
+fn idle(last: u64) -> In<Value> {
     In {
-        start: false.into(),
-        length: 0.into(),
-        last: last.into(),
-        write: false.into(),
-        write_segment: 0.into(),
-        write_begin: 0.into(),
+        start: false,
+        length: 0,
+        last,
+        write: false,
+        write_segment: 0,
+        write_begin: 0,
     }
 }
 
@@ -24,6 +23,12 @@ fn idle(last: u64) -> In<Sim, A, Q> {
 /// the segment that holds the length, in its latency, whatever was looked for before.
 #[test]
 fn every_length_is_found() {
+    let widths = PointWidths {
+        segment: A,
+        point: 8,
+        ..Widths::FULL.point()
+    };
+    let circuit = SegmentSearch { widths };
     let mut random = Random::new(5);
     for last in 0..1u64 << A {
         let mut begins: Vec<u64> = (0..last).map(|_| 1 + random.word() % 200).collect();
@@ -31,41 +36,36 @@ fn every_length_is_found() {
         begins.sort_unstable();
         begins.dedup();
         let last = begins.len() as u64 - 1;
-        let circuit = SegmentSearch::<A, Q>;
         let mut simulator = Simulator::new(&circuit).unwrap();
         for segment in 0..1u64 << A {
             // Behind the last stands what is left of another path.
             let begin = begins.get(segment as usize).copied();
             let i = In {
-                write: true.into(),
-                write_segment: segment.into(),
-                write_begin: begin.unwrap_or_else(|| random.word() % 256).into(),
+                write: true,
+                write_segment: segment,
+                write_begin: begin.unwrap_or_else(|| random.word() % 256),
                 ..idle(last)
             };
-            simulator = simulator.step(i, |_| ()).0;
+            simulator.step_with(&i, |_| ());
         }
         // In an order that jumps about.
         for length in (0..256u64).map(|step| step * 97 % 256) {
-            let latency = SegmentSearch::<A, Q>::LATENCY;
+            let latency = circuit.latency();
             for ticks in 1..=latency {
                 let i = In {
-                    start: (ticks == 1 || ticks == 4).into(),
-                    length: if ticks == 1 { length } else { 255 - length }.into(),
+                    start: ticks == 1 || ticks == 4,
+                    length: if ticks == 1 { length } else { 255 - length },
                     ..idle(last)
                 };
-                simulator = simulator.step(i, |_| ()).0;
-                let done = simulator.registers().done.get();
+                simulator.step_with(&i, |_| ());
+                let done = simulator.see(|s| s.q.done);
                 assert_eq!(done, ticks == latency, "after {ticks} ticks");
             }
-            let q = simulator.registers();
+            let q = simulator.registers().q;
             let segment = begins.iter().rposition(|&begin| begin <= length);
             let segment = segment.expect("the first begins at 0");
             let expected = (segment as u64, length - begins[segment]);
-            assert_eq!(
-                (q.segment.get(), q.offset.get()),
-                expected,
-                "{length} in {begins:?}"
-            );
+            assert_eq!((q.segment, q.offset), expected, "{length} in {begins:?}");
         }
     }
 }

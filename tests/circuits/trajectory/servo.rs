@@ -1,10 +1,11 @@
 //! The servo's arithmetic against its equations, tick by tick, at full width and at the edges of
 //! small words.
 
-use motion_rtl::kernel::Simulator;
-use motion_rtl::logic::Sim;
-use motion_rtl::trajectory_controller::servo::{In, Reg};
-use motion_rtl::trajectory_controller::{Rounding, Servo};
+use motion_rtl::circuits::trajectory_controller::model_state::ModelGains;
+use motion_rtl::circuits::trajectory_controller::servo::In;
+use motion_rtl::circuits::trajectory_controller::servo_arithmetic::{ServoGains, ServoWidths};
+use motion_rtl::circuits::trajectory_controller::{Rounding, Servo, Widths};
+use motion_rtl::hdl::{Simulator, Value};
 use proptest::prelude::*;
 
 /// What the equations know from step to step.
@@ -28,31 +29,22 @@ struct Settings {
     limit: u64,
 }
 
-/// Bits of counts, of points, of the model's gains and of the loops'.
-#[derive(Debug, Clone, Copy)]
-struct Widths {
-    counts: u32,
-    points: u32,
-    model: u32,
-    gain: u32,
-}
-
 /// `value`·`gain` / 2^bits towards zero.
-fn scaled(value: i128, gain: u64, bits: u32) -> i128 {
+fn scaled(value: i128, gain: u64, bits: usize) -> i128 {
     value.signum() * ((value.abs() * i128::from(gain)) >> bits)
 }
 
 impl Loop {
     /// A step to a target with the motor at `feedback` counts.
-    fn step(self, target: i128, feedback: i128, settings: &Settings, widths: Widths) -> Loop {
-        let one = 1i128 << (widths.model - 1);
+    fn step(self, target: i128, feedback: i128, settings: &Settings, widths: &ServoWidths) -> Loop {
+        let one = 1i128 << (widths.model_gain - 1);
         let [p, v] = self.model;
         let [k1, k2] = settings.model.map(i128::from);
         let exact = k2 * (k1 * (target - p) - v * one);
         let a = exact.signum() * ((exact.abs() + one * one / 2) / (one * one));
         // What the model moved in this step is its velocity before it.
         let (position, moved) = (p + v, v);
-        let guard = widths.points - widths.counts;
+        let guard = widths.position - widths.count;
         let bits = widths.gain - 1;
         let error = position - (feedback << guard);
         let speed_error =
@@ -75,30 +67,45 @@ impl Loop {
     }
 }
 
-type Full = Servo<31, 47, 16, 64, 24, 58, 16>;
+const FULL: ServoWidths = Widths::FULL.servo();
 /// Two guard bits, gains of 6.
-type Small = Servo<6, 8, 6, 15, 6, 19, 6>;
+const SMALL: ServoWidths = ServoWidths {
+    count: 6,
+    position: 8,
+    model_gain: 6,
+    gain: 6,
+    torque: 6,
+};
 
-fn ports<const P: usize, const K: usize, const G: usize, const T: usize>(
+fn servo(widths: ServoWidths) -> Servo {
+    let rounding = Rounding::Nearest;
+    Servo { widths, rounding }
+}
+
+fn ports(
     target: i128,
     settings: &Settings,
     [step, preset]: [bool; 2],
     [a, b]: [bool; 2],
-) -> In<Sim, P, K, G, T> {
+) -> In<Value> {
     In {
-        step: step.into(),
-        preset: preset.into(),
-        target: (target as i64).into(),
-        a: a.into(),
-        b: b.into(),
-        home: false.into(),
-        gain_1: settings.model[0].into(),
-        gain_2: settings.model[1].into(),
-        position_gain: settings.position.into(),
-        speed_gain: settings.speed.into(),
-        integral_gain: settings.integral.into(),
-        inertia: settings.inertia.into(),
-        limit: settings.limit.into(),
+        step,
+        preset,
+        target: target as i64,
+        a,
+        b,
+        home: false,
+        model_gains: ModelGains {
+            gain_1: settings.model[0],
+            gain_2: settings.model[1],
+        },
+        gains: ServoGains {
+            position_gain: settings.position,
+            speed_gain: settings.speed,
+            integral_gain: settings.integral,
+            inertia: settings.inertia,
+            limit: settings.limit,
+        },
     }
 }
 
@@ -111,74 +118,59 @@ fn channels(count: i128) -> [bool; 2] {
 /// What is told in a period: how far the motor moves, and the target.
 type Period = (i128, i128);
 
-/// Runs periods on a circuit and on the equations; nothing changes before its tick.
-macro_rules! against_equations {
-    ($circuit:ty, $registers:ty, $settings:expr, $periods:expr, $widths:expr) => {{
-        let circuit = <$circuit>::new(Rounding::Nearest);
-        let settings: &Settings = $settings;
-        let mut simulator = Simulator::new(&circuit).unwrap();
-        let mut expected = Loop::default();
-        let mut count = 0i128;
-        let output = |q: &$registers| {
-            let q = &q.arithmetic;
-            (i128::from(q.torque.get()), q.saturated.get())
-        };
-        // The counter's synchronizers fill.
-        for _ in 0..4 {
-            let i = ports(0, settings, [false; 2], channels(0));
-            simulator = simulator.step(i, |_| ()).0;
-        }
-        for &(moves, target) in $periods {
-            for _ in 0..i128::abs(moves) {
-                count += moves.signum();
-                for _ in 0..2 {
-                    let i = ports(target, settings, [false; 2], channels(count));
-                    simulator = simulator.step(i, |_| ()).0;
-                }
-            }
-            for _ in 0..6 {
-                let i = ports(target, settings, [false; 2], channels(count));
-                simulator = simulator.step(i, |_| ()).0;
-            }
-            let feedback = i128::from(simulator.registers().detector.position.get());
-            assert_eq!(feedback.abs(), count.abs());
-            let before = output(&simulator.registers());
-            let next = expected.step(target, feedback, settings, $widths);
-            for tick in 1..=<$circuit>::LATENCY {
-                let i = ports(target, settings, [tick == 1, false], channels(count));
-                simulator = simulator.step(i, |_| ()).0;
-                let q = simulator.registers();
-                assert_eq!(
-                    q.arithmetic.fresh.get(),
-                    tick == <$circuit>::LATENCY,
-                    "tick {tick}"
-                );
-                if tick < <$circuit>::LATENCY {
-                    assert_eq!(output(&q), before, "tick {tick}");
-                }
-            }
-            expected = next;
-            assert_eq!(
-                output(&simulator.registers()),
-                (expected.torque, expected.saturated)
-            );
-        }
-        expected
-    }};
+/// Position of the motor as the servo knows it.
+fn position(simulator: &mut Simulator<Servo>) -> i128 {
+    simulator.see(|s| s.p.detector.q.position).into()
 }
 
-const FULL: Widths = Widths {
-    counts: 31,
-    points: 47,
-    model: 16,
-    gain: 24,
-};
-const SMALL: Widths = Widths {
-    counts: 6,
-    points: 8,
-    model: 6,
-    gain: 6,
-};
+/// The torque, and whether it is limited.
+fn output(simulator: &mut Simulator<Servo>) -> (i128, bool) {
+    let torque = simulator.see(|s| s.w.torque).into();
+    (torque, simulator.see(|s| s.w.saturated))
+}
+
+/// Runs periods on a circuit and on the equations; nothing changes before its tick.
+fn against_equations(widths: ServoWidths, settings: &Settings, periods: &[Period]) -> Loop {
+    let circuit = servo(widths);
+    let mut simulator = Simulator::new(&circuit).unwrap();
+    let mut expected = Loop::default();
+    let mut count = 0i128;
+    // The counter's synchronizers fill.
+    for _ in 0..4 {
+        let i = ports(0, settings, [false; 2], channels(0));
+        simulator.step_with(&i, |_| ());
+    }
+    for &(moves, target) in periods {
+        for _ in 0..moves.abs() {
+            count += moves.signum();
+            for _ in 0..2 {
+                let i = ports(target, settings, [false; 2], channels(count));
+                simulator.step_with(&i, |_| ());
+            }
+        }
+        for _ in 0..6 {
+            let i = ports(target, settings, [false; 2], channels(count));
+            simulator.step_with(&i, |_| ());
+        }
+        let feedback = position(&mut simulator);
+        assert_eq!(feedback.abs(), count.abs());
+        let before = output(&mut simulator);
+        expected = expected.step(target, feedback, settings, &widths);
+        let latency = circuit.latency();
+        for tick in 1..=latency {
+            let i = ports(target, settings, [tick == 1, false], channels(count));
+            simulator.step_with(&i, |_| ());
+            let fresh = simulator.see(|s| s.w.fresh);
+            assert_eq!(fresh, tick == latency, "tick {tick}");
+            if tick < latency {
+                assert_eq!(output(&mut simulator), before, "tick {tick}");
+            }
+        }
+        let due = (expected.torque, expected.saturated);
+        assert_eq!(output(&mut simulator), due);
+    }
+    expected
+}
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
@@ -199,7 +191,7 @@ proptest! {
             inertia: gain(3),
             limit,
         };
-        against_equations!(Full, Reg<Sim, 31, 47, 16, 64, 24, 58, 16>, &settings, &periods, FULL);
+        against_equations(FULL, &settings, &periods);
     }
 
     /// Targets and gains up to their ends: no sum leaves its word.
@@ -220,7 +212,7 @@ proptest! {
             at = to;
             (moves, target)
         }).collect();
-        against_equations!(Small, Reg<Sim, 6, 8, 6, 15, 6, 19, 6>, &settings, &periods, SMALL);
+        against_equations(SMALL, &settings, &periods);
     }
 }
 
@@ -237,24 +229,12 @@ fn the_integral_does_not_wind_up() {
         limit: 1000,
     };
     let blocked: Vec<Period> = (0..60).map(|_| (0, 10_000_000)).collect();
-    let state = against_equations!(
-        Full,
-        Reg<Sim, 31, 47, 16, 64, 24, 58, 16>,
-        &settings,
-        &blocked,
-        FULL
-    );
+    let state = against_equations(FULL, &settings, &blocked);
     assert_eq!((state.torque, state.saturated), (1000, true));
     assert!(state.integral <= 16_000, "{state:?}");
     let mut released = blocked;
     released.extend((0..12).map(|_| (0, -10_000_000)));
-    let state = against_equations!(
-        Full,
-        Reg<Sim, 31, 47, 16, 64, 24, 58, 16>,
-        &settings,
-        &released,
-        FULL
-    );
+    let state = against_equations(FULL, &settings, &released);
     assert_eq!((state.torque, state.saturated), (-1000, true));
 }
 
@@ -269,22 +249,23 @@ fn preset_begins_anew_in_every_tick() {
         inertia: 1 << 18,
         limit: 30_000,
     };
-    let circuit = Full::new(Rounding::Nearest);
-    for given_up in 1..=Full::LATENCY + 2 {
+    let circuit = servo(FULL);
+    let latency = circuit.latency();
+    for given_up in 1..=latency + 2 {
         let mut simulator = Simulator::new(&circuit).unwrap();
         // A first step whole, so that there is something to forget.
-        for tick in 0..=Full::LATENCY {
+        for tick in 0..=latency {
             let i = ports(900_000, &settings, [tick == 0, false], [false; 2]);
-            simulator = simulator.step(i, |_| ()).0;
+            simulator.step_with(&i, |_| ());
         }
         // The motor has moved since.
         for count in 1..=3 {
             for _ in 0..4 {
                 let i = ports(900_000, &settings, [false; 2], channels(count));
-                simulator = simulator.step(i, |_| ()).0;
+                simulator.step_with(&i, |_| ());
             }
         }
-        let feedback = i128::from(simulator.registers().detector.position.get());
+        let feedback = position(&mut simulator);
         assert_eq!(feedback.abs(), 3);
         for tick in 0..=given_up {
             let i = ports(
@@ -293,35 +274,23 @@ fn preset_begins_anew_in_every_tick() {
                 [tick == 0, tick == given_up],
                 channels(3),
             );
-            simulator = simulator.step(i, |_| ()).0;
+            simulator.step_with(&i, |_| ());
         }
-        let q = simulator.registers();
-        assert_eq!(q.model.integrators.position.get(), 70_000);
-        assert_eq!(
-            (q.arithmetic.torque.get(), q.arithmetic.saturated.get()),
-            (0, false)
-        );
+        assert_eq!(simulator.see(|s| s.p.model.w.position), 70_000);
+        assert_eq!(output(&mut simulator), (0, false));
         // The preset itself is a step of the loops on the model that it has put there.
         let start = Loop {
             model: [70_000, 0],
             previous: feedback,
             ..Loop::default()
         };
-        for _ in 0..2 * Full::LATENCY {
+        for _ in 0..2 * latency {
             let i = ports(70_000, &settings, [false; 2], channels(3));
-            simulator = simulator.step(i, |_| ()).0;
+            simulator.step_with(&i, |_| ());
         }
-        let expected = start.step(70_000, feedback, &settings, FULL);
+        let expected = start.step(70_000, feedback, &settings, &FULL);
         assert!(!expected.saturated);
-        let q = simulator.registers();
-        let seen = (
-            i128::from(q.arithmetic.torque.get()),
-            q.arithmetic.saturated.get(),
-        );
-        assert_eq!(
-            seen,
-            (expected.torque, expected.saturated),
-            "given up in tick {given_up}"
-        );
+        let due = (expected.torque, expected.saturated);
+        assert_eq!(output(&mut simulator), due, "given up in tick {given_up}");
     }
 }

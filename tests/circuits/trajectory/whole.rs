@@ -1,10 +1,11 @@
 //! The whole at small widths, in three axes, and at the edges of its timing.
 
-use super::bench::{Path, Period, Record, plane, small, space};
+use super::bench::{PLANE, Path, Period, Record, SMALL, SPACE};
 use super::point::Segment;
-use motion_rtl::kernel::Simulator;
-use motion_rtl::trajectory_controller::vector_correction::Correction;
-use motion_rtl::trajectory_controller::{Rounding, cordic_state};
+use motion_rtl::circuits::trajectory_controller::controller::In;
+use motion_rtl::circuits::trajectory_controller::cordic_state;
+use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
+use motion_rtl::hdl::Simulator;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -60,7 +61,7 @@ fn every_small_move_along_an_axis_is_never_corrected() {
                     true => steps(&[length]),
                     false => steps(&[third, 2 * third, length]),
                 };
-                let seen = small::run(&path, &profile, gains, Correction::Vector, (110, 30));
+                let seen = SMALL.run(&path, &profile, gains, Correction::Vector, (110, 30));
                 for period in &seen {
                     assert_eq!(period.correction, [0, 0], "{begin} to {end}: {period:?}");
                     let mut command = [0, 0];
@@ -148,7 +149,7 @@ proptest! {
         lengths.push(end);
         lengths.sort_unstable();
         let gains = if overshoots { [6000, 14_000] } else { [4000, 20_000] };
-        let seen = plane::run(&path, &steps(&lengths), gains, Correction::Vector, (PERIOD, 60));
+        let seen = PLANE.run(&path, &steps(&lengths), gains, Correction::Vector, (PERIOD, 60));
         let mut begins = vec![0];
         for segment in &path {
             begins.push(begins[begins.len() - 1] + segment.0);
@@ -188,11 +189,11 @@ proptest! {
         let end: u64 = segments.iter().map(|segment| segment.length).sum();
         let profile = steps(&[end / 5, end / 3, end / 2, end]);
         let run = |segments: &[Segment]| {
-            space::run(&words(segments), &profile, GAINS, Correction::Vector, (PERIOD, 40))
+            SPACE.run(&words(segments), &profile, GAINS, Correction::Vector, (PERIOD, 40))
         };
         for (one, other) in run(&segments).iter().zip(&run(&turned)) {
             for (from, &to) in order.iter().enumerate() {
-                let all = |p: &Period<3>, k: usize| {
+                let all = |p: &Period, k: usize| {
                     [p.command[k], p.response[k], p.reference[k], p.corrected[k], p.model[k]]
                 };
                 prop_assert_eq!(all(one, from), all(other, to));
@@ -209,7 +210,7 @@ fn all_models_are_the_same_to_the_bit() {
         let mut line = segment(40_000_000, [0.0; 2], [0.0; 2], None);
         line.along[axis] = 1.0;
         let profile = steps(&[1_234_567, 20_000_001, 20_000_002, 40_000_000]);
-        let seen = space::run(
+        let seen = SPACE.run(
             &words(&[line]),
             &profile,
             GAINS,
@@ -234,7 +235,7 @@ fn the_steady_correction_is_a_wider_radius() {
     let mut path = words(&[line, arc]);
     path[1].1[12] = (wider / cordic_state::GAIN * 256.0).round() as u64;
     let lengths: Vec<u64> = (1..=16).map(|n| 5_000_000 * n).collect();
-    let seen = plane::run(
+    let seen = PLANE.run(
         &path,
         &steps(&lengths),
         GAINS,
@@ -267,16 +268,17 @@ fn the_least_period_is_enough_and_one_tick_less_is_not() {
     // A turn is just below a guard unit, the length of its segment; the search takes the same time for any path.
     let radius = 0.99 / TAU;
     let path = words(&[segment(1, [0.0; 2], [1.0, 0.0], Some(radius))]);
-    let least = plane::Controller::LEAST_PERIOD;
+    let circuit = PLANE.controller(Correction::Vector);
+    let least = circuit.least_period();
     for period in [least - 1, least] {
-        let circuit = plane::Controller::new(Correction::Vector, Rounding::Nearest);
         let mut simulator = Simulator::new(&circuit).unwrap();
-        let writes = plane::writes(&path, &steps(&[1]), GAINS, period);
-        let idle = (0..8 * period).map(|_| plane::idle(&path, GAINS, period));
+        let writes = PLANE.writes(&path, &steps(&[1]), GAINS, period);
+        let idle = PLANE.idle(&path, GAINS, period);
+        let idle = (0..8 * period).map(|_| idle.clone());
         for i in writes.into_iter().chain(idle) {
-            simulator = simulator.step(i, |_| ()).0;
+            simulator.step_with(&i, |_| ());
         }
-        let late = simulator.registers().gather.late.get();
+        let late = simulator.see(|s| s.w.late);
         assert_eq!(late, period < least, "{period} ticks");
     }
 }
@@ -285,7 +287,7 @@ fn the_least_period_is_enough_and_one_tick_less_is_not() {
 /// left of the first is not corrected in it.
 #[test]
 fn a_second_path_begins_where_the_first_has_ended() {
-    let circuit = plane::Controller::new(Correction::Vector, Rounding::Nearest);
+    let circuit = PLANE.controller(Correction::Vector);
     let mut simulator = Simulator::new(&circuit).unwrap();
     let (sin, cos) = 0.7f64.sin_cos();
     let first = segment(10_000_001, [0.0; 2], [cos, sin], None);
@@ -294,24 +296,24 @@ fn a_second_path_begins_where_the_first_has_ended() {
     let paths = [first, second].map(|segment| words(&[segment]));
     let (mut ticks, mut driven) = (0, 0);
     for (number, path) in paths.iter().enumerate() {
-        let idle = || plane::idle(path, GAINS, PERIOD);
-        let writes = plane::writes(path, &steps(&[path[0].0]), GAINS, PERIOD);
-        let restart = plane::Ports {
-            restart: true.into(),
-            ..plane::idle(&paths[0], GAINS, PERIOD)
+        let writes = PLANE.writes(path, &steps(&[path[0].0]), GAINS, PERIOD);
+        let restart = In {
+            restart: true,
+            ..PLANE.idle(&paths[0], GAINS, PERIOD)
         };
-        let wait = (0..2 * PERIOD).map(|_| plane::idle(&paths[0], GAINS, PERIOD));
+        let wait = vec![PLANE.idle(&paths[0], GAINS, PERIOD); 2 * PERIOD as usize];
         let before = [restart].into_iter().chain(wait).filter(|_| number == 1);
-        let after = (0..400 * PERIOD).map(|_| idle());
+        let idle = PLANE.idle(path, GAINS, PERIOD);
+        let after = (0..400 * PERIOD).map(|_| idle.clone());
         let mut corrected = None;
         for i in before.chain(writes).chain(after) {
-            let (next, seen) = simulator.step(i, |now| {
-                let driven = now.w.axes[0].w.driven.get();
-                let corrected = [0, 1].map(|k| now.q.axes[k].corrector.corrected.get());
-                let correction = [0, 1].map(|k| now.q.axes[k].corrector.correction.get());
-                (driven, now.q.progress.waiting.get(), corrected, correction)
+            let seen = simulator.step_with(&i, |now| {
+                let driven = now.see(|s| s.p.axes[0].w.driven);
+                let waiting = now.see(|s| s.p.progress.q.waiting);
+                let corrected = [0, 1].map(|k| now.see(|s| s.p.axes[k].w.corrected));
+                let correction = [0, 1].map(|k| now.see(|s| s.p.axes[k].w.deviation));
+                (driven, waiting, corrected, correction)
             });
-            simulator = next;
             driven += u64::from(seen.0);
             ticks += 1;
             if number == 1 && seen.1 {
@@ -332,11 +334,9 @@ fn a_second_path_begins_where_the_first_has_ended() {
                 );
             }
         }
-        let q = simulator.registers();
-        assert!(!q.gather.late.get());
+        assert!(!simulator.see(|s| s.w.late));
     }
-    let q = simulator.registers();
-    let position = [0, 1].map(|k| q.axes[k].response.integrators.position.get());
+    let position = [0, 1].map(|k| simulator.see(|s| s.p.axes[k].p.response.w.position));
     let expected = [end[0] - 20_000_000.0, end[1]];
     for k in 0..2 {
         assert!(

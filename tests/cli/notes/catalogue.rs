@@ -31,13 +31,13 @@ fn every_circuit_can_be_made_proved_and_dumped() {
         if find(entry.name).map(|found| found.about) != Some(entry.about) {
             wrong.push(format!("{}: the name is taken", entry.name));
         }
-        if let Err(error) = (entry.full)().layout() {
+        if let Err(error) = entry.full().layout() {
             wrong.push(format!("{}: {error}", entry.name));
         }
         let Some(width) = entry.proof_width else {
             continue;
         };
-        let Some(circuit) = (entry.make)(&[width]) else {
+        let Some(circuit) = entry.make(&[width]) else {
             wrong.push(format!("{}: cannot be made for its proof", entry.name));
             continue;
         };

@@ -21,7 +21,7 @@ fn fault(note: &Note, chart: &Chart) -> Option<String> {
             chart.circuit
         ));
     };
-    let Some(circuit) = (entry.model)(&chart.args) else {
+    let Some(circuit) = entry.model(&chart.args) else {
         return Some(format!(
             "{place}: no {} with {:?}; it is made with: {}",
             entry.name, chart.args, entry.arguments

@@ -3,9 +3,9 @@
 //!
 //! `UPDATE_NOTES=1 cargo test --release --test cli notes` writes them anew.
 
-use super::{expect_none, miscounts, notes, rotations};
-use motion_rtl::kernel::{Declaration, Format, Kind, MemoryDeclaration, Role};
-use motion_rtl::pulse_interpolator::counts;
+use super::{connections, expect_none, miscounts, notes, rotations};
+use motion_rtl::circuits::pulse_interpolator::counts;
+use motion_rtl::hdl::{Declaration, Format, Kind, MemoryDeclaration, Role};
 use motion_rtl::registry::{CATALOGUE, Entry, Verdict, find};
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -22,6 +22,7 @@ fn make(what: &str) -> Result<String, String> {
     let (kind, name) = what.split_once(' ').unwrap_or((what, ""));
     match (kind, find(name)) {
         ("signals", Some(entry)) => Ok(signals(entry)),
+        ("connections", Some(entry)) => Ok(connections::table(entry)),
         ("blocks", None) => Ok(blocks(name)),
         ("proofs", None) => Ok(proofs(name)),
         ("literal", None) => Ok(literal()),
@@ -108,9 +109,9 @@ fn blocks(patent: &str) -> String {
 
 /// The widths of a circuit by name; numbers of axes and of stages are no widths.
 fn widths(entry: &Entry) -> String {
-    let widths = entry.widths.iter().map(|(name, width)| match *name {
-        "AXES" => format!("{name} = {width}"),
-        "K" if entry.source.starts_with("JPH0646367B2") => format!("{name} = {width} stages"),
+    let widths = entry.widths().into_iter().map(|(name, width)| match name {
+        "axes" => format!("{name} = {width}"),
+        "stages" => format!("{width} {name}"),
         _ => format!("{name} = {width} bits"),
     });
     widths.collect::<Vec<_>>().join(", ")
@@ -132,12 +133,12 @@ fn power_on(leaf: &Declaration) -> String {
 
 /// A circuit's own signals, those of its blocks left out.
 fn signals(entry: &Entry) -> String {
-    let mut text = match entry.widths.is_empty() {
+    let mut text = match entry.widths().is_empty() {
         true => String::new(),
         false => format!("Widths: {}.\n\n", widths(entry)),
     };
     text += "| signal | bits | role | power-on | meaning |\n|---|---|---|---|---|\n";
-    let declarations = (entry.full)().declarations().expect("a netlist");
+    let declarations = entry.full().declarations().expect("a netlist");
     let names: HashMap<_, _> = declarations.own().into_iter().collect();
     let mut memories = declarations
         .memories
@@ -200,7 +201,7 @@ fn proofs(patent: &str) -> String {
         .filter_map(|entry| Some((entry, entry.proof_width?)))
         .collect();
     let rows = entries.into_par_iter().map(|(entry, width)| {
-        let circuit = (entry.make)(&[width]).expect("it is made for its proof");
+        let circuit = entry.make(&[width]).expect("it is made for its proof");
         let verdict = circuit.prove(LIMIT, None, &mut |_| {});
         let Ok(Verdict::Proved(proof)) = verdict else {
             panic!("{} is not proved: {verdict:?}", entry.name);
@@ -224,7 +225,7 @@ fn literal() -> String {
     for name in ["pulse_generator", "axis", "unit_law"] {
         let entry = find(name).expect("it is in the catalogue");
         let width = entry.proof_width.expect("it is proved");
-        let circuit = (entry.make)(&[width, 1]).expect("it has a literal variant");
+        let circuit = entry.make(&[width, 1]).expect("it has a literal variant");
         let verdict = circuit.prove(LIMIT, None, &mut |_| {});
         let Ok(Verdict::Broken { report, .. }) = verdict else {
             panic!("the literal {name} is not broken: {verdict:?}");

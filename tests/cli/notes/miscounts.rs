@@ -1,41 +1,66 @@
 //! How often RST that clears the flip-flop 40 alone (¶0017) miscounts.
 
-use motion_rtl::kernel::{Circuit, Instance};
-use motion_rtl::logic::Sim;
-use motion_rtl::pulse_interpolator::counts;
-use motion_rtl::pulse_interpolator::{PulseGenerator, SyncStage, Variant};
-use motion_rtl::pulse_interpolator::{pulse_generator, sync_stage};
+use motion_rtl::circuits::pulse_interpolator::counts;
+use motion_rtl::circuits::pulse_interpolator::{PulseGenerator, SyncStage, Variant};
+use motion_rtl::circuits::pulse_interpolator::{pulse_generator, sync_stage};
+use motion_rtl::hdl::prelude::*;
 
 /// The longest unit time looked at.
 const PERIODS: u32 = 64;
 /// Unit times played of every T and n, one behind the other.
 const UNITS: usize = 8;
 
+/// A pulse generator with its sync stage.
+#[derive(Debug, Clone)]
+struct Line {
+    variant: Variant,
+}
+
+signals! { for Line as c;
+    struct In {
+        half_period: U(7),
+        unit_rst: Bit,
+    }
+    struct Parts {
+        generator: Part<PulseGenerator>(PulseGenerator { width: 7, variant: c.variant }),
+        sync: Part<SyncStage>(SyncStage),
+    }
+    struct Net { step: Bit }
+}
+
+impl Circuit for Line {
+    const NAME: &'static str = "line";
+    const ABOUT: &'static str = "pulses of one axis";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let generator = p.generator.settle(pulse_generator::In {
+            half_period: i.half_period,
+            unit_rst: i.unit_rst,
+        });
+        let sync = p.sync.settle(sync_stage::In {
+            pulse: generator.w.pulse,
+            unit_rst: i.unit_rst,
+        });
+        (Net { step: sync.q.step }, Nothing)
+    }
+}
+
 /// The pulses of each of [`UNITS`] unit times, beginning with a counter of 0 and a low line.
-fn play(variant: Variant, half_period: u32, period: u32) -> Vec<u32> {
-    let (generator, sync) = (PulseGenerator::<7> { variant }, SyncStage);
-    let (mut q, mut line) = (generator.power_on(), sync.power_on());
+fn play(mut line: Simulator<Line>, half_period: u32, period: u32) -> Vec<u32> {
+    let step = line.signals().w.step;
+    line.set(|i| i.half_period, half_period.into());
     let mut units = Vec::new();
     for _ in 0..UNITS {
         let mut pulses = 0;
         // The line is forced low at RST, so each unit time's rises are its own.
         let mut before = false;
         for tick in 1..=period {
-            let level = line.step.get();
+            line.set(|i| i.unit_rst, tick == period);
+            let level = line.get(step);
             pulses += u32::from(level && !before);
             before = level;
-            let unit_rst = (tick == period).into();
-            let half_period = u64::from(half_period).into();
-            let ports = pulse_generator::In {
-                half_period,
-                unit_rst,
-            };
-            let block = Instance::<_, Sim>::settle(&generator, &q, ports);
-            let pulse = block.w.pulse;
-            let stage =
-                Instance::<_, Sim>::settle(&sync, &line, sync_stage::In { pulse, unit_rst });
-            q = block.next(&generator, q);
-            line = stage.next(&sync, line);
+            line.step();
         }
         units.push(pulses);
     }
@@ -76,11 +101,12 @@ impl Data {
 
 /// Unit times played, and those of them whose count is not the law's.
 fn count(variant: Variant, data: Data, units: std::ops::Range<usize>) -> (usize, usize) {
+    let line = Simulator::new(&Line { variant }).expect("a circuit");
     let (mut played, mut wrong) = (0, 0);
     for period in 1..=PERIODS {
         for half_period in data.half_periods(period) {
             let law = counts::pulses(half_period, period);
-            let counted = play(variant, half_period, period);
+            let counted = play(line.clone(), half_period, period);
             played += units.len();
             wrong += counted[units.clone()].iter().filter(|&&c| c != law).count();
         }

@@ -2,6 +2,7 @@
 
 mod catalogue;
 mod charts;
+mod connections;
 mod generated;
 mod keys;
 mod miscounts;

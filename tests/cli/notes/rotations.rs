@@ -1,7 +1,6 @@
 //! Figures of the arc generator: how far its rotations are off, and what a sample costs.
 
-use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::jobs::arc_generator::bounds::rotation_error;
 use motion_rtl::jobs::arc_generator::conventional::{
     Conventional, DIFFERENCE_ENGINE, Operations, blend, blend_terms, rotation,
@@ -63,7 +62,7 @@ fn observed(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64
     };
     let records = records(&prepared, 1.0, widths, rounding).expect("it fits into the words");
     let points = Decoded::of(&records[0], widths).points(widths, rounding);
-    let unit = f64::from(widths.guard()).exp2();
+    let unit = (widths.guard() as f64).exp2();
     let errors = (0..).zip(points).map(|(sample, point)| {
         let exact = circle.point(step * f64::from(sample));
         distance(point.map(|units| units as f64 / unit), exact)
@@ -73,7 +72,7 @@ fn observed(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64
 
 /// A table of the bound and of what a turn shows.
 pub fn errors() -> String {
-    let with = |guard: u32, fraction: u32| Widths {
+    let with = |guard: usize, fraction: usize| Widths {
         point: Widths::FULL.position + guard,
         coefficient: fraction + 2,
         ..Widths::FULL

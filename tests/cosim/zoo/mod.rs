@@ -22,27 +22,34 @@ fn check(circuit: &dyn AnyModel, seed: u64) -> u64 {
     hold(circuit, Simulator::Icarus, seed, TICKS)
 }
 
-/// The circuit at these widths: of its words, of others, of products.
-macro_rules! at_widths {
-    ($circuit:ident: $(($n:literal, $m:literal, $p:literal))*) => {
-        $(check(&$circuit::<$n, $m, $p>, $n);)*
-    };
-}
+/// Widths of words, of others, of products.
+const WIDTHS: [(usize, usize, usize); 10] = [
+    (1, 1, 2),
+    (1, 3, 3),
+    (2, 3, 5),
+    (3, 2, 4),
+    (31, 32, 63),
+    (32, 31, 33),
+    (33, 31, 64),
+    (63, 1, 64),
+    (64, 64, 64),
+    (64, 3, 1),
+];
 
 #[test]
 #[ignore = "needs Icarus Verilog and Verilator"]
 fn signed_words() {
-    at_widths!(SignedWords:
-        (1, 1, 2) (1, 3, 3) (2, 3, 5) (3, 2, 4) (31, 32, 63) (32, 31, 33)
-        (33, 31, 64) (63, 1, 64) (64, 64, 64) (64, 3, 1));
+    for (n, k, p) in WIDTHS {
+        check(&SignedWords { n, k, p }, n as u64);
+    }
 }
 
 #[test]
 #[ignore = "needs Icarus Verilog and Verilator"]
 fn unsigned_words() {
-    at_widths!(UnsignedWords:
-        (1, 1, 2) (1, 3, 3) (2, 3, 5) (3, 2, 4) (31, 32, 63) (32, 31, 33)
-        (33, 31, 64) (63, 1, 64) (64, 64, 64) (64, 3, 1));
+    for (n, k, p) in WIDTHS {
+        check(&UnsignedWords { n, k, p }, n as u64);
+    }
 }
 
 #[test]
@@ -67,6 +74,7 @@ fn circuits_in_circuits() {
 #[test]
 #[ignore = "needs Verilator"]
 fn wide_words_in_verilator() {
-    hold(&SignedWords::<33, 31, 64>, Simulator::Verilator, 3, TICKS);
-    hold(&UnsignedWords::<33, 31, 64>, Simulator::Verilator, 3, TICKS);
+    let (n, k, p) = (33, 31, 64);
+    hold(&SignedWords { n, k, p }, Simulator::Verilator, 3, TICKS);
+    hold(&UnsignedWords { n, k, p }, Simulator::Verilator, 3, TICKS);
 }

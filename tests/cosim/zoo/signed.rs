@@ -1,130 +1,128 @@
 //! Every operation of signed words, without registers.
 
-use motion_rtl::kernel::{Circuit, Nothing};
-use motion_rtl::logic::{Bit, Logic, Signed, Unsigned};
-use motion_rtl::signals;
+use motion_rtl::hdl::prelude::*;
 
-signals! {
+/// Words of `n` bits against words of `k` bits, products of `p` bits.
+#[derive(Debug, Clone)]
+pub struct SignedWords {
+    pub n: usize,
+    pub k: usize,
+    pub p: usize,
+}
+
+signals! { for SignedWords as c;
     /// Ports in.
-    pub struct In<L, const N: usize, const K: usize> {
-        pub a: L::I<N>,
-        pub b: L::I<N>,
-        pub c: L::I<K>,
-        pub left: L::Bit,
-        pub right: L::Bit,
+    pub struct In {
+        pub a: I(c.n),
+        pub b: I(c.n),
+        pub c: I(c.k),
+        pub left: Bit,
+        pub right: Bit,
     }
-}
-
-signals! {
     /// A net per operation.
-    pub struct Net<L, const N: usize, const K: usize, const P: usize> {
-        pub sum: L::I<N>,
-        pub difference: L::I<N>,
-        pub negated: L::I<N>,
-        pub a_below_b: L::Bit,
-        pub a_equals_b: L::Bit,
-        pub a_negative: L::Bit,
-        pub sum_negative: L::Bit,
-        pub b_zero: L::Bit,
-        pub c_resized: L::I<N>,
-        pub a_resized: L::I<K>,
-        pub sum_resized: L::I<K>,
-        pub minus_a_resized: L::I<K>,
-        pub choice_resized: L::I<K>,
-        pub shift_resized: L::I<K>,
-        pub product_resized: L::I<K>,
-        pub bits_resized: L::U<K>,
-        pub product: L::I<P>,
-        pub swapped: L::I<P>,
-        pub square: L::I<N>,
-        pub times_constant: L::I<P>,
-        pub up_one: L::I<N>,
-        pub up_last: L::I<N>,
-        pub up_over: L::I<N>,
-        pub down_none: L::I<N>,
-        pub down_one: L::I<N>,
-        pub down_last: L::I<N>,
-        pub down_over: L::I<N>,
-        pub sum_down: L::I<N>,
-        pub down_sum: L::I<N>,
-        pub size: L::U<N>,
-        pub size_of_sum: L::U<N>,
-        pub size_of_least: L::U<N>,
-        pub raw: L::U<N>,
-        pub raw_sum: L::U<N>,
-        pub again: L::I<N>,
-        pub least: L::I<N>,
-        pub greatest: L::I<N>,
-        pub minus_one: L::I<N>,
-        pub plus_greatest: L::I<N>,
-        pub minus_least: L::I<N>,
-        pub above_least: L::Bit,
-        pub below_minus_one: L::Bit,
-        pub least_or: L::I<N>,
-        pub nested: L::I<N>,
-        pub both_nested: L::I<N>,
-        pub chain_left: L::I<N>,
-        pub chain_right: L::I<N>,
-        pub minus_of_sum: L::I<N>,
-        pub twice_negated: L::I<N>,
-        pub sums_equal: L::Bit,
-        pub sums_below: L::Bit,
-        pub raw_below: L::Bit,
+    pub struct Net {
+        pub sum: I(c.n),
+        pub difference: I(c.n),
+        pub negated: I(c.n),
+        pub a_below_b: Bit,
+        pub a_equals_b: Bit,
+        pub a_negative: Bit,
+        pub sum_negative: Bit,
+        pub b_zero: Bit,
+        pub c_resized: I(c.n),
+        pub a_resized: I(c.k),
+        pub sum_resized: I(c.k),
+        pub minus_a_resized: I(c.k),
+        pub choice_resized: I(c.k),
+        pub shift_resized: I(c.k),
+        pub product_resized: I(c.k),
+        pub bits_resized: U(c.k),
+        pub product: I(c.p),
+        pub swapped: I(c.p),
+        pub square: I(c.n),
+        pub times_constant: I(c.p),
+        pub up_one: I(c.n),
+        pub up_last: I(c.n),
+        pub up_over: I(c.n),
+        pub down_none: I(c.n),
+        pub down_one: I(c.n),
+        pub down_last: I(c.n),
+        pub down_over: I(c.n),
+        pub sum_down: I(c.n),
+        pub down_sum: I(c.n),
+        pub size: U(c.n),
+        pub size_of_sum: U(c.n),
+        pub size_of_least: U(c.n),
+        pub raw: U(c.n),
+        pub raw_sum: U(c.n),
+        pub again: I(c.n),
+        pub least: I(c.n),
+        pub greatest: I(c.n),
+        pub minus_one: I(c.n),
+        pub plus_greatest: I(c.n),
+        pub minus_least: I(c.n),
+        pub above_least: Bit,
+        pub below_minus_one: Bit,
+        pub least_or: I(c.n),
+        pub nested: I(c.n),
+        pub both_nested: I(c.n),
+        pub chain_left: I(c.n),
+        pub chain_right: I(c.n),
+        pub minus_of_sum: I(c.n),
+        pub twice_negated: I(c.n),
+        pub sums_equal: Bit,
+        pub sums_below: Bit,
+        pub raw_below: Bit,
     }
 }
 
-/// Words of `N` bits against words of `K` bits, products of `P` bits.
-#[derive(Debug)]
-pub struct SignedWords<const N: usize, const K: usize, const P: usize>;
-
-impl<const N: usize, const K: usize, const P: usize> Circuit for SignedWords<N, K, P> {
+impl Circuit for SignedWords {
     const NAME: &'static str = "signed_words";
     const ABOUT: &'static str = "every operation of signed words";
-    type In<L: Logic> = In<L, N, K>;
-    type Reg<L: Logic> = Nothing<L>;
-    type Net<L: Logic> = Net<L, N, K, P>;
+    records!(In, Nothing, Net);
 
-    fn comb<L: Logic>(&self, _: &Nothing<L>, i: &In<L, N, K>) -> Net<L, N, K, P> {
+    fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
+        let Self { n, k, p } = *self;
         let In {
             a,
             b,
             c,
             left,
             right,
-        } = i.clone();
-        let least: L::I<N> = (i64::MIN >> (64 - N)).into();
-        let greatest: L::I<N> = (i64::MAX >> (64 - N)).into();
-        let minus_one: L::I<N> = (-1).into();
+        } = i;
+        let least = I::new(i64::MIN >> (64 - n), n);
+        let greatest = I::new(i64::MAX >> (64 - n), n);
+        let minus_one = I::new(-1, n);
         let sum = a + b;
         let inner = right.mux(a - b, right.mux(b, least));
-        Net {
+        let net = Net {
             sum,
             difference: a - b,
             negated: -a,
             a_below_b: a.below(b),
             a_equals_b: a.equals(b),
             a_negative: a.is_negative(),
-            sum_negative: (a + c.resize()).is_negative(),
+            sum_negative: (a + c.resize(n)).is_negative(),
             b_zero: b.is_zero(),
-            c_resized: c.resize(),
-            a_resized: a.resize(),
-            sum_resized: (a + b + 1).resize(),
-            minus_a_resized: (-b).resize(),
-            choice_resized: left.mux(a + b, -b).resize(),
-            shift_resized: (a - b).shift_right(N / 2).resize(),
-            product_resized: a.times::<N, N>(b).resize(),
-            bits_resized: (a - b).unsigned().resize(),
-            product: a.times::<K, P>(c),
-            swapped: c.times::<N, P>(a + b),
-            square: a.times::<N, N>(a),
-            times_constant: a.times::<K, P>((-3).into()),
+            c_resized: c.resize(n),
+            a_resized: a.resize(k),
+            sum_resized: (a + b + 1).resize(k),
+            minus_a_resized: (-b).resize(k),
+            choice_resized: left.mux(a + b, -b).resize(k),
+            shift_resized: (a - b).shift_right(n / 2).resize(k),
+            product_resized: a.times(b, n).resize(k),
+            bits_resized: (a - b).unsigned().resize(k),
+            product: a.times(c, p),
+            swapped: c.times(a + b, p),
+            square: a.times(a, n),
+            times_constant: a.times(I::new(-3, k), p),
             up_one: a.shift_left(1),
-            up_last: a.shift_left(N - 1),
-            up_over: a.shift_left(N),
+            up_last: a.shift_left(n - 1),
+            up_over: a.shift_left(n),
             down_none: a.shift_right(0),
             down_one: a.shift_right(1),
-            down_last: a.shift_right(N - 1),
-            down_over: a.shift_right(N + 7),
+            down_last: a.shift_right(n - 1),
+            down_over: a.shift_right(n + 7),
             sum_down: (a + b).shift_right(1),
             down_sum: a.shift_right(1) + b.shift_right(1),
             size: a.magnitude(),
@@ -136,7 +134,7 @@ impl<const N: usize, const K: usize, const P: usize> Circuit for SignedWords<N, 
             least,
             greatest,
             minus_one,
-            plus_greatest: a + (i64::MAX >> (64 - N)),
+            plus_greatest: a + (i64::MAX >> (64 - n)),
             minus_least: a - least,
             above_least: least.below(a),
             below_minus_one: a.below(minus_one),
@@ -150,10 +148,7 @@ impl<const N: usize, const K: usize, const P: usize> Circuit for SignedWords<N, 
             sums_equal: (a + 1).equals(b - 1),
             sums_below: (a + 1).below(b - 1),
             raw_below: (a + 1).unsigned().below((b - 1).unsigned()),
-        }
-    }
-
-    fn next<L: Logic>(&self, q: Nothing<L>, _: &Net<L, N, K, P>, _: &In<L, N, K>) -> Nothing<L> {
-        q
+        };
+        (net, Nothing)
     }
 }

@@ -1,241 +1,194 @@
 //! Circuits in circuits, bundles, aliases, registers that do little.
 
-use super::memories::{self, Memories};
-use motion_rtl::kernel::{Circuit, Instance, Nothing};
-use motion_rtl::logic::{Bit, Image, Logic, Ram, Sim, Unsigned};
-use motion_rtl::signals;
+use super::memories::{self, In as BankIn, Memories};
+use motion_rtl::hdl::prelude::*;
 
 const STATES: &[&str] = &["IDLE", "GO", "HALT"];
 const SIDES: &[&str] = &["left", "right"];
 
-signals! {
-    /// A bundle.
-    pub struct Point<L> { pub x: L::I<9>, pub y: L::I<9> }
-}
-signals! {
-    /// A bundle in a bundle.
-    pub struct Line<L> { pub from: Point<L>, pub to: Point<L>, pub drawn: L::Bit }
-}
-
-signals! {
-    pub struct LeafIn<L> { pub step: L::Bit, pub line: Line<L>, pub spare: L::U<3> }
-}
-signals! {
-    pub struct LeafReg<L> {
-        pub count: L::U<6> = 9,
-        pub state: L::U<2> as States(STATES) = 1,
-        pub stored: Point<L>,
-        constant: L::U<5> = 21,
-        late: L::Bit,
-        store: L::Ram<2, 6>,
-    }
-}
-signals! {
-    pub struct LeafNet<L> {
-        pub hit: L::Bit,
-        pub same: L::U<6>,
-        pub delta: Point<L>,
-        inner: Line<L>,
-    }
-}
-
 /// A counter that two parameters and the contents of a memory make different.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Leaf {
+    /// What it counts from.
+    pub starts: u64,
     pub limit: u64,
-    pub store: Image<2, 6>,
+    pub store: Image,
+}
+
+signals! { for (Leaf, Branch, Tree) as c;
+    /// A bundle.
+    pub struct Point { pub x: I(9), pub y: I(9) }
+    /// A bundle in a bundle.
+    pub struct Line { pub from: Point(c), pub to: Point(c), pub drawn: Bit }
+    pub struct LeafIn { pub step: Bit, pub line: Line(c), pub spare: U(3) }
+}
+signals! { for Leaf as c;
+    pub struct Stored { pub x: I(9) = -7, pub y: I(9) }
+    pub struct LeafReg {
+        pub count: U(6) = c.starts,
+        pub state: U(2) as States(STATES) = 1,
+        pub stored: Stored(c),
+        constant: U(5) = 21,
+        late: Bit,
+        store: Ram(2, 6) = &c.store,
+    }
+    pub struct LeafNet {
+        pub hit: Bit,
+        pub same: U(6),
+        pub delta: Point(c),
+        inner: Line(c),
+    }
 }
 
 impl Circuit for Leaf {
     const NAME: &'static str = "leaf";
     const ABOUT: &'static str = "counts to its limit";
-    type In<L: Logic> = LeafIn<L>;
-    type Reg<L: Logic> = LeafReg<L>;
-    type Net<L: Logic> = LeafNet<L>;
+    records!(LeafIn, LeafReg, LeafNet);
 
-    fn comb<L: Logic>(&self, q: &LeafReg<L>, i: &LeafIn<L>) -> LeafNet<L> {
-        let limit = L::parameter::<6>("limit", self.limit);
+    fn tick(&self, i: LeafIn, q: LeafReg, _: Nothing) -> (LeafNet, LeafReg<Edge>) {
+        let limit = U::parameter("limit", self.limit, 6);
+        let offset = U::parameter("offset", self.limit * 3, 9).signed();
         let delta = Point {
             x: i.line.to.x - i.line.from.x,
-            y: i.line.to.y - i.line.from.y + L::parameter::<9>("offset", self.limit * 3).signed(),
+            y: i.line.to.y - i.line.from.y + offset,
         };
-        LeafNet {
-            hit: q.count.equals(limit),
+        let hit = q.count.equals(limit);
+        let read = q.store.read(q.state);
+        let next = LeafReg {
+            count: hit.mux(read, i.step.mux(q.count + 1, q.count)),
+            state: (i.step & hit).mux(q.state + 1, q.state),
+            stored: Stored {
+                x: i.line.drawn.mux(delta.x, q.stored.x),
+                y: i.line.drawn.mux(delta.y, q.stored.y),
+            },
+            constant: q.constant,
+            late: i.step,
+            store: q.store.write(hit, q.state, q.count),
+        };
+        let net = LeafNet {
+            hit,
             same: q.count,
             inner: Line {
-                from: q.stored.clone(),
+                from: Point {
+                    x: q.stored.x,
+                    y: q.stored.y,
+                },
                 to: delta.clone(),
                 drawn: q.late,
             },
             delta,
-        }
-    }
-
-    fn next<L: Logic>(&self, q: LeafReg<L>, w: &LeafNet<L>, i: &LeafIn<L>) -> LeafReg<L> {
-        let read = q.store.read(q.state);
-        LeafReg {
-            count: w.hit.mux(read, i.step.mux(q.count + 1, q.count)),
-            state: (i.step & w.hit).mux(q.state + 1, q.state),
-            stored: Point {
-                x: i.line.drawn.mux(w.delta.x, q.stored.x),
-                y: i.line.drawn.mux(w.inner.to.y, q.stored.y),
-            },
-            constant: q.constant,
-            late: i.step,
-            store: q.store.write(w.hit, q.state, q.count),
-        }
-    }
-
-    fn power_on(&self) -> LeafReg<Sim> {
-        LeafReg {
-            count: 9.into(),
-            state: 1.into(),
-            stored: Point {
-                x: (-7).into(),
-                y: 0.into(),
-            },
-            constant: 21.into(),
-            late: false.into(),
-            store: self.store.clone().into(),
-        }
-    }
-}
-
-signals! {
-    pub struct BranchReg<L> { leaves: [LeafReg<L>; 2] as Elements(SIDES), third: LeafReg<L> }
-}
-signals! {
-    pub struct BranchNet<L> {
-        leaves: [Instance<Leaf, L>; 2] as Elements(SIDES),
-        third: Instance<Leaf, L>,
-        pub any: L::Bit,
-        pub total: L::U<6>,
+        };
+        (net, next)
     }
 }
 
 /// Three leaves; the third takes what the first two give.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Branch(pub [Leaf; 3]);
+
+impl Branch {
+    /// The third leaf: the surrounding circuit knows better what it starts with.
+    fn third(&self) -> Leaf {
+        Leaf {
+            starts: 33,
+            ..self.0[2].clone()
+        }
+    }
+}
+
+signals! { for Branch as c;
+    pub struct BranchParts {
+        leaves: [Part<Leaf>(c.0[k].clone()); k in 2] as Elements(SIDES),
+        third: Part<Leaf>(c.third()),
+    }
+    pub struct BranchNet {
+        pub any: Bit,
+        pub total: U(6),
+    }
+}
 
 impl Circuit for Branch {
     const NAME: &'static str = "branch";
     const ABOUT: &'static str = "three leaves";
-    type In<L: Logic> = LeafIn<L>;
-    type Reg<L: Logic> = BranchReg<L>;
-    type Net<L: Logic> = BranchNet<L>;
+    records!(LeafIn, Nothing, BranchNet, BranchParts);
 
-    fn comb<L: Logic>(&self, q: &BranchReg<L>, i: &LeafIn<L>) -> BranchNet<L> {
-        let left = Instance::settle(&self.0[0], &q.leaves[0], i.clone());
-        let inputs = LeafIn {
+    fn tick(&self, i: LeafIn, _: Nothing, p: BranchParts) -> (BranchNet, Nothing) {
+        let stored = Point {
+            x: p.third.q.stored.x,
+            y: p.third.q.stored.y,
+        };
+        let mut leaves = p.leaves.into_iter();
+        let (left, right) = (leaves.next().expect("two"), leaves.next().expect("two"));
+        let left = left.settle(i.clone());
+        let right = right.settle(LeafIn {
             step: !i.step,
             line: Line {
                 from: left.w.delta.clone(),
-                to: q.third.stored.clone(),
+                to: stored,
                 drawn: i.line.drawn & left.w.hit,
             },
-            spare: 5.into(),
-        };
-        let right = Instance::settle(&self.0[1], &q.leaves[1], inputs);
-        let inputs = LeafIn {
+            spare: U::new(5, 3),
+        });
+        let third = p.third.settle(LeafIn {
             step: left.w.hit | right.w.hit,
             line: Line {
-                from: left.w.delta.clone(),
-                to: right.w.delta.clone(),
-                drawn: q.leaves[0].count.bit(3),
+                from: left.w.delta,
+                to: right.w.delta,
+                drawn: left.q.count.bit(3),
             },
             spare: i.spare + 1,
-        };
-        let third = Instance::settle(&self.0[2], &q.third, inputs);
-        BranchNet {
+        });
+        let net = BranchNet {
             any: left.w.hit | right.w.hit | third.w.hit,
-            total: left.w.same + right.w.same - q.third.count,
-            leaves: [left, right],
-            third,
-        }
+            total: left.w.same + right.w.same - third.q.count,
+        };
+        (net, Nothing)
     }
-
-    fn next<L: Logic>(&self, q: BranchReg<L>, w: &BranchNet<L>, _: &LeafIn<L>) -> BranchReg<L> {
-        let [left, right] = q.leaves;
-        BranchReg {
-            leaves: [
-                w.leaves[0].next(&self.0[0], left),
-                w.leaves[1].next(&self.0[1], right),
-            ],
-            third: w.third.next(&self.0[2], q.third),
-        }
-    }
-
-    fn power_on(&self) -> BranchReg<Sim> {
-        let mut third = self.0[2].power_on();
-        // The surrounding circuit knows better what this one starts with.
-        third.count = 33.into();
-        BranchReg {
-            leaves: [self.0[0].power_on(), self.0[1].power_on()],
-            third,
-        }
-    }
-}
-
-signals! {
-    pub struct TreeIn<L> { pub leaf: LeafIn<L>, pub memory: memories::In<L> }
-}
-signals! {
-    pub struct TreeReg<L> {
-        branches: [BranchReg<L>; 2],
-        banks: [memories::Reg<L>; 2] as Elements(SIDES),
-        pub last: L::Bit = 1,
-        free: FreeReg<L>,
-    }
-}
-signals! {
-    pub struct TreeNet<L> {
-        branches: [Instance<Branch, L>; 2],
-        banks: [Instance<Memories, L>; 2] as Elements(SIDES),
-        free: Instance<Free, L>,
-        pub total: L::U<6>,
-        pub word: L::U<9>,
-        pub ticks: L::U<12>,
-        copy: L::U<9>,
-    }
-}
-
-signals! {
-    pub struct FreeReg<L> { pub ticks: L::U<12> as Analog }
 }
 
 /// A counter without inputs and nets.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Free;
+
+signals! { for Free as _c;
+    pub struct FreeReg { pub ticks: U(12) as Analog }
+}
 
 impl Circuit for Free {
     const NAME: &'static str = "free";
     const ABOUT: &'static str = "counts every tick";
-    type In<L: Logic> = Nothing<L>;
-    type Reg<L: Logic> = FreeReg<L>;
-    type Net<L: Logic> = Nothing<L>;
+    records!(Nothing, FreeReg, Nothing);
 
-    fn comb<L: Logic>(&self, _: &FreeReg<L>, _: &Nothing<L>) -> Nothing<L> {
-        Nothing::new()
+    fn tick(&self, _: Nothing, q: FreeReg, _: Nothing) -> (Nothing, FreeReg<Edge>) {
+        (Nothing, FreeReg { ticks: q.ticks + 1 })
     }
+}
 
-    fn next<L: Logic>(&self, q: FreeReg<L>, _: &Nothing<L>, _: &Nothing<L>) -> FreeReg<L> {
-        FreeReg { ticks: q.ticks + 1 }
+choice! {
+    /// What stands beside the banks.
+    pub enum Beside as BesidePart {
+        /// A counter.
+        Free(Free),
+        /// A leaf that always steps.
+        Leaf(Leaf),
     }
 }
 
 /// Everything three deep.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Tree {
     branches: [Branch; 2],
     banks: [Memories; 2],
+    beside: [Beside; 2],
 }
 
 impl Tree {
     pub fn new() -> Self {
         let leaf = |limit: u64| Leaf {
+            starts: 9,
             limit,
             // One of them is empty.
-            store: Image::new((0..4).map(|word| word * (limit - 3))),
+            store: Image::of(2, 6, (0..4).map(|word| word * (limit - 3))),
         };
         Tree {
             branches: [
@@ -243,6 +196,38 @@ impl Tree {
                 Branch([leaf(40), leaf(3), leaf(63)]),
             ],
             banks: [Memories::new(1), Memories::new(2)],
+            beside: [Beside::Free(Free), Beside::Leaf(leaf(20))],
+        }
+    }
+}
+
+signals! { for Tree as c;
+    pub struct TreeIn { pub leaf: LeafIn(c), pub memory: BankIn(&c.banks[0]) }
+    pub struct TreeReg { pub last: Bit = 1 }
+    pub struct TreeParts {
+        branches: [Part<Branch>(c.branches[k].clone()); k in 2],
+        banks: [Part<Memories>(c.banks[k].clone()); k in 2] as Elements(SIDES),
+        free: BesidePart(&c.beside[0]),
+        other: BesidePart(&c.beside[1]),
+    }
+    pub struct TreeNet {
+        pub total: U(6),
+        pub word: U(9),
+        pub ticks: U(12),
+        copy: U(9),
+    }
+}
+
+/// What one of the two gives.
+fn beside(part: BesidePart, i: &LeafIn) -> U {
+    match part {
+        BesidePart::Free(part) => part.settle(Nothing).q.ticks,
+        BesidePart::Leaf(part) => {
+            let i = LeafIn {
+                step: Bit::high(),
+                ..i.clone()
+            };
+            part.settle(i).w.same.resize(12)
         }
     }
 }
@@ -250,63 +235,39 @@ impl Tree {
 impl Circuit for Tree {
     const NAME: &'static str = "tree";
     const ABOUT: &'static str = "circuits three deep";
-    type In<L: Logic> = TreeIn<L>;
-    type Reg<L: Logic> = TreeReg<L>;
-    type Net<L: Logic> = TreeNet<L>;
+    records!(TreeIn, TreeReg, TreeNet, TreeParts);
 
-    fn comb<L: Logic>(&self, q: &TreeReg<L>, i: &TreeIn<L>) -> TreeNet<L> {
-        let settle = |side: usize, i: &LeafIn<L>| {
-            Instance::settle(&self.branches[side], &q.branches[side], i.clone())
-        };
-        let first = settle(0, &i.leaf);
-        let step = LeafIn {
-            step: first.w.any,
-            ..i.leaf.clone()
-        };
-        let second = settle(1, &step);
-        let bank = |side: usize, i: &memories::In<L>| {
-            Instance::settle(&self.banks[side], &q.banks[side], i.clone())
-        };
-        let left = bank(0, &i.memory);
-        let inputs = memories::In {
-            data: left.w.read_sum,
-            ..i.memory.clone()
-        };
-        let right = bank(1, &inputs);
-        TreeNet {
-            total: first.w.total + second.w.total,
-            word: q.last.mux(left.w.rom_word, right.w.rom_word),
-            ticks: q.free.ticks,
-            copy: left.w.rom_word,
-            branches: [first, second],
-            banks: [left, right],
-            free: Instance::settle(&Free, &q.free, Nothing::new()),
+    fn tick(&self, i: TreeIn, q: TreeReg, p: TreeParts) -> (TreeNet, TreeReg<Edge>) {
+        // Each takes something from the one before it.
+        let mut step = i.leaf.step;
+        let mut total = U::new(0, 6);
+        for branch in p.branches {
+            let leaf = LeafIn {
+                step,
+                ..i.leaf.clone()
+            };
+            let settled = branch.settle(leaf);
+            step = settled.w.any;
+            total = total + settled.w.total;
         }
-    }
-
-    fn next<L: Logic>(&self, q: TreeReg<L>, w: &TreeNet<L>, i: &TreeIn<L>) -> TreeReg<L> {
-        let [first, second] = q.branches;
-        let [left, right] = q.banks;
-        TreeReg {
-            branches: [
-                w.branches[0].next(&self.branches[0], first),
-                w.branches[1].next(&self.branches[1], second),
-            ],
-            banks: [
-                w.banks[0].next(&self.banks[0], left),
-                w.banks[1].next(&self.banks[1], right),
-            ],
-            last: i.leaf.step,
-            free: w.free.next(&Free, q.free),
+        let mut data = i.memory.data;
+        let mut words = Vec::new();
+        for bank in p.banks {
+            let memory = memories::In {
+                data,
+                ..i.memory.clone()
+            };
+            let settled = bank.settle(memory);
+            data = settled.w.read_sum;
+            words.push(settled.w.rom_word);
         }
-    }
-
-    fn power_on(&self) -> TreeReg<Sim> {
-        TreeReg {
-            branches: [self.branches[0].power_on(), self.branches[1].power_on()],
-            banks: [self.banks[0].power_on(), self.banks[1].power_on()],
-            last: true.into(),
-            free: Free.power_on(),
-        }
+        let ticks = beside(p.free, &i.leaf) - beside(p.other, &i.leaf);
+        let net = TreeNet {
+            total,
+            word: q.last.mux(words[0], words[1]),
+            ticks,
+            copy: words[0],
+        };
+        (net, TreeReg { last: i.leaf.step })
     }
 }

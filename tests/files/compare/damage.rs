@@ -1,15 +1,16 @@
 //! Files that are cut off or have wrong bytes in them: an error or a report, never a panic.
 
+use motion_rtl::circuits::blocks::EnableCounter;
 use motion_rtl::compare::{Settings, compare};
-use motion_rtl::pulse_interpolator::unit_time_counter::{In, UnitTimeCounter};
 use motion_rtl::trace::{Clock, replay};
 use std::fs;
 use std::path::Path;
 
 /// A dump of 20 ticks.
 pub fn counter(directory: &Path) -> Vec<u8> {
-    let inputs = (0..20).map(|_| In { period: 3.into() });
-    let circuit = UnitTimeCounter::<8>;
+    // `period`.
+    let inputs = (0..20).map(|_| vec![3]);
+    let circuit = EnableCounter { width: 8 };
     let paths = replay(&circuit, inputs, Clock::default(), directory, "golden").unwrap();
     fs::read(&paths[0]).unwrap()
 }

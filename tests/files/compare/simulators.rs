@@ -7,18 +7,18 @@ use std::path::Path;
 use std::process::Command;
 
 const VERILOG: &str = r#"
-module unit_time_counter(input clk, input [7:0] period, output unit_rst);
+module enable_counter(input clk, input [7:0] period, output enable);
   reg [7:0] count = 0;
   wire [7:0] next = count + 1;
-  assign unit_rst = next >= period;
-  always @(posedge clk) count <= unit_rst ? 0 : next;
+  assign enable = next >= period;
+  always @(posedge clk) count <= enable ? 0 : next;
 endmodule
 
 module tb;
   reg clk = 0;
   reg [7:0] period = 3;
-  wire unit_rst;
-  unit_time_counter dut(.clk(clk), .period(period), .unit_rst(unit_rst));
+  wire enable;
+  enable_counter dut(.clk(clk), .period(period), .enable(enable));
   always #5 clk = ~clk;
   initial begin
     $dumpfile("DUMP");
@@ -45,7 +45,7 @@ fn compares(directory: &Path, dump: &str) {
     let report = compare(&golden, &directory.join(dump), &Settings::default()).unwrap();
     assert!(report.is_equal(), "{report}");
     assert_eq!((report.ticks, report.signals), (20, 4), "{report}");
-    // Golden's own next-state net, period, count and RST; held against the tick before, it differs.
+    // Golden's own next-state net, period, count and enable; held against the tick before, it differs.
     let late = Settings {
         skip: 1,
         ..Settings::default()

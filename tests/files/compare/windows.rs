@@ -1,20 +1,19 @@
 //! A window of a run counts its ticks as the run did.
 
+use motion_rtl::circuits::blocks::{EnableCounter, enable_counter::In};
 use motion_rtl::compare::{Settings, compare};
-use motion_rtl::kernel::Simulator;
-use motion_rtl::pulse_interpolator::unit_time_counter::{In, UnitTimeCounter};
+use motion_rtl::hdl::Simulator;
 use motion_rtl::trace::{Clock, Options, Vcd};
 use std::fs;
 use std::ops::Range;
 
 fn dump(ticks: Range<u64>) -> Vec<u8> {
-    let circuit = UnitTimeCounter::<8>;
+    let circuit = EnableCounter { width: 8 };
     let options = Options { ticks, only: None };
     let mut vcd = Vcd::new(Vec::new(), &circuit, Clock::default(), &options).unwrap();
-    let stimulus = |_, _: &motion_rtl::kernel::Part<'_, _>| In { period: 7.into() };
     Simulator::new(&circuit)
         .unwrap()
-        .run(20, stimulus, &mut vcd)
+        .run(20, |_, _| In { period: 7 }, &mut vcd)
         .unwrap();
     vcd.finish().unwrap()
 }

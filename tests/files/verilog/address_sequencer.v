@@ -36,8 +36,8 @@ module address_sequencer (
     wire [3:0] following = at_last && cyclic ? base : address + 4'd1;
     // A pattern runs in the unit time to come, if this is the tick of RST.
     wire go_on = due ? pending_run : state && (!at_last || cyclic);
-    assign take = unit_rst && due;
     assign next_address = go_on ? (start ? pending_base : following) : address;
+    assign take = unit_rst && due;
     assign read = unit_rst && go_on;
     assign blank = unit_rst && !go_on;
 

@@ -10,7 +10,7 @@ module pattern_memory #(
     input  wire       blank,              // Puts "no pulse" into the output registers; the direction
                                           // stays. read has priority.
     input  wire       address,            // Address of the unit time to come.
-    input  wire       write,              // Writes a word if write_axis names this axis.
+    input  wire       write,              // Writes a word of the axis that write_axis names.
     input  wire [2:0] write_axis,         // The axis written to.
     input  wire       write_address,      // Address written to.
     input  wire [3:0] write_half_period,  // Half-period written.

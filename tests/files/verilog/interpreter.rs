@@ -1,7 +1,7 @@
 //! A netlist, run node by node.
 
-use motion_rtl::kernel::{Kind, Role, Shape};
-use motion_rtl::logic::netlist::{Design, Id, Module, Node, Operator, Port, Value};
+use motion_rtl::hdl::netlist::{Design, Id, Module, Node, Operator, Port, Value};
+use motion_rtl::hdl::{Kind, Role, Shape};
 
 /// A module and those inside it, with their state and the values of the tick.
 pub struct Instance<'d> {
@@ -111,8 +111,6 @@ impl<'d> Instance<'d> {
                 let child = &self.children[instance];
                 child.module.net(leaf).map_or(0, |net| child.signal(net))
             }
-            // What an instance does is done there.
-            Node::Next(_) => 0,
             // In assertions alone, which formal tools look at.
             Node::Past(_) => 0,
             Node::Not(a) => !value(a),

@@ -3,7 +3,7 @@
 use super::interpreter::Instance;
 use super::{circuits, flat, models};
 use motion_rtl::check::Drive;
-use motion_rtl::kernel::Role;
+use motion_rtl::hdl::Role;
 use motion_rtl::registry::{AnyModel, CATALOGUE};
 use motion_rtl::trace::Clock;
 use rayon::prelude::*;
@@ -13,7 +13,11 @@ use vcd::{Command, IdCode, Parser, ScopeItem, Value};
 const TICKS: u64 = 1_500;
 
 /// The names of the variables of a dump.
-fn names(items: &[ScopeItem], around: &[&str], names: &mut HashMap<IdCode, Vec<String>>) {
+pub(super) fn names(
+    items: &[ScopeItem],
+    around: &[&str],
+    names: &mut HashMap<IdCode, Vec<String>>,
+) {
     for item in items {
         match item {
             ScopeItem::Scope(scope) => {

@@ -1,7 +1,7 @@
 //! What holds for the text of every circuit.
 
 use super::{circuits, flat};
-use motion_rtl::kernel::{Kind, Shape};
+use motion_rtl::hdl::{Kind, Shape};
 use motion_rtl::verilog::{SourceFile, Verilog};
 use std::collections::{BTreeSet, HashMap, HashSet};
 

@@ -3,9 +3,8 @@
 use super::zoo::{Zoo, inputs};
 use super::{SEED, clock, dump, run_zoo};
 use motion_rtl::files::AtomicFile;
-use motion_rtl::kernel::{Circuit, RunError, Simulator};
-use motion_rtl::logic::{Logic, Ram, Sim};
-use motion_rtl::signals;
+use motion_rtl::hdl::prelude::*;
+use motion_rtl::hdl::{RunError, State};
 use motion_rtl::trace::{Options, VcdBehind};
 use std::fs;
 use std::io::{self, Write};
@@ -16,16 +15,13 @@ use std::sync::{Arc, Condvar, Mutex};
 /// Ticks of several sections of the zoo.
 const TICKS: u64 = 20_000;
 
-fn behind<W: Write + Send + 'static>(out: W) -> VcdBehind<Zoo, W> {
+fn behind<W: Write + Send + 'static>(out: W) -> VcdBehind<W> {
     VcdBehind::new(out, &Zoo, clock(), &Options::default()).unwrap()
 }
 
-fn run<W: Write + Send + 'static>(ticks: u64, vcd: &mut VcdBehind<Zoo, W>) -> Result<(), RunError> {
+fn run<W: Write + Send + 'static>(ticks: u64, vcd: &mut VcdBehind<W>) -> Result<(), RunError> {
     let mut inputs = inputs(SEED);
-    let run = Simulator::new(&Zoo)
-        .unwrap()
-        .run(ticks, |_, _| inputs.next().unwrap(), vcd);
-    run.map(drop)
+    Simulator::new(&Zoo)?.run(ticks, |_, _| inputs.next().unwrap(), vcd)
 }
 
 #[test]
@@ -38,41 +34,38 @@ fn a_thread_writes_the_same_bytes() {
     }
 }
 
-signals! { struct WideIn<L> { address: L::U<15>, word: L::U<8> } }
-signals! { struct WideReg<L> { first: L::Ram<15, 8>, second: L::Ram<15, 8> } }
-signals! { struct WideNet<L> { read: L::U<8> } }
-
 /// Two memories, whose words are more than the changes of a section.
+#[derive(Debug, Clone)]
 struct Wide;
+
+signals! { for Wide as _c;
+    struct WideIn { address: U(15), word: U(8) }
+    struct WideReg { first: Ram(15, 8), second: Ram(15, 8) }
+    struct WideNet { read: U(8) }
+}
 
 impl Circuit for Wide {
     const NAME: &'static str = "wide";
     const ABOUT: &'static str = "has many words";
-    type In<L: Logic> = WideIn<L>;
-    type Reg<L: Logic> = WideReg<L>;
-    type Net<L: Logic> = WideNet<L>;
+    records!(WideIn, WideReg, WideNet);
 
-    fn comb<L: Logic>(&self, q: &WideReg<L>, i: &WideIn<L>) -> WideNet<L> {
-        WideNet {
-            read: q.first.read(i.address),
-        }
-    }
-
-    fn next<L: Logic>(&self, q: WideReg<L>, w: &WideNet<L>, i: &WideIn<L>) -> WideReg<L> {
-        WideReg {
-            first: q.first.write(true.into(), i.address, i.word),
-            second: q.second.write(true.into(), i.address, w.read),
-        }
+    fn tick(&self, i: WideIn, q: WideReg, _: Nothing) -> (WideNet, WideReg<Edge>) {
+        let read = q.first.read(i.address);
+        let next = WideReg {
+            first: q.first.write(Bit::high(), i.address, i.word),
+            second: q.second.write(Bit::high(), i.address, read),
+        };
+        (WideNet { read }, next)
     }
 }
 
 #[test]
 fn a_tick_with_more_changes_than_a_section() {
-    let i = || WideIn::<Sim> {
-        address: 5.into(),
-        word: 7.into(),
+    let i = || WideIn {
+        address: 5,
+        word: 7,
     };
-    let wanted = dump(&Wide, 3, clock(), i()).unwrap();
+    let wanted = dump(&Wide, 3, clock(), i).unwrap();
     let mut vcd = VcdBehind::new(Vec::new(), &Wide, clock(), &Options::default()).unwrap();
     Simulator::new(&Wide)
         .unwrap()
@@ -168,7 +161,7 @@ fn the_run_waits_for_a_slow_file() {
         let ticks = ticks.clone();
         move || {
             let mut inputs = inputs(SEED);
-            let i = |tick, _: &motion_rtl::kernel::Part<'_, _>| {
+            let i = |tick, _: &State<'_, Zoo>| {
                 ticks.store(tick, Ordering::SeqCst);
                 inputs.next().unwrap()
             };

@@ -1,53 +1,67 @@
 //! Waves of a circuit that runs with signals beside it, without these.
 
-use motion_rtl::kernel::{Beside, Simulator, With, WithIn, Without};
-use motion_rtl::logic::{Logic, Sim};
-use motion_rtl::pulse_interpolator::{UnitTimeCounter, unit_time_counter::In};
-use motion_rtl::signals;
+use super::reader;
+use motion_rtl::circuits::blocks::{EnableCounter, enable_counter::In};
+use motion_rtl::hdl::prelude::*;
+use motion_rtl::hdl::{Beside, Without, model_beside};
 use motion_rtl::trace::{Clock, Options, Vcd};
-
-signals! { pub struct Side<L> { pub speed: L::U<5>, pub stopped: L::Bit } }
 
 struct Motor;
 
+signals! { for Motor as _c;
+    pub struct Side { pub speed: U(5), pub stopped: Bit }
+}
+
 impl Beside for Motor {
     const SCOPE: &'static str = "motor";
-    type Signals<L: Logic> = Side<L>;
+    type Signals<V: View> = Side<V>;
 }
 
 const TICKS: u64 = 60;
+const COUNTER: EnableCounter = EnableCounter { width: 4 };
 
-fn i(tick: u64) -> In<Sim, 4> {
+fn i(tick: u64) -> In<Value> {
     In {
-        period: (3 + tick / 20).into(),
+        period: 3 + tick / 20,
     }
 }
 
 #[test]
 fn they_are_those_of_the_circuit_alone() {
-    let (alone, with) = (UnitTimeCounter::<4>, With::new(UnitTimeCounter::<4>));
-    let with: With<UnitTimeCounter<4>, Motor> = with;
     for ticks in [0..u64::MAX, 7..31] {
         let options = Options { ticks, only: None };
-        let begin = || Vcd::new(Vec::new(), &alone, Clock::default(), &options).unwrap();
+        let begin = || Vcd::new(Vec::new(), &COUNTER, Clock::default(), &options).unwrap();
         let (mut expected, mut vcd) = (begin(), begin());
-        let run = Simulator::new(&alone).unwrap();
-        run.run(TICKS, |tick, _| i(tick), &mut expected).unwrap();
-        let run = Simulator::new(&with).unwrap();
-        let beside = |tick: u64| Side {
-            speed: (tick * 7).into(),
-            stopped: tick.is_multiple_of(3).into(),
-        };
-        run.run(
-            TICKS,
-            |tick, _| WithIn {
-                i: i(tick),
-                beside: beside(tick),
-            },
-            Without(&mut vcd),
-        )
-        .unwrap();
-        let [expected, vcd] = [expected, vcd].map(|vcd| vcd.finish().unwrap());
+        let mut simulator = Simulator::new(&COUNTER).unwrap();
+        simulator
+            .run(TICKS, |tick, _| i(tick), &mut expected)
+            .unwrap();
+
+        let model = model_beside(&COUNTER, &Motor).unwrap();
+        let mut both = Vcd::new(Vec::new(), &model, Clock::default(), &options).unwrap();
+        let simulator = Simulator::watching_beside(&COUNTER, &Motor, true, |_| ());
+        let (mut simulator, ()) = simulator.unwrap();
+        for tick in 0..TICKS {
+            simulator.show::<Motor>(&Side {
+                speed: tick * 7,
+                stopped: tick.is_multiple_of(3),
+            });
+            let observers = (Without(&mut vcd), &mut both);
+            let stepped = simulator.step_watched(&i(tick), observers, |_| ());
+            assert!(stepped.unwrap().1.is_continue());
+        }
+        let [expected, vcd, both] = [expected, vcd, both].map(|vcd| vcd.finish().unwrap());
         assert!(expected == vcd, "{}", String::from_utf8(vcd).unwrap());
+        // In the waves of both the motor stands behind the ports in.
+        let dump = reader::read(&both).variables;
+        let alone = reader::read(&expected).variables;
+        assert_eq!(dump.len(), alone.len() + 2);
+        for (path, variable) in &alone {
+            assert!(dump[path].changes == variable.changes, "{path}");
+        }
+        for tick in options.ticks.start..options.ticks.end.min(TICKS) {
+            let speed = dump["enable_counter.motor.speed"].number_at(10 * tick);
+            assert_eq!(speed, Some(tick * 7 % 32));
+        }
     }
 }

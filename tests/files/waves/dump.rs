@@ -2,9 +2,9 @@ use super::reader::{self, Variable};
 use super::zoo::{PHASES, Part, PartIn, Zoo, inputs};
 use super::{SEED, clock, dump, options, run_zoo};
 use motion_rtl::check::Random;
+use motion_rtl::circuits::pulse_interpolator::{Group, Variant, Widths};
 use motion_rtl::files::AtomicFile;
-use motion_rtl::kernel::{Circuit, Declarations, Format, Observer, Role, RunError, Simulator};
-use motion_rtl::pulse_interpolator::{Group, Variant};
+use motion_rtl::hdl::{Circuit, Declarations, Format, Observer, Role, RunError, Simulator, Value};
 use motion_rtl::trace::{Clock, Options, Recorder, Vcd};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
@@ -21,13 +21,22 @@ fn every_leaf_is_in_the_dump_with_every_value() {
 
 #[test]
 fn the_pulse_interpolator_is_dumped_completely() {
-    let group = Group::<2, 4, 4, 2>::new(Variant::Safe, 5);
+    let widths = Widths {
+        half_period: 4,
+        period: 4,
+        address: 2,
+    };
+    let group = Group::new(2, widths, Variant::Safe, 5);
     let mut vcd = Vcd::new(Vec::new(), &group, clock(), &Options::default()).unwrap();
     let mut recorder = Recorder::new(&group, &Options::default()).unwrap();
     let mut random = Random::new(SEED);
     Simulator::new(&group)
         .unwrap()
-        .run(TICKS, |_, _| random.signals(), (&mut vcd, &mut recorder))
+        .run(
+            TICKS,
+            |_, _| random.inputs(&group),
+            (&mut vcd, &mut recorder),
+        )
         .unwrap();
     complete(&group, &vcd.finish().unwrap(), &recorder);
     let run = recorder
@@ -40,7 +49,7 @@ fn the_pulse_interpolator_is_dumped_completely() {
 }
 
 /// Holds the variables and all values of a dump against the walk and a recording.
-fn complete<C: Circuit>(circuit: &C, bytes: &[u8], recorder: &Recorder<C>) {
+fn complete<C: Circuit>(circuit: &C, bytes: &[u8], recorder: &Recorder) {
     let dump = reader::read(bytes);
     let mut expected = BTreeSet::from([format!("{}.clk", C::NAME)]);
     let leaves = Declarations::of(circuit).leaves;
@@ -123,6 +132,11 @@ fn clk_rises_with_the_tick_and_falls_half_a_period_later() {
     );
 }
 
+/// Inputs with which a part goes up.
+fn up() -> PartIn<Value> {
+    PartIn { step: 1, up: true }
+}
+
 #[test]
 fn timescales_of_all_rates() {
     let cases = [
@@ -134,11 +148,7 @@ fn timescales_of_all_rates() {
         (33_333_333, "1 FemtoSeconds", 30_000_000),
     ];
     for (hz, unit, period) in cases {
-        let i = PartIn {
-            step: 1.into(),
-            up: true.into(),
-        };
-        let bytes = dump(&Part, 3, Clock::from_hz(hz).unwrap(), i).unwrap();
+        let bytes = dump(&Part, 3, Clock::from_hz(hz).unwrap(), up).unwrap();
         let dump = reader::read(&bytes);
         assert_eq!(dump.timescale, unit, "{hz} Hz");
         let times = [
@@ -152,15 +162,7 @@ fn timescales_of_all_rates() {
         ];
         assert_eq!(dump.times, times, "{hz} Hz");
     }
-    let rounded = dump(
-        &Part,
-        1,
-        Clock::from_hz(3_000_000).unwrap(),
-        PartIn {
-            step: 1.into(),
-            up: true.into(),
-        },
-    );
+    let rounded = dump(&Part, 1, Clock::from_hz(3_000_000).unwrap(), up);
     let text = String::from_utf8(rounded.unwrap()).unwrap();
     assert!(text.contains("(rounded to an even number)"), "{text}");
 }
@@ -222,8 +224,8 @@ fn only_selects_on_component_boundaries() {
     let wrong = Vcd::new(Vec::new(), &Zoo, clock(), &options(0..10, &["zoo.lef"]));
     assert_eq!(
         wrong.unwrap_err().to_string(),
-        "no scope or signal is called zoo.lef; scopes: zoo, zoo.left, zoo.right, zoo.table, \
-         zoo.large, zoo.delay"
+        "no scope or signal is called zoo.lef; scopes: zoo, zoo.table, zoo.large, \
+         zoo.delay, zoo.left, zoo.right"
     );
 }
 
@@ -277,14 +279,13 @@ fn the_short_way_through_memories_is_the_long_way() {
         let mut inputs = inputs(SEED);
         let mut simulator = Simulator::new(&Zoo).unwrap();
         for tick in 0..TICKS {
-            let (next, seen) = simulator.step(inputs.next().unwrap(), |now| {
+            let seen = simulator.step_with(&inputs.next().unwrap(), |now| {
                 if gaps && tick % 2 == 1 {
                     return Ok(());
                 }
                 vcd.sample(now).map(|_| ())
             });
             seen.unwrap();
-            simulator = next;
         }
         reader::read(&vcd.finish().unwrap()).variables
     };
@@ -303,12 +304,11 @@ fn the_short_way_through_memories_is_the_long_way() {
 #[test]
 fn a_tick_that_comes_twice_is_an_error() {
     let mut vcd = Vcd::new(Vec::new(), &Zoo, clock(), &Options::default()).unwrap();
-    let (_, twice) = Simulator::new(&Zoo)
-        .unwrap()
-        .step(inputs(SEED).next().unwrap(), |now| {
-            assert!(vcd.sample(now).unwrap().is_continue());
-            vcd.sample(now).unwrap_err().to_string()
-        });
+    let mut simulator = Simulator::new(&Zoo).unwrap();
+    let twice = simulator.step_with(&inputs(SEED).next().unwrap(), |now| {
+        assert!(vcd.sample(now).unwrap().is_continue());
+        vcd.sample(now).unwrap_err().to_string()
+    });
     assert!(twice.contains("tick 0 comes twice"), "{twice}");
 }
 
@@ -346,13 +346,9 @@ fn a_full_disk_is_an_error_of_the_run_or_of_its_end() {
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
 
     let mut short = Vcd::new(Full(10, io::sink()), &Part, clock(), &Options::default()).unwrap();
-    let i = |_, _: &motion_rtl::kernel::Part<'_, _>| PartIn {
-        step: 1.into(),
-        up: true.into(),
-    };
     Simulator::new(&Part)
         .unwrap()
-        .run(2, i, &mut short)
+        .run(2, |_, _| up(), &mut short)
         .unwrap();
     let error = short.finish().map(|_| ()).unwrap_err();
     assert_eq!(error.kind(), io::ErrorKind::StorageFull);

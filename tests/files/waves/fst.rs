@@ -4,7 +4,7 @@ use super::reader::{self, Dump};
 use super::zoo::{Part, PartIn, Zoo, inputs};
 use super::{SEED, clock, options};
 use motion_rtl::files::AtomicFile;
-use motion_rtl::kernel::Simulator;
+use motion_rtl::hdl::Simulator;
 use motion_rtl::trace::{Clock, Fst, Options, Vcd};
 use std::fs::{self, File};
 use std::io::{self, Cursor};
@@ -84,10 +84,7 @@ fn windows_selections_and_clocks_are_as_in_the_vcd() {
 /// A section ends with its ticks, too, where hardly anything changes.
 #[test]
 fn a_quiet_run_has_sections_of_its_own() {
-    let i = || PartIn {
-        step: 0.into(),
-        up: true.into(),
-    };
+    let i = || PartIn { step: 0, up: true };
     let options = Options::default();
     let mut fst = Fst::new(Cursor::new(Vec::new()), &Part, clock(), &options).unwrap();
     let ticks = 100_000;

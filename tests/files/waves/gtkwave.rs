@@ -1,9 +1,9 @@
 //! GTKWave itself reads what is written for it.
 
-use super::zoo::{Zoo, inputs};
+use super::zoo::{Zoo, inputs, words};
 use super::{SEED, clock, fst, reader, run_zoo};
 use motion_rtl::compare::{Settings, compare};
-use motion_rtl::kernel::{Declaration, Format, Kind};
+use motion_rtl::hdl::{Declaration, Format, Kind};
 use motion_rtl::trace::{Options, Recorder, replay};
 use std::fs;
 use std::path::Path;
@@ -76,7 +76,7 @@ fn show(directory: &Path, save: &Path, picture: &str) -> String {
 fn gtkwave_shows_every_signal_of_the_save_file_with_its_values() {
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("gtkwave");
     fs::create_dir_all(&directory).unwrap();
-    let inputs = inputs(SEED).take(TICKS as usize);
+    let inputs = inputs(SEED).take(TICKS as usize).map(|i| words(&i));
     let paths = replay(&Zoo, inputs, clock(), &directory, "zoo").unwrap();
     show(&directory, &paths[1], "as_saved.png");
 
@@ -118,7 +118,7 @@ fn gtkwave_shows_every_signal_of_the_save_file_with_its_values() {
 }
 
 /// What GTKWave shows of a signal or of a state's name.
-fn expected(recorder: &Recorder<Zoo>, tick: u64, path: &str) -> String {
+fn expected(recorder: &Recorder, tick: u64, path: &str) -> String {
     if path == "zoo.clk" {
         return "1".to_owned();
     }

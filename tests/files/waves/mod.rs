@@ -14,7 +14,7 @@ mod text;
 mod watched;
 mod zoo;
 
-use motion_rtl::kernel::{Circuit, RunError, Simulator};
+use motion_rtl::hdl::{Circuit, RunError, Simulator, Value};
 use motion_rtl::trace::{Clock, Options, Recorder, Vcd};
 use std::ops::Range;
 use zoo::{Zoo, inputs};
@@ -34,7 +34,7 @@ fn options(ticks: Range<u64>, only: &[&str]) -> Options {
 }
 
 /// Runs the zoo on random inputs and returns its dump and its recording.
-fn run_zoo(ticks: u64, options: &Options) -> (Vec<u8>, Recorder<Zoo>) {
+fn run_zoo(ticks: u64, options: &Options) -> (Vec<u8>, Recorder) {
     let mut vcd = Vcd::new(Vec::new(), &Zoo, clock(), options).unwrap();
     let mut recorder = Recorder::new(&Zoo, &Options::default()).unwrap();
     let mut inputs = inputs(SEED);
@@ -49,20 +49,15 @@ fn run_zoo(ticks: u64, options: &Options) -> (Vec<u8>, Recorder<Zoo>) {
     (vcd.finish().unwrap(), recorder)
 }
 
-/// Runs a circuit without ports in and returns its dump.
+/// Runs a circuit on the same inputs in every tick and returns its dump.
 fn dump<C: Circuit>(
     circuit: &C,
     ticks: u64,
     clock: Clock,
-    i: C::In<motion_rtl::logic::Sim>,
-) -> Result<Vec<u8>, RunError>
-where
-    C::In<motion_rtl::logic::Sim>: Clone,
-{
-    let mut vcd =
-        Vcd::new(Vec::new(), circuit, clock, &Options::default()).map_err(std::io::Error::from)?;
-    Simulator::new(circuit)
-        .unwrap()
-        .run(ticks, |_, _| i.clone(), &mut vcd)?;
+    i: impl Fn() -> C::In<Value>,
+) -> Result<Vec<u8>, RunError> {
+    let options = Options::default();
+    let mut vcd = Vcd::new(Vec::new(), circuit, clock, &options).map_err(std::io::Error::from)?;
+    Simulator::new(circuit)?.run(ticks, |_, _| i(), &mut vcd)?;
     Ok(vcd.finish()?)
 }

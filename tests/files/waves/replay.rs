@@ -1,6 +1,6 @@
-use super::zoo::{Part, PartIn, Zoo, inputs};
+use super::zoo::{Part, Zoo, inputs, words};
 use super::{SEED, clock, reader, run_zoo};
-use motion_rtl::kernel::RunError;
+use motion_rtl::hdl::RunError;
 use motion_rtl::trace::{Options, gtkw, replay};
 use std::fs;
 use std::io;
@@ -8,14 +8,8 @@ use std::io;
 #[test]
 fn a_replay_writes_the_dump_and_its_save_file() {
     let directory = tempfile::tempdir().unwrap();
-    let paths = replay(
-        &Zoo,
-        inputs(SEED).take(50),
-        clock(),
-        directory.path(),
-        "zoo",
-    )
-    .unwrap();
+    let inputs = inputs(SEED).take(50).map(|i| words(&i));
+    let paths = replay(&Zoo, inputs, clock(), directory.path(), "zoo").unwrap();
     assert_eq!(
         paths,
         ["zoo.vcd", "zoo.gtkw"].map(|name| directory.path().join(name))
@@ -94,12 +88,8 @@ fn groups_are_closed_in_the_order_in_which_they_were_opened() {
 #[test]
 fn a_failed_replay_leaves_nothing() {
     let directory = tempfile::tempdir().unwrap();
-    let i = || {
-        std::iter::once(PartIn {
-            step: 1.into(),
-            up: true.into(),
-        })
-    };
+    // `step` and `up`.
+    let i = || [vec![1, 1]];
     let nowhere = directory.path().join("missing");
     let error = replay(&Part, i(), clock(), &nowhere, "part").unwrap_err();
     assert!(matches!(&error, RunError::Waves(error) if error.kind() == io::ErrorKind::NotFound));

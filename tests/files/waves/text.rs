@@ -1,14 +1,14 @@
 use super::zoo::{Part, PartIn};
 use super::{SEED, options, run_zoo};
 use expect_test::expect;
-use motion_rtl::kernel::Simulator;
+use motion_rtl::hdl::{Simulator, State};
 use motion_rtl::trace::{Options, RecordError, Recorder, text};
 
-fn part(ticks: u64) -> Recorder<Part> {
+fn part(ticks: u64) -> Recorder {
     let mut recorder = Recorder::new(&Part, &Options::default()).unwrap();
-    let stimulus = |tick: u64, _: &motion_rtl::kernel::Part<'_, _>| PartIn {
-        step: (tick / 3 + 1).into(),
-        up: (tick % 4 == 3).into(),
+    let stimulus = |tick: u64, _: &State<'_, Part>| PartIn {
+        step: tick / 3 + 1,
+        up: tick % 4 == 3,
     };
     Simulator::new(&Part)
         .unwrap()
@@ -64,10 +64,7 @@ fn words_of_memories_that_hold_still_are_left_out() {
 #[test]
 fn a_recorder_keeps_its_window_and_its_signals() {
     let mut recorder = Recorder::new(&Part, &options(5..9, &["part.level", "part.up"])).unwrap();
-    let stimulus = |_, _: &motion_rtl::kernel::Part<'_, _>| PartIn {
-        step: 1.into(),
-        up: true.into(),
-    };
+    let stimulus = |_: u64, _: &State<'_, Part>| PartIn { step: 1, up: true };
     Simulator::new(&Part)
         .unwrap()
         .run(20, stimulus, &mut recorder)

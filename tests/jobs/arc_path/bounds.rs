@@ -1,8 +1,7 @@
 //! The bound of the rotation, against rotations of integers.
 
 use super::*;
-use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::jobs::arc_generator::bounds::{command_error, rotation_error};
 use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::reference::{Decoded, commands};
@@ -12,7 +11,7 @@ use std::f64::consts::TAU;
 
 /// The points of a rotation's record in guard units, in `i128`.
 fn rotated(record: &Record, steps: u64, widths: &Widths, rounding: Rounding) -> Vec<[i128; 3]> {
-    let word = |index: usize, bits: u32| {
+    let word = |index: usize, bits: usize| {
         let value = i128::from(record.words[index]) % (1 << bits);
         if value >= 1 << (bits - 1) {
             value - (1 << bits)
@@ -67,7 +66,7 @@ fn part_of_bound(
             .all(|(a, b)| *a == b.map(i128::from))
     );
     let (unit, commands) = (
-        (-f64::from(widths.guard())).exp2(),
+        (-(widths.guard() as f64)).exp2(),
         commands(&[record], widths, rounding),
     );
     let (mut worst, mut last) = (0.0f64, 0.0);
@@ -152,7 +151,7 @@ fn small_words_stay_within_their_bound() {
             for rounding in [Rounding::Nearest, Rounding::Floor] {
                 let step = TAU / 60.0;
                 let arc = ([0.0, 1.0, -2.0], radius);
-                part_of_bound([u, v, w], arc, (step, steps), &Widths::EIGHT, rounding);
+                part_of_bound([u, v, w], arc, (step, steps), &Widths::narrow(8), rounding);
             }
         }
     }
@@ -175,7 +174,7 @@ proptest! {
     #[test]
     fn coarse_coefficients_stay_within_their_bound(
         frame in frames(),
-        coefficient in 12u32..30,
+        coefficient in 12usize..30,
         (radius, step, steps) in turns(),
         rounding in roundings(),
     ) {

@@ -1,8 +1,7 @@
 //! Part programs, from their text to position commands.
 
 use super::*;
-use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::input::read_text;
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::record::records;

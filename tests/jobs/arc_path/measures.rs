@@ -1,8 +1,7 @@
 //! Measures of commands, against what the geometry says.
 
 use super::*;
-use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::jobs::arc_generator::bounds::command_error;
 use motion_rtl::jobs::arc_generator::measure::Measured;
 use motion_rtl::jobs::arc_generator::prepare::prepare;

@@ -1,8 +1,7 @@
 //! Records, played by a difference engine of `i128` and compared with the polynomials.
 
 use super::*;
-use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::reference::{Decoded, commands};
@@ -12,7 +11,7 @@ const FULL: Widths = Widths::FULL;
 
 /// Counts per mm at which a millimetre is a guard unit.
 fn unit(widths: &Widths) -> f64 {
-    (-f64::from(widths.guard())).exp2()
+    (-(widths.guard() as f64)).exp2()
 }
 
 fn record_of(shape: Shape, samples: u64, widths: &Widths) -> Record {
@@ -121,8 +120,8 @@ fn small_blends_are_their_polynomial_at_every_sample() {
 fn small_words_hold_their_blends() {
     for a in -16..16 {
         for b in -16..16 {
-            blend_is_its_polynomial([[a, b, -a], [b, a, a], [-b, 0, b]], 4, &Widths::FOUR);
-            blend_is_its_polynomial([[a, b, -a], [b, a, a], [-b, 0, b]], 16, &Widths::EIGHT);
+            blend_is_its_polynomial([[a, b, -a], [b, a, a], [-b, 0, b]], 4, &Widths::narrow(4));
+            blend_is_its_polynomial([[a, b, -a], [b, a, a], [-b, 0, b]], 16, &Widths::narrow(8));
         }
     }
 }

@@ -1,8 +1,7 @@
 //! Every refusal, with its text; and that what is said to be allowed is.
 
 use super::*;
-use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::record::records;
 use motion_rtl::jobs::arc_generator::settings::Settings;
@@ -192,7 +191,7 @@ fn a_coordinate_too_far() {
     let path = prepare(A, &[line([8388.608, 0.0, 0.0], 900.0)], &timing(4)).unwrap();
     assert!(records(&path, 1000.0, &Widths::FULL, Rounding::Nearest).is_err());
     assert!(
-        reach(&[line([20.0, 0.0, 0.0], 100.0)], 1.0, &Widths::FOUR)
+        reach(&[line([20.0, 0.0, 0.0], 100.0)], 1.0, &Widths::narrow(4))
             .to_string()
             .contains("needs W = 6")
     );

@@ -1,7 +1,6 @@
 //! Scenarios of the arc generator: keys, defaults, and faults with their lines.
 
-use motion_rtl::arc_generator::Rounding;
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::settings::{Settings, ShortPieces};
 use motion_rtl::path::pieces::{Taught, from_points};

@@ -1,6 +1,6 @@
 //! Settings: every field's limits, with their texts.
 
-use motion_rtl::arc_generator::widths::Widths;
+use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::jobs::arc_generator::settings::Settings;
 use motion_rtl::settings::SettingError;
 
@@ -106,8 +106,8 @@ fn decimal_fractions_are_whole_samples() {
 #[test]
 fn the_longest_blend_is_that_of_the_modulus() {
     assert_eq!(FULL.most_blend_samples(), 1024);
-    assert_eq!(Widths::EIGHT.most_blend_samples(), 16);
-    assert_eq!(Widths::FOUR.most_blend_samples(), 4);
+    assert_eq!(Widths::narrow(8).most_blend_samples(), 16);
+    assert_eq!(Widths::narrow(4).most_blend_samples(), 4);
     assert_eq!((FULL.guard(), FULL.coefficient_fraction()), (16, 40));
     assert_eq!(FULL.reach(), 8_388_607);
     assert!(FULL.holds(8_388_607.4) && !FULL.holds(8_388_607.5));

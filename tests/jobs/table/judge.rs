@@ -1,9 +1,9 @@
 //! Judges a table by playing it tick by tick, with nothing of the compiler's own accounts.
 
+use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::input::{Course, Drawing, Move, Point};
 use motion_rtl::jobs::pulse_interpolator::{Report, Settings, StepTiming, Table, compile};
 use motion_rtl::plan::Plan;
-use motion_rtl::pulse_interpolator::counts;
 
 pub fn line(x: f64, y: f64) -> Move {
     Move {

@@ -1,10 +1,10 @@
 //! Random paths under random settings.
 
 use super::judge::{drawing, run};
+use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::input::{Course, Drawing, Move, Point};
 use motion_rtl::jobs::pulse_interpolator::{Settings, StepTiming};
 use motion_rtl::plan::MotionLimits;
-use motion_rtl::pulse_interpolator::counts;
 use proptest::prelude::*;
 
 /// A random path: chained lines and arcs, each arc by an angle about a centre.

@@ -1,6 +1,7 @@
 //! Profiles: limits, continuity, and time against the fastest there is.
 
 use super::{config, spans};
+use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::jobs::trajectory_controller::planner::plan;
 use motion_rtl::jobs::trajectory_controller::profile::{Cubic, Profile};
 use motion_rtl::jobs::trajectory_controller::ramp::Slope;
@@ -9,7 +10,6 @@ use motion_rtl::jobs::trajectory_controller::settings::Settings;
 use motion_rtl::jobs::trajectory_controller::speed_limits::{self, Span};
 use motion_rtl::path::circle::Circle;
 use motion_rtl::path::pieces::{Course, Piece};
-use motion_rtl::trajectory_controller::widths::Widths;
 use proptest::prelude::*;
 
 fn joints(spans: &[Span]) -> Vec<f64> {

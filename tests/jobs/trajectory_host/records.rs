@@ -1,13 +1,13 @@
 //! Records of profiles, played by integers, against the profiles themselves.
 
 use super::{config, spans};
+use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::jobs::trajectory_controller::planner::plan;
 use motion_rtl::jobs::trajectory_controller::profile::Profile;
 use motion_rtl::jobs::trajectory_controller::profile_record::{lengths, records};
 use motion_rtl::jobs::trajectory_controller::ramp::Slope;
 use motion_rtl::jobs::trajectory_controller::speed_limits::Span;
 use motion_rtl::path::record::Record;
-use motion_rtl::trajectory_controller::widths::Widths;
 use proptest::prelude::*;
 
 /// Number of `bits` in two's complement.

@@ -1,10 +1,10 @@
 //! Paths as segments: their words, as the circuit reads them, against the pieces.
 
 use super::config;
+use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::jobs::trajectory_controller::segments::{Path, Segment};
 use motion_rtl::path::circle::Circle;
 use motion_rtl::path::pieces::{Course, Piece};
-use motion_rtl::trajectory_controller::widths::Widths;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

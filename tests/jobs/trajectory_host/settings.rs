@@ -1,9 +1,9 @@
 //! Settings: what is refused, and what gains make of a target.
 
 use super::config;
+use motion_rtl::circuits::trajectory_controller::Rounding;
+use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::jobs::trajectory_controller::settings::{Correction, Settings};
-use motion_rtl::trajectory_controller::Rounding;
-use motion_rtl::trajectory_controller::widths::Widths;
 use proptest::prelude::*;
 
 const WIDTHS: Widths = Widths::FULL;

@@ -58,7 +58,7 @@ fn in_periods_of_a_millisecond() {
             [0.0; 3],
             &[arc(10.0, TAU, 100.0)],
             &settings(),
-            machine,
+            &machine,
             correction,
         );
         let (measured, steady) = (run.measured(), run.steady());
@@ -119,7 +119,7 @@ fn in_short_periods_as_the_continuous_forms_say() {
             [0.0; 3],
             &[arc(10.0, 2.8, 100.0)],
             &settings,
-            machine,
+            &machine,
             correction,
         );
         let steady = run.steady();
@@ -145,7 +145,7 @@ fn continuous(correction: Correction, omega: f64, k1: f64, k2: f64) -> f64 {
     }
 }
 
-impl<const AXES: usize> Run<AXES> {
+impl Run {
     pub fn steady(&self) -> Steady {
         Steady::of(&self.program, &self.played).unwrap()
     }
@@ -154,7 +154,7 @@ impl<const AXES: usize> Run<AXES> {
     pub fn off_model(&self) -> [f64; 2] {
         let mut worst = [0.0f64; 2];
         for period in &self.played.periods {
-            for axis in 0..AXES {
+            for axis in 0..self.played.axes {
                 let model = period.model[axis] as f64 / COUNT;
                 worst[0] = worst[0].max((period.motor[axis] as f64 - model).abs());
                 worst[1] = worst[1].max((period.load[axis] - model).abs());

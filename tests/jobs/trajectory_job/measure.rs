@@ -7,7 +7,7 @@ use motion_rtl::jobs::trajectory_controller::segments::Path;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-impl<const AXES: usize> Run<AXES> {
+impl Run {
     pub fn measured(&self) -> Measured {
         Measured::of(&self.program, &self.played).unwrap()
     }
@@ -63,7 +63,7 @@ proptest! {
 }
 
 /// A run that never was: everything is beside the path by its normal, and behind its command.
-fn beside(program: &Program, off_mm: [f64; 3], behind_mm: f64) -> Played<2> {
+fn beside(program: &Program, off_mm: [f64; 3], behind_mm: f64) -> Played {
     let path = &program.path;
     let steps = 900;
     let periods = (0..=steps).map(|k| {
@@ -75,23 +75,24 @@ fn beside(program: &Program, off_mm: [f64; 3], behind_mm: f64) -> Played<2> {
         let way = off(here, next);
         let normal = [(next[1] - here[1]) / way, (here[0] - next[0]) / way];
         let place = |axis: usize, mm: f64| path.point(at)[axis] + normal[axis] * mm * MM;
-        let each = |mm: f64| [place(0, mm), place(1, mm)];
+        let each = |mm: f64| [place(0, mm), place(1, mm), 0.0];
         Period {
             tick: 1000 + k as u64,
             length: length as i64,
             answered: at as i64,
-            command: [command[0] as i64, command[1] as i64],
-            reference: [0; 2],
-            response: [0; 2],
-            corrected: [0; 2],
+            command: [command[0] as i64, command[1] as i64, 0],
+            reference: [0; 3],
+            response: [0; 3],
+            corrected: [0; 3],
             model: each(off_mm[0]).map(|units| units as i64),
             motor: each(off_mm[1]).map(|units| (units / COUNT).round() as i64),
             load: each(off_mm[2]).map(|units| units / COUNT),
-            torque: [k as i64 - 300, 7],
-            saturated: [k % 3 == 0, false],
+            torque: [k as i64 - 300, 7, 0],
+            saturated: [k % 3 == 0, false, false],
         }
     });
     Played {
+        axes: 2,
         periods: periods.collect(),
         ..Played::default()
     }
@@ -152,7 +153,7 @@ fn what_is_beside_the_path_is_measured_so() {
 fn a_run_without_periods_has_no_measures() {
     let machine = [TwoMassParameters::default(); 2];
     let program = Program::of([0.0; 3], &pieces(), &settings(), &machine, &Widths::FULL).unwrap();
-    assert_eq!(Measured::of(&program, &Played::<2>::default()), None);
+    assert_eq!(Measured::of(&program, &Played::default()), None);
 }
 
 /// There and back, what is there belongs to the way that is under way.
@@ -161,7 +162,7 @@ fn a_path_that_meets_itself_is_measured_where_it_is() {
     let there_and_back = [line([20.0, 0.0, 0.0], 100.0), line([0.0; 3], 100.0)];
     for pieces in [&pieces()[..], &there_and_back] {
         let machine = [TwoMassParameters::default(); 2];
-        let run = run([0.0; 3], pieces, &settings(), machine, Correction::Vector);
+        let run = run([0.0; 3], pieces, &settings(), &machine, Correction::Vector);
         let measured = run.measured();
         for errors in [&measured.model, &measured.motor, &measured.load] {
             for (deviation, period) in errors.deviations.iter().zip(&run.played.periods) {

@@ -6,12 +6,12 @@ mod paths;
 mod refusals;
 mod servo;
 
-use motion_rtl::jobs::trajectory_controller::job::{Controller, Played, Program, play};
+use motion_rtl::circuits::trajectory_controller::Widths;
+use motion_rtl::jobs::trajectory_controller::job::{Played, Program, controller, play};
 use motion_rtl::jobs::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
 use motion_rtl::path::circle::Circle;
 use motion_rtl::path::pieces::{Course, Piece};
 use motion_rtl::plant::{TwoMassAxis, TwoMassParameters};
-use motion_rtl::trajectory_controller::widths::Widths;
 
 type Point = [f64; 3];
 
@@ -52,23 +52,28 @@ fn arc(radius: f64, angle: f64, speed: f64) -> Piece {
 }
 
 /// What is run, and what came of it.
-struct Run<const AXES: usize> {
+struct Run {
     program: Program,
-    played: Played<AXES>,
+    played: Played,
 }
 
-fn run<const AXES: usize>(
+/// Motors and loads at rest.
+fn plants(machine: &[TwoMassParameters], tick_s: f64) -> Vec<TwoMassAxis> {
+    let plants = machine.iter().map(|axis| TwoMassAxis::new(axis, tick_s));
+    plants.collect::<Result<_, _>>().unwrap()
+}
+
+fn run(
     start: Point,
     pieces: &[Piece],
     settings: &Settings,
-    machine: [TwoMassParameters; AXES],
+    machine: &[TwoMassParameters],
     correction: Correction,
-) -> Run<AXES> {
-    let program = Program::of(start, pieces, settings, &machine, &Widths::FULL).unwrap();
+) -> Run {
+    let program = Program::of(start, pieces, settings, machine, &Widths::FULL).unwrap();
     let tick_s = 1.0 / settings.clock_hz as f64;
-    let plants = machine.map(|axis| TwoMassAxis::new(&axis, tick_s).unwrap());
-    let circuit = Controller::<AXES>::new(correction, settings.rounding);
-    let played = play(&circuit, &program, plants, ()).unwrap();
+    let circuit = controller(machine.len(), correction, settings.rounding);
+    let played = play(&circuit, &program, plants(machine, tick_s), ()).unwrap();
     assert!(!played.late && !played.starved && !played.lost);
     Run { program, played }
 }

@@ -25,13 +25,13 @@ impl Model {
 const ROUNDING: f64 = 160.0;
 
 /// The circuit, period by period, against the profile and equations (1) to (8).
-fn check<const AXES: usize>(run: &Run<AXES>, correction: Correction) {
+fn check(run: &Run, correction: Correction) {
     let Run { program, played } = run;
     let whole = lengths(&program.records, &Widths::FULL);
     let gains = [program.gains.k1, program.gains.k2].map(|word| word as f64 / 32_768.0);
     let mut tangential = Model::default();
-    let mut responses = [Model::default(); AXES];
-    let mut models = [Model::default(); AXES];
+    let mut responses = [Model::default(); 3];
+    let mut models = [Model::default(); 3];
     let origin = program.path.point(0.0);
     for (n, period) in played.periods.iter().enumerate() {
         let [exact, ..] = program.profile.at(n as f64 * program.motion.period);
@@ -47,7 +47,7 @@ fn check<const AXES: usize>(run: &Run<AXES>, correction: Correction) {
             Correction::Steady => period.length as f64,
             _ => answered,
         });
-        for axis in 0..AXES {
+        for axis in 0..played.axes {
             let command = command[axis] - origin[axis];
             let response = responses[axis].step(command, gains);
             let corrected = match correction {
@@ -97,7 +97,7 @@ fn a_corner() {
                 [0.0; 3],
                 &corner,
                 &settings,
-                [Default::default(); 2],
+                &[Default::default(); 2],
                 correction,
             );
             check(&run, correction);
@@ -131,7 +131,7 @@ fn micro_segments_are_run_as_the_arc_they_are_of() {
             [0.0; 3],
             &chords,
             &settings(),
-            [Default::default(); 2],
+            &[Default::default(); 2],
             correction,
         );
         check(&run, correction);
@@ -176,7 +176,7 @@ fn three_axes_from_a_start_that_is_not_zero() {
             start,
             &pieces,
             &settings,
-            [Default::default(); 3],
+            &[Default::default(); 3],
             correction,
         );
         check(&run, correction);

@@ -1,19 +1,20 @@
 //! Torque limit, friction, and how long a period is at least.
 
 use super::*;
-use motion_rtl::kernel::{Observer, RunError, Sample};
+use motion_rtl::circuits::trajectory_controller::TrajectoryController;
+use motion_rtl::hdl::{Observer, RunError, Sample};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 /// A line that asks for 3.8 N·m at 2000 mm/s².
-fn line_with(torque: f64) -> Run<2> {
+fn line_with(torque: f64) -> Run {
     let weak = TwoMassParameters {
         max_torque_nm: torque,
         ..TwoMassParameters::default()
     };
     let machine = [weak, TwoMassParameters::default()];
     let pieces = [line([40.0, 0.0, 0.0], 150.0)];
-    run([0.0; 3], &pieces, &settings(), machine, Correction::Vector)
+    run([0.0; 3], &pieces, &settings(), &machine, Correction::Vector)
 }
 
 #[test]
@@ -57,7 +58,13 @@ fn friction_is_what_the_integral_is_for() {
         ..TwoMassParameters::default()
     };
     let pieces = [line([30.0, 20.0, 0.0], 100.0)];
-    let run = run([0.0; 3], &pieces, &settings(), [dry; 2], Correction::Vector);
+    let run = run(
+        [0.0; 3],
+        &pieces,
+        &settings(),
+        &[dry; 2],
+        Correction::Vector,
+    );
     let measured = run.measured();
     assert!(run.played.settled);
     let (peak, last) = (measured.motor.contour.mm, measured.motor.final_mm);
@@ -72,30 +79,32 @@ struct Latency {
     seen: BTreeSet<u64>,
 }
 
-impl<const AXES: usize> Observer<Controller<AXES>> for &mut Latency {
-    fn sample(&mut self, now: &Sample<'_, Controller<AXES>>) -> Result<ControlFlow<()>, RunError> {
-        if now.w.period_counter.w.enable.get() {
+impl Observer<TrajectoryController> for Latency {
+    fn sample(
+        &mut self,
+        now: &Sample<'_, TrajectoryController>,
+    ) -> Result<ControlFlow<()>, RunError> {
+        if now.see(|s| s.p.period_counter.w.enable) {
             self.began = Some(now.tick);
         }
-        if let (true, Some(began)) = (now.w.axes[0].w.driven.get(), self.began) {
+        if let (true, Some(began)) = (now.see(|s| s.p.axes[0].w.driven), self.began) {
             self.seen.insert(now.tick - began);
         }
         Ok(ControlFlow::Continue(()))
     }
 }
 
-fn latency<const AXES: usize>(pieces: &[Piece], correction: Correction) -> BTreeSet<u64> {
+fn latency(axes: usize, pieces: &[Piece], correction: Correction) -> BTreeSet<u64> {
     // Twice as long as needed, for what is late to be seen as late.
     let settings = Settings {
         clock_hz: 2000 * LEAST_PERIOD_TICKS,
         ..settings()
     };
-    let machine = [TwoMassParameters::default(); AXES];
+    let machine = vec![TwoMassParameters::default(); axes];
     let program = Program::of([0.0; 3], pieces, &settings, &machine, &Widths::FULL).unwrap();
-    let plants = machine.map(|axis| TwoMassAxis::new(&axis, 1e-6).unwrap());
     let mut latency = Latency::default();
-    let circuit = Controller::<AXES>::new(correction, settings.rounding);
-    play(&circuit, &program, plants, &mut latency).unwrap();
+    let circuit = controller(axes, correction, settings.rounding);
+    play(&circuit, &program, plants(&machine, 1e-6), &mut latency).unwrap();
     latency.seen
 }
 
@@ -105,12 +114,14 @@ fn torques_come_at_the_same_tick_of_every_period() {
     for correction in ALL {
         let [small, large] = [1e-4, 1.0].map(|radius| [arc(radius, 3.0, 100.0)]);
         let straight = [line([3.0, 4.0, 0.0], 100.0)];
-        let flat = BTreeSet::from([Controller::<2>::LATENCY]);
+        let due = |axes| {
+            let circuit = controller(axes, correction, settings().rounding);
+            BTreeSet::from([circuit.latency()])
+        };
         for pieces in [&small, &large, &straight] {
-            assert_eq!(latency::<2>(pieces, correction), flat);
+            assert_eq!(latency(2, pieces, correction), due(2));
         }
-        let seen = latency::<3>(&large, correction);
-        assert_eq!(seen, BTreeSet::from([Controller::<3>::LATENCY]));
+        assert_eq!(latency(3, &large, correction), due(3));
+        assert_eq!(due(3), BTreeSet::from([LEAST_PERIOD_TICKS + 1]));
     }
-    assert_eq!(Controller::<3>::LATENCY, LEAST_PERIOD_TICKS + 1);
 }

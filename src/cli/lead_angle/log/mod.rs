@@ -9,11 +9,12 @@ use crate::cli::files::Files;
 use crate::cli::report::{Outcome, conclude};
 use crate::cli::run::{Arguments, Progress};
 use crate::cli::traces::{Traces, no_such_tick};
+use motion_rtl::hdl::{RunError, model_beside};
 use motion_rtl::input::position_log::PositionLog;
-use motion_rtl::jobs::lead_angle::job::{JobLead, RamLead, ShiftLead, positioner};
+use motion_rtl::jobs::lead_angle::job::positioner;
 use motion_rtl::jobs::lead_angle::replay::{Replayed, Signal, replay, settings_for};
-use motion_rtl::jobs::lead_angle::settings::{History, Settings};
-use motion_rtl::kernel::Without;
+use motion_rtl::jobs::lead_angle::settings::Settings;
+use motion_rtl::plant::waves::Body;
 use motion_rtl::trace::Options;
 use serde::Serialize;
 
@@ -70,10 +71,6 @@ pub fn run(
     let settings = settings_for(log, &job.settings);
     let ticks = ticks(log, settings.clock_hz);
     no_such_tick(options, ticks)?;
-    let simulate = match settings.history {
-        History::ShiftRegister => simulate::<ShiftLead>,
-        History::Ram => simulate::<RamLead>,
-    };
     let (replayed, mut files) = simulate(arguments, job, &settings, log, options)?;
     files.write("svg", &picture::draw(job, log, &settings, &replayed))?;
     let summary = summary(log, &settings, &replayed);
@@ -81,24 +78,25 @@ pub fn run(
 }
 
 /// Replays it with these settings.
-fn simulate<P: JobLead>(
+fn simulate(
     arguments: &Arguments,
     job: &Job,
     settings: &Settings,
     log: &PositionLog,
     options: &Options,
 ) -> Result<(Replayed, Files), Failure> {
-    let circuit = positioner::<P>(settings);
+    let circuit = positioner(settings, settings.lead_from());
+    let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
     let ticks = ticks(log, settings.clock_hz);
-    let (printed, scenario) = (&circuit.circuit, (&job.loaded, job.stem.as_str()));
-    let mut traces = Traces::begin((&circuit, printed), arguments, scenario, options, ticks)?;
+    let scenario = (&job.loaded, job.stem.as_str());
+    let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
-    let stimulus = traces.stimulus.as_mut().map(Without);
-    let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
+    let (waves, stimulus) = (traces.waves.as_mut(), traces.stimulus.as_mut());
+    let files = (waves, stimulus, traces.noted.as_mut());
     let replayed = replay(&circuit, settings, log, (files, &mut progress))?;
     drop(progress);
     let action = replayed.signals.first().map_or(0, |signal| signal.tick);
-    let files = traces.finish(&circuit, &focus(settings, action), replayed.ticks)?;
+    let files = traces.finish(&shown, &focus(settings, action), replayed.ticks)?;
     Ok((replayed, files))
 }
 

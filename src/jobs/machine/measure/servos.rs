@@ -1,12 +1,12 @@
 //! The servos beside the path.
 
 use super::{Path, Reason, Servos, farthest};
+use crate::circuits::trajectory_controller::Widths;
 use crate::input::{Drawing, Point};
 use crate::jobs::machine::job::Frame;
 use crate::jobs::machine::settings::Settings;
 use crate::path::pieces::Course;
 use crate::path::vector::{distance, sub};
-use crate::trajectory_controller::Widths;
 use std::array::from_fn;
 
 /// Guard units of a count.

@@ -1,6 +1,6 @@
 //! The counts one unit time offers within the driver's limits, each with its half-period.
 
-use crate::pulse_interpolator::counts::{attainable_counts, half_periods, recipe};
+use crate::circuits::pulse_interpolator::counts::{attainable_counts, half_periods, recipe};
 
 /// What the pulses of one unit time must keep to, in reference ticks.
 ///
@@ -150,7 +150,7 @@ impl CountTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pulse_interpolator::counts::tests::play;
+    use crate::circuits::pulse_interpolator::counts::tests::play;
 
     /// Shortest high, shortest low before a rise, last rise: all read off the played signal.
     fn measure(half_period: u32, period: u32) -> (u32, u32, u32) {

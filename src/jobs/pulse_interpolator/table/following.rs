@@ -113,7 +113,7 @@ impl Staircase {
         Staircase {
             half_period: u64::from(word.half_period()),
             negative: word.negative(),
-            count: u64::from(crate::pulse_interpolator::counts::pulses(
+            count: u64::from(crate::circuits::pulse_interpolator::counts::pulses(
                 word.half_period(),
                 period,
             )),

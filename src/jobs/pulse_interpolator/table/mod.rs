@@ -1,6 +1,7 @@
 //! From a drawing to the contents of the pattern memory.
 //!
-//! [`counts`](crate::pulse_interpolator::counts) says how many pulses a half-period gives in a unit time and which counts exist;
+//! [`counts`](crate::circuits::pulse_interpolator::counts) says how many pulses a half-period gives
+//! in a unit time and which counts exist;
 //! [`compile`] turns a drawing into a [`Table`] of half-periods and reports what came of it;
 //! [`Table::scaled`] is the text's scaling by multiplying the data.
 

@@ -3,7 +3,7 @@
 use super::demand::AXES;
 use super::error::TableError;
 use super::words::{Table, Word};
-use crate::pulse_interpolator::counts::pulses;
+use crate::circuits::pulse_interpolator::counts::pulses;
 use crate::settings::SettingError;
 
 /// A ratio of two whole numbers above 0.

@@ -1,9 +1,9 @@
 //! What a table is compiled for: machine, clock and unit times.
 
 use super::count_table::PulseLimits;
+use crate::circuits::pulse_interpolator::AXIS_NAMES;
 use crate::input::COORDINATES;
 use crate::plan::MotionLimits;
-use crate::pulse_interpolator::AXIS_NAMES;
 use crate::settings::{CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, Place, SettingError, within};
 use std::ops::RangeInclusive;
 

@@ -1,0 +1,49 @@
+//! The arc generator of JPH0743606B2.
+//!
+//! ```text
+//!  path ──▶ prepare ──▶ record ──▶ segments      A ┄┄ blend ┄┄▶ A⁺ ── rotation ──▶ C⁻ ┄┄ blend ┄┄▶ C
+//!                                  in memory        quartic         Δθ a sample        quartic
+//! ```
+//!
+//! A path of lines and arcs in space becomes *segments*, each of a whole number of sampling periods
+//! Ts: at its ends and corners *blends*, quartics of the duration 2ta that meet the pieces in
+//! position and velocity; between them lines and *rotations*, in which the vector from the centre is
+//! multiplied by one constant matrix a sample. What is known beforehand is computed once, in `f64`
+//! and exact integers; per sample the circuit adds, and on an arc multiplies by constants.
+//!
+//! What runs on the control computer is in [`jobs`](crate::jobs::arc_generator).
+//! `rtl_notes/arc_generator.md` is the note of this circuit.
+
+pub mod generator;
+pub mod position_command;
+pub mod rotation;
+pub mod rotation_row;
+pub mod widths;
+
+pub use generator::ArcGenerator;
+pub use position_command::PositionCommand;
+pub use rotation::Rotation;
+pub use rotation_row::RotationRow;
+pub use widths::Widths;
+
+/// How the rotation rounds its points to guard units.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Rounding {
+    /// To the nearest, a half upwards.
+    #[default]
+    Nearest,
+    /// Down.
+    Floor,
+}
+
+impl Rounding {
+    /// The name it has in scenarios.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Rounding::Nearest => "nearest",
+            Rounding::Floor => "floor",
+        }
+    }
+}

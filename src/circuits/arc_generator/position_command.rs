@@ -1,0 +1,150 @@
+//! Position command of one coordinate: the point in whole counts, at the sampling time.
+//!
+//! ```text
+//!                       ┌──────────────────┐
+//!  load, word, data ───▶│                  │
+//!  rotating ───────────▶│ position_command ├──▶ command
+//!  polynomial, offset ─▶│                  │
+//!  present ────────────▶│                  │
+//!                       └──────────────────┘
+//! ```
+//!
+//! Equation \[4\] of the text, OPi = OG + GPi. On a blend or a line the origin is 0 and the
+//! difference engine gives the point itself.
+
+use super::Widths;
+use crate::hdl::prelude::*;
+
+/// Position command.
+#[derive(Debug, Clone)]
+pub struct PositionCommand {
+    /// Widths of commands, points and records.
+    pub widths: Widths,
+    /// 0, 1, 2 for x, y, z: it decides which word of a record is the origin.
+    pub coordinate: u64,
+}
+
+impl PositionCommand {
+    fn origin_word(&self) -> u64 {
+        5 + self.coordinate
+    }
+}
+
+signals! { for PositionCommand as c;
+    /// Ports in.
+    pub struct In {
+        /// `data` is word `word` of a record.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(5),
+        /// Its data.
+        pub data: U(c.widths.data) as Hex,
+        /// The point is on an arc.
+        pub rotating: Bit,
+        /// The coordinate as the difference engine has it.
+        pub polynomial: I(c.widths.point),
+        /// The coordinate of the vector from the centre, as the rotation has it.
+        pub offset: I(c.widths.point),
+        /// The point becomes the command.
+        pub present: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// G: the centre on an arc, 0 elsewhere.
+        origin: I(c.widths.point) = 0,
+        /// The coordinate in counts.
+        pub command: I(c.widths.position) as Analog = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// The coordinate with its guard bits.
+        point: I(c.widths.point) as Analog,
+        /// The same and half a count.
+        raised: I(c.widths.point),
+        /// The coordinate to the nearest count, a half upwards.
+        nearest: I(c.widths.position),
+    }
+}
+
+impl Circuit for PositionCommand {
+    const NAME: &'static str = "position_command";
+    const ABOUT: &'static str = "centre and vector added, rounded to counts, at the sampling time";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let guard = self.widths.guard();
+        let point = q.origin + i.rotating.mux(i.offset, i.polynomial);
+        let raised = point + (1i64 << (guard - 1));
+        let nearest = raised.shift_right(guard).resize(self.widths.position);
+        let word = U::parameter("origin_word", self.origin_word(), 5);
+        let load = i.load & i.word.equals(word);
+        let next = Reg {
+            origin: load.mux(i.data.resize(self.widths.point).signed(), q.origin),
+            command: i.present.mux(nearest, q.command),
+        };
+        (
+            Net {
+                point,
+                raised,
+                nearest,
+            },
+            next,
+        )
+    }
+
+    fn objection(&self) -> Option<String> {
+        let of = &self.widths;
+        let holds = of.point > of.position && of.data >= of.point;
+        (!holds).then(|| "there are guard bits, and a record holds them".into())
+    }
+}
+
+impl Specified for PositionCommand {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let count = 1i64 << self.widths.guard();
+        Invariants::<Self>::new()
+            .step(
+                "the command is the point to the nearest count",
+                move |now, next| {
+                    let from = match now.i.rotating {
+                        true => now.i.offset,
+                        false => now.i.polynomial,
+                    };
+                    // Half a count off at most, a half upwards, and as far as a command reaches.
+                    let over = next.q.command * count - (now.q.origin + from);
+                    let over = (over + count / 2).rem_euclid(1 << self.widths.point) - count / 2;
+                    let right = -count / 2 < over && over <= count / 2;
+                    require(right || !now.i.present, ["command"], || {
+                        format!("{over} guard units above the point")
+                    })
+                },
+            )
+            .step(
+                "the command changes with present, at no other time",
+                |now, next| {
+                    let held = next.q.command == now.q.command;
+                    require(held || now.i.present, ["command"], || "changes".into())
+                },
+            )
+            .step("its word is the origin, others are not", |now, next| {
+                let own = now.i.load && now.i.word == self.origin_word();
+                let unused = 64 - self.widths.point;
+                let expected = match own {
+                    true => ((now.i.data << unused) as i64) >> unused,
+                    false => now.q.origin,
+                };
+                require(next.q.origin == expected, ["origin"], || {
+                    format!("not {expected:?}")
+                })
+            })
+    }
+
+    /// A word that is not its own does not differ from another such.
+    fn applies(&self, i: &In<Value>) -> bool {
+        let own = i.word == self.origin_word();
+        match i.load {
+            true => own || i.word == 0,
+            false => i.word == 0 && i.data == 0,
+        }
+    }
+}

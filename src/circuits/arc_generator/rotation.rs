@@ -1,0 +1,116 @@
+//! Rotation stage: GPi = R·GPi−1, step 2 of the text's section (ロ), with a matrix that is computed once.
+//!
+//! ```text
+//!                     ┌───────────────────────┐
+//!  load, word, data ─▶│ control ▶ row_x       ├──▶ x, y, z
+//!  step ─────────────▶│         ▶ row_y       ├──▶ done
+//!  halt ─────────────▶│         ▶ row_z       │
+//!                     └───────────────────────┘
+//! ```
+//!
+//! Nine products and six additions for each point, as a bit-serial multiply-accumulate in each
+//! row. All three coordinates change at once.
+
+use super::{RotationRow, Rounding, Widths, rotation_row};
+use crate::circuits::blocks::{CoefficientControl, coefficient_control};
+use crate::hdl::prelude::*;
+
+/// Rotation of vectors by a matrix of coefficients; see [`RotationRow`].
+///
+/// The new point stands B + 4 ticks after `step`, where B bits of a coefficient are fraction: all but
+/// two.
+#[derive(Debug, Clone)]
+pub struct Rotation {
+    /// Widths of points, coefficients and records.
+    pub widths: Widths,
+    /// How the points are rounded.
+    pub rounding: Rounding,
+}
+
+impl Rotation {
+    /// Ticks from `step` to the new point.
+    pub const fn latency(&self) -> u64 {
+        self.control().latency()
+    }
+
+    const fn control(&self) -> CoefficientControl {
+        let coefficient = self.widths.coefficient;
+        CoefficientControl { coefficient }
+    }
+
+    const fn row(&self, coordinate: u64) -> RotationRow {
+        RotationRow {
+            widths: self.widths,
+            coordinate,
+            rounding: self.rounding,
+        }
+    }
+}
+
+signals! { for Rotation as c;
+    /// Ports in.
+    pub struct In {
+        /// `data` is word `word` of a record; not during a step.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(5),
+        /// Its data.
+        pub data: U(c.widths.data) as Hex,
+        /// On to the next point.
+        pub step: Bit,
+        /// Gives a step up that is under way.
+        pub halt: Bit,
+    }
+    /// The blocks.
+    pub struct Parts {
+        /// Which bit it is at.
+        pub control: Part<CoefficientControl>(c.control()),
+        /// X.
+        pub row_x: Part<RotationRow>(c.row(0)),
+        /// Y.
+        pub row_y: Part<RotationRow>(c.row(1)),
+        /// Z.
+        pub row_z: Part<RotationRow>(c.row(2)),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// X of the vector from the centre to the point.
+        pub x: I(c.widths.point) as Analog,
+        /// Y of it.
+        pub y: I(c.widths.point) as Analog,
+        /// Z of it.
+        pub z: I(c.widths.point) as Analog,
+        /// They are new in this tick.
+        pub done: Bit,
+    }
+}
+
+impl Circuit for Rotation {
+    const NAME: &'static str = "rotation";
+    const ABOUT: &'static str = "the next point of an arc: a constant matrix times a vector";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let control = p.control.settle(coefficient_control::In {
+            step: i.step,
+            halt: i.halt,
+        });
+        let [x, y, z] = [p.row_x.q.offset, p.row_y.q.offset, p.row_z.q.offset];
+        for row in [p.row_x, p.row_y, p.row_z] {
+            row.settle(rotation_row::In {
+                load: i.load,
+                word: i.word,
+                data: i.data,
+                copy: control.w.copy,
+                fraction: control.w.fraction,
+                top: control.w.top,
+                commit: control.w.commit,
+                x,
+                y,
+                z,
+            });
+        }
+        let done = control.q.done;
+        (Net { x, y, z, done }, Nothing)
+    }
+}

@@ -1,0 +1,155 @@
+//! A row of the rotation stage: one coordinate of R·GP, three products at once, a bit of the
+//! coefficients a tick.
+//!
+//! ```text
+//!                         ┌──────────────┐
+//!  load, word, data ─────▶│              │
+//!  copy, fraction, top ──▶│ rotation_row ├──▶ offset
+//!  commit ───────────────▶│              │
+//!  x, y, z ──────────────▶│              │
+//!                         └──────────────┘
+//! ```
+//!
+//! The sum of those of x, y, z whose coefficient has the bit is added to `sum`, which is then
+//! halved; the bit that falls off last is the half by which the result is rounded. So nothing is
+//! lost before the rounding, and no word is wider than the sum.
+
+use super::{Rounding, Widths};
+use crate::hdl::prelude::*;
+
+/// Row of a rotation, for vectors of points and for coefficients.
+#[derive(Debug, Clone)]
+pub struct RotationRow {
+    /// Widths of points, coefficients and records.
+    pub widths: Widths,
+    /// 0, 1, 2 for x, y, z: it decides which words of a record the row takes.
+    pub coordinate: u64,
+    /// How its result is rounded.
+    pub rounding: Rounding,
+}
+
+impl RotationRow {
+    /// Width of the sum: three words of the vector, doubled, and what was there.
+    pub const fn sum(&self) -> usize {
+        self.widths.point + 3
+    }
+}
+
+signals! { for RotationRow as c;
+    /// Ports in.
+    pub struct In {
+        /// `data` is word `word` of a record.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(5),
+        /// Its data.
+        pub data: U(c.widths.data) as Hex,
+        /// A step begins: the coefficients are copied.
+        pub copy: Bit,
+        /// The bit is one of the fraction.
+        pub fraction: Bit,
+        /// The bit is the sign, of weight −2.
+        pub top: Bit,
+        /// The sum is complete.
+        pub commit: Bit,
+        /// X of the vector.
+        pub x: I(c.widths.point),
+        /// Y of the vector.
+        pub y: I(c.widths.point),
+        /// Z of the vector.
+        pub z: I(c.widths.point),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// This row's coordinate of the vector from the centre to the point.
+        pub offset: I(c.widths.point) as Analog = 0,
+        /// Coefficient of x.
+        by_x: U(c.widths.coefficient) as Hex = 0,
+        /// Coefficient of y.
+        by_y: U(c.widths.coefficient) as Hex = 0,
+        /// Coefficient of z.
+        by_z: U(c.widths.coefficient) as Hex = 0,
+        /// Bits of the coefficient of x that are yet to come.
+        bits_x: U(c.widths.coefficient) as Hex = 0,
+        /// Bits of that of y.
+        bits_y: U(c.widths.coefficient) as Hex = 0,
+        /// Bits of that of z.
+        bits_z: U(c.widths.coefficient) as Hex = 0,
+        /// The products so far, by the weight of the bit to come.
+        sum: I(c.sum()) = 0,
+        /// The bit below the sum: a half.
+        half: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// X where its coefficient has the bit, else 0.
+        term_x: I(c.sum()),
+        /// Y likewise.
+        term_y: I(c.sum()),
+        /// Z likewise.
+        term_z: I(c.sum()),
+        /// The three terms added.
+        addend: I(c.sum()),
+        /// The sum with it.
+        total: I(c.sum()),
+        /// The sum with what rounds it.
+        raised: I(c.sum()),
+        /// The coordinate of the new point.
+        rounded: I(c.widths.point),
+    }
+}
+
+impl Circuit for RotationRow {
+    const NAME: &'static str = "rotation_row";
+    const ABOUT: &'static str = "one coordinate of a matrix times a vector, a bit a tick";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let (point, coefficient) = (self.widths.point, self.widths.coefficient);
+        let term = |bits: U, word: I| bits.bit(0).mux(word.resize(self.sum()), 0);
+        let (term_x, term_y) = (term(q.bits_x, i.x), term(q.bits_y, i.y));
+        let term_z = term(q.bits_z, i.z);
+        let addend = term_x + term_y + term_z;
+        let total = q.sum + i.top.mux(-addend.shift_left(1), addend);
+        let half = q.half.word().resize(self.sum());
+        let raised = match self.rounding {
+            Rounding::Nearest => q.sum + half.signed(),
+            Rounding::Floor => q.sum,
+        };
+        let rounded = raised.resize(point);
+
+        let is = |name, word| i.load & i.word.equals(U::parameter(name, word, 5));
+        let first = 8 + 8 * self.coordinate;
+        let by = i.data.resize(coefficient);
+        let given = i.data.resize(point).signed();
+        let kept = i.commit.mux(rounded, q.offset);
+        let next = Reg {
+            offset: is("offset_word", 2 + self.coordinate).mux(given, kept),
+            by_x: is("x_word", first).mux(by, q.by_x),
+            by_y: is("y_word", first + 1).mux(by, q.by_y),
+            by_z: is("z_word", first + 2).mux(by, q.by_z),
+            bits_x: i.copy.mux(q.by_x, q.bits_x.shift_right(1)),
+            bits_y: i.copy.mux(q.by_y, q.bits_y.shift_right(1)),
+            bits_z: i.copy.mux(q.by_z, q.bits_z.shift_right(1)),
+            // Without bits left the total is the sum.
+            sum: i.copy.mux(0, i.fraction.mux(total.shift_right(1), total)),
+            half: i.fraction.mux(total.unsigned().bit(0), q.half),
+        };
+        let net = Net {
+            term_x,
+            term_y,
+            term_z,
+            addend,
+            total,
+            raised,
+            rounded,
+        };
+        (net, next)
+    }
+
+    fn objection(&self) -> Option<String> {
+        let of = &self.widths;
+        let holds = of.data >= of.point && of.data >= of.coefficient;
+        (!holds).then(|| "a word of a record holds coordinate and coefficient".into())
+    }
+}

@@ -1,0 +1,138 @@
+//! Coefficient control: which bit of its coefficients a sequential product is at.
+//!
+//! ```text
+//!         ┌─────────────────────┐
+//!  step ─▶│                     ├──▶ copy, fraction, top, commit
+//!  halt ─▶│ coefficient_control ├──▶ busy, done
+//!         └─────────────────────┘
+//! ```
+//!
+//! A coefficient has two's complement bits of weights 2^−B … 2^−1, 1 and −2. The rows take them
+//! from the lowest up, a bit a tick; after a bit of the fraction they halve their sum.
+
+use crate::hdl::prelude::*;
+
+/// Control for coefficients of which B = `coefficient` − 2 bits are fraction.
+///
+/// `done` is high B + 4 ticks after `step`.
+#[derive(Debug, Clone)]
+pub struct CoefficientControl {
+    /// Width of a coefficient in bits, 3 to 63.
+    pub coefficient: usize,
+}
+
+impl CoefficientControl {
+    /// Ticks from `step` to `done`.
+    pub const fn latency(&self) -> u64 {
+        self.coefficient as u64 + 2
+    }
+}
+
+signals! { for CoefficientControl as c;
+    /// Ports in.
+    pub struct In {
+        /// On to the next point; not taken while `busy`.
+        pub step: Bit,
+        /// Gives a step up that is under way; one that comes with it is not taken.
+        pub halt: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// A step is under way.
+        pub busy: Bit = 0,
+        /// The bit the rows are at; those of the fraction come first.
+        bit_index: U(6) = 0,
+        /// The new point stands in this tick.
+        pub done: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A step is taken: the rows copy their coefficients.
+        pub copy: Bit,
+        /// The bit is one of the fraction.
+        pub fraction: Bit,
+        /// The bit is the sign, of weight −2.
+        pub top: Bit,
+        /// The sums are complete: they become the point.
+        pub commit: Bit,
+        /// A step is under way after this tick.
+        going: Bit,
+    }
+}
+
+impl Circuit for CoefficientControl {
+    const NAME: &'static str = "coefficient_control";
+    const ABOUT: &'static str = "counts the bits of the coefficients of a sequential product";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        let wrong = !(3..=63).contains(&self.coefficient);
+        wrong.then(|| "a coefficient has a fraction, and its bits are counted".into())
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let bits = self.coefficient as u64;
+        let copy = i.step & !q.busy & !i.halt;
+        let commit = q.busy & q.bit_index.equals(bits) & !i.halt;
+        let going = copy | (q.busy & !commit & !i.halt);
+        let net = Net {
+            copy,
+            fraction: q.busy & q.bit_index.below(bits - 2),
+            top: q.busy & q.bit_index.equals(bits - 1),
+            commit,
+            going,
+        };
+        let next = Reg {
+            busy: going,
+            bit_index: (going & !copy).mux(q.bit_index + 1, 0),
+            done: commit,
+        };
+        (net, next)
+    }
+}
+
+impl Specified for CoefficientControl {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let bits = self.coefficient as u64;
+        Invariants::<Self>::new()
+            .step("a step is taken where none is under way", |now, next| {
+                let taken = now.i.step && !now.i.halt && !now.q.busy;
+                let begins = next.q.busy && next.q.bit_index == 0 && now.w.copy;
+                require(taken == begins, ["busy", "bit_index", "copy"], || {
+                    "not so".into()
+                })
+            })
+            .step("halt ends it", |now, next| {
+                let right = !next.q.busy && !next.q.done;
+                require(right || !now.i.halt, ["busy", "done"], || "goes on".into())
+            })
+            .step("each bit comes once, in order", move |now, next| {
+                let under_way = now.q.busy && !now.i.halt;
+                let bit = now.q.bit_index;
+                let expected = (bit < bits).then_some(bit + 1);
+                let after = next.q.busy.then_some(next.q.bit_index);
+                let right = after == expected && next.q.done == (bit == bits);
+                require(right || !under_way, ["bit_index", "done"], || {
+                    format!("{after:?} after {bit}")
+                })
+            })
+            .step("done where a step ends, nowhere else", |now, next| {
+                let right = next.q.done <= now.q.busy;
+                require(right, ["done"], || "without a step".into())
+            })
+            .always("fraction, a one, the sign, then the point", move |now| {
+                let (bit, w) = (now.q.bit_index, now.w);
+                let kinds = [w.fraction, w.top, w.commit];
+                let count = kinds.iter().filter(|kind| **kind).count();
+                let expected = match now.q.busy {
+                    false => [false; 3],
+                    true => [bit + 2 < bits, bit + 1 == bits, bit == bits && !now.i.halt],
+                };
+                require(
+                    kinds == expected && count <= 1,
+                    ["fraction", "top", "commit"],
+                    || format!("bit {bit}"),
+                )
+            })
+    }
+}

@@ -1,0 +1,193 @@
+//! A column of the difference engine: a number as whole and part, and the adder that takes the
+//! column below to it.
+//!
+//! ```text
+//!                       ┌───────────────────┐
+//!  load, word, data ───▶│                   ├──▶ whole, part
+//!  modulus, step ──────▶│ difference_column │
+//!  by_whole, by_part ──▶│                   ├──▶ nearest
+//!                       └───────────────────┘
+//! ```
+//!
+//! The number is `whole + part / modulus` with `0 <= part < modulus`, so a quotient is carried
+//! without an error whatever the modulus, and without a divider: the part wraps at the modulus and
+//! carries into the whole. The whole wraps at its width; sums are linear, so it comes out right
+//! whenever the number itself fits, whatever the columns below did on the way.
+
+use crate::hdl::Registers;
+use crate::hdl::prelude::*;
+
+/// Widths of a column and of the records it is loaded from, in bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Widths {
+    /// A whole.
+    pub whole: usize,
+    /// F: a part, and the modulus.
+    pub part: usize,
+    /// A word of a record, which holds a whole or a part.
+    pub data: usize,
+}
+
+impl Default for Widths {
+    fn default() -> Self {
+        Widths {
+            whole: 40,
+            part: 41,
+            data: 42,
+        }
+    }
+}
+
+/// Column of a number.
+#[derive(Debug, Clone)]
+pub struct DifferenceColumn {
+    /// Widths of the number and of the records.
+    pub widths: Widths,
+    /// The word of a record that is its whole. It clears the part.
+    pub whole_word: u64,
+    /// The word that is its part, after the whole; none where a record's part is always 0.
+    pub part_word: Option<u64>,
+}
+
+signals! { for DifferenceColumn as c;
+    /// Ports in.
+    pub struct In {
+        /// `data` is word `word` of a record.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(5),
+        /// Its data.
+        pub data: U(c.widths.data) as Hex,
+        /// What a part wraps at: 1 to 2^(F − 1).
+        pub modulus: U(c.widths.part),
+        /// Adds the column below; not with `load`.
+        pub step: Bit,
+        /// Whole of the column below.
+        pub by_whole: I(c.widths.whole),
+        /// Its part, below the modulus.
+        pub by_part: U(c.widths.part),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// The whole: the number, rounded down.
+        pub whole: I(c.widths.whole) as Analog = 0,
+        /// What it is above the whole, in parts of the modulus.
+        pub part: U(c.widths.part) = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// Sum of the parts; below 2^F, since both are below the modulus.
+        sum: U(c.widths.part),
+        /// They make a whole.
+        carry: Bit,
+        /// The word is this column's whole.
+        load_whole: Bit,
+        /// The word is its part.
+        load_part: Bit,
+        /// The number, rounded to the nearest whole, a half upwards.
+        pub nearest: I(c.widths.whole) as Analog,
+    }
+}
+
+impl Circuit for DifferenceColumn {
+    const NAME: &'static str = "difference_column";
+    const ABOUT: &'static str = "whole and part of a number, and the adder of the column below";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        let Widths { whole, part, data } = self.widths;
+        (data < whole.max(part)).then(|| "a word of a record holds whole and part".into())
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let sum = q.part + i.by_part;
+        let carry = !sum.below(i.modulus);
+        let is = |name, word| i.load & i.word.equals(U::parameter(name, word, 5));
+        let load_whole = is("whole_word", self.whole_word);
+        let load_part = match self.part_word {
+            Some(word) => is("part_word", word),
+            None => Bit::low(),
+        };
+        let up = !q.part.shift_left(1).below(i.modulus);
+        let moved = q.whole + i.by_whole;
+        let whole = carry.mux(moved + 1, moved);
+        let part = carry.mux(sum - i.modulus, sum);
+        let loaded_whole = i.data.resize(self.widths.whole).signed();
+        let loaded_part = i.data.resize(self.widths.part);
+        let stepped_part = load_part.mux(loaded_part, i.step.mux(part, q.part));
+        let net = Net {
+            sum,
+            carry,
+            load_whole,
+            load_part,
+            nearest: up.mux(q.whole + 1, q.whole),
+        };
+        let next = Reg {
+            whole: load_whole.mux(loaded_whole, i.step.mux(whole, q.whole)),
+            part: load_whole.mux(0, stepped_part),
+        };
+        (net, next)
+    }
+}
+
+impl Specified for DifferenceColumn {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let Widths { whole, part, .. } = self.widths;
+        Invariants::<Self>::new()
+            .step("a step adds the column below, exactly", move |now, next| {
+                let modulus = now.i.modulus as i64;
+                let number = |whole: i64, part: u64| whole * modulus + part as i64;
+                let sum = number(now.q.whole, now.q.part) + number(now.i.by_whole, now.i.by_part);
+                let after = number(next.q.whole, next.q.part);
+                let right = (after - sum).rem_euclid(modulus << whole) == 0;
+                let steps = now.i.step && !now.i.load;
+                require(right || !steps, ["whole", "part"], || {
+                    format!("{after} / {modulus}, not {sum} / {modulus}")
+                })
+            })
+            .step("the part stays below the modulus", |now, next| {
+                let right = next.q.part < now.i.modulus;
+                require(right || now.w.load_part, ["part"], || "too large".into())
+            })
+            .step("its words are loaded, others are not", move |now, next| {
+                let word = now.i.load.then_some(now.i.word);
+                let (mut expected, mut parts) = (now.q.whole, now.q.part);
+                if word == Some(self.whole_word) {
+                    (expected, parts) = (now.i.data as i64, 0);
+                } else if word.is_some() && word == self.part_word {
+                    parts = now.i.data;
+                }
+                let right = (next.q.whole - expected).rem_euclid(1 << whole) == 0
+                    && next.q.part == parts % (1 << part);
+                require(right || now.i.step, ["whole", "part"], || {
+                    format!("not {expected} and {parts}")
+                })
+            })
+            .always("the nearest whole is within a half", move |now| {
+                let modulus = now.i.modulus as i64;
+                let part = now.q.part as i64;
+                let up = (now.w.nearest - now.q.whole).rem_euclid(1 << whole);
+                let doubled = 2 * (up * modulus - part);
+                let right = -modulus < doubled && doubled <= modulus;
+                require(right, ["nearest"], || format!("{up} above the whole"))
+            })
+    }
+
+    /// A word that is not the column's, does not differ from another such.
+    fn applies(&self, i: &In<Value>) -> bool {
+        let other = (0..32).find(|word| *word != self.whole_word && Some(*word) != self.part_word);
+        let words = [Some(self.whole_word), self.part_word, other];
+        let word = match i.load {
+            true => words.contains(&Some(i.word)),
+            false => i.word == 0 && i.data == 0,
+        };
+        word && (1..=1 << (self.widths.part - 1)).contains(&i.modulus)
+            && i.by_part < i.modulus
+            && !(i.load && i.step)
+    }
+
+    /// The modulus comes with the parts that are below it.
+    fn assumes(&self, now: &Registers<Self>, i: &In<Value>) -> bool {
+        now.q.part < i.modulus
+    }
+}

@@ -1,0 +1,110 @@
+//! Difference engine of one coordinate: equations \[5\] and \[10\] of JPH0743606B2
+//! with four adders.
+//!
+//! ```text
+//!                     ┌───────────────────┐
+//!  load, word, data ─▶│ value ◀ d1 ◀ d2   │
+//!  modulus ──────────▶│       ◀ d3 ◀ d4   ├──▶ value, nearest
+//!  step ─────────────▶│                   │
+//!                     └───────────────────┘
+//! ```
+//!
+//! A polynomial of the fourth degree at equal distances has constant fourth differences. A step
+//! adds each difference to what is above it, all from the values before the step, so the value of
+//! the next sample costs four additions and no product. With the first difference alone it is a
+//! line.
+
+use super::difference_column::{self, DifferenceColumn, Widths};
+use crate::hdl::prelude::*;
+
+/// Difference engine of a coordinate.
+///
+/// The value of the next sample stands in the tick after `step`.
+#[derive(Debug, Clone)]
+pub struct DifferenceEngine {
+    /// Widths of its numbers and of the records.
+    pub widths: Widths,
+    /// The coordinate: 0, 1, 2 for x, y, z. It decides which words of a record the engine takes.
+    pub coordinate: u64,
+}
+
+impl DifferenceEngine {
+    /// The column of the coordinate itself.
+    pub fn value(&self) -> DifferenceColumn {
+        DifferenceColumn {
+            widths: self.widths,
+            whole_word: 2 + self.coordinate,
+            part_word: None,
+        }
+    }
+
+    /// The column of the difference of that order, 1 to 4.
+    pub fn difference(&self, order: u64) -> DifferenceColumn {
+        let word = 8 + 8 * self.coordinate + 2 * (order - 1);
+        DifferenceColumn {
+            widths: self.widths,
+            whole_word: word,
+            part_word: Some(word + 1),
+        }
+    }
+}
+
+signals! { for DifferenceEngine as c;
+    /// Ports in.
+    pub struct In {
+        /// `data` is word `word` of a record.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(5),
+        /// Its data.
+        pub data: U(c.widths.data) as Hex,
+        /// What the parts are parts of: M⁴ in a blend of M samples, the samples of a line.
+        pub modulus: U(c.widths.part),
+        /// On to the next sample; not with `load`.
+        pub step: Bit,
+    }
+    /// The columns.
+    pub struct Parts {
+        /// The coordinate.
+        pub value: Part<DifferenceColumn>(c.value()),
+        /// First difference.
+        pub d1: Part<DifferenceColumn>(c.difference(1)),
+        /// Second difference.
+        pub d2: Part<DifferenceColumn>(c.difference(2)),
+        /// Third difference.
+        pub d3: Part<DifferenceColumn>(c.difference(3)),
+        /// Fourth difference, constant.
+        pub d4: Part<DifferenceColumn>(c.difference(4)),
+    }
+    /// Port out.
+    pub struct Net {
+        /// The coordinate, rounded to the nearest.
+        pub nearest: I(c.widths.whole) as Analog,
+    }
+}
+
+impl Circuit for DifferenceEngine {
+    const NAME: &'static str = "difference_engine";
+    const ABOUT: &'static str = "quartic of one coordinate at equal distances, by four adders";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let column = |by_whole: I, by_part: U| difference_column::In {
+            load: i.load,
+            word: i.word,
+            data: i.data,
+            modulus: i.modulus,
+            step: i.step,
+            by_whole,
+            by_part,
+        };
+        let nothing = (I::new(0, self.widths.whole), U::new(0, self.widths.part));
+        let value = p.value.settle(column(p.d1.q.whole, p.d1.q.part));
+        p.d1.settle(column(p.d2.q.whole, p.d2.q.part));
+        p.d2.settle(column(p.d3.q.whole, p.d3.q.part));
+        p.d3.settle(column(p.d4.q.whole, p.d4.q.part));
+        p.d4.settle(column(nothing.0, nothing.1));
+        let nearest = value.w.nearest;
+        (Net { nearest }, Nothing)
+    }
+}

@@ -1,0 +1,214 @@
+//! Sequential multiplier-divider: `(multiplicand · multiplier + addend) / divisor` with remainder,
+//! one bit a tick.
+//!
+//! ```text
+//!                                       ┌─────────┐
+//!  start, product_only ────────────────▶│         ├──▶ busy, done
+//!  multiplicand, multiplier, addend ───▶│ mul_div ├──▶ quotient
+//!  divisor ────────────────────────────▶│         ├──▶ remainder
+//!                                       └─────────┘
+//! ```
+//!
+//! The product is made from the multiplier's lowest bit up, on top of the addend; the division
+//! restores, from the dividend's highest bit down. Dividend and quotient share a register.
+
+use crate::hdl::prelude::*;
+
+/// Names of the states.
+const STATES: &[&str] = &["idle", "multiply", "divide"];
+const IDLE: u64 = 0;
+const MULTIPLY: u64 = 1;
+const DIVIDE: u64 = 2;
+
+/// Multiplier-divider of words of Q = `word` bits by a multiplier of M = `multiplier` bits.
+///
+/// `done` is high M + Q + 1 ticks after `start`, M + 1 with `product_only`.
+#[derive(Debug, Clone)]
+pub struct MulDiv {
+    /// M: width of the multiplier in bits.
+    pub multiplier: usize,
+    /// Q: width of all other words.
+    pub word: usize,
+}
+
+impl MulDiv {
+    /// Ticks from `start` to `done`.
+    pub const fn latency(&self) -> u64 {
+        self.product_latency() + self.word as u64
+    }
+
+    /// Ticks from `start` to `done` with `product_only`.
+    pub const fn product_latency(&self) -> u64 {
+        self.multiplier as u64 + 1
+    }
+}
+
+signals! { for MulDiv as c;
+    /// Ports in. What is given with `start` is taken in that tick and need not be held.
+    pub struct In {
+        /// Begins, unless one is under way.
+        pub start: Bit,
+        /// The product with its addend is wanted, no division: it is in `quotient`.
+        pub product_only: Bit,
+        /// First factor.
+        pub multiplicand: U(c.word),
+        /// Second factor.
+        pub multiplier: U(c.multiplier),
+        /// Added to the product; together they are below 2^Q.
+        pub addend: U(c.word),
+        /// What the sum is divided by, below 2^(Q − 1). By 0 the quotient is all ones.
+        pub divisor: U(c.word),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// What it does.
+        state: U(2) as States(STATES) = 0,
+        /// Ticks that the state has lasted.
+        count: U(6) = 0,
+        /// The product is all that is wanted.
+        undivided: Bit = 0,
+        /// First factor times the weight of the multiplier's lowest bit.
+        shifted: U(c.word) = 0,
+        /// Bits of the second factor that are yet to come.
+        factor: U(c.multiplier) = 0,
+        /// What is divided by.
+        by: U(c.word) = 0,
+        /// Sum of the product, then dividend above and quotient below; the result.
+        pub quotient: U(c.word) = 0,
+        /// What is left of the dividend.
+        pub remainder: U(c.word) = 0,
+        /// A result stands at `quotient` and `remainder` from this tick on, until the next start.
+        pub done: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A start is not taken.
+        pub busy: Bit,
+        /// A start is taken.
+        take: Bit,
+        /// The remainder with the dividend's highest bit behind it.
+        partial: U(c.word),
+        /// The divisor goes into `partial`.
+        fits: Bit,
+        /// The state's last tick.
+        last: Bit,
+        /// The result is complete with this tick.
+        complete: Bit,
+    }
+}
+
+impl Circuit for MulDiv {
+    const NAME: &'static str = "mul_div";
+    const ABOUT: &'static str = "multiplies, adds and divides with remainder, one bit a tick";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let (multiplies, divides) = (q.state.bit(0), q.state.bit(1));
+        let busy = multiplies | divides;
+        let take = i.start & !busy;
+        let highest = q.quotient.bit(self.word - 1).word();
+        let partial = q.remainder.shift_left(1) | highest.resize(self.word);
+        let fits = !partial.below(q.by);
+        let end = |bits: usize| U::new(bits as u64 - 1, 6);
+        let end = divides.mux(end(self.word), end(self.multiplier));
+        let last = q.count.equals(end);
+        let complete = last & (divides | (multiplies & q.undivided));
+
+        let state = |state| U::new(state, 2);
+        let after = (multiplies & !q.undivided).mux(state(DIVIDE), state(IDLE));
+        let after = (busy & last).mux(after, q.state);
+        let sum = q.quotient + q.factor.bit(0).mux(q.shifted, 0);
+        let divided = q.quotient.shift_left(1) | fits.word().resize(self.word);
+        let quotient = divides.mux(divided, multiplies.mux(sum, q.quotient));
+        let remainder = divides.mux(fits.mux(partial - q.by, partial), q.remainder);
+        let shifted = multiplies.mux(q.shifted.shift_left(1), q.shifted);
+        let factor = multiplies.mux(q.factor.shift_right(1), q.factor);
+        let net = Net {
+            busy,
+            take,
+            partial,
+            fits,
+            last,
+            complete,
+        };
+        let next = Reg {
+            state: take.mux(MULTIPLY, after),
+            count: (take | last).mux(0, busy.mux(q.count + 1, q.count)),
+            undivided: take.mux(i.product_only, q.undivided),
+            shifted: take.mux(i.multiplicand, shifted),
+            factor: take.mux(i.multiplier, factor),
+            by: take.mux(i.divisor, q.by),
+            quotient: take.mux(i.addend, quotient),
+            remainder: take.mux(0, remainder),
+            done: complete,
+        };
+        (net, next)
+    }
+}
+
+impl Specified for MulDiv {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step("a start is taken unless one is under way", |now, next| {
+                let taken = now.i.start && now.q.state == IDLE;
+                let restarted = next.q.state == MULTIPLY && next.q.count == 0;
+                let begins = restarted && next.q.quotient == now.i.addend;
+                require(!taken || begins, ["state", "quotient"], || {
+                    "not begun".into()
+                })
+            })
+            .step(
+                "it multiplies for M ticks and divides for Q",
+                |now, next| {
+                    let length = match now.q.state {
+                        MULTIPLY => self.multiplier,
+                        _ => self.word,
+                    };
+                    let (q, after) = (now.q, &next.q);
+                    let goes_on = after.state == q.state && after.count == q.count + 1;
+                    let over = q.count + 1 == length as u64;
+                    let right = q.state == IDLE || over != goes_on;
+                    require(right, ["state", "count"], || "too long or too short".into())
+                },
+            )
+            .step(
+                "done stands for one tick, when the last bit is made",
+                |now, next| {
+                    let ended = now.q.state != IDLE && next.q.state == IDLE;
+                    require(next.q.done == ended, ["done"], || "at a wrong time".into())
+                },
+            )
+            .always("the remainder stays below the divisor", |now| {
+                let right = now.q.by == 0 || now.q.remainder < now.q.by;
+                require(right, ["remainder", "by"], || "too large".into())
+            })
+            .step(
+                "what was divided so far is quotient times divisor plus remainder",
+                |now, next| {
+                    // The bits of the dividend that are in: those above, and the quotient's below.
+                    let known = |q: &Reg<Value>, bits: u64| {
+                        let low = u128::from(q.quotient) & ((1 << bits) - 1);
+                        low * u128::from(q.by) + u128::from(q.remainder)
+                    };
+                    let dividend = known(now.q, now.q.count);
+                    let bit = u128::from(now.q.quotient >> (self.word - 1));
+                    let after = known(&next.q, now.q.count + 1);
+                    let divides = now.q.state == DIVIDE && now.q.by != 0;
+                    require(
+                        after == 2 * dividend + bit || !divides,
+                        ["quotient", "remainder"],
+                        || format!("{dividend} so far, and {bit}"),
+                    )
+                },
+            )
+    }
+
+    fn applies(&self, i: &In<Value>) -> bool {
+        let least = 1 << (self.word - 1);
+        let fits = i.multiplicand * i.multiplier + i.addend < 2 * least;
+        // Without `start` the other ports are not looked at.
+        let words = [i.multiplicand, i.multiplier, i.addend, i.divisor];
+        let given = words.iter().any(|&word| word > 0) || i.product_only;
+        fits && i.divisor < least && (i.start || !given)
+    }
+}

@@ -1,0 +1,190 @@
+//! Quadrature counter: position from the two channels of an incremental encoder. Feedback counter
+//! 13 of JP3608587B2 (¶0003).
+//!
+//! ```text
+//!         ┌────────────────────┐
+//!  a ────▶│                    ├──▶ position
+//!  b ────▶│ quadrature counter ├──▶ lost
+//!  clear ▶│                    ├──▶ illegal
+//!         └────────────────────┘
+//! ```
+//!
+//! Each channel goes through two flip-flops, since it is asynchronous, and a third holds its level
+//! of a tick ago: every edge of either channel counts (x4). A level that stands at the pin from
+//! tick n on is in `position` from tick n + 3 on.
+//!
+//! The text says only that the pulses are counted. Synchronisers, x4, the flag and the clear are
+//! additions. Nothing is counted until the three flip-flops hold samples, whatever the level at
+//! which the channels stand.
+
+use crate::hdl::prelude::*;
+
+/// Samples that fill the flip-flops of a channel.
+const FILLED: u64 = 3;
+/// The flip-flop of a channel that holds its present level.
+const PRESENT: usize = 1;
+/// That of the level before.
+const PREVIOUS: usize = 2;
+
+/// Quadrature counter with a position that wraps.
+#[derive(Debug, Clone)]
+pub struct QuadratureCounter {
+    /// Width of the position in bits.
+    pub width: usize,
+}
+
+signals! { for QuadratureCounter as c;
+    /// Ports in.
+    pub struct In {
+        /// Channel A of the encoder, asynchronous.
+        pub a: Bit,
+        /// Channel B, asynchronous; the position goes up where A leads.
+        pub b: Bit,
+        /// Position to 0, `lost` off.
+        pub clear: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// The last three samples of channel A: bit 0 is the flip-flop at the pin, read by nothing
+        /// but the second; bit 1 the present level; bit 2 the level a tick before it.
+        sync_a: U(3) as Hex = 0,
+        /// Those of channel B.
+        sync_b: U(3) as Hex = 0,
+        /// Samples taken since power-on, up to 3: from then on the levels above are real.
+        samples: U(2),
+        /// Position in counts, quarters of an encoder period; wraps.
+        pub position: I(c.width) as Analog = 0,
+        /// Both channels changed at once since `clear`: the position is wrong.
+        pub lost: Bit,
+    }
+    /// Nets.
+    pub struct Net {
+        /// The levels are real.
+        valid: Bit,
+        /// Channel A has changed.
+        changes_a: Bit,
+        /// Channel B has changed.
+        changes_b: Bit,
+        /// One channel has changed: the position moves by one.
+        moves: Bit,
+        /// Upwards, if it moves.
+        up: Bit,
+        /// Both channels have changed: the direction is unknown, nothing is counted.
+        pub illegal: Bit,
+    }
+}
+
+impl Circuit for QuadratureCounter {
+    const NAME: &'static str = "quadrature_counter";
+    const ABOUT: &'static str = "position from the two channels of an incremental encoder";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let changes = |sync: U| sync.bit(PRESENT) ^ sync.bit(PREVIOUS);
+        let (changes_a, changes_b) = (changes(q.sync_a), changes(q.sync_b));
+        let valid = q.samples.equals(FILLED);
+        let moves = valid & (changes_a ^ changes_b);
+        let up = q.sync_a.bit(PRESENT) ^ q.sync_b.bit(PREVIOUS);
+        let illegal = valid & changes_a & changes_b;
+        let sampled = |sync: U, level: Bit| sync.resize(2).join(level.word());
+        let moved = up.mux(q.position + 1, q.position - 1);
+        let net = Net {
+            valid,
+            changes_a,
+            changes_b,
+            moves,
+            up,
+            illegal,
+        };
+        let next = Reg {
+            sync_a: sampled(q.sync_a, i.a),
+            sync_b: sampled(q.sync_b, i.b),
+            samples: valid.mux(q.samples, q.samples + 1),
+            position: i.clear.mux(0, moves.mux(moved, q.position)),
+            lost: (q.lost | illegal) & !i.clear,
+        };
+        (net, next)
+    }
+}
+
+/// The quarter of the encoder's period, 0 to 3 in the direction up.
+fn quarter(a: bool, b: bool) -> u32 {
+    match (a, b) {
+        (false, false) => 0,
+        (true, false) => 1,
+        (true, true) => 2,
+        (false, true) => 3,
+    }
+}
+
+/// The quarter that a flip-flop of each channel holds.
+fn held(q: &Reg<Value>, place: usize) -> u32 {
+    let level = |sync: u64| sync >> place & 1 == 1;
+    quarter(level(q.sync_a), level(q.sync_b))
+}
+
+/// Quarters turned between the previous and the present levels, 0 to 3; none before they are real.
+fn turned(q: &Reg<Value>) -> u32 {
+    match q.samples {
+        3 => (held(q, PRESENT) + 4 - held(q, PREVIOUS)) % 4,
+        _ => 0,
+    }
+}
+
+impl Specified for QuadratureCounter {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step(
+                "a quarter moves the position by one, clear makes it 0, nothing else moves it",
+                |now, next| {
+                    let moved = match turned(now.q) {
+                        1 => 1,
+                        3 => -1,
+                        _ => 0,
+                    };
+                    let expected = match now.i.clear {
+                        true => 0,
+                        false => now.q.position + moved,
+                    };
+                    let right = (next.q.position - expected).rem_euclid(1 << self.width) == 0;
+                    require(right, ["position", "sync_a", "sync_b"], || {
+                        format!("{} after {}", next.q.position, now.q.position)
+                    })
+                },
+            )
+            .always(
+                "half a turn in one tick is illegal, nothing else is",
+                |now| {
+                    let half = turned(now.q) == 2;
+                    require(now.w.illegal == half, ["illegal"], || {
+                        format!("{} quarters", turned(now.q))
+                    })
+                },
+            )
+            .step(
+                "an illegal step is kept in mind until clear",
+                |now, next| {
+                    let lost = (now.q.lost || turned(now.q) == 2) && !now.i.clear;
+                    require(next.q.lost == lost, ["lost"], || {
+                        format!("{:?}", next.q.lost)
+                    })
+                },
+            )
+            .step(
+                "a level passes one flip-flop a tick, and three fill them",
+                |now, next| {
+                    let (q, i) = (now.q, now.i);
+                    let passed = held(&next.q, 0) == quarter(i.a, i.b)
+                        && held(&next.q, PRESENT) == held(q, 0)
+                        && held(&next.q, PREVIOUS) == held(q, PRESENT)
+                        && next.q.samples == 3.min(q.samples + 1);
+                    require(passed, ["sync_a", "sync_b", "samples"], || {
+                        "not those of a tick ago".into()
+                    })
+                },
+            )
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,168 @@
+//! Record memory: the records of the segments to come, and the way their words go to the blocks.
+//!
+//! ```text
+//!                           ┌────────────────┐
+//!  write, write_word, … ───▶│                ├──▶ ready, available
+//!  push ───────────────────▶│ record_memory  ├──▶ load, word, data
+//!  take, kind ─────────────▶│                ├──▶ load_engines, load_rotation
+//!  flush ──────────────────▶│                ├──▶ loaded
+//!                           └────────────────┘
+//! ```
+//!
+//! A record is 32 words. The control computer writes them into the free record in any order and
+//! completes it by `push`; records that wait are taken first in, first out, and each is free again
+//! when its last word has been read. A path may so be of any length.
+
+use crate::hdl::prelude::*;
+
+/// Words of a record.
+pub const RECORD: usize = 32;
+/// Number of a record's last word.
+const LAST_WORD: u64 = RECORD as u64 - 1;
+/// Names of the kinds of segments, by the lower bits of a record's first word.
+pub(crate) const KINDS: &[&str] = &["blend", "line", "arc"];
+/// An arc among them.
+pub(crate) const ARC: u64 = 2;
+
+/// Memory of 2^`record` records.
+///
+/// `load` is high from the second tick after `take` on, for 32 ticks; `loaded` in the tick after them.
+#[derive(Debug, Clone)]
+pub struct RecordMemory {
+    /// Width of a record's number in bits.
+    pub record: usize,
+    /// Width of a word of a record.
+    pub data: usize,
+}
+
+impl RecordMemory {
+    /// Ticks from `take` to `loaded`.
+    pub const fn latency(&self) -> u64 {
+        RECORD as u64 + 2
+    }
+
+    /// Width of the number of a word among those of all records.
+    fn address(&self) -> usize {
+        self.record + log2(RECORD)
+    }
+}
+
+signals! { for RecordMemory as c;
+    /// Ports in.
+    pub struct In {
+        /// Writes a word of the free record; not taken unless `ready`.
+        pub write: Bit,
+        /// Number of the word.
+        pub write_word: U(5),
+        /// Its data.
+        pub write_data: U(c.data) as Hex,
+        /// The free record is complete, with what is written in this tick; not taken unless `ready`.
+        pub push: Bit,
+        /// The next record goes to the blocks, if there is one and none is on its way.
+        pub take: Bit,
+        /// The kind of the record that is on its way, from its second word on.
+        pub kind: U(2) as States(KINDS),
+        /// Forgets the records that wait, one that is completed in this tick too, and the rest of
+        /// one that is on its way.
+        pub flush: Bit,
+    }
+    /// Flip-flops and memory.
+    pub struct Reg {
+        /// The records.
+        records: Ram(c.address(), c.data),
+        /// The free record.
+        write_record: U(c.record) = 0,
+        /// The record that is taken next, or is on its way.
+        read_record: U(c.record) = 0,
+        /// All records wait.
+        full: Bit = 0,
+        /// A record is on its way: its words are read.
+        reading: Bit = 0,
+        /// The word that is read.
+        read_word: U(5) = 0,
+        /// A word of a record stands at `word` and `data`.
+        pub load: Bit = 0,
+        /// Its number.
+        pub word: U(5) = 0,
+        /// The word.
+        pub data: U(c.data) as Hex = 0,
+        /// The last word of a record was there in the tick before.
+        pub loaded: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// The word is one of a blend or a line.
+        pub load_engines: Bit,
+        /// The word is one of an arc.
+        pub load_rotation: Bit,
+        /// There is a free record.
+        pub ready: Bit,
+        /// A record waits, or is on its way.
+        pub available: Bit,
+        /// Where is written.
+        write_address: U(c.address()) as Hex,
+        /// Where is read.
+        read_address: U(c.address()) as Hex,
+        /// A word is written.
+        store: Bit,
+        /// The free record is completed.
+        complete: Bit,
+        /// The last word of a record is read.
+        last: Bit,
+        /// The free record after this tick.
+        next_write: U(c.record),
+        /// The record to be read after this tick.
+        next_read: U(c.record),
+    }
+}
+
+impl Circuit for RecordMemory {
+    const NAME: &'static str = "record_memory";
+    const ABOUT: &'static str = "coefficients of the segments to come, first in, first out";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let arc = i.kind.equals(ARC);
+        let ready = !q.full;
+        let available = q.full | !q.write_record.equals(q.read_record);
+        let write_address = q.write_record.join(i.write_word);
+        let read_address = q.read_record.join(q.read_word);
+        let store = i.write & ready;
+        let complete = i.push & !q.full;
+        let last = q.reading & q.read_word.equals(LAST_WORD);
+        let read_on = last.mux(q.read_record + 1, q.read_record);
+        let write_on = complete.mux(q.write_record + 1, q.write_record);
+        let next_write = i.flush.mux(q.write_record, write_on);
+        let next_read = i.flush.mux(q.write_record, read_on);
+
+        let reading = (i.take & available & !q.reading) | (q.reading & !last);
+        let full = next_write.equals(next_read) & (q.full | complete) & !last;
+        let load = q.reading & !i.flush;
+        let net = Net {
+            load_engines: q.load & !arc,
+            load_rotation: q.load & arc,
+            ready,
+            available,
+            write_address,
+            read_address,
+            store,
+            complete,
+            last,
+            next_write,
+            next_read,
+        };
+        let next = Reg {
+            data: q.records.read_when(load, read_address, q.data),
+            records: q.records.write(store, write_address, i.write_data),
+            write_record: next_write,
+            read_record: next_read,
+            full: full & !i.flush,
+            reading: reading & !i.flush,
+            read_word: (q.reading & !i.flush).mux(q.read_word + 1, 0),
+            load,
+            word: load.mux(q.read_word, q.word),
+            loaded: q.load & q.word.equals(LAST_WORD) & !i.flush,
+        };
+        (net, next)
+    }
+}

@@ -1,0 +1,297 @@
+//! Record sequencer: one segment after the other, one point for every sampling time.
+//!
+//! ```text
+//!                     ┌───────────────────┐
+//!  start, halt ──────▶│                   ├──▶ take
+//!  sample ───────────▶│                   ├──▶ advance, rotate
+//!  available, loaded ▶│ record_sequencer  ├──▶ present, sampled
+//!  load, word, data ─▶│                   ├──▶ kind, rotating, modulus
+//!  rotated ──────────▶│                   ├──▶ busy, late, starved
+//!                     └───────────────────┘
+//! ```
+//!
+//! A → A⁺ → (B) → C⁻ → C of JPH0743606B2 is a blend, an arc and a blend; with lines it becomes line,
+//! blend, arc, blend, line. The sequencer does not tell these apart: each segment begins at the
+//! point where the one before it has ended, and says how many samples it has.
+//!
+//! With `sample` the point becomes the command, and the next point is made at once: it is ready
+//! long before the next `sample`. After the last point of a segment the next segment is fetched
+//! first. The first point of a path is the beginning of its first segment. A segment of 0 samples
+//! gives the point where it begins.
+
+use super::record_memory::{ARC, KINDS};
+use crate::hdl::prelude::*;
+
+/// Names of the states.
+const STATES: &[&str] = &["idle", "fetch", "step", "rotate", "ready"];
+const IDLE: u64 = 0;
+const FETCH: u64 = 1;
+const STEP: u64 = 2;
+const ROTATE: u64 = 3;
+const READY: u64 = 4;
+
+/// Sequencer of records.
+#[derive(Debug, Clone)]
+pub struct RecordSequencer {
+    /// Width of a modulus in bits.
+    pub modulus: usize,
+    /// Width of the number of a segment's samples.
+    pub samples: usize,
+    /// Width of a word of a record.
+    pub data: usize,
+}
+
+signals! { for RecordSequencer as c;
+    /// Ports in.
+    pub struct In {
+        /// Begins a path, unless one is under way or no segment waits.
+        pub start: Bit,
+        /// Ends the path: the commands stay where they are, what waits is forgotten.
+        pub halt: Bit,
+        /// A sampling time begins.
+        pub sample: Bit,
+        /// A segment waits.
+        pub available: Bit,
+        /// `data` is word `word` of a record.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(5),
+        /// Its data.
+        pub data: U(c.data) as Hex,
+        /// The record is complete.
+        pub loaded: Bit,
+        /// The rotation has its next point.
+        pub rotated: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// What it does.
+        state: U(3) as States(STATES) = 0,
+        /// The point is the first of a path.
+        first: Bit = 0,
+        /// The segment's kind.
+        pub kind: U(2) as States(KINDS) = 0,
+        /// The segment ends at rest.
+        rests: Bit = 0,
+        /// Points of the segment that are yet to be made.
+        remaining: U(c.samples) as Analog = 0,
+        /// The modulus of the segment's differences.
+        pub modulus: U(c.modulus) = 0,
+        /// The next record is fetched.
+        pub take: Bit = 0,
+        /// The rotation makes the next point.
+        pub rotate: Bit = 0,
+        /// New commands stand in this tick.
+        pub sampled: Bit = 0,
+        /// A sampling time began before the point was ready; until the next path begins.
+        pub late: Bit = 0,
+        /// The path ended in motion, since no segment waited; until the next path begins.
+        pub starved: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// The word is a record's first.
+        header: Bit,
+        /// A path begins.
+        begins: Bit,
+        /// The segment's last point becomes the command.
+        over: Bit,
+        /// The segment is an arc.
+        pub rotating: Bit,
+        /// The next point is made.
+        makes: Bit,
+        /// The difference engines make it.
+        pub advance: Bit,
+        /// The point becomes the command.
+        pub present: Bit,
+        /// A path is under way.
+        pub busy: Bit,
+        /// A sampling time begins too early.
+        hurried: Bit,
+    }
+}
+
+impl Circuit for RecordSequencer {
+    const NAME: &'static str = "record_sequencer";
+    const ABOUT: &'static str = "segment after segment, a point for every sampling time";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        let needed = self.modulus.max(self.samples + 3);
+        (self.data < needed).then(|| "a word of a record holds header and modulus".into())
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let is = |state: u64| q.state.equals(state);
+        let header = i.load & i.word.is_zero();
+        let begins = is(IDLE) & i.start & i.available & !i.halt;
+        let present = is(READY) & i.sample & !i.halt;
+        let over = present & q.remaining.is_zero();
+        let rotating = q.kind.equals(ARC);
+        let makes = is(STEP) & !i.halt;
+        let hurried = i.sample & !q.first & !i.halt & (is(FETCH) | is(STEP) | is(ROTATE));
+
+        let to = |state: u64| U::new(state, 3);
+        let ended = i.available.mux(to(FETCH), to(IDLE));
+        let stands = q.first | q.remaining.is_zero();
+        let made = rotating.mux(to(ROTATE), to(READY));
+        let state = begins.mux(FETCH, q.state);
+        let state = (i.loaded & is(FETCH)).mux(stands.mux(to(READY), to(STEP)), state);
+        let state = makes.mux(made, state);
+        let state = (i.rotated & is(ROTATE)).mux(READY, state);
+        let state = present.mux(over.mux(ended, to(STEP)), state);
+        let samples = i.data.shift_right(3).resize(self.samples);
+        let remaining = makes.mux(q.remaining - 1, q.remaining);
+        let modulus = i.load & i.word.equals(1);
+        let net = Net {
+            header,
+            begins,
+            over,
+            rotating,
+            makes,
+            advance: makes & !rotating,
+            present,
+            busy: !is(IDLE),
+            hurried,
+        };
+        let next = Reg {
+            state: i.halt.mux(IDLE, state),
+            first: begins | (q.first & !present),
+            kind: header.mux(i.data.resize(2), q.kind),
+            rests: header.mux(i.data.bit(2), q.rests),
+            remaining: header.mux(samples, remaining),
+            modulus: modulus.mux(i.data.resize(self.modulus), q.modulus),
+            take: begins | (over & i.available),
+            rotate: makes & rotating,
+            sampled: present,
+            late: (q.late & !begins) | hurried,
+            starved: (q.starved & !begins) | (over & !q.rests & !i.available),
+        };
+        (net, next)
+    }
+}
+
+/// What the control does next, in the words of its description: `None` where it stays as it is.
+fn after(q: &Reg<Value>, i: &In<Value>) -> Option<u64> {
+    let on = |condition: bool, state| condition.then_some(state);
+    let next = on(i.available, FETCH).unwrap_or(IDLE);
+    match q.state {
+        _ if i.halt => Some(IDLE),
+        IDLE => on(i.start && i.available, FETCH),
+        FETCH if q.first || q.remaining == 0 => on(i.loaded, READY),
+        FETCH => on(i.loaded, STEP),
+        STEP if q.kind == ARC => Some(ROTATE),
+        STEP => Some(READY),
+        ROTATE => on(i.rotated, READY),
+        _ if q.remaining == 0 => on(i.sample, next),
+        _ => on(i.sample, STEP),
+    }
+}
+
+impl Specified for RecordSequencer {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let begins = |q: &Reg<Value>, next: &Reg<Value>| q.state == IDLE && next.state == FETCH;
+        Invariants::<Self>::new()
+            .step("state after state as described", |now, next| {
+                let expected = after(now.q, now.i).unwrap_or(now.q.state);
+                require(next.q.state == expected, ["state"], || {
+                    format!("not {}", STATES[expected as usize])
+                })
+            })
+            .step(
+                "a point is made for every step, and counted",
+                |now, next| {
+                    let header = now.i.load && now.i.word == 0;
+                    let steps = now.q.state == STEP && !now.i.halt;
+                    let made = u64::from(now.w.advance) + u64::from(next.q.rotate);
+                    let arc = now.q.kind == ARC;
+                    let words = 1 << self.samples;
+                    let left = (now.q.remaining + words - made) % words;
+                    let counted = header || next.q.remaining == left;
+                    let right = made == u64::from(steps) && next.q.rotate == (steps && arc);
+                    require(right && counted, ["remaining", "advance", "rotate"], || {
+                        format!("{made} made")
+                    })
+                },
+            )
+            .step(
+                "a command with a sample where the point is ready, nowhere else",
+                |now, next| {
+                    let due = now.i.sample && now.q.state == READY && !now.i.halt;
+                    let right = now.w.present == due && next.q.sampled == due;
+                    require(right, ["present", "sampled"], || "not so".into())
+                },
+            )
+            .step(
+                "a record is taken where a fetch begins, and only there",
+                |now, next| {
+                    let fetches = next.q.state == FETCH && now.q.state != FETCH;
+                    require(next.q.take == fetches, ["take", "state"], || {
+                        "not so".into()
+                    })
+                },
+            )
+            .step(
+                "a path's first point is first until it becomes the command",
+                move |now, next| {
+                    let kept = now.q.first && !next.q.sampled;
+                    let expected = begins(now.q, &next.q) || kept;
+                    require(next.q.first == expected, ["first"], || {
+                        format!("not {expected}")
+                    })
+                },
+            )
+            .step(
+                "late: a sample came while the next point was made",
+                move |now, next| {
+                    let making = [FETCH, STEP, ROTATE].contains(&now.q.state);
+                    let missed = now.i.sample && !now.i.halt && making && !now.q.first;
+                    let expected = missed || (now.q.late && !begins(now.q, &next.q));
+                    require(next.q.late == expected, ["late"], || {
+                        format!("not {expected}")
+                    })
+                },
+            )
+            .step(
+                "starved: it became idle without rest and without halt",
+                move |now, next| {
+                    let idles = now.q.state != IDLE && next.q.state == IDLE;
+                    let moving = idles && !now.i.halt && !now.q.rests;
+                    let expected = moving || (now.q.starved && !begins(now.q, &next.q));
+                    require(next.q.starved == expected, ["starved"], || {
+                        format!("not {expected}")
+                    })
+                },
+            )
+            .step(
+                "words 0 and 1 of a record are header and modulus",
+                |now, next| {
+                    let word = now.i.load.then_some(now.i.word);
+                    let data = now.i.data;
+                    let header = match word {
+                        Some(0) => [data % 4, data / 4 % 2],
+                        _ => [now.q.kind, u64::from(now.q.rests)],
+                    };
+                    let samples = data / 8 % (1 << self.samples);
+                    let counted = word != Some(0) || next.q.remaining == samples;
+                    let modulus = match word {
+                        Some(1) => data % (1 << self.modulus),
+                        _ => now.q.modulus,
+                    };
+                    let same = [next.q.kind, u64::from(next.q.rests)] == header;
+                    let right = same && counted && next.q.modulus == modulus;
+                    require(right, ["kind", "rests", "remaining", "modulus"], || {
+                        "not so".into()
+                    })
+                },
+            )
+    }
+
+    /// A word is loaded in a fetch; one from 2 on does not differ from another such.
+    fn applies(&self, i: &In<Value>) -> bool {
+        match i.load {
+            true => i.word <= 2 && !i.loaded,
+            false => i.word == 0 && i.data == 0,
+        }
+    }
+}

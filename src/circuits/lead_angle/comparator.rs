@@ -1,0 +1,210 @@
+//! Comparator 19: the control signal, when the compared position reaches the compared target.
+//!
+//! ```text
+//!                               ┌────────────┐
+//!  evaluate, valid ────────────▶│            ├──▶ crossing, fire
+//!  position, target ───────────▶│ comparator ├──▶ control
+//!  arm, halt ──────────────────▶│            ├──▶ upward
+//!                               └────────────┘
+//! ```
+//!
+//! It looks, from the first `arm` on, where `evaluate` is high and what it is given is `valid`. A
+//! *crossing* is the arrival at the target, or the step over it, from either side; it counts once.
+//! The first after `arm` is `fire`, and holds the control signal until the next `arm`.
+//!
+//! Departures: the text compares for equality, which hits only one target in v where the position
+//! moves on by v > 1 counts per CK. That is the variant [`Comparing::Equal`]. A crossing is told
+//! from the jump at the far side of the ring, where the difference changes its sign too: for
+//! that, moves have to be below a quarter of the range per CK. `arm`, the latch and `halt`, which
+//! gives the control signal without a crossing, are additions.
+
+use crate::hdl::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// When the comparator finds that the target is reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Comparing {
+    /// The position arrives at the target or steps over it.
+    #[default]
+    Crossing,
+    /// The position is the target, as the text has it.
+    Equal,
+}
+
+/// Comparator 19; `control` shows in the tick after `fire`.
+#[derive(Debug, Clone)]
+pub struct Comparator {
+    /// Width of a position.
+    pub position: usize,
+    /// When the target is reached.
+    pub comparing: Comparing,
+}
+
+/// Names of the sides.
+const SIDES: &[&str] = &["unknown", "below", "at", "above"];
+const UNKNOWN: u64 = 0;
+const BELOW: u64 = 1;
+const AT: u64 = 2;
+const ABOVE: u64 = 3;
+
+signals! { for Comparator as c;
+    /// Ports in.
+    pub struct In {
+        /// Position and target are new in this tick.
+        pub evaluate: Bit,
+        /// They can be trusted.
+        pub valid: Bit,
+        /// The position, with its lead.
+        pub position: I(c.position),
+        /// The target, with its lead.
+        pub target: I(c.position),
+        /// Takes the control signal back and forgets the side; goes before all else.
+        pub arm: Bit,
+        /// Gives the control signal at once.
+        pub halt: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Where the position was when it was last looked at, since `arm`.
+        side: U(2) as States(SIDES) = 0,
+        /// It looks at all: from the first `arm` on.
+        armed: Bit = 0,
+        /// The control signal, from the first crossing to the next `arm`.
+        pub control: Bit = 0,
+        /// It came from below.
+        pub upward: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// Position minus target, the short way round.
+        pub difference: I(c.position) as Analog,
+        /// The position is looked at in this tick.
+        look: Bit,
+        /// The position is the target.
+        equal: Bit,
+        /// The position is on this half of the ring.
+        near: Bit,
+        /// It comes from below.
+        upwards: Bit,
+        /// It comes from above.
+        downwards: Bit,
+        /// The target is reached.
+        pub crossing: Bit,
+        /// The target is reached for the first time since `arm`.
+        pub fire: Bit,
+    }
+}
+
+impl Circuit for Comparator {
+    const NAME: &'static str = "comparator";
+    const ABOUT: &'static str = "gives the control signal when the position reaches the target";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let difference = i.position - i.target;
+        let (negative, equal) = (difference.is_negative(), difference.is_zero());
+        let look = i.evaluate & i.valid & q.armed & !i.arm;
+        let near = !(negative ^ difference.shift_left(1).is_negative());
+        let upwards = q.side.equals(BELOW) & !negative & near;
+        let downwards = q.side.equals(ABOVE) & (negative | equal) & near;
+        let crossing = match self.comparing {
+            Comparing::Crossing => {
+                let at_once = q.side.equals(UNKNOWN) & equal;
+                look & (upwards | downwards | at_once)
+            }
+            Comparing::Equal => look & equal & !q.side.equals(AT),
+        };
+        let fire = crossing & !q.control;
+        let away = negative.mux(U::new(BELOW, 2), ABOVE);
+        let side = equal.mux(AT, away);
+        let edge = Reg {
+            side: i.arm.mux(UNKNOWN, look.mux(side, q.side)),
+            armed: q.armed | i.arm,
+            control: (q.control | fire | i.halt) & !i.arm,
+            upward: fire.mux(upwards, q.upward),
+        };
+        let net = Net {
+            difference,
+            look,
+            equal,
+            near,
+            upwards,
+            downwards,
+            crossing,
+            fire,
+        };
+        (net, edge)
+    }
+}
+
+impl Specified for Comparator {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let comparing = self.comparing;
+        let quarter = 1i64 << self.position >> 2;
+        Invariants::<Self>::new()
+            .always(
+                "a crossing is an arrival at the target or a step over it",
+                move |now| {
+                    let difference = now.w.difference;
+                    let here = (-quarter..quarter).contains(&difference);
+                    let reached = match (comparing, now.q.side) {
+                        (Comparing::Equal, side) => difference == 0 && side != AT,
+                        (Comparing::Crossing, BELOW) => here && difference >= 0,
+                        (Comparing::Crossing, ABOVE) => here && difference <= 0,
+                        (Comparing::Crossing, UNKNOWN) => difference == 0,
+                        (Comparing::Crossing, _) => false,
+                    };
+                    let looks = now.i.evaluate && now.i.valid && now.q.armed && !now.i.arm;
+                    let right = now.w.crossing == (reached && looks);
+                    require(right, ["crossing", "difference", "side"], || {
+                        format!("a difference of {difference}")
+                    })
+                },
+            )
+            .always("it fires only without a control signal", |now| {
+                let fires = now.w.crossing && !now.q.control;
+                require(now.w.fire == fires, ["fire"], || "wrong".into())
+            })
+            .step(
+                "the control signal stands from the tick after fire or halt to the next arm",
+                |now, next| {
+                    let control = (now.w.fire || now.i.halt || now.q.control) && !now.i.arm;
+                    require(next.q.control == control, ["control"], || {
+                        format!("{control} expected")
+                    })
+                },
+            )
+            .step("fire says from which side it came", |now, next| {
+                let upward = match now.w.fire {
+                    true => now.q.side == BELOW,
+                    false => now.q.upward,
+                };
+                require(next.q.upward == upward, ["upward"], || {
+                    format!("{upward} expected")
+                })
+            })
+            .step("it is armed from the first arm on", |now, next| {
+                let armed = now.q.armed || now.i.arm;
+                require(next.q.armed == armed, ["armed"], || {
+                    format!("{armed} expected")
+                })
+            })
+            .step(
+                "the side is that of the last look since arm",
+                |now, next| {
+                    let looks = now.i.evaluate && now.i.valid && now.q.armed;
+                    let side = match (now.i.arm, looks) {
+                        (true, _) => UNKNOWN,
+                        (false, false) => now.q.side,
+                        (false, true) => match now.w.difference.signum() {
+                            -1 => BELOW,
+                            0 => AT,
+                            _ => ABOVE,
+                        },
+                    };
+                    require(next.q.side == side, ["side"], || format!("{side} expected"))
+                },
+            )
+    }
+}

@@ -1,0 +1,392 @@
+//! The whole compensator (Figs 1 and 6): position detector 10, control 22, target setter 18, time
+//! data supply 21, completion detector 26, correction 23, and the sequencer that runs the steps.
+//!
+//! ```text
+//!                                     ┌─────────────┐
+//!  a, b, clear ──────────────────────▶│             ├──▶ drive, reverse, speed, brake
+//!  run, halt, learn, common ─────────▶│             ├──▶ position, predicted, target, lead_time
+//!  write_target, write_time, … ──────▶│ compensator ├──▶ fire, complete, timed_out
+//!  ck_period, standstill, time_out ──▶│             ├──▶ error, overrun, learned
+//!  rest, last_step, seed ────────────▶│             ├──▶ busy, refused, lost
+//!                                     └─────────────┘
+//! ```
+//!
+//! Where the lead comes from is a choice: from the time Δt with the history as a shift register
+//! or as a RAM, or from the speed as in Fig. 7. `brake` is the control signal; it holds from the
+//! crossing through the rest up to the next step.
+
+use super::lead_source::{LeadFrom, LeadPart, LeadSource};
+use super::{
+    Comparator, Comparing, CompletionDetector, Correction, LeadPlacement, Memory, Placement,
+    RatioLogic, Sign, SpeedLead, StepSequencer, TargetSetter, TimeData, TimeLead, codes,
+    comparator, completion_detector, correction, placement, ratio_logic, speed_lead,
+    step_sequencer, target_setter, time_data, time_lead,
+};
+use crate::circuits::blocks::{
+    EnableCounter, QuadratureCounter, enable_counter, quadrature_counter,
+};
+use crate::hdl::prelude::*;
+
+/// Widths of a compensator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Widths {
+    /// Stages of history.
+    pub stages: usize,
+    /// Width of a position.
+    pub position: usize,
+    /// Width of a step number.
+    pub step: usize,
+    /// Width of a speed.
+    pub speed: usize,
+    /// Width of a time in CKs that is no lead time.
+    pub cks: usize,
+    /// Width of the CK's period in ticks.
+    pub ck_period: usize,
+}
+
+impl Widths {
+    /// Width of a lead time in CKs.
+    #[must_use]
+    pub fn time(&self) -> usize {
+        codes::time_width(self.stages)
+    }
+}
+
+impl Default for Widths {
+    /// Those of the text's table, and room for the rest.
+    fn default() -> Self {
+        Widths {
+            stages: 199,
+            position: 24,
+            step: 4,
+            speed: 16,
+            cks: 16,
+            ck_period: 24,
+        }
+    }
+}
+
+/// What is chosen when a compensator is built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Variant {
+    /// What the lead is put on.
+    pub placement: Placement,
+    /// When the target is reached.
+    pub comparing: Comparing,
+    /// Which way the error counts.
+    pub sign: Sign,
+}
+
+/// Compensator.
+///
+/// From the tick of CK, in which a position stands, to `fire` it is one tick, to `brake` two.
+#[derive(Debug, Clone)]
+pub struct Compensator {
+    /// Its widths.
+    pub widths: Widths,
+    /// Where the lead comes from.
+    pub lead_from: LeadFrom,
+    /// What else is chosen.
+    pub variant: Variant,
+    /// 25: the times of its steps at power-on, in CKs.
+    pub rom: Image,
+}
+
+impl Compensator {
+    fn lead_source(&self) -> LeadSource {
+        let Widths {
+            stages, position, ..
+        } = self.widths;
+        match self.lead_from {
+            LeadFrom::Time(memory) => LeadSource::Time(TimeLead {
+                stages,
+                position,
+                memory,
+            }),
+            LeadFrom::Speed => LeadSource::Speed(SpeedLead {
+                position,
+                gate: self.widths.cks,
+            }),
+        }
+    }
+}
+
+signals! { for Compensator as c;
+    /// Ports in: encoder, control computer, settings.
+    pub struct In {
+        /// Encoder, channel A.
+        pub a: Bit,
+        /// Encoder, channel B.
+        pub b: Bit,
+        /// Between two steps: the position becomes 0, the history begins anew, the flags go.
+        pub clear: Bit,
+        /// Steps run one after the other; when it goes low the running one is the last.
+        pub run: Bit,
+        /// Ends the move of this step at once; nothing is learned from it.
+        pub halt: Bit,
+        /// Times are learned.
+        pub learn: Bit,
+        /// All steps share the time of step 0.
+        pub common: Bit,
+        /// The step after which step 0 comes.
+        pub last_step: U(c.widths.step),
+        /// Ticks of CK; 0 counts as 1.
+        pub ck_period: U(c.widths.ck_period),
+        /// CKs without a change that are a standstill.
+        pub standstill: U(c.widths.cks),
+        /// CKs from the control signal on after which a positioning is complete anyway.
+        pub time_out: U(c.widths.cks),
+        /// CKs between two steps.
+        pub rest: U(c.widths.cks),
+        /// The time that a step begins to learn with that has none.
+        pub seed: U(c.widths.time()),
+        /// a of Fig. 7: lead time in gates, in 1/256.
+        pub lead_parameter: U(14),
+        /// CKs of a gate of Fig. 7.
+        pub gate: U(c.widths.cks),
+        /// A target and its speed are written.
+        pub write_target: Bit,
+        /// A time is written; off the grid it is refused.
+        pub write_time: Bit,
+        /// The step that is written.
+        pub write_step: U(c.widths.step),
+        /// The target that is written.
+        pub step_target: I(c.widths.position),
+        /// The speed that is written.
+        pub step_speed: U(c.widths.speed),
+        /// The time that is written, in CKs.
+        pub step_time: U(c.widths.time()),
+    }
+    /// The circuits inside.
+    pub struct Parts {
+        /// CK.
+        pub ck_counter: Part<EnableCounter>(EnableCounter { width: c.widths.ck_period }),
+        /// 10.
+        pub detector: Part<QuadratureCounter>(QuadratureCounter { width: c.widths.position }),
+        /// What makes the lead.
+        pub lead_source: LeadPart(&c.lead_source()),
+        /// 18.
+        pub target_setter: Part<TargetSetter>(TargetSetter {
+            step: c.widths.step, position: c.widths.position, speed: c.widths.speed,
+        }),
+        /// Whether a time that is written is on the grid.
+        pub write_check: Part<RatioLogic>(RatioLogic { stages: c.widths.stages }),
+        /// 21.
+        pub time_data: Part<TimeData>(TimeData {
+            step: c.widths.step, time: c.widths.time(), rom: c.rom.clone(),
+        }),
+        /// 17 or 20.
+        pub placement: Part<LeadPlacement>(LeadPlacement {
+            position: c.widths.position, placement: c.variant.placement,
+        }),
+        /// 19.
+        pub comparator: Part<Comparator>(Comparator {
+            position: c.widths.position, comparing: c.variant.comparing,
+        }),
+        /// 26.
+        pub completion: Part<CompletionDetector>(CompletionDetector {
+            position: c.widths.position, time: c.widths.cks,
+        }),
+        /// 23.
+        pub correction: Part<Correction>(Correction {
+            stages: c.widths.stages, position: c.widths.position, sign: c.variant.sign,
+        }),
+        /// The steps.
+        pub sequencer: Part<StepSequencer>(StepSequencer {
+            step: c.widths.step, position: c.widths.position, rest: c.widths.cks,
+        }),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// CK: a sample is taken.
+        pub ck: Bit,
+        /// Dx: the present sample.
+        pub position: I(c.widths.position) as Analog,
+        /// What is compared with the target: Dx(+Δt) where all of the lead is put on the position.
+        pub predicted: I(c.widths.position) as Analog,
+        /// Sx: the target of this step.
+        pub target: I(c.widths.position) as Analog,
+        /// Δt1: the lead time of this step.
+        pub lead_time: U(c.widths.time()) as Analog,
+        /// The step that runs, or is next.
+        pub step: U(c.widths.step),
+        /// A step runs.
+        pub busy: Bit,
+        /// The motor is on.
+        pub drive: Bit,
+        /// The motor turns downwards.
+        pub reverse: Bit,
+        /// Speed of this step, for the drive.
+        pub speed: U(c.widths.speed),
+        /// The control signal begins.
+        pub fire: Bit,
+        /// The control signal.
+        pub brake: Bit,
+        /// The positioning is complete.
+        pub complete: Bit,
+        /// It was complete because its time was over.
+        pub timed_out: Bit,
+        /// d1: the way since the control signal.
+        pub overrun: I(c.widths.position),
+        /// d2: the way past the target.
+        pub error: I(c.widths.position),
+        /// A time is learned in this tick.
+        pub learned: Bit,
+        /// Δt2: the time that is learned.
+        pub learned_time: U(c.widths.time()),
+        /// A written time was refused since `clear`.
+        pub refused: Bit,
+        /// The encoder was too fast since `clear`.
+        pub lost: Bit,
+    }
+}
+
+impl Circuit for Compensator {
+    const NAME: &'static str = "compensator";
+    const ABOUT: &'static str = "lead-angle compensator that learns its lead times";
+    records!(In, Nothing, Net, Parts);
+
+    fn name(&self) -> &'static str {
+        match self.lead_from {
+            LeadFrom::Time(Memory::ShiftRegister) => Self::NAME,
+            LeadFrom::Time(Memory::Ram) => "ram_compensator",
+            LeadFrom::Speed => "conventional_compensator",
+        }
+    }
+
+    fn about(&self) -> &'static str {
+        match self.lead_from {
+            LeadFrom::Time(Memory::ShiftRegister) => Self::ABOUT,
+            LeadFrom::Time(Memory::Ram) => "lead-angle compensator with its history in a RAM",
+            LeadFrom::Speed => "compensator whose lead is measured speed times a parameter",
+        }
+    }
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let ck_counter = p.ck_counter.settle(enable_counter::In {
+            period: i.ck_period,
+        });
+        let ck = ck_counter.w.enable;
+        let detector = p.detector.settle(quadrature_counter::In {
+            a: i.a,
+            b: i.b,
+            clear: i.clear,
+        });
+        let (restart, position) = (i.clear, detector.q.position);
+        let target = p.target_setter.q.target;
+        let lead_time = p.time_data.q.lead_time;
+        let sequence = &p.sequencer.q;
+        let target_setter = p.target_setter.settle(target_setter::In {
+            write: i.write_target,
+            write_step: i.write_step,
+            write_target: i.step_target,
+            write_speed: i.step_speed,
+            load: sequence.load,
+            step: sequence.step,
+        });
+        let (present, lead, fresh, enough) = match p.lead_source {
+            LeadPart::Time(part) => {
+                let time_lead = part.settle(time_lead::In {
+                    ck,
+                    restart,
+                    position,
+                    lead_time,
+                });
+                let w = time_lead.w;
+                (w.present, w.lead, w.fresh, w.enough)
+            }
+            LeadPart::Speed(part) => {
+                let speed_lead = part.settle(speed_lead::In {
+                    ck,
+                    restart,
+                    position,
+                    lead_parameter: i.lead_parameter,
+                    gate: i.gate,
+                });
+                let q = speed_lead.q;
+                (q.present, speed_lead.w.lead, q.fresh, q.enough)
+            }
+        };
+        let placement = p.placement.settle(placement::In {
+            position: present,
+            target,
+            lead,
+        });
+        let comparator = p.comparator.settle(comparator::In {
+            evaluate: fresh,
+            valid: enough,
+            position: placement.w.compared_position,
+            target: placement.w.compared_target,
+            arm: sequence.arm,
+            halt: sequence.halting,
+        });
+        let completion = p.completion.settle(completion_detector::In {
+            evaluate: fresh,
+            position: present,
+            active: sequence.braking,
+            standstill: i.standstill,
+            time_out: i.time_out,
+        });
+        let correction = p.correction.settle(correction::In {
+            fire: comparator.w.fire,
+            complete: completion.q.complete,
+            position: present,
+            target,
+            lead_time,
+            learn: i.learn,
+            missed: sequence.missed,
+            seed: i.seed,
+        });
+        let write_check = p.write_check.settle(ratio_logic::In {
+            lead_time: i.step_time,
+        });
+        let time_data = p.time_data.settle(time_data::In {
+            load: sequence.load,
+            step: sequence.step,
+            common: i.common,
+            learned: correction.w.learned,
+            learned_time: correction.w.learned_time,
+            write: i.write_time,
+            write_step: i.write_step,
+            write_time: i.step_time,
+            write_on_grid: write_check.w.on_grid,
+            clear: i.clear,
+        });
+        let sequencer = p.sequencer.settle(step_sequencer::In {
+            run: i.run,
+            halt: i.halt,
+            last_step: i.last_step,
+            position: present,
+            target,
+            evaluate: fresh,
+            control: comparator.q.control,
+            complete: completion.q.complete,
+            corrected: correction.w.corrected,
+            ck,
+            rest: i.rest,
+        });
+        let net = Net {
+            ck,
+            position: present,
+            predicted: placement.w.compared_position,
+            target,
+            lead_time,
+            step: sequencer.q.step,
+            busy: sequencer.q.busy,
+            drive: sequencer.q.drive,
+            reverse: sequencer.q.reverse,
+            speed: target_setter.q.speed,
+            fire: comparator.w.fire,
+            brake: comparator.q.control,
+            complete: completion.q.complete,
+            timed_out: completion.q.timed_out,
+            overrun: correction.w.overrun,
+            error: correction.w.error,
+            learned: correction.w.learned,
+            learned_time: correction.w.learned_time,
+            refused: time_data.q.refused,
+            lost: detector.q.lost,
+        };
+        (net, Nothing)
+    }
+}

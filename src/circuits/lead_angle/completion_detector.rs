@@ -1,0 +1,164 @@
+//! Completion detector 26: the positioning is complete when the body stands still, or when its time
+//! is over.
+//!
+//! ```text
+//!                          ┌─────────────────────┐
+//!  evaluate, position ────▶│                     ├──▶ complete
+//!  active ────────────────▶│ completion detector │
+//!  standstill, time_out ──▶│                     ├──▶ timed_out
+//!                          └─────────────────────┘
+//! ```
+//!
+//! Departure: the text leaves open how long a standstill has to last and which of the two
+//! conditions is used. Both are, and which of them it was is told.
+
+use crate::hdl::prelude::*;
+
+/// Completion detector 26; `complete` shows in the tick after the sample that decides.
+#[derive(Debug, Clone)]
+pub struct CompletionDetector {
+    /// Width of a position.
+    pub position: usize,
+    /// Width of a time in CKs.
+    pub time: usize,
+}
+
+signals! { for CompletionDetector as c;
+    /// Ports in.
+    pub struct In {
+        /// A sample of the position is new in this tick.
+        pub evaluate: Bit,
+        /// Dx.
+        pub position: I(c.position),
+        /// The control signal has been given for the step that runs.
+        pub active: Bit,
+        /// CKs without a change that are a standstill; 0 counts as 1.
+        pub standstill: U(c.time),
+        /// CKs from the control signal on after which it is complete anyway; 0 counts as 1.
+        pub time_out: U(c.time),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// The sample before.
+        last: I(c.position),
+        /// CKs without a change.
+        still: U(c.time) as Analog,
+        /// CKs since the control signal.
+        elapsed: U(c.time) as Analog,
+        /// The positioning is complete; one tick.
+        pub complete: Bit,
+        /// Its time was over before it stood still; until the next.
+        pub timed_out: Bit,
+    }
+    /// Nets.
+    pub struct Net {
+        /// The sample is the same as the one before.
+        same: Bit,
+        /// CKs without a change, this one included.
+        next_still: U(c.time),
+        /// CKs since the control signal, this one included.
+        next_elapsed: U(c.time),
+        /// A positioning is being completed.
+        running: Bit,
+        /// It stands still.
+        stands: Bit,
+        /// It is complete with this sample.
+        over: Bit,
+        /// The times go on.
+        counts: Bit,
+    }
+}
+
+impl Circuit for CompletionDetector {
+    const NAME: &'static str = "completion_detector";
+    const ABOUT: &'static str = "finds that the body stands still, or that its time is over";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let same = i.position.equals(q.last);
+        let next_still = q.still + 1;
+        let next_elapsed = q.elapsed + 1;
+        let stands = same & !next_still.below(i.standstill);
+        let late = !next_elapsed.below(i.time_out);
+        let running = i.active & !q.complete;
+        let over = i.evaluate & running & (stands | late);
+        let counts = running & !over;
+        let count = |more: Bit, next: U, old: U| {
+            let counted = i.evaluate.mux(more.mux(next, 0), old);
+            counts.mux(counted, 0)
+        };
+        let edge = Reg {
+            last: i.evaluate.mux(i.position, q.last),
+            still: count(same, next_still, q.still),
+            elapsed: count(Bit::high(), next_elapsed, q.elapsed),
+            complete: over,
+            timed_out: over.mux(!stands, q.timed_out),
+        };
+        let net = Net {
+            same,
+            next_still,
+            next_elapsed,
+            running,
+            stands,
+            over,
+            counts,
+        };
+        (net, edge)
+    }
+}
+
+impl Specified for CompletionDetector {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step(
+                "it is complete when it stood still for long enough, or its time is over",
+                |now, next| {
+                    let (i, q, next) = (now.i, now.q, &next.q);
+                    let still = match i.position == q.last {
+                        true => q.still + 1,
+                        false => 0,
+                    };
+                    let stands = still >= i.standstill.max(1);
+                    let late = q.elapsed + 1 >= i.time_out.max(1);
+                    let looks = i.evaluate && i.active && !q.complete;
+                    let right = next.complete == (looks && (stands || late))
+                        && (!next.complete || next.timed_out != stands)
+                        && (next.complete || next.timed_out == q.timed_out);
+                    require(right, ["complete", "timed_out"], || {
+                        format!("still for {still}, {} since control", q.elapsed + 1)
+                    })
+                },
+            )
+            .step(
+                "both times count from the control signal on",
+                |now, next| {
+                    let (i, q, next) = (now.i, now.q, &next.q);
+                    let (still, elapsed) = match (i.active && !q.complete, i.evaluate) {
+                        (false, _) => (0, 0),
+                        (true, false) => (q.still, q.elapsed),
+                        (true, true) if next.complete => (0, 0),
+                        (true, true) => match i.position == q.last {
+                            true => (q.still + 1, q.elapsed + 1),
+                            false => (0, q.elapsed + 1),
+                        },
+                    };
+                    let right = next.still == still && next.elapsed == elapsed;
+                    require(right, ["still", "elapsed"], || {
+                        format!("{still} and {elapsed} expected")
+                    })
+                },
+            )
+            .step("the sample before is kept", |now, next| {
+                let last = match now.i.evaluate {
+                    true => now.i.position,
+                    false => now.q.last,
+                };
+                require(next.q.last == last, ["last"], || "another".into())
+            })
+            .always("neither count reaches its greatest value", |now| {
+                let most = (1 << self.time) - 1;
+                let right = now.q.still < most && now.q.elapsed < most;
+                require(right, ["still", "elapsed"], || "it would wrap".into())
+            })
+    }
+}

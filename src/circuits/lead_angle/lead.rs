@@ -1,0 +1,82 @@
+//! Subtractor 15 and multiplier 16: the lead N·(Dx − Dx(−Δt/N)).
+//!
+//! ```text
+//!                 ┌──────┐
+//!  present, old ─▶│ lead ├──▶ difference
+//!  ratio ────────▶│      ├──▶ lead
+//!                 └──────┘
+//! ```
+//!
+//! Words wrap, so the difference is right as long as the way of a tap is below half the range of a
+//! position, and so is the prediction, wherever on the ring the lead ends.
+
+use crate::hdl::prelude::*;
+
+/// Subtractor and multiplier. Combinational.
+#[derive(Debug, Clone)]
+pub struct Lead {
+    /// Width of a position.
+    pub position: usize,
+}
+
+signals! { for Lead as c;
+    /// Ports in.
+    pub struct In {
+        /// Dx: the present sample.
+        pub present: I(c.position),
+        /// Dx(−Δt/N): the earlier one.
+        pub old: I(c.position),
+        /// N, up to 10; 0 for no lead.
+        pub ratio: U(4),
+    }
+    /// Nets.
+    pub struct Net {
+        /// N with a sign.
+        factor: I(5),
+        /// 15: Δx, the way of the last Δt/N.
+        pub difference: I(c.position) as Analog,
+        /// 16: N·Δx, the way that Δt will take at this speed.
+        pub lead: I(c.position) as Analog,
+    }
+}
+
+impl Circuit for Lead {
+    const NAME: &'static str = "lead_arithmetic";
+    const ABOUT: &'static str = "the way of the last tap, N times";
+    records!(In, Nothing, Net);
+
+    fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
+        let difference = i.present - i.old;
+        let factor = i.ratio.resize(5).signed();
+        let net = Net {
+            factor,
+            difference,
+            lead: difference.times(factor, self.position),
+        };
+        (net, Nothing)
+    }
+}
+
+impl Specified for Lead {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let range = 1i128 << self.position;
+        Invariants::<Self>::new()
+            .always("the difference is the short way round", move |now| {
+                let way = i128::from(now.i.present) - i128::from(now.i.old);
+                let difference = i128::from(now.w.difference);
+                let right = (way - difference) % range == 0;
+                require(right, ["difference"], || format!("{difference} for {way}"))
+            })
+            .always(
+                "the lead is N of them, on the ring of positions",
+                move |now| {
+                    let ways = i128::from(now.i.ratio)
+                        * (i128::from(now.i.present) - i128::from(now.i.old));
+                    let lead = i128::from(now.w.lead);
+                    require((ways - lead) % range == 0, ["lead"], || {
+                        format!("{lead} for {ways}")
+                    })
+                },
+            )
+    }
+}

@@ -1,0 +1,56 @@
+//! The lead-angle compensator of JPH0646367B2.
+//!
+//! ```text
+//!  a, b ─▶┌─────────────┐ Dx ┌──────────────────┐ Dx, Dx(−Δt/N) ┌──────┐ N·Δx ┌───────────┐
+//!         │ detector 10 ├───▶│ history 11, 14   ├──────────────▶│ lead ├─────▶│ placement │
+//!  CK ───▶└─────────────┘    └───────▲──────────┘               │15, 16│      │ 17, 20    │
+//!                                    │ N, tap                   └──────┘      └─────┬─────┘
+//!                            ┌───────┴────────┐      ┌──────────────────┐ Sx        ▼
+//!                            │ ratio logic 13 │      │ target setter 18 ├──▶┌───────────────┐
+//!                            └───────▲────────┘      └──────────────────┘   │ comparator 19 ├──▶ brake
+//!                                    │ Δt1                                  └───────┬───────┘
+//!                            ┌───────┴──────┐ Δt2 ┌───────────────┐ complete ┌──────▼────────┐
+//!                            │ time data 21 │◀────┤ correction 23 │◀─────────┤ completion 26 │
+//!                            └──────────────┘     └───────────────┘          └───────────────┘
+//! ```
+//!
+//! A body that is to stop at a target has to be braked before it is there. The way that it will
+//! still go is predicted from the way that it went in the last Δt/N, and Δt is learned from how it
+//! stopped. `rtl_notes/lead_angle.md` is the note of this circuit.
+
+pub mod codes;
+pub mod comparator;
+pub mod compensator;
+pub mod completion_detector;
+pub mod correction;
+pub mod correction_arithmetic;
+pub mod lead;
+pub mod lead_source;
+pub mod placement;
+pub mod position_history;
+pub mod ram_history;
+pub mod ratio_logic;
+pub mod speed_lead;
+pub mod step_sequencer;
+pub mod stop_error;
+pub mod target_setter;
+pub mod time_data;
+pub mod time_lead;
+
+pub use comparator::{Comparator, Comparing};
+pub use compensator::{Compensator, Variant, Widths};
+pub use completion_detector::CompletionDetector;
+pub use correction::Correction;
+pub use correction_arithmetic::CorrectionArithmetic;
+pub use lead::Lead;
+pub use lead_source::{LeadFrom, LeadSource};
+pub use placement::{LeadPlacement, Placement};
+pub use position_history::PositionHistory;
+pub use ram_history::RamHistory;
+pub use ratio_logic::RatioLogic;
+pub use speed_lead::SpeedLead;
+pub use step_sequencer::StepSequencer;
+pub use stop_error::{Sign, StopError};
+pub use target_setter::TargetSetter;
+pub use time_data::TimeData;
+pub use time_lead::{History, Memory, TimeLead};

@@ -1,0 +1,110 @@
+//! Adder 17 and subtractor 20: where the lead is put before position and target are compared.
+//!
+//! ```text
+//!                            ┌───────────┐
+//!  position, target, lead ──▶│ placement ├──▶ compared_position, compared_target
+//!                            └───────────┘
+//! ```
+//!
+//! The text allows three placements: the position is advanced (Fig. 1), the target is advanced
+//! (Fig. 5), or each by a half. All three have the same difference, so they fire in the same tick.
+//!
+//! Departure: the text says of the third that half the lead is subtracted from Dx; it has to be
+//! added.
+
+use crate::hdl::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// What the lead is put on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Placement {
+    /// Added to the position: adder 17.
+    #[default]
+    Position,
+    /// Taken from the target: subtractor 20.
+    Target,
+    /// Half of it, rounded down, added to the position, and the rest taken from the target.
+    Halves,
+}
+
+/// Placement of the lead. Combinational.
+#[derive(Debug, Clone)]
+pub struct LeadPlacement {
+    /// Width of a position.
+    pub position: usize,
+    /// What the lead is put on.
+    pub placement: Placement,
+}
+
+signals! { for LeadPlacement as c;
+    /// Ports in.
+    pub struct In {
+        /// Dx.
+        pub position: I(c.position),
+        /// Sx.
+        pub target: I(c.position),
+        /// N·Δx.
+        pub lead: I(c.position),
+    }
+    /// Nets.
+    pub struct Net {
+        /// The part of the lead that is added to the position.
+        advance: I(c.position),
+        /// Dx(+Δt), or as much of it as the placement wants.
+        pub compared_position: I(c.position) as Analog,
+        /// Sx′, likewise.
+        pub compared_target: I(c.position) as Analog,
+    }
+}
+
+impl Circuit for LeadPlacement {
+    const NAME: &'static str = "placement";
+    const ABOUT: &'static str = "puts the lead on the position, on the target, or on both";
+    records!(In, Nothing, Net);
+
+    fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
+        let advance = match self.placement {
+            Placement::Position => i.lead,
+            Placement::Target => I::new(0, self.position),
+            Placement::Halves => i.lead.shift_right(1),
+        };
+        let net = Net {
+            advance,
+            compared_position: i.position + advance,
+            compared_target: i.target - (i.lead - advance),
+        };
+        (net, Nothing)
+    }
+}
+
+impl Specified for LeadPlacement {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let range = 1i64 << self.position;
+        let placement = self.placement;
+        Invariants::<Self>::new()
+            .always(
+                "position and target are as far apart as with all of the lead on the position",
+                move |now| {
+                    let apart = now.w.compared_position - now.w.compared_target;
+                    let wanted = now.i.position + now.i.lead - now.i.target;
+                    let right = (apart - wanted) % range == 0;
+                    require(right, ["compared_position", "compared_target"], || {
+                        format!("{apart} where {wanted} is wanted")
+                    })
+                },
+            )
+            .always("each bears its part of the lead", move |now| {
+                let lead = now.i.lead;
+                let part = match placement {
+                    Placement::Position => lead,
+                    Placement::Target => 0,
+                    Placement::Halves => lead.div_euclid(2),
+                };
+                let moved = now.w.compared_position - now.i.position;
+                require((moved - part) % range == 0, ["compared_position"], || {
+                    format!("{moved} of {lead}")
+                })
+            })
+    }
+}

@@ -1,0 +1,205 @@
+//! Position history: memory 11 as a shift register of samples, and the tap selector 14.
+//!
+//! ```text
+//!                          ┌──────────────────┐
+//!  ck, position, restart ─▶│                  ├──▶ present, old, pair_ratio
+//!  tap, ratio ────────────▶│ position history ├──▶ fresh, enough
+//!                          └──────────────────┘
+//! ```
+//!
+//! At each CK a sample goes in at stage 0 and all others move on by a stage: stage k holds the
+//! sample that is k CKs older than the present one. With the sample goes a pair to the outputs, the
+//! sample itself and the one a tap of CKs before it, together with the ratio that belongs to it.
+//!
+//! Departures: how many samples there are since `restart` is counted, since a history of zeros
+//! predicts twice the position. Sample and earlier sample change at the same edge, so that they
+//! always belong together, whatever the rate of CK.
+
+use super::RamHistory;
+use super::codes::tap_width;
+use crate::hdl::prelude::*;
+
+/// Position history as a shift register.
+///
+/// A position that stands in the tick of CK is at the outputs in the tick after it.
+#[derive(Debug, Clone)]
+pub struct PositionHistory {
+    /// How many samples it keeps.
+    pub stages: usize,
+    /// Width of a position.
+    pub position: usize,
+}
+
+signals! { for (PositionHistory, RamHistory) as c;
+    /// Ports in; also those of the [RAM form](super::ram_history).
+    pub struct In {
+        /// CK: a sample is taken.
+        pub ck: Bit,
+        /// What was sampled so far counts no more.
+        pub restart: Bit,
+        /// The position.
+        pub position: I(c.position),
+        /// How many CKs old the other sample of the pair is, 1 to K; 0 for none.
+        pub tap: U(tap_width(c.stages)),
+        /// N, which goes with the pair.
+        pub ratio: U(4),
+    }
+    /// What leads a sample to the outputs; also of the [RAM form](super::ram_history).
+    pub struct Pair {
+        /// Dx: the present sample.
+        pub present: I(c.position) as Analog,
+        /// Dx(−Δt/N): the sample a tap of CKs before it.
+        pub old: I(c.position) as Analog,
+        /// N of this pair.
+        pub pair_ratio: U(4),
+        /// `old` was sampled since the last restart, or none is wanted.
+        pub enough: Bit,
+        /// The pair is new in this tick.
+        pub fresh: Bit,
+        /// Samples since the last restart, up to K.
+        pub samples: U(tap_width(c.stages)),
+    }
+    /// Nets; also those of the [RAM form](super::ram_history).
+    pub struct Net {
+        /// The stage that the tap names before the shift.
+        index: U(tap_width(c.stages)),
+        /// There is such a stage, and a sample is taken.
+        pub(super) load: Bit,
+        /// There are samples for this tap.
+        covered: Bit,
+    }
+}
+
+signals! { for PositionHistory as c;
+    /// Flip-flops.
+    pub struct Reg {
+        /// What is at the outputs.
+        pub pair: Pair(c),
+        /// 11: stage k holds the sample k CKs before the present one.
+        stages: Shift(c.stages, c.position),
+    }
+}
+
+/// The nets of either form.
+pub(super) fn nets(stages: usize, pair: &Pair, i: &In) -> Net {
+    let index = i.tap - 1;
+    Net {
+        index,
+        load: i.ck & index.below(stages as u64),
+        covered: !pair.samples.below(i.tap),
+    }
+}
+
+/// The outputs of either form after the edge; `old` is what its memory gives.
+pub(super) fn pair_after(stages: usize, pair: &Pair, w: &Net, i: &In, old: I) -> Pair<Edge> {
+    let full = pair.samples.equals(stages as u64);
+    let counted = (i.ck & !full).mux(pair.samples + 1, pair.samples);
+    Pair {
+        present: i.ck.mux(i.position, pair.present),
+        old,
+        pair_ratio: i.ck.mux(i.ratio, pair.pair_ratio),
+        enough: i.ck.mux(w.covered, pair.enough) & !i.restart,
+        fresh: i.ck & !i.restart,
+        samples: i.restart.mux(0, counted),
+    }
+}
+
+/// What is wrong with so many stages.
+pub(super) fn objection(stages: usize) -> Option<String> {
+    (stages == 0).then(|| "a history of no samples".into())
+}
+
+/// A position as it stands in a memory.
+pub(super) fn stored(position: i64, width: usize) -> u64 {
+    position as u64 & u64::MAX >> (64 - width)
+}
+
+impl Circuit for PositionHistory {
+    const NAME: &'static str = "position_history";
+    const ABOUT: &'static str = "shift register of position samples, with a tap selector";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        objection(self.stages)
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let net = nets(self.stages, &q.pair, &i);
+        let old = net.load.mux(q.stages.tap(net.index).signed(), q.pair.old);
+        let edge = Reg {
+            pair: pair_after(self.stages, &q.pair, &net, &i, old),
+            stages: q.stages.shift(i.ck, i.position.unsigned()),
+        };
+        (net, edge)
+    }
+}
+
+impl Specified for PositionHistory {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let &PositionHistory { stages, position } = self;
+        Invariants::<Self>::new()
+            .step(
+                "at CK every sample becomes a CK older, between CKs nothing moves",
+                move |now, next| {
+                    let mut expected = now.q.stages.to_vec();
+                    if now.i.ck {
+                        expected.insert(0, stored(now.i.position, position));
+                        expected.truncate(stages);
+                    }
+                    let after = &next.q.stages;
+                    require(after[..] == expected[..], ["stages"], || {
+                        format!("{after:?} where {expected:?} is expected")
+                    })
+                },
+            )
+            .step(
+                "the pair is the sample and the one a tap of CKs before it",
+                move |now, next| {
+                    let (tap, before, pair) = (now.i.tap as usize, &now.q.pair, &next.q.pair);
+                    if !now.i.ck {
+                        let held = pair.present == before.present
+                            && pair.old == before.old
+                            && pair.pair_ratio == before.pair_ratio;
+                        return require(held, ["pair.present", "pair.old"], || "moved".into());
+                    }
+                    let old = match tap {
+                        0 => stored(before.old, position),
+                        tap if tap > stages => stored(before.old, position),
+                        tap => now.q.stages[tap - 1],
+                    };
+                    let right = pair.present == now.i.position
+                        && stored(pair.old, position) == old
+                        && pair.pair_ratio == now.i.ratio;
+                    require(right, ["pair.present", "pair.old"], || {
+                        format!("{} and {}", pair.present, pair.old)
+                    })
+                },
+            )
+            .step(
+                "it is fresh after CK, and enough where the tap reaches back to the restart at most",
+                |now, next| {
+                    let (ck, restart, before) = (now.i.ck, now.i.restart, &now.q.pair);
+                    let enough = match ck {
+                        true => before.samples >= now.i.tap,
+                        false => before.enough,
+                    };
+                    let right = next.q.pair.fresh == (ck && !restart)
+                        && next.q.pair.enough == (enough && !restart);
+                    require(right, ["pair.fresh", "pair.enough"], || {
+                        format!("{enough} with {} samples", before.samples)
+                    })
+                },
+            )
+            .step("samples are counted up to K", move |now, next| {
+                let more = (now.q.pair.samples + u64::from(now.i.ck)).min(stages as u64);
+                let expected = if now.i.restart { 0 } else { more };
+                let right = next.q.pair.samples == expected;
+                require(right, ["pair.samples"], || format!("{expected} expected"))
+            })
+    }
+
+    /// The ratio is only handed on: it may depend on the position.
+    fn applies(&self, i: &In<Value>) -> bool {
+        i.ratio == i.position.rem_euclid(2) as u64 * 15
+    }
+}

@@ -1,0 +1,228 @@
+//! Logic circuit 13: from the time Δt to the ratio N and the tap Δt/N.
+//!
+//! ```text
+//!               ┌─────────────┐
+//!  lead_time ──▶│             ├──▶ ratio, tap
+//!               │ ratio logic ├──▶ code, on_grid
+//!               └─────────────┘
+//! ```
+//!
+//! A time is counted in CKs. With K stages of history a ratio N reaches times up to N·K in steps of
+//! N, and the smallest N is taken: with K = 199 these are 1–199, 200–398 by 2, 400–995 by 5 and
+//! 1000–1990 by 10, the 519 codes of the text's table.
+//!
+//! Departures: a time between two codes gives the nearest code of its range and `on_grid` low, for
+//! whoever has to refuse it or to round to it. A time of 0 is on the grid, with a ratio of 0: no
+//! lead.
+
+use super::codes;
+use crate::hdl::prelude::*;
+
+/// 2^17 / 5, rounded up: below 43,690 the product's integer part is a fifth, exactly.
+const FIFTH: u64 = (1 << 17) / 5 + 1;
+
+/// Logic circuit 13. Combinational.
+#[derive(Debug, Clone)]
+pub struct RatioLogic {
+    /// Stages of history.
+    pub stages: usize,
+}
+
+impl RatioLogic {
+    /// The first time of each ratio above 1.
+    fn first(&self) -> [u64; 3] {
+        let stages = self.stages as u64;
+        let two = stages + 1 + (stages + 1) % 2;
+        [two, (2 * stages / 5 + 1) * 5, (5 * stages / 10 + 1) * 10]
+    }
+
+    fn tap(&self) -> usize {
+        codes::tap_width(self.stages)
+    }
+
+    fn time(&self) -> usize {
+        codes::time_width(self.stages)
+    }
+}
+
+signals! { for RatioLogic as c;
+    /// Ports in.
+    pub struct In {
+        /// Δt in CKs.
+        pub lead_time: U(c.time()),
+    }
+    /// Nets.
+    pub struct Net {
+        /// The time, with room for what is added.
+        wide: U(14),
+        /// The time is beyond the codes of ratio 1.
+        two: Bit,
+        /// The time is beyond the codes of ratio 2.
+        five: Bit,
+        /// The time is beyond the codes of ratio 5.
+        ten: Bit,
+        /// The time and half of its ratio.
+        rounded: U(14),
+        /// The same, or half of it where the ratio is even.
+        halved: U(14),
+        /// `halved` times 2^17/5.
+        product: U(29),
+        /// A fifth of `halved`.
+        fifth: U(14),
+        /// The time divided by its ratio, to the nearest.
+        quotient: U(14),
+        /// N: 1, 2, 5 or 10; 0 for no lead.
+        pub ratio: U(4),
+        /// Δt/N: CKs that the earlier sample is old; 0 for no lead.
+        pub tap: U(c.tap()),
+        /// N·tap: the nearest code of the range that the time is in.
+        pub code: U(c.time()),
+        /// The time is a code.
+        pub on_grid: Bit,
+    }
+}
+
+impl Circuit for RatioLogic {
+    const NAME: &'static str = "ratio_logic";
+    const ABOUT: &'static str = "from the lead time to the ratio N and the tap of the history";
+    records!(In, Nothing, Net);
+
+    fn objection(&self) -> Option<String> {
+        // A time has at most 13 bits: half a ratio is added to it in 14.
+        let few = (1..=819).contains(&self.stages);
+        (!few).then(|| format!("{} stages of history, not 1 to 819", self.stages))
+    }
+
+    fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
+        let time = i.lead_time.resize(14);
+        let [two, five, ten] = self.first().map(|first| !time.below(first));
+        let half = ten.mux(5, five.mux(2, two.word().resize(14)));
+        let rounded = time + half;
+        let even = ten | (two & !five);
+        let halved = even.mux(rounded.shift_right(1), rounded);
+        let product = halved.times(U::new(FIFTH, 15), 29);
+        let fifth = product.shift_right(17).resize(14);
+        let quotient = five.mux(fifth, halved);
+        let last = U::new(self.stages as u64, 14);
+        let tap = last.below(quotient).mux(last, quotient).resize(self.tap());
+        let present = (!time.is_zero()).word().resize(4);
+        let ratio = ten.mux(10, five.mux(5, two.mux(2, present)));
+        let code = tap.times(ratio, self.time());
+        let net = Net {
+            wide: time,
+            two,
+            five,
+            ten,
+            rounded,
+            halved,
+            product,
+            fifth,
+            quotient,
+            ratio,
+            tap,
+            code,
+            on_grid: code.equals(i.lead_time),
+        };
+        (net, Nothing)
+    }
+}
+
+impl Specified for RatioLogic {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let codes = codes::grid(self.stages as u64);
+        let known = codes.clone();
+        Invariants::<Self>::new()
+            .always(
+                "a code gives its ratio and its tap, nothing else is on the grid",
+                move |now| {
+                    let time = now.i.lead_time;
+                    let given = (now.w.ratio, now.w.tap, now.w.on_grid);
+                    let code = known.iter().find(|code| code.time == time);
+                    let right = match (time, code) {
+                        (0, _) => given == (0, 0, true),
+                        (_, Some(code)) => given == (code.ratio, code.tap, true),
+                        (_, None) => !given.2,
+                    };
+                    require(right, ["ratio", "tap", "on_grid"], || {
+                        format!("{given:?} for {time}")
+                    })
+                },
+            )
+            .always(
+                "between codes it is one of the two around, past the last the last",
+                move |now| {
+                    let (time, code) = (now.i.lead_time, now.w.code);
+                    let below = codes.iter().rev().find(|code| code.time <= time);
+                    let above = codes.iter().find(|code| code.time >= time);
+                    let around = [below, above].map(|code| code.map_or(0, |code| code.time));
+                    let product = now.w.ratio * now.w.tap;
+                    let right =
+                        around.contains(&code) && code == product && (code > 0) == (time > 0);
+                    require(right, ["code"], || format!("{code} for {time}, {around:?}"))
+                },
+            )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FULL: RatioLogic = RatioLogic { stages: 199 };
+
+    fn of(simulator: &mut Simulator<RatioLogic>, lead_time: u64) -> Net<Value> {
+        simulator.step_with(&In { lead_time }, |now| (*now.w).clone())
+    }
+
+    /// The table of the text, row by row.
+    #[test]
+    fn all_519_codes_map_as_the_table_says() {
+        let rows = [(1, 1, 199), (2, 200, 398), (5, 400, 995), (10, 1000, 1990)];
+        let mut simulator = Simulator::new(&FULL).unwrap();
+        let mut count = 0;
+        for time in 1..2048u64 {
+            let row = rows
+                .iter()
+                .find(|(ratio, first, last)| (*first..=*last).contains(&time) && time % ratio == 0);
+            let w = of(&mut simulator, time);
+            assert_eq!(w.on_grid, row.is_some(), "{time}");
+            if let Some((ratio, ..)) = row {
+                assert_eq!((w.ratio, w.tap), (*ratio, time / ratio), "{time}");
+                count += 1;
+            }
+        }
+        assert_eq!(count, 519);
+        assert_eq!(codes::grid(199).len(), 519);
+        for refused in [399, 401, 996, 999, 1001, 1991, 2000] {
+            assert!(!of(&mut simulator, refused).on_grid, "{refused}");
+        }
+    }
+
+    /// Nearest within a range; into the gaps between ranges it goes down.
+    #[test]
+    fn a_time_between_codes_is_rounded() {
+        let mut simulator = Simulator::new(&FULL).unwrap();
+        for (time, code) in [
+            (0, 0),
+            (201, 202),
+            (399, 398),
+            (401, 400),
+            (402, 400),
+            (403, 405),
+            (999, 995),
+            (1004, 1000),
+            (1005, 1010),
+            (1991, 1990),
+            (2047, 1990),
+        ] {
+            assert_eq!(of(&mut simulator, time).code, code, "{time}");
+        }
+    }
+
+    #[test]
+    fn it_is_proved_for_every_time_of_eleven_bits() {
+        let all = FULL.invariants();
+        let outcome = reach(&FULL, &all).run().expect("narrow enough");
+        assert!(matches!(outcome, Outcome::Proof(_)), "{outcome}");
+    }
+}

@@ -1,0 +1,246 @@
+//! Step sequencer: runs the positioning steps over and over. The text's external sequencer that
+//! gives the step number.
+//!
+//! ```text
+//!                            ┌────────────────┐
+//!  run, halt, last_step ────▶│                ├──▶ load, arm, step
+//!  position, target ────────▶│ step sequencer ├──▶ drive, reverse
+//!  control, complete ───────▶│                ├──▶ halting, braking
+//!  corrected, ck, rest ─────▶│                ├──▶ missed, busy
+//!                            └────────────────┘
+//! ```
+//!
+//! A step: *load* its target and its time, *arm* the comparator until a sample says which way it is,
+//! *move* until the control signal, *brake* until the positioning is complete, *correct* the time,
+//! *rest*. Then the next step, from step 0 again after the last, as long as `run` is high.
+//!
+//! `halt` during *move* gives the control signal by hand; what comes of it is not learned from.
+
+use crate::hdl::prelude::*;
+
+/// Step sequencer. `load` shows in the tick after `run`, `drive` in the tick after the first sample
+/// from two ticks after `run` on; it goes in the tick after `control` came.
+#[derive(Debug, Clone)]
+pub struct StepSequencer {
+    /// Width of a step number.
+    pub step: usize,
+    /// Width of a position.
+    pub position: usize,
+    /// Width of a rest in CKs.
+    pub rest: usize,
+}
+
+/// Names of the states.
+const STATES: &[&str] = &["idle", "load", "arm", "move", "brake", "correct", "rest"];
+const IDLE: u64 = 0;
+const LOAD: u64 = 1;
+const ARM: u64 = 2;
+const MOVE: u64 = 3;
+const BRAKE: u64 = 4;
+const CORRECT: u64 = 5;
+const REST: u64 = 6;
+
+signals! { for StepSequencer as c;
+    /// Ports in.
+    pub struct In {
+        /// Steps run one after the other; when it goes low the running one is the last.
+        pub run: Bit,
+        /// Ends the move of this step at once.
+        pub halt: Bit,
+        /// The step after which step 0 comes.
+        pub last_step: U(c.step),
+        /// Dx.
+        pub position: I(c.position),
+        /// Sx, there from the tick after `load`.
+        pub target: I(c.position),
+        /// The control signal.
+        pub control: Bit,
+        /// The positioning is complete.
+        pub complete: Bit,
+        /// The position is new in this tick.
+        pub evaluate: Bit,
+        /// The correction is over.
+        pub corrected: Bit,
+        /// CK.
+        pub ck: Bit,
+        /// CKs between two steps.
+        pub rest: U(c.rest),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// What it does.
+        state: U(3) as States(STATES) = 0,
+        /// CKs of rest.
+        count: U(c.rest) = 0,
+        /// The step that runs, or is next.
+        pub step: U(c.step) = 0,
+        /// The step's target and time are read; one tick.
+        pub load: Bit = 0,
+        /// The comparator is set back, until a sample is there.
+        pub arm: Bit = 0,
+        /// The motor is on.
+        pub drive: Bit = 0,
+        /// It turns downwards.
+        pub reverse: Bit = 0,
+        /// The control signal is asked for; one tick.
+        pub halting: Bit = 0,
+        /// The body is being stopped.
+        pub braking: Bit = 0,
+        /// The control signal was asked for in this step.
+        pub missed: Bit = 0,
+        /// A step runs.
+        pub busy: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// The way to the target, the short way round.
+        way: I(c.position),
+        /// The state is over with this tick, and the one after it comes.
+        goes_on: Bit,
+        /// A halt is taken.
+        halts: Bit,
+        /// The rest is over with this tick.
+        rested: Bit,
+        /// The state of the next tick.
+        after: U(3) as States(STATES),
+        /// The step of the next tick.
+        next_step: U(c.step),
+    }
+}
+
+impl Circuit for StepSequencer {
+    const NAME: &'static str = "step_sequencer";
+    const ABOUT: &'static str = "runs the positioning steps over and over";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let is = |state: u64| q.state.equals(state);
+        let rested = is(REST) & !q.count.below(i.rest);
+        let begin = i.run.mux(U::new(LOAD, 3), IDLE);
+        let goes_on = is(LOAD)
+            | (is(ARM) & i.evaluate)
+            | (is(MOVE) & i.control)
+            | (is(BRAKE) & i.complete)
+            | (is(CORRECT) & i.corrected);
+        let onwards = goes_on.mux(q.state + 1, q.state);
+        let last = !q.step.below(i.last_step);
+        let following = last.mux(0, q.step + 1);
+        let way = i.target - i.position;
+        let halts = i.halt & q.drive & !q.missed;
+        let after = (is(IDLE) | rested).mux(begin, onwards);
+        let next_step = rested.mux(following, q.step);
+        let to = |state: u64| after.equals(state);
+        let resting = is(REST) & !rested;
+        let counted = i.ck.mux(q.count + 1, q.count);
+        let edge = Reg {
+            state: after,
+            count: resting.mux(counted, 0),
+            step: next_step,
+            load: to(LOAD),
+            arm: to(ARM),
+            drive: to(MOVE),
+            reverse: q.arm.mux(way.is_negative(), q.reverse),
+            halting: halts,
+            braking: to(BRAKE),
+            missed: (q.missed | halts) & !q.load,
+            busy: !to(IDLE),
+        };
+        let net = Net {
+            way,
+            goes_on,
+            halts,
+            rested,
+            after,
+            next_step,
+        };
+        (net, edge)
+    }
+}
+
+/// The state after this one.
+fn after(q: &Reg<Value>, i: &In<Value>) -> u64 {
+    let begin = if i.run { LOAD } else { IDLE };
+    match q.state {
+        IDLE => begin,
+        LOAD => ARM,
+        ARM if i.evaluate => MOVE,
+        MOVE if i.control => BRAKE,
+        BRAKE if i.complete => CORRECT,
+        CORRECT if i.corrected => REST,
+        REST if q.count >= i.rest => begin,
+        other => other,
+    }
+}
+
+impl Specified for StepSequencer {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let half = 1i64 << (self.position - 1);
+        Invariants::<Self>::new()
+            .step("a step goes through its states in order", |now, next| {
+                let expected = after(now.q, now.i);
+                require(next.q.state == expected, ["state"], || {
+                    format!("{} expected", STATES[expected as usize])
+                })
+            })
+            .always("every output belongs to its state", |now| {
+                let q = now.q;
+                let right = q.load == (q.state == LOAD)
+                    && q.arm == (q.state == ARM)
+                    && q.drive == (q.state == MOVE)
+                    && q.braking == (q.state == BRAKE)
+                    && q.busy == (q.state != IDLE);
+                require(right, ["load", "arm", "drive", "braking", "busy"], || {
+                    format!("in {}", STATES[q.state as usize])
+                })
+            })
+            .step("steps come in turn, each after its rest", |now, next| {
+                let ends = now.q.state == REST && next.q.state != REST;
+                let step = now.q.step;
+                let expected = match ends {
+                    true if step >= now.i.last_step => 0,
+                    true => step + 1,
+                    false => step,
+                };
+                require(next.q.step == expected, ["step"], || {
+                    format!("{expected} expected")
+                })
+            })
+            .step(
+                "the drive turns to the target, the short way round",
+                move |now, next| {
+                    let armed = now.q.state == ARM;
+                    let way = now.i.target - now.i.position;
+                    let down = (way + half).rem_euclid(2 * half) < half;
+                    let expected = if armed { down } else { now.q.reverse };
+                    require(next.q.reverse == expected, ["reverse"], || {
+                        format!("a way of {way}")
+                    })
+                },
+            )
+            .step(
+                "a halt of the move asks for the control signal once, and is remembered",
+                |now, next| {
+                    let q = now.q;
+                    let halts = now.i.halt && q.state == MOVE && !q.missed;
+                    let missed = (q.missed || halts) && q.state != LOAD;
+                    let right = next.q.halting == halts && next.q.missed == missed;
+                    require(right, ["halting", "missed"], || {
+                        format!("{halts} and {missed} expected")
+                    })
+                },
+            )
+            .step("the rest counts CKs", |now, next| {
+                let stays = now.q.state == REST && next.q.state == REST;
+                let more = now.q.count + u64::from(now.i.ck);
+                let expected = if stays { more } else { 0 };
+                require(next.q.count == expected, ["count"], || {
+                    format!("{expected} expected")
+                })
+            })
+    }
+
+    /// Two last steps and the greatest: any other differs in nothing.
+    fn applies(&self, i: &In<Value>) -> bool {
+        i.last_step < 2 || i.last_step + 1 == 1 << self.step
+    }
+}

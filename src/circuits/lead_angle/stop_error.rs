@@ -1,0 +1,110 @@
+//! Error 27, position register 30 and overrun 31: what a positioning tells of its lead time.
+//!
+//! ```text
+//!                       ┌────────────┐
+//!  fire ───────────────▶│            ├──▶ overrun
+//!  position, target ───▶│ stop error ├──▶ error
+//!                       └────────────┘
+//! ```
+//!
+//! `overrun` (d1) is the way since the control signal, `error` (d2) the way past the target; both
+//! are positive upwards. They are meant when the positioning is complete.
+//!
+//! Departure: the text's error is Sx − Dx. With it learning goes the wrong way: the relative error
+//! r of a time becomes r² where it should become (1 − r)². That is the variant [`Sign::Literal`].
+
+use crate::hdl::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Which way the error counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sign {
+    /// Dx − Sx: learning converges.
+    #[default]
+    Converging,
+    /// Sx − Dx, as the text has it: learning diverges.
+    Literal,
+}
+
+/// Error and overrun; `overrun` counts from the tick after `fire` on.
+#[derive(Debug, Clone)]
+pub struct StopError {
+    /// Width of a position.
+    pub position: usize,
+    /// Which way the error counts.
+    pub sign: Sign,
+}
+
+signals! { for StopError as c;
+    /// Ports in.
+    pub struct In {
+        /// The control signal begins.
+        pub fire: Bit,
+        /// Dx.
+        pub position: I(c.position),
+        /// Sx.
+        pub target: I(c.position),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// 30: where the body was when the control signal began.
+        trigger_position: I(c.position) as Analog,
+    }
+    /// Nets.
+    pub struct Net {
+        /// 31: d1, the way since the control signal.
+        pub overrun: I(c.position),
+        /// 27: d2, the way past the target.
+        pub error: I(c.position),
+    }
+}
+
+impl Circuit for StopError {
+    const NAME: &'static str = "stop_error";
+    const ABOUT: &'static str = "overrun since the control signal, and way past the target";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let net = Net {
+            overrun: i.position - q.trigger_position,
+            error: match self.sign {
+                Sign::Converging => i.position - i.target,
+                Sign::Literal => i.target - i.position,
+            },
+        };
+        let trigger_position = i.fire.mux(i.position, q.trigger_position);
+        (net, Reg { trigger_position })
+    }
+}
+
+impl Specified for StopError {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let range = 1i64 << self.position;
+        let sign = match self.sign {
+            Sign::Converging => 1,
+            Sign::Literal => -1,
+        };
+        Invariants::<Self>::new()
+            .step(
+                "the register keeps where the control signal began",
+                |now, next| {
+                    let expected = match now.i.fire {
+                        true => now.i.position,
+                        false => now.q.trigger_position,
+                    };
+                    let right = next.q.trigger_position == expected;
+                    require(right, ["trigger_position"], || "another".into())
+                },
+            )
+            .always("overrun and error are the ways since", move |now| {
+                let position = now.i.position;
+                let ways = [
+                    position - now.q.trigger_position - now.w.overrun,
+                    position - now.i.target - sign * now.w.error,
+                ];
+                let right = ways.iter().all(|way| way % range == 0);
+                require(right, ["overrun", "error"], || format!("{ways:?} off"))
+            })
+    }
+}

@@ -1,0 +1,175 @@
+//! Time data supply 21: memory 24 with a lead time for each step, ROM 25 as what it holds at first,
+//! buffer 29 for the time of the step that runs.
+//!
+//! ```text
+//!                                     ┌───────────┐
+//!  load, step, common ───────────────▶│           ├──▶ lead_time
+//!  learned, learned_time ────────────▶│ time data │
+//!  write, write_step, write_time, … ─▶│           ├──▶ refused
+//!                                     └───────────┘
+//! ```
+//!
+//! With `common` all steps share the time of step 0, as the text allows.
+//!
+//! Departures: a write of the control computer that is off the grid of the
+//! [ratio logic](super::ratio_logic), or in the tick in which a learned time is written, is refused
+//! and said so. Buffer 29 is the memory's output register.
+
+use crate::hdl::prelude::*;
+
+/// Time data supply 21; a time stands at the output in the tick after `load`.
+#[derive(Debug, Clone)]
+pub struct TimeData {
+    /// Width of a step number.
+    pub step: usize,
+    /// Width of a time.
+    pub time: usize,
+    /// 25: the times at power-on, by step; steps that it has not begin without a lead.
+    pub rom: Image,
+}
+
+impl TimeData {
+    /// Without any time: every step begins without a lead.
+    #[must_use]
+    pub fn new(step: usize, time: usize) -> Self {
+        let rom = Image::new(step, time);
+        TimeData { step, time, rom }
+    }
+
+    /// The ROM with as many words as there are steps.
+    fn contents(&self) -> Image {
+        let times = (0..self.rom.words()).map(|step| self.rom.get(step));
+        Image::of(self.step, self.time, times)
+    }
+}
+
+signals! { for TimeData as c;
+    /// Ports in.
+    pub struct In {
+        /// The time of the step that begins comes to the output.
+        pub load: Bit,
+        /// The step that runs.
+        pub step: U(c.step),
+        /// All steps share one time.
+        pub common: Bit,
+        /// A time has been learned for the step that runs.
+        pub learned: Bit,
+        /// Δt2.
+        pub learned_time: U(c.time),
+        /// The control computer writes a time.
+        pub write: Bit,
+        /// The step whose time is written.
+        pub write_step: U(c.step),
+        /// The time that is written, in CKs.
+        pub write_time: U(c.time),
+        /// The time that is written is on the grid.
+        pub write_on_grid: Bit,
+        /// Takes `refused` back.
+        pub clear: Bit,
+    }
+    /// Output register and memory.
+    pub struct Reg {
+        /// 29: Δt1, the lead time of the step that runs.
+        pub lead_time: U(c.time) as Analog,
+        /// A write was refused since `clear`.
+        pub refused: Bit,
+        /// 24: times by step.
+        times: Ram(c.step, c.time) = &c.contents(),
+    }
+    /// Nets.
+    pub struct Net {
+        /// Where the time of the step stands.
+        address: U(c.step),
+        /// A write of the control computer is refused.
+        refuse: Bit,
+        /// The memory is written.
+        store: Bit,
+        /// Address written to.
+        store_address: U(c.step),
+        /// Time written.
+        store_time: U(c.time),
+    }
+}
+
+impl Circuit for TimeData {
+    const NAME: &'static str = "time_data";
+    const ABOUT: &'static str = "lead time of each step, with what was learned";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let address = i.common.mux(0, i.step);
+        let refuse = i.write & (i.learned | !i.write_on_grid);
+        let store = i.learned | (i.write & i.write_on_grid);
+        let store_address = i.learned.mux(address, i.write_step);
+        let store_time = i.learned.mux(i.learned_time, i.write_time);
+        let edge = Reg {
+            lead_time: q.times.read_when(i.load, address, q.lead_time),
+            refused: (q.refused & !i.clear) | refuse,
+            times: q.times.write(store, store_address, store_time),
+        };
+        let net = Net {
+            address,
+            refuse,
+            store,
+            store_address,
+            store_time,
+        };
+        (net, edge)
+    }
+}
+
+impl Specified for TimeData {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let own = |i: &In<Value>| if i.common { 0 } else { i.step };
+        Invariants::<Self>::new()
+            .step(
+                "the output shows the time that was loaded last",
+                move |now, next| {
+                    let expected = match now.i.load {
+                        true => now.q.times[own(now.i) as usize],
+                        false => now.q.lead_time,
+                    };
+                    require(next.q.lead_time == expected, ["lead_time"], || {
+                        format!("{expected} expected")
+                    })
+                },
+            )
+            .step(
+                "what is learned goes to the step that runs, a write on the grid to its own",
+                move |now, next| {
+                    let i = now.i;
+                    let right = (0..1 << self.step).all(|step: u64| {
+                        let written = i.write && i.write_on_grid && !i.learned;
+                        let expected = if i.learned && own(i) == step {
+                            i.learned_time
+                        } else if written && i.write_step == step {
+                            i.write_time
+                        } else {
+                            now.q.times[step as usize]
+                        };
+                        next.q.times[step as usize] == expected
+                    });
+                    require(right, ["times"], || "another".into())
+                },
+            )
+            .step(
+                "a write that is not done is said to be refused",
+                |now, next| {
+                    let i = now.i;
+                    let done = i.write_on_grid && !i.learned;
+                    let held = now.q.refused && !i.clear;
+                    let refused = (i.write && !done) || held;
+                    require(next.q.refused == refused, ["refused"], || {
+                        format!("{refused} expected")
+                    })
+                },
+            )
+    }
+
+    /// Two values of what is only stored.
+    fn applies(&self, i: &In<Value>) -> bool {
+        let most = (1 << self.time) - 1;
+        let two = |word: u64| word == 0 || word == most;
+        two(i.learned_time) && two(i.write_time)
+    }
+}

@@ -1,0 +1,93 @@
+//! Axis switch (Figs 5 and 6, ¶0014) with the adder 25 and the position commands of X and Y.
+//!
+//! ```text
+//!                        ┌─────────────┐
+//!  load, swapped ───────▶│             ├──▶ x
+//!  position ────────────▶│ axis switch │
+//!  slave_from, integral ▶│             ├──▶ y
+//!                        └─────────────┘
+//! ```
+//!
+//! Fig. 5 has X as the master and makes y(n) of it, Fig. 6 the other way round.
+//!
+//! Departure: both commands change at the same edge, when y(n) is there, so that they always
+//! belong together.
+
+use super::wrapped;
+use crate::hdl::prelude::*;
+
+/// Axis switch; a command shows in the tick after `load`.
+#[derive(Debug, Clone)]
+pub struct AxisSwitch {
+    /// Width of a position in bits.
+    pub position: usize,
+}
+
+signals! { for AxisSwitch as c;
+    /// Ports in.
+    pub struct In {
+        /// Position and integral of a scan are there.
+        pub load: Bit,
+        /// Y is the master axis (Fig. 6).
+        pub swapped: Bit,
+        /// Position command of the master axis.
+        pub position: I(c.position),
+        /// Where the slave axis was when the cycle began.
+        pub slave_from: I(c.position),
+        /// I: what the slave axis has moved since.
+        pub integral: I(c.position),
+        /// Both commands become 0.
+        pub clear: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Position command x(n).
+        pub x: I(c.position) as Analog = 0,
+        /// Position command y(n).
+        pub y: I(c.position) as Analog = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// 25: position command of the slave axis.
+        slave_position: I(c.position),
+    }
+}
+
+impl Circuit for AxisSwitch {
+    const NAME: &'static str = "axis_switch";
+    const ABOUT: &'static str = "adds up the slave's command, brings both commands to their axes";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let slave_position = i.slave_from + i.integral;
+        let to = |is_master: Bit, old: I| {
+            let new = is_master.mux(i.position, slave_position);
+            i.clear.mux(0, i.load.mux(new, old))
+        };
+        let next = Reg {
+            x: to(!i.swapped, q.x),
+            y: to(i.swapped, q.y),
+        };
+        (Net { slave_position }, next)
+    }
+}
+
+impl Specified for AxisSwitch {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new().step("load brings master and slave to their axes", |now, next| {
+            let i = now.i;
+            let slave = wrapped(i.slave_from + i.integral, self.position);
+            let commands = match i.swapped {
+                false => (i.position, slave),
+                true => (slave, i.position),
+            };
+            let expected = match (i.clear, i.load) {
+                (true, _) => (0, 0),
+                (false, true) => commands,
+                (false, false) => (now.q.x, now.q.y),
+            };
+            let right = (next.q.x, next.q.y) == expected;
+            require(right, ["x", "y"], || format!("{expected:?} expected"))
+        })
+    }
+}

@@ -1,0 +1,108 @@
+//! The conventional system of Fig. 3 (¶0004–0005), for comparison: a position pattern for each
+//! axis, each with a speed and times of its own.
+//!
+//! ```text
+//!                       ┌────────────────────┐
+//!  scan, hold ─────────▶│                    ├──▶ x, y
+//!  push, target… ──────▶│ conventional       ├──▶ ready, busy
+//!  halt, clear ────────▶│ interpolator       ├──▶ late, refused
+//!                       └────────────────────┘
+//! ```
+//!
+//! Ports as those of the linear interpolator, but that speed and times are those of X, and Y has
+//! its own. An abort ends each axis by its own ramp. Both patterns begin together. Which settings
+//! they get makes the two ways of ¶0005: the same for both axes, or speeds in proportion to the
+//! distances with times inverse to them.
+
+use super::command_source::ports_out;
+pub use super::command_source::{In, Net};
+use super::*;
+use crate::hdl::prelude::*;
+
+/// Conventional system, with widths as those of the linear interpolator.
+#[derive(Debug, Clone, Default)]
+pub struct Conventional {
+    /// Its widths, by name.
+    pub widths: Widths,
+}
+
+impl Conventional {
+    /// The buffer of its targets, each with settings for X and for Y.
+    #[must_use]
+    pub const fn targets(&self) -> TargetData {
+        TargetData {
+            widths: self.widths,
+            settings: 2,
+        }
+    }
+}
+
+signals! { for Conventional as c;
+    /// The circuits inside.
+    pub struct Parts {
+        /// Target data 20.
+        pub targets: Part<TargetData>(c.targets()),
+        /// Sequencer.
+        pub sequencer: Part<Sequencer>(Sequencer { position: c.widths.position }),
+        /// Position pattern generator 14 of X.
+        pub pattern_x: Part<PatternGenerator>(c.widths.pattern()),
+        /// Position pattern generator 14 of Y.
+        pub pattern_y: Part<PatternGenerator>(c.widths.pattern()),
+        /// Position commands.
+        pub commands: Part<AxisSwitch>(AxisSwitch { position: c.widths.position }),
+    }
+}
+
+impl Circuit for Conventional {
+    const NAME: &'static str = "conventional_interpolator";
+    const ABOUT: &'static str = "the system before: an independent position pattern for each axis";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let cycle = &p.sequencer.q;
+        let at = &p.commands.q;
+        let targets = p.targets.settle(i.orders.to_buffer(cycle.pop));
+        let pattern = |part: Part<PatternGenerator>, axis: usize, from, distance| {
+            part.settle(pattern_generator::In {
+                start: cycle.start,
+                from,
+                distance,
+                speed: targets.q.target_speed[axis],
+                acceleration_time: targets.q.target_acceleration[axis],
+                deceleration_time: targets.q.target_deceleration[axis],
+                advance: cycle.advance,
+                halt: i.orders.halt,
+            })
+        };
+        let x = pattern(p.pattern_x, 0, at.x, cycle.delta_x).w;
+        let y = pattern(p.pattern_y, 1, at.y, cycle.delta_y).w;
+        // Both take the same time for a scan; one of them may be at rest.
+        let valid = x.valid | y.valid;
+        let sequencer = p.sequencer.settle(sequencer::In {
+            scan: i.scan,
+            hold: i.hold,
+            halt: i.orders.halt,
+            clear: i.clear,
+            available: targets.w.available,
+            target_x: targets.q.target_x,
+            target_y: targets.q.target_y,
+            x: at.x,
+            y: at.y,
+            pattern_active: x.active | y.active,
+            pattern_ready: (x.ready | !x.active) & (y.ready | !y.active),
+            pattern_valid: valid,
+            integrating: Bit::low(),
+            load: valid,
+        });
+        let commands = p.commands.settle(axis_switch::In {
+            load: valid,
+            swapped: Bit::low(),
+            position: x.position,
+            slave_from: y.position,
+            integral: I::new(0, self.widths.position),
+            clear: sequencer.w.home,
+        });
+        let net = ports_out(&targets, &sequencer, &commands, valid);
+        (net, Nothing)
+    }
+}

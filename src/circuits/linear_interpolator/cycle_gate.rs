@@ -1,0 +1,59 @@
+//! Cycle gate: keeps the next positioning cycle back until both axes are in position.
+//!
+//! ```text
+//!                                ┌────────────┐
+//!  exact_stop ──────────────────▶│ cycle gate ├──▶ hold
+//!  in_position_x, in_position_y ▶│            │
+//!                                └────────────┘
+//! ```
+//!
+//! Departure: the text has no such gate. Without it a cycle begins while the motors still follow
+//! the one before, and they cut the corner.
+
+use crate::hdl::prelude::*;
+
+/// Cycle gate, with a tick of latency.
+#[derive(Debug, Clone, Default)]
+pub struct CycleGate;
+
+signals! { for CycleGate as c;
+    /// Ports in.
+    pub struct In {
+        /// Cycles wait for the axes.
+        pub exact_stop: Bit,
+        /// X is in position.
+        pub in_position_x: Bit,
+        /// Y is in position.
+        pub in_position_y: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// No new cycle begins.
+        pub hold: Bit = 0,
+    }
+}
+
+impl Circuit for CycleGate {
+    const NAME: &'static str = "cycle_gate";
+    const ABOUT: &'static str = "holds the next cycle until both axes are in position";
+    records!(In, Reg, Nothing);
+
+    fn tick(&self, i: In, _: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+        let hold = i.exact_stop & !(i.in_position_x & i.in_position_y);
+        (Nothing, Reg { hold })
+    }
+}
+
+impl Specified for CycleGate {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new().step(
+            "cycles wait for an axis that is not in position",
+            |now, next| {
+                let i = now.i;
+                let there = i.in_position_x && i.in_position_y;
+                let right = next.q.hold == (i.exact_stop && !there);
+                require(right, ["hold"], || format!("{:?}", next.q.hold))
+            },
+        )
+    }
+}

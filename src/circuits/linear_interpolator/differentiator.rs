@@ -1,0 +1,88 @@
+//! Differentiator 21 (¶0013): delay element 22 and subtractor 23. How far the position command has
+//! moved since the scan before.
+//!
+//! ```text
+//!               ┌────────────────┐
+//!  load, from ─▶│                │
+//!  valid ──────▶│ differentiator ├──▶ increment
+//!  position ───▶│                │
+//!               └────────────────┘
+//! ```
+//!
+//! Departure: the delay element is loaded with the start at the beginning of a positioning cycle,
+//! so that the first increment is that of the first scan.
+
+use super::wrapped;
+use crate::hdl::prelude::*;
+
+/// Differentiator 21; without latency.
+#[derive(Debug, Clone)]
+pub struct Differentiator {
+    /// Width of a position in bits.
+    pub position: usize,
+}
+
+signals! { for Differentiator as c;
+    /// Ports in.
+    pub struct In {
+        /// A positioning cycle begins.
+        pub load: Bit,
+        /// Where it begins.
+        pub from: I(c.position),
+        /// `position` is new.
+        pub valid: Bit,
+        /// Position command x(n).
+        pub position: I(c.position) as Analog,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// 22: the position command of the scan before, x(n − 1).
+        pub(crate) lagged: I(c.position) as Analog = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// 23: δx(n), which is meant in the tick of `valid`.
+        pub increment: I(c.position),
+    }
+}
+
+impl Circuit for Differentiator {
+    const NAME: &'static str = "differentiator";
+    const ABOUT: &'static str = "increment of the position command since the scan before";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let increment = i.position - q.lagged;
+        let lagged = i.load.mux(i.from, i.valid.mux(i.position, q.lagged));
+        (Net { increment }, Reg { lagged })
+    }
+}
+
+impl Specified for Differentiator {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .always(
+                "increment and delay element add up to the position",
+                |now| {
+                    let sum = now.w.increment + now.q.lagged;
+                    let right = wrapped(sum - now.i.position, self.position) == 0;
+                    require(right, ["increment", "lagged", "position"], || {
+                        format!("{sum}")
+                    })
+                },
+            )
+            .step(
+                "the delay element takes the start, else a new position, else nothing",
+                |now, next| {
+                    let expected = match (now.i.load, now.i.valid) {
+                        (true, _) => now.i.from,
+                        (false, true) => now.i.position,
+                        (false, false) => now.q.lagged,
+                    };
+                    require(next.q.lagged == expected, ["lagged"], || {
+                        format!("{:?}", next.q.lagged)
+                    })
+                },
+            )
+    }
+}

@@ -1,0 +1,116 @@
+//! Position pattern generator 14 (¶0010): acceleration time, deceleration time and steady speed in,
+//! a position x(n) each scan out.
+//!
+//! ```text
+//!                          ┌───────────────────┐
+//!  start, from, distance ─▶│                   ├──▶ position
+//!  speed, …time ──────────▶│ pattern generator ├──▶ valid
+//!  advance ───────────────▶│        14         ├──▶ ready
+//!  abort ─────────────────▶│                   ├──▶ active
+//!                          └───────────────────┘
+//! ```
+//!
+//! Departures: see [`trapezoid`].
+
+pub use super::trapezoid::Cycle as In;
+use super::{Trapezoid, trapezoid};
+use crate::circuits::blocks::{MulDiv, mul_div};
+use crate::hdl::prelude::*;
+
+/// Position pattern generator 14.
+#[derive(Debug, Clone)]
+pub struct PatternGenerator {
+    /// Width of a position in bits, the P of its ports.
+    pub position: usize,
+    /// Width of a time in bits, the T of its ports; fewer than a position has.
+    pub time: usize,
+}
+
+impl PatternGenerator {
+    const fn trapezoid(&self) -> Trapezoid {
+        Trapezoid {
+            position: self.position,
+            time: self.time,
+        }
+    }
+
+    const fn mul_div(&self) -> MulDiv {
+        let trapezoid = self.trapezoid();
+        MulDiv {
+            multiplier: trapezoid.multiplier(),
+            word: trapezoid.word(),
+        }
+    }
+
+    /// Ticks from `start` to `ready`: three products and a quotient, each with a tick before it.
+    #[must_use]
+    pub const fn prepare_latency(&self) -> u64 {
+        let mul_div = self.mul_div();
+        1 + 3 * (mul_div.product_latency() + 1) + mul_div.latency() + 1
+    }
+
+    /// Ticks by which [`prepare_latency`](Self::prepare_latency) grows at most where the
+    /// multiplier-divider is still at what an abort has dropped.
+    #[must_use]
+    pub const fn prepare_delay(&self) -> u64 {
+        self.mul_div().latency() - 2
+    }
+
+    /// Ticks from `advance` to `valid`, with which `ready` comes back.
+    #[must_use]
+    pub const fn scan_latency(&self) -> u64 {
+        1 + self.mul_div().latency() + 1
+    }
+}
+
+signals! { for PatternGenerator as c;
+    /// The circuits inside.
+    pub struct Parts {
+        /// Control.
+        pub trapezoid: Part<Trapezoid>(c.trapezoid()),
+        /// Multiplier-divider.
+        pub mul_div: Part<MulDiv>(c.mul_div()),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// x(n): the position.
+        pub position: I(c.position) as Analog,
+        /// A new position stands at `position` from this tick on.
+        pub valid: Bit,
+        /// `advance` is taken.
+        pub ready: Bit,
+        /// A cycle is under way.
+        pub active: Bit,
+    }
+}
+
+impl Circuit for PatternGenerator {
+    const NAME: &'static str = "pattern_generator";
+    const ABOUT: &'static str =
+        "a position each scan: speeds up, is steady, slows down, ends exactly";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let trapezoid = p.trapezoid.settle(trapezoid::In {
+            cycle: i,
+            done: p.mul_div.q.done,
+            quotient: p.mul_div.q.quotient,
+            remainder: p.mul_div.q.remainder,
+        });
+        p.mul_div.settle(mul_div::In {
+            start: trapezoid.w.compute,
+            product_only: trapezoid.w.product_only,
+            multiplicand: trapezoid.w.multiplicand,
+            multiplier: trapezoid.w.multiplier,
+            addend: trapezoid.w.addend,
+            divisor: trapezoid.w.divisor,
+        });
+        let net = Net {
+            position: trapezoid.q.position,
+            valid: trapezoid.q.valid,
+            ready: trapezoid.q.ready,
+            active: trapezoid.q.active,
+        };
+        (net, Nothing)
+    }
+}

@@ -1,0 +1,190 @@
+//! Position control of one axis (¶0003): subtractor 10, gain 11, D/A converter 12.
+//!
+//! ```text
+//!               ┌──────────────────┐
+//!  scan ───────▶│                  ├──▶ speed_ref, saturated
+//!  command ────▶│                  │
+//!  feedback ───▶│ position control ├──▶ deviation
+//!  gain ───────▶│                  │
+//!  window ─────▶│                  ├──▶ in_position
+//!               └──────────────────┘
+//! ```
+//!
+//! In the tick of `scan` the deviation is multiplied by the gain, rounded, limited to the range of
+//! the D/A converter and loaded into `speed_ref`, which shows it a tick later and holds it until
+//! the next scan.
+//!
+//! The text has a gain and a D/A converter and says nothing of fraction bits, rounding or
+//! saturation, and it has no in-position window. Here the product is rounded to nearest, halves
+//! away from zero, and the range of the converter is symmetric, so that the loop does the same
+//! in both directions.
+
+use super::LoopWidths;
+use crate::hdl::prelude::*;
+
+/// Position control.
+#[derive(Debug, Clone, Default)]
+pub struct PositionControl {
+    /// Its widths, by name.
+    pub widths: LoopWidths,
+}
+
+impl PositionControl {
+    /// Half an LSB of the D/A converter, in units of the product.
+    fn half(&self) -> u64 {
+        (1 << self.widths.fraction) >> 1
+    }
+
+    /// The greatest reference.
+    fn limit(&self) -> u64 {
+        (1 << (self.widths.converter - 1)) - 1
+    }
+}
+
+signals! { for PositionControl as c;
+    /// Ports in.
+    pub struct In {
+        /// Loads the reference, and nothing else does.
+        pub scan: Bit,
+        /// Position command in counts.
+        pub command: I(c.widths.position) as Analog,
+        /// Position of the motor in counts.
+        pub feedback: I(c.widths.position) as Analog,
+        /// 11: position gain, LSB of the D/A converter per count, with F fraction bits.
+        pub gain: U(c.widths.gain),
+        /// In-position window in counts.
+        pub window: U(c.widths.position),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// 12: speed reference, the word of the D/A converter; at most 2^(D−1) − 1 either way.
+        pub speed_ref: I(c.widths.converter) as Analog = 0,
+        /// The reference is at its limit.
+        pub saturated: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// 10: command − feedback in counts, in every tick; wraps.
+        pub deviation: I(c.widths.position) as Analog,
+        /// Amount of the deviation.
+        distance: U(c.widths.position),
+        /// 11: distance · gain and half an LSB of the D/A converter, with F fraction bits.
+        product: U(c.widths.product()),
+        /// The product is at the limit or beyond.
+        limited: Bit,
+        /// Amount of the reference that a scan loads.
+        amount: U(c.widths.converter),
+        /// 12: reference that a scan loads.
+        limited_reference: I(c.widths.converter),
+        /// The amount of the deviation is at most the window, in every tick.
+        pub in_position: Bit,
+    }
+}
+
+impl Circuit for PositionControl {
+    const NAME: &'static str = "position_control";
+    const ABOUT: &'static str = "speed reference from position command and feedback, by a gain";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        let LoopWidths {
+            gain,
+            fraction,
+            converter,
+            ..
+        } = self.widths;
+        if fraction > gain {
+            return Some("the fraction is a part of the gain".into());
+        }
+        let fits = (2..=self.widths.product()).contains(&converter);
+        (!fits).then(|| {
+            "the D/A converter has two bits at least, and is no wider than the product".into()
+        })
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let LoopWidths {
+            fraction,
+            converter,
+            ..
+        } = self.widths;
+        let deviation = i.command - i.feedback;
+        let distance = deviation.magnitude();
+        // Without its sign, so that halves go away from zero.
+        let product = distance.times(i.gain, self.widths.product()) + self.half();
+        let limited = !product.below(self.limit() << fraction);
+        let rounded = product.shift_right(fraction).resize(converter);
+        let amount = limited.mux(self.limit(), rounded);
+        let limited_reference = amount.signed().negated_by(deviation.is_negative());
+        let next = Reg {
+            speed_ref: i.scan.mux(limited_reference, q.speed_ref),
+            saturated: i.scan.mux(limited, q.saturated),
+        };
+        let net = Net {
+            deviation,
+            distance,
+            product,
+            limited,
+            amount,
+            limited_reference,
+            in_position: !i.window.below(distance),
+        };
+        (net, next)
+    }
+}
+
+impl Specified for PositionControl {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let (turn, one) = (1i128 << self.widths.position, 1 << self.widths.fraction);
+        let limit = i128::from(self.limit());
+        Invariants::<Self>::new()
+            .always(
+                "the deviation is the way to go, the short way round",
+                move |now| {
+                    let deviation = i128::from(now.w.deviation);
+                    let way = i128::from(now.i.command) - i128::from(now.i.feedback);
+                    let right = (way - deviation) % turn == 0;
+                    require(right, ["deviation"], || format!("{deviation} for {way}"))
+                },
+            )
+            .always("in position is at most the window away", |now| {
+                let away = i128::from(now.w.deviation).abs();
+                let inside = away <= i128::from(now.i.window);
+                require(now.w.in_position == inside, ["in_position"], || {
+                    format!("{away} away")
+                })
+            })
+            .step(
+                "a scan loads the nearest reference within the limits, halves away from zero",
+                move |now, next| {
+                    let product = i128::from(now.w.deviation) * i128::from(now.i.gain);
+                    let reference = i128::from(next.q.speed_ref);
+                    // In units of the product: how far it is from the reference that it gets.
+                    let short = product.abs() - reference.abs() * one;
+                    let nearest = 2 * short < one && 2 * short >= -one;
+                    let cut = reference.abs() == limit && 2 * short >= -one;
+                    let sign = reference == 0 || reference.signum() == product.signum();
+                    let right = sign && reference.abs() <= limit && (nearest || cut);
+                    require(!now.i.scan || right, ["speed_ref"], || {
+                        format!("{reference} for a product of {product}")
+                    })
+                },
+            )
+            .step("between scans the reference holds", |now, next| {
+                let q = now.q;
+                let same = next.q.speed_ref == q.speed_ref && next.q.saturated == q.saturated;
+                require(now.i.scan || same, ["speed_ref", "scan"], || {
+                    "changed by itself".into()
+                })
+            })
+            .always("saturated is at the limit", move |now| {
+                let at_limit = i128::from(now.q.speed_ref).abs() == limit;
+                require(now.q.saturated == at_limit, ["saturated"], || {
+                    format!("at {}", now.q.speed_ref)
+                })
+            })
+    }
+}
+
+#[cfg(test)]
+mod tests;

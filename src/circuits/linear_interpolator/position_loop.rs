@@ -1,0 +1,161 @@
+//! Position loop of one axis (Fig. 2, ¶0003): feedback counter 13 and position control 10–12.
+//!
+//! ```text
+//!               ┌───────────────┐
+//!  scan ───────▶│               ├──▶ speed_ref, saturated
+//!  command ────▶│               │
+//!  a, b ───────▶│ position loop ├──▶ deviation, in_position
+//!  clear ──────▶│               │
+//!  gain ───────▶│               ├──▶ feedback, lost
+//!  window ─────▶│               │
+//!               └───────────────┘
+//! ```
+//!
+//! A level of the encoder that stands at the pin in tick n is in the feedback of a scan from tick
+//! n + 3 on, and in the reference a tick after that scan.
+
+use super::{LoopWidths, PositionControl, position_control, wrapped};
+use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
+use crate::hdl::prelude::*;
+
+/// Position loop.
+#[derive(Debug, Clone, Default)]
+pub struct PositionLoop {
+    /// Its widths, by name.
+    pub widths: LoopWidths,
+}
+
+signals! { for PositionLoop as c;
+    /// Ports in.
+    pub struct In {
+        /// Strobe: makes the speed reference from what stands there.
+        pub scan: Bit,
+        /// Position command in counts.
+        pub command: I(c.widths.position) as Analog,
+        /// Channel A of the encoder, asynchronous.
+        pub a: Bit,
+        /// Channel B of the encoder, asynchronous.
+        pub b: Bit,
+        /// Feedback to 0, `lost` off.
+        pub clear: Bit,
+        /// Position gain, LSB of the D/A converter per count, with F fraction bits.
+        pub gain: U(c.widths.gain),
+        /// In-position window in counts.
+        pub window: U(c.widths.position),
+    }
+    /// The circuits inside.
+    pub struct Parts {
+        /// Feedback counter 13.
+        pub counter: Part<QuadratureCounter>(QuadratureCounter { width: c.widths.position }),
+        /// Position control 10–12.
+        pub control: Part<PositionControl>(PositionControl { widths: c.widths }),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// Speed reference N_ref, the word of the D/A converter.
+        pub speed_ref: I(c.widths.converter) as Analog,
+        /// The reference is at its limit.
+        pub saturated: Bit,
+        /// Command − feedback in counts.
+        pub deviation: I(c.widths.position) as Analog,
+        /// The amount of the deviation is at most the window.
+        pub in_position: Bit,
+        /// Position of the motor in counts.
+        pub feedback: I(c.widths.position) as Analog,
+        /// The encoder was too fast since `clear`: the feedback is wrong.
+        pub lost: Bit,
+    }
+}
+
+impl Circuit for PositionLoop {
+    const NAME: &'static str = "position_loop";
+    const ABOUT: &'static str = "position loop of one axis: encoder in, speed reference out";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let counter = p.counter.settle(quadrature_counter::In {
+            a: i.a,
+            b: i.b,
+            clear: i.clear,
+        });
+        let control = p.control.settle(position_control::In {
+            scan: i.scan,
+            command: i.command,
+            feedback: counter.q.position,
+            gain: i.gain,
+            window: i.window,
+        });
+        let net = Net {
+            speed_ref: control.q.speed_ref,
+            saturated: control.q.saturated,
+            deviation: control.w.deviation,
+            in_position: control.w.in_position,
+            feedback: counter.q.position,
+            lost: counter.q.lost,
+        };
+        (net, Nothing)
+    }
+}
+
+impl Specified for PositionLoop {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step("a scan drives towards the command", |now, next| {
+                let way = now.i.command - now.p.counter.q.position;
+                let way = wrapped(way, self.widths.position);
+                let (drive, gain) = (next.p.control.q.speed_ref, now.i.gain);
+                let right =
+                    drive.signum() * way.signum() >= 0 && (way != 0 && gain != 0 || drive == 0);
+                require(!now.i.scan || right, ["speed_ref", "command"], || {
+                    format!("{drive} to go {way}")
+                })
+            })
+            .step("between scans the reference holds", |now, next| {
+                let held = next.p.control.q.speed_ref == now.p.control.q.speed_ref;
+                require(now.i.scan || held, ["speed_ref", "scan"], || {
+                    "changed by itself".into()
+                })
+            })
+            .step(
+                "clear makes the feedback 0 and takes the flag off",
+                |now, next| {
+                    let counter = &next.p.counter.q;
+                    let cleared = counter.position == 0 && !counter.lost;
+                    require(!now.i.clear || cleared, ["feedback", "lost"], || {
+                        "not cleared".into()
+                    })
+                },
+            )
+            .always("in position with a window of 0 is at the command", |now| {
+                let there = now.i.command == now.p.counter.q.position;
+                let said = now.w.in_position;
+                let right = now.i.window != 0 || said == there;
+                require(right, ["in_position", "feedback"], || format!("{said}"))
+            })
+    }
+
+    /// Of the windows 0 and 1 only: the others are those of the position control.
+    fn applies(&self, i: &In<Value>) -> bool {
+        i.window < 2
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_proved() {
+        let widths = LoopWidths {
+            position: 2,
+            gain: 2,
+            fraction: 1,
+            converter: 2,
+        };
+        let circuit = PositionLoop { widths };
+        let all = circuit.invariants();
+        let outcome = reach(&circuit, &all).run().expect("narrow enough");
+        assert!(matches!(outcome, Outcome::Proof(_)), "{outcome}");
+        println!("{outcome}");
+    }
+}

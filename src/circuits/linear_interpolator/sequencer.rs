@@ -1,0 +1,337 @@
+//! Sequencer of the positioning cycles (¶0005, ¶0013–0014): from one target to the next, and scan
+//! by scan through a cycle.
+//!
+//! ```text
+//!                                      ┌───────────┐
+//!  scan, hold, halt, clear ───────────▶│           ├──▶ pop ──▶ target data 20
+//!  available, target_x, target_y ─────▶│           ├──▶ start, advance ──▶ generator 14
+//!  x, y ──────────────────────────────▶│ sequencer ├──▶ swapped, master…, slave…
+//!  pattern_active, _ready, _valid ────▶│           ├──▶ busy, late, refused
+//!  integrating, load ─────────────────▶│           ├──▶ home
+//!                                      └───────────┘
+//! ```
+//!
+//! Departures: a cycle starts from the command that stands, not from the target before, so that a
+//! cycle that was aborted leaves nothing behind. A target that is farther away than a signed word
+//! of the position's width can say is refused. A scan that comes before the last one is computed
+//! is left out, and flagged.
+
+use crate::hdl::Registers;
+use crate::hdl::prelude::*;
+
+/// Names of the states.
+const STATES: &[&str] = &["idle", "pop", "fetch", "plan", "begin", "run"];
+const IDLE: u64 = 0;
+const POP: u64 = 1;
+const FETCH: u64 = 2;
+const PLAN: u64 = 3;
+const BEGIN: u64 = 4;
+const RUN: u64 = 5;
+
+/// Sequencer. `start` is high four ticks after a target is available, `advance` a tick after `scan`.
+#[derive(Debug, Clone)]
+pub struct Sequencer {
+    /// Width of a position in bits.
+    pub position: usize,
+}
+
+signals! { for Sequencer as c;
+    /// Ports in.
+    pub struct In {
+        /// A scan begins.
+        pub scan: Bit,
+        /// No new cycle begins.
+        pub hold: Bit,
+        /// Ends the cycle that runs: the axes slow down along the line.
+        pub halt: Bit,
+        /// Between two cycles: the commands become 0, the flags go.
+        pub clear: Bit,
+        /// A target waits.
+        pub available: Bit,
+        /// X of the target, from the tick after `pop` on.
+        pub target_x: I(c.position),
+        /// Y of it.
+        pub target_y: I(c.position),
+        /// Position command of X.
+        pub x: I(c.position),
+        /// Position command of Y.
+        pub y: I(c.position),
+        /// The position pattern is under way.
+        pub pattern_active: Bit,
+        /// It takes an `advance`.
+        pub pattern_ready: Bit,
+        /// It shows a new position.
+        pub pattern_valid: Bit,
+        /// The integrator divides.
+        pub integrating: Bit,
+        /// It shows a new integral: the commands of a scan are complete.
+        pub load: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Where it stands.
+        pub state: U(3) as States(STATES) = 0,
+        /// The next target is wanted.
+        pub pop: Bit = 0,
+        /// A cycle begins.
+        pub start: Bit = 0,
+        /// The commands of a scan are to be computed.
+        pub advance: Bit = 0,
+        /// Distance in X.
+        pub delta_x: I(c.position) = 0,
+        /// Distance in Y.
+        pub delta_y: I(c.position) = 0,
+        /// A distance does not fit its word.
+        too_far: Bit = 0,
+        /// Y is the master axis (Fig. 6).
+        pub swapped: Bit = 0,
+        /// Where the master axis starts.
+        pub master_from: I(c.position) = 0,
+        /// Where the slave axis starts.
+        pub slave_from: I(c.position) = 0,
+        /// Δ of the master axis.
+        pub master: I(c.position) = 0,
+        /// Δ of the slave axis.
+        pub slave: I(c.position) = 0,
+        /// The commands of a scan are being computed.
+        computing: Bit = 0,
+        /// A scan came too early since the flags were cleared.
+        pub late: Bit = 0,
+        /// A target was too far since the flags were cleared.
+        pub refused: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A target is taken.
+        takes: Bit,
+        /// The commands of a scan are begun.
+        begins: Bit,
+        /// Nothing is being computed.
+        quiet: Bit,
+        /// |Δx|.
+        way_x: U(c.position),
+        /// |Δy|.
+        way_y: U(c.position),
+        /// The target is too far in X.
+        far_x: Bit,
+        /// The target is too far in Y.
+        far_y: Bit,
+        /// The target is refused.
+        refuses: Bit,
+        /// What is prepared is given up.
+        ends: Bit,
+        /// The cycle is over.
+        over: Bit,
+        /// A scan comes too early.
+        early: Bit,
+        /// `clear` is taken.
+        pub home: Bit,
+        /// A cycle runs or is prepared.
+        pub busy: Bit,
+    }
+}
+
+/// Whether `a - b`, which wraps, has the wrong sign.
+fn overflows(a: I, b: I) -> Bit {
+    let apart = a.is_negative() ^ b.is_negative();
+    apart & ((a - b).is_negative() ^ a.is_negative())
+}
+
+impl Circuit for Sequencer {
+    const NAME: &'static str = "sequencer";
+    const ABOUT: &'static str = "takes targets, chooses the master axis, starts cycles and scans";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let [idle, fetch, plan, runs] = [IDLE, FETCH, PLAN, RUN].map(|state| q.state.equals(state));
+        let waits = i.pattern_ready | !i.pattern_active;
+        let quiet = waits & !q.advance & !i.pattern_valid & !i.integrating & !i.load;
+        let refuses = plan & q.too_far;
+        let ends = i.halt | refuses;
+        let takes = idle & i.available & !i.hold & !i.halt & !i.clear;
+        let begins = runs & i.scan & i.pattern_active & i.pattern_ready & quiet & !i.halt;
+        let over = runs & quiet & !i.pattern_active;
+        let early = runs & i.scan & q.computing & !quiet;
+        let home = idle & i.clear;
+        let (way_x, way_y) = (q.delta_x.magnitude(), q.delta_y.magnitude());
+        let far_x = overflows(i.target_x, i.x);
+        let far_y = overflows(i.target_y, i.y);
+
+        let onward = takes.mux(POP, idle.mux(IDLE, q.state + 1));
+        let running = over.mux(U::new(IDLE, 3), RUN);
+        let swapped = way_x.below(way_y);
+        let pick = |choose: Bit, y: I, x: I, old: I| plan.mux(choose.mux(y, x), old);
+        let next = Reg {
+            state: runs.mux(running, ends.mux(IDLE, onward)),
+            pop: takes,
+            start: plan & !ends,
+            advance: begins,
+            delta_x: fetch.mux(i.target_x - i.x, q.delta_x),
+            delta_y: fetch.mux(i.target_y - i.y, q.delta_y),
+            too_far: fetch.mux(far_x | far_y, q.too_far),
+            swapped: plan.mux(swapped, q.swapped),
+            master_from: pick(swapped, i.y, i.x, q.master_from),
+            slave_from: pick(swapped, i.x, i.y, q.slave_from),
+            master: pick(swapped, q.delta_y, q.delta_x, q.master),
+            slave: pick(swapped, q.delta_x, q.delta_y, q.slave),
+            computing: begins | (q.computing & !quiet),
+            late: (q.late | early) & !home,
+            refused: (q.refused | (refuses & !i.halt)) & !home,
+        };
+        let net = Net {
+            takes,
+            begins,
+            quiet,
+            way_x,
+            way_y,
+            far_x,
+            far_y,
+            refuses,
+            ends,
+            over,
+            early,
+            home,
+            busy: !idle,
+        };
+        (net, next)
+    }
+}
+
+/// Whether the commands of a scan are being computed by anything but the pattern.
+fn works(i: &In<Value>, q: &Reg<Value>) -> bool {
+    q.advance || i.pattern_valid || i.integrating || i.load
+}
+
+impl Specified for Sequencer {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step(
+                "the master axis is the one with the greater distance, X where they are alike",
+                |now, next| {
+                    let (dx, dy) = (now.q.delta_x, now.q.delta_y);
+                    let swapped = dx.abs() < dy.abs();
+                    let expected = match swapped {
+                        false => [dx, dy, now.i.x, now.i.y],
+                        true => [dy, dx, now.i.y, now.i.x],
+                    };
+                    let q = &next.q;
+                    let found = [q.master, q.slave, q.master_from, q.slave_from];
+                    let right = q.swapped == swapped && found == expected;
+                    let planned = now.q.state == PLAN;
+                    require(!planned || right, ["swapped", "master", "slave"], || {
+                        format!("{expected:?}")
+                    })
+                },
+            )
+            .step(
+                "distances are those from command to target, or the target is refused",
+                |now, next| {
+                    let i = now.i;
+                    let far = [
+                        i.target_x - i.x - next.q.delta_x,
+                        i.target_y - i.y - next.q.delta_y,
+                    ];
+                    let right = next.q.too_far == (far != [0, 0]);
+                    let fetched = now.q.state == FETCH;
+                    require(!fetched || right, ["delta_x", "delta_y", "too_far"], || {
+                        format!("{far:?}")
+                    })
+                },
+            )
+            .step(
+                "no cycle begins with a distance that is wrong",
+                |now, next| {
+                    let wrong = now.q.too_far && now.q.state == PLAN;
+                    let refused = next.q.state == IDLE && (now.i.halt || next.q.refused);
+                    require(!wrong || refused, ["state", "refused"], || "begun".into())
+                },
+            )
+            .step(
+                "an abort before the start of a cycle ends it, none begins with one",
+                |now, next| {
+                    let early = now.q.state != RUN;
+                    let ended = next.q.state == IDLE && !next.q.start && !next.q.pop;
+                    require(!now.i.halt || !early || ended, ["state", "start"], || {
+                        "goes on".into()
+                    })
+                },
+            )
+            .step(
+                "distances and starts stand while a cycle runs",
+                |now, next| {
+                    let words = |q: &Reg<Value>| {
+                        let words = [q.master, q.slave, q.master_from, q.slave_from];
+                        (q.swapped, words)
+                    };
+                    let stands = now.q.state != RUN || words(now.q) == words(&next.q);
+                    require(stands, ["master", "slave", "swapped"], || "changed".into())
+                },
+            )
+            .step(
+                "a scan is begun where nothing is computed, and only with a cycle",
+                |now, next| {
+                    let rests = now.i.pattern_ready && !works(now.i, now.q);
+                    let runs = now.q.state == RUN && now.i.scan;
+                    let right = !next.q.advance || rests && runs;
+                    require(right, ["advance"], || "begun".into())
+                },
+            )
+            .step(
+                "a start comes once, when the distances stand",
+                |now, next| {
+                    let right = next.q.start == (next.q.state == BEGIN);
+                    let planned = !next.q.start || now.q.state == PLAN;
+                    require(right && planned, ["start", "state"], || {
+                        "at a wrong time".into()
+                    })
+                },
+            )
+            .step(
+                "a scan that comes while one is computed is flagged",
+                |now, next| {
+                    let scanning = now.i.pattern_active && !now.i.pattern_ready;
+                    let computed = now.q.computing && (scanning || works(now.i, now.q));
+                    let early = computed && now.q.state == RUN && now.i.scan;
+                    require(!early || next.q.late, ["late"], || "not flagged".into())
+                },
+            )
+            .always("a cycle ends only when its last commands are out", |now| {
+                let i = now.i;
+                let busy = i.load || i.integrating || i.pattern_valid || i.pattern_active;
+                require(!now.w.over || !busy, ["over"], || "too early".into())
+            })
+            .step(
+                "flags go by clear alone, which acts between cycles",
+                |now, next| {
+                    let cleared = now.i.clear && now.q.state == IDLE;
+                    let kept = (!now.q.late || next.q.late) && (!now.q.refused || next.q.refused);
+                    let right = cleared == now.w.home && (kept || cleared);
+                    require(right, ["late", "refused", "home"], || "lost".into())
+                },
+            )
+    }
+
+    /// Words are tried with the strobes low, and strobes with the words zero: no equation has both.
+    fn applies(&self, i: &In<Value>) -> bool {
+        let strobes = [
+            i.scan,
+            i.hold,
+            i.clear,
+            i.pattern_active,
+            i.pattern_ready,
+            i.pattern_valid,
+            i.integrating,
+            i.load,
+        ];
+        words_are_zero(i) || !strobes.contains(&true)
+    }
+
+    /// Target and commands are looked at while a cycle is prepared only.
+    fn assumes(&self, now: &Registers<Self>, i: &In<Value>) -> bool {
+        matches!(now.q.state, FETCH | PLAN) || words_are_zero(i)
+    }
+}
+
+fn words_are_zero(i: &In<Value>) -> bool {
+    [i.target_x, i.target_y, i.x, i.y] == [0; 4]
+}

@@ -1,0 +1,309 @@
+//! The machine: what the control computer of an X-Y plotter is connected to.
+//!
+//! ```text
+//!                          ┌─────────┐
+//!  periods ───────────────▶│         ├──▶ step_x, step_y, dir_x, dir_y
+//!  halt ──────────────────▶│         ├──▶ torque_x, torque_y
+//!  pulse, lines, arcs, … ─▶│ machine ├──▶ drive, reverse, speed, brake
+//!  encoders ──────────────▶│         ├──▶ counts_x, counts_y, position_x, position_y
+//!                          └─────────┘
+//! ```
+
+use super::enables::In as Rates;
+use super::ports::{Lift, Lines, Pulse, Trajectory};
+use super::{CommandJoin, Enables, command_join};
+use crate::circuits::arc_generator::generator::{self, ArcGenerator, Segments};
+use crate::circuits::lead_angle::{Compensator, LeadFrom, Memory, compensator};
+use crate::circuits::linear_interpolator::LinearInterpolator;
+use crate::circuits::linear_interpolator::command_source::{self, Orders};
+use crate::circuits::pulse_interpolator::{Group, group};
+use crate::circuits::trajectory_controller::vector_correction::Correction;
+use crate::circuits::trajectory_controller::{self, TrajectoryController, controller};
+use crate::hdl::prelude::*;
+
+/// Two steppers, two servos and a pen lift on one clock.
+#[derive(Debug, Clone)]
+pub struct Machine {
+    /// Pulses of the steppers.
+    pub pulse_interpolator: Group,
+    /// Commands of the servos on lines.
+    pub linear_interpolator: LinearInterpolator,
+    /// Commands of the servos on arcs.
+    pub arc_generator: ArcGenerator,
+    /// Corrects the commands, drives the servos.
+    pub trajectory_controller: TrajectoryController,
+    /// Lifts and lowers the pen.
+    pub lead_angle: Compensator,
+}
+
+impl Machine {
+    /// The circuits' own widths, with paths of up to 256 segments; the servos' commands are
+    /// corrected so, and `lead_times` are those of the pen lift's steps in CKs.
+    pub fn new(correction: Correction, lead_times: Image) -> Self {
+        let widths = trajectory_controller::Widths {
+            segment: 8,
+            ..trajectory_controller::Widths::FULL
+        };
+        Machine {
+            pulse_interpolator: Group::new(2, Default::default(), Default::default(), u64::MAX),
+            linear_interpolator: LinearInterpolator::default(),
+            arc_generator: ArcGenerator::default(),
+            trajectory_controller: TrajectoryController::new(
+                widths,
+                2,
+                correction,
+                Default::default(),
+            ),
+            lead_angle: Compensator {
+                widths: Default::default(),
+                lead_from: LeadFrom::Time(Memory::Ram),
+                variant: Default::default(),
+                rom: lead_times,
+            },
+        }
+    }
+
+    fn enables(&self) -> Enables {
+        Enables {
+            width: self.arc_generator.widths.period,
+        }
+    }
+
+    fn command_join(&self) -> CommandJoin {
+        CommandJoin {
+            line: self.linear_interpolator.widths.position,
+            arc: self.arc_generator.widths.position,
+        }
+    }
+}
+
+signals! { for Machine as c;
+    /// Ports in: the control computer, the encoders.
+    pub struct In {
+        /// Ends every movement where it is.
+        pub halt: Bit,
+        /// Rates of all circuits.
+        pub rates: Rates(&c.enables()),
+        /// To the pulse interpolator.
+        pub pulse: Pulse(&c.pulse_interpolator),
+        /// To the linear interpolator.
+        pub lines: Lines(&c.linear_interpolator),
+        /// To the arc generator.
+        pub arcs: Segments(&c.arc_generator),
+        /// To the trajectory controller.
+        pub trajectory: Trajectory(&c.trajectory_controller),
+        /// To the lead-angle compensator.
+        pub lift: Lift(&c.lead_angle),
+    }
+    /// The circuits.
+    pub struct Parts {
+        /// Unit time, scan, CK, Ts.
+        pub enables: Part<Enables>(c.enables()),
+        /// Pulses of the steppers.
+        pub pulse_interpolator: Part<Group>(c.pulse_interpolator.clone()),
+        /// Commands of the servos on lines.
+        pub linear_interpolator: Part<LinearInterpolator>(c.linear_interpolator.clone()),
+        /// Commands of the servos on arcs.
+        pub arc_generator: Part<ArcGenerator>(c.arc_generator.clone()),
+        /// Both as one.
+        pub command_join: Part<CommandJoin>(c.command_join()),
+        /// Corrects the commands, drives the servos.
+        pub trajectory_controller: Part<TrajectoryController>(c.trajectory_controller.clone()),
+        /// Lifts and lowers the pen.
+        pub lead_angle: Part<Compensator>(c.lead_angle.clone()),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// Step pulses of X.
+        pub step_x: Bit,
+        /// Step pulses of Y.
+        pub step_y: Bit,
+        /// Direction of X; high counts down.
+        pub dir_x: Bit,
+        /// Direction of Y.
+        pub dir_y: Bit,
+        /// A free half of the pattern memory awaits a command.
+        pub pulse_ready: Bit,
+        /// A pattern runs.
+        pub pulse_busy: Bit,
+        /// Position command of X in counts.
+        pub counts_x: I(c.command_join().line) as Analog,
+        /// Position command of Y.
+        pub counts_y: I(c.command_join().line) as Analog,
+        /// A target is taken.
+        pub lines_ready: Bit,
+        /// A line is under way.
+        pub lines_busy: Bit,
+        /// There is a free record of an arc.
+        pub arcs_ready: Bit,
+        /// An arc is under way.
+        pub arcs_busy: Bit,
+        /// There is a free record of the profile.
+        pub profile_ready: Bit,
+        /// The profile is under way.
+        pub profile_busy: Bit,
+        /// Torque of X.
+        pub torque_x: I(c.trajectory_controller.widths.torque) as Analog,
+        /// Torque of Y.
+        pub torque_y: I(c.trajectory_controller.widths.torque) as Analog,
+        /// Position of the motor of X in counts.
+        pub position_x: I(c.trajectory_controller.widths.position) as Analog,
+        /// Position of the motor of Y.
+        pub position_y: I(c.trajectory_controller.widths.position) as Analog,
+        /// The pen lift's motor is on.
+        pub drive: Bit,
+        /// It turns downwards.
+        pub reverse: Bit,
+        /// Its speed.
+        pub speed: U(c.lead_angle.widths.speed),
+        /// Its brake.
+        pub brake: Bit,
+        /// The pen lift moves.
+        pub lift_busy: Bit,
+        /// Something came too late, or cannot be counted: a scan, a sampling time, an edge of an
+        /// encoder.
+        pub fault: Bit,
+    }
+}
+
+impl Circuit for Machine {
+    const NAME: &'static str = "machine";
+    const ABOUT: &'static str = "all five circuits as one motion controller";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let (low, halt) = (Bit::low(), i.halt);
+        let enables = p.enables.settle(i.rates);
+        let of = i.pulse;
+        let pulse = p.pulse_interpolator.settle(group::In {
+            command: of.command,
+            base: of.base,
+            last: of.last,
+            cyclic: low,
+            run: of.run,
+            now: of.now,
+            // Its own counter never ends a unit time: the enable does.
+            period: U::new(u64::MAX, self.pulse_interpolator.widths.period),
+            write_period: low,
+            unit_end: enables.w.unit,
+            port: of.port,
+        });
+        let of = i.lines;
+        let lines = p.linear_interpolator.settle(command_source::In {
+            scan: enables.w.scan,
+            hold: low,
+            orders: Orders {
+                push: of.push,
+                target_x: of.target_x,
+                target_y: of.target_y,
+                settings: of.settings,
+                halt,
+            },
+            clear: low,
+        });
+        let arcs = p.arc_generator.settle(generator::In {
+            segments: i.arcs,
+            halt,
+            sample_period: enables.w.sample_led,
+        });
+        let join = p.command_join.settle(command_join::In {
+            take: enables.w.sample,
+            line_x: lines.w.x,
+            line_y: lines.w.y,
+            arc_x: arcs.w.x,
+            arc_y: arcs.w.y,
+        });
+        let widths = self.trajectory_controller.widths;
+        let guarded = |counts: I| counts.resize(widths.point).shift_left(widths.guard());
+        let of = i.trajectory;
+        let trajectory = p.trajectory_controller.settle(controller::In {
+            write: of.write,
+            write_word: of.write_word,
+            write_data: of.write_data,
+            push: of.push,
+            start: of.start,
+            halt,
+            restart: low,
+            write_begin: of.write_begin,
+            begin_segment: of.begin_segment,
+            begin_length: of.begin_length,
+            write_path: of.write_path,
+            path_address: of.path_address,
+            path_data: of.path_data,
+            last: of.last,
+            path_end: of.path_end,
+            period: enables.w.sample_led,
+            model_gains: of.model_gains,
+            position_gain: of.position_gain,
+            speed_gain: of.speed_gain,
+            integral_gain: of.integral_gain,
+            inertia: of.inertia,
+            limit: of.limit,
+            given: Bit::high(),
+            given_command: vec![guarded(join.q.x), guarded(join.q.y)],
+            a: of.a,
+            b: of.b,
+        });
+        let of = i.lift;
+        let lift = p.lead_angle.settle(compensator::In {
+            a: of.a,
+            b: of.b,
+            clear: low,
+            run: of.run,
+            halt,
+            learn: of.learn,
+            common: low,
+            last_step: of.last_step,
+            ck_period: enables.w.ck_led,
+            standstill: of.standstill,
+            time_out: of.time_out,
+            rest: of.rest,
+            seed: of.seed,
+            lead_parameter: U::new(0, 14),
+            gate: U::new(0, self.lead_angle.widths.cks),
+            write_target: of.write_target,
+            write_time: low,
+            write_step: of.write_step,
+            step_target: of.step_target,
+            step_speed: of.step_speed,
+            step_time: U::new(0, self.lead_angle.widths.time()),
+        });
+        let late = lines.w.late | arcs.w.late | trajectory.w.late | trajectory.w.profile_late;
+        let lost = trajectory.w.lost[0] | trajectory.w.lost[1] | lift.w.lost;
+        let net = Net {
+            step_x: pulse.w.step[0],
+            step_y: pulse.w.step[1],
+            dir_x: pulse.w.dir[0],
+            dir_y: pulse.w.dir[1],
+            pulse_ready: pulse.w.ready,
+            pulse_busy: pulse.w.busy,
+            counts_x: join.w.counts_x,
+            counts_y: join.w.counts_y,
+            lines_ready: lines.w.ready,
+            lines_busy: lines.w.busy,
+            arcs_ready: arcs.w.ready,
+            arcs_busy: arcs.w.busy,
+            profile_ready: trajectory.w.ready,
+            profile_busy: trajectory.w.busy,
+            torque_x: trajectory.w.torque[0],
+            torque_y: trajectory.w.torque[1],
+            position_x: trajectory.w.position[0],
+            position_y: trajectory.w.position[1],
+            drive: lift.w.drive,
+            reverse: lift.w.reverse,
+            speed: lift.w.speed,
+            brake: lift.w.brake,
+            lift_busy: lift.w.busy,
+            fault: late | lost | arcs.w.starved | trajectory.w.starved | lines.w.refused,
+        };
+        (net, Nothing)
+    }
+
+    fn objection(&self) -> Option<String> {
+        let axes = [
+            self.pulse_interpolator.axes,
+            self.trajectory_controller.axes,
+        ];
+        (axes != [2, 2]).then(|| "X and Y are two axes".into())
+    }
+}

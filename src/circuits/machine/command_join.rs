@@ -1,0 +1,94 @@
+//! Command join: the position command of an X-Y machine, of which the lines come from one circuit
+//! and the arcs from another.
+//!
+//! ```text
+//!                    ┌──────────────┐
+//!  line_x, line_y ──▶│              ├──▶ counts_x, counts_y
+//!  arc_x, arc_y ────▶│ command_join ├──▶ x, y
+//!  take ────────────▶│              │
+//!                    └──────────────┘
+//! ```
+//!
+//! Each of the two counts only its own way and rests while the other moves, so the sum is the whole
+//! path. It is taken once in a sampling time: whoever computes with it in between sees it rest.
+
+use crate::hdl::prelude::*;
+
+/// Join of two ways. A command shows one tick after `take`.
+#[derive(Debug, Clone)]
+pub struct CommandJoin {
+    /// Width of the way on lines, and of a command.
+    pub line: usize,
+    /// Width of the way on arcs, not wider.
+    pub arc: usize,
+}
+
+signals! { for CommandJoin as c;
+    /// Ports in.
+    pub struct In {
+        /// The sum is taken.
+        pub take: Bit,
+        /// Way on lines, X, in counts.
+        pub line_x: I(c.line),
+        /// Way on lines, Y.
+        pub line_y: I(c.line),
+        /// Way on arcs, X, in counts.
+        pub arc_x: I(c.arc),
+        /// Way on arcs, Y.
+        pub arc_y: I(c.arc),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Position command of X in counts.
+        pub x: I(c.line) as Analog = 0,
+        /// Position command of Y.
+        pub y: I(c.line) as Analog = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// Both ways together, X, as they stand.
+        pub counts_x: I(c.line) as Analog,
+        /// Y.
+        pub counts_y: I(c.line) as Analog,
+    }
+}
+
+impl Circuit for CommandJoin {
+    const NAME: &'static str = "command_join";
+    const ABOUT: &'static str = "one position command from that of the lines and that of the arcs";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let counts_x = i.line_x + i.arc_x.resize(self.line);
+        let counts_y = i.line_y + i.arc_y.resize(self.line);
+        let next = Reg {
+            x: i.take.mux(counts_x, q.x),
+            y: i.take.mux(counts_y, q.y),
+        };
+        (Net { counts_x, counts_y }, next)
+    }
+
+    fn objection(&self) -> Option<String> {
+        let holds = self.line >= self.arc;
+        (!holds).then(|| "the sum is as wide as the lines' way".into())
+    }
+}
+
+impl Specified for CommandJoin {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let unused = 64 - self.line;
+        Invariants::<Self>::new().step(
+            "a command is the sum of both ways, and stays until the next",
+            move |now, next| {
+                let i = &now.i;
+                let sum = |line: i64, arc: i64| (line + arc) << unused >> unused;
+                let due = match i.take {
+                    true => [sum(i.line_x, i.arc_x), sum(i.line_y, i.arc_y)],
+                    false => [now.q.x, now.q.y],
+                };
+                let right = [next.q.x, next.q.y] == due;
+                require(right, ["x", "y", "take"], || format!("not {due:?}"))
+            },
+        )
+    }
+}

@@ -1,0 +1,139 @@
+//! Enables: the block of counters that every slower rate of the machine comes from.
+//!
+//! ```text
+//!                  ┌─────────┐
+//!  unit_period ───▶│         ├──▶ unit
+//!  scan_period ───▶│ enables ├──▶ scan
+//!  ck_period ─────▶│         ├──▶ ck, ck_led
+//!  sample_period ─▶│         ├──▶ sample, sample_led
+//!                  └─────────┘
+//! ```
+//!
+//! A circuit with an enable counter of its own is led by its period port: a period of 0 ends its
+//! period in this tick, one of all ones never does before ours.
+
+use crate::circuits::blocks::{EnableCounter, enable_counter};
+use crate::hdl::prelude::*;
+
+/// Four enable counters. Periods of as many ticks as a word holds, in any ratio; all begin at
+/// power-on.
+#[derive(Debug, Clone)]
+pub struct Enables {
+    /// Width of the counters in bits.
+    pub width: usize,
+}
+
+impl Enables {
+    fn counter(&self) -> EnableCounter {
+        EnableCounter { width: self.width }
+    }
+}
+
+impl Default for Enables {
+    fn default() -> Self {
+        Enables { width: 24 }
+    }
+}
+
+signals! { for Enables as c;
+    /// Ports in.
+    pub struct In {
+        /// T: ticks of a unit time; 0 counts as 1, as in the others.
+        pub unit_period: U(c.width),
+        /// Ticks of a scan.
+        pub scan_period: U(c.width),
+        /// Ticks of CK.
+        pub ck_period: U(c.width),
+        /// Ts: ticks of a sampling time.
+        pub sample_period: U(c.width),
+    }
+    /// The counters.
+    pub struct Parts {
+        /// Of the unit time.
+        pub unit_counter: Part<EnableCounter>(c.counter()),
+        /// Of the scan.
+        pub scan_counter: Part<EnableCounter>(c.counter()),
+        /// Of CK.
+        pub ck_counter: Part<EnableCounter>(c.counter()),
+        /// Of Ts.
+        pub sample_counter: Part<EnableCounter>(c.counter()),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// The unit time ends.
+        pub unit: Bit,
+        /// A scan begins.
+        pub scan: Bit,
+        /// CK.
+        pub ck: Bit,
+        /// A sampling time begins.
+        pub sample: Bit,
+        /// Period of a counter that CK leads.
+        pub ck_led: U(c.width),
+        /// Period of a counter that Ts leads.
+        pub sample_led: U(c.width),
+    }
+}
+
+impl Circuit for Enables {
+    const NAME: &'static str = "enables";
+    const ABOUT: &'static str = "unit time, scan, CK and Ts from one block of counters";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let enable = |counter: Part<EnableCounter>, period| {
+            counter.settle(enable_counter::In { period }).w.enable
+        };
+        let led = |enable: Bit| enable.mux(U::new(0, self.width), u64::MAX);
+        let ck = enable(p.ck_counter, i.ck_period);
+        let sample = enable(p.sample_counter, i.sample_period);
+        let net = Net {
+            unit: enable(p.unit_counter, i.unit_period),
+            scan: enable(p.scan_counter, i.scan_period),
+            ck,
+            sample,
+            ck_led: led(ck),
+            sample_led: led(sample),
+        };
+        (net, Nothing)
+    }
+}
+
+impl Specified for Enables {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step(
+                "a counter begins anew after its own enable, and after no other",
+                |now, next| {
+                    let (p, w) = (&now.p, &now.w);
+                    let counters = [
+                        (&p.unit_counter, w.unit, &next.p.unit_counter),
+                        (&p.scan_counter, w.scan, &next.p.scan_counter),
+                        (&p.ck_counter, w.ck, &next.p.ck_counter),
+                        (&p.sample_counter, w.sample, &next.p.sample_counter),
+                    ];
+                    let right = counters.iter().all(|(now, enable, next)| {
+                        let due = match enable {
+                            true => 0,
+                            false => now.q.count + 1,
+                        };
+                        next.q.count == due
+                    });
+                    require(right, ["unit", "scan", "ck", "sample"], || {
+                        "another count".into()
+                    })
+                },
+            )
+            .always(
+                "a led counter ends its period with the enable that leads it, and not before",
+                |now| {
+                    let led = [(now.w.ck, now.w.ck_led), (now.w.sample, now.w.sample_led)];
+                    let never = (1 << self.width) - 1;
+                    let right = led
+                        .iter()
+                        .all(|&(enable, period)| period == if enable { 0 } else { never });
+                    require(right, ["ck_led", "sample_led"], || "not led".into())
+                },
+            )
+    }
+}

@@ -1,0 +1,135 @@
+//! Ports of the machine, a bundle for each circuit: what its control computer gives it. Those of the
+//! arc generator are its own.
+
+use crate::circuits::lead_angle::Compensator;
+use crate::circuits::linear_interpolator::LinearInterpolator;
+use crate::circuits::linear_interpolator::target_data::Settings;
+use crate::circuits::pulse_interpolator::Group;
+use crate::circuits::pulse_interpolator::pattern_memory::WritePort;
+use crate::circuits::trajectory_controller::TrajectoryController;
+use crate::circuits::trajectory_controller::model_state::ModelGains;
+use crate::hdl::prelude::*;
+
+/// Names of the axes' ports.
+const A_NAMES: &[&str] = &["a_x", "a_y"];
+const B_NAMES: &[&str] = &["b_x", "b_y"];
+const POSITION_GAIN: &[&str] = &["position_gain_x", "position_gain_y"];
+const SPEED_GAIN: &[&str] = &["speed_gain_x", "speed_gain_y"];
+const INTEGRAL_GAIN: &[&str] = &["integral_gain_x", "integral_gain_y"];
+const INERTIA: &[&str] = &["inertia_x", "inertia_y"];
+const LIMIT: &[&str] = &["limit_x", "limit_y"];
+
+signals! { for Group as c;
+    /// To the pulse interpolator; see [`group::In`](crate::circuits::pulse_interpolator::group::In).
+    pub struct Pulse {
+        /// A pattern is given, as the next.
+        pub command: Bit,
+        /// First address of it.
+        pub base: U(c.widths.address) as Hex,
+        /// Last address of it.
+        pub last: U(c.widths.address) as Hex,
+        /// It runs; low: it stops the one that runs.
+        pub run: Bit,
+        /// It is taken at the next end of a unit time; low: when the one that runs is over.
+        pub now: Bit,
+        /// Writes the words of all axes.
+        pub port: WritePort(&c.widths) as Flat,
+    }
+}
+
+signals! { for LinearInterpolator as c;
+    /// To the linear interpolator; see
+    /// [`interpolator::In`](crate::circuits::linear_interpolator::interpolator::In).
+    pub struct Lines {
+        /// A target is given.
+        pub push: Bit,
+        /// Its X, on the way of all lines.
+        pub target_x: I(c.widths.position),
+        /// Its Y.
+        pub target_y: I(c.widths.position),
+        /// Speed and times on the way there.
+        pub settings: Settings(&c.targets()) as Flat,
+    }
+}
+
+signals! { for TrajectoryController as c;
+    /// To the trajectory controller; see
+    /// [`controller::In`](crate::circuits::trajectory_controller::controller::In).
+    pub struct Trajectory {
+        /// Writes a word of the free record of the profile.
+        pub write: Bit,
+        /// Number of the word.
+        pub write_word: U(5),
+        /// Its data.
+        pub write_data: U(c.widths.data) as Hex,
+        /// The free record is complete.
+        pub push: Bit,
+        /// Begins to move along the path.
+        pub start: Bit,
+        /// Writes where a segment of the path begins.
+        pub write_begin: Bit,
+        /// The segment.
+        pub begin_segment: U(c.widths.segment),
+        /// The length at which it begins.
+        pub begin_length: U(c.widths.point),
+        /// Writes a word of a segment.
+        pub write_path: Bit,
+        /// The segment, and in the lower four bits the number of its word.
+        pub path_address: U(c.widths.address()) as Hex,
+        /// Its data.
+        pub path_data: U(c.widths.data) as Hex,
+        /// The path's last segment.
+        pub last: U(c.widths.segment),
+        /// L: the path's length.
+        pub path_end: I(c.widths.point),
+        /// K1 and K2 of all models.
+        pub model_gains: ModelGains(&c.widths.model()) as Flat,
+        /// Of the position controls.
+        pub position_gain: [U(c.widths.servo_gain); c.axes] as Elements(POSITION_GAIN),
+        /// Of the speed controls, proportional.
+        pub speed_gain: [U(c.widths.servo_gain); c.axes] as Elements(SPEED_GAIN),
+        /// Integral.
+        pub integral_gain: [U(c.widths.servo_gain); c.axes] as Elements(INTEGRAL_GAIN),
+        /// Of the feed-forward.
+        pub inertia: [U(c.widths.servo_gain); c.axes] as Elements(INERTIA),
+        /// Largest torques.
+        pub limit: [U(c.widths.torque); c.axes] as Elements(LIMIT),
+        /// Encoders of the motors, channel A.
+        pub a: [Bit; c.axes] as Elements(A_NAMES),
+        /// Channel B.
+        pub b: [Bit; c.axes] as Elements(B_NAMES),
+    }
+}
+
+signals! { for Compensator as c;
+    /// To the lead-angle compensator; see
+    /// [`compensator::In`](crate::circuits::lead_angle::compensator::In).
+    pub struct Lift {
+        /// Encoder of the pen lift, channel A.
+        pub a: Bit,
+        /// Channel B.
+        pub b: Bit,
+        /// The next step runs.
+        pub run: Bit,
+        /// Times are learned.
+        pub learn: Bit,
+        /// The step after which step 0 comes.
+        pub last_step: U(c.widths.step),
+        /// CKs without a change that are a standstill.
+        pub standstill: U(c.widths.cks),
+        /// CKs from the control signal on after which a positioning is complete anyway.
+        pub time_out: U(c.widths.cks),
+        /// CKs between two steps.
+        pub rest: U(c.widths.cks),
+        /// The time that a step begins to learn with that has none.
+        pub seed: U(c.widths.time()),
+        /// A target and its speed are written.
+        pub write_target: Bit,
+        /// The step that is written.
+        pub write_step: U(c.widths.step),
+        /// The target that is written.
+        pub step_target: I(c.widths.position),
+        /// The speed that is written.
+        pub step_speed: U(c.widths.speed),
+    }
+}

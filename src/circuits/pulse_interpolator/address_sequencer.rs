@@ -1,0 +1,204 @@
+//! Address sequencer 50 (¶0018–0019): the read address of the pattern memory.
+//!
+//! ```text
+//!                  ┌───────────────────┐
+//!  unit_rst ──────▶│                   ├──▶ read, blank
+//!  pending ───────▶│ address sequencer ├──▶ next_address
+//!  base, last, … ─▶│                   ├──▶ take
+//!                  └───────────────────┘
+//! ```
+//!
+//! Everything happens at RST: the address counts up, the pattern starts again, ends, or gives way
+//! to the waiting command.
+//!
+//! Departures: the text counts without end. Here a pattern has a last address, where it loops or
+//! stops; stopped, the address is held and no axis gets pulses. At power-on the sequencer is
+//! idle; a pattern begins at the first RST after its command.
+
+use crate::hdl::prelude::*;
+
+/// Names of the states.
+pub const STATES: &[&str] = &["IDLE", "RUN"];
+
+/// Address sequencer 50; registers change only at RST.
+#[derive(Debug, Clone)]
+pub struct AddressSequencer {
+    /// Width of an address in bits.
+    pub width: usize,
+}
+
+signals! { for AddressSequencer as c;
+    /// Ports in.
+    pub struct In {
+        /// Last tick of the unit time.
+        pub unit_rst: Bit,
+        /// A command waits.
+        pub pending: Bit,
+        /// Its pattern's first address.
+        pub pending_base: U(c.width) as Hex,
+        /// Its pattern's last address.
+        pub pending_last: U(c.width) as Hex,
+        /// Its pattern starts again after its last word.
+        pub pending_cyclic: Bit,
+        /// It starts a pattern; low: it stops the one that runs.
+        pub pending_run: Bit,
+        /// It is taken at the next RST; low: at the RST that ends the pattern.
+        pub pending_now: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Whether a pattern runs.
+        pub state: U(1) as States(STATES) = 0,
+        /// Address of the unit time that runs.
+        pub address: U(c.width) as Hex = 0,
+        /// First address of the pattern that runs.
+        base: U(c.width) as Hex = 0,
+        /// Last address of the pattern that runs.
+        last: U(c.width) as Hex = 0,
+        /// The pattern that runs starts again after its last word.
+        cyclic: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// The unit time that runs is the last of its pattern.
+        at_last: Bit,
+        /// That, or no pattern runs.
+        at_end: Bit,
+        /// The waiting command is for the next RST.
+        due: Bit,
+        /// That command starts a pattern.
+        start: Bit,
+        /// Address that follows in the pattern that runs.
+        following: U(c.width) as Hex,
+        /// The waiting command is taken with this tick.
+        pub take: Bit,
+        /// A pattern runs in the unit time to come, if this is the tick of RST.
+        go_on: Bit,
+        /// Address of the unit time to come.
+        pub next_address: U(c.width) as Hex,
+        /// The pattern memory reads `next_address`.
+        pub read: Bit,
+        /// The unit time to come has no pulses.
+        pub blank: Bit,
+    }
+}
+
+impl Circuit for AddressSequencer {
+    const NAME: &'static str = "address_sequencer";
+    const ABOUT: &'static str = "read address: counts on RST, loops, stops, switches patterns";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let running = q.state.bit(0);
+        let at_last = q.address.equals(q.last);
+        let at_end = !running | at_last;
+        let due = i.pending & (at_end | i.pending_now);
+        let start = due & i.pending_run;
+        let following = (at_last & q.cyclic).mux(q.base, q.address + 1);
+        let go_on = due.mux(i.pending_run, running & (!at_last | q.cyclic));
+        let next_address = go_on.mux(start.mux(i.pending_base, following), q.address);
+        let begins = i.unit_rst & start;
+        let net = Net {
+            at_last,
+            at_end,
+            due,
+            start,
+            following,
+            take: i.unit_rst & due,
+            go_on,
+            next_address,
+            read: i.unit_rst & go_on,
+            blank: i.unit_rst & !go_on,
+        };
+        let next = Reg {
+            state: i.unit_rst.mux(go_on.word(), q.state),
+            address: i.unit_rst.mux(next_address, q.address),
+            base: begins.mux(i.pending_base, q.base),
+            last: begins.mux(i.pending_last, q.last),
+            cyclic: begins.mux(i.pending_cyclic, q.cyclic),
+        };
+        (net, next)
+    }
+}
+
+impl Specified for AddressSequencer {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let running = |q: &Reg<Value>| q.state == 1;
+        let ends = |q: &Reg<Value>| q.address == q.last;
+        let taken = |i: &In<Value>, w: &Net<Value>| i.unit_rst && w.take;
+        Invariants::<Self>::new()
+            .step("nothing changes but at RST", |now, next| {
+                let kept = next.q.state == now.q.state && next.q.address == now.q.address;
+                require(now.i.unit_rst || kept, ["state", "address"], || {
+                    "changed in mid-unit".into()
+                })
+            })
+            .always(
+                "a command is taken at RST, at once or at the end of the pattern",
+                move |now| {
+                    let end = !running(now.q) || ends(now.q);
+                    let due = now.i.unit_rst && now.i.pending && (now.i.pending_now || end);
+                    require(due == now.w.take, ["take"], || {
+                        format!("take is {}", now.w.take)
+                    })
+                },
+            )
+            .step("a pattern begins at its base", move |now, next| {
+                let begins = taken(now.i, now.w) && now.i.pending_run;
+                let there = running(&next.q)
+                    && next.q.address == now.i.pending_base
+                    && next.q.base == now.i.pending_base
+                    && next.q.last == now.i.pending_last
+                    && next.q.cyclic == now.i.pending_cyclic;
+                require(
+                    !begins || there,
+                    ["address", "base", "last", "cyclic"],
+                    || "another pattern".into(),
+                )
+            })
+            .step(
+                "a stop command ends it and holds the address",
+                move |now, next| {
+                    let stop = taken(now.i, now.w) && !now.i.pending_run;
+                    let held = !running(&next.q) && next.q.address == now.q.address;
+                    require(!stop || held, ["state", "address"], || "goes on".into())
+                },
+            )
+            .step("a running pattern skips no address", move |now, next| {
+                let on = now.i.unit_rst && !taken(now.i, now.w) && running(now.q) && !ends(now.q);
+                let up = (now.q.address + 1) % (1 << self.width);
+                let right = running(&next.q) && next.q.address == up;
+                require(!on || right, ["address"], || next.q.address.to_string())
+            })
+            .step(
+                "at its end a pattern starts again or holds",
+                move |now, next| {
+                    let end = now.i.unit_rst && !taken(now.i, now.w) && running(now.q);
+                    let good = match now.q.cyclic {
+                        true => running(&next.q) && next.q.address == now.q.base,
+                        false => !running(&next.q) && next.q.address == now.q.address,
+                    };
+                    require(!(end && ends(now.q)) || good, ["state", "address"], || {
+                        next.q.address.to_string()
+                    })
+                },
+            )
+            .step("idle holds the address", move |now, next| {
+                let idle = now.i.unit_rst && !taken(now.i, now.w) && !running(now.q);
+                let held = !running(&next.q) && next.q.address == now.q.address;
+                require(!idle || held, ["state", "address"], || "moves".into())
+            })
+            .step(
+                "the memory reads the address to come, or goes blank",
+                move |now, next| {
+                    let (read, blank) = (now.w.read, now.w.blank);
+                    let one = (read ^ blank) == now.i.unit_rst && !(read && blank);
+                    let right = !read || running(&next.q) && next.q.address == now.w.next_address;
+                    let right = right && (!blank || !running(&next.q));
+                    require(one && right, ["read", "blank", "next_address"], || {
+                        "not in step".into()
+                    })
+                },
+            )
+    }
+}

@@ -1,0 +1,117 @@
+//! One axis: pattern memory 10, pulse generator 20 and sync stage 40 (¶0012).
+//!
+//! ```text
+//!                ┌──────┐
+//!  unit_rst ────▶│      ├──▶ step
+//!  read, blank ─▶│ axis ├──▶ dir
+//!  address ─────▶│      │
+//!  write… ──────▶│      │
+//!                └──────┘
+//! ```
+
+use super::pattern_memory::WritePort;
+use super::{PatternMemory, PulseGenerator, SyncStage, Variant};
+use super::{pattern_memory, pulse_generator, sync_stage};
+use crate::hdl::prelude::*;
+
+/// One axis, of the widths of its memory.
+#[derive(Debug, Clone)]
+pub struct Axis {
+    /// Pattern memory 10.
+    pub memory: PatternMemory,
+    /// What RST clears.
+    pub variant: Variant,
+}
+
+signals! { for Axis as c;
+    /// Ports in.
+    pub struct In {
+        /// Last tick of the unit time.
+        pub unit_rst: Bit,
+        /// Reads the word at `address` for the unit time to come.
+        pub read: Bit,
+        /// The unit time to come has no pulses.
+        pub blank: Bit,
+        /// Address of the unit time to come.
+        pub address: U(c.memory.address) as Hex,
+        /// Writes the words of all axes.
+        pub port: WritePort(&c.memory) as Flat,
+    }
+    /// The circuits inside.
+    pub struct Parts {
+        /// Pattern memory 10.
+        pub memory: Part<PatternMemory>(c.memory.clone()),
+        /// Pulse generator 20.
+        pub generator: Part<PulseGenerator>(PulseGenerator {
+            width: c.memory.half_period,
+            variant: c.variant,
+        }),
+        /// Sync stage 40.
+        pub sync: Part<SyncStage>(SyncStage),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// Step pulses; a step is a rising edge.
+        pub step: Bit,
+        /// Direction; high counts down. Changes only with the first tick of a unit time.
+        pub dir: Bit,
+    }
+}
+
+impl Circuit for Axis {
+    const NAME: &'static str = "axis";
+    const ABOUT: &'static str = "pattern memory, pulse generator and sync stage of one axis";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let memory = p.memory.settle(pattern_memory::In {
+            read: i.read,
+            blank: i.blank,
+            address: i.address,
+            port: i.port,
+        });
+        let generator = p.generator.settle(pulse_generator::In {
+            half_period: memory.q.half_period,
+            unit_rst: i.unit_rst,
+        });
+        let sync = p.sync.settle(sync_stage::In {
+            pulse: generator.w.pulse,
+            unit_rst: i.unit_rst,
+        });
+        let net = Net {
+            step: sync.q.step,
+            dir: memory.q.direction,
+        };
+        (net, Nothing)
+    }
+}
+
+impl Specified for Axis {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step("step is low in the tick after RST", |now, next| {
+                let low = !now.i.unit_rst || !next.p.sync.q.step;
+                require(low, ["sync.step", "unit_rst"], || "high across RST".into())
+            })
+            .step("dir changes only with a word read", |now, next| {
+                let kept = next.p.memory.q.direction == now.p.memory.q.direction;
+                require(kept || now.i.read, ["dir", "read"], || {
+                    "changed by itself".into()
+                })
+            })
+            .always("the toggle and the flip-flop agree", |now| {
+                let same = now.p.generator.q.toggle == now.p.sync.q.step;
+                require(same, ["generator.toggle", "sync.step"], || {
+                    "they differ".into()
+                })
+            })
+    }
+
+    /// A word is read or blanked at RST only, as the address sequencer does it; what stands on
+    /// the write port without a write does not matter, nor which other axis is written to.
+    fn applies(&self, i: &In<Value>) -> bool {
+        let written = i.port.write && i.port.write_axis < 2;
+        let moves = i.read || i.blank;
+        (written || i.port.is_quiet()) && (i.unit_rst || !moves)
+    }
+}

@@ -1,0 +1,149 @@
+//! Command port: where the control computer 2 leaves its next command (¶0018, ¶0026).
+//!
+//! ```text
+//!                ┌──────────────┐
+//!  valid ───────▶│              ├──▶ ready
+//!  base, last, ─▶│ command port ├──▶ pending
+//!  cyclic, run, ▶│              ├──▶ pending_base, pending_last, …
+//!  now, period ─▶│              │
+//!  take ────────▶│              │
+//!                └──────────────┘
+//! ```
+//!
+//! One command waits until the address sequencer takes it. A command is accepted in a tick in
+//! which the port is ready; one with `now` is always accepted and replaces the one that waits. It
+//! can be taken from the next tick on: a command given in the tick of RST is for the RST after.
+//!
+//! Departures: the text says only that the read address is switched by command. With power-on
+//! contents the port starts a pattern by itself: the free-running operation of ¶0032.
+
+use super::Pattern;
+use crate::hdl::prelude::*;
+
+/// Command port of the control computer 2, one command deep.
+#[derive(Debug, Clone)]
+pub struct CommandPort {
+    /// Width of an address in bits.
+    pub address: usize,
+    /// Width of a unit time.
+    pub period: usize,
+    /// The pattern that starts without a command at the first RST after power-on.
+    pub free_running: Option<Pattern>,
+}
+
+impl CommandPort {
+    /// The pattern of the command that waits at power-on.
+    fn pattern(&self) -> Pattern {
+        self.free_running.unwrap_or_default()
+    }
+}
+
+signals! { for CommandPort as c;
+    /// Ports in.
+    pub struct In {
+        /// A command is given.
+        pub valid: Bit,
+        /// First address of the pattern.
+        pub base: U(c.address) as Hex,
+        /// Last address of the pattern.
+        pub last: U(c.address) as Hex,
+        /// The pattern starts again after its last word.
+        pub cyclic: Bit,
+        /// Starts a pattern; low: stops the one that runs.
+        pub run: Bit,
+        /// At the next RST; low: at the RST that ends the pattern that runs.
+        pub now: Bit,
+        /// Unit time from that RST on, in ticks.
+        pub period: U(c.period),
+        /// The waiting command is taken with this tick.
+        pub take: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// A command waits.
+        pub pending: Bit = c.free_running.is_some(),
+        /// First address of its pattern.
+        pub pending_base: U(c.address) as Hex = c.pattern().base,
+        /// Last address of its pattern.
+        pub pending_last: U(c.address) as Hex = c.pattern().last,
+        /// Its pattern starts again after its last word.
+        pub pending_cyclic: Bit = c.pattern().cyclic,
+        /// It starts a pattern.
+        pub pending_run: Bit = c.free_running.is_some(),
+        /// It does not wait for the end of a pattern.
+        pub pending_now: Bit = 0,
+        /// Its unit time in ticks.
+        pub pending_period: U(c.period) = c.pattern().period,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A command without `now` would be accepted.
+        pub ready: Bit,
+        /// A command is accepted.
+        accept: Bit,
+    }
+}
+
+impl Circuit for CommandPort {
+    const NAME: &'static str = "command_port";
+    const ABOUT: &'static str = "holds the control computer's next command until it is taken";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let accept = i.valid & (!q.pending | i.now);
+        let net = Net {
+            ready: !q.pending,
+            accept,
+        };
+        let next = Reg {
+            pending: accept | (q.pending & !i.take),
+            pending_base: accept.mux(i.base, q.pending_base),
+            pending_last: accept.mux(i.last, q.pending_last),
+            pending_cyclic: accept.mux(i.cyclic, q.pending_cyclic),
+            pending_run: accept.mux(i.run, q.pending_run),
+            pending_now: accept.mux(i.now, q.pending_now),
+            pending_period: accept.mux(i.period, q.pending_period),
+        };
+        (net, next)
+    }
+}
+
+/// The command that waits, if one does.
+fn waiting(q: &Reg<Value>) -> ([u64; 3], [bool; 3]) {
+    let words = [q.pending_base, q.pending_last, q.pending_period];
+    (words, [q.pending_cyclic, q.pending_run, q.pending_now])
+}
+
+impl Specified for CommandPort {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let signals = ["pending", "pending_base", "pending_last"];
+        Invariants::<Self>::new()
+            .step(
+                "a command given to a ready port, or with now, waits as it was given",
+                move |now, next| {
+                    let i = now.i;
+                    let accepted = i.valid && (now.w.ready || i.now);
+                    let given = ([i.base, i.last, i.period], [i.cyclic, i.run, i.now]);
+                    let there = next.q.pending && waiting(&next.q) == given;
+                    require(!accepted || there, signals, || "not stored".into())
+                },
+            )
+            .step(
+                "a waiting command stays until it is taken or replaced",
+                move |now, next| {
+                    let replaced = now.i.valid && now.i.now;
+                    let stays = now.q.pending && !replaced;
+                    let same = waiting(&next.q) == waiting(now.q);
+                    let held = same && next.q.pending != now.i.take;
+                    require(!stays || held, signals, || "lost or altered".into())
+                },
+            )
+            .step("no command comes by itself", |now, next| {
+                let none = !now.q.pending && !now.i.valid;
+                require(!none || !next.q.pending, ["pending"], || "a command".into())
+            })
+            .always("ready means that none waits", |now| {
+                require(now.w.ready != now.q.pending, ["ready"], || "both".into())
+            })
+    }
+}

@@ -1,0 +1,255 @@
+//! The group: axes that interpolate together under one unit-time counter (¶0012, ¶0032).
+//!
+//! ```text
+//!                  ┌───────┐
+//!  command… ──────▶│       ├──▶ step_x, step_y, …
+//!  period, write ─▶│ group ├──▶ dir_x, dir_y, …
+//!  write… ────────▶│       ├──▶ ready, busy, unit_rst
+//!  unit_end ──────▶│       │
+//!                  └───────┘
+//! ```
+//!
+//! Without a control computer (all ports in low) it plays the free-running pattern, if it has one.
+
+use super::pattern_memory::{Contents, WritePort};
+use super::{AXES_MAX, AXIS_NAMES, AddressSequencer, Axis, CommandPort, Pattern, PatternMemory};
+use super::{UnitTimeRegister, Variant, Widths};
+use super::{address_sequencer, axis, command_port, pulse_generator, unit_time_register};
+use crate::circuits::blocks::{EnableCounter, enable_counter};
+use crate::hdl::prelude::*;
+
+/// Names of the step outputs.
+const STEP: &[&str] = &[
+    "step_x", "step_y", "step_z", "step_a", "step_b", "step_c", "step_u", "step_v",
+];
+/// Names of the direction outputs.
+const DIR: &[&str] = &[
+    "dir_x", "dir_y", "dir_z", "dir_a", "dir_b", "dir_c", "dir_u", "dir_v",
+];
+
+/// 1 to 8 axes.
+#[derive(Debug, Clone)]
+pub struct Group {
+    /// How many axes.
+    pub axes: usize,
+    /// Its widths.
+    pub widths: Widths,
+    /// Unit time at power-on, in ticks.
+    pub period: u64,
+    /// The pattern that it plays by itself.
+    pub free_running: Option<Pattern>,
+    /// What RST clears.
+    pub variant: Variant,
+    /// What the pattern memories of the axes hold at power-on; "no pulse" in those of further axes.
+    pub memories: Vec<Contents>,
+}
+
+impl Group {
+    /// A group with empty memories that waits for its control computer; `period` is the unit time
+    /// at power-on, in ticks.
+    pub fn new(axes: usize, widths: Widths, variant: Variant, period: u64) -> Self {
+        Group {
+            axes,
+            widths,
+            period,
+            free_running: None,
+            variant,
+            memories: vec![Contents::new(widths.half_period, widths.address); axes],
+        }
+    }
+
+    /// A group that plays `pattern` of its memories by itself (¶0032); fill `memories` before use.
+    pub fn free_running(axes: usize, widths: Widths, variant: Variant, pattern: Pattern) -> Self {
+        Group {
+            free_running: Some(pattern),
+            ..Group::new(axes, widths, variant, pattern.period)
+        }
+    }
+
+    /// An axis.
+    fn axis(&self, number: usize) -> Axis {
+        let Widths {
+            half_period,
+            address,
+            ..
+        } = self.widths;
+        let mut memory = PatternMemory::new(half_period, address, number as u64);
+        if let Some(contents) = self.memories.get(number) {
+            memory.contents = contents.clone();
+        }
+        Axis {
+            memory,
+            variant: self.variant,
+        }
+    }
+}
+
+signals! { for Group as c;
+    /// Ports in: the control computer 2.
+    pub struct In {
+        /// A command is given; see [`command_port::In`].
+        pub command: Bit,
+        /// First address of its pattern.
+        pub base: U(c.widths.address) as Hex,
+        /// Last address of its pattern.
+        pub last: U(c.widths.address) as Hex,
+        /// Its pattern starts again after its last word.
+        pub cyclic: Bit,
+        /// It starts a pattern; low: it stops the one that runs.
+        pub run: Bit,
+        /// It is taken at the next RST; low: at the RST that ends the pattern that runs.
+        pub now: Bit,
+        /// Unit time in ticks: of the command, or written by `write_period`.
+        pub period: U(c.widths.period),
+        /// Rewrites the unit time, in force from the next RST on.
+        pub write_period: Bit,
+        /// The unit time ends in this tick, whatever T is: for a group that another counter leads.
+        pub unit_end: Bit,
+        /// Writes the words of all axes.
+        pub port: WritePort(&c.widths) as Flat,
+    }
+    /// The circuits inside.
+    pub struct Parts {
+        /// Unit-time register.
+        pub unit_time: Part<UnitTimeRegister>(UnitTimeRegister {
+            width: c.widths.period,
+            period: c.period,
+        }),
+        /// Unit-time counter 30; its enable is RST.
+        pub counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
+        /// Command port.
+        pub port: Part<CommandPort>(CommandPort {
+            address: c.widths.address,
+            period: c.widths.period,
+            free_running: c.free_running,
+        }),
+        /// Address sequencer 50.
+        pub sequencer: Part<AddressSequencer>(AddressSequencer { width: c.widths.address }),
+        /// The axes.
+        pub axes: [Part<Axis>(c.axis(k)); k in c.axes] as Elements(&AXIS_NAMES),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// Step pulses; a step is a rising edge.
+        pub step: [Bit; c.axes] as Elements(STEP),
+        /// Directions; high counts down.
+        pub dir: [Bit; c.axes] as Elements(DIR),
+        /// RST: this is the last tick of the unit time.
+        pub unit_rst: Bit,
+        /// A command without `now` would be accepted.
+        pub ready: Bit,
+        /// A pattern runs.
+        pub busy: Bit,
+    }
+}
+
+impl Circuit for Group {
+    const NAME: &'static str = "pulse_interpolator";
+    const ABOUT: &'static str = "axes that interpolate together under one unit-time counter";
+    records!(In, Nothing, Net, Parts);
+
+    fn objection(&self) -> Option<String> {
+        if !(1..=AXES_MAX).contains(&self.axes) {
+            return Some(format!("a group has 1 to {AXES_MAX} axes"));
+        }
+        let wrong = self.memories.len() > self.axes;
+        wrong.then(|| "there are more pattern memories than axes".into())
+    }
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let counter = p.counter.settle(enable_counter::In {
+            // A T of 0 ends the unit time at once.
+            period: i.unit_end.mux(0, p.unit_time.q.active),
+        });
+        let unit_rst = counter.w.enable;
+        let sequencer = p.sequencer.settle(address_sequencer::In {
+            unit_rst,
+            pending: p.port.q.pending,
+            pending_base: p.port.q.pending_base,
+            pending_last: p.port.q.pending_last,
+            pending_cyclic: p.port.q.pending_cyclic,
+            pending_run: p.port.q.pending_run,
+            pending_now: p.port.q.pending_now,
+        });
+        let port = p.port.settle(command_port::In {
+            valid: i.command,
+            base: i.base,
+            last: i.last,
+            cyclic: i.cyclic,
+            run: i.run,
+            now: i.now,
+            period: i.period,
+            take: sequencer.w.take,
+        });
+        p.unit_time.settle(unit_time_register::In {
+            write: i.write_period,
+            period: i.period,
+            unit_rst,
+            take: sequencer.w.take,
+            take_period: port.q.pending_period,
+        });
+        let axes = settle_each(p.axes, |_| axis::In {
+            unit_rst,
+            read: sequencer.w.read,
+            blank: sequencer.w.blank,
+            address: sequencer.w.next_address,
+            port: i.port.clone(),
+        });
+        let net = Net {
+            step: axes.iter().map(|axis| axis.w.step).collect(),
+            dir: axes.iter().map(|axis| axis.w.dir).collect(),
+            unit_rst,
+            ready: port.w.ready,
+            busy: sequencer.q.state.bit(0),
+        };
+        (net, Nothing)
+    }
+}
+
+impl Specified for Group {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step(
+                "T, address, state and words change only at RST",
+                |now, next| {
+                    let (p, after) = (now.p, &next.p);
+                    let words = p.axes.iter().zip(&after.axes).all(|(now, next)| {
+                        let (now, next) = (&now.p.memory.q, &next.p.memory.q);
+                        now.half_period == next.half_period && now.direction == next.direction
+                    });
+                    let kept = after.unit_time.q.active == p.unit_time.q.active
+                        && after.sequencer.q.address == p.sequencer.q.address
+                        && after.sequencer.q.state == p.sequencer.q.state;
+                    let signals = ["unit_time.active", "sequencer.address", "sequencer.state"];
+                    require(kept && words || now.w.unit_rst, signals, || {
+                        "changed in mid-unit".into()
+                    })
+                },
+            )
+            .always("where the unit time stands decides every axis", |now| {
+                let elapsed = now.p.counter.q.count;
+                let right = now.p.axes.iter().all(|axis| {
+                    let (generator, step) = (&axis.p.generator.q, axis.p.sync.q.step);
+                    let n = axis.p.memory.q.half_period;
+                    let expected = pulse_generator::expected(n, elapsed);
+                    (generator.count, generator.toggle) == expected && step == expected.1
+                });
+                require(right, ["counter.count", "step_x"], || {
+                    format!("tick {elapsed} of the unit")
+                })
+            })
+            .always("an idle group has no pulses", |now| {
+                let quiet = now
+                    .p
+                    .axes
+                    .iter()
+                    .all(|axis| axis.p.memory.q.half_period == 0 && !axis.p.sync.q.step);
+                require(quiet || now.w.busy, ["busy", "step_x"], || "a pulse".into())
+            })
+    }
+
+    /// The contents of the memories are free, but fixed: the EPROM of the text.
+    fn applies(&self, i: &In<Value>) -> bool {
+        i.port.is_quiet()
+    }
+}

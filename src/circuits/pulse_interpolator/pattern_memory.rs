@@ -1,0 +1,234 @@
+//! Pattern memory 10 (¶0013–0014, ¶0019): direction and half-period per unit time, for one axis.
+//!
+//! ```text
+//!               ┌────────────────┐
+//!  read ───────▶│                ├──▶ half_period
+//!  blank ──────▶│ pattern memory ├──▶ direction
+//!  address ────▶│                │
+//!  write… ─────▶│                │
+//!               └────────────────┘
+//! ```
+//!
+//! Block RAM with a registered output: the address of the unit time to come is applied in the
+//! tick of RST, the word stands at the output from the first tick of that unit time on.
+//!
+//! Departures: the text has an EPROM without direction. Here each word has a direction bit, a
+//! half-period of 0 is "no pulse", and a write port lets the control computer fill one pattern
+//! while another plays (¶0033 leaves the kind of memory open). Power-on contents make it the
+//! text's EPROM.
+
+use super::Widths;
+use crate::hdl::prelude::*;
+
+/// What the memory of an axis holds at power-on.
+#[derive(Debug, Clone)]
+pub struct Contents {
+    /// Half-periods, one word per unit time.
+    pub half_periods: Image,
+    /// Directions, one bit per unit time.
+    pub directions: Image,
+}
+
+impl Contents {
+    /// All words "no pulse", half-periods and addresses of so many bits.
+    pub fn new(half_period: usize, address: usize) -> Self {
+        Contents {
+            half_periods: Image::new(address, half_period),
+            directions: Image::new(address, 1),
+        }
+    }
+}
+
+/// The same words in an image of other widths; as it is where a word would be lost.
+fn fitted(image: &Image, address: usize, width: usize) -> Image {
+    let words = || (0..image.words()).map(|word| image.get(word));
+    let fitted = Image::of(address, width, words());
+    let kept = words().enumerate().all(|(address, word)| {
+        word == 0 || address < fitted.words() && fitted.get(address) == word
+    });
+    if kept { fitted } else { image.clone() }
+}
+
+/// Pattern memory 10 of one axis.
+#[derive(Debug, Clone)]
+pub struct PatternMemory {
+    /// Width of a half-period in bits.
+    pub half_period: usize,
+    /// Width of an address.
+    pub address: usize,
+    /// The number of this axis, 0 to 7.
+    pub axis: u64,
+    /// What it holds at power-on.
+    pub contents: Contents,
+}
+
+impl PatternMemory {
+    /// The memory of axis number `axis`, all words "no pulse", half-periods and addresses of so
+    /// many bits.
+    pub fn new(half_period: usize, address: usize, axis: u64) -> Self {
+        PatternMemory {
+            half_period,
+            address,
+            axis,
+            contents: Contents::new(half_period, address),
+        }
+    }
+
+    /// What it holds at power-on, in its present widths.
+    fn contents(&self) -> Contents {
+        let Contents {
+            half_periods,
+            directions,
+        } = &self.contents;
+        Contents {
+            half_periods: fitted(half_periods, self.address, self.half_period),
+            directions: fitted(directions, self.address, 1),
+        }
+    }
+}
+
+signals! { for (PatternMemory, Widths) as c;
+    /// The port by which the words of all axes are written.
+    pub struct WritePort {
+        /// Writes a word of the axis that `write_axis` names.
+        pub write: Bit,
+        /// The axis written to.
+        pub write_axis: U(3),
+        /// Address written to.
+        pub write_address: U(c.address) as Hex,
+        /// Half-period written.
+        pub write_half_period: U(c.half_period),
+        /// Direction written.
+        pub write_direction: Bit,
+    }
+}
+
+impl WritePort<Value> {
+    /// Nothing stands on it.
+    pub(super) fn is_quiet(&self) -> bool {
+        let words = [self.write_axis, self.write_address, self.write_half_period];
+        words == [0; 3] && !self.write_direction && !self.write
+    }
+}
+
+signals! { for PatternMemory as c;
+    /// Ports in.
+    pub struct In {
+        /// Reads the word at `address` into the output registers.
+        pub read: Bit,
+        /// Puts "no pulse" into the output registers; the direction stays. `read` has priority.
+        pub blank: Bit,
+        /// Address of the unit time to come.
+        pub address: U(c.address) as Hex,
+        /// Writes a word if `write_axis` names this axis.
+        pub port: WritePort(c) as Flat,
+    }
+    /// Flip-flops and memories.
+    pub struct Reg {
+        /// Half-periods, one word per unit time.
+        half_periods: Ram(c.address, c.half_period) = &c.contents().half_periods,
+        /// Directions, one bit per unit time.
+        directions: Ram(c.address, 1) = &c.contents().directions,
+        /// Half-period of the unit time that runs, in ticks; 0 for no pulse.
+        pub half_period: U(c.half_period) = 0,
+        /// Direction of the unit time that runs; high counts down.
+        pub direction: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A word is written to this axis.
+        selected: Bit,
+        /// The output becomes "no pulse".
+        clear: Bit,
+    }
+}
+
+impl Circuit for PatternMemory {
+    const NAME: &'static str = "pattern_memory";
+    const ABOUT: &'static str = "direction and half-period per unit time, for one axis";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let port = i.port;
+        let axis = U::parameter("axis", self.axis, 3);
+        let selected = port.write & port.write_axis.equals(axis);
+        let clear = i.blank & !i.read;
+        // A clear before the read, as the output register of block RAM has it.
+        let read = q.half_periods.read_when(i.read, i.address, q.half_period);
+        let direction = q
+            .directions
+            .read_when(i.read, i.address, q.direction.word());
+        let next = Reg {
+            half_period: clear.mux(0, read),
+            direction: direction.bit(0),
+            half_periods: q.half_periods.write(
+                selected,
+                port.write_address,
+                port.write_half_period,
+            ),
+            directions: q.directions.write(
+                selected,
+                port.write_address,
+                port.write_direction.word(),
+            ),
+        };
+        (Net { selected, clear }, next)
+    }
+}
+
+impl Specified for PatternMemory {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        /// The word at an address, as half-period and direction.
+        fn word(q: &Reg<Value>, address: u64) -> (u64, bool) {
+            let address = address as usize;
+            (q.half_periods[address], q.directions[address] == 1)
+        }
+        /// The word at the output.
+        fn output(q: &Reg<Value>) -> (u64, bool) {
+            (q.half_period, q.direction)
+        }
+        Invariants::<Self>::new()
+            .step(
+                "a read brings the word as it was before the edge",
+                |now, next| {
+                    let read = output(&next.q) == word(now.q, now.i.address);
+                    require(!now.i.read || read, ["half_period", "direction"], || {
+                        "another word".into()
+                    })
+                },
+            )
+            .step(
+                "blank stops the pulses and keeps the direction",
+                |now, next| {
+                    let blank = now.i.blank && !now.i.read;
+                    let quiet = output(&next.q) == (0, now.q.direction);
+                    require(!blank || quiet, ["half_period", "direction"], || {
+                        "not blank".into()
+                    })
+                },
+            )
+            .step("without read or blank the output stays", |now, next| {
+                let held = now.i.read || now.i.blank || output(&next.q) == output(now.q);
+                require(held, ["half_period", "direction"], || {
+                    "changed by itself".into()
+                })
+            })
+            .step(
+                "a word changes by a write to this axis and its address, and only so",
+                |now, next| {
+                    let port = &now.i.port;
+                    let written = port.write && port.write_axis == self.axis;
+                    let good = (0..1 << self.address).all(|address| {
+                        let expected = match written && port.write_address == address {
+                            true => (port.write_half_period, port.write_direction),
+                            false => word(now.q, address),
+                        };
+                        word(&next.q, address) == expected
+                    });
+                    require(good, ["half_periods", "directions"], || {
+                        "another content".into()
+                    })
+                },
+            )
+    }
+}

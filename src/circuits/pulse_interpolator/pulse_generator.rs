@@ -1,0 +1,131 @@
+//! Pulse generator 20 (¶0015): reference-clock counter 201 and comparator 202.
+//!
+//! ```text
+//!                ┌─────────────────┐
+//!  half_period ─▶│ pulse generator ├──▶ pulse
+//!  unit_rst ────▶│                 │
+//!                └─────────────────┘
+//! ```
+//!
+//! `pulse` is the comparator's output before the flip-flop 40, so that the toggle and the
+//! flip-flop change in the same tick: n ticks into the unit time, 2n, … RST acts on the registers
+//! only: `equal` and `pulse` may be high in its tick.
+//!
+//! Departures: a half-period of 0 gives no pulse and clears counter and toggle. In the *safe* variant
+//! RST clears them too, and "equal" is `count + 1 >= half_period`, so no n makes the counter run to
+//! its wrap. The *literal* variant ignores RST (¶0017 clears the flip-flop 40 alone) and has
+//! `count + 1 == half_period`.
+
+use super::Variant;
+use crate::hdl::prelude::*;
+
+/// Pulse generator 20.
+#[derive(Debug, Clone)]
+pub struct PulseGenerator {
+    /// Width of a half-period in bits.
+    pub width: usize,
+    /// What RST clears.
+    pub variant: Variant,
+}
+
+signals! { for PulseGenerator as c;
+    /// Ports in.
+    pub struct In {
+        /// Half-period of the pulse signal in ticks; 0 for no pulse.
+        pub half_period: U(c.width),
+        /// Last tick of the unit time.
+        pub unit_rst: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// 201: ticks since the last toggle.
+        pub(crate) count: U(c.width) as Analog = 0,
+        /// 202: the level between toggles.
+        pub(crate) toggle: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// `count + 1`: ticks since the last toggle, this one included.
+        next: U(c.width),
+        /// 202: the half-period is over with this tick. The name is the patent's; safe is `>=`.
+        equal: Bit,
+        /// The pulse signal; the flip-flop 40 shows it a tick later, except in the tick after RST.
+        pub pulse: Bit,
+    }
+}
+
+impl Circuit for PulseGenerator {
+    const NAME: &'static str = "pulse_generator";
+    const ABOUT: &'static str = "toggles its pulse signal every half-period";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let next = q.count + 1;
+        let none = i.half_period.is_zero();
+        let equal = match self.variant {
+            Variant::Safe => !next.below(i.half_period),
+            Variant::Literal => next.equals(i.half_period) | none,
+        };
+        let turned = q.toggle ^ equal;
+        let pulse = turned & !none;
+        let (clear, toggle) = match self.variant {
+            Variant::Safe => (equal | i.unit_rst, pulse & !i.unit_rst),
+            Variant::Literal => (equal, pulse),
+        };
+        let count = clear.mux(0, next);
+        (Net { next, equal, pulse }, Reg { count, toggle })
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let none = i.half_period.is_zero();
+        let over = !q.count.below(i.half_period - 1);
+        let toggles = w.pulse ^ q.toggle;
+        vec![
+            Property::always(
+                "a half-period of 0 gives no pulse",
+                &["half_period", "pulse"],
+                !(none & w.pulse),
+            ),
+            Property::step(
+                "RST clears the counter and the toggle",
+                &["count", "toggle", "unit_rst"],
+                !i.unit_rst | (next.count.is_zero() & !next.toggle),
+            ),
+            Property::step(
+                "the count stays below the half-period",
+                &["count", "half_period"],
+                next.count.below(i.half_period) | next.count.is_zero(),
+            ),
+            Property::step(
+                "the pulse signal toggles when the half-period is over, and only then",
+                &["pulse", "toggle", "count"],
+                none | !(toggles ^ over),
+            ),
+            Property::step(
+                "between two RST the toggle follows the pulse signal",
+                &["toggle", "pulse"],
+                i.unit_rst | !(next.toggle ^ w.pulse),
+            ),
+            Property::always(
+                "the count never reaches its greatest value",
+                &["count"],
+                q.count.below(u64::MAX),
+            ),
+        ]
+    }
+}
+
+/// Count and toggle so many ticks into a unit time with that half-period, if RST clears them.
+pub(super) fn expected(half_period: u64, elapsed: u64) -> (u64, bool) {
+    match half_period {
+        0 => (0, false),
+        n => (elapsed % n, elapsed / n % 2 == 1),
+    }
+}
+
+impl Specified for PulseGenerator {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::of(self)
+    }
+}

@@ -1,0 +1,63 @@
+//! Sync stage 40 (¶0017): a flip-flop that loads the pulse signal, or 0 in the tick of
+//! RST.
+//!
+//! ```text
+//!             ┌────────────┐
+//!  pulse ────▶│ sync stage ├──▶ step
+//!  unit_rst ─▶│            │
+//!             └────────────┘
+//! ```
+
+use crate::hdl::prelude::*;
+
+/// Sync stage 40: one tick of latency, low in the first tick of every unit time.
+#[derive(Debug, Clone, Default)]
+pub struct SyncStage;
+
+signals! { for SyncStage as c;
+    /// Ports in.
+    pub struct In {
+        /// The pulse signal.
+        pub pulse: Bit,
+        /// Last tick of the unit time.
+        pub unit_rst: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Step pulses to the motor driver; a step is a rising edge.
+        pub step: Bit = 0,
+    }
+}
+
+impl Circuit for SyncStage {
+    const NAME: &'static str = "sync_stage";
+    const ABOUT: &'static str = "flip-flop that loads the pulse signal, or 0 in the tick of RST";
+    records!(In, Reg, Nothing);
+
+    fn tick(&self, i: In, _: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+        let step = i.pulse & !i.unit_rst;
+        (Nothing, Reg { step })
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, next) = (&now.i, &now.next.q);
+        vec![
+            Property::step(
+                "low in the tick after RST",
+                &["step", "unit_rst"],
+                !i.unit_rst | !next.step,
+            ),
+            Property::step(
+                "passes the pulse signal",
+                &["step", "pulse"],
+                i.unit_rst | !(next.step ^ i.pulse),
+            ),
+        ]
+    }
+}
+
+impl Specified for SyncStage {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::of(self)
+    }
+}

@@ -1,0 +1,132 @@
+//! The count law as a circuit that can be proved: one unit time after another, each with a
+//! half-period and a T of its own, and ghost registers that no hardware has.
+//!
+//! ```text
+//!                ┌──────────┐
+//!  half_period ─▶│ unit law ├──▶ step
+//!  period ──────▶│          │
+//!                └──────────┘
+//! ```
+
+use super::{PulseGenerator, SyncStage, Variant, counts, pulse_generator, sync_stage};
+use crate::circuits::blocks::{EnableCounter, enable_counter};
+use crate::hdl::prelude::*;
+
+/// Unit times of free data.
+#[derive(Debug, Clone)]
+pub struct UnitLaw {
+    /// Width of half-period and T in bits.
+    pub width: usize,
+    /// What RST clears.
+    pub variant: Variant,
+}
+
+signals! { for UnitLaw as c;
+    /// Ports in.
+    pub struct In {
+        /// Half-period of the unit time to come; sampled in the tick of RST only.
+        pub half_period: U(c.width),
+        /// T of the unit time to come; sampled in the tick of RST only.
+        pub period: U(c.width),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Half-period of this unit time.
+        held_half_period: U(c.width),
+        /// T of this unit time.
+        held_period: U(c.width) = 1,
+        /// Ghost: pulses of this unit time before this tick.
+        pulses: U(c.width),
+        /// Ghost: the level of step a tick ago, low in the first tick of a unit time.
+        lagged: Bit,
+    }
+    /// The circuits inside.
+    pub struct Parts {
+        /// Unit-time counter 30.
+        pub counter: Part<EnableCounter>(EnableCounter { width: c.width }),
+        /// Pulse generator 20.
+        pub generator: Part<PulseGenerator>(PulseGenerator { width: c.width, variant: c.variant }),
+        /// Sync stage 40.
+        pub sync: Part<SyncStage>(SyncStage),
+    }
+    /// Nets.
+    pub struct Net {
+        /// Ghost: pulses of this unit time, this tick included.
+        counted: U(c.width),
+        /// Step pulses.
+        pub step: Bit,
+    }
+}
+
+impl Circuit for UnitLaw {
+    const NAME: &'static str = "unit_law";
+    const ABOUT: &'static str = "unit times of free data, with a ghost that counts the pulses";
+    records!(In, Reg, Net, Parts);
+
+    fn tick(&self, i: In, q: Reg, p: Parts) -> (Net, Reg<Edge>) {
+        let period = q.held_period;
+        let counter = p.counter.settle(enable_counter::In { period });
+        let unit_rst = counter.w.enable;
+        let half_period = q.held_half_period;
+        let generator = p.generator.settle(pulse_generator::In {
+            half_period,
+            unit_rst,
+        });
+        let pulse = generator.w.pulse;
+        let sync = p.sync.settle(sync_stage::In { pulse, unit_rst });
+        let step = sync.q.step;
+        let counted = (step & !q.lagged).mux(q.pulses + 1, q.pulses);
+        let next = Reg {
+            held_half_period: unit_rst.mux(i.half_period, half_period),
+            held_period: unit_rst.mux(i.period, period),
+            pulses: unit_rst.mux(0, counted),
+            lagged: !unit_rst & step,
+        };
+        (Net { counted, step }, next)
+    }
+}
+
+impl UnitLaw {
+    /// The count law alone: what the literal variant breaks with sound data.
+    pub fn count_law(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new().always("the pulses of a unit time obey the count law", |now| {
+            let (n, period) = (now.q.held_half_period, now.q.held_period.max(1));
+            let law = counts::pulses(n as u32, period as u32);
+            let count = now.w.counted;
+            let right = !now.p.counter.w.enable || count == u64::from(law);
+            require(right, ["step", "counter.enable", "counted"], || {
+                format!("{count} pulses with n = {n} and T = {period}, the law says {law}")
+            })
+        })
+    }
+}
+
+impl Specified for UnitLaw {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        self.count_law()
+            .always("step is low in the first tick of a unit time", |now| {
+                let low = now.p.counter.q.count != 0 || !now.w.step;
+                require(low, ["step", "counter.count"], || "high across RST".into())
+            })
+            .always("where the unit time stands decides everything", |now| {
+                let (elapsed, n) = (now.p.counter.q.count, now.q.held_half_period);
+                let generator = &now.p.generator.q;
+                let expected = pulse_generator::expected(n, elapsed);
+                let same =
+                    (generator.count, generator.toggle) == expected && now.w.step == expected.1;
+                require(
+                    same,
+                    ["generator.count", "generator.toggle", "step"],
+                    || format!("tick {elapsed} of a unit time with n = {n}"),
+                )
+            })
+            .always("a unit time has T ticks", |now| {
+                let last = now.p.counter.q.count + 1 == now.q.held_period.max(1);
+                require(
+                    last == now.p.counter.w.enable,
+                    ["counter.count", "counter.enable"],
+                    || "RST at another tick".into(),
+                )
+            })
+    }
+}

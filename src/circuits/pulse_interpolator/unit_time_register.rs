@@ -1,0 +1,106 @@
+//! Unit-time register: the setting T of the unit-time counter 30, rewritable at any time (¶0016).
+//!
+//! ```text
+//!              ┌────────────────────┐
+//!  write ─────▶│ shadow ──▶ active  ├──▶ active
+//!  period ────▶│    loaded at RST   │
+//!  unit_rst ──▶│                    │
+//!  take ──────▶│ take_period goes   │
+//!  take_period▶│ to both            │
+//!              └────────────────────┘
+//! ```
+//!
+//! Departures: the text lets the control computer rewrite T directly. Here a new T waits in a
+//! shadow register until RST, so no unit time is cut or stretched; a pattern brings its T along,
+//! and that T is in force from the pattern's first unit time on.
+
+use crate::hdl::prelude::*;
+
+/// Shadow and active register of T.
+#[derive(Debug, Clone)]
+pub struct UnitTimeRegister {
+    /// Width of T in bits.
+    pub width: usize,
+    /// Unit time at power-on, in ticks.
+    pub period: u64,
+}
+
+signals! { for UnitTimeRegister as c;
+    /// Ports in.
+    pub struct In {
+        /// Writes `period` into the shadow register.
+        pub write: Bit,
+        /// Unit time in ticks, in force from the RST after the write on.
+        pub period: U(c.width),
+        /// Last tick of the unit time.
+        pub unit_rst: Bit,
+        /// With `unit_rst`: a pattern begins.
+        pub take: Bit,
+        /// That pattern's unit time in ticks.
+        pub take_period: U(c.width),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// The unit time to come, in ticks.
+        shadow: U(c.width) = c.period,
+        /// The unit time in force, in ticks.
+        pub active: U(c.width) = c.period,
+    }
+    /// Nets.
+    pub struct Net {
+        /// What is loaded at RST.
+        load: U(c.width),
+    }
+}
+
+impl Circuit for UnitTimeRegister {
+    const NAME: &'static str = "unit_time_register";
+    const ABOUT: &'static str = "holds T; a new T waits in a shadow register until RST";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let load = i.take.mux(i.take_period, q.shadow);
+        let next = Reg {
+            shadow: i.write.mux(i.period, load),
+            active: i.unit_rst.mux(load, q.active),
+        };
+        (Net { load }, next)
+    }
+}
+
+impl Specified for UnitTimeRegister {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step("T in force changes only at RST", |now, next| {
+                let kept = now.i.unit_rst || next.q.active == now.q.active;
+                require(kept, ["active", "unit_rst"], || {
+                    "changed in mid-unit".into()
+                })
+            })
+            .step(
+                "RST loads the pattern's T, or else what waits",
+                |now, next| {
+                    let due = match now.i.take {
+                        true => now.i.take_period,
+                        false => now.q.shadow,
+                    };
+                    let loaded = !now.i.unit_rst || next.q.active == due;
+                    require(loaded, ["active", "shadow"], || {
+                        format!("{}, not {due}", next.q.active)
+                    })
+                },
+            )
+            .step("a write waits until the RST after it", |now, next| {
+                let waits = !now.i.write || next.q.shadow == now.i.period;
+                require(waits, ["shadow", "period"], || "a write is lost".into())
+            })
+            .step(
+                "without a write or a pattern the setting stays",
+                |now, next| {
+                    let idle = !now.i.write && !now.i.take;
+                    let kept = !idle || next.q.shadow == now.q.shadow;
+                    require(kept, ["shadow"], || "changed by itself".into())
+                },
+            )
+    }
+}

@@ -1,0 +1,136 @@
+//! Arc angle: what part of a turn a length on an arc is.
+//!
+//! ```text
+//!               ┌───────────┐
+//!  start ──────▶│           ├──▶ angle
+//!  offset ─────▶│ arc_angle ├──▶ done, busy
+//!  curvature ──▶│           │
+//!  shift ──────▶│           │
+//!               └───────────┘
+//! ```
+//!
+//! angle = offset / (2πr), as a product by the reciprocal: `curvature` has its leading bit set, so the
+//! product has as many digits as the offset, whatever the radius; then it is moved up to the angle's
+//! unit. What falls off above are whole turns.
+
+use super::widths::PointWidths;
+use crate::hdl::prelude::*;
+
+/// Names of the states.
+const STATES: &[&str] = &["idle", "multiply", "shift"];
+const IDLE: u64 = 0;
+const MULTIPLY: u64 = 1;
+const SHIFT: u64 = 2;
+/// Bits behind the offset's last that the product keeps.
+pub const EXTRA: usize = 4;
+
+/// Angle from an offset and a curvature.
+///
+/// `done` is high M + 1 ticks after `start`, and as many more as `shift` says.
+#[derive(Debug, Clone)]
+pub struct ArcAngle {
+    /// Its widths.
+    pub widths: PointWidths,
+}
+
+impl ArcAngle {
+    /// Ticks from `start` to `done` where `shift` is 0.
+    pub const fn latency(&self) -> u64 {
+        self.widths.curvature as u64 + 1
+    }
+}
+
+signals! { for ArcAngle as c;
+    /// Ports in. What is given with `start` is taken in that tick and need not be held.
+    pub struct In {
+        /// Begins, unless one is under way.
+        pub start: Bit,
+        /// The length on the arc in guard units.
+        pub offset: U(c.widths.point),
+        /// 2^(M + n − 4) / (2πr) with the n for which it has M bits.
+        pub curvature: U(c.widths.curvature) as Hex,
+        /// H − n.
+        pub shift: U(6),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// What it does.
+        state: U(2) as States(STATES) = 0,
+        /// Bits of the curvature, or shifts, that are yet to come.
+        count: U(6) = 0,
+        /// By how much the product is moved up.
+        shifts: U(6) = 0,
+        /// The offset with bits behind it.
+        factor: U(c.widths.product()) = 0,
+        /// Bits of the curvature that are yet to come.
+        bits: U(c.widths.curvature) as Hex = 0,
+        /// The product so far, by the weight of the bit to come.
+        product: U(c.widths.product()) = 0,
+        /// The angle in units of 2^−H turn, from `done` on.
+        pub angle: U(c.widths.angle) as Analog = 0,
+        /// The angle stands in this tick.
+        pub done: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A start is taken.
+        take: Bit,
+        /// The last bit of the curvature, or the last shift.
+        last: Bit,
+        /// The product with what the bit adds.
+        total: U(c.widths.product()),
+        /// The angle is complete after this tick.
+        complete: Bit,
+        /// A start is not taken.
+        pub busy: Bit,
+    }
+}
+
+impl Circuit for ArcAngle {
+    const NAME: &'static str = "arc_angle";
+    const ABOUT: &'static str = "length on an arc as part of a turn";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let is = |state: u64| q.state.equals(state);
+        let (idle, multiplies, shifts) = (is(IDLE), is(MULTIPLY), is(SHIFT));
+        let take = i.start & idle;
+        let last = q.count.is_zero();
+        let total = q.product + q.bits.bit(0).mux(q.factor, 0);
+        let unmoved = multiplies & q.shifts.is_zero();
+        let complete = last & (unmoved | shifts);
+        let busy = !idle;
+
+        let multiplied = multiplies & last;
+        let state = take.mux(MULTIPLY, multiplied.mux(SHIFT, q.state));
+        let count = multiplied.mux(q.shifts - 1, q.count - 1);
+        let halved = total.shift_right(1);
+        let factor = i.offset.resize(self.widths.product()).shift_left(EXTRA);
+        let moved = shifts.mux(q.angle.shift_left(1), q.angle);
+        let next = Reg {
+            state: complete.mux(IDLE, state),
+            count: take.mux(self.widths.curvature as u64 - 1, busy.mux(count, q.count)),
+            shifts: take.mux(i.shift, q.shifts),
+            factor: take.mux(factor, q.factor),
+            bits: take.mux(i.curvature, q.bits.shift_right(1)),
+            product: take.mux(0, multiplies.mux(halved, q.product)),
+            angle: multiplied.mux(halved.resize(self.widths.angle), moved),
+            done: complete,
+        };
+        (
+            Net {
+                take,
+                last,
+                total,
+                complete,
+                busy,
+            },
+            next,
+        )
+    }
+
+    fn objection(&self) -> Option<String> {
+        let holds = self.widths.angle <= self.widths.product();
+        (!holds).then(|| "the product holds an angle".into())
+    }
+}

@@ -1,0 +1,128 @@
+//! Axis row: one coordinate of the point at `along` and `across` of a segment's own two directions.
+//!
+//! ```text
+//!                           ┌──────────┐
+//!  load, word, data ───────▶│          │
+//!  copy, fraction, top ────▶│ axis_row ├──▶ point
+//!  commit ─────────────────▶│          │
+//!  along, across ──────────▶│          │
+//!                           └──────────┘
+//! ```
+//!
+//! base + by_along·along + by_across·across: on a line the base is its start, `along` the length on
+//! it, and the coefficient the direction's cosine (equation (1), with the ratio worked out
+//! beforehand); on an arc the base is the centre, and the coefficients are those of the two radii.
+//! A bit of both coefficients a tick, from the lowest up; nothing is lost before the rounding.
+
+use super::widths::PointWidths;
+use crate::hdl::prelude::*;
+
+/// Row of an axis.
+#[derive(Debug, Clone)]
+pub struct AxisRow {
+    /// Its widths.
+    pub widths: PointWidths,
+    /// 0, 1, 2 for x, y, z: it decides which words of a segment the row takes.
+    pub coordinate: u64,
+}
+
+signals! { for AxisRow as c;
+    /// Ports in.
+    pub struct In {
+        /// `data` is word `word` of a segment.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(4),
+        /// Its data.
+        pub data: U(c.widths.data) as Hex,
+        /// The coefficients are copied.
+        pub copy: Bit,
+        /// The bit is one of the fraction.
+        pub fraction: Bit,
+        /// The bit is the sign, of weight −2.
+        pub top: Bit,
+        /// The sum is complete.
+        pub commit: Bit,
+        /// First coordinate in the segment, with R − P bits behind the guard unit.
+        pub along: I(c.widths.radius),
+        /// Second coordinate likewise.
+        pub across: I(c.widths.radius),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Where the coordinates are 0.
+        base: I(c.widths.point) = 0,
+        /// Coefficient of `along`.
+        by_along: U(c.widths.coefficient) as Hex = 0,
+        /// Coefficient of `across`.
+        by_across: U(c.widths.coefficient) as Hex = 0,
+        /// Bits of the coefficient of `along` that are yet to come.
+        bits_along: U(c.widths.coefficient) as Hex = 0,
+        /// Bits of that of `across`.
+        bits_across: U(c.widths.coefficient) as Hex = 0,
+        /// The products so far, by the weight of the bit to come.
+        sum: I(c.widths.sum()) = 0,
+        /// The coordinate of the point.
+        pub point: I(c.widths.point) as Analog = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// `along` where its coefficient has the bit, else 0.
+        term_along: I(c.widths.sum()),
+        /// `across` likewise.
+        term_across: I(c.widths.sum()),
+        /// Both terms added.
+        addend: I(c.widths.sum()),
+        /// The sum with it.
+        total: I(c.widths.sum()),
+        /// The sum and half a guard unit.
+        raised: I(c.widths.sum()),
+        /// The sum to the nearest guard unit.
+        nearest: I(c.widths.point),
+    }
+}
+
+impl Circuit for AxisRow {
+    const NAME: &'static str = "axis_row";
+    const ABOUT: &'static str = "one coordinate of a point on a segment, a bit a tick";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let (point, coefficient) = (self.widths.point, self.widths.coefficient);
+        let fine = self.widths.fine();
+        let term = |bits: U, word: I| bits.bit(0).mux(word.resize(self.widths.sum()), 0);
+        let term_along = term(q.bits_along, i.along);
+        let term_across = term(q.bits_across, i.across);
+        let addend = term_along + term_across;
+        let total = q.sum + i.top.mux(-addend.shift_left(1), addend);
+        let raised = q.sum + (1i64 << (fine - 1));
+        let nearest = raised.shift_right(fine).resize(point);
+
+        let is = |name, word| i.load & i.word.equals(U::parameter(name, word, 4));
+        let (base, by) = (i.data.resize(point).signed(), i.data.resize(coefficient));
+        let next = Reg {
+            base: is("base_word", 3 + self.coordinate).mux(base, q.base),
+            by_along: is("along_word", 6 + self.coordinate).mux(by, q.by_along),
+            by_across: is("across_word", 9 + self.coordinate).mux(by, q.by_across),
+            bits_along: i.copy.mux(q.by_along, q.bits_along.shift_right(1)),
+            bits_across: i.copy.mux(q.by_across, q.bits_across.shift_right(1)),
+            // Without bits left the total is the sum.
+            sum: i.copy.mux(0, i.fraction.mux(total.shift_right(1), total)),
+            point: i.commit.mux(q.base + nearest, q.point),
+        };
+        let net = Net {
+            term_along,
+            term_across,
+            addend,
+            total,
+            raised,
+            nearest,
+        };
+        (net, next)
+    }
+
+    fn objection(&self) -> Option<String> {
+        let holds = self.widths.radius > self.widths.point;
+        (!holds).then(|| "a radius has bits below the guard unit".into())
+    }
+}

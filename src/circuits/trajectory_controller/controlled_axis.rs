@@ -1,0 +1,121 @@
+//! One axis of the trajectory controller: servo response 51, vector correction 4, servo control 11.
+//!
+//! ```text
+//!                        ┌──────────────────────────┐
+//!  step, preset, command ▶│ response ▶ correction    ├──▶ torque, saturated
+//!  correct, reference ──▶│            ▶ servo       ├──▶ answered, driven
+//!  a, b, gains… ────────▶│                          ├──▶ position, lost
+//!                        └──────────────────────────┘
+//! ```
+
+use super::model_state::ModelGains;
+use super::servo_arithmetic::ServoGains;
+use super::vector_correction::Correction;
+use super::{ReferenceModel, Servo, VectorCorrection, reference_model, servo, vector_correction};
+use crate::hdl::prelude::*;
+
+/// Axis of the trajectory controller.
+#[derive(Debug, Clone)]
+pub struct ControlledAxis {
+    /// Servo control 6, 7 (11); the servo response is the same as the model of it.
+    pub servo: Servo,
+    /// What is added to the commands.
+    pub correction: Correction,
+}
+
+signals! { for ControlledAxis as c;
+    /// Ports in.
+    pub struct In {
+        /// The position command is new.
+        pub step: Bit,
+        /// The servo response goes to it at once, at rest; beats a step of its tick.
+        pub preset: Bit,
+        /// Pc: the position command.
+        pub command: I(c.servo.widths.position),
+        /// The reference point stands, and the responses.
+        pub correct: Bit,
+        /// Pr: the reference point.
+        pub target: I(c.servo.widths.position),
+        /// Encoder, channel A.
+        pub a: Bit,
+        /// Channel B.
+        pub b: Bit,
+        /// K1 and K2, the same for all axes.
+        pub model_gains: ModelGains(&c.servo.widths.model()) as Flat,
+        /// Of the servo control's loops.
+        pub gains: ServoGains(&c.servo.widths) as Flat,
+    }
+    /// The blocks inside.
+    pub struct Parts {
+        /// Servo response 51, 52.
+        pub response: Part<ReferenceModel>(c.servo.model()),
+        /// Vector correction 4.
+        pub corrector: Part<VectorCorrection>(VectorCorrection {
+            width: c.servo.widths.position,
+            correction: c.correction,
+        }),
+        /// Servo control 6, 7 (11).
+        pub servo: Part<Servo>(c.servo.clone()),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// The servo response stands in this tick.
+        pub answered: Bit,
+        /// E: the correction.
+        pub deviation: I(c.servo.widths.position) as Analog,
+        /// Pd: the corrected command.
+        pub corrected: I(c.servo.widths.position) as Analog,
+        /// The torque.
+        pub torque: I(c.servo.widths.torque) as Analog,
+        /// It is limited.
+        pub saturated: Bit,
+        /// The torque is new in this tick.
+        pub driven: Bit,
+        /// Position of the motor in counts.
+        pub position: I(c.servo.widths.count) as Analog,
+        /// The encoder was too fast.
+        pub lost: Bit,
+    }
+}
+
+impl Circuit for ControlledAxis {
+    const NAME: &'static str = "controlled_axis";
+    const ABOUT: &'static str = "servo response, vector correction and servo control of an axis";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let response = p.response.settle(reference_model::In {
+            step: i.step,
+            preset: i.preset,
+            target: i.command,
+            gains: i.model_gains.clone(),
+        });
+        let corrector = p.corrector.settle(vector_correction::In {
+            correct: i.correct,
+            target: i.target,
+            response: response.w.position,
+            command: i.command,
+        });
+        let servo = p.servo.settle(servo::In {
+            step: corrector.q.fresh,
+            preset: Bit::low(),
+            target: corrector.q.corrected,
+            a: i.a,
+            b: i.b,
+            home: Bit::low(),
+            model_gains: i.model_gains,
+            gains: i.gains,
+        });
+        let net = Net {
+            answered: response.w.fresh,
+            deviation: corrector.q.correction,
+            corrected: corrector.q.corrected,
+            torque: servo.w.torque,
+            saturated: servo.w.saturated,
+            driven: servo.w.fresh,
+            position: servo.w.position,
+            lost: servo.w.lost,
+        };
+        (net, Nothing)
+    }
+}

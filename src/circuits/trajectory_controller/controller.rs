@@ -1,0 +1,359 @@
+//! Trajectory controller 10 (Fig. 1): a path and its profile in, torques of all axes out.
+//!
+//! ```text
+//!  profile ─▶ interpolation and acceleration 1 ─┬─ qc ─▶ axis distribution 3 ─ Pc ─┬─▶ responses 51, 52 ─ Ps ─┐
+//!                                               │                                 │                         ▼
+//!                                               │                                 └────────▶ vector correction 4 ─ Pd ─▶ servo controls 6, 7
+//!                                               │                                                           ▲
+//!                                               └─▶ tangential response 50 ─ qs ─▶ reference point 2 ─ Pr ──┘
+//! ```
+
+use super::model_state::ModelGains;
+use super::path_point::AXIS_NAMES;
+use super::point_sequencer::{RADIUS, STEADY_RADIUS};
+use super::servo_arithmetic::ServoGains;
+use super::vector_correction::Correction;
+use super::{
+    ControlledAxis, LengthClamp, PathLength, PathPoint, PeriodJoin, ReferenceModel, Rounding,
+    Servo, Widths, controlled_axis, length_clamp, path_length, path_point, period_join,
+    reference_model,
+};
+use crate::circuits::blocks::{
+    DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_column,
+    difference_engine, enable_counter, record_memory, record_sequencer,
+};
+use crate::hdl::prelude::*;
+
+/// Width of the number of a profile record: so many bits number those that wait.
+const RECORDS: usize = 4;
+
+/// Names of a signal of each axis.
+macro_rules! of_axes {
+    ($name:literal) => {
+        &[
+            concat!($name, "_x"),
+            concat!($name, "_y"),
+            concat!($name, "_z"),
+        ]
+    };
+}
+
+/// Trajectory controller.
+#[derive(Debug, Clone)]
+pub struct TrajectoryController {
+    /// Its widths, by name.
+    pub widths: Widths,
+    /// How many axes, up to 3.
+    pub axes: usize,
+    /// What is added to the commands.
+    pub correction: Correction,
+    /// How the models round.
+    pub rounding: Rounding,
+    /// Ticks that a period's correction waits for.
+    pub wait: u64,
+}
+
+impl TrajectoryController {
+    /// A controller whose commands are corrected so, and whose models round so. Its corrections wait
+    /// for the longest way, over the point of the command and the servo response to it.
+    #[must_use]
+    pub const fn new(
+        widths: Widths,
+        axes: usize,
+        correction: Correction,
+        rounding: Rounding,
+    ) -> Self {
+        let controller = TrajectoryController {
+            widths,
+            axes,
+            correction,
+            rounding,
+            wait: 0,
+        };
+        let wait = controller.point(RADIUS).latency() + controller.model().latency();
+        TrajectoryController { wait, ..controller }
+    }
+
+    /// Ticks from the beginning of a period to its torques.
+    #[must_use]
+    pub const fn latency(&self) -> u64 {
+        2 + self.wait + 3 + self.axis().servo.latency()
+    }
+
+    /// Shortest interpolation period in ticks: the next one begins when the torques stand. A longer
+    /// one is never late.
+    #[must_use]
+    pub const fn least_period(&self) -> u64 {
+        self.latency() - 1
+    }
+
+    const fn model(&self) -> ReferenceModel {
+        ReferenceModel {
+            widths: self.widths.model(),
+            rounding: self.rounding,
+        }
+    }
+
+    const fn point(&self, radius_word: u64) -> PathPoint {
+        PathPoint {
+            widths: self.widths.point(),
+            axes: self.axes,
+            radius_word,
+        }
+    }
+
+    const fn reference_point(&self) -> PathPoint {
+        self.point(match self.correction {
+            Correction::Steady => STEADY_RADIUS,
+            Correction::Vector | Correction::None => RADIUS,
+        })
+    }
+
+    const fn axis(&self) -> ControlledAxis {
+        ControlledAxis {
+            servo: Servo {
+                widths: self.widths.servo(),
+                rounding: self.rounding,
+            },
+            correction: self.correction,
+        }
+    }
+}
+
+signals! { for TrajectoryController as c;
+    /// Ports in.
+    pub struct In {
+        /// Writes a word of the free profile record; not taken unless `ready`.
+        pub write: Bit,
+        /// Number of the word.
+        pub write_word: U(5),
+        /// Its data.
+        pub write_data: U(c.widths.data) as Hex,
+        /// The free profile record is complete; not taken unless `ready`.
+        pub push: Bit,
+        /// Begins to move along the path.
+        pub start: Bit,
+        /// Ends the movement where it is.
+        pub halt: Bit,
+        /// Another path, at rest: its segments may be written from the next beginning of a period
+        /// up to `start`. The servo controls hold the machine meanwhile.
+        pub restart: Bit,
+        /// Writes where a segment of the path begins.
+        pub write_begin: Bit,
+        /// The segment.
+        pub begin_segment: U(c.widths.segment),
+        /// The length at which it begins.
+        pub begin_length: U(c.widths.point),
+        /// Writes a word of a segment.
+        pub write_path: Bit,
+        /// The segment, and in the lower four bits the number of its word.
+        pub path_address: U(c.widths.address()) as Hex,
+        /// Its data.
+        pub path_data: U(c.widths.data) as Hex,
+        /// The path's last segment.
+        pub last: U(c.widths.segment),
+        /// L: the path's length.
+        pub path_end: I(c.widths.point),
+        /// Interpolation period in ticks.
+        pub period: U(c.widths.period),
+        /// K1 and K2 of all models.
+        pub model_gains: ModelGains(&c.widths.model()) as Flat,
+        /// Of the position controls 27.
+        pub position_gain: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("position_gain")),
+        /// Of the speed controls 29, proportional.
+        pub speed_gain: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("speed_gain")),
+        /// Integral.
+        pub integral_gain: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("integral_gain")),
+        /// Of the feed-forward 30.
+        pub inertia: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("inertia")),
+        /// Largest torques.
+        pub limit: [U(c.widths.torque); c.axes] as Elements(of_axes!("limit")),
+        /// Position commands come from elsewhere, and not from the axis distribution.
+        pub given: Bit,
+        /// These; they stay from one beginning of a period to the next.
+        pub given_command: [I(c.widths.point); c.axes] as Elements(of_axes!("given_command")),
+        /// Encoders, channel A.
+        pub a: [Bit; c.axes] as Elements(of_axes!("a")),
+        /// Channel B.
+        pub b: [Bit; c.axes] as Elements(of_axes!("b")),
+    }
+    /// The blocks inside.
+    pub struct Parts {
+        /// Interpolation period.
+        pub period_counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
+        /// Records of the profile.
+        pub memory: Part<RecordMemory>(RecordMemory { record: RECORDS, data: c.widths.data }),
+        /// Phase after phase.
+        pub sequencer: Part<RecordSequencer>(RecordSequencer {
+            modulus: c.widths.fraction,
+            samples: c.widths.samples,
+            data: c.widths.data,
+        }),
+        /// Interpolation and acceleration 1.
+        pub profile: Part<DifferenceEngine>(DifferenceEngine {
+            widths: difference_column::Widths {
+                whole: c.widths.point,
+                part: c.widths.fraction,
+                data: c.widths.data,
+            },
+            coordinate: 0,
+        }),
+        /// qc.
+        pub progress: Part<PathLength>(PathLength { width: c.widths.point }),
+        /// qc on the path.
+        pub clamp_command: Part<LengthClamp>(LengthClamp { width: c.widths.point }),
+        /// Tangential servo response 50.
+        pub tangential: Part<ReferenceModel>(c.model()),
+        /// qs on the path.
+        pub clamp_response: Part<LengthClamp>(LengthClamp { width: c.widths.point }),
+        /// Axis distribution 3.
+        pub distribution: Part<PathPoint>(c.point(RADIUS)),
+        /// Reference point 2.
+        pub reference_point: Part<PathPoint>(c.reference_point()),
+        /// All points of a period.
+        pub gather: Part<PeriodJoin>(PeriodJoin { wait: c.wait }),
+        /// The axes.
+        pub axes: [Part<ControlledAxis>(c.axis()); c.axes] as Elements(&AXIS_NAMES),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// Torques.
+        pub torque: [I(c.widths.torque); c.axes] as Elements(of_axes!("torque")),
+        /// Positions of the motors in counts.
+        pub position: [I(c.widths.position); c.axes] as Elements(of_axes!("position")),
+        /// Encoders that were too fast.
+        pub lost: [Bit; c.axes] as Elements(of_axes!("lost")),
+        /// There is a free profile record.
+        pub ready: Bit,
+        /// A movement is under way.
+        pub busy: Bit,
+        /// The profile gave a new length in the tick before.
+        pub sampled: Bit,
+        /// A period begins with the length that stands.
+        pub fresh: Bit,
+        /// A period began before the one before was over; until the next path.
+        pub late: Bit,
+        /// A period began before the profile had its length; until the next start.
+        pub profile_late: Bit,
+        /// The profile ended in motion.
+        pub starved: Bit,
+    }
+}
+
+impl Circuit for TrajectoryController {
+    const NAME: &'static str = "trajectory_controller";
+    const ABOUT: &'static str = "a path and its profile in, torques that keep to the path out";
+    records!(In, Nothing, Net, Parts);
+
+    fn objection(&self) -> Option<String> {
+        let named = (1..=3).contains(&self.axes);
+        (!named).then(|| format!("1 to 3 axes have names, not {}", self.axes))
+    }
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let period = p
+            .period_counter
+            .settle(enable_counter::In { period: i.period });
+        let memory = p.memory.settle(record_memory::In {
+            write: i.write,
+            write_word: i.write_word,
+            write_data: i.write_data,
+            push: i.push,
+            take: p.sequencer.q.take,
+            kind: p.sequencer.q.kind,
+            flush: i.halt,
+        });
+        let sequencer = p.sequencer.settle(record_sequencer::In {
+            start: i.start,
+            halt: i.halt,
+            sample: period.w.enable,
+            available: memory.w.available,
+            load: memory.q.load,
+            word: memory.q.word,
+            data: memory.q.data,
+            loaded: memory.q.loaded,
+            rotated: Bit::low(),
+        });
+        let profile = p.profile.settle(difference_engine::In {
+            load: memory.w.load_engines,
+            word: memory.q.word,
+            data: memory.q.data,
+            modulus: sequencer.q.modulus,
+            step: sequencer.w.advance,
+        });
+        let progress = p.progress.settle(path_length::In {
+            sample: period.w.enable,
+            present: sequencer.w.present,
+            profile: profile.w.nearest,
+            restart: i.restart,
+        });
+        let (length, fresh) = (progress.q.length, progress.q.fresh);
+        let path_end = i.path_end;
+        let on_path = |length| length_clamp::In { length, path_end };
+        let command = p.clamp_command.settle(on_path(length));
+        let tangential = p.tangential.settle(reference_model::In {
+            step: fresh,
+            preset: progress.q.preset,
+            target: length,
+            gains: i.model_gains.clone(),
+        });
+        let response = p.clamp_response.settle(on_path(tangential.w.position));
+        let point = |start, length| path_point::In {
+            start,
+            length,
+            last: i.last,
+            write_begin: i.write_begin,
+            begin_segment: i.begin_segment,
+            begin_length: i.begin_length,
+            write: i.write_path,
+            write_address: i.path_address,
+            write_data: i.path_data,
+        };
+        let distribution = p.distribution.settle(point(fresh, command.w.clamped));
+        // The prior art knows where the command is, not where the response is.
+        let reference_point = p.reference_point.settle(match self.correction {
+            Correction::Steady => point(fresh, command.w.clamped),
+            Correction::Vector | Correction::None => point(tangential.w.fresh, response.w.clamped),
+        });
+        let (placed, referred) = (distribution.w.points, reference_point.w.points);
+        let axes = settle_each(p.axes, |axis| controlled_axis::In {
+            step: p.gather.q.step,
+            preset: p.gather.q.preset,
+            command: i.given.mux(i.given_command[axis], placed[axis]),
+            correct: p.gather.q.correct,
+            target: referred[axis],
+            a: i.a[axis],
+            b: i.b[axis],
+            model_gains: i.model_gains.clone(),
+            gains: ServoGains {
+                position_gain: i.position_gain[axis],
+                speed_gain: i.speed_gain[axis],
+                integral_gain: i.integral_gain[axis],
+                inertia: i.inertia[axis],
+                limit: i.limit[axis],
+            },
+        });
+        let gather = p.gather.settle(period_join::In {
+            begins: fresh,
+            held: progress.q.held,
+            placed: distribution.w.done,
+            referred: reference_point.w.done,
+            answered: axes[0].w.answered,
+            driven: axes[0].w.driven,
+            clear: i.restart,
+        });
+        let net = Net {
+            torque: axes.iter().map(|axis| axis.w.torque).collect(),
+            position: axes.iter().map(|axis| axis.w.position).collect(),
+            lost: axes.iter().map(|axis| axis.w.lost).collect(),
+            ready: memory.w.ready,
+            busy: sequencer.w.busy,
+            sampled: sequencer.q.sampled,
+            fresh,
+            late: gather.q.late,
+            profile_late: sequencer.q.late,
+            starved: sequencer.q.starved,
+        };
+        (net, Nothing)
+    }
+}

@@ -1,0 +1,92 @@
+//! CORDIC: the point of an arc around its centre at an angle, an iteration a tick.
+//!
+//! ```text
+//!           ┌──────────────────────────┐
+//!  start ──▶│ cordic_state             ├──▶ along, across
+//!  radius ─▶│   ◀▶ shifters of along   ├──▶ done, busy
+//!  angle ──▶│        and across        │
+//!           └──────────────────────────┘
+//! ```
+
+use super::widths::PointWidths;
+use super::{CordicState, Shifter, cordic_state, shifter};
+use crate::hdl::prelude::*;
+
+/// CORDIC.
+///
+/// `done` is high H + 1 ticks after `start`, with as many iterations as the angle has bits.
+#[derive(Debug, Clone)]
+pub struct Cordic {
+    /// Its widths.
+    pub widths: PointWidths,
+}
+
+impl Cordic {
+    /// Ticks from `start` to `done`.
+    pub const fn latency(&self) -> u64 {
+        self.widths.angle as u64 + 1
+    }
+}
+
+signals! { for Cordic as c;
+    /// Ports in. What is given with `start` is taken in that tick and need not be held.
+    pub struct In {
+        /// Begins, unless one is under way.
+        pub start: Bit,
+        /// The radius divided by [`GAIN`](cordic_state::GAIN); not negative, with room for the gain.
+        pub radius: I(c.widths.radius),
+        /// The angle in units of 2^−H turn.
+        pub angle: U(c.widths.angle),
+    }
+    /// The blocks.
+    pub struct Parts {
+        /// Vector and angle.
+        pub turning: Part<CordicState>(CordicState { widths: c.widths }),
+        /// `along` by 2^−iteration.
+        pub shift_along: Part<Shifter>(Shifter { width: c.widths.radius }),
+        /// `across` by 2^−iteration.
+        pub shift_across: Part<Shifter>(Shifter { width: c.widths.radius }),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// radius · cos angle, from `done` on.
+        pub along: I(c.widths.radius) as Analog,
+        /// radius · sin angle, from `done` on.
+        pub across: I(c.widths.radius) as Analog,
+        /// The point stands in this tick.
+        pub done: Bit,
+        /// A start is not taken.
+        pub busy: Bit,
+    }
+}
+
+impl Circuit for Cordic {
+    const NAME: &'static str = "cordic";
+    const ABOUT: &'static str =
+        "radius and angle to the point around the centre, an iteration a tick";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let cordic_state::Reg {
+            iteration: by,
+            along,
+            across,
+            ..
+        } = p.turning.q;
+        let small = |part: Part<Shifter>, word| part.settle(shifter::In { word, by }).w.shifted;
+        let turning = p.turning.settle(cordic_state::In {
+            start: i.start,
+            radius: i.radius,
+            angle: i.angle,
+            small_along: small(p.shift_along, along),
+            small_across: small(p.shift_across, across),
+        });
+        let net = Net {
+            along,
+            across,
+            done: turning.q.done,
+            busy: turning.q.busy,
+        };
+        (net, Nothing)
+    }
+}

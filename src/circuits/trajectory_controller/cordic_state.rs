@@ -1,0 +1,151 @@
+//! CORDIC, its registers and adders: a vector is turned by ± arctan 2^−n for n = 0, 1, 2 … towards an
+//! angle, around two shifters.
+//!
+//! ```text
+//!                           ┌──────────────┐
+//!  start, radius, angle ───▶│              ├──▶ along, across, done, busy
+//!  small_along ────────────▶│ cordic_state ├──▶ iteration ──▶ shifters
+//!  small_across ───────────▶│              │◀── shifters
+//!                           └──────────────┘
+//! ```
+//!
+//! The vector (radius, 0) is first turned by whole quarters, so what is left is within an eighth of a
+//! turn of zero. Each turn lengthens the vector by the same factor, whatever its sign, so the radius
+//! that is given is divided by their product, [`GAIN`], beforehand.
+
+use super::widths::PointWidths;
+use crate::hdl::prelude::*;
+use std::f64::consts::TAU;
+
+/// By what a vector is lengthened: the product of √(1 + 4^−n) over all iterations of a word.
+pub const GAIN: f64 = 1.646_760_258_121_065_6;
+
+/// Registers of a CORDIC.
+///
+/// There are as many iterations as the angle has bits: what is left then is below one of its units.
+#[derive(Debug, Clone)]
+pub struct CordicState {
+    /// Its widths.
+    pub widths: PointWidths,
+}
+
+impl CordicState {
+    /// arctan 2^−n in units of 2^−H turn.
+    fn angles(&self) -> Image {
+        let width = self.widths.angle;
+        let units = (width as f64).exp2() / TAU;
+        Image::from_fn(6, width, |n| {
+            ((-(n as f64)).exp2().atan() * units).round() as u64
+        })
+    }
+}
+
+signals! { for CordicState as c;
+    /// Ports in. What is given with `start` is taken in that tick and need not be held.
+    pub struct In {
+        /// Begins, unless one is under way.
+        pub start: Bit,
+        /// The radius divided by [`GAIN`]; not negative, with room for the gain.
+        pub radius: I(c.widths.radius),
+        /// The angle in units of 2^−H turn.
+        pub angle: U(c.widths.angle),
+        /// `along` by 2^−iteration.
+        pub small_along: I(c.widths.radius),
+        /// `across` by 2^−iteration.
+        pub small_across: I(c.widths.radius),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// A turn is under way.
+        pub busy: Bit = 0,
+        /// The iteration.
+        pub iteration: U(6) = 0,
+        /// radius · cos angle, from `done` on.
+        pub along: I(c.widths.radius) as Analog = 0,
+        /// radius · sin angle, from `done` on.
+        pub across: I(c.widths.radius) as Analog = 0,
+        /// The angle that is left.
+        left: I(c.widths.angle) as Analog = 0,
+        /// The point stands in this tick.
+        pub done: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A start is taken.
+        take: Bit,
+        /// The iteration is the last.
+        last: Bit,
+        /// The angle is nearer to the next quarter: the eighths are rounded.
+        raised: U(c.widths.angle),
+        /// The nearest quarter is the first or third: the vector is upright.
+        upright: Bit,
+        /// It is the first or second: `along` is negative, or `across` in the first.
+        half: Bit,
+        /// The nearest quarter.
+        quarter: U(c.widths.angle),
+        /// The vector's coordinate that is not 0 there.
+        beginning: I(c.widths.radius),
+        /// The angle without its quarters.
+        rest: I(c.widths.angle),
+        /// What is left is below zero: the vector is turned back.
+        back: Bit,
+        /// arctan 2^−iteration.
+        turn: I(c.widths.angle),
+    }
+}
+
+impl Circuit for CordicState {
+    const NAME: &'static str = "cordic_state";
+    const ABOUT: &'static str = "a vector and what is left of its angle, an iteration a tick";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        let halved = self.widths.angle >= 3;
+        (!halved).then(|| "an angle has eighths of a turn".into())
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let width = self.widths.angle;
+        let angle = |value: u64| U::new(value, width);
+        let (half_turn, quarter_turn) = (width - 1, width - 2);
+        let raised = i.angle + (1u64 << (width - 3));
+        let (upright, half) = (raised.bit(quarter_turn), raised.bit(half_turn));
+        let low = upright.mux(angle(1 << quarter_turn), 0);
+        let high = half.mux(angle(1 << half_turn), 0);
+        let quarter = low + high;
+        let take = i.start & !q.busy;
+        let last = q.iteration.equals(width as u64 - 1);
+        let beginning = half.mux(-i.radius, i.radius);
+        let rest = (i.angle - quarter).signed();
+        let back = q.left.is_negative();
+        let turn = self.angles().rom(q.iteration).signed();
+
+        let goes_on = q.busy & !last;
+        let begin_along = upright.mux(0, beginning);
+        let begin_across = upright.mux(beginning, 0);
+        let turned_along = back.mux(q.along + i.small_across, q.along - i.small_across);
+        let turned_across = back.mux(q.across - i.small_along, q.across + i.small_along);
+        let turned = back.mux(q.left + turn, q.left - turn);
+        let next = Reg {
+            busy: take | goes_on,
+            iteration: goes_on.mux(q.iteration + 1, 0),
+            along: take.mux(begin_along, q.busy.mux(turned_along, q.along)),
+            across: take.mux(begin_across, q.busy.mux(turned_across, q.across)),
+            left: take.mux(rest, q.busy.mux(turned, q.left)),
+            done: q.busy & last,
+        };
+        let net = Net {
+            take,
+            last,
+            raised,
+            upright,
+            half,
+            quarter,
+            beginning,
+            rest,
+            back,
+            turn,
+        };
+        (net, next)
+    }
+}

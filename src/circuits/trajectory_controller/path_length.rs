@@ -1,0 +1,121 @@
+//! Path length: qc, how far along the path the command is, for an interpolation period.
+//!
+//! ```text
+//!             ┌─────────────┐
+//!  sample ───▶│             ├──▶ length
+//!  present ──▶│ path_length ├──▶ preset, fresh
+//!  profile ──▶│             ├──▶ held
+//!  restart ──▶│             │
+//!             └─────────────┘
+//! ```
+//!
+//! From power-on and from `restart` to its first length there is no path: its segments may be
+//! written, and no point is looked up.
+
+use crate::hdl::prelude::*;
+
+/// Register of a length.
+///
+/// `fresh` or `held` is high 2 ticks after `sample`.
+#[derive(Debug, Clone)]
+pub struct PathLength {
+    /// Width of a length in bits.
+    pub width: usize,
+}
+
+signals! { for PathLength as c;
+    /// Ports in.
+    pub struct In {
+        /// An interpolation period begins.
+        pub sample: Bit,
+        /// The profile has a length for it.
+        pub present: Bit,
+        /// The length.
+        pub profile: I(c.width),
+        /// Another path: there is none before its first length. What was begun with the last
+        /// length goes on: segments are written from the next beginning of a period on.
+        pub restart: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// qc: the length along the path.
+        pub length: I(c.width) as Analog = 0,
+        /// There is no path yet.
+        pub waiting: Bit = 1,
+        /// A period has begun.
+        begun: Bit = 0,
+        /// The length is the first of a path: the tangential response goes there at once.
+        pub preset: Bit = 0,
+        /// A period has begun with the length that stands.
+        pub fresh: Bit = 0,
+        /// A period has begun without a path: commands stay as they are.
+        pub held: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// There is no path in this tick.
+        none: Bit,
+    }
+}
+
+impl Circuit for PathLength {
+    const NAME: &'static str = "path_length";
+    const ABOUT: &'static str = "how far along the path the command is";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let none = i.restart | (q.waiting & !i.present);
+        let next = Reg {
+            length: (i.present & !i.restart).mux(i.profile, q.length),
+            waiting: none,
+            begun: i.sample,
+            preset: i.present & q.waiting & !i.restart,
+            fresh: q.begun & !none,
+            held: q.begun & none,
+        };
+        (Net { none }, next)
+    }
+}
+
+impl Specified for PathLength {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step(
+                "the length is the profile's last, but for one that comes with restart",
+                |now, next| {
+                    let expected = match now.i.present && !now.i.restart {
+                        true => now.i.profile,
+                        false => now.q.length,
+                    };
+                    let right = next.q.length == expected;
+                    require(right, ["length"], || format!("not {expected:?}"))
+                },
+            )
+            .step(
+                "there is no path from power-on or restart to the first length",
+                |now, next| {
+                    let without = now.q.waiting;
+                    let (waits, first) = match (now.i.restart, now.i.present) {
+                        (true, _) => (true, false),
+                        (false, true) => (false, without),
+                        (false, false) => (without, false),
+                    };
+                    let right = next.q.waiting == waits && next.q.preset == first;
+                    require(right, ["waiting", "preset"], || {
+                        format!("not {waits}, {first}")
+                    })
+                },
+            )
+            .step(
+                "two ticks after its beginning a period is one with a length, or one without a path",
+                |now, next| {
+                    let due = match now.q.begun {
+                        true => [!next.q.waiting, next.q.waiting],
+                        false => [false; 2],
+                    };
+                    let right = [next.q.fresh, next.q.held] == due && next.q.begun == now.i.sample;
+                    require(right, ["fresh", "held", "begun"], || format!("not {due:?}"))
+                },
+            )
+    }
+}

@@ -1,0 +1,192 @@
+//! Path point: the point at a length along the path (equations (1) and (5)).
+//!
+//! ```text
+//!                      ┌──────────────────────────────┐
+//!  start, length ─────▶│ search ▶ store ▶ sequencer   ├──▶ points, segment
+//!  last ──────────────▶│   ▶ arc_angle ▶ cordic       ├──▶ done, busy
+//!  write, write_… ────▶│   ▶ rows of x, y, z          │
+//!                      └──────────────────────────────┘
+//! ```
+//!
+//! Axis distribution 3 is this circuit with the length q_c that interpolation and acceleration 1 has
+//! come to; reference point 2 is the same circuit, with the same segments, with the length q_s of the
+//! tangential servo response. It knows nothing of the lengths before.
+
+use super::widths::PointWidths;
+use super::{
+    ArcAngle, AxisRow, Cordic, PointSequencer, SegmentSearch, SegmentStore, arc_angle, axis_row,
+    cordic, point_sequencer, segment_search, segment_store,
+};
+use crate::circuits::blocks::{CoefficientControl, coefficient_control};
+use crate::hdl::prelude::*;
+
+/// Names of the axes.
+pub const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
+const POINT: &[&str] = &["point_x", "point_y", "point_z"];
+
+/// Path point.
+#[derive(Debug, Clone)]
+pub struct PathPoint {
+    /// Its widths, by name.
+    pub widths: PointWidths,
+    /// The number of axes, 1 to 3.
+    pub axes: usize,
+    /// Word of a segment that is the radius of its arc.
+    pub radius_word: u64,
+}
+
+impl PathPoint {
+    /// Ticks from `start` to `done` on a line: search, segment, projection, and a register after
+    /// each.
+    pub const fn line_latency(&self) -> u64 {
+        let widths = self.widths;
+        let (search, store) = (SegmentSearch { widths }, SegmentStore { widths });
+        search.latency() + store.latency() + self.control().latency() + 4
+    }
+
+    /// The same on the smallest arc, whose angle is shifted most: it is measured and turned besides.
+    pub const fn latency(&self) -> u64 {
+        let widths = self.widths;
+        let measure = ArcAngle { widths }.latency() + (widths.angle as u64 - 3);
+        self.line_latency() + measure + Cordic { widths }.latency() + 2
+    }
+
+    const fn control(&self) -> CoefficientControl {
+        let coefficient = self.widths.coefficient;
+        CoefficientControl { coefficient }
+    }
+}
+
+signals! { for PathPoint as c;
+    /// Ports in.
+    pub struct In {
+        /// Begins, unless a point is under way.
+        pub start: Bit,
+        /// The length along the path, 0 up to its end; constant until the search has begun, in the
+        /// tick after `start`.
+        pub length: U(c.widths.point),
+        /// The path's last segment.
+        pub last: U(c.widths.segment),
+        /// Writes where a segment begins.
+        pub write_begin: Bit,
+        /// The segment.
+        pub begin_segment: U(c.widths.segment),
+        /// The length at which it begins.
+        pub begin_length: U(c.widths.point),
+        /// Writes a word of a segment.
+        pub write: Bit,
+        /// The segment, and in the lower four bits the number of its word.
+        pub write_address: U(c.widths.address()) as Hex,
+        /// Its data.
+        pub write_data: U(c.widths.data) as Hex,
+    }
+    /// The blocks.
+    pub struct Parts {
+        /// Which segment.
+        pub search: Part<SegmentSearch>(SegmentSearch { widths: c.widths }),
+        /// The segments.
+        pub store: Part<SegmentStore>(SegmentStore { widths: c.widths }),
+        /// One after the other.
+        pub sequencer: Part<PointSequencer>(PointSequencer {
+            widths: c.widths,
+            radius_word: c.radius_word,
+        }),
+        /// Length to angle.
+        pub measure: Part<ArcAngle>(ArcAngle { widths: c.widths }),
+        /// Angle to point.
+        pub cordic: Part<Cordic>(Cordic { widths: c.widths }),
+        /// Which bit the axes are at.
+        pub control: Part<CoefficientControl>(c.control()),
+        /// The axes.
+        pub axes: [Part<AxisRow>(AxisRow { widths: c.widths, coordinate: k as u64 }); k in c.axes]
+            as Elements(&AXIS_NAMES),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// The point.
+        pub points: [I(c.widths.point); c.axes] as Elements(POINT),
+        /// The segment that it is on.
+        pub segment: U(c.widths.segment),
+        /// The point stands in this tick.
+        pub done: Bit,
+        /// A point is under way.
+        pub busy: Bit,
+    }
+}
+
+impl Circuit for PathPoint {
+    const NAME: &'static str = "path_point";
+    const ABOUT: &'static str = "the point at a length along a path of lines and arcs";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let search = p.search.settle(segment_search::In {
+            start: p.sequencer.q.search,
+            length: i.length,
+            last: i.last,
+            write: i.write_begin,
+            write_segment: i.begin_segment,
+            write_begin: i.begin_length,
+        });
+        let store = p.store.settle(segment_store::In {
+            write: i.write,
+            write_address: i.write_address,
+            write_data: i.write_data,
+            fetch: p.sequencer.q.fetch,
+            segment: search.q.segment,
+        });
+        let (load, word, data) = (store.q.load, store.q.word, store.q.data);
+        let measure = p.measure.settle(arc_angle::In {
+            start: p.sequencer.q.measure,
+            offset: search.q.offset,
+            curvature: p.sequencer.q.curvature,
+            shift: p.sequencer.q.shift,
+        });
+        let cordic = p.cordic.settle(cordic::In {
+            start: p.sequencer.q.turn,
+            radius: p.sequencer.q.radius,
+            angle: measure.q.angle,
+        });
+        let control = p.control.settle(coefficient_control::In {
+            step: p.sequencer.q.project,
+            halt: Bit::low(),
+        });
+        let sequencer = p.sequencer.settle(point_sequencer::In {
+            start: i.start,
+            found: search.q.done,
+            loaded: store.q.loaded,
+            measured: measure.q.done,
+            turned: cordic.w.done,
+            projected: control.q.done,
+            load,
+            word,
+            data,
+            offset: search.q.offset,
+            arc_along: cordic.w.along,
+            arc_across: cordic.w.across,
+        });
+        let axes = settle_each(p.axes, |_| axis_row::In {
+            load,
+            word,
+            data,
+            copy: control.w.copy,
+            fraction: control.w.fraction,
+            top: control.w.top,
+            commit: control.w.commit,
+            along: sequencer.w.along,
+            across: sequencer.w.across,
+        });
+        let net = Net {
+            points: axes.iter().map(|axis| axis.q.point).collect(),
+            segment: search.q.segment,
+            done: sequencer.q.done,
+            busy: sequencer.w.busy,
+        };
+        (net, Nothing)
+    }
+
+    fn objection(&self) -> Option<String> {
+        let placed = (1..=3).contains(&self.axes);
+        (!placed).then(|| "a segment has words for three axes".into())
+    }
+}

@@ -1,0 +1,188 @@
+//! Point sequencer: search, segment, angle, point, one after the other.
+//!
+//! ```text
+//!                        ┌─────────────────┐
+//!  start ───────────────▶│                 ├──▶ search, fetch, measure, turn, project
+//!  found, loaded ───────▶│ point_sequencer ├──▶ curvature, shift, radius
+//!  measured, turned ────▶│                 ├──▶ along, across
+//!  projected ───────────▶│                 ├──▶ done, busy
+//!  load, word, data ────▶│                 │
+//!  offset, arc_… ───────▶│                 │
+//!                        └─────────────────┘
+//! ```
+
+use super::widths::PointWidths;
+use crate::hdl::prelude::*;
+
+/// Names of the states.
+const STATES: &[&str] = &["idle", "search", "fetch", "measure", "turn", "project"];
+const IDLE: u64 = 0;
+const SEARCH: u64 = 1;
+const FETCH: u64 = 2;
+const MEASURE: u64 = 3;
+const TURN: u64 = 4;
+const PROJECT: u64 = 5;
+
+/// Word that is the radius of an arc.
+pub const RADIUS: u64 = 2;
+
+/// Word that is its radius with the steady correction.
+pub const STEADY_RADIUS: u64 = 12;
+
+/// Sequencer of the blocks of a path point.
+#[derive(Debug, Clone)]
+pub struct PointSequencer {
+    /// Its widths.
+    pub widths: PointWidths,
+    /// Word of a segment that is the radius of its arc.
+    pub radius_word: u64,
+}
+
+signals! { for PointSequencer as c;
+    /// Ports in.
+    pub struct In {
+        /// Begins, unless a point is under way.
+        pub start: Bit,
+        /// The search has the segment.
+        pub found: Bit,
+        /// The segment is there.
+        pub loaded: Bit,
+        /// The angle is there.
+        pub measured: Bit,
+        /// The point on the arc is there.
+        pub turned: Bit,
+        /// The point is there.
+        pub projected: Bit,
+        /// `data` is word `word` of the segment.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(4),
+        /// Its data.
+        pub data: U(c.widths.data) as Hex,
+        /// The length behind the segment's beginning.
+        pub offset: U(c.widths.point),
+        /// First coordinate of the point on the arc.
+        pub arc_along: I(c.widths.radius),
+        /// Second coordinate.
+        pub arc_across: I(c.widths.radius),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// What it does.
+        state: U(3) as States(STATES) = 0,
+        /// The segment is an arc.
+        arc: Bit = 0,
+        /// Of the angle.
+        pub shift: U(6) = 0,
+        /// Of the arc.
+        pub curvature: U(c.widths.curvature) as Hex = 0,
+        /// Of the arc, divided by the gain of CORDIC.
+        pub radius: I(c.widths.radius) = 0,
+        /// The search begins.
+        pub search: Bit = 0,
+        /// The segment is fetched.
+        pub fetch: Bit = 0,
+        /// The angle is measured.
+        pub measure: Bit = 0,
+        /// The arc's radius is turned.
+        pub turn: Bit = 0,
+        /// The point is projected to the axes.
+        pub project: Bit = 0,
+        /// The point stands in this tick.
+        pub done: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A start is taken.
+        take: Bit,
+        /// The search is over.
+        searched: Bit,
+        /// The segment is there.
+        fetched: Bit,
+        /// The word is a segment's first.
+        header: Bit,
+        /// The segment is there, an arc.
+        on_arc: Bit,
+        /// The segment is there, a line, or the point on the arc is.
+        placed: Bit,
+        /// The angle is there.
+        angled: Bit,
+        /// The point is there.
+        reached: Bit,
+        /// The length on a line, with bits behind the guard unit.
+        ahead: I(c.widths.radius),
+        /// First coordinate of the point in the segment.
+        pub along: I(c.widths.radius),
+        /// Second coordinate: 0 on a line.
+        pub across: I(c.widths.radius),
+        /// A point is under way.
+        pub busy: Bit,
+    }
+}
+
+impl Circuit for PointSequencer {
+    const NAME: &'static str = "point_sequencer";
+    const ABOUT: &'static str = "search, segment, angle, point, one after the other";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let (radius, curvature) = (self.widths.radius, self.widths.curvature);
+        let is = |state: u64| q.state.equals(state);
+        let take = i.start & is(IDLE);
+        let searched = is(SEARCH) & i.found;
+        let fetched = is(FETCH) & i.loaded;
+        let on_arc = fetched & q.arc;
+        let placed = (fetched & !q.arc) | (is(TURN) & i.turned);
+        let angled = is(MEASURE) & i.measured;
+        let reached = is(PROJECT) & i.projected;
+        let ahead = i
+            .offset
+            .resize(radius)
+            .shift_left(self.widths.fine())
+            .signed();
+
+        let word = |number: u64| i.load & i.word.equals(number);
+        let header = word(0);
+        let state = take.mux(SEARCH, q.state);
+        let state = searched.mux(FETCH, state);
+        let state = on_arc.mux(MEASURE, state);
+        let state = angled.mux(TURN, state);
+        let state = placed.mux(PROJECT, state);
+        let given = i.data.resize(radius).signed();
+        let next = Reg {
+            state: reached.mux(IDLE, state),
+            arc: header.mux(i.data.bit(0), q.arc),
+            shift: header.mux(i.data.shift_right(1).resize(6), q.shift),
+            curvature: word(1).mux(i.data.resize(curvature), q.curvature),
+            radius: word(self.radius_word).mux(given, q.radius),
+            search: take,
+            fetch: searched,
+            measure: on_arc,
+            turn: angled,
+            project: placed,
+            done: reached,
+        };
+        let net = Net {
+            take,
+            searched,
+            fetched,
+            header,
+            on_arc,
+            placed,
+            angled,
+            reached,
+            ahead,
+            along: q.arc.mux(i.arc_along, ahead),
+            across: q.arc.mux(i.arc_across, 0),
+            busy: !is(IDLE),
+        };
+        (net, next)
+    }
+
+    fn objection(&self) -> Option<String> {
+        let of = &self.widths;
+        let radius = of.radius > of.point && of.data >= of.radius;
+        let holds = radius && of.data >= of.curvature;
+        (!holds).then(|| "a word holds a radius and a curvature".into())
+    }
+}

@@ -1,0 +1,149 @@
+//! Scaler: a word times a gain, one bit of the gain a tick.
+//!
+//! ```text
+//!         ┌────────┐
+//!  start ▶│        ├──▶ busy, done
+//!  value ▶│ scaler ├──▶ scaled
+//!  gain ─▶│        │
+//!  clear ▶│        │
+//!         └────────┘
+//! ```
+//!
+//! A gain has one bit before the point: 0 to just below 2. The product is rounded down to a whole
+//! word; what the rounding takes away is gone before it could be seen, so a value that is to keep
+//! a fraction brings it along as its lower bits.
+
+use crate::hdl::prelude::*;
+
+/// Scaler.
+///
+/// `done` is high K + 1 ticks after `start`.
+#[derive(Debug, Clone)]
+pub struct Scaler {
+    /// K: width of a gain, 2 to 64.
+    pub gain: usize,
+    /// Q: width of a value's word; the value has a bit less.
+    pub value: usize,
+}
+
+impl Scaler {
+    /// Ticks from `start` to `done`.
+    pub const fn latency(&self) -> u64 {
+        self.gain as u64 + 1
+    }
+}
+
+signals! { for Scaler as c;
+    /// Ports in. What is given with `start` is taken in that tick and need not be held.
+    pub struct In {
+        /// Begins, unless one is under way.
+        pub start: Bit,
+        /// Gives up what is under way; a start that comes with it is not taken.
+        pub clear: Bit,
+        /// What is scaled; below 2^(Q − 1).
+        pub value: U(c.value),
+        /// By how much, in units of 2^−(K − 1).
+        pub gain: U(c.gain),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// A product is under way.
+        busy: Bit = 0,
+        /// The bit of the gain it is at.
+        bit_index: U(6) = 0,
+        /// What is scaled.
+        factor: U(c.value) = 0,
+        /// Bits of the gain that are yet to come.
+        bits: U(c.gain) as Hex = 0,
+        /// The product so far, by the weight of the bit to come; the result.
+        pub scaled: U(c.value) = 0,
+        /// The result stands in this tick, until the next start.
+        pub done: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A start is taken.
+        take: Bit,
+        /// The bit is the last, the one before the point.
+        last: Bit,
+        /// Another bit comes after it.
+        more: Bit,
+        /// The product with what the bit adds.
+        total: U(c.value),
+    }
+}
+
+impl Circuit for Scaler {
+    const NAME: &'static str = "scaler";
+    const ABOUT: &'static str = "a word times a gain, rounded down, a bit a tick";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let take = i.start & !q.busy & !i.clear;
+        let last = q.bit_index.equals(self.gain as u64 - 1);
+        let more = q.busy & !last & !i.clear;
+        let total = q.scaled + q.bits.bit(0).mux(q.factor, 0);
+        // After a bit behind the point the product is halved.
+        let product = last.mux(total, total.shift_right(1));
+        let next = Reg {
+            busy: take | more,
+            bit_index: more.mux(q.bit_index + 1, 0),
+            factor: take.mux(i.value, q.factor),
+            bits: take.mux(i.gain, more.mux(q.bits.shift_right(1), 0)),
+            scaled: take.mux(0, q.busy.mux(product, q.scaled)),
+            done: q.busy & last & !i.clear,
+        };
+        (
+            Net {
+                take,
+                last,
+                more,
+                total,
+            },
+            next,
+        )
+    }
+
+    fn objection(&self) -> Option<String> {
+        let counted = (2..=64).contains(&self.gain);
+        (!counted).then(|| "a gain has a bit before the point and one behind".into())
+    }
+}
+
+impl Specified for Scaler {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step("a start is taken unless one is under way", |now, next| {
+                let taken = now.i.start && !now.q.busy && !now.i.clear;
+                let begun = next.q.busy && next.q.bit_index == 0;
+                let begun = begun && next.q.factor == now.i.value && next.q.bits == now.i.gain;
+                require(!taken || begun, ["busy", "factor", "bits"], || {
+                    "not begun".into()
+                })
+            })
+            .step(
+                "every bit of the gain comes once, done after the last",
+                |now, next| {
+                    let bit = now.q.bit_index;
+                    let over = bit + 1 == self.gain as u64;
+                    let goes_on = next.q.busy && next.q.bit_index == bit + 1;
+                    let right = goes_on != over && next.q.done == over;
+                    let ended = !next.q.busy && !next.q.done;
+                    let right = if now.i.clear { ended } else { right };
+                    let idle = !now.q.busy && !next.q.done;
+                    require(idle || (now.q.busy && right), ["bit_index", "done"], || {
+                        "not so".into()
+                    })
+                },
+            )
+            .always("the product so far fits", |now| {
+                let right = now.q.scaled <= 2 * now.q.factor;
+                require(right, ["scaled"], || "too large".into())
+            })
+    }
+
+    fn applies(&self, i: &In<Value>) -> bool {
+        let given = i.value > 0 || i.gain > 0;
+        i.value >> (self.value - 1) == 0 && (i.start || !given)
+    }
+}

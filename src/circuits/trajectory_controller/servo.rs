@@ -1,0 +1,141 @@
+//! Servo control 11 of one axis (Fig. 2): reference model 12, and the loops that hold the motor to it.
+//!
+//! ```text
+//!                       ┌───────────────────────────┐
+//!  step, preset ───────▶│ reference model 12        ├──▶ torque, saturated, fresh
+//!  target ─────────────▶│   ▶ servo_arithmetic      ├──▶ position, lost
+//!  a, b ───────────────▶│     ◀▶ scaler             │
+//!  gains, inertia, … ──▶│   ◀ quadrature counter    │
+//!                       └───────────────────────────┘
+//! ```
+
+use super::model_state::ModelGains;
+use super::servo_arithmetic::{ServoGains, ServoWidths};
+use super::{
+    ReferenceModel, Rounding, Scaler, ServoArithmetic, reference_model, scaler, servo_arithmetic,
+};
+use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
+use crate::hdl::prelude::*;
+
+/// Servo control.
+#[derive(Debug, Clone)]
+pub struct Servo {
+    /// Its widths.
+    pub widths: ServoWidths,
+    /// How its model rounds.
+    pub rounding: Rounding,
+}
+
+impl Servo {
+    /// Reference model 12.
+    pub(super) const fn model(&self) -> ReferenceModel {
+        ReferenceModel {
+            widths: self.widths.model(),
+            rounding: self.rounding,
+        }
+    }
+
+    const fn scaler(&self) -> Scaler {
+        Scaler {
+            gain: self.widths.gain,
+            value: self.widths.product(),
+        }
+    }
+
+    /// Ticks from `step` to `fresh`.
+    #[must_use]
+    pub const fn latency(&self) -> u64 {
+        self.model().latency() + 4 * self.scaler().latency() + 2
+    }
+}
+
+signals! { for Servo as c;
+    /// Ports in.
+    pub struct In {
+        /// The corrected command is new.
+        pub step: Bit,
+        /// Between two paths: the model at the target, at rest; the loops begin anew.
+        pub preset: Bit,
+        /// Pd: the corrected position command in guard units; constant during a step.
+        pub target: I(c.widths.position),
+        /// Encoder, channel A.
+        pub a: Bit,
+        /// Channel B.
+        pub b: Bit,
+        /// The counter to 0.
+        pub home: Bit,
+        /// K1 and K2.
+        pub model_gains: ModelGains(&c.widths.model()) as Flat,
+        /// Of the loops.
+        pub gains: ServoGains(&c.widths) as Flat,
+    }
+    /// The blocks inside.
+    pub struct Parts {
+        /// Reference model 12.
+        pub model: Part<ReferenceModel>(c.model()),
+        /// Position of the motor.
+        pub detector: Part<QuadratureCounter>(QuadratureCounter { width: c.widths.count }),
+        /// 26 to 31.
+        pub arithmetic: Part<ServoArithmetic>(ServoArithmetic { widths: c.widths }),
+        /// Its products.
+        pub scaler: Part<Scaler>(c.scaler()),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// The torque.
+        pub torque: I(c.widths.torque) as Analog,
+        /// It is limited.
+        pub saturated: Bit,
+        /// The torque is new in this tick.
+        pub fresh: Bit,
+        /// Position of the motor in counts.
+        pub position: I(c.widths.count) as Analog,
+        /// The encoder was too fast since `home`.
+        pub lost: Bit,
+    }
+}
+
+impl Circuit for Servo {
+    const NAME: &'static str = "servo";
+    const ABOUT: &'static str = "reference model, position and speed control of an axis";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let model = p.model.settle(reference_model::In {
+            step: i.step,
+            preset: i.preset,
+            target: i.target,
+            gains: i.model_gains,
+        });
+        let motor = p.detector.settle(quadrature_counter::In {
+            a: i.a,
+            b: i.b,
+            clear: i.home,
+        });
+        let arithmetic = p.arithmetic.settle(servo_arithmetic::In {
+            step: model.w.fresh,
+            clear: i.preset,
+            model_position: model.w.position,
+            model_velocity: model.w.velocity,
+            model_acceleration: model.w.acceleration,
+            feedback: motor.q.position,
+            gains: i.gains,
+            done: p.scaler.q.done,
+            scaled: p.scaler.q.scaled,
+        });
+        p.scaler.settle(scaler::In {
+            start: arithmetic.w.scale,
+            clear: i.preset,
+            value: arithmetic.w.value,
+            gain: arithmetic.w.gain,
+        });
+        let net = Net {
+            torque: arithmetic.q.torque,
+            saturated: arithmetic.q.saturated,
+            fresh: arithmetic.q.fresh,
+            position: motor.q.position,
+            lost: motor.q.lost,
+        };
+        (net, Nothing)
+    }
+}

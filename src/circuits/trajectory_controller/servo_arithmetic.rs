@@ -1,0 +1,319 @@
+//! Servo arithmetic: position control 27, speed control 29 and the model torque 30 of servo control
+//! 11 (¶0028), one product after the other on one scaler.
+//!
+//! ```text
+//!                         ┌──────────────────┐
+//!  step ─────────────────▶│                  ├──▶ torque, saturated
+//!  model_…, feedback ────▶│                  ├──▶ fresh, busy
+//!  gains, limit, clear ──▶│ servo_arithmetic ├──▶ scale, value, gain ──▶ scaler
+//!  done, scaled ─────────▶│                  │◀── scaler
+//!                         └──────────────────┘
+//! ```
+//!
+//! 26: position error = model position − feedback. 27: P. 28: speed error = model speed + P − speed,
+//! both being ways from step to step: of the model, what it moved in this step, which is its velocity
+//! before it; of the motor, what the feedback moved since the step before. 29: PI. 30: model
+//! acceleration times the inertia. 31: all three added. Departures: the torque is limited; the
+//! integral of 29 stays within the limit, and holds while it would drive the torque farther beyond.
+
+use super::model_state::ModelWidths;
+use crate::hdl::prelude::*;
+
+/// Names of the states.
+const STATES: &[&str] = &[
+    "idle",
+    "position",
+    "proportional",
+    "integral",
+    "inertia",
+    "limit",
+];
+const IDLE: u64 = 0;
+const POSITION: u64 = 1;
+const PROPORTIONAL: u64 = 2;
+const INTEGRAL: u64 = 3;
+const INERTIA: u64 = 4;
+const LIMIT: u64 = 5;
+
+/// Bits behind the torque's last that its sum keeps.
+pub const FINE: usize = 4;
+
+/// Bits by which what becomes a torque is shifted up before it is scaled, for gains up to
+/// 2^(LEFT − FINE + 1).
+pub const LEFT: usize = 6;
+
+/// Widths of a servo control in bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ServoWidths {
+    /// W: positions of the motor in counts, signed.
+    pub count: usize,
+    /// P: positions in guard units, signed, with P − W guard bits.
+    pub position: usize,
+    /// K: gains of the reference model, with K − 1 fraction bits.
+    pub model_gain: usize,
+    /// G: gains of the loops; that of the position has G − 1 fraction bits.
+    pub gain: usize,
+    /// T: torques, signed.
+    pub torque: usize,
+}
+
+impl ServoWidths {
+    /// Sums of the arithmetic, and what its scaler multiplies.
+    #[must_use]
+    pub const fn product(&self) -> usize {
+        self.position + 5 + LEFT
+    }
+
+    /// Those of the reference model.
+    #[must_use]
+    pub const fn model(&self) -> ModelWidths {
+        ModelWidths {
+            position: self.position,
+            gain: self.model_gain,
+        }
+    }
+}
+
+signals! { for ServoWidths as c;
+    /// Gains of a servo control's loops.
+    pub struct ServoGains {
+        /// Of 27: speed for a position error, in units of 2^−(G − 1).
+        pub position_gain: U(c.gain),
+        /// Of 29, proportional: torque for a speed error, in units of 2^(LEFT − FINE − G + 1).
+        pub speed_gain: U(c.gain),
+        /// Of 29, integral, likewise, a period.
+        pub integral_gain: U(c.gain),
+        /// Of 30: torque for an acceleration, likewise.
+        pub inertia: U(c.gain),
+        /// Largest torque, below 2^(T − 1).
+        pub limit: U(c.torque),
+    }
+}
+
+/// Arithmetic of a servo control.
+#[derive(Debug, Clone)]
+pub struct ServoArithmetic {
+    /// The servo control's widths.
+    pub widths: ServoWidths,
+}
+
+signals! { for ServoArithmetic as c;
+    /// Ports in.
+    pub struct In {
+        /// The model's state is new; not taken while `busy`. All words but the
+        /// feedback are constant during a step.
+        pub step: Bit,
+        /// Speed and integral to 0, feedback taken over; a step that is under way is given up.
+        pub clear: Bit,
+        /// Position of the reference model.
+        pub model_position: I(c.widths.position),
+        /// Its velocity, in a period.
+        pub model_velocity: I(c.widths.position),
+        /// Its acceleration, in a period squared.
+        pub model_acceleration: I(c.widths.position),
+        /// Position of the motor in counts; taken over with `step`.
+        pub feedback: I(c.widths.count),
+        /// Of its loops.
+        pub gains: ServoGains(&c.widths) as Flat,
+        /// The scaler is done.
+        pub done: Bit,
+        /// Its result.
+        pub scaled: U(c.widths.product()),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// What it does.
+        state: U(3) as States(STATES) = 0,
+        /// What is being scaled is negative.
+        negative: Bit = 0,
+        /// The feedback of the last step.
+        previous: I(c.widths.count) = 0,
+        /// What it moved in that period.
+        speed: I(c.widths.count) = 0,
+        /// 28: the speed error.
+        speed_error: I(c.widths.product()) as Analog = 0,
+        /// The parts of 31 so far, with FINE bits behind the torque's last.
+        sum: I(c.widths.product()) as Analog = 0,
+        /// Integral of 29, likewise.
+        integral: I(c.widths.product()) as Analog = 0,
+        /// What the period would add to the integral.
+        increment: I(c.widths.product()) = 0,
+        /// The torque.
+        pub torque: I(c.widths.torque) as Analog = 0,
+        /// It is limited.
+        pub saturated: Bit = 0,
+        /// They are new in this tick.
+        pub fresh: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A step is taken.
+        take: Bit,
+        /// A product is there.
+        product_there: Bit,
+        /// The feedback in guard units.
+        actual: I(c.widths.product()),
+        /// 26: the position error.
+        position_error: I(c.widths.product()),
+        /// The product with its sign.
+        product: I(c.widths.product()),
+        /// The model's acceleration.
+        change: I(c.widths.product()),
+        /// What the model moved in this step.
+        model_way: I(c.widths.product()),
+        /// What the motor moved, in guard units.
+        motor_way: I(c.widths.product()),
+        /// 28, when the product of 27 is there.
+        speed_demand: I(c.widths.product()),
+        /// What is scaled next.
+        operand: I(c.widths.product()),
+        /// Its magnitude.
+        size: U(c.widths.product()),
+        /// The scaler begins.
+        pub scale: Bit,
+        /// With this value,
+        pub value: U(c.widths.product()),
+        /// by this gain.
+        pub gain: U(c.widths.gain),
+        /// Largest integral.
+        highest: I(c.widths.product()),
+        /// Least integral.
+        lowest: I(c.widths.product()),
+        /// The integral with what the period adds.
+        grown: I(c.widths.product()),
+        /// The same within the torque's limits.
+        held: I(c.widths.product()),
+        /// 31: the whole torque with the fine bits.
+        whole: I(c.widths.product()),
+        /// The same to the nearest, a half upwards.
+        wanted: I(c.widths.product()),
+        /// Largest torque.
+        most: I(c.widths.product()),
+        /// Least torque.
+        least: I(c.widths.product()),
+        /// The torque is above the largest.
+        above: Bit,
+        /// It is below the least.
+        below_least: Bit,
+        /// The torque within its limits.
+        limited: I(c.widths.product()),
+        /// The integral may take what the period adds.
+        integrates: Bit,
+        /// The torque is limited, and the step ends.
+        ends: Bit,
+        /// A step is not taken.
+        pub busy: Bit,
+    }
+}
+
+impl Circuit for ServoArithmetic {
+    const NAME: &'static str = "servo_arithmetic";
+    const ABOUT: &'static str = "position and speed control with the model torque, on one scaler";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        let (count, position) = (self.widths.count, self.widths.position);
+        let (sum, torque) = (self.widths.product(), self.widths.torque);
+        let fits = sum > torque + FINE + 1 && position > count;
+        (!fits).then(|| {
+            format!(
+                "positions of {position} bits are to have guard bits behind counts of {count}, \
+                 and sums of {sum} are to hold torques of {torque} with their fine bits"
+            )
+        })
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let guard = self.widths.position - self.widths.count;
+        let wide = |word: I| word.resize(self.widths.product());
+        let units = |counts: I| wide(counts).shift_left(guard);
+        let is = |state: u64| q.state.equals(state);
+        let take = i.step & is(IDLE) & !i.clear;
+        let multiplies = is(POSITION) | is(PROPORTIONAL) | is(INTEGRAL) | is(INERTIA);
+        let product_there = i.done & multiplies & !i.clear;
+        let actual = units(i.feedback);
+        let position_error = wide(i.model_position) - actual;
+        let product = i.scaled.signed().negated_by(q.negative);
+        let change = wide(i.model_acceleration);
+        let model_way = wide(i.model_velocity) - change;
+        let motor_way = units(q.speed);
+        let speed_demand = model_way + product - motor_way;
+        let kept = is(PROPORTIONAL).mux(q.speed_error, change);
+        let operand = take.mux(position_error, is(POSITION).mux(speed_demand, kept));
+        let size = operand.magnitude();
+        let scale = take | (product_there & !is(INERTIA));
+        let later = is(INTEGRAL).mux(i.gains.inertia, i.gains.integral_gain);
+        let later = is(POSITION).mux(i.gains.speed_gain, later);
+        let gain = take.mux(i.gains.position_gain, later);
+
+        let most = i.gains.limit.resize(self.widths.product()).signed();
+        let least = -most;
+        let grown = q.integral + q.increment;
+        let (highest, lowest) = (most.shift_left(FINE), least.shift_left(FINE));
+        let held = highest.below(grown).mux(highest, grown);
+        let held = grown.below(lowest).mux(lowest, held);
+        let whole = q.sum + held;
+        let wanted = (whole + (1i64 << (FINE - 1))).shift_right(FINE);
+        let (above, below_least) = (most.below(wanted), wanted.below(least));
+        let limited = above.mux(most, below_least.mux(least, wanted));
+        let rising = !q.speed_error.is_negative() & above;
+        let falling = q.speed_error.is_negative() & below_least;
+        let integrates = !(rising | falling);
+        let ends = is(LIMIT) & !i.clear;
+
+        let there = |state: u64| product_there & is(state);
+        let state = take.mux(POSITION, q.state);
+        let state = there(POSITION).mux(PROPORTIONAL, state);
+        let state = there(PROPORTIONAL).mux(INTEGRAL, state);
+        let state = there(INTEGRAL).mux(INERTIA, state);
+        let state = there(INERTIA).mux(LIMIT, state);
+        let added = there(INERTIA).mux(q.sum + product, q.sum);
+        let increment = there(INTEGRAL).mux(product, q.increment);
+        let next = Reg {
+            state: (ends | i.clear).mux(IDLE, state),
+            negative: scale.mux(operand.is_negative(), q.negative),
+            previous: (take | i.clear).mux(i.feedback, q.previous),
+            speed: take.mux(i.feedback - q.previous, q.speed),
+            speed_error: there(POSITION).mux(speed_demand, q.speed_error),
+            sum: there(PROPORTIONAL).mux(product, added),
+            integral: i.clear.mux(0, (ends & integrates).mux(held, q.integral)),
+            increment: i.clear.mux(0, increment),
+            torque: i
+                .clear
+                .mux(0, ends.mux(limited.resize(self.widths.torque), q.torque)),
+            saturated: ends.mux(above | below_least, q.saturated) & !i.clear,
+            fresh: ends,
+        };
+        let net = Net {
+            take,
+            product_there,
+            actual,
+            position_error,
+            product,
+            change,
+            model_way,
+            motor_way,
+            speed_demand,
+            operand,
+            size,
+            scale,
+            value: take.mux(size, size.shift_left(LEFT)),
+            gain,
+            highest,
+            lowest,
+            grown,
+            held,
+            whole,
+            wanted,
+            most,
+            least,
+            above,
+            below_least,
+            limited,
+            integrates,
+            ends,
+            busy: !is(IDLE),
+        };
+        (net, next)
+    }
+}

@@ -1,0 +1,82 @@
+//! Shifter: a word divided by a power of two that is chosen in the run, rounded down.
+//!
+//! ```text
+//!         ┌─────────┐
+//!  word ─▶│ shifter ├──▶ shifted
+//!  by ───▶│         │
+//!         └─────────┘
+//! ```
+
+use crate::hdl::prelude::*;
+
+/// Shifter for signed words.
+#[derive(Debug, Clone)]
+pub struct Shifter {
+    /// Width of a word in bits.
+    pub width: usize,
+}
+
+signals! { for Shifter as c;
+    /// Ports in.
+    pub struct In {
+        /// What is shifted.
+        pub word: I(c.width),
+        /// By how many bits.
+        pub by: U(6),
+    }
+    /// Nets.
+    pub struct Net {
+        /// By the lowest bit of `by`.
+        by_1: I(c.width),
+        /// By two bits of it.
+        by_3: I(c.width),
+        /// By three.
+        by_7: I(c.width),
+        /// By four.
+        by_15: I(c.width),
+        /// By five.
+        by_31: I(c.width),
+        /// By all of it.
+        pub shifted: I(c.width),
+    }
+}
+
+impl Circuit for Shifter {
+    const NAME: &'static str = "shifter";
+    const ABOUT: &'static str = "a word divided by a power of two, rounded down";
+    records!(In, Nothing, Net);
+
+    fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
+        let stage = |word: I, bit: usize| i.by.bit(bit).mux(word.shift_right(1 << bit), word);
+        let by_1 = stage(i.word, 0);
+        let by_3 = stage(by_1, 1);
+        let by_7 = stage(by_3, 2);
+        let by_15 = stage(by_7, 3);
+        let by_31 = stage(by_15, 4);
+        let shifted = stage(by_31, 5);
+        (
+            Net {
+                by_1,
+                by_3,
+                by_7,
+                by_15,
+                by_31,
+                shifted,
+            },
+            Nothing,
+        )
+    }
+}
+
+impl Specified for Shifter {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new().always("it is the quotient, rounded down", |now| {
+            let divisor = 1i128 << now.i.by;
+            let expected = i128::from(now.i.word).div_euclid(divisor);
+            let shifted = i128::from(now.w.shifted);
+            require(shifted == expected, ["shifted"], || {
+                format!("not {expected}")
+            })
+        })
+    }
+}

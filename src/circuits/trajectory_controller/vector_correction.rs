@@ -1,0 +1,123 @@
+//! Vector correction 4 of one axis (equations (6) and (7)).
+//!
+//! ```text
+//!              ┌───────────────────┐
+//!  correct ───▶│                   ├──▶ corrected
+//!  reference ─▶│ vector_correction ├──▶ correction
+//!  response ──▶│                   ├──▶ fresh
+//!  command ───▶│                   │
+//!              └───────────────────┘
+//! ```
+//!
+//! E = Pr − Ps, Pd = Pc + E: how far the response would be from the path is added to the command.
+
+use crate::hdl::prelude::*;
+
+/// What is added to the position commands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Correction {
+    /// E = Pr − Ps, worked out in every period (equations (6), (7)).
+    #[default]
+    Vector,
+    /// Nothing.
+    None,
+    /// The prior art (¶0004): along the normal, by what is right at constant speed. E = Pr − Pc, with
+    /// Pr on a path whose arcs are so much wider.
+    Steady,
+}
+
+impl Correction {
+    /// The name it has in scenarios.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Correction::Vector => "vector",
+            Correction::None => "none",
+            Correction::Steady => "steady",
+        }
+    }
+}
+
+/// Correction of points.
+#[derive(Debug, Clone)]
+pub struct VectorCorrection {
+    /// Width of a point in bits.
+    pub width: usize,
+    /// What is added.
+    pub correction: Correction,
+}
+
+signals! { for VectorCorrection as c;
+    /// Ports in.
+    pub struct In {
+        /// All three points stand.
+        pub correct: Bit,
+        /// Pr: the reference point.
+        pub target: I(c.width),
+        /// Ps: the servo response.
+        pub response: I(c.width),
+        /// Pc: the position command.
+        pub command: I(c.width),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// E: the correction.
+        pub correction: I(c.width) as Analog = 0,
+        /// Pd: the corrected position command.
+        pub corrected: I(c.width) as Analog = 0,
+        /// They are new in this tick.
+        pub fresh: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// What is added.
+        vector: I(c.width),
+    }
+}
+
+impl Circuit for VectorCorrection {
+    const NAME: &'static str = "vector_correction";
+    const ABOUT: &'static str = "reference point minus response, added to the command";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let vector = match self.correction {
+            Correction::Vector => i.target - i.response,
+            Correction::None => I::new(0, self.width),
+            Correction::Steady => i.target - i.command,
+        };
+        let next = Reg {
+            correction: i.correct.mux(vector, q.correction),
+            corrected: i.correct.mux(i.command + vector, q.corrected),
+            fresh: i.correct,
+        };
+        (Net { vector }, next)
+    }
+}
+
+impl Specified for VectorCorrection {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new().step(
+            "command and response differ by what corrected command and reference do",
+            |now, next| {
+                let (i, end) = (&now.i, 1i64 << self.width);
+                let expected = match (i.correct, self.correction) {
+                    (false, _) => [now.q.correction, now.q.corrected],
+                    (true, Correction::None) => [0, i.command],
+                    (true, Correction::Vector) => {
+                        let vector = i.target - i.response;
+                        [vector, i.command + vector]
+                    }
+                    (true, Correction::Steady) => [i.target - i.command, i.target],
+                };
+                let seen = [next.q.correction, next.q.corrected];
+                let same = (0..2).all(|k| (seen[k] - expected[k]).rem_euclid(end) == 0);
+                let right = same && next.q.fresh == i.correct;
+                require(right, ["correction", "corrected", "fresh"], || {
+                    format!("not {expected:?}")
+                })
+            },
+        )
+    }
+}

@@ -1,0 +1,121 @@
+//! What a circuit is made of, as `list` prints it.
+
+use motion_rtl::hdl::Shape;
+use motion_rtl::verilog;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// The parts of a circuit and its own signals, with what drives them.
+#[derive(Debug, Serialize)]
+pub struct Connections {
+    parts: Vec<Part>,
+    outputs: Vec<Connection>,
+    nets: Vec<Connection>,
+    registers: Vec<Connection>,
+}
+
+#[derive(Debug, Serialize)]
+struct Part {
+    name: String,
+    circuit: String,
+    parameters: BTreeMap<String, u64>,
+    inputs: Vec<Connection>,
+    outputs: Vec<Signal>,
+}
+
+#[derive(Debug, Serialize)]
+struct Signal {
+    name: String,
+    width: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Connection {
+    #[serde(flatten)]
+    signal: Signal,
+    driver: String,
+}
+
+impl Signal {
+    fn of((name, shape): (String, Shape)) -> Self {
+        let width = shape.width;
+        Signal { name, width }
+    }
+
+    fn text(&self) -> String {
+        match self.width {
+            1 => self.name.clone(),
+            width => format!("{}[{width}]", self.name),
+        }
+    }
+}
+
+impl Connections {
+    /// Those of a circuit that has parts.
+    pub fn of(connections: verilog::Connections) -> Option<Self> {
+        let verilog::Connections {
+            parts,
+            outputs,
+            nets,
+            registers,
+        } = connections;
+        (!parts.is_empty()).then(|| Connections {
+            parts: parts.into_iter().map(part).collect(),
+            outputs: driven(outputs),
+            nets: driven(nets),
+            registers: driven(registers),
+        })
+    }
+
+    /// Lines below those of the circuit's ports.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string does not fail.
+        for part in &self.parts {
+            let _ = writeln!(text, "    {}: {}", part.name, part.circuit);
+            lines(&mut text, "=", &part.inputs);
+            for (name, number) in &part.parameters {
+                let _ = writeln!(text, "      {name} = {number}");
+            }
+            let outputs = part.outputs.iter().map(Signal::text);
+            let outputs = outputs.collect::<Vec<_>>().join(", ");
+            let _ = writeln!(text, "      out {outputs}");
+        }
+        let own = [
+            ("out", "=", &self.outputs),
+            ("nets", "=", &self.nets),
+            ("at the edge", "<=", &self.registers),
+        ];
+        for (what, sign, own) in own.iter().filter(|(.., own)| !own.is_empty()) {
+            let _ = writeln!(text, "    {what}");
+            lines(&mut text, sign, own);
+        }
+        text
+    }
+}
+
+fn lines(text: &mut String, sign: &str, connections: &[Connection]) {
+    for Connection { signal, driver } in connections {
+        let _ = writeln!(text, "      {} {sign} {driver}", signal.text());
+    }
+}
+
+fn part(part: verilog::Part) -> Part {
+    Part {
+        name: part.name,
+        circuit: part.circuit,
+        parameters: part.parameters.into_iter().collect(),
+        inputs: driven(part.inputs),
+        outputs: part.outputs.into_iter().map(Signal::of).collect(),
+    }
+}
+
+fn driven(connections: Vec<verilog::Connection>) -> Vec<Connection> {
+    let connections = connections.into_iter();
+    let driven = connections.map(|connection| Connection {
+        signal: Signal::of((connection.name, connection.shape)),
+        driver: connection.driver,
+    });
+    driven.collect()
+}

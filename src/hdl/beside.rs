@@ -1,0 +1,40 @@
+//! What stands beside a circuit in its waves.
+
+use super::{Circuit, Observer, Record, RunError, Sample, View};
+use super::{Field, Role};
+use std::ops::ControlFlow;
+
+/// Signals that stand in the waves beside a circuit without being part of it: what a motor does,
+/// say.
+pub trait Beside: 'static {
+    /// The scope they stand in.
+    const SCOPE: &'static str;
+    /// They.
+    type Signals<V: View>: Record<Self, V>;
+}
+
+/// What holds of the scope of the signals beside a circuit.
+pub(super) const fn scope<B: Beside>() -> Field {
+    Field {
+        role: Some(Role::Input),
+        ..Field::named(B::SCOPE)
+    }
+}
+
+/// An observer of a circuit that sees it without what stands beside it.
+#[derive(Debug)]
+pub struct Without<O>(pub O);
+
+impl<C: Circuit, O: Observer<C>> Observer<C> for Without<O> {
+    fn next_look(&self, tick: u64) -> u64 {
+        self.0.next_look(tick)
+    }
+
+    fn needs_all(&self) -> bool {
+        self.0.needs_all()
+    }
+
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        self.0.sample(&now.alone())
+    }
+}

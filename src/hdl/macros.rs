@@ -1,0 +1,419 @@
+/// Declares records of a circuit's signals: its ports in, flip-flops, nets and parts, or a bundle
+/// that several circuits use. Widths are expressions over the circuit.
+///
+/// | field | is |
+/// |---|---|
+/// | `Bit`, `U(width)`, `I(width)` | a word of 1 to 64 bits |
+/// | `Ram(address_width, data_width)` | a memory; `= &c.image` is what it holds at power-on |
+/// | `Shift(stages, data_width)` | a shift register |
+/// | `[U(c.width); c.count]`, `[U(c.widths[k]); k in c.count]` | an array, a `Vec` |
+/// | `Gains(&c.widths)` | a bundle: a record that is declared for the type of `c.widths`; its signals stand in a scope of its name, `as Flat` without |
+/// | `Part<Counter>(Counter { width: c.width })` | a circuit inside |
+///
+/// What `for (A, B) as c;` declares belongs to both types, whose fields have the same names.
+///
+/// A field may carry how it is meant to be looked at (`as Hex`, `as Analog`, `as States(NAMES)`,
+/// `as Elements(NAMES)`) and a power-on value (`= 1`; 0 where none is given). In a `Reg` or `Net` a
+/// `pub` field is a port out; `pub(crate)` lets proofs and tests look at it without making it a
+/// port.
+///
+/// ```
+/// use motion_rtl::hdl::prelude::*;
+///
+/// /// Counts while it is enabled.
+/// #[derive(Debug, Clone)]
+/// pub struct Counter {
+///     /// Width of the count in bits.
+///     pub width: usize,
+/// }
+///
+/// signals! { for Counter as c;
+///     /// Ports in.
+///     pub struct In {
+///         /// Counts.
+///         pub enable: Bit,
+///     }
+///     /// Flip-flops.
+///     pub struct Reg {
+///         /// Ticks that were enabled.
+///         pub count: U(c.width) as Analog = 0,
+///     }
+/// }
+///
+/// impl Circuit for Counter {
+///     const NAME: &'static str = "counter";
+///     const ABOUT: &'static str = "counts while it is enabled";
+///     records!(In, Reg, Nothing);
+///
+///     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+///         (Nothing, Reg { count: i.enable.mux(q.count + 1, q.count) })
+///     }
+/// }
+/// ```
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_signals {
+    (
+        for $circuits:tt as $c:ident;
+        $(
+            $(#[doc = $about:literal])*
+            $vis:vis struct $name:ident $body:tt
+        )+
+    ) => {
+        $(
+            $crate::hdl_record! { [$(#[doc = $about])*] $vis $name $body }
+            $crate::hdl_record_for! { $circuits [$c] $name $body }
+        )+
+    };
+}
+
+/// One record of [`hdl_signals`].
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_record {
+    (
+        [$($about:tt)*] $vis:vis $name:ident { $(
+            $(#[doc = $doc:literal])*
+            $public:vis $field:ident : $kind:tt
+                $(<$($part:ident)::+>)? $(($($arg:expr),* $(,)?))?
+                $(as $format:ident $(($names:expr))?)? $(= $power_on:expr)?
+        ),* $(,)? }
+    ) => {
+        $($about)*
+        $vis struct $name<V: $crate::hdl::View = $crate::hdl::Wire> {
+            $( $(#[doc = $doc])* $public $field: $crate::hdl_type!(V; $kind $(<$($part)::+>)?), )*
+        }
+
+        impl<V: $crate::hdl::View> $crate::hdl::Walk<V> for $name<V> {
+            const SITE: $crate::hdl::Site = $crate::hdl::Site {
+                file: file!(),
+                line: line!(),
+                column: column!(),
+            };
+
+            fn visit(
+                &self,
+                field: &'static $crate::hdl::Field,
+                sink: &mut dyn $crate::hdl::Sink,
+            ) {
+                sink.enter(field);
+                $( $crate::hdl_visit!(
+                    V; sink;
+                    $crate::hdl_field!($public $field, [$($doc)*], [$($format $(($names))?)?]);
+                    (&self.$field);
+                    $kind $(<$($part)::+>)?
+                ); )*
+                sink.leave();
+            }
+        }
+
+        impl<V: $crate::hdl::View> ::std::clone::Clone for $name<V>
+        where
+            $( $crate::hdl_type!(V; $kind $(<$($part)::+>)?): ::std::clone::Clone, )*
+        {
+            fn clone(&self) -> Self {
+                $name { $( $field: ::std::clone::Clone::clone(&self.$field), )* }
+            }
+        }
+
+        impl<V: $crate::hdl::View> ::std::fmt::Debug for $name<V>
+        where
+            $( $crate::hdl_type!(V; $kind $(<$($part)::+>)?): ::std::fmt::Debug, )*
+        {
+            fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
+                let mut shown = f.debug_struct(stringify!($name));
+                $( shown.field(stringify!($field), &self.$field); )*
+                shown.finish()
+            }
+        }
+    };
+}
+
+/// How one record of [`hdl_signals`] is made for what it belongs to.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_record_for {
+    (($($circuit:ident),+ $(,)?) $c:tt $name:ident $body:tt) => {
+        $( $crate::hdl_record_for! { $circuit $c $name $body } )+
+    };
+    ($circuit:ident [$c:ident] $name:ident { $(
+        $(#[doc = $doc:literal])*
+        $public:vis $field:ident : $kind:tt
+            $(<$($part:ident)::+>)? $(($($arg:expr),* $(,)?))?
+            $(as $format:ident $(($names:expr))?)? $(= $power_on:expr)?
+    ),* $(,)? }) => {
+        impl<V: $crate::hdl::View> $crate::hdl::Record<$circuit, V> for $name<V> {
+            fn make(
+                $c: &$circuit,
+                field: &'static $crate::hdl::Field,
+                source: &mut dyn $crate::hdl::Source,
+            ) -> Self {
+                let _ = $c;
+                source.enter(field);
+                let made = $name {
+                    $( $field: $crate::hdl_make!(
+                        V; source;
+                        $crate::hdl_field!($public $field, [$($doc)*], [$($format $(($names))?)?]);
+                        [$($power_on)?];
+                        $kind $(<$($part)::+>)? $(($($arg),*))?
+                    ), )*
+                };
+                source.leave();
+                made
+            }
+        }
+    };
+}
+
+/// The type of a field in a view.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_type {
+    ($v:ident; Bit) => { <$v as $crate::hdl::View>::Bit };
+    ($v:ident; U) => { <$v as $crate::hdl::View>::U };
+    ($v:ident; I) => { <$v as $crate::hdl::View>::I };
+    ($v:ident; Ram) => { <$v as $crate::hdl::View>::Ram };
+    ($v:ident; Shift) => { <$v as $crate::hdl::View>::Shift };
+    ($v:ident; Part<$($part:ident)::+>) => { <$v as $crate::hdl::View>::Part<$($part)::+> };
+    ($v:ident; [$kind:tt $(<$($part:ident)::+>)? $(($($arg:tt)*))? ; $($count:tt)+]) => {
+        ::std::vec::Vec<$crate::hdl_type!($v; $kind $(<$($part)::+>)?)>
+    };
+    ($v:ident; $bundle:ident) => { $bundle<$v> };
+}
+
+/// A field made.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_make {
+    ($v:ident; $source:ident; $field:expr; [$($power_on:expr)?]; Bit) => {
+        <$v as $crate::hdl::View>::bit($source.word(
+            $field,
+            $crate::hdl::BIT,
+            $crate::hdl_power_on!($($power_on)?),
+        ))
+    };
+    ($v:ident; $source:ident; $field:expr; [$($power_on:expr)?]; U($width:expr)) => {{
+        let shape = $crate::hdl::unsigned($width);
+        let token = $source.word($field, shape, $crate::hdl_power_on!($($power_on)?));
+        <$v as $crate::hdl::View>::u(token, shape.width)
+    }};
+    ($v:ident; $source:ident; $field:expr; [$($power_on:expr)?]; I($width:expr)) => {{
+        let shape = $crate::hdl::signed($width);
+        let token = $source.word($field, shape, $crate::hdl_power_on!($($power_on)?));
+        <$v as $crate::hdl::View>::i(token, shape.width)
+    }};
+    ($v:ident; $source:ident; $field:expr; [$($contents:expr)?]; Ram($address:expr, $width:expr)) => {
+        <$v as $crate::hdl::View>::ram($crate::hdl::ram(
+            $source,
+            $field,
+            ($address, $width),
+            &|| $crate::hdl_contents!($($contents)?),
+        ))
+    };
+    ($v:ident; $source:ident; $field:expr; []; Shift($stages:expr, $width:expr)) => {
+        <$v as $crate::hdl::View>::shift($crate::hdl::shift($source, $field, ($stages, $width)))
+    };
+    ($v:ident; $source:ident; $field:expr; []; Part<$($part:ident)::+>($circuit:expr)) => {
+        <$v as $crate::hdl::View>::part::<$($part)::+>(&$circuit, $field, $source)
+    };
+    (
+        $v:ident; $source:ident; $field:expr; [$($power_on:expr)?];
+        [$kind:tt $(<$($part:ident)::+>)? $(($($arg:expr),* $(,)?))? ; $k:ident in $count:expr]
+    ) => {
+        {
+            let mut each = ::std::vec::Vec::new();
+            let count: usize = $count;
+            for $k in 0..count {
+                $source.element($k);
+                each.push($crate::hdl_make!(
+                    $v; $source; $field; [$($power_on)?];
+                    $kind $(<$($part)::+>)? $(($($arg),*))?
+                ));
+            }
+            each
+        }
+    };
+    (
+        $v:ident; $source:ident; $field:expr; [$($power_on:expr)?];
+        [$kind:tt $(<$($part:ident)::+>)? $(($($arg:expr),* $(,)?))? ; $count:expr]
+    ) => {
+        {
+            let mut each = ::std::vec::Vec::new();
+            let count: usize = $count;
+            for index in 0..count {
+                $source.element(index);
+                each.push($crate::hdl_make!(
+                    $v; $source; $field; [$($power_on)?];
+                    $kind $(<$($part)::+>)? $(($($arg),*))?
+                ));
+            }
+            each
+        }
+    };
+    ($v:ident; $source:ident; $field:expr; []; $bundle:ident($of:expr)) => {
+        $crate::hdl::Record::<_, $v>::make($of, $field, $source)
+    };
+}
+
+/// A field shown.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_visit {
+    ($v:ident; $sink:ident; $field:expr; ($value:expr); Bit) => {
+        $sink.word($field, <$v as $crate::hdl::View>::of_bit(*$value))
+    };
+    ($v:ident; $sink:ident; $field:expr; ($value:expr); U) => {
+        $sink.word($field, <$v as $crate::hdl::View>::of_u(*$value))
+    };
+    ($v:ident; $sink:ident; $field:expr; ($value:expr); I) => {
+        $sink.word($field, <$v as $crate::hdl::View>::of_i(*$value))
+    };
+    ($v:ident; $sink:ident; $field:expr; ($value:expr); Ram) => {
+        $sink.memory($field, <$v as $crate::hdl::View>::of_ram($value))
+    };
+    ($v:ident; $sink:ident; $field:expr; ($value:expr); Shift) => {
+        $sink.memory($field, <$v as $crate::hdl::View>::of_shift($value))
+    };
+    // A circuit inside shows itself where it is settled.
+    ($v:ident; $sink:ident; $field:expr; ($value:expr); Part<$($part:ident)::+>) => {
+        let _ = $value;
+    };
+    (
+        $v:ident; $sink:ident; $field:expr; ($value:expr);
+        [$kind:tt $(<$($part:ident)::+>)? $(($($arg:tt)*))? ; $($count:tt)+]
+    ) => {
+        for (index, value) in $value.iter().enumerate() {
+            $sink.element(index);
+            $crate::hdl_visit!($v; $sink; $field; (value); $kind $(<$($part)::+>)?);
+        }
+    };
+    ($v:ident; $sink:ident; $field:expr; ($value:expr); $bundle:ident) => {
+        $crate::hdl::Walk::<$v>::visit($value, $field, $sink)
+    };
+}
+
+/// What is known of a field without its value.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_field {
+    ($public:vis $field:ident, [$($doc:literal)*], [Flat]) => {
+        const { &$crate::hdl::Field::named("") }
+    };
+    ($public:vis $field:ident, [$($doc:literal)*], [$($format:ident $(($names:expr))?)?]) => {
+        const {
+            &$crate::hdl::Field {
+                doc: concat!($($doc, "\n"),*),
+                format: {
+                    let format = $crate::hdl::Format::Decimal;
+                    $( let _ = format; let format = $crate::hdl::Format::$format $(($names))?; )?
+                    format
+                },
+                // Exactly `pub`: `pub(crate)` shows a signal to proofs, and makes it no port.
+                public: stringify!($public).len() == 3,
+                ..$crate::hdl::Field::named(stringify!($field))
+            }
+        }
+    };
+}
+
+/// What a register holds at power-on.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_power_on {
+    () => {
+        0
+    };
+    ($power_on:expr) => {
+        ($power_on) as i128 as u64
+    };
+}
+
+/// Names the records of a circuit: ports in, registers, nets and, where it has some, parts.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_records {
+    ($in:ident, $reg:ident, $net:ident) => {
+        $crate::hdl_records!($in, $reg, $net, Nothing);
+    };
+    ($in:ident, $reg:ident, $net:ident, $parts:ident) => {
+        $crate::hdl_records!(@ In $in);
+        $crate::hdl_records!(@ Reg $reg);
+        $crate::hdl_records!(@ Net $net);
+        $crate::hdl_records!(@ Parts $parts);
+    };
+    (@ $role:ident Nothing) => {
+        type $role<V: $crate::hdl::View> = $crate::hdl::Nothing;
+    };
+    (@ $role:ident $record:ident) => {
+        type $role<V: $crate::hdl::View> = $record<V>;
+    };
+}
+
+/// Declares a choice between circuits, of which one is inside another: an enum of the circuits, and
+/// a record for the `Parts` around it. Its scope is called as its field is, whichever it is.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_choice {
+    (
+        $(#[$about:meta])*
+        $vis:vis enum $name:ident as $part:ident {
+            $( $(#[doc = $doc:literal])* $variant:ident($circuit:ty) ),* $(,)?
+        }
+    ) => {
+        $(#[$about])*
+        #[derive(Debug, Clone)]
+        $vis enum $name {
+            $( $(#[doc = $doc])* $variant($circuit), )*
+        }
+
+        /// The one that is inside.
+        $vis enum $part<V: $crate::hdl::View = $crate::hdl::Wire> {
+            $( $(#[doc = $doc])* $variant(<V as $crate::hdl::View>::Part<$circuit>), )*
+        }
+
+        impl<V: $crate::hdl::View> $crate::hdl::Record<$name, V> for $part<V> {
+            fn make(
+                of: &$name,
+                field: &'static $crate::hdl::Field,
+                source: &mut dyn $crate::hdl::Source,
+            ) -> Self {
+                match of {
+                    $( $name::$variant(circuit) => {
+                        $part::$variant(<V as $crate::hdl::View>::part(circuit, field, source))
+                    } )*
+                }
+            }
+        }
+
+        impl<V: $crate::hdl::View> $crate::hdl::Walk<V> for $part<V> {
+            const SITE: $crate::hdl::Site = $crate::hdl::Site {
+                file: file!(),
+                line: line!(),
+                column: column!(),
+            };
+
+            // A circuit inside shows itself where it is settled.
+            fn visit(&self, _: &'static $crate::hdl::Field, _: &mut dyn $crate::hdl::Sink) {}
+        }
+
+        impl<V: $crate::hdl::View> ::std::fmt::Debug for $part<V> {
+            fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
+                f.write_str(match self {
+                    $( $part::$variant(_) => stringify!($variant), )*
+                })
+            }
+        }
+    };
+}
+
+/// What a memory holds at power-on.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_contents {
+    () => {
+        $crate::hdl::Contents::default()
+    };
+    ($image:expr) => {
+        $crate::hdl::Contents::of($image)
+    };
+}

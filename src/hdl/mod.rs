@@ -1,0 +1,164 @@
+//! The language: circuits as plain structs, elaborated once to a netlist.
+//!
+//! A [`Circuit`] declares its signals as records ([`signals!`]), whose widths are expressions over
+//! its fields, and says in one function, [`tick`](Circuit::tick), what nets are and what registers
+//! become. That function runs once, when the circuit is [elaborated](elaborate): its words are
+//! handles to nodes of a netlist, so there is no `if` on a [`Bit`], only [`Bit::mux`]. The netlist is
+//! the only meaning: what runs, what is proved, what is printed as Verilog.
+//!
+//! Words wrap, as registers do. Operands have the same width; a constant takes that of what it
+//! stands beside. Everything that is wrong is found at once and told with file, line and column
+//! ([`Wrong`]).
+
+mod beside;
+mod build;
+mod declare;
+mod elaborate;
+mod macros;
+mod memory;
+mod mistake;
+mod model;
+pub mod netlist;
+mod observe;
+pub(crate) mod outline;
+pub(crate) mod pack;
+pub(crate) mod part;
+mod place;
+mod property;
+mod record;
+pub(crate) mod sample;
+mod signal;
+mod simulator;
+#[cfg(test)]
+mod tests;
+pub(crate) mod view;
+mod words;
+
+pub use crate::{hdl_choice as choice, hdl_records as records, hdl_signals as signals};
+pub use beside::{Beside, Without};
+pub(crate) use declare::Outline;
+pub use declare::{Declaration, Declarations, MemoryDeclaration, Path};
+pub(crate) use elaborate::Leaves;
+pub use elaborate::elaborate;
+pub use memory::{Contents, Image, Ram, Shift, Written, ram, shift};
+pub(crate) use memory::{STAGE, WORD};
+pub use mistake::{Mistake, Wrong};
+pub use model::{Described, Model};
+pub use observe::{Observer, RunError, StopWhen};
+pub(crate) use outline::declarations;
+pub use part::{Part, Settled, settle_each};
+pub use place::{At, MemoryAt, Number, Signals};
+pub use property::{After, Moment, Property};
+pub use record::{
+    BIT, Cells, MemoryShape, Nothing, Pass, Record, Sink, Site, Source, Walk, signed, unsigned,
+};
+pub(crate) use sample::View as LeafView;
+pub use sample::{Lazy, Registers, Sample, State, Values};
+pub use signal::{Field, Format, Kind, Role, Shape};
+pub use simulator::{Simulator, Watcher};
+pub use view::{Edge, Kept, Place, Seen, Shapes, Value, View, Wire};
+pub use words::{Bit, Choice, I, Operand, U, Word, log2};
+
+/// What a circuit and its tests are written with.
+pub mod prelude {
+    pub use super::{
+        Bit, Circuit, Edge, I, Image, Moment, Nothing, Part, Property, Ram, Settled, Shift,
+        Simulator, U, Value, View, Wire, Written, choice, log2, records, settle_each, signals,
+        zero,
+    };
+    pub use crate::check::{Fault, Invariants, Outcome, Specified, reach, require};
+}
+
+use crate::engine::EngineError;
+use beside::scope;
+use std::fmt::Debug;
+
+/// A clocked circuit; its fields are its widths, its variants, the contents of its memories.
+pub trait Circuit: Clone + Debug + Send + Sync + 'static {
+    /// The circuit's name: the outermost scope of its waves, the module of its HDL.
+    const NAME: &'static str;
+    /// What it does, in one line.
+    const ABOUT: &'static str;
+    /// Ports in.
+    type In<V: View>: Record<Self, V>;
+    /// Flip-flops and memories.
+    type Reg<V: View>: Record<Self, V>;
+    /// Nets; those that are `pub`, and such registers, are its ports out.
+    type Net<V: View>: Record<Self, V>;
+    /// The circuits inside it.
+    type Parts<V: View>: Record<Self, V>;
+
+    /// The nets of this tick and the registers of the next.
+    fn tick(
+        &self,
+        i: Self::In<Wire>,
+        q: Self::Reg<Wire>,
+        p: Self::Parts<Wire>,
+    ) -> (Self::Net<Wire>, Self::Reg<Edge>);
+
+    /// Its name, where it depends on its fields.
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    /// What it does, where that depends on its fields.
+    fn about(&self) -> &'static str {
+        Self::ABOUT
+    }
+
+    /// Invariants in words, for `check` and for proofs by other tools. What looks at the registers
+    /// after the edge looks at [`Moment::next`].
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let _ = now;
+        Vec::new()
+    }
+
+    /// What is wrong with its fields beyond the widths of words, in one sentence.
+    fn objection(&self) -> Option<String> {
+        None
+    }
+}
+
+/// A circuit elaborated, its type forgotten.
+///
+/// # Errors
+/// All that is wrong with it.
+pub fn model<C: Circuit>(circuit: &C) -> Result<Model, EngineError> {
+    Model::new(
+        (circuit.name(), circuit.about()),
+        elaborate(circuit)?,
+        outline::declarations(circuit, &mut |_| {}),
+    )
+}
+
+/// The same with signals beside it.
+pub fn model_beside<C: Circuit, B: Beside>(circuit: &C, beside: &B) -> Result<Model, EngineError> {
+    let mut signals = |source: &mut dyn Source| {
+        B::Signals::<Shapes>::make(beside, const { &scope::<B>() }, source);
+    };
+    Model::new(
+        (circuit.name(), circuit.about()),
+        elaborate::with_inputs(circuit, &mut signals)?,
+        outline::declarations(circuit, &mut signals),
+    )
+}
+
+/// Ports in with every bit low.
+pub fn zero<C: Circuit>(circuit: &C) -> C::In<Value> {
+    struct Zero;
+    impl Source for Zero {
+        fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
+            0
+        }
+        fn memory(
+            &mut self,
+            _: &'static Field,
+            _: &'static Field,
+            shape: MemoryShape,
+            _: &dyn Fn() -> Contents,
+        ) -> Cells {
+            Leaves::no_cells(shape)
+        }
+    }
+    C::In::make(circuit, view::role(Role::Input), &mut Zero)
+}

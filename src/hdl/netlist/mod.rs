@@ -1,0 +1,12 @@
+//! A circuit as modules of nodes.
+
+mod module;
+mod modules;
+mod node;
+
+pub(crate) use module::Register;
+pub use module::{
+    Assertion, Child, Design, Memory, Module, Parameter, Port, Setting, Signal, Value,
+};
+pub(crate) use modules::enter;
+pub use node::{Id, Node, Operator};

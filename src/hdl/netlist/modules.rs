@@ -1,0 +1,141 @@
+//! What is asked of modules.
+
+use super::module::{Module, Port, Register};
+use super::node::{BIT, Id, Node};
+use crate::hdl::Shape;
+
+impl Module {
+    /// The nodes that something is driven by: nets, registers, memories, inputs of instances.
+    pub fn roots(&self) -> impl Iterator<Item = Id> + '_ {
+        let signals = self.signals.iter().filter_map(|signal| signal.driver);
+        let memories = self.memories.iter().flat_map(|memory| {
+            let ids = match memory.port {
+                Port::Rom => [None; 3],
+                Port::Ram {
+                    enable,
+                    address,
+                    data,
+                } => [Some(enable), Some(address), Some(data)],
+                Port::Shift { enable, data } => [Some(enable), Some(data), None],
+            };
+            ids.into_iter().flatten()
+        });
+        let inputs = self.instances.iter().flat_map(|child| &child.inputs);
+        signals.chain(memories).chain(inputs.copied())
+    }
+
+    /// Which nodes are used.
+    pub fn live(&self) -> Vec<bool> {
+        let mut live = vec![false; self.nodes.len()];
+        for root in self.roots() {
+            live[root] = true;
+        }
+        for id in (0..live.len()).rev() {
+            if live[id] {
+                for operand in self.nodes[id].0.operands() {
+                    live[operand] = true;
+                }
+            }
+        }
+        live
+    }
+
+    /// What is read of instances that is no port of theirs: the instance, and the signal.
+    pub(crate) fn hidden(&self, modules: &[Module]) -> Vec<(usize, String)> {
+        let mut hidden = Vec::new();
+        let live = self.live();
+        for (node, _) in self
+            .nodes
+            .iter()
+            .zip(&live)
+            .filter(|(_, live)| **live)
+            .map(|(node, _)| node)
+        {
+            let read = match *node {
+                Node::Signal(signal) => self.signals[signal]
+                    .owner
+                    .map(|(instance, inner)| (instance, Some(inner))),
+                Node::Port { instance, leaf } => {
+                    let inside = &modules[self.instances[instance].module];
+                    Some((instance, inside.nets.get(leaf).copied().flatten()))
+                }
+                Node::Read(memory, _) if self.memories[memory].inner => Some((0, None)),
+                _ => None,
+            };
+            let Some((instance, inner)) = read else {
+                continue;
+            };
+            let child = &self.instances[instance];
+            let signal = inner.map(|inner| &modules[child.module].signals[inner]);
+            match signal {
+                Some(signal) if signal.is_port() => {}
+                Some(signal) => hidden.push((instance, signal.name.clone())),
+                None => hidden.push((instance, "a signal further inside".to_owned())),
+            }
+        }
+        hidden
+    }
+
+    /// Kind and width of leaf `leaf` of the walk over the nets.
+    pub(crate) fn net_shape(&self, leaf: usize) -> Shape {
+        let node = self.net_nodes.get(leaf).and_then(|id| self.nodes.get(*id));
+        node.map_or(BIT, |(_, shape)| *shape)
+    }
+
+    /// The node that leaf `leaf` of the walk over the nets shows.
+    pub(crate) fn net_node(&self, leaf: usize) -> Option<Id> {
+        self.net_nodes.get(leaf).copied()
+    }
+
+    /// How many leaves the walk over the nets has.
+    pub(crate) fn net_leaves(&self) -> usize {
+        self.net_nodes.len()
+    }
+
+    /// The leaves of the walk over the registers; a memory is one.
+    pub(crate) fn register_leaves(&self) -> impl Iterator<Item = Register> + '_ {
+        self.registers.iter().copied()
+    }
+
+    /// The instance that a memory belongs to, and which one it is there.
+    pub(crate) fn memory_owner(&self, memory: usize) -> Option<(usize, usize)> {
+        self.owners.get(memory).copied().flatten()
+    }
+
+    /// The net that leaf `leaf` of the walk over the nets is.
+    pub fn net(&self, leaf: usize) -> Option<usize> {
+        self.nets.get(leaf).copied().flatten()
+    }
+}
+
+/// Adds a module, unless the same is there; another of the same circuit gets a number.
+pub(crate) fn enter(mut module: Module, modules: &mut Vec<Module>) -> usize {
+    let circuit = module.name.clone();
+    let filled: Vec<bool> = module.memories.iter().map(|memory| memory.filled).collect();
+    let mut number = 1;
+    for (index, other) in modules.iter_mut().enumerate() {
+        module.name.clone_from(&other.name);
+        for (memory, other) in module.memories.iter_mut().zip(&other.memories) {
+            memory.filled = other.filled;
+        }
+        if module == *other {
+            for (other, filled) in other.memories.iter_mut().zip(filled) {
+                other.filled |= filled;
+            }
+            return index;
+        }
+        let numbered = other.name.strip_prefix(&circuit);
+        if numbered.is_some_and(|rest| rest.is_empty() || rest == format!("_{number}")) {
+            number += 1;
+        }
+    }
+    for (memory, filled) in module.memories.iter_mut().zip(filled) {
+        memory.filled = filled;
+    }
+    module.name = match number {
+        1 => circuit,
+        _ => format!("{circuit}_{number}"),
+    };
+    modules.push(module);
+    modules.len() - 1
+}

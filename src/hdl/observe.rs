@@ -1,0 +1,139 @@
+//! What looks at every tick of a run.
+
+use super::{Circuit, Sample};
+use crate::engine::EngineError;
+use std::io;
+use std::ops::ControlFlow;
+
+/// Why a run ended before its time.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The circuit cannot be run.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// The waves could not be written.
+    #[error("the waves could not be written: {0}")]
+    Waves(#[from] io::Error),
+    /// A monitor saw what must not be.
+    #[error("tick {tick}: {message} (signals: {})", signals.join(", "))]
+    Violation {
+        /// The tick at fault.
+        tick: u64,
+        /// The signals at fault.
+        signals: Vec<String>,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+/// Looks at every tick of a run: writes waves, records, monitors, stops.
+///
+/// `()` observes nothing and costs nothing; a tuple observes with each of its parts in turn.
+pub trait Observer<C: Circuit> {
+    /// The first tick from this one on at which it looks: of others [`sample`](Self::sample) takes
+    /// nothing. Where ticks are [looked](super::Simulator::look) at one by one, those at which
+    /// nobody looks are not shown.
+    fn next_look(&self, tick: u64) -> u64 {
+        tick
+    }
+
+    /// Whether it looks at that tick.
+    fn looks(&self, tick: u64) -> bool {
+        self.next_look(tick) == tick
+    }
+
+    /// Whether it looks at signals that nobody chose to [watch](super::Simulator::watching).
+    fn needs_all(&self) -> bool {
+        true
+    }
+
+    /// Sees one tick; `Break` ends the run after this tick's edge.
+    ///
+    /// # Errors
+    /// Ends the run with that error.
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError>;
+}
+
+impl<C: Circuit> Observer<C> for () {
+    fn next_look(&self, _: u64) -> u64 {
+        u64::MAX
+    }
+
+    fn needs_all(&self) -> bool {
+        false
+    }
+
+    fn sample(&mut self, _: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+impl<C: Circuit, O: Observer<C> + ?Sized> Observer<C> for &mut O {
+    fn next_look(&self, tick: u64) -> u64 {
+        (**self).next_look(tick)
+    }
+
+    fn needs_all(&self) -> bool {
+        (**self).needs_all()
+    }
+
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        (**self).sample(now)
+    }
+}
+
+impl<C: Circuit, O: Observer<C>> Observer<C> for Option<O> {
+    fn next_look(&self, tick: u64) -> u64 {
+        self.as_ref()
+            .map_or(u64::MAX, |observer| observer.next_look(tick))
+    }
+
+    fn needs_all(&self) -> bool {
+        self.as_ref().is_some_and(Observer::needs_all)
+    }
+
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        match self {
+            Some(observer) => observer.sample(now),
+            None => Ok(ControlFlow::Continue(())),
+        }
+    }
+}
+
+macro_rules! together {
+    ($($part:ident $place:tt),+) => {
+        impl<C: Circuit, $($part: Observer<C>),+> Observer<C> for ($($part,)+) {
+            fn next_look(&self, tick: u64) -> u64 {
+                u64::MAX$(.min(self.$place.next_look(tick)))+
+            }
+
+            fn needs_all(&self) -> bool {
+                $(self.$place.needs_all())||+
+            }
+
+            fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+                let mut stop = false;
+                $( stop |= self.$place.sample(now)?.is_break(); )+
+                Ok(if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+            }
+        }
+    };
+}
+
+together!(A 0, B 1);
+together!(A 0, B 1, D 2);
+together!(A 0, B 1, D 2, E 3);
+
+/// Ends a run at the first tick for which the condition holds; that tick still happens.
+#[derive(Debug, Clone)]
+pub struct StopWhen<F>(pub F);
+
+impl<C: Circuit, F: FnMut(&Sample<'_, C>) -> bool> Observer<C> for StopWhen<F> {
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        Ok(if (self.0)(now) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        })
+    }
+}

@@ -1,0 +1,69 @@
+//! The signals of a circuit by name, in the order of its waves.
+
+use super::Circuit;
+use super::memory::Contents;
+use super::record::{Cells, MemoryShape, Pass, Record, Source};
+use super::view::{self, Shapes};
+use crate::hdl::{Declarations, Field, Outline, Role, Shape};
+use std::sync::Arc;
+
+/// The signals of a circuit: ports in, registers, nets. What they are at power-on is left at 0.
+/// `beside` shows ports in that stand beside it.
+pub(crate) fn declarations<C: Circuit>(
+    circuit: &C,
+    beside: &mut dyn FnMut(&mut dyn Source),
+) -> Declarations {
+    let mut declarations = Declarations::within(circuit.name());
+    let mut shown = Shown {
+        outline: &mut declarations,
+        pass: Pass::Registers,
+    };
+    C::In::<Shapes>::make(circuit, view::role(Role::Input), &mut shown);
+    beside(&mut shown);
+    view::registers(circuit, &mut shown);
+    view::nets(circuit, &mut shown);
+    declarations
+}
+
+/// Shows a walk to whoever wants names and shapes.
+pub(crate) struct Shown<'a> {
+    pub outline: &'a mut dyn Outline,
+    pub pass: Pass,
+}
+
+impl Source for Shown<'_> {
+    fn enter(&mut self, field: &'static Field) {
+        self.outline.enter(field);
+    }
+    fn leave(&mut self) {
+        self.outline.leave();
+    }
+    fn element(&mut self, index: usize) {
+        self.outline.element(index);
+    }
+    fn pass(&mut self, pass: Pass) {
+        self.pass = pass;
+    }
+    fn passing(&self) -> Pass {
+        self.pass
+    }
+    fn word(&mut self, field: &'static Field, shape: Shape, _: u64) -> u64 {
+        self.outline.leaf(field, shape);
+        0
+    }
+    fn memory(
+        &mut self,
+        field: &'static Field,
+        label: &'static Field,
+        shape: MemoryShape,
+        _: &dyn Fn() -> Contents,
+    ) -> Cells {
+        self.outline.memory(field, label, shape.words, shape.width);
+        Cells {
+            first: 0,
+            words: shape.words,
+            width: shape.width,
+            contents: Arc::new([]),
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Records of numbers as words, and back.
+
+use super::memory::Contents;
+use super::record::{Cells, MemoryShape, Pass, Record, Sink, Source, Walk};
+use super::view::{self, Shapes, Value};
+use super::{Circuit, Registers};
+use crate::hdl::{Field, Role, Shape};
+use std::sync::Arc;
+
+/// The widths of the leaves of a walk, words of memories among them.
+#[derive(Default)]
+pub(crate) struct Widths {
+    pub widths: Vec<usize>,
+    pass: Option<Pass>,
+}
+
+impl Source for Widths {
+    fn pass(&mut self, pass: Pass) {
+        self.pass = Some(pass);
+    }
+    fn passing(&self) -> Pass {
+        self.pass.unwrap_or(Pass::Registers)
+    }
+    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
+        self.widths.push(shape.width);
+        0
+    }
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        shape: MemoryShape,
+        _: &dyn Fn() -> Contents,
+    ) -> Cells {
+        self.widths
+            .extend(std::iter::repeat_n(shape.width, shape.words));
+        super::Leaves::no_cells(shape)
+    }
+}
+
+/// The widths of the words of a record.
+pub(crate) fn widths<O: ?Sized, R: Record<O, Shapes>>(of: &O) -> Vec<usize> {
+    let mut widths = Widths::default();
+    R::make(of, view::role(Role::Input), &mut widths);
+    widths.widths
+}
+
+/// The widths of the ports in of a circuit.
+pub(crate) fn input_widths<C: Circuit>(circuit: &C) -> Vec<usize> {
+    widths::<C, C::In<Shapes>>(circuit)
+}
+
+/// The number of bits of all registers of a circuit and of those inside it.
+pub(crate) fn register_bits<C: Circuit>(circuit: &C) -> usize {
+    let mut widths = Widths::default();
+    view::registers(circuit, &mut widths);
+    widths.widths.iter().sum()
+}
+
+/// The words of a record, each cut to its width.
+pub(crate) fn words<R: Walk<Value>>(record: &R, widths: &[usize]) -> Vec<u64> {
+    struct Words(Vec<u64>);
+    impl Sink for Words {
+        fn word(&mut self, _: &'static Field, token: u64) {
+            self.0.push(token);
+        }
+    }
+    let mut words = Words(Vec::with_capacity(widths.len()));
+    record.visit(view::role(Role::Input), &mut words);
+    for (word, width) in words.0.iter_mut().zip(widths) {
+        *word &= u64::MAX >> (64 - width);
+    }
+    words.0
+}
+
+/// A record whose leaves are given one after the other.
+pub(crate) fn given<O: ?Sized, R: Record<O, Value>>(of: &O, leaf: impl FnMut(Shape) -> u64) -> R {
+    R::make(of, view::role(Role::Input), &mut Given(leaf))
+}
+
+struct Given<F>(F);
+
+impl<F: FnMut(Shape) -> u64> Source for Given<F> {
+    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
+        (self.0)(shape) & u64::MAX >> (64 - shape.width)
+    }
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        shape: MemoryShape,
+        _: &dyn Fn() -> Contents,
+    ) -> Cells {
+        let word = Shape {
+            kind: crate::hdl::Kind::Unsigned,
+            width: shape.width,
+        };
+        let contents = (0..shape.words).map(|_| (self.0)(word) & u64::MAX >> (64 - word.width));
+        Cells {
+            contents: contents.collect::<Arc<[u64]>>(),
+            ..super::Leaves::no_cells(shape)
+        }
+    }
+}
+
+/// Takes a word apart, from its lowest bits on.
+pub(crate) fn bits_of(mut word: u64) -> impl FnMut(Shape) -> u64 {
+    move |shape| {
+        let leaf = word;
+        // A leaf of 64 bits is the only one, nothing comes after it.
+        word = leaf.checked_shr(shape.width as u32).unwrap_or(0);
+        leaf
+    }
+}
+
+/// Words side by side, the first in the lowest bits.
+pub(crate) fn joined(words: &[u64], widths: &[usize]) -> u64 {
+    let mut filled = 0;
+    let mut joined = 0;
+    for (word, width) in words.iter().zip(widths) {
+        joined |= word.checked_shl(filled).unwrap_or(0);
+        filled += *width as u32;
+    }
+    joined
+}
+
+/// All registers of a circuit from a word.
+pub(crate) fn registers_of<C: Circuit>(circuit: &C, word: u64) -> Registers<C> {
+    let mut given = Given(bits_of(word));
+    let q = C::Reg::make(circuit, view::role(Role::Register), &mut given);
+    let p = C::Parts::make(circuit, view::role(Role::Register), &mut given);
+    Registers { q, p }
+}

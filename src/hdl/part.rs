@@ -1,0 +1,312 @@
+//! Circuits inside a circuit.
+
+use super::build::{self, Declared, Instance, builder, elaboration, here, node};
+use super::elaborate::{self, Leaves, Ports};
+use super::record::{Pass, Record, Sink, Source, Walk};
+use super::view::{self, Seen, Shapes, Wire};
+use super::{Circuit, Written};
+use crate::hdl::netlist::{Child, Node, Register, Setting};
+use crate::hdl::{Field, Path, Role, Shape};
+use std::fmt;
+
+/// A circuit inside another, before it is settled: its registers stand already.
+pub struct Part<C: Circuit> {
+    circuit: C,
+    /// Its number among the parts.
+    part: usize,
+    /// Its registers in this tick.
+    pub q: C::Reg<Seen>,
+}
+
+/// The same afterwards.
+pub struct Settled<C: Circuit> {
+    /// What drives its ports in.
+    pub i: C::In<Wire>,
+    /// Its registers in this tick.
+    pub q: C::Reg<Seen>,
+    /// Its nets.
+    pub w: C::Net<Wire>,
+}
+
+impl<C: Circuit> Part<C> {
+    /// Its registers come into being, with those of the circuits inside it.
+    pub(super) fn declare(circuit: &C, field: &'static Field, source: &mut dyn Source) -> Self {
+        source.enter(field);
+        let first = begin();
+        source.pass(Pass::Registers);
+        let q = C::Reg::make(circuit, view::role(Role::Register), source);
+        if circuit.objection().is_none() {
+            C::Parts::<Shapes>::make(circuit, view::role(Role::Register), source);
+        }
+        let part = declared(first);
+        source.leave();
+        Part {
+            circuit: circuit.clone(),
+            part,
+            q,
+        }
+    }
+
+    /// Applies its ports in and settles its nets. It takes the part: nothing is settled twice.
+    #[track_caller]
+    pub fn settle(self, i: C::In<Wire>) -> Settled<C> {
+        let site = here();
+        let inputs = drive::<C>(&self.circuit, &i, site);
+        let (module, settings) = elaborate::module(&self.circuit, path(self.part));
+        let ports = instance(self.part, (module, settings), inputs, site);
+        let mut own = Counted::default();
+        C::Net::<Shapes>::make(&self.circuit, view::role(Role::Net), &mut own);
+        // The nets of a module come after those of the circuits inside it.
+        let inner = ports.len() - own.leaves.len().min(ports.len());
+        let mut ports = Ports(ports[inner..].iter());
+        let w = C::Net::make(&self.circuit, view::role(Role::Net), &mut ports);
+        Settled { i, q: self.q, w }
+    }
+}
+
+// What does not depend on the circuit's type is not made for each.
+
+/// The registers of a part begin; returns their place in the walk.
+#[inline(never)]
+fn begin() -> usize {
+    builder(|builder| {
+        builder.of_part = true;
+        builder.registers.len()
+    })
+}
+
+/// The registers since then are those of a part; returns its number.
+#[inline(never)]
+fn declared(first: usize) -> usize {
+    builder(|builder| {
+        builder.of_part = false;
+        builder.parts.push(Declared {
+            // The source knows the scopes; see `Leaves`.
+            name: std::mem::take(&mut builder.scope),
+            registers: first..builder.registers.len(),
+            instance: None,
+        });
+        builder.parts.len() - 1
+    })
+}
+
+/// The path of a part.
+#[inline(never)]
+fn path(part: usize) -> String {
+    builder(|builder| format!("{}.{}", builder.path, builder.parts[part].name))
+}
+
+/// Makes a part an instance of its module; returns the nodes of all its nets.
+#[inline(never)]
+fn instance(
+    part: usize,
+    (module, settings): (usize, Vec<Setting>),
+    inputs: Vec<build::Id>,
+    site: super::Site,
+) -> Vec<build::Id> {
+    let leaves = elaboration(|elaboration| elaboration.modules[module].net_leaves());
+    let instance = builder(|builder| builder.instances.len());
+    let ports: Vec<_> = (0..leaves)
+        .map(|leaf| {
+            let shape = elaboration(|elaboration| elaboration.modules[module].net_shape(leaf));
+            node(Node::Port { instance, leaf }, shape)
+        })
+        .collect();
+    elaboration(|elaboration| {
+        let Some(builder) = elaboration.open.last_mut() else {
+            return;
+        };
+        let declared = &mut builder.parts[part];
+        declared.instance = Some(instance);
+        let (name, registers) = (declared.name.clone(), declared.registers.clone());
+        let inside: Vec<Register> = elaboration.modules[module].register_leaves().collect();
+        builder.claim(instance, registers, &inside);
+        builder.instances.push(Instance {
+            child: Child {
+                name,
+                module,
+                inputs,
+            },
+            settings,
+            ports: ports.clone(),
+            site,
+        });
+    });
+    ports
+}
+
+/// Settles several parts; `drive` gives the ports in of one by its index.
+#[track_caller]
+pub fn settle_each<C: Circuit>(
+    parts: Vec<Part<C>>,
+    mut drive: impl FnMut(usize) -> C::In<Wire>,
+) -> Vec<Settled<C>> {
+    let mut settled = Vec::with_capacity(parts.len());
+    for (index, part) in parts.into_iter().enumerate() {
+        settled.push(part.settle(drive(index)));
+    }
+    settled
+}
+
+/// The nodes that drive ports in, each as wide as its port.
+fn drive<C: Circuit>(circuit: &C, i: &C::In<Wire>, site: super::Site) -> Vec<build::Id> {
+    let mut wanted = Counted::default();
+    C::In::<Shapes>::make(circuit, view::role(Role::Input), &mut wanted);
+    let mut given = Counted::default();
+    i.visit(view::role(Role::Input), &mut given);
+    pair(&given, &wanted, site, "port")
+}
+
+/// The nodes of the leaves of a record, each as wide as it is declared.
+pub(super) fn pair(
+    given: &Counted,
+    wanted: &Counted,
+    site: super::Site,
+    what: &str,
+) -> Vec<build::Id> {
+    if given.leaves.len() != wanted.leaves.len() {
+        let names = |leaves: &Counted| {
+            let mut names: Vec<_> = leaves.leaves.iter().map(|leaf| leaf.name.clone()).collect();
+            names.reverse();
+            names
+        };
+        let (mut found, mut asked) = (names(given), names(wanted));
+        while !found.is_empty() && found.last() == asked.last() {
+            found.pop();
+            asked.pop();
+        }
+        let what = match (found.pop(), asked.pop()) {
+            (Some(found), None) => format!("{what} `{found}` is not there"),
+            (_, Some(asked)) => format!("{what} `{asked}` is given nothing"),
+            (None, None) => format!("{what}s do not match"),
+        };
+        build::mistake(site, what);
+        return wanted
+            .leaves
+            .iter()
+            .map(|leaf| {
+                let shape = leaf.shape;
+                let width = shape.width.clamp(1, 64);
+                build::constant(0, Shape { width, ..shape })
+            })
+            .collect();
+    }
+    let pairs = given.leaves.iter().zip(&wanted.leaves);
+    pairs
+        .map(|(given, wanted)| {
+            let id = given.token as build::Id;
+            let found = build::shape(id);
+            if found.width == wanted.shape.width || !(1..=64).contains(&wanted.shape.width) {
+                return id;
+            }
+            let from = builder(|builder| builder.describe(id));
+            let site = match what {
+                "port" => site,
+                _ => builder(|builder| builder.site_of(id)),
+            };
+            let (wanted_bits, found) = (build::bits(wanted.shape.width), build::bits(found.width));
+            build::mistake(
+                site,
+                format!(
+                    "{what} `{}` has {wanted_bits}, {from} has {found}",
+                    wanted.name
+                ),
+            );
+            build::resize(id, wanted.shape)
+        })
+        .collect()
+}
+
+/// Leaves of a record by name.
+#[derive(Default)]
+pub(crate) struct Counted {
+    path: Path,
+    pub leaves: Vec<Leaf>,
+    pub memories: Vec<(String, Written)>,
+}
+
+pub(crate) struct Leaf {
+    pub name: String,
+    pub field: &'static Field,
+    pub shape: Shape,
+    pub token: u64,
+}
+
+impl Counted {
+    fn name(&mut self, field: &'static Field) -> String {
+        let name = self.path.name(field);
+        build::flat(self.path.scopes(), &name)
+    }
+}
+
+impl Source for Counted {
+    fn enter(&mut self, field: &'static Field) {
+        self.path.enter(field);
+    }
+    fn leave(&mut self) {
+        self.path.leave();
+    }
+    fn element(&mut self, index: usize) {
+        self.path.element(index);
+    }
+    fn word(&mut self, field: &'static Field, shape: Shape, _: u64) -> u64 {
+        let name = self.name(field);
+        self.leaves.push(Leaf {
+            name,
+            field,
+            shape,
+            token: 0,
+        });
+        0
+    }
+    fn memory(
+        &mut self,
+        field: &'static Field,
+        _: &'static Field,
+        shape: super::MemoryShape,
+        _: &dyn Fn() -> super::Contents,
+    ) -> super::Cells {
+        let name = self.name(field);
+        self.memories.push((name, Written::default()));
+        Leaves::no_cells(shape)
+    }
+}
+
+impl Sink for Counted {
+    fn enter(&mut self, field: &'static Field) {
+        self.path.enter(field);
+    }
+    fn leave(&mut self) {
+        self.path.leave();
+    }
+    fn element(&mut self, index: usize) {
+        self.path.element(index);
+    }
+    fn word(&mut self, field: &'static Field, token: u64) {
+        let name = self.name(field);
+        self.leaves.push(Leaf {
+            name,
+            field,
+            shape: super::BIT,
+            token,
+        });
+    }
+    fn memory(&mut self, field: &'static Field, written: Written) {
+        let name = self.name(field);
+        self.memories.push((name, written));
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Part<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(self.circuit.name())
+            .field("circuit", &self.circuit)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Settled<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,226 @@
+//! Places: where signals are that are looked at.
+
+use super::Circuit;
+use super::memory::Contents;
+use super::record::{Cells, MemoryShape, Pass, Record, Source};
+use super::view::{self, Place};
+use crate::engine::Engine;
+use crate::hdl::{Field, Role, Shape};
+use std::fmt;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// Where a signal is, and what is seen there: a `bool`, `u64` or `i64`.
+pub struct At<T> {
+    leaf: u32,
+    /// Bits of 64 that are above it.
+    spare: u32,
+    number: PhantomData<fn() -> T>,
+}
+
+impl<T> At<T> {
+    pub(super) fn new(leaf: usize, width: usize) -> Self {
+        At {
+            leaf: leaf as u32,
+            spare: 64 - width as u32,
+            number: PhantomData,
+        }
+    }
+
+    /// The leaf of the walk.
+    pub fn leaf(self) -> usize {
+        self.leaf as usize
+    }
+
+    /// Width of the signal in bits.
+    pub fn width(self) -> usize {
+        64 - self.spare as usize
+    }
+}
+
+impl<T: Number> At<T> {
+    #[inline]
+    pub(crate) fn of(self, engine: &Engine) -> T {
+        T::of(engine.leaf(self.leaf as usize), self.spare)
+    }
+}
+
+// Written out because a derive would ask the number itself to be `Copy`.
+impl<T> Clone for At<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for At<T> {}
+
+impl<T> PartialEq for At<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.leaf == other.leaf
+    }
+}
+
+impl<T> fmt::Debug for At<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "At({})", self.leaf)
+    }
+}
+
+/// What is seen at a place.
+pub trait Number: Copy {
+    /// From the word that stands there, and the number of bits above it.
+    fn of(word: u64, spare: u32) -> Self;
+    /// The word that it is.
+    fn word(self) -> u64;
+}
+
+impl Number for bool {
+    #[inline]
+    fn of(word: u64, _: u32) -> bool {
+        word != 0
+    }
+    fn word(self) -> u64 {
+        self.into()
+    }
+}
+
+impl Number for u64 {
+    #[inline]
+    fn of(word: u64, _: u32) -> u64 {
+        word
+    }
+    fn word(self) -> u64 {
+        self
+    }
+}
+
+impl Number for i64 {
+    #[inline]
+    fn of(word: u64, spare: u32) -> i64 {
+        (word << spare) as i64 >> spare
+    }
+    fn word(self) -> u64 {
+        self as u64
+    }
+}
+
+/// Where the words of a memory are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MemoryAt {
+    first: usize,
+    words: usize,
+    width: usize,
+}
+
+impl MemoryAt {
+    pub(super) fn new(first: usize, words: usize, width: usize) -> Self {
+        MemoryAt {
+            first,
+            words,
+            width,
+        }
+    }
+
+    /// The number of words.
+    pub fn words(self) -> usize {
+        self.words
+    }
+
+    /// A word; `None` where there is none.
+    pub fn word(self, index: usize) -> Option<At<u64>> {
+        (index < self.words).then(|| At::new(self.first + index, self.width))
+    }
+}
+
+/// The places of all signals of a circuit, those of the circuits inside it too.
+pub struct Signals<C: Circuit> {
+    /// Ports in.
+    pub i: C::In<Place>,
+    /// Registers.
+    pub q: C::Reg<Place>,
+    /// Nets.
+    pub w: C::Net<Place>,
+    /// The circuits inside.
+    pub p: C::Parts<Place>,
+}
+
+impl<C: Circuit> fmt::Debug for Signals<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME).finish_non_exhaustive()
+    }
+}
+
+impl<C: Circuit> Signals<C> {
+    /// Those of a circuit; `beside` ports in stand beside it, behind its own.
+    pub(super) fn of(circuit: &C, beside: usize) -> Self {
+        let mut count = Leaves {
+            inputs: 0,
+            registers: 0,
+            nets: 0,
+            pass: None,
+        };
+        let i = C::In::make(circuit, view::role(Role::Input), &mut count);
+        let ports = count.inputs + beside;
+        let mut registers = Leaves {
+            pass: Some(Pass::Registers),
+            ..count
+        };
+        view::registers(circuit, &mut registers);
+        count.registers = ports;
+        count.nets = ports + registers.registers;
+        count.pass = Some(Pass::Registers);
+        let q = C::Reg::make(circuit, view::role(Role::Register), &mut count);
+        let p = C::Parts::make(circuit, view::role(Role::Net), &mut count);
+        count.pass = Some(Pass::Nets);
+        let w = C::Net::make(circuit, view::role(Role::Net), &mut count);
+        Signals { i, q, w, p }
+    }
+}
+
+/// Numbers leaves: ports in, then registers, then nets.
+#[derive(Clone, Copy)]
+struct Leaves {
+    inputs: usize,
+    registers: usize,
+    nets: usize,
+    /// None: ports in.
+    pass: Option<Pass>,
+}
+
+impl Leaves {
+    fn next(&mut self, leaves: usize) -> usize {
+        let next = match self.pass {
+            None => &mut self.inputs,
+            Some(Pass::Registers) => &mut self.registers,
+            Some(Pass::Nets) => &mut self.nets,
+        };
+        *next += leaves;
+        *next - leaves
+    }
+}
+
+impl Source for Leaves {
+    fn pass(&mut self, pass: Pass) {
+        self.pass = Some(pass);
+    }
+    fn passing(&self) -> Pass {
+        self.pass.unwrap_or(Pass::Registers)
+    }
+    fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
+        self.next(1) as u64
+    }
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        shape: MemoryShape,
+        _: &dyn Fn() -> Contents,
+    ) -> Cells {
+        Cells {
+            first: self.next(shape.words),
+            words: shape.words,
+            width: shape.width,
+            contents: Arc::new([]),
+        }
+    }
+}

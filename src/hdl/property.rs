@@ -1,0 +1,219 @@
+//! Properties of a circuit, written in words.
+
+use super::Circuit;
+use super::build::{builder, node};
+use super::elaborate::{Leaves, Nets};
+use super::memory::Contents;
+use super::record::{Cells, MemoryShape, Pass, Record, Source};
+use super::view::{self, Seen, Wire};
+use super::words::Bit;
+use crate::hdl::netlist::{Assertion, Id, Node, Register};
+use crate::hdl::{Field, Role, Shape};
+use std::fmt;
+
+/// The signals of a settled tick, and the registers after its edge.
+pub struct Moment<C: Circuit> {
+    /// Ports in.
+    pub i: C::In<Wire>,
+    /// Registers.
+    pub q: C::Reg<Seen>,
+    /// Nets.
+    pub w: C::Net<Wire>,
+    /// The circuits inside.
+    pub p: C::Parts<Seen>,
+    /// The registers after the edge.
+    pub next: After<C>,
+}
+
+/// Registers after an edge.
+pub struct After<C: Circuit> {
+    /// The circuit's own.
+    pub q: C::Reg<Seen>,
+    /// Those of the circuits inside.
+    pub p: C::Parts<Seen>,
+}
+
+impl<C: Circuit> fmt::Debug for Moment<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME).finish_non_exhaustive()
+    }
+}
+
+impl<C: Circuit> fmt::Debug for After<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME).finish_non_exhaustive()
+    }
+}
+
+/// An invariant that is written in words: `check` proves it where words are narrow, and it stands
+/// in the printed HDL as an assertion that other tools prove where they are wide.
+#[derive(Debug, Clone)]
+pub struct Property {
+    /// What holds.
+    pub name: &'static str,
+    /// The signals at fault where it does not.
+    pub signals: &'static [&'static str],
+    /// Whether it looks at the registers after the edge.
+    pub step: bool,
+    /// High where it holds.
+    pub holds: Bit,
+}
+
+impl Property {
+    /// Of the settled signals of a tick.
+    pub fn always(name: &'static str, signals: &'static [&'static str], holds: Bit) -> Self {
+        Property {
+            name,
+            signals,
+            step: false,
+            holds,
+        }
+    }
+
+    /// Of the settled signals of a tick and the registers after its edge.
+    pub fn step(name: &'static str, signals: &'static [&'static str], holds: Bit) -> Self {
+        Property {
+            step: true,
+            ..Property::always(name, signals, holds)
+        }
+    }
+}
+
+/// Adds the properties of a circuit to the module being made. Those that look over an edge are
+/// about the tick before and the registers of this one.
+pub(super) fn note<C: Circuit>(circuit: &C, nets: &Nets) {
+    let now = There::of(nets);
+    let always = circuit.properties(&now.moment(circuit, &now));
+    if always.is_empty() {
+        return;
+    }
+    let past = now.past();
+    let steps = circuit.properties(&past.moment(circuit, &now));
+    for (always, step) in always.into_iter().zip(steps) {
+        let property = if always.step { step } else { always };
+        builder(|builder| {
+            builder.assertions.push(Assertion {
+                name: property.name,
+                signals: property.signals,
+                step: property.step,
+                holds: property.holds.0,
+            });
+        });
+    }
+}
+
+/// The nodes of all signals of the module being made, in the order of the walks.
+struct There {
+    inputs: Vec<Id>,
+    registers: Vec<Id>,
+    nets: Vec<Id>,
+}
+
+impl There {
+    fn of(nets: &Nets) -> Self {
+        let (inputs, registers): (Vec<_>, Vec<_>) = builder(|builder| {
+            let signals = builder.signals.iter().enumerate();
+            let inputs = signals.filter(|(_, signal)| signal.role == Role::Input);
+            let inputs = inputs.map(|(index, signal)| (index, signal.shape));
+            let registers = builder
+                .registers
+                .iter()
+                .filter_map(|register| match register {
+                    Register::Signal(signal) => Some((*signal, builder.signals[*signal].shape)),
+                    Register::Memory(_) => None,
+                });
+            (inputs.collect(), registers.collect())
+        });
+        let read = |signals: Vec<(usize, Shape)>| {
+            let nodes = signals.into_iter();
+            nodes
+                .map(|(signal, shape)| node(Node::Signal(signal), shape))
+                .collect()
+        };
+        There {
+            inputs: read(inputs),
+            registers: read(registers),
+            nets: nets.nodes.clone(),
+        }
+    }
+
+    /// Everything as it was a tick ago.
+    fn past(&self) -> There {
+        let past = |nodes: &[Id]| {
+            let nodes = nodes.iter();
+            nodes
+                .map(|id| node(Node::Past(*id), super::build::shape(*id)))
+                .collect()
+        };
+        There {
+            inputs: past(&self.inputs),
+            registers: past(&self.registers),
+            nets: past(&self.nets),
+        }
+    }
+
+    fn moment<C: Circuit>(&self, circuit: &C, next: &There) -> Moment<C> {
+        let mut inputs = Again {
+            registers: self.inputs.iter(),
+            nets: [].iter(),
+            pass: Pass::Registers,
+        };
+        let i = C::In::make(circuit, view::role(Role::Input), &mut inputs);
+        let mut again = self.again();
+        let q = C::Reg::make(circuit, view::role(Role::Register), &mut again);
+        let p = C::Parts::make(circuit, view::role(Role::Net), &mut again);
+        again.pass(Pass::Nets);
+        let w = C::Net::make(circuit, view::role(Role::Net), &mut again);
+        let mut again = next.again();
+        let next = After {
+            q: C::Reg::make(circuit, view::role(Role::Register), &mut again),
+            p: C::Parts::make(circuit, view::role(Role::Net), &mut again),
+        };
+        Moment { i, q, w, p, next }
+    }
+
+    /// Registers, and nets where a part has them.
+    fn again(&self) -> Again<'_> {
+        Again {
+            registers: self.registers.iter(),
+            nets: self.nets.iter(),
+            pass: Pass::Registers,
+        }
+    }
+}
+
+/// Nodes that are there, in the order of the walks.
+struct Again<'a> {
+    registers: std::slice::Iter<'a, Id>,
+    nets: std::slice::Iter<'a, Id>,
+    pass: Pass,
+}
+
+impl Source for Again<'_> {
+    fn pass(&mut self, pass: Pass) {
+        self.pass = pass;
+    }
+    fn passing(&self) -> Pass {
+        self.pass
+    }
+    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
+        let next = match self.pass {
+            Pass::Registers => self.registers.next(),
+            Pass::Nets => self.nets.next(),
+        };
+        match next {
+            Some(id) => *id as u64,
+            // There are as many as the same walk found.
+            None => node(Node::Constant(0), shape) as u64,
+        }
+    }
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        shape: MemoryShape,
+        _: &dyn Fn() -> Contents,
+    ) -> Cells {
+        Leaves::no_cells(shape)
+    }
+}

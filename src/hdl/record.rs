@@ -1,0 +1,149 @@
+//! Records of signals, for any view of a signal.
+
+use super::memory::{Contents, Written};
+use super::view::View;
+use crate::hdl::{Field, Kind, Shape};
+use std::sync::Arc;
+
+/// A struct of signals that belong to a `C`, as a [`View`] sees them: made by
+/// [`signals!`](crate::hdl::signals).
+///
+/// A walk goes through the leaves in the order of declaration and never branches on a value, so the
+/// place of a leaf in the walk is its identity. Widths are those that the `C` says.
+pub trait Record<C: ?Sized, V: View>: Walk<V> {
+    /// Makes one with each leaf given by `source`.
+    fn make(of: &C, field: &'static Field, source: &mut dyn Source) -> Self;
+}
+
+/// A record that can be walked over, whatever it belongs to.
+pub trait Walk<V: View>: Sized + 'static {
+    /// Where it is declared.
+    const SITE: Site;
+    /// Shows each leaf to `sink`.
+    fn visit(&self, field: &'static Field, sink: &mut dyn Sink);
+}
+
+/// A place in a source file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Site {
+    /// The file.
+    pub file: &'static str,
+    /// The line, from 1.
+    pub line: u32,
+    /// The column, from 1.
+    pub column: u32,
+}
+
+/// Which leaves a walk over parts is for: registers come before nets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pass {
+    /// Registers and memories.
+    Registers,
+    /// Nets, and ports in of parts.
+    Nets,
+}
+
+/// The words of a memory, for a view.
+#[derive(Debug, Clone)]
+pub struct Cells {
+    /// The memory, or the leaf that is its first word.
+    pub first: usize,
+    /// The number of words.
+    pub words: usize,
+    /// Width of a word in bits.
+    pub width: usize,
+    /// What they are.
+    pub contents: Arc<[u64]>,
+}
+
+/// Where the leaves of a record come from.
+pub trait Source {
+    /// A struct begins.
+    fn enter(&mut self, _field: &'static Field) {}
+    /// The struct entered last ends.
+    fn leave(&mut self) {}
+    /// What comes next is element `index` of an array.
+    fn element(&mut self, _index: usize) {}
+    /// Leaves to come are of this pass.
+    fn pass(&mut self, _pass: Pass) {}
+    /// The pass.
+    fn passing(&self) -> Pass {
+        Pass::Registers
+    }
+    /// A word; `power_on` is what a register holds then.
+    fn word(&mut self, field: &'static Field, shape: Shape, power_on: u64) -> u64;
+    /// A memory of so many words, each of which is called `label`.
+    fn memory(
+        &mut self,
+        field: &'static Field,
+        label: &'static Field,
+        shape: MemoryShape,
+        contents: &dyn Fn() -> Contents,
+    ) -> Cells;
+}
+
+/// Words and width of a memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MemoryShape {
+    /// The number of words; for a RAM 2^address.
+    pub words: usize,
+    /// Width of a word in bits.
+    pub width: usize,
+    /// Width of the address of a RAM.
+    pub address: Option<usize>,
+}
+
+/// What looks at the leaves of a record.
+pub trait Sink {
+    /// A struct begins.
+    fn enter(&mut self, _field: &'static Field) {}
+    /// The struct entered last ends.
+    fn leave(&mut self) {}
+    /// What comes next is element `index` of an array.
+    fn element(&mut self, _index: usize) {}
+    /// A word.
+    fn word(&mut self, field: &'static Field, token: u64);
+    /// A memory.
+    fn memory(&mut self, _field: &'static Field, _written: Written) {}
+}
+
+/// No signals at all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Nothing;
+
+impl<C: ?Sized, V: View> Record<C, V> for Nothing {
+    fn make(_: &C, _: &'static Field, _: &mut dyn Source) -> Self {
+        Nothing
+    }
+}
+
+impl<V: View> Walk<V> for Nothing {
+    const SITE: Site = Site {
+        file: file!(),
+        line: line!(),
+        column: column!(),
+    };
+    fn visit(&self, _: &'static Field, _: &mut dyn Sink) {}
+}
+
+/// One wire.
+pub const BIT: Shape = Shape {
+    kind: Kind::Bit,
+    width: 1,
+};
+
+/// An unsigned word.
+pub const fn unsigned(width: usize) -> Shape {
+    Shape {
+        kind: Kind::Unsigned,
+        width,
+    }
+}
+
+/// A two's complement word.
+pub const fn signed(width: usize) -> Shape {
+    Shape {
+        kind: Kind::Signed,
+        width,
+    }
+}

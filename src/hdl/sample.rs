@@ -1,0 +1,423 @@
+//! A tick as numbers.
+
+use super::Circuit;
+use super::memory::Contents;
+use super::place::{At, Number, Signals};
+use super::record::{Cells, MemoryShape, Pass, Record, Source};
+use super::view::{self, Kept, Value};
+use crate::engine::{Engine, Spot};
+use crate::hdl::{Field, Model, Role, Shape};
+use std::cell::OnceCell;
+use std::fmt;
+use std::ops::Deref;
+use std::sync::{Arc, OnceLock};
+
+/// All signals of a circuit inside another, as numbers.
+pub struct Values<C: Circuit> {
+    /// Ports in.
+    pub i: C::In<Value>,
+    /// Registers.
+    pub q: C::Reg<Value>,
+    /// Nets.
+    pub w: C::Net<Value>,
+    /// The circuits inside.
+    pub p: C::Parts<Value>,
+}
+
+/// All registers of a circuit, as numbers.
+pub struct Registers<C: Circuit> {
+    /// Its own.
+    pub q: C::Reg<Value>,
+    /// Those of the circuits inside.
+    pub p: C::Parts<Kept>,
+}
+
+/// All signals of a circuit at one tick, settled: what stands in the waves while `clk` is high.
+///
+/// Records are made when they are first looked at; [`get`](Self::get) makes none.
+pub struct Sample<'a, C: Circuit> {
+    /// The tick, from 0.
+    pub tick: u64,
+    /// Ports in.
+    pub i: &'a Lazy<'a, C::In<Value>>,
+    /// Registers.
+    pub q: &'a Lazy<'a, C::Reg<Value>>,
+    /// Nets.
+    pub w: &'a Lazy<'a, C::Net<Value>>,
+    /// The circuits inside.
+    pub p: &'a Lazy<'a, C::Parts<Value>>,
+    /// The places of all signals.
+    of: &'a dyn Of<C>,
+    engine: &'a Engine,
+    /// Whether what stands beside the circuit is left out.
+    alone: bool,
+}
+
+/// The registers of a circuit between two ticks.
+pub struct State<'a, C: Circuit> {
+    /// Its own.
+    pub q: &'a Lazy<'a, C::Reg<Value>>,
+    /// Those of the circuits inside.
+    pub p: &'a Lazy<'a, C::Parts<Kept>>,
+    engine: &'a Engine,
+}
+
+/// Ports in and own registers that are at hand.
+pub(crate) type Given<'g, C> = (
+    Option<&'g <C as Circuit>::In<Value>>,
+    Option<&'g <C as Circuit>::Reg<Value>>,
+);
+
+/// What knows a circuit and its places.
+pub(crate) trait Of<C: Circuit> {
+    fn circuit(&self) -> &C;
+    fn signals(&self) -> &Signals<C>;
+    /// How many ports in are the circuit's own.
+    fn ports(&self) -> usize;
+    /// How many nets are.
+    fn nets(&self) -> usize;
+}
+
+/// The circuit and where its signals are.
+pub(crate) struct Known<C: Circuit> {
+    pub circuit: C,
+    /// How many ports in stand beside it.
+    pub beside: usize,
+    /// All bits of each port in.
+    pub masks: Vec<u64>,
+    /// How many nets are its own.
+    nets: usize,
+    signals: OnceLock<Signals<C>>,
+}
+
+impl<C: Circuit> Known<C> {
+    pub fn of(circuit: &C, model: &Model, beside: usize) -> Self {
+        let inputs = model.flat().inputs.iter();
+        Known {
+            circuit: circuit.clone(),
+            beside,
+            masks: inputs.map(|width| u64::MAX >> (64 - width)).collect(),
+            nets: super::pack::widths::<C, C::Net<view::Shapes>>(circuit).len(),
+            signals: OnceLock::new(),
+        }
+    }
+}
+
+impl<C: Circuit> Of<C> for Known<C> {
+    fn circuit(&self) -> &C {
+        &self.circuit
+    }
+    fn signals(&self) -> &Signals<C> {
+        let signals = || Signals::of(&self.circuit, self.beside);
+        self.signals.get_or_init(signals)
+    }
+    fn ports(&self) -> usize {
+        self.masks.len() - self.beside
+    }
+    fn nets(&self) -> usize {
+        self.nets
+    }
+}
+
+/// The leaves of an engine, without those of signals that stand beside the circuit: these come last
+/// among its ports in.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct View<'a> {
+    pub engine: &'a Engine,
+    first: usize,
+    count: usize,
+}
+
+impl<'a> View<'a> {
+    /// All of them.
+    pub fn of(engine: &'a Engine) -> Self {
+        View {
+            engine,
+            first: usize::MAX,
+            count: 0,
+        }
+    }
+
+    fn without(engine: &'a Engine, ports: usize) -> Self {
+        View {
+            engine,
+            first: ports,
+            count: engine.flat().inputs.len() - ports,
+        }
+    }
+
+    /// What a leaf of the circuit is.
+    pub fn leaf(self, leaf: usize) -> u64 {
+        match leaf < self.first {
+            true => self.engine.leaf(leaf),
+            false => self.engine.leaf(leaf + self.count),
+        }
+    }
+
+    /// The leaf of the circuit that one of the engine is.
+    pub fn shown(self, leaf: u32) -> Option<u32> {
+        match (leaf as usize).checked_sub(self.first) {
+            None => Some(leaf),
+            Some(behind) if behind < self.count => None,
+            Some(_) => Some(leaf - self.count as u32),
+        }
+    }
+}
+
+/// A record that is made when it is first looked at.
+pub struct Lazy<'a, S> {
+    /// One that is at hand.
+    given: Option<&'a S>,
+    made: OnceCell<S>,
+    make: &'a dyn Fn() -> S,
+}
+
+impl<'a, S> Lazy<'a, S> {
+    fn new(make: &'a dyn Fn() -> S) -> Self {
+        Lazy {
+            given: None,
+            made: OnceCell::new(),
+            make,
+        }
+    }
+}
+
+impl<S> Deref for Lazy<'_, S> {
+    type Target = S;
+
+    fn deref(&self) -> &S {
+        match self.given {
+            Some(given) => given,
+            None => self.made.get_or_init(self.make),
+        }
+    }
+}
+
+impl<S: fmt::Debug> fmt::Debug for Lazy<'_, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        (**self).fmt(f)
+    }
+}
+
+impl<C: Circuit> Sample<'_, C> {
+    pub(crate) fn show<T>(
+        tick: u64,
+        of: &dyn Of<C>,
+        engine: &Engine,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> T {
+        Self::show_given(tick, of, engine, (None, None), show)
+    }
+
+    /// The same where ports in and own registers are at hand.
+    pub(crate) fn show_given<T>(
+        tick: u64,
+        of: &dyn Of<C>,
+        engine: &Engine,
+        given: Given<'_, C>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> T {
+        let circuit = of.circuit();
+        let (i, q) = given;
+        show(&Sample {
+            tick,
+            i: &Lazy {
+                given: i,
+                ..Lazy::new(&|| {
+                    let mut leaves = Leaves::of(engine, Role::Input);
+                    C::In::make(circuit, view::role(Role::Input), &mut leaves)
+                })
+            },
+            q: &Lazy {
+                given: q,
+                ..Lazy::new(&|| registers(circuit, engine))
+            },
+            w: &Lazy::new(&|| {
+                let mut leaves = Leaves::of(engine, Role::Net);
+                // Its own come last.
+                leaves.nets = engine.leaves() - of.nets();
+                C::Net::make(circuit, view::role(Role::Net), &mut leaves)
+            }),
+            p: &Lazy::new(&|| {
+                let mut leaves = Leaves::of(engine, Role::Register);
+                C::Reg::<view::Shapes>::make(circuit, view::role(Role::Register), &mut leaves);
+                C::Parts::make(circuit, view::role(Role::Net), &mut leaves)
+            }),
+            of,
+            engine,
+            alone: false,
+        })
+    }
+
+    /// The leaves of the circuit.
+    pub(crate) fn view(&self) -> View<'_> {
+        match self.alone {
+            false => View::of(self.engine),
+            true => View::without(self.engine, self.of.ports()),
+        }
+    }
+
+    /// The same tick without what stands beside the circuit.
+    pub(crate) fn alone(&self) -> Sample<'_, C> {
+        Sample {
+            alone: true,
+            ..*self
+        }
+    }
+
+    /// What stands at a place.
+    #[inline]
+    pub fn get<T: Number>(&self, at: At<T>) -> T {
+        at.of(self.engine)
+    }
+
+    /// What one of the [signals](Signals) is: `now.see(|s| s.w.enable)`.
+    pub fn see<T: Number>(&self, signal: impl FnOnce(&Signals<C>) -> At<T>) -> T {
+        self.get(signal(self.of.signals()))
+    }
+
+    /// What runs.
+    pub fn engine(&self) -> &Engine {
+        self.engine
+    }
+
+    /// The registers of the next tick, if no reset comes.
+    pub fn next(&self) -> Registers<C> {
+        let mut engine = self.engine.clone();
+        engine.edge();
+        all_registers(self.of.circuit(), &engine)
+    }
+}
+
+impl<C: Circuit> State<'_, C> {
+    pub(crate) fn show<T>(
+        of: &dyn Of<C>,
+        engine: &Engine,
+        show: impl FnOnce(&State<'_, C>) -> T,
+    ) -> T {
+        let circuit = of.circuit();
+        show(&State {
+            q: &Lazy::new(&|| registers(circuit, engine)),
+            p: &Lazy::new(&|| all_registers(circuit, engine).p),
+            engine,
+        })
+    }
+
+    /// What a register holds, by its place.
+    #[inline]
+    pub fn get<T: Number>(&self, at: At<T>) -> T {
+        at.of(self.engine)
+    }
+}
+
+fn registers<C: Circuit>(circuit: &C, engine: &Engine) -> C::Reg<Value> {
+    let mut leaves = Leaves::of(engine, Role::Register);
+    C::Reg::make(circuit, view::role(Role::Register), &mut leaves)
+}
+
+/// The registers of a circuit and of those inside it.
+pub(crate) fn all_registers<C: Circuit>(circuit: &C, engine: &Engine) -> Registers<C> {
+    let mut leaves = Leaves::of(engine, Role::Register);
+    let q = C::Reg::make(circuit, view::role(Role::Register), &mut leaves);
+    let p = C::Parts::make(circuit, view::role(Role::Register), &mut leaves);
+    Registers { q, p }
+}
+
+/// The leaves of an engine, in the order of a walk.
+struct Leaves<'a> {
+    engine: &'a Engine,
+    spots: &'a [Spot],
+    slab: &'a [u64],
+    inputs: usize,
+    registers: usize,
+    nets: usize,
+    role: Role,
+}
+
+impl<'a> Leaves<'a> {
+    fn of(engine: &'a Engine, role: Role) -> Self {
+        let first = |role| engine.flat().part(role).start;
+        Leaves {
+            engine,
+            spots: &engine.program().plan().layout.leaves,
+            slab: engine.slab(),
+            inputs: first(Role::Input),
+            registers: first(Role::Register),
+            nets: first(Role::Net),
+            role,
+        }
+    }
+
+    fn next(&mut self, leaves: usize) -> usize {
+        let next = match self.role {
+            Role::Input => &mut self.inputs,
+            Role::Register => &mut self.registers,
+            Role::Net => &mut self.nets,
+        };
+        *next += leaves;
+        *next - leaves
+    }
+}
+
+impl Source for Leaves<'_> {
+    fn pass(&mut self, pass: Pass) {
+        self.role = match pass {
+            Pass::Registers => Role::Register,
+            Pass::Nets => Role::Net,
+        };
+    }
+    fn passing(&self) -> Pass {
+        match self.role {
+            Role::Net => Pass::Nets,
+            _ => Pass::Registers,
+        }
+    }
+    fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
+        let leaf = self.next(1);
+        match self.spots.get(leaf) {
+            Some(Spot::Slot(slot)) => self.slab[*slot as usize],
+            _ => self.engine.leaf(leaf),
+        }
+    }
+    fn memory(
+        &mut self,
+        _: &'static Field,
+        _: &'static Field,
+        shape: MemoryShape,
+        _: &dyn Fn() -> Contents,
+    ) -> Cells {
+        let first = self.next(shape.words);
+        Cells {
+            first,
+            words: shape.words,
+            width: shape.width,
+            contents: self.engine.memory_at(first).unwrap_or(Arc::new([])),
+        }
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Sample<'_, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME)
+            .field("tick", &self.tick)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<C: Circuit> fmt::Debug for State<'_, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME).finish_non_exhaustive()
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Values<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME).finish_non_exhaustive()
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Registers<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME).finish_non_exhaustive()
+    }
+}

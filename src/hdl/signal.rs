@@ -1,0 +1,93 @@
+//! What is known of a signal without its value.
+
+use std::borrow::Cow;
+
+/// How a signal is meant to be looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// A number.
+    Decimal,
+    /// A bit pattern or an address.
+    Hex,
+    /// A number whose course over time matters: drawn as an analog trace.
+    Analog,
+    /// A state: the value is an index into these names.
+    States(&'static [&'static str]),
+    /// On an array: the names of its elements, instead of the array's name and an index.
+    Elements(&'static [&'static str]),
+}
+
+/// Which part of a circuit a signal stands in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// A port in.
+    Input,
+    /// A flip-flop.
+    Register,
+    /// A combinational net.
+    Net,
+}
+
+/// What is known of a field of a `signals!` struct without looking at its value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Field {
+    /// Its name; empty where a struct stands for a part of a circuit and adds no scope.
+    pub name: &'static str,
+    /// Its doc comment.
+    pub doc: &'static str,
+    /// How it is meant to be looked at.
+    pub format: Format,
+    /// Whether it is visible outside its module: a port out, where it is a register or a net.
+    pub public: bool,
+    /// The part of a circuit that starts here, if one does.
+    pub role: Option<Role>,
+}
+
+impl Field {
+    /// A field with a name and nothing else said of it.
+    pub const fn named(name: &'static str) -> Field {
+        Field {
+            name,
+            doc: "",
+            format: Format::Decimal,
+            public: false,
+            role: None,
+        }
+    }
+
+    /// The struct of one part of a circuit: its fields stand in the circuit's own scope.
+    pub const fn part(role: Role) -> Field {
+        Field {
+            role: Some(role),
+            ..Field::named("")
+        }
+    }
+
+    /// The name of element `index` where this field is an array.
+    pub fn element(&self, index: usize) -> Cow<'static, str> {
+        match self.format {
+            Format::Elements(names) if index < names.len() => Cow::Borrowed(names[index]),
+            _ => Cow::Owned(format!("{}{index}", self.name)),
+        }
+    }
+}
+
+/// What kind of word a leaf is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// One wire.
+    Bit,
+    /// An unsigned word.
+    Unsigned,
+    /// A two's complement word.
+    Signed,
+}
+
+/// Kind and width of a leaf.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Shape {
+    /// What kind of word.
+    pub kind: Kind,
+    /// Width in bits.
+    pub width: usize,
+}

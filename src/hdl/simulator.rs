@@ -1,0 +1,546 @@
+//! Runs a circuit tick by tick.
+
+use super::memory::Contents;
+use super::place::{At, Number, Signals};
+use super::record::{Cells, MemoryShape, Record, Sink, Source, Walk};
+use super::sample::{Known, Of};
+use super::view::{self, Place, Shapes, Value};
+use super::{Beside, Circuit, Leaves, Observer, Sample, State};
+use crate::engine::{Engine, EngineError, Ports, Watch};
+use crate::hdl::{Field, Model, Role, RunError, Shape};
+use std::cell::RefCell;
+use std::fmt;
+use std::ops::{ControlFlow, Deref};
+use std::sync::Arc;
+
+/// A circuit that is clocked tick by tick.
+///
+/// At tick n inputs are applied, nets settle, everything is sampled; then the edge makes the
+/// registers of tick n + 1. So a register shows at n + 1 what was decided at n.
+///
+/// ```
+/// use motion_rtl::circuits::blocks::EnableCounter;
+/// use motion_rtl::hdl::Simulator;
+///
+/// let mut counter = Simulator::new(&EnableCounter { width: 8 })?;
+/// counter.set(|i| i.period, 4);
+/// for tick in 0..12 {
+///     assert_eq!(counter.see(|s| s.w.enable), tick % 4 == 3);
+///     counter.step();
+/// }
+/// # Ok::<(), motion_rtl::engine::EngineError>(())
+/// ```
+pub struct Simulator<C: Circuit> {
+    engine: Engine,
+    tick: u64,
+    settled: bool,
+    known: Arc<Known<C>>,
+}
+
+/// Two runs that go on from the same tick, each with inputs of its own.
+// Written out because a derive would ask the circuit itself to be `Clone`.
+impl<C: Circuit> Clone for Simulator<C> {
+    fn clone(&self) -> Self {
+        Simulator {
+            engine: self.engine.clone(),
+            tick: self.tick,
+            settled: self.settled,
+            known: self.known.clone(),
+        }
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Simulator<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME)
+            .field("tick", &self.tick)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Chooses what is watched; see [`Simulator::watching`].
+pub struct Watcher<'a, C: Circuit> {
+    signals: &'a Signals<C>,
+    watched: RefCell<Vec<usize>>,
+}
+
+impl<C: Circuit> Watcher<'_, C> {
+    /// What is at a place is watched.
+    pub fn at<T>(&self, at: At<T>) -> At<T> {
+        self.watched.borrow_mut().push(at.leaf());
+        at
+    }
+
+    /// What is at several places is watched.
+    pub fn each<T>(&self, places: &[At<T>]) -> Vec<At<T>> {
+        places.iter().map(|at| self.at(*at)).collect()
+    }
+}
+
+impl<C: Circuit> Deref for Watcher<'_, C> {
+    type Target = Signals<C>;
+
+    fn deref(&self) -> &Signals<C> {
+        self.signals
+    }
+}
+
+impl<C: Circuit> fmt::Debug for Watcher<'_, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct(C::NAME).finish_non_exhaustive()
+    }
+}
+
+impl<C: Circuit> Simulator<C> {
+    /// The circuit at power-on, before tick 0, all ports in low.
+    ///
+    /// # Errors
+    /// All that is wrong with the circuit.
+    pub fn new(circuit: &C) -> Result<Self, EngineError> {
+        let (simulator, ()) = Self::watching(circuit, true, |_| ())?;
+        Ok(simulator)
+    }
+
+    /// The circuit at power-on, of which nothing is looked at but what `choose` chooses, or `all`.
+    ///
+    /// Only nets that are looked at, or that registers need, are computed.
+    ///
+    /// # Errors
+    /// All that is wrong with the circuit.
+    pub fn watching<T>(
+        circuit: &C,
+        all: bool,
+        choose: impl FnOnce(&Watcher<'_, C>) -> T,
+    ) -> Result<(Self, T), EngineError> {
+        let model = super::model(circuit)?;
+        Ok(Self::of_model(circuit, &model, 0, all, choose))
+    }
+
+    /// The same with signals that stand in the waves beside it; [`show`](Self::show) says what they
+    /// are.
+    ///
+    /// # Errors
+    /// All that is wrong with the circuit.
+    pub fn watching_beside<B: Beside, T>(
+        circuit: &C,
+        beside: &B,
+        all: bool,
+        choose: impl FnOnce(&Watcher<'_, C>) -> T,
+    ) -> Result<(Self, T), EngineError> {
+        let model = super::model_beside(circuit, beside)?;
+        let ports = count(|source| {
+            B::Signals::<Shapes>::make(beside, view::role(Role::Input), source);
+        });
+        Ok(Self::of_model(circuit, &model, ports, all, choose))
+    }
+
+    fn of_model<T>(
+        circuit: &C,
+        model: &Model,
+        beside: usize,
+        all: bool,
+        choose: impl FnOnce(&Watcher<'_, C>) -> T,
+    ) -> (Self, T) {
+        let known = Known::of(circuit, model, beside);
+        let signals = known.signals();
+        let watcher = Watcher {
+            signals,
+            watched: RefCell::default(),
+        };
+        let chosen = choose(&watcher);
+        let watched = watcher.watched.into_inner();
+        let watch = match all {
+            true => Watch::All,
+            false => Watch::Leaves(&watched),
+        };
+        let engine = Engine::new(model.program_with(watch, &watched));
+        let simulator = Simulator {
+            engine,
+            tick: 0,
+            settled: false,
+            known: Arc::new(known),
+        };
+        (simulator, chosen)
+    }
+
+    /// It compiled now, instead of when that pays; without the feature `jit`, and where there is no
+    /// compiler for the machine, as it was.
+    pub fn compile(&mut self) {
+        self.engine.compile();
+    }
+
+    /// It on the interpreter, however long it runs.
+    pub fn interpret(&mut self) {
+        self.engine.interpret();
+    }
+
+    /// The circuit.
+    pub fn circuit(&self) -> &C {
+        &self.known.circuit
+    }
+
+    /// The tick to come.
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+
+    /// What runs.
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// The places of all signals.
+    pub fn signals(&self) -> &Signals<C> {
+        self.known.signals()
+    }
+
+    /// Sets a port in, from this tick on.
+    pub fn set<T: Number>(&mut self, port: impl FnOnce(&C::In<Place>) -> At<T>, value: T) {
+        let port = port(&self.known.signals().i);
+        let mask = u64::MAX >> (64 - port.width());
+        self.engine.input(port.leaf(), value.word() & mask);
+        self.settled = false;
+    }
+
+    /// Sets all ports in, from this tick on.
+    pub fn apply(&mut self, i: &C::In<Value>) {
+        let known = self.known.clone();
+        let ports = self.engine.ports();
+        let mut apply = Apply(ports, known.masks.iter());
+        i.visit(view::role(Role::Input), &mut apply);
+        self.settled = false;
+    }
+
+    /// Says what stands beside it, from this tick on.
+    pub fn show<B: Beside>(&mut self, beside: &B::Signals<Value>) {
+        let masks = self.known.masks.iter().enumerate();
+        let beside_it = masks.skip(self.known.masks.len() - self.known.beside);
+        let mut words = Words(Vec::new());
+        beside.visit(view::role(Role::Input), &mut words);
+        for ((port, mask), word) in beside_it.zip(words.0) {
+            self.engine.input(port, word & mask);
+        }
+        self.settled = false;
+    }
+
+    fn settle(&mut self) {
+        if !self.settled {
+            self.engine.settle();
+            self.settled = true;
+        }
+    }
+
+    /// What stands at a place in this tick, settled.
+    pub fn get<T: Number>(&mut self, at: At<T>) -> T {
+        self.settle();
+        at.of(&self.engine)
+    }
+
+    /// What one of the [signals](Signals) is in this tick, settled.
+    pub fn see<T: Number>(&mut self, signal: impl FnOnce(&Signals<C>) -> At<T>) -> T {
+        let at = signal(self.known.signals());
+        self.get(at)
+    }
+
+    /// Shows this tick, settled.
+    pub fn now<T>(&mut self, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
+        self.settle();
+        Sample::show(self.tick, &*self.known, &self.engine, show)
+    }
+
+    /// Shows the registers of this tick.
+    pub fn state<T>(&self, show: impl FnOnce(&State<'_, C>) -> T) -> T {
+        State::show(&*self.known, &self.engine, show)
+    }
+
+    /// The registers of this tick.
+    pub fn registers(&self) -> super::Registers<C> {
+        super::sample::all_registers(&self.known.circuit, &self.engine)
+    }
+
+    /// Goes on to the next tick.
+    pub fn step(&mut self) {
+        self.settle();
+        self.edge();
+    }
+
+    /// Goes on to the next tick by a synchronous reset.
+    ///
+    /// After such an edge every flip-flop has its power-on value. Memories and shift registers have
+    /// no reset, as block RAM has none: they take the edge as always, and what is written in the
+    /// tick of reset is written.
+    pub fn reset(&mut self) {
+        self.settle();
+        self.engine.reset();
+        self.tick += 1;
+        self.settled = false;
+    }
+
+    fn edge(&mut self) {
+        self.engine.edge();
+        self.tick += 1;
+        self.settled = false;
+    }
+
+    /// What is seen of tick after tick, with ports in as they are: an iterator that steps.
+    ///
+    /// ```
+    /// use motion_rtl::circuits::blocks::EnableCounter;
+    /// use motion_rtl::hdl::Simulator;
+    ///
+    /// let mut counter = Simulator::new(&EnableCounter { width: 8 })?;
+    /// counter.set(|i| i.period, 10);
+    /// let enable = counter.signals().w.enable;
+    /// let pulses = counter.samples(|now| now.get(enable)).take(1000).filter(|seen| *seen);
+    /// assert_eq!(pulses.count(), 100);
+    /// # Ok::<(), motion_rtl::engine::EngineError>(())
+    /// ```
+    pub fn samples<T>(
+        &mut self,
+        mut see: impl FnMut(&Sample<'_, C>) -> T,
+    ) -> impl Iterator<Item = T> {
+        std::iter::from_fn(move || {
+            let seen = self.now(&mut see);
+            self.step();
+            Some(seen)
+        })
+    }
+
+    /// Runs one tick with these inputs and shows its sample.
+    pub fn step_with<T>(&mut self, i: &C::In<Value>, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
+        self.step_with_reset(false, i, show)
+    }
+
+    /// The same; with `rst` high its edge is that of a [reset](Self::reset).
+    pub fn step_with_reset<T>(
+        &mut self,
+        rst: bool,
+        i: &C::In<Value>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> T {
+        self.apply(i);
+        let shown = self.now(show);
+        match rst {
+            true => self.reset(),
+            false => self.step(),
+        }
+        shown
+    }
+
+    /// Runs `ticks` ticks, or until an observer stops.
+    ///
+    /// `stimulus` gives the inputs of a tick from its number and its registers.
+    ///
+    /// # Errors
+    /// The first error of an observer; the run is over then.
+    pub fn run(
+        &mut self,
+        ticks: u64,
+        mut stimulus: impl FnMut(u64, &State<'_, C>) -> C::In<Value>,
+        mut observer: impl Observer<C>,
+    ) -> Result<(), RunError> {
+        let end = self.tick.saturating_add(ticks);
+        while self.tick < end {
+            let i = self.state(|q| stimulus(self.tick, q));
+            self.apply(&i);
+            let flow = self.now(|now| observer.sample(now));
+            self.edge();
+            if flow?.is_break() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Runs like [`run`](Simulator::run), but shows only ticks in which something watched may have
+    /// changed: in those between, everything that is watched is as in the tick shown last.
+    ///
+    /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it gives
+    /// the same.
+    ///
+    /// # Errors
+    /// The first error of an observer; the run is over then.
+    pub fn run_changes(
+        &mut self,
+        ticks: u64,
+        stimulus: impl FnMut(u64, &State<'_, C>) -> (C::In<Value>, u64),
+        observer: impl Observer<C>,
+    ) -> Result<(), RunError> {
+        self.run_held(ticks, stimulus, observer, false)
+    }
+
+    /// Runs like [`run`](Simulator::run), but goes over idle ticks in one.
+    ///
+    /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it gives
+    /// the same. `observer` sees every tick in which a port out may have changed. It does not see
+    /// every value of a counter: waves, stimulus files and monitors are for
+    /// [`run`](Simulator::run).
+    ///
+    /// Idle are ticks in which registers do nothing but count: everything is on straight lines, and
+    /// no decision comes out otherwise than before. No circuit needs to know of it.
+    ///
+    /// # Errors
+    /// The first error of an observer; the run is over then.
+    pub fn fast_forward(
+        &mut self,
+        ticks: u64,
+        stimulus: impl FnMut(u64, &State<'_, C>) -> (C::In<Value>, u64),
+        observer: impl Observer<C>,
+    ) -> Result<(), RunError> {
+        self.run_held(ticks, stimulus, observer, true)
+    }
+
+    fn run_held(
+        &mut self,
+        ticks: u64,
+        mut stimulus: impl FnMut(u64, &State<'_, C>) -> (C::In<Value>, u64),
+        mut observer: impl Observer<C>,
+        jumps: bool,
+    ) -> Result<(), RunError> {
+        let end = self.tick.saturating_add(ticks);
+        while self.tick < end {
+            let (i, held) = self.state(|q| stimulus(self.tick, q));
+            self.apply(&i);
+            // Until then ports in are as they are.
+            let until = self.tick.saturating_add(held.max(1)).min(end);
+            loop {
+                if self.now(|now| observer.sample(now))?.is_break() {
+                    self.edge();
+                    return Ok(());
+                }
+                if !self.go_to_change(until, jumps) {
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes on to a tick in which something watched has changed; whether there is one before
+    /// `until`, at which the registers are there and nothing is settled.
+    fn go_to_change(&mut self, until: u64, jumps: bool) -> bool {
+        self.settle();
+        loop {
+            let left = until - self.tick;
+            if jumps {
+                let gone = self.engine.forward(left);
+                self.tick += gone;
+                if gone > 0 {
+                    self.settled = false;
+                    if gone == left {
+                        return false;
+                    }
+                    self.settle();
+                    return true;
+                }
+            }
+            if left == 1 {
+                self.edge();
+                return false;
+            }
+            let most = if jumps { self.engine.pause() } else { u64::MAX };
+            // Ends settled.
+            self.tick += self.engine.advance(most.min(left - 1));
+            if self.engine.has_changed() {
+                return true;
+            }
+        }
+    }
+
+    /// Shows the sample of the tick to come, which `observer` sees too if it
+    /// [looks](Observer::looks) at it; [`go_on`](Self::go_on) goes on from there. Also gives whether
+    /// the observer goes on.
+    ///
+    /// # Errors
+    /// What `observer` objects to.
+    pub fn look<T>(
+        &mut self,
+        i: &C::In<Value>,
+        mut observer: impl Observer<C>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> Result<(T, ControlFlow<()>), RunError> {
+        self.apply(i);
+        let (shown, flow) = self.now(|now| {
+            let shown = show(now);
+            let flow = match observer.looks(now.tick) {
+                true => observer.sample(now),
+                false => Ok(ControlFlow::Continue(())),
+            };
+            (shown, flow)
+        });
+        Ok((shown, flow?))
+    }
+
+    /// [Looks](Self::look) at the tick to come and goes on by it.
+    ///
+    /// # Errors
+    /// What `observer` objects to.
+    pub fn step_watched<T>(
+        &mut self,
+        i: &C::In<Value>,
+        observer: impl Observer<C>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> Result<(T, ControlFlow<()>), RunError> {
+        let looked = self.look(i, observer, show)?;
+        self.go_on(1);
+        Ok(looked)
+    }
+
+    /// How many ticks there are up to the next at which an observer looks, the one that was
+    /// [looked](Self::look) at among them.
+    pub fn unseen(&self, observer: &impl Observer<C>) -> u64 {
+        observer.next_look(self.tick + 1) - self.tick
+    }
+
+    /// Goes on from a tick that was [looked](Self::look) at, by up to so many ticks and at least one,
+    /// ports in as they are: to the first in which a port out or what is
+    /// [watched](Self::watching) may have changed. Returns how many it has gone.
+    pub fn go_on(&mut self, ticks: u64) -> u64 {
+        let start = self.tick;
+        self.go_to_change(start.saturating_add(ticks.max(1)), true);
+        self.tick - start
+    }
+}
+
+/// Applies ports in, one after the other.
+struct Apply<'a>(Ports<'a>, std::slice::Iter<'a, u64>);
+
+impl Sink for Apply<'_> {
+    fn word(&mut self, _: &'static Field, token: u64) {
+        if let Some(mask) = self.1.next() {
+            self.0.give(token & mask);
+        }
+    }
+}
+
+/// The words of a record.
+struct Words(Vec<u64>);
+
+impl Sink for Words {
+    fn word(&mut self, _: &'static Field, token: u64) {
+        self.0.push(token);
+    }
+}
+
+/// How many leaves a walk has.
+fn count(walk: impl FnOnce(&mut dyn Source)) -> usize {
+    struct Count(usize);
+    impl Source for Count {
+        fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
+            self.0 += 1;
+            0
+        }
+        fn memory(
+            &mut self,
+            _: &'static Field,
+            _: &'static Field,
+            shape: MemoryShape,
+            _: &dyn Fn() -> Contents,
+        ) -> Cells {
+            Leaves::no_cells(shape)
+        }
+    }
+    let mut count = Count(0);
+    walk(&mut count);
+    count.0
+}

@@ -1,0 +1,370 @@
+//! What a signal is to whoever looks at a record of signals.
+
+use super::Circuit;
+use super::memory::{Ram, Shift, Written};
+use super::part::{Part, Settled};
+use super::place::{At, MemoryAt, Signals};
+use super::record::{Cells, Pass, Record, Source};
+use super::sample::{Registers, Values};
+use super::words::{Bit, I, U};
+use crate::hdl::{Field, Role};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// What a signal is to whoever looks at a record: a [`Wire`] while a circuit is elaborated, a
+/// [`Value`] while it runs, a [`Place`] where it is watched.
+///
+/// Walks over records hand on tokens: the number of a node, a value, the number of a leaf. A view
+/// says what they are.
+pub trait View: Copy + Debug + 'static {
+    /// One wire.
+    type Bit: Copy + Debug;
+    /// An unsigned word.
+    type U: Copy + Debug;
+    /// A two's complement word.
+    type I: Copy + Debug;
+    /// A memory.
+    type Ram: Debug;
+    /// A shift register.
+    type Shift: Debug;
+    /// A circuit inside another.
+    type Part<C: Circuit>;
+
+    /// A wire of a token.
+    fn bit(token: u64) -> Self::Bit;
+    /// An unsigned word of `width` bits.
+    fn u(token: u64, width: usize) -> Self::U;
+    /// A two's complement word.
+    fn i(token: u64, width: usize) -> Self::I;
+    /// A memory.
+    fn ram(cells: Cells) -> Self::Ram;
+    /// A shift register.
+    fn shift(cells: Cells) -> Self::Shift;
+    /// A circuit inside another.
+    fn part<C: Circuit>(
+        circuit: &C,
+        field: &'static Field,
+        source: &mut dyn Source,
+    ) -> Self::Part<C>;
+
+    /// The token of a wire.
+    fn of_bit(bit: Self::Bit) -> u64;
+    /// That of an unsigned word.
+    fn of_u(word: Self::U) -> u64;
+    /// That of a two's complement word.
+    fn of_i(word: Self::I) -> u64;
+    /// What an edge does to a memory.
+    fn of_ram(_: &Self::Ram) -> Written {
+        Written::default()
+    }
+    /// What an edge does to a shift register.
+    fn of_shift(_: &Self::Shift) -> Written {
+        Written::default()
+    }
+}
+
+/// The field of a record that is one part of a circuit: its fields stand in the circuit's own scope.
+pub(crate) fn role(role: Role) -> &'static Field {
+    match role {
+        Role::Input => const { &Field::part(Role::Input) },
+        Role::Register => const { &Field::part(Role::Register) },
+        Role::Net => const { &Field::part(Role::Net) },
+    }
+}
+
+/// While a circuit is elaborated.
+#[derive(Debug, Clone, Copy)]
+pub struct Wire;
+
+/// What an edge makes of registers: as [`Wire`], but a memory that was written cannot be read.
+#[derive(Debug, Clone, Copy)]
+pub struct Edge;
+
+/// Registers of a part as the circuit around it sees them: memories are the part's own affair. In
+/// [properties](super::Moment) parts are as they are settled.
+#[derive(Debug, Clone, Copy)]
+pub struct Seen;
+
+/// Numbers.
+#[derive(Debug, Clone, Copy)]
+pub struct Value;
+
+/// Registers as numbers, without nets: of a tick that is not settled.
+#[derive(Debug, Clone, Copy)]
+pub struct Kept;
+
+/// Places: what is asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Place;
+
+/// Nothing but names and widths.
+#[derive(Debug, Clone, Copy)]
+pub struct Shapes;
+
+/// Words of a netlist.
+macro_rules! words {
+    () => {
+        type Bit = Bit;
+        type U = U;
+        type I = I;
+
+        fn bit(token: u64) -> Bit {
+            Bit(token as usize)
+        }
+        fn u(token: u64, _: usize) -> U {
+            U(token as usize)
+        }
+        fn i(token: u64, _: usize) -> I {
+            I(token as usize)
+        }
+        fn of_bit(bit: Bit) -> u64 {
+            bit.0 as u64
+        }
+        fn of_u(word: U) -> u64 {
+            word.0 as u64
+        }
+        fn of_i(word: I) -> u64 {
+            word.0 as u64
+        }
+    };
+}
+
+impl View for Wire {
+    words!();
+    type Ram = Ram;
+    type Shift = Shift;
+    type Part<C: Circuit> = Part<C>;
+
+    fn ram(cells: Cells) -> Ram {
+        Ram(cells.first)
+    }
+    fn shift(cells: Cells) -> Shift {
+        Shift {
+            memory: cells.first,
+            stages: cells.words,
+        }
+    }
+    fn part<C: Circuit>(circuit: &C, field: &'static Field, source: &mut dyn Source) -> Part<C> {
+        Part::declare(circuit, field, source)
+    }
+}
+
+impl View for Edge {
+    words!();
+    type Ram = Written;
+    type Shift = Written;
+    type Part<C: Circuit> = ();
+
+    fn ram(_: Cells) -> Written {
+        Written::default()
+    }
+    fn shift(_: Cells) -> Written {
+        Written::default()
+    }
+    fn part<C: Circuit>(_: &C, _: &'static Field, _: &mut dyn Source) {}
+    fn of_ram(written: &Written) -> Written {
+        *written
+    }
+    fn of_shift(written: &Written) -> Written {
+        *written
+    }
+}
+
+impl View for Seen {
+    words!();
+    type Ram = ();
+    type Shift = ();
+    type Part<C: Circuit> = Settled<C>;
+
+    fn ram(_: Cells) {}
+    fn shift(_: Cells) {}
+    fn part<C: Circuit>(circuit: &C, field: &'static Field, source: &mut dyn Source) -> Settled<C> {
+        source.enter(field);
+        source.pass(Pass::Nets);
+        let i = C::In::make(circuit, role(Role::Input), source);
+        source.pass(Pass::Registers);
+        let q = C::Reg::make(circuit, role(Role::Register), source);
+        // What is inside a part is its own affair; its leaves are passed by.
+        C::Parts::<Shapes>::make(circuit, role(Role::Register), source);
+        source.pass(Pass::Nets);
+        C::Parts::<Shapes>::make(circuit, role(Role::Net), source);
+        let w = C::Net::make(circuit, role(Role::Net), source);
+        source.leave();
+        Settled { i, q, w }
+    }
+}
+
+/// Numbers from tokens.
+macro_rules! numbers {
+    () => {
+        type Bit = bool;
+        type U = u64;
+        type I = i64;
+        type Ram = Arc<[u64]>;
+        type Shift = Arc<[u64]>;
+
+        fn bit(token: u64) -> bool {
+            token != 0
+        }
+        fn u(token: u64, _: usize) -> u64 {
+            token
+        }
+        fn i(token: u64, width: usize) -> i64 {
+            let spare = 64 - width as u32;
+            (token << spare) as i64 >> spare
+        }
+        fn ram(cells: Cells) -> Arc<[u64]> {
+            cells.contents
+        }
+        fn shift(cells: Cells) -> Arc<[u64]> {
+            cells.contents
+        }
+        fn of_bit(bit: bool) -> u64 {
+            bit.into()
+        }
+        fn of_u(word: u64) -> u64 {
+            word
+        }
+        fn of_i(word: i64) -> u64 {
+            word as u64
+        }
+    };
+}
+
+impl View for Value {
+    numbers!();
+    type Part<C: Circuit> = Values<C>;
+
+    fn part<C: Circuit>(circuit: &C, field: &'static Field, source: &mut dyn Source) -> Values<C> {
+        source.enter(field);
+        source.pass(Pass::Nets);
+        let i = C::In::make(circuit, role(Role::Input), source);
+        source.pass(Pass::Registers);
+        let q = C::Reg::make(circuit, role(Role::Register), source);
+        let p = C::Parts::make(circuit, role(Role::Net), source);
+        source.pass(Pass::Nets);
+        let w = C::Net::make(circuit, role(Role::Net), source);
+        source.leave();
+        Values { i, q, w, p }
+    }
+}
+
+impl View for Kept {
+    numbers!();
+    type Part<C: Circuit> = Registers<C>;
+
+    fn part<C: Circuit>(
+        circuit: &C,
+        field: &'static Field,
+        source: &mut dyn Source,
+    ) -> Registers<C> {
+        source.enter(field);
+        let q = C::Reg::make(circuit, role(Role::Register), source);
+        let p = C::Parts::make(circuit, role(Role::Register), source);
+        source.leave();
+        Registers { q, p }
+    }
+}
+
+impl View for Place {
+    type Bit = At<bool>;
+    type U = At<u64>;
+    type I = At<i64>;
+    type Ram = MemoryAt;
+    type Shift = MemoryAt;
+    type Part<C: Circuit> = Signals<C>;
+
+    fn bit(token: u64) -> At<bool> {
+        At::new(token as usize, 1)
+    }
+    fn u(token: u64, width: usize) -> At<u64> {
+        At::new(token as usize, width)
+    }
+    fn i(token: u64, width: usize) -> At<i64> {
+        At::new(token as usize, width)
+    }
+    fn ram(cells: Cells) -> MemoryAt {
+        MemoryAt::new(cells.first, cells.words, cells.width)
+    }
+    fn shift(cells: Cells) -> MemoryAt {
+        MemoryAt::new(cells.first, cells.words, cells.width)
+    }
+    fn part<C: Circuit>(circuit: &C, field: &'static Field, source: &mut dyn Source) -> Signals<C> {
+        source.enter(field);
+        source.pass(Pass::Nets);
+        let i = C::In::make(circuit, role(Role::Input), source);
+        source.pass(Pass::Registers);
+        let q = C::Reg::make(circuit, role(Role::Register), source);
+        let p = C::Parts::make(circuit, role(Role::Net), source);
+        source.pass(Pass::Nets);
+        let w = C::Net::make(circuit, role(Role::Net), source);
+        source.leave();
+        Signals { i, q, w, p }
+    }
+    fn of_bit(at: At<bool>) -> u64 {
+        at.leaf() as u64
+    }
+    fn of_u(at: At<u64>) -> u64 {
+        at.leaf() as u64
+    }
+    fn of_i(at: At<i64>) -> u64 {
+        at.leaf() as u64
+    }
+}
+
+impl View for Shapes {
+    type Bit = ();
+    type U = ();
+    type I = ();
+    type Ram = ();
+    type Shift = ();
+    type Part<C: Circuit> = ();
+
+    fn bit(_: u64) {}
+    fn u(_: u64, _: usize) {}
+    fn i(_: u64, _: usize) {}
+    fn ram(_: Cells) {}
+    fn shift(_: Cells) {}
+    /// The registers or the nets of all that is inside, as the source has it.
+    fn part<C: Circuit>(circuit: &C, field: &'static Field, source: &mut dyn Source) {
+        source.enter(field);
+        match source.passing() {
+            Pass::Registers => registers(circuit, source),
+            Pass::Nets => {
+                C::In::<Shapes>::make(circuit, role(Role::Input), source);
+                nets(circuit, source);
+            }
+        }
+        source.leave();
+    }
+    fn of_bit((): ()) -> u64 {
+        0
+    }
+    fn of_u((): ()) -> u64 {
+        0
+    }
+    fn of_i((): ()) -> u64 {
+        0
+    }
+}
+
+/// Walks over the registers of a circuit: its own, then those of its parts.
+pub(crate) fn registers<C: Circuit>(circuit: &C, source: &mut dyn Source) {
+    // Of a circuit that cannot be there are none; its elaboration says why.
+    if circuit.objection().is_some() {
+        return;
+    }
+    source.pass(Pass::Registers);
+    C::Reg::<Shapes>::make(circuit, role(Role::Register), source);
+    C::Parts::<Shapes>::make(circuit, role(Role::Register), source);
+}
+
+/// Walks over the nets of a circuit: those of its parts with their ports in, then its own.
+pub(crate) fn nets<C: Circuit>(circuit: &C, source: &mut dyn Source) {
+    if circuit.objection().is_some() {
+        return;
+    }
+    source.pass(Pass::Nets);
+    C::Parts::<Shapes>::make(circuit, role(Role::Net), source);
+    C::Net::<Shapes>::make(circuit, role(Role::Net), source);
+}

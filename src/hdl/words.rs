@@ -1,0 +1,506 @@
+//! Words while a circuit is elaborated: handles to nodes of its netlist.
+
+use super::build::{self, Id, bits, builder, constant, here, mistake, node, resize};
+use super::record::{BIT, signed, unsigned};
+use crate::hdl::Shape;
+use crate::hdl::netlist::{Node, Operator};
+use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
+
+/// One wire.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Bit(pub(super) Id);
+
+/// An unsigned word; arithmetic is modulo 2^width.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct U(pub(super) Id);
+
+/// A two's complement word; arithmetic is modulo 2^width.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct I(pub(super) Id);
+
+/// A wire or word.
+pub trait Word: Copy {
+    #[doc(hidden)]
+    fn id(self) -> Id;
+    #[doc(hidden)]
+    fn of(id: Id) -> Self;
+}
+
+/// What stands beside a word: another, or a constant, which takes the width of the word.
+pub trait Operand<W: Word> {
+    #[doc(hidden)]
+    fn beside(self, word: W) -> Id;
+}
+
+impl<W: Word> Operand<W> for W {
+    fn beside(self, _: W) -> Id {
+        self.id()
+    }
+}
+
+impl Operand<Bit> for bool {
+    #[track_caller]
+    fn beside(self, _: Bit) -> Id {
+        constant(self.into(), BIT)
+    }
+}
+
+impl Operand<U> for u64 {
+    #[track_caller]
+    fn beside(self, word: U) -> Id {
+        constant(self, build::shape(word.0))
+    }
+}
+
+impl Operand<I> for i64 {
+    #[track_caller]
+    fn beside(self, word: I) -> Id {
+        constant(self as u64, build::shape(word.0))
+    }
+}
+
+/// What a [multiplexer](Bit::mux) can choose between: words of one kind, or such a word and a
+/// constant.
+pub trait Choice<Other> {
+    /// What comes out.
+    type Word;
+    #[doc(hidden)]
+    fn choose(self, choose: Bit, other: Other) -> Self::Word;
+}
+
+#[inline(never)]
+#[track_caller]
+fn mux(choose: Bit, then: Id, other: Id) -> Id {
+    let shape = build::shape(then);
+    let other = same(then, other, "choice");
+    node(Node::Mux(choose.0, then, other), shape)
+}
+
+#[inline(never)]
+#[track_caller]
+fn binary(operator: Operator, a: Id, b: Id, what: &str) -> Id {
+    let b = same(a, b, what);
+    node(Node::Binary(operator, a, b), build::shape(a))
+}
+
+/// The second of two operands, where both have the same width; otherwise that is a mistake.
+#[track_caller]
+fn same(a: Id, b: Id, what: &str) -> Id {
+    let (left, right) = (build::shape(a), build::shape(b));
+    if left.width == right.width {
+        return b;
+    }
+    let (first, second) = builder(|builder| (builder.describe(a), builder.describe(b)));
+    let (left_bits, right_bits) = (bits(left.width), bits(right.width));
+    mistake(
+        here(),
+        format!("{what} of {first} ({left_bits}) and {second} ({right_bits})"),
+    );
+    resize(b, left)
+}
+
+macro_rules! word {
+    ($word:ident, $number:ty) => {
+        impl Word for $word {
+            fn id(self) -> Id {
+                self.0
+            }
+            fn of(id: Id) -> Self {
+                $word(id)
+            }
+        }
+
+        impl Choice<$word> for $word {
+            type Word = $word;
+            #[track_caller]
+            fn choose(self, choose: Bit, other: $word) -> $word {
+                $word(mux(choose, self.0, other.0))
+            }
+        }
+
+        impl Choice<$number> for $word {
+            type Word = $word;
+            #[track_caller]
+            fn choose(self, choose: Bit, other: $number) -> $word {
+                $word(mux(choose, self.0, other.beside(self)))
+            }
+        }
+
+        impl Choice<$word> for $number {
+            type Word = $word;
+            #[track_caller]
+            fn choose(self, choose: Bit, other: $word) -> $word {
+                $word(mux(choose, self.beside(other), other.0))
+            }
+        }
+    };
+}
+
+word!(Bit, bool);
+word!(U, u64);
+word!(I, i64);
+
+/// An operator on two words of the same width, or on a word and a constant.
+macro_rules! operator {
+    ($word:ident, $trait:ident, $method:ident, $operator:ident, $what:literal, $number:ty) => {
+        impl $trait for $word {
+            type Output = Self;
+            #[track_caller]
+            fn $method(self, other: Self) -> Self {
+                $word(binary(Operator::$operator, self.0, other.0, $what))
+            }
+        }
+
+        impl $trait<$number> for $word {
+            type Output = Self;
+            #[track_caller]
+            fn $method(self, other: $number) -> Self {
+                $word(binary(
+                    Operator::$operator,
+                    self.0,
+                    other.beside(self),
+                    $what,
+                ))
+            }
+        }
+    };
+}
+
+operator!(Bit, BitAnd, bitand, And, "conjunction", bool);
+operator!(Bit, BitOr, bitor, Or, "disjunction", bool);
+operator!(Bit, BitXor, bitxor, Xor, "exclusive or", bool);
+operator!(U, BitAnd, bitand, And, "conjunction", u64);
+operator!(U, BitOr, bitor, Or, "disjunction", u64);
+operator!(U, BitXor, bitxor, Xor, "exclusive or", u64);
+operator!(U, Add, add, Add, "sum", u64);
+operator!(U, Sub, sub, Subtract, "difference", u64);
+operator!(I, Add, add, Add, "sum", i64);
+operator!(I, Sub, sub, Subtract, "difference", i64);
+
+#[track_caller]
+fn compare<W: Word>(operator: Operator, a: W, b: impl Operand<W>) -> Bit {
+    let b = same(a.id(), b.beside(a), "comparison");
+    Bit(node(Node::Binary(operator, a.id(), b), BIT))
+}
+
+impl From<bool> for Bit {
+    #[track_caller]
+    fn from(value: bool) -> Self {
+        Bit(constant(value.into(), BIT))
+    }
+}
+
+impl Not for Bit {
+    type Output = Self;
+    #[track_caller]
+    fn not(self) -> Self {
+        Bit(node(Node::Not(self.0), BIT))
+    }
+}
+
+impl Not for U {
+    type Output = Self;
+    #[track_caller]
+    fn not(self) -> Self {
+        U(node(Node::Not(self.0), build::shape(self.0)))
+    }
+}
+
+impl Neg for I {
+    type Output = Self;
+    #[track_caller]
+    fn neg(self) -> Self {
+        I(node(Node::Negate(self.0), build::shape(self.0)))
+    }
+}
+
+impl Bit {
+    /// Low.
+    #[track_caller]
+    pub fn low() -> Self {
+        false.into()
+    }
+
+    /// High.
+    #[track_caller]
+    pub fn high() -> Self {
+        true.into()
+    }
+
+    /// `then` where this bit is high, `other` where it is low. One of them may be a constant.
+    #[track_caller]
+    pub fn mux<T: Choice<O>, O>(self, then: T, other: O) -> T::Word {
+        then.choose(self, other)
+    }
+
+    /// The bit as a word of one bit.
+    #[track_caller]
+    pub fn word(self) -> U {
+        U(node(Node::Cast(self.0), unsigned(1)))
+    }
+}
+
+/// The product of two words in `shape`.
+#[track_caller]
+fn product(a: Id, b: Id, shape: Shape) -> Id {
+    let shape = build::word(shape, "a product");
+    let (a, b) = (resize(a, shape), resize(b, shape));
+    node(Node::Binary(Operator::Multiply, a, b), shape)
+}
+
+impl U {
+    /// A constant, taken modulo 2^`width`.
+    #[track_caller]
+    pub fn new(value: u64, width: usize) -> Self {
+        U(constant(value, unsigned(width)))
+    }
+
+    /// A value that is fixed at elaboration and may differ between circuits of one kind: a
+    /// parameter of their HDL module, called `name` there.
+    #[track_caller]
+    pub fn parameter(name: &'static str, value: u64, width: usize) -> Self {
+        U(build::parameter(name, value, unsigned(width)))
+    }
+
+    /// Width in bits.
+    pub fn width(self) -> usize {
+        build::shape(self.0).width
+    }
+
+    /// High where both are the same.
+    #[track_caller]
+    pub fn equals(self, other: impl Operand<U>) -> Bit {
+        compare(Operator::Equal, self, other)
+    }
+
+    /// High where this word is less than `other`.
+    #[track_caller]
+    pub fn below(self, other: impl Operand<U>) -> Bit {
+        compare(Operator::Below, self, other)
+    }
+
+    /// The same for words of any widths.
+    #[track_caller]
+    pub fn below_any(self, other: U) -> Bit {
+        let width = self.width().max(other.width());
+        self.resize(width).below(other.resize(width))
+    }
+
+    /// High where two words of any widths are the same number.
+    #[track_caller]
+    pub fn equals_any(self, other: U) -> Bit {
+        let width = self.width().max(other.width());
+        self.resize(width).equals(other.resize(width))
+    }
+
+    /// High where every bit is low.
+    #[track_caller]
+    pub fn is_zero(self) -> Bit {
+        self.equals(0)
+    }
+
+    /// Bit `index`, 0 the least significant; one that is not there reads low.
+    #[track_caller]
+    pub fn bit(self, index: usize) -> Bit {
+        match index < self.width() {
+            true => Bit(node(Node::Slice(self.0, index), BIT)),
+            false => Bit::low(),
+        }
+    }
+
+    /// Zero-extended or cut to `width` bits.
+    #[track_caller]
+    pub fn resize(self, width: usize) -> Self {
+        U(resize(self.0, build::word(unsigned(width), "a word")))
+    }
+
+    /// `width` bits from bit `low` up.
+    #[track_caller]
+    pub fn slice(self, low: usize, width: usize) -> Self {
+        let shape = build::word(unsigned(width), "a slice");
+        let there = self.width();
+        if low + shape.width > there {
+            let name = builder(|builder| builder.describe(self.0));
+            let last = low + shape.width - 1;
+            let there = bits(there);
+            mistake(
+                here(),
+                format!("bits {last} down to {low} of {name}, which has {there}"),
+            );
+            return U(constant(0, shape));
+        }
+        U(node(Node::Slice(self.0, low), shape))
+    }
+
+    /// The product, cut to `width` bits; the sum of both widths loses nothing.
+    #[track_caller]
+    pub fn times(self, other: U, width: usize) -> Self {
+        U(product(self.0, other.0, unsigned(width)))
+    }
+
+    /// The sum of two words of any widths, one bit wider than the wider one: exact.
+    #[track_caller]
+    pub fn plus(self, other: U) -> Self {
+        let width = self.width().max(other.width()) + 1;
+        self.resize(width) + other.resize(width)
+    }
+
+    /// Moved up by a fixed number of bits, zeros from below.
+    #[track_caller]
+    pub fn shift_left(self, by: usize) -> Self {
+        let shape = build::shape(self.0);
+        match by < shape.width {
+            true => U(node(Node::ShiftLeft(self.0, by), shape)),
+            false => U(constant(0, shape)),
+        }
+    }
+
+    /// Moved down by a fixed number of bits, zeros from above.
+    #[track_caller]
+    pub fn shift_right(self, by: usize) -> Self {
+        let shape = build::shape(self.0);
+        match by < shape.width {
+            true => U(node(Node::ShiftRight(self.0, by), shape)),
+            false => U(constant(0, shape)),
+        }
+    }
+
+    /// This word above `low`: as wide as both together.
+    #[track_caller]
+    pub fn join(self, low: U) -> Self {
+        let width = self.width() + low.width();
+        let shape = build::word(unsigned(width), "a joined word");
+        let high = self.resize(shape.width.saturating_sub(low.width()).max(1));
+        U(node(Node::Join(high.0, low.0), shape))
+    }
+
+    /// The same bits read as two's complement.
+    #[track_caller]
+    pub fn signed(self) -> I {
+        I(node(Node::Cast(self.0), signed(self.width())))
+    }
+}
+
+impl I {
+    /// A constant, taken modulo 2^`width`.
+    #[track_caller]
+    pub fn new(value: i64, width: usize) -> Self {
+        I(constant(value as u64, signed(width)))
+    }
+
+    /// Width in bits.
+    pub fn width(self) -> usize {
+        build::shape(self.0).width
+    }
+
+    /// High where both are the same.
+    #[track_caller]
+    pub fn equals(self, other: impl Operand<I>) -> Bit {
+        compare(Operator::Equal, self, other)
+    }
+
+    /// High where this word is less than `other`.
+    #[track_caller]
+    pub fn below(self, other: impl Operand<I>) -> Bit {
+        compare(Operator::Below, self, other)
+    }
+
+    /// The same for words of any widths.
+    #[track_caller]
+    pub fn below_any(self, other: I) -> Bit {
+        let width = self.width().max(other.width());
+        self.resize(width).below(other.resize(width))
+    }
+
+    /// High where two words of any widths are the same number.
+    #[track_caller]
+    pub fn equals_any(self, other: I) -> Bit {
+        let width = self.width().max(other.width());
+        self.resize(width).equals(other.resize(width))
+    }
+
+    /// High where every bit is low.
+    #[track_caller]
+    pub fn is_zero(self) -> Bit {
+        self.equals(0)
+    }
+
+    /// The sign bit.
+    #[track_caller]
+    pub fn is_negative(self) -> Bit {
+        Bit(node(Node::Slice(self.0, self.width() - 1), BIT))
+    }
+
+    /// Sign-extended or cut to `width` bits.
+    #[track_caller]
+    pub fn resize(self, width: usize) -> Self {
+        I(resize(self.0, build::word(signed(width), "a word")))
+    }
+
+    /// The product, cut to `width` bits; the sum of both widths loses nothing.
+    #[track_caller]
+    pub fn times(self, other: I, width: usize) -> Self {
+        I(product(self.0, other.0, signed(width)))
+    }
+
+    /// The sum of two words of any widths, one bit wider than the wider one: exact.
+    #[track_caller]
+    pub fn plus(self, other: I) -> Self {
+        let width = self.width().max(other.width()) + 1;
+        self.resize(width) + other.resize(width)
+    }
+
+    /// The difference of two words of any widths, one bit wider than the wider one: exact.
+    #[track_caller]
+    pub fn minus(self, other: I) -> Self {
+        let width = self.width().max(other.width()) + 1;
+        self.resize(width) - other.resize(width)
+    }
+
+    /// Moved up by a fixed number of bits, zeros from below.
+    #[track_caller]
+    pub fn shift_left(self, by: usize) -> Self {
+        let shape = build::shape(self.0);
+        match by < shape.width {
+            true => I(node(Node::ShiftLeft(self.0, by), shape)),
+            false => I(constant(0, shape)),
+        }
+    }
+
+    /// Moved down by a fixed number of bits, the sign from above: a division by 2^`by` rounded
+    /// towards minus infinity.
+    #[track_caller]
+    pub fn shift_right(self, by: usize) -> Self {
+        let shape = build::shape(self.0);
+        I(node(
+            Node::ShiftRight(self.0, by.min(shape.width - 1)),
+            shape,
+        ))
+    }
+
+    /// Its two's complement where `negative` is high, itself where that is low.
+    #[track_caller]
+    pub fn negated_by(self, negative: Bit) -> Self {
+        negative.mux(-self, self)
+    }
+
+    /// The absolute value as an unsigned word; exact for the most negative word too.
+    #[track_caller]
+    pub fn magnitude(self) -> U {
+        self.is_negative().mux((-self).unsigned(), self.unsigned())
+    }
+
+    /// The same bits read as unsigned.
+    #[track_caller]
+    pub fn unsigned(self) -> U {
+        U(node(Node::Cast(self.0), unsigned(self.width())))
+    }
+}
+
+/// How many bits number `things` things, at least 1.
+pub const fn log2(things: usize) -> usize {
+    match things {
+        0..=2 => 1,
+        things => (usize::BITS - (things - 1).leading_zeros()) as usize,
+    }
+}
