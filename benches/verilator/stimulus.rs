@@ -1,9 +1,6 @@
 //! What goes into a circuit during a job, recorded once and applied to both models.
 
-use motion_rtl::hdl::{
-    Cells, Circuit, Contents, Declarations, Field, MemoryShape, Observer, Record, Role, RunError,
-    Sample, Shape, Source, Value,
-};
+use motion_rtl::hdl::{Circuit, Declarations, Observer, Role, RunError, Sample, Value, inputs};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
@@ -116,8 +113,9 @@ impl<'a, C: Circuit> Replay<'a, C> {
         if tick == self.next {
             self.apply();
         }
-        let field = const { &Field::part(Role::Input) };
-        C::In::make(self.circuit, field, &mut Given(self.words.iter()))
+        let mut words = self.words.iter().copied();
+        // Those that have not changed yet are low.
+        inputs(self.circuit, |_| words.next().unwrap_or_default())
     }
 
     /// The same, and for how many ticks they are held: the next tick asked for is in these, or the
@@ -141,24 +139,5 @@ impl<'a, C: Circuit> Replay<'a, C> {
             .changes
             .first()
             .map_or(u64::MAX, |change| change.tick.into());
-    }
-}
-
-/// Words; those that are missing are low.
-struct Given<'a>(std::slice::Iter<'a, u64>);
-
-impl Source for Given<'_> {
-    fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
-        self.0.next().copied().unwrap_or_default()
-    }
-
-    fn memory(
-        &mut self,
-        _: &'static Field,
-        _: &'static Field,
-        _: MemoryShape,
-        _: &dyn Fn() -> Contents,
-    ) -> Cells {
-        unreachable!("a port in is a word")
     }
 }

@@ -65,6 +65,7 @@ mod lockstep;
 mod pair;
 mod reach;
 mod search;
+mod searching;
 mod specified;
 mod stimulus;
 mod sweep;

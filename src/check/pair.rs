@@ -1,10 +1,9 @@
 //! Two circuits side by side.
 
+use crate::hdl::leaves::Nodes;
+use crate::hdl::pack::tokens;
 use crate::hdl::part::Counted;
-use crate::hdl::{
-    Cells, Circuit, Contents, Leaves, MemoryShape, Nothing, Record, Shapes, Sink, Site, Source,
-    View, Walk, Wire, view,
-};
+use crate::hdl::{Circuit, Nothing, Record, Shapes, Sink, Site, Source, View, Walk, Wire, view};
 use crate::hdl::{Field, Role, Shape};
 use std::fmt;
 use std::ops::Deref;
@@ -156,32 +155,15 @@ impl<A: Circuit, B: Circuit> Circuit for Pair<A, B> {
     }
 
     fn tick(&self, i: PairIn<A>, _: Nothing, p: Sides<A, B>) -> (Nothing, Nothing) {
-        let mut tokens = Counted::default();
-        i.0.visit(view::role(Role::Input), &mut tokens);
-        let tokens: Vec<u64> = tokens.leaves.iter().map(|leaf| leaf.token).collect();
+        let nodes: Vec<usize> = tokens(&i.0)
+            .into_iter()
+            .map(|token| token as usize)
+            .collect();
         p.left.settle(i.0);
-        let mut again = Again(tokens.into_iter());
+        // There are as many ports: otherwise there was an objection.
+        let mut again = Nodes(nodes.iter());
         let i = B::In::make(&self.right, view::role(Role::Input), &mut again);
         p.right.settle(i);
         (Nothing, Nothing)
-    }
-}
-
-/// The same nodes for other ports.
-struct Again(std::vec::IntoIter<u64>);
-
-impl Source for Again {
-    fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
-        // There are as many: otherwise there was an objection.
-        self.0.next().unwrap_or(0)
-    }
-    fn memory(
-        &mut self,
-        _: &'static Field,
-        _: &'static Field,
-        shape: MemoryShape,
-        _: &dyn Fn() -> Contents,
-    ) -> Cells {
-        Leaves::no_cells(shape)
     }
 }

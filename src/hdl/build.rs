@@ -159,16 +159,27 @@ pub(super) fn constant(value: u64, shape: Shape) -> Id {
 #[inline(never)]
 #[track_caller]
 pub(super) fn word(shape: Shape, what: &str) -> Shape {
-    if (1..=64).contains(&shape.width) {
-        return shape;
+    match is_word(shape) {
+        Ok(()) => shape,
+        Err(wrong) => {
+            mistake(here(), format!("{what} {wrong}"));
+            nearest(shape)
+        }
     }
-    let width = shape.width;
-    mistake(
-        here(),
-        format!("{what} has {width} bits; a word has 1 to 64"),
-    );
+}
+
+/// Whether a word can have that shape, or what is wrong with it.
+pub(super) fn is_word(shape: Shape) -> Result<(), String> {
+    match shape.width {
+        1..=64 => Ok(()),
+        width => Err(format!("has {}; a word has 1 to 64", bits(width))),
+    }
+}
+
+/// The shape next to it that a word can have.
+pub(super) fn nearest(shape: Shape) -> Shape {
     Shape {
-        width: width.clamp(1, 64),
+        width: shape.width.clamp(1, 64),
         ..shape
     }
 }

@@ -1,21 +1,18 @@
 //! Runs a circuit's `tick` once and notes what it computes. Circuits inside it become modules of
 //! their own.
 
-use super::Circuit;
-use super::build::{
-    self, Aside, Builder, builder, elaboration, flat, masked, mistake, node, signal,
-};
-use super::memory::{Contents, State, Written};
+use super::build::{self, Aside, Builder, builder, elaboration, mistake, signal};
+use super::leaves::Leaves;
+use super::memory::{State, Written};
 use super::mistake::Wrong;
+use super::netlist::{Design, Id, Module, Port, Register, Setting, Value};
 use super::part::{Counted, pair};
 use super::property;
-use super::record::{Cells, MemoryShape, Pass, Record, Site, Source, Walk};
+use super::record::{Record, Site, Source, Walk};
 use super::view::{self, Edge, Shapes, Wire};
-use crate::hdl::netlist::{Design, Id, Memory, Module, Node, Port, Register, Setting, Value};
-use crate::hdl::{Field, Path, Role, Shape};
+use super::{Circuit, Role};
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 
 /// The netlist of a circuit and of those inside it, with its power-on values.
 ///
@@ -118,7 +115,7 @@ fn end(name: &str, about: &'static str, nets: Nets) -> (usize, Vec<Setting>) {
             });
         }
         (
-            crate::hdl::netlist::enter(module, &mut elaboration.modules),
+            super::netlist::enter(module, &mut elaboration.modules),
             settings,
         )
     })
@@ -127,15 +124,16 @@ fn end(name: &str, about: &'static str, nets: Nets) -> (usize, Vec<Setting>) {
 /// Makes the signals of a circuit, what drives them, and the circuits inside.
 fn signals_of<C: Circuit>(circuit: &C, site: Site, more: &mut dyn FnMut(&mut dyn Source)) -> Nets {
     let mistakes = build::mistakes();
-    let i: C::In<Wire> = C::In::make(circuit, view::role(Role::Input), &mut Leaves::new());
-    more(&mut Leaves::new());
-    let q: C::Reg<Wire> = C::Reg::make(circuit, view::role(Role::Register), &mut Leaves::new());
+    let i: C::In<Wire> = C::In::make(circuit, view::role(Role::Input), &mut Leaves::default());
+    more(&mut Leaves::default());
+    let q: C::Reg<Wire> = C::Reg::make(circuit, view::role(Role::Register), &mut Leaves::default());
     own_registers();
     // What a tick makes of words that are none is no use.
     if build::mistakes() > mistakes {
-        return low(counted_nets(circuit));
+        return low(&counted_nets(circuit));
     }
-    let p: C::Parts<Wire> = C::Parts::make(circuit, view::role(Role::Register), &mut Leaves::new());
+    let p: C::Parts<Wire> =
+        C::Parts::make(circuit, view::role(Role::Register), &mut Leaves::default());
     let (w, next) = circuit.tick(i, q, p);
     unsettled(site);
     let mut given = Counted::default();
@@ -168,18 +166,8 @@ fn counted_nets<C: Circuit>(circuit: &C) -> Counted {
 }
 
 /// Nets that are all low, of a circuit that cannot be elaborated.
-fn low(wanted: Counted) -> Nets {
-    let nodes = wanted.leaves.into_iter().map(|leaf| {
-        let width = leaf.shape.width.clamp(1, 64);
-        build::constant(
-            0,
-            Shape {
-                width,
-                ..leaf.shape
-            },
-        )
-    });
-    let nodes: Vec<Id> = nodes.collect();
+fn low(wanted: &Counted) -> Nets {
+    let nodes = wanted.low();
     Nets {
         leaves: vec![None; nodes.len()],
         nodes,
@@ -249,12 +237,8 @@ fn nets(wanted: Counted, given: Counted, site: Site) -> Nets {
     nets.leaves = vec![None; nets.nodes.len()];
     let nodes = pair(&given, &wanted, site, "net");
     for (leaf, id) in wanted.leaves.into_iter().zip(nodes) {
-        if !(1..=64).contains(&leaf.shape.width) {
-            let bits = build::bits(leaf.shape.width);
-            mistake(
-                site,
-                format!("`{}` has {bits}; a word has 1 to 64", leaf.name),
-            );
+        if let Err(wrong) = build::is_word(leaf.shape) {
+            mistake(site, format!("`{}` {wrong}", leaf.name));
         }
         let mut net = signal(leaf.name, leaf.field, Role::Net, leaf.shape);
         net.driver = Some(id);
@@ -420,164 +404,4 @@ fn is_filled(modules: &[Module], path: &[String]) -> bool {
         let mut own = module.memories.iter().filter(|memory| !memory.inner);
         own.any(|memory| memory.name == *name && memory.filled)
     })
-}
-
-/// Makes inputs and registers.
-pub(crate) struct Leaves {
-    path: Path,
-}
-
-impl Leaves {
-    pub fn new() -> Self {
-        Leaves {
-            path: Path::default(),
-        }
-    }
-
-    /// The words of a memory for a view that does not look at them.
-    pub fn no_cells(shape: MemoryShape) -> Cells {
-        Cells {
-            first: 0,
-            words: shape.words,
-            width: shape.width,
-            contents: Arc::new([]),
-        }
-    }
-}
-
-impl Source for Leaves {
-    fn enter(&mut self, field: &'static Field) {
-        self.path.enter(field);
-        let scope = self.path.scopes().join("_");
-        builder(|builder| builder.scope = scope);
-    }
-    fn leave(&mut self) {
-        self.path.leave();
-        let scope = self.path.scopes().join("_");
-        builder(|builder| builder.scope = scope);
-    }
-    fn element(&mut self, index: usize) {
-        self.path.element(index);
-    }
-    fn pass(&mut self, _: Pass) {}
-
-    fn word(&mut self, field: &'static Field, shape: Shape, power_on: u64) -> u64 {
-        let name = self.path.name(field);
-        let name = flat(self.path.scopes(), &name);
-        let role = self.path.role();
-        // Words of a part are told where it is elaborated.
-        if !(1..=64).contains(&shape.width) && !builder(|builder| builder.of_part) {
-            let site = builder(|builder| builder.site);
-            if let Some(site) = site {
-                let bits = build::bits(shape.width);
-                mistake(site, format!("`{name}` has {bits}; a word has 1 to 64"));
-            }
-        }
-        let shape = Shape {
-            width: shape.width.clamp(1, 64),
-            ..shape
-        };
-        builder(|builder| {
-            let mut made = signal(name, field, role, shape);
-            if role == Role::Register {
-                made.power_on = masked(power_on, shape);
-                let register = Register::Signal(builder.signals.len());
-                builder.registers.push(register);
-            }
-            let signal = builder.signal(made);
-            let site = builder.site();
-            builder.node(Node::Signal(signal), shape, site) as u64
-        })
-    }
-
-    fn memory(
-        &mut self,
-        field: &'static Field,
-        _: &'static Field,
-        shape: MemoryShape,
-        contents: &dyn Fn() -> Contents,
-    ) -> Cells {
-        let name = self.path.name(field);
-        let name = flat(self.path.scopes(), &name);
-        let contents = contents();
-        let site = builder(|builder| builder.site);
-        let of_part = builder(|builder| builder.of_part);
-        let object = |what: String| {
-            if let Some(site) = site
-                && !of_part
-            {
-                mistake(site, what);
-            }
-        };
-        let most = 1 << 24;
-        if !(1..=64).contains(&shape.width) || !(1..=most).contains(&shape.words) {
-            object(format!(
-                "memory `{name}` has {} words of {}; there are 1 to {most} words of 1 to 64 bits",
-                shape.words,
-                build::bits(shape.width)
-            ));
-        }
-        if let Some((address, width)) = contents.shape()
-            && (shape.address != Some(address) || shape.width != width)
-        {
-            let words = match shape.address {
-                Some(address) => format!("addresses of {}", build::bits(address)),
-                None => format!("{} stages", shape.words),
-            };
-            object(format!(
-                "memory `{name}` has {words} and words of {}, what it holds at power-on has {} and {}",
-                build::bits(shape.width),
-                build::bits(address),
-                build::bits(width)
-            ));
-        }
-        let shape = MemoryShape {
-            words: shape.words.clamp(1, most),
-            width: shape.width.clamp(1, 64),
-            ..shape
-        };
-        let words = contents.words(shape);
-        let first = builder(|builder| {
-            builder.memories.push(Memory {
-                name,
-                doc: field.doc,
-                words: shape.words,
-                width: shape.width,
-                port: Port::Rom,
-                filled: words.iter().any(|word| *word != 0),
-                inner: false,
-            });
-            builder.shapes.push(shape);
-            builder.contents.push(words);
-            let memory = builder.memories.len() - 1;
-            builder.registers.push(Register::Memory(memory));
-            memory
-        });
-        Cells {
-            first,
-            ..Leaves::no_cells(shape)
-        }
-    }
-}
-
-/// Nets of an instance, as nodes that are there.
-pub(super) struct Ports<'a>(pub std::slice::Iter<'a, Id>);
-
-impl Source for Ports<'_> {
-    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
-        match self.0.next() {
-            Some(id) => *id as u64,
-            // There are as many as the same walk found.
-            None => node(Node::Constant(0), shape) as u64,
-        }
-    }
-    fn memory(
-        &mut self,
-        _: &'static Field,
-        _: &'static Field,
-        shape: MemoryShape,
-        _: &dyn Fn() -> Contents,
-    ) -> Cells {
-        Leaves::no_cells(shape)
-    }
 }

@@ -14,6 +14,7 @@ mod beside;
 mod build;
 mod declare;
 mod elaborate;
+pub(crate) mod leaves;
 mod macros;
 mod memory;
 mod mistake;
@@ -38,7 +39,6 @@ pub use crate::{hdl_choice as choice, hdl_records as records, hdl_signals as sig
 pub use beside::{Beside, Without};
 pub(crate) use declare::Outline;
 pub use declare::{Declaration, Declarations, MemoryDeclaration, Path};
-pub(crate) use elaborate::Leaves;
 pub use elaborate::elaborate;
 pub use memory::{Contents, Image, Ram, Shift, Written, ram, shift};
 pub(crate) use memory::{STAGE, WORD};
@@ -46,6 +46,7 @@ pub use mistake::{Mistake, Wrong};
 pub use model::{Described, Model};
 pub use observe::{Observer, RunError, StopWhen};
 pub(crate) use outline::declarations;
+pub use pack::inputs;
 pub use part::{Part, Settled, settle_each};
 pub use place::{At, MemoryAt, Number, Signals};
 pub use property::{After, Moment, Property};
@@ -62,7 +63,7 @@ pub use words::{Bit, Choice, I, Operand, U, Word, log2};
 /// What a circuit and its tests are written with.
 pub mod prelude {
     pub use super::{
-        Bit, Circuit, Edge, I, Image, Moment, Nothing, Part, Property, Ram, Settled, Shift,
+        Bit, Circuit, Edge, I, Image, Moment, Nothing, Part, Property, Ram, Seen, Settled, Shift,
         Simulator, U, Value, View, Wire, Written, choice, log2, records, settle_each, signals,
         zero,
     };
@@ -145,20 +146,5 @@ pub fn model_beside<C: Circuit, B: Beside>(circuit: &C, beside: &B) -> Result<Mo
 
 /// Ports in with every bit low.
 pub fn zero<C: Circuit>(circuit: &C) -> C::In<Value> {
-    struct Zero;
-    impl Source for Zero {
-        fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
-            0
-        }
-        fn memory(
-            &mut self,
-            _: &'static Field,
-            _: &'static Field,
-            shape: MemoryShape,
-            _: &dyn Fn() -> Contents,
-        ) -> Cells {
-            Leaves::no_cells(shape)
-        }
-    }
-    C::In::make(circuit, view::role(Role::Input), &mut Zero)
+    pack::inputs(circuit, |_| 0)
 }

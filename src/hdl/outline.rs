@@ -5,7 +5,6 @@ use super::memory::Contents;
 use super::record::{Cells, MemoryShape, Pass, Record, Source};
 use super::view::{self, Shapes};
 use crate::hdl::{Declarations, Field, Outline, Role, Shape};
-use std::sync::Arc;
 
 /// The signals of a circuit: ports in, registers, nets. What they are at power-on is left at 0.
 /// `beside` shows ports in that stand beside it.
@@ -59,11 +58,6 @@ impl Source for Shown<'_> {
         _: &dyn Fn() -> Contents,
     ) -> Cells {
         self.outline.memory(field, label, shape.words, shape.width);
-        Cells {
-            first: 0,
-            words: shape.words,
-            width: shape.width,
-            contents: Arc::new([]),
-        }
+        Cells::at(0, shape)
     }
 }

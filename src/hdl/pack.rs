@@ -2,15 +2,15 @@
 
 use super::memory::Contents;
 use super::record::{Cells, MemoryShape, Pass, Record, Sink, Source, Walk};
-use super::view::{self, Shapes, Value};
+use super::view::{self, Shapes, Value, View};
 use super::{Circuit, Registers};
 use crate::hdl::{Field, Role, Shape};
 use std::sync::Arc;
 
 /// The widths of the leaves of a walk, words of memories among them.
 #[derive(Default)]
-pub(crate) struct Widths {
-    pub widths: Vec<usize>,
+struct Widths {
+    widths: Vec<usize>,
     pass: Option<Pass>,
 }
 
@@ -34,7 +34,7 @@ impl Source for Widths {
     ) -> Cells {
         self.widths
             .extend(std::iter::repeat_n(shape.width, shape.words));
-        super::Leaves::no_cells(shape)
+        Cells::at(0, shape)
     }
 }
 
@@ -50,27 +50,38 @@ pub(crate) fn input_widths<C: Circuit>(circuit: &C) -> Vec<usize> {
     widths::<C, C::In<Shapes>>(circuit)
 }
 
-/// The number of bits of all registers of a circuit and of those inside it.
-pub(crate) fn register_bits<C: Circuit>(circuit: &C) -> usize {
+/// The widths of all registers of a circuit and of those inside it.
+pub(crate) fn register_widths<C: Circuit>(circuit: &C) -> Vec<usize> {
     let mut widths = Widths::default();
     view::registers(circuit, &mut widths);
-    widths.widths.iter().sum()
+    widths.widths
 }
 
 /// The words of a record, each cut to its width.
 pub(crate) fn words<R: Walk<Value>>(record: &R, widths: &[usize]) -> Vec<u64> {
-    struct Words(Vec<u64>);
-    impl Sink for Words {
+    let mut words = tokens(record);
+    for (word, width) in words.iter_mut().zip(widths) {
+        *word &= u64::MAX >> (64 - width);
+    }
+    words
+}
+
+/// What a record shows of its words.
+pub(crate) fn tokens<V: View, R: Walk<V>>(record: &R) -> Vec<u64> {
+    struct Tokens(Vec<u64>);
+    impl Sink for Tokens {
         fn word(&mut self, _: &'static Field, token: u64) {
             self.0.push(token);
         }
     }
-    let mut words = Words(Vec::with_capacity(widths.len()));
-    record.visit(view::role(Role::Input), &mut words);
-    for (word, width) in words.0.iter_mut().zip(widths) {
-        *word &= u64::MAX >> (64 - width);
-    }
-    words.0
+    let mut tokens = Tokens(Vec::new());
+    record.visit(view::role(Role::Input), &mut tokens);
+    tokens.0
+}
+
+/// Ports in whose words are given one after the other, each cut to its width.
+pub fn inputs<C: Circuit>(circuit: &C, word: impl FnMut(Shape) -> u64) -> C::In<Value> {
+    given(circuit, word)
 }
 
 /// A record whose leaves are given one after the other.
@@ -98,7 +109,7 @@ impl<F: FnMut(Shape) -> u64> Source for Given<F> {
         let contents = (0..shape.words).map(|_| (self.0)(word) & u64::MAX >> (64 - word.width));
         Cells {
             contents: contents.collect::<Arc<[u64]>>(),
-            ..super::Leaves::no_cells(shape)
+            ..Cells::at(0, shape)
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Circuits inside a circuit.
 
 use super::build::{self, Declared, Instance, builder, elaboration, here, node};
-use super::elaborate::{self, Leaves, Ports};
+use super::elaborate;
+use super::leaves::Nodes;
 use super::record::{Pass, Record, Sink, Source, Walk};
 use super::view::{self, Seen, Shapes, Wire};
 use super::{Circuit, Written};
@@ -58,7 +59,7 @@ impl<C: Circuit> Part<C> {
         C::Net::<Shapes>::make(&self.circuit, view::role(Role::Net), &mut own);
         // The nets of a module come after those of the circuits inside it.
         let inner = ports.len() - own.leaves.len().min(ports.len());
-        let mut ports = Ports(ports[inner..].iter());
+        let mut ports = Nodes(ports[inner..].iter());
         let w = C::Net::make(&self.circuit, view::role(Role::Net), &mut ports);
         Settled { i, q: self.q, w }
     }
@@ -181,22 +182,14 @@ pub(super) fn pair(
             (None, None) => format!("{what}s do not match"),
         };
         build::mistake(site, what);
-        return wanted
-            .leaves
-            .iter()
-            .map(|leaf| {
-                let shape = leaf.shape;
-                let width = shape.width.clamp(1, 64);
-                build::constant(0, Shape { width, ..shape })
-            })
-            .collect();
+        return wanted.low();
     }
     let pairs = given.leaves.iter().zip(&wanted.leaves);
     pairs
         .map(|(given, wanted)| {
             let id = given.token as build::Id;
             let found = build::shape(id);
-            if found.width == wanted.shape.width || !(1..=64).contains(&wanted.shape.width) {
+            if found.width == wanted.shape.width || build::is_word(wanted.shape).is_err() {
                 return id;
             }
             let from = builder(|builder| builder.describe(id));
@@ -237,6 +230,23 @@ impl Counted {
         let name = self.path.name(field);
         build::flat(self.path.scopes(), &name)
     }
+
+    fn push(&mut self, field: &'static Field, shape: Shape, token: u64) {
+        let name = self.name(field);
+        self.leaves.push(Leaf {
+            name,
+            field,
+            shape,
+            token,
+        });
+    }
+
+    /// As many words, all low.
+    pub(super) fn low(&self) -> Vec<build::Id> {
+        let leaves = self.leaves.iter();
+        let low = leaves.map(|leaf| build::constant(0, build::nearest(leaf.shape)));
+        low.collect()
+    }
 }
 
 impl Source for Counted {
@@ -250,13 +260,7 @@ impl Source for Counted {
         self.path.element(index);
     }
     fn word(&mut self, field: &'static Field, shape: Shape, _: u64) -> u64 {
-        let name = self.name(field);
-        self.leaves.push(Leaf {
-            name,
-            field,
-            shape,
-            token: 0,
-        });
+        self.push(field, shape, 0);
         0
     }
     fn memory(
@@ -268,7 +272,7 @@ impl Source for Counted {
     ) -> super::Cells {
         let name = self.name(field);
         self.memories.push((name, Written::default()));
-        Leaves::no_cells(shape)
+        super::Cells::at(0, shape)
     }
 }
 
@@ -283,13 +287,7 @@ impl Sink for Counted {
         self.path.element(index);
     }
     fn word(&mut self, field: &'static Field, token: u64) {
-        let name = self.name(field);
-        self.leaves.push(Leaf {
-            name,
-            field,
-            shape: super::BIT,
-            token,
-        });
+        self.push(field, super::BIT, token);
     }
     fn memory(&mut self, field: &'static Field, written: Written) {
         let name = self.name(field);

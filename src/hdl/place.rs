@@ -2,13 +2,13 @@
 
 use super::Circuit;
 use super::memory::Contents;
-use super::record::{Cells, MemoryShape, Pass, Record, Source};
+use super::pack;
+use super::record::{Cells, MemoryShape, Pass, Places, Record, Source};
 use super::view::{self, Place};
 use crate::engine::Engine;
 use crate::hdl::{Field, Role, Shape};
 use std::fmt;
 use std::marker::PhantomData;
-use std::sync::Arc;
 
 /// Where a signal is, and what is seen there: a `bool`, `u64` or `i64`.
 pub struct At<T> {
@@ -153,61 +153,30 @@ impl<C: Circuit> fmt::Debug for Signals<C> {
 impl<C: Circuit> Signals<C> {
     /// Those of a circuit; `beside` ports in stand beside it, behind its own.
     pub(super) fn of(circuit: &C, beside: usize) -> Self {
-        let mut count = Leaves {
-            inputs: 0,
-            registers: 0,
-            nets: 0,
-            pass: None,
-        };
-        let i = C::In::make(circuit, view::role(Role::Input), &mut count);
-        let ports = count.inputs + beside;
-        let mut registers = Leaves {
-            pass: Some(Pass::Registers),
-            ..count
-        };
-        view::registers(circuit, &mut registers);
-        count.registers = ports;
-        count.nets = ports + registers.registers;
-        count.pass = Some(Pass::Registers);
-        let q = C::Reg::make(circuit, view::role(Role::Register), &mut count);
-        let p = C::Parts::make(circuit, view::role(Role::Net), &mut count);
-        count.pass = Some(Pass::Nets);
-        let w = C::Net::make(circuit, view::role(Role::Net), &mut count);
+        let ports = pack::input_widths(circuit).len() + beside;
+        let nets = ports + pack::register_widths(circuit).len();
+        let mut leaves = Leaves(Places {
+            next: [0, ports, nets],
+            role: Role::Input,
+        });
+        let i = C::In::make(circuit, view::role(Role::Input), &mut leaves);
+        let (q, p, w) = view::inner(circuit, &mut leaves);
         Signals { i, q, w, p }
     }
 }
 
-/// Numbers leaves: ports in, then registers, then nets.
-#[derive(Clone, Copy)]
-struct Leaves {
-    inputs: usize,
-    registers: usize,
-    nets: usize,
-    /// None: ports in.
-    pass: Option<Pass>,
-}
-
-impl Leaves {
-    fn next(&mut self, leaves: usize) -> usize {
-        let next = match self.pass {
-            None => &mut self.inputs,
-            Some(Pass::Registers) => &mut self.registers,
-            Some(Pass::Nets) => &mut self.nets,
-        };
-        *next += leaves;
-        *next - leaves
-    }
-}
+/// The leaves by their numbers.
+struct Leaves(Places);
 
 impl Source for Leaves {
     fn pass(&mut self, pass: Pass) {
-        self.pass = Some(pass);
+        self.0.pass(pass);
     }
     fn passing(&self) -> Pass {
-        self.pass.unwrap_or(Pass::Registers)
+        self.0.passing()
     }
     fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
-        self.next(1) as u64
+        self.0.take(1) as u64
     }
     fn memory(
         &mut self,
@@ -216,11 +185,6 @@ impl Source for Leaves {
         shape: MemoryShape,
         _: &dyn Fn() -> Contents,
     ) -> Cells {
-        Cells {
-            first: self.next(shape.words),
-            words: shape.words,
-            width: shape.width,
-            contents: Arc::new([]),
-        }
+        Cells::at(self.0.take(shape.words), shape)
     }
 }

@@ -2,9 +2,8 @@
 
 use super::Circuit;
 use super::build::{builder, node};
-use super::elaborate::{Leaves, Nets};
-use super::memory::Contents;
-use super::record::{Cells, MemoryShape, Pass, Record, Source};
+use super::elaborate::Nets;
+use super::record::{Pass, Record, Source};
 use super::view::{self, Seen, Wire};
 use super::words::Bit;
 use crate::hdl::netlist::{Assertion, Id, Node, Register};
@@ -206,14 +205,5 @@ impl Source for Again<'_> {
             // There are as many as the same walk found.
             None => node(Node::Constant(0), shape) as u64,
         }
-    }
-    fn memory(
-        &mut self,
-        _: &'static Field,
-        _: &'static Field,
-        shape: MemoryShape,
-        _: &dyn Fn() -> Contents,
-    ) -> Cells {
-        Leaves::no_cells(shape)
     }
 }

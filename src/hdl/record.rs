@@ -2,7 +2,7 @@
 
 use super::memory::{Contents, Written};
 use super::view::View;
-use crate::hdl::{Field, Kind, Shape};
+use crate::hdl::{Field, Kind, Role, Shape};
 use std::sync::Arc;
 
 /// A struct of signals that belong to a `C`, as a [`View`] sees them: made by
@@ -56,6 +56,53 @@ pub struct Cells {
     pub contents: Arc<[u64]>,
 }
 
+impl Cells {
+    /// Those of a memory of that shape from there on, without what they are.
+    pub fn at(first: usize, shape: MemoryShape) -> Self {
+        Cells {
+            first,
+            words: shape.words,
+            width: shape.width,
+            contents: Arc::new([]),
+        }
+    }
+}
+
+/// Numbers the leaves of a circuit as walks over its records come to them: ports in, registers and
+/// nets each from their first.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Places {
+    /// The next of each.
+    pub next: [usize; 3],
+    /// Which of them leaves to come are of.
+    pub role: Role,
+}
+
+impl Places {
+    /// The first of so many leaves that come now.
+    pub fn take(&mut self, leaves: usize) -> usize {
+        let next = &mut self.next[self.role as usize];
+        *next += leaves;
+        *next - leaves
+    }
+
+    /// Leaves to come are of this pass.
+    pub fn pass(&mut self, pass: Pass) {
+        self.role = match pass {
+            Pass::Registers => Role::Register,
+            Pass::Nets => Role::Net,
+        };
+    }
+
+    /// The pass.
+    pub fn passing(&self) -> Pass {
+        match self.role {
+            Role::Net => Pass::Nets,
+            Role::Input | Role::Register => Pass::Registers,
+        }
+    }
+}
+
 /// Where the leaves of a record come from.
 pub trait Source {
     /// A struct begins.
@@ -72,14 +119,17 @@ pub trait Source {
     }
     /// A word; `power_on` is what a register holds then.
     fn word(&mut self, field: &'static Field, shape: Shape, power_on: u64) -> u64;
-    /// A memory of so many words, each of which is called `label`.
+    /// A memory of so many words, each of which is called `label`; unless overridden, nobody looks at
+    /// its words.
     fn memory(
         &mut self,
-        field: &'static Field,
-        label: &'static Field,
+        _field: &'static Field,
+        _label: &'static Field,
         shape: MemoryShape,
-        contents: &dyn Fn() -> Contents,
-    ) -> Cells;
+        _contents: &dyn Fn() -> Contents,
+    ) -> Cells {
+        Cells::at(0, shape)
+    }
 }
 
 /// Words and width of a memory.

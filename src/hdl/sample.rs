@@ -3,7 +3,7 @@
 use super::Circuit;
 use super::memory::Contents;
 use super::place::{At, Number, Signals};
-use super::record::{Cells, MemoryShape, Pass, Record, Source};
+use super::record::{Cells, MemoryShape, Pass, Places, Record, Source};
 use super::view::{self, Kept, Value};
 use crate::engine::{Engine, Spot};
 use crate::hdl::{Field, Model, Role, Shape};
@@ -46,8 +46,11 @@ pub struct Sample<'a, C: Circuit> {
     pub w: &'a Lazy<'a, C::Net<Value>>,
     /// The circuits inside.
     pub p: &'a Lazy<'a, C::Parts<Value>>,
+    /// Its registers and those of the circuits inside, without nets: a search makes this record once
+    /// for a state, and [`p`](Self::p) for every transition.
+    pub registers: &'a Lazy<'a, Registers<C>>,
     /// The places of all signals.
-    of: &'a dyn Of<C>,
+    known: &'a Known<C>,
     engine: &'a Engine,
     /// Whether what stands beside the circuit is left out.
     alone: bool,
@@ -62,21 +65,11 @@ pub struct State<'a, C: Circuit> {
     engine: &'a Engine,
 }
 
-/// Ports in and own registers that are at hand.
+/// Ports in and registers that are at hand.
 pub(crate) type Given<'g, C> = (
     Option<&'g <C as Circuit>::In<Value>>,
-    Option<&'g <C as Circuit>::Reg<Value>>,
+    Option<&'g Registers<C>>,
 );
-
-/// What knows a circuit and its places.
-pub(crate) trait Of<C: Circuit> {
-    fn circuit(&self) -> &C;
-    fn signals(&self) -> &Signals<C>;
-    /// How many ports in are the circuit's own.
-    fn ports(&self) -> usize;
-    /// How many nets are.
-    fn nets(&self) -> usize;
-}
 
 /// The circuit and where its signals are.
 pub(crate) struct Known<C: Circuit> {
@@ -101,21 +94,16 @@ impl<C: Circuit> Known<C> {
             signals: OnceLock::new(),
         }
     }
-}
 
-impl<C: Circuit> Of<C> for Known<C> {
-    fn circuit(&self) -> &C {
-        &self.circuit
-    }
-    fn signals(&self) -> &Signals<C> {
+    /// The places of all signals.
+    pub fn signals(&self) -> &Signals<C> {
         let signals = || Signals::of(&self.circuit, self.beside);
         self.signals.get_or_init(signals)
     }
-    fn ports(&self) -> usize {
+
+    /// How many ports in are the circuit's own.
+    pub fn ports(&self) -> usize {
         self.masks.len() - self.beside
-    }
-    fn nets(&self) -> usize {
-        self.nets
     }
 }
 
@@ -202,23 +190,23 @@ impl<S: fmt::Debug> fmt::Debug for Lazy<'_, S> {
 impl<C: Circuit> Sample<'_, C> {
     pub(crate) fn show<T>(
         tick: u64,
-        of: &dyn Of<C>,
+        known: &Known<C>,
         engine: &Engine,
         show: impl FnOnce(&Sample<'_, C>) -> T,
     ) -> T {
-        Self::show_given(tick, of, engine, (None, None), show)
+        Self::show_given(tick, known, engine, (None, None), show)
     }
 
-    /// The same where ports in and own registers are at hand.
+    /// The same where ports in and registers are at hand.
     pub(crate) fn show_given<T>(
         tick: u64,
-        of: &dyn Of<C>,
+        known: &Known<C>,
         engine: &Engine,
         given: Given<'_, C>,
         show: impl FnOnce(&Sample<'_, C>) -> T,
     ) -> T {
-        let circuit = of.circuit();
-        let (i, q) = given;
+        let circuit = &known.circuit;
+        let (i, registers) = given;
         show(&Sample {
             tick,
             i: &Lazy {
@@ -229,13 +217,13 @@ impl<C: Circuit> Sample<'_, C> {
                 })
             },
             q: &Lazy {
-                given: q,
-                ..Lazy::new(&|| registers(circuit, engine))
+                given: registers.map(|all| &all.q),
+                ..Lazy::new(&|| own_registers(circuit, engine))
             },
             w: &Lazy::new(&|| {
                 let mut leaves = Leaves::of(engine, Role::Net);
                 // Its own come last.
-                leaves.nets = engine.leaves() - of.nets();
+                leaves.places.next[Role::Net as usize] = engine.leaves() - known.nets;
                 C::Net::make(circuit, view::role(Role::Net), &mut leaves)
             }),
             p: &Lazy::new(&|| {
@@ -243,7 +231,11 @@ impl<C: Circuit> Sample<'_, C> {
                 C::Reg::<view::Shapes>::make(circuit, view::role(Role::Register), &mut leaves);
                 C::Parts::make(circuit, view::role(Role::Net), &mut leaves)
             }),
-            of,
+            registers: &Lazy {
+                given: registers,
+                ..Lazy::new(&|| all_registers(circuit, engine))
+            },
+            known,
             engine,
             alone: false,
         })
@@ -253,7 +245,7 @@ impl<C: Circuit> Sample<'_, C> {
     pub(crate) fn view(&self) -> View<'_> {
         match self.alone {
             false => View::of(self.engine),
-            true => View::without(self.engine, self.of.ports()),
+            true => View::without(self.engine, self.known.ports()),
         }
     }
 
@@ -273,7 +265,7 @@ impl<C: Circuit> Sample<'_, C> {
 
     /// What one of the [signals](Signals) is: `now.see(|s| s.w.enable)`.
     pub fn see<T: Number>(&self, signal: impl FnOnce(&Signals<C>) -> At<T>) -> T {
-        self.get(signal(self.of.signals()))
+        self.get(signal(self.known.signals()))
     }
 
     /// What runs.
@@ -285,19 +277,19 @@ impl<C: Circuit> Sample<'_, C> {
     pub fn next(&self) -> Registers<C> {
         let mut engine = self.engine.clone();
         engine.edge();
-        all_registers(self.of.circuit(), &engine)
+        all_registers(&self.known.circuit, &engine)
     }
 }
 
 impl<C: Circuit> State<'_, C> {
     pub(crate) fn show<T>(
-        of: &dyn Of<C>,
+        known: &Known<C>,
         engine: &Engine,
         show: impl FnOnce(&State<'_, C>) -> T,
     ) -> T {
-        let circuit = of.circuit();
+        let circuit = &known.circuit;
         show(&State {
-            q: &Lazy::new(&|| registers(circuit, engine)),
+            q: &Lazy::new(&|| own_registers(circuit, engine)),
             p: &Lazy::new(&|| all_registers(circuit, engine).p),
             engine,
         })
@@ -310,7 +302,7 @@ impl<C: Circuit> State<'_, C> {
     }
 }
 
-fn registers<C: Circuit>(circuit: &C, engine: &Engine) -> C::Reg<Value> {
+fn own_registers<C: Circuit>(circuit: &C, engine: &Engine) -> C::Reg<Value> {
     let mut leaves = Leaves::of(engine, Role::Register);
     C::Reg::make(circuit, view::role(Role::Register), &mut leaves)
 }
@@ -323,15 +315,12 @@ pub(crate) fn all_registers<C: Circuit>(circuit: &C, engine: &Engine) -> Registe
     Registers { q, p }
 }
 
-/// The leaves of an engine, in the order of a walk.
+/// What the leaves of an engine are, in the order of a walk.
 struct Leaves<'a> {
     engine: &'a Engine,
     spots: &'a [Spot],
     slab: &'a [u64],
-    inputs: usize,
-    registers: usize,
-    nets: usize,
-    role: Role,
+    places: Places,
 }
 
 impl<'a> Leaves<'a> {
@@ -341,39 +330,23 @@ impl<'a> Leaves<'a> {
             engine,
             spots: &engine.program().plan().layout.leaves,
             slab: engine.slab(),
-            inputs: first(Role::Input),
-            registers: first(Role::Register),
-            nets: first(Role::Net),
-            role,
+            places: Places {
+                next: [Role::Input, Role::Register, Role::Net].map(first),
+                role,
+            },
         }
-    }
-
-    fn next(&mut self, leaves: usize) -> usize {
-        let next = match self.role {
-            Role::Input => &mut self.inputs,
-            Role::Register => &mut self.registers,
-            Role::Net => &mut self.nets,
-        };
-        *next += leaves;
-        *next - leaves
     }
 }
 
 impl Source for Leaves<'_> {
     fn pass(&mut self, pass: Pass) {
-        self.role = match pass {
-            Pass::Registers => Role::Register,
-            Pass::Nets => Role::Net,
-        };
+        self.places.pass(pass);
     }
     fn passing(&self) -> Pass {
-        match self.role {
-            Role::Net => Pass::Nets,
-            _ => Pass::Registers,
-        }
+        self.places.passing()
     }
     fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
-        let leaf = self.next(1);
+        let leaf = self.places.take(1);
         match self.spots.get(leaf) {
             Some(Spot::Slot(slot)) => self.slab[*slot as usize],
             _ => self.engine.leaf(leaf),
@@ -386,12 +359,11 @@ impl Source for Leaves<'_> {
         shape: MemoryShape,
         _: &dyn Fn() -> Contents,
     ) -> Cells {
-        let first = self.next(shape.words);
+        let first = self.places.take(shape.words);
+        let contents = self.engine.memory_at(first);
         Cells {
-            first,
-            words: shape.words,
-            width: shape.width,
-            contents: self.engine.memory_at(first).unwrap_or(Arc::new([])),
+            contents: contents.unwrap_or(Arc::new([])),
+            ..Cells::at(first, shape)
         }
     }
 }

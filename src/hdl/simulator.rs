@@ -1,16 +1,18 @@
 //! Runs a circuit tick by tick.
 
-use super::memory::Contents;
+mod run;
+
+use super::pack;
 use super::place::{At, Number, Signals};
-use super::record::{Cells, MemoryShape, Record, Sink, Source, Walk};
-use super::sample::{Known, Of};
+use super::record::{Sink, Walk};
+use super::sample::Known;
 use super::view::{self, Place, Shapes, Value};
-use super::{Beside, Circuit, Leaves, Observer, Sample, State};
+use super::{Beside, Circuit, Sample, State};
 use crate::engine::{Engine, EngineError, Ports, Watch};
-use crate::hdl::{Field, Model, Role, RunError, Shape};
+use crate::hdl::{Field, Model, Role};
 use std::cell::RefCell;
 use std::fmt;
-use std::ops::{ControlFlow, Deref};
+use std::ops::Deref;
 use std::sync::Arc;
 
 /// A circuit that is clocked tick by tick.
@@ -128,9 +130,7 @@ impl<C: Circuit> Simulator<C> {
         choose: impl FnOnce(&Watcher<'_, C>) -> T,
     ) -> Result<(Self, T), EngineError> {
         let model = super::model_beside(circuit, beside)?;
-        let ports = count(|source| {
-            B::Signals::<Shapes>::make(beside, view::role(Role::Input), source);
-        });
+        let ports = pack::widths::<B, B::Signals<Shapes>>(beside).len();
         Ok(Self::of_model(circuit, &model, ports, all, choose))
     }
 
@@ -204,21 +204,17 @@ impl<C: Circuit> Simulator<C> {
 
     /// Sets all ports in, from this tick on.
     pub fn apply(&mut self, i: &C::In<Value>) {
-        let known = self.known.clone();
-        let ports = self.engine.ports();
-        let mut apply = Apply(ports, known.masks.iter());
+        let mut apply = Apply(self.engine.ports(), self.known.masks.iter());
         i.visit(view::role(Role::Input), &mut apply);
         self.settled = false;
     }
 
     /// Says what stands beside it, from this tick on.
     pub fn show<B: Beside>(&mut self, beside: &B::Signals<Value>) {
-        let masks = self.known.masks.iter().enumerate();
-        let beside_it = masks.skip(self.known.masks.len() - self.known.beside);
-        let mut words = Words(Vec::new());
-        beside.visit(view::role(Role::Input), &mut words);
-        for ((port, mask), word) in beside_it.zip(words.0) {
-            self.engine.input(port, word & mask);
+        let ports = self.known.ports();
+        let masks = self.known.masks[ports..].iter();
+        for ((port, mask), token) in (ports..).zip(masks).zip(pack::tokens(beside)) {
+            self.engine.input(port, token & mask);
         }
         self.settled = false;
     }
@@ -245,12 +241,12 @@ impl<C: Circuit> Simulator<C> {
     /// Shows this tick, settled.
     pub fn now<T>(&mut self, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
         self.settle();
-        Sample::show(self.tick, &*self.known, &self.engine, show)
+        Sample::show(self.tick, &self.known, &self.engine, show)
     }
 
     /// Shows the registers of this tick.
     pub fn state<T>(&self, show: impl FnOnce(&State<'_, C>) -> T) -> T {
-        State::show(&*self.known, &self.engine, show)
+        State::show(&self.known, &self.engine, show)
     }
 
     /// The registers of this tick.
@@ -326,180 +322,6 @@ impl<C: Circuit> Simulator<C> {
         }
         shown
     }
-
-    /// Runs `ticks` ticks, or until an observer stops.
-    ///
-    /// `stimulus` gives the inputs of a tick from its number and its registers.
-    ///
-    /// # Errors
-    /// The first error of an observer; the run is over then.
-    pub fn run(
-        &mut self,
-        ticks: u64,
-        mut stimulus: impl FnMut(u64, &State<'_, C>) -> C::In<Value>,
-        mut observer: impl Observer<C>,
-    ) -> Result<(), RunError> {
-        let end = self.tick.saturating_add(ticks);
-        while self.tick < end {
-            let i = self.state(|q| stimulus(self.tick, q));
-            self.apply(&i);
-            let flow = self.now(|now| observer.sample(now));
-            self.edge();
-            if flow?.is_break() {
-                break;
-            }
-        }
-        Ok(())
-    }
-
-    /// Runs like [`run`](Simulator::run), but shows only ticks in which something watched may have
-    /// changed: in those between, everything that is watched is as in the tick shown last.
-    ///
-    /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it gives
-    /// the same.
-    ///
-    /// # Errors
-    /// The first error of an observer; the run is over then.
-    pub fn run_changes(
-        &mut self,
-        ticks: u64,
-        stimulus: impl FnMut(u64, &State<'_, C>) -> (C::In<Value>, u64),
-        observer: impl Observer<C>,
-    ) -> Result<(), RunError> {
-        self.run_held(ticks, stimulus, observer, false)
-    }
-
-    /// Runs like [`run`](Simulator::run), but goes over idle ticks in one.
-    ///
-    /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it gives
-    /// the same. `observer` sees every tick in which a port out may have changed. It does not see
-    /// every value of a counter: waves, stimulus files and monitors are for
-    /// [`run`](Simulator::run).
-    ///
-    /// Idle are ticks in which registers do nothing but count: everything is on straight lines, and
-    /// no decision comes out otherwise than before. No circuit needs to know of it.
-    ///
-    /// # Errors
-    /// The first error of an observer; the run is over then.
-    pub fn fast_forward(
-        &mut self,
-        ticks: u64,
-        stimulus: impl FnMut(u64, &State<'_, C>) -> (C::In<Value>, u64),
-        observer: impl Observer<C>,
-    ) -> Result<(), RunError> {
-        self.run_held(ticks, stimulus, observer, true)
-    }
-
-    fn run_held(
-        &mut self,
-        ticks: u64,
-        mut stimulus: impl FnMut(u64, &State<'_, C>) -> (C::In<Value>, u64),
-        mut observer: impl Observer<C>,
-        jumps: bool,
-    ) -> Result<(), RunError> {
-        let end = self.tick.saturating_add(ticks);
-        while self.tick < end {
-            let (i, held) = self.state(|q| stimulus(self.tick, q));
-            self.apply(&i);
-            // Until then ports in are as they are.
-            let until = self.tick.saturating_add(held.max(1)).min(end);
-            loop {
-                if self.now(|now| observer.sample(now))?.is_break() {
-                    self.edge();
-                    return Ok(());
-                }
-                if !self.go_to_change(until, jumps) {
-                    break;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Goes on to a tick in which something watched has changed; whether there is one before
-    /// `until`, at which the registers are there and nothing is settled.
-    fn go_to_change(&mut self, until: u64, jumps: bool) -> bool {
-        self.settle();
-        loop {
-            let left = until - self.tick;
-            if jumps {
-                let gone = self.engine.forward(left);
-                self.tick += gone;
-                if gone > 0 {
-                    self.settled = false;
-                    if gone == left {
-                        return false;
-                    }
-                    self.settle();
-                    return true;
-                }
-            }
-            if left == 1 {
-                self.edge();
-                return false;
-            }
-            let most = if jumps { self.engine.pause() } else { u64::MAX };
-            // Ends settled.
-            self.tick += self.engine.advance(most.min(left - 1));
-            if self.engine.has_changed() {
-                return true;
-            }
-        }
-    }
-
-    /// Shows the sample of the tick to come, which `observer` sees too if it
-    /// [looks](Observer::looks) at it; [`go_on`](Self::go_on) goes on from there. Also gives whether
-    /// the observer goes on.
-    ///
-    /// # Errors
-    /// What `observer` objects to.
-    pub fn look<T>(
-        &mut self,
-        i: &C::In<Value>,
-        mut observer: impl Observer<C>,
-        show: impl FnOnce(&Sample<'_, C>) -> T,
-    ) -> Result<(T, ControlFlow<()>), RunError> {
-        self.apply(i);
-        let (shown, flow) = self.now(|now| {
-            let shown = show(now);
-            let flow = match observer.looks(now.tick) {
-                true => observer.sample(now),
-                false => Ok(ControlFlow::Continue(())),
-            };
-            (shown, flow)
-        });
-        Ok((shown, flow?))
-    }
-
-    /// [Looks](Self::look) at the tick to come and goes on by it.
-    ///
-    /// # Errors
-    /// What `observer` objects to.
-    pub fn step_watched<T>(
-        &mut self,
-        i: &C::In<Value>,
-        observer: impl Observer<C>,
-        show: impl FnOnce(&Sample<'_, C>) -> T,
-    ) -> Result<(T, ControlFlow<()>), RunError> {
-        let looked = self.look(i, observer, show)?;
-        self.go_on(1);
-        Ok(looked)
-    }
-
-    /// How many ticks there are up to the next at which an observer looks, the one that was
-    /// [looked](Self::look) at among them.
-    pub fn unseen(&self, observer: &impl Observer<C>) -> u64 {
-        observer.next_look(self.tick + 1) - self.tick
-    }
-
-    /// Goes on from a tick that was [looked](Self::look) at, by up to so many ticks and at least one,
-    /// ports in as they are: to the first in which a port out or what is
-    /// [watched](Self::watching) may have changed. Returns how many it has gone.
-    pub fn go_on(&mut self, ticks: u64) -> u64 {
-        let start = self.tick;
-        self.go_to_change(start.saturating_add(ticks.max(1)), true);
-        self.tick - start
-    }
 }
 
 /// Applies ports in, one after the other.
@@ -511,36 +333,4 @@ impl Sink for Apply<'_> {
             self.0.give(token & mask);
         }
     }
-}
-
-/// The words of a record.
-struct Words(Vec<u64>);
-
-impl Sink for Words {
-    fn word(&mut self, _: &'static Field, token: u64) {
-        self.0.push(token);
-    }
-}
-
-/// How many leaves a walk has.
-fn count(walk: impl FnOnce(&mut dyn Source)) -> usize {
-    struct Count(usize);
-    impl Source for Count {
-        fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
-            self.0 += 1;
-            0
-        }
-        fn memory(
-            &mut self,
-            _: &'static Field,
-            _: &'static Field,
-            shape: MemoryShape,
-            _: &dyn Fn() -> Contents,
-        ) -> Cells {
-            Leaves::no_cells(shape)
-        }
-    }
-    let mut count = Count(0);
-    walk(&mut count);
-    count.0
 }

@@ -236,15 +236,7 @@ impl View for Value {
     type Part<C: Circuit> = Values<C>;
 
     fn part<C: Circuit>(circuit: &C, field: &'static Field, source: &mut dyn Source) -> Values<C> {
-        source.enter(field);
-        source.pass(Pass::Nets);
-        let i = C::In::make(circuit, role(Role::Input), source);
-        source.pass(Pass::Registers);
-        let q = C::Reg::make(circuit, role(Role::Register), source);
-        let p = C::Parts::make(circuit, role(Role::Net), source);
-        source.pass(Pass::Nets);
-        let w = C::Net::make(circuit, role(Role::Net), source);
-        source.leave();
+        let (i, (q, p, w)) = whole(circuit, field, source);
         Values { i, q, w, p }
     }
 }
@@ -290,15 +282,7 @@ impl View for Place {
         MemoryAt::new(cells.first, cells.words, cells.width)
     }
     fn part<C: Circuit>(circuit: &C, field: &'static Field, source: &mut dyn Source) -> Signals<C> {
-        source.enter(field);
-        source.pass(Pass::Nets);
-        let i = C::In::make(circuit, role(Role::Input), source);
-        source.pass(Pass::Registers);
-        let q = C::Reg::make(circuit, role(Role::Register), source);
-        let p = C::Parts::make(circuit, role(Role::Net), source);
-        source.pass(Pass::Nets);
-        let w = C::Net::make(circuit, role(Role::Net), source);
-        source.leave();
+        let (i, (q, p, w)) = whole(circuit, field, source);
         Signals { i, q, w, p }
     }
     fn of_bit(at: At<bool>) -> u64 {
@@ -346,6 +330,37 @@ impl View for Shapes {
     fn of_i((): ()) -> u64 {
         0
     }
+}
+
+/// Registers, parts and nets of a circuit in a view.
+type Inner<C, V> = (
+    <C as Circuit>::Reg<V>,
+    <C as Circuit>::Parts<V>,
+    <C as Circuit>::Net<V>,
+);
+
+/// All records of a circuit but its ports in.
+pub(super) fn inner<C: Circuit, V: View>(circuit: &C, source: &mut dyn Source) -> Inner<C, V> {
+    source.pass(Pass::Registers);
+    let q = C::Reg::make(circuit, role(Role::Register), source);
+    let p = C::Parts::make(circuit, role(Role::Net), source);
+    source.pass(Pass::Nets);
+    let w = C::Net::make(circuit, role(Role::Net), source);
+    (q, p, w)
+}
+
+/// All records of a part.
+fn whole<C: Circuit, V: View>(
+    circuit: &C,
+    field: &'static Field,
+    source: &mut dyn Source,
+) -> (C::In<V>, Inner<C, V>) {
+    source.enter(field);
+    source.pass(Pass::Nets);
+    let i = C::In::make(circuit, role(Role::Input), source);
+    let inner = inner(circuit, source);
+    source.leave();
+    (i, inner)
 }
 
 /// Walks over the registers of a circuit: its own, then those of its parts.

@@ -248,6 +248,76 @@ fn product(a: Id, b: Id, shape: Shape) -> Id {
     node(Node::Binary(Operator::Multiply, a, b), shape)
 }
 
+/// What unsigned and two's complement words have in common.
+macro_rules! arithmetic {
+    ($word:ident, $shape:ident) => {
+        impl $word {
+            /// Width in bits.
+            pub fn width(self) -> usize {
+                build::shape(self.0).width
+            }
+
+            /// High where both are the same.
+            #[track_caller]
+            pub fn equals(self, other: impl Operand<$word>) -> Bit {
+                compare(Operator::Equal, self, other)
+            }
+
+            /// High where this word is less than `other`.
+            #[track_caller]
+            pub fn below(self, other: impl Operand<$word>) -> Bit {
+                compare(Operator::Below, self, other)
+            }
+
+            /// The same for words of any widths.
+            #[track_caller]
+            pub fn below_any(self, other: $word) -> Bit {
+                let width = self.width().max(other.width());
+                self.resize(width).below(other.resize(width))
+            }
+
+            /// High where two words of any widths are the same number.
+            #[track_caller]
+            pub fn equals_any(self, other: $word) -> Bit {
+                let width = self.width().max(other.width());
+                self.resize(width).equals(other.resize(width))
+            }
+
+            /// High where every bit is low.
+            #[track_caller]
+            pub fn is_zero(self) -> Bit {
+                self.equals(0)
+            }
+
+            /// The product, cut to `width` bits; the sum of both widths loses nothing.
+            #[track_caller]
+            pub fn times(self, other: $word, width: usize) -> Self {
+                $word(product(self.0, other.0, $shape(width)))
+            }
+
+            /// The sum of two words of any widths, one bit wider than the wider one: exact.
+            #[track_caller]
+            pub fn plus(self, other: $word) -> Self {
+                let width = self.width().max(other.width()) + 1;
+                self.resize(width) + other.resize(width)
+            }
+
+            /// Moved up by a fixed number of bits, zeros from below.
+            #[track_caller]
+            pub fn shift_left(self, by: usize) -> Self {
+                let shape = build::shape(self.0);
+                match by < shape.width {
+                    true => $word(node(Node::ShiftLeft(self.0, by), shape)),
+                    false => $word(constant(0, shape)),
+                }
+            }
+        }
+    };
+}
+
+arithmetic!(U, unsigned);
+arithmetic!(I, signed);
+
 impl U {
     /// A constant, taken modulo 2^`width`.
     #[track_caller]
@@ -260,43 +330,6 @@ impl U {
     #[track_caller]
     pub fn parameter(name: &'static str, value: u64, width: usize) -> Self {
         U(build::parameter(name, value, unsigned(width)))
-    }
-
-    /// Width in bits.
-    pub fn width(self) -> usize {
-        build::shape(self.0).width
-    }
-
-    /// High where both are the same.
-    #[track_caller]
-    pub fn equals(self, other: impl Operand<U>) -> Bit {
-        compare(Operator::Equal, self, other)
-    }
-
-    /// High where this word is less than `other`.
-    #[track_caller]
-    pub fn below(self, other: impl Operand<U>) -> Bit {
-        compare(Operator::Below, self, other)
-    }
-
-    /// The same for words of any widths.
-    #[track_caller]
-    pub fn below_any(self, other: U) -> Bit {
-        let width = self.width().max(other.width());
-        self.resize(width).below(other.resize(width))
-    }
-
-    /// High where two words of any widths are the same number.
-    #[track_caller]
-    pub fn equals_any(self, other: U) -> Bit {
-        let width = self.width().max(other.width());
-        self.resize(width).equals(other.resize(width))
-    }
-
-    /// High where every bit is low.
-    #[track_caller]
-    pub fn is_zero(self) -> Bit {
-        self.equals(0)
     }
 
     /// Bit `index`, 0 the least significant; one that is not there reads low.
@@ -332,29 +365,6 @@ impl U {
         U(node(Node::Slice(self.0, low), shape))
     }
 
-    /// The product, cut to `width` bits; the sum of both widths loses nothing.
-    #[track_caller]
-    pub fn times(self, other: U, width: usize) -> Self {
-        U(product(self.0, other.0, unsigned(width)))
-    }
-
-    /// The sum of two words of any widths, one bit wider than the wider one: exact.
-    #[track_caller]
-    pub fn plus(self, other: U) -> Self {
-        let width = self.width().max(other.width()) + 1;
-        self.resize(width) + other.resize(width)
-    }
-
-    /// Moved up by a fixed number of bits, zeros from below.
-    #[track_caller]
-    pub fn shift_left(self, by: usize) -> Self {
-        let shape = build::shape(self.0);
-        match by < shape.width {
-            true => U(node(Node::ShiftLeft(self.0, by), shape)),
-            false => U(constant(0, shape)),
-        }
-    }
-
     /// Moved down by a fixed number of bits, zeros from above.
     #[track_caller]
     pub fn shift_right(self, by: usize) -> Self {
@@ -388,43 +398,6 @@ impl I {
         I(constant(value as u64, signed(width)))
     }
 
-    /// Width in bits.
-    pub fn width(self) -> usize {
-        build::shape(self.0).width
-    }
-
-    /// High where both are the same.
-    #[track_caller]
-    pub fn equals(self, other: impl Operand<I>) -> Bit {
-        compare(Operator::Equal, self, other)
-    }
-
-    /// High where this word is less than `other`.
-    #[track_caller]
-    pub fn below(self, other: impl Operand<I>) -> Bit {
-        compare(Operator::Below, self, other)
-    }
-
-    /// The same for words of any widths.
-    #[track_caller]
-    pub fn below_any(self, other: I) -> Bit {
-        let width = self.width().max(other.width());
-        self.resize(width).below(other.resize(width))
-    }
-
-    /// High where two words of any widths are the same number.
-    #[track_caller]
-    pub fn equals_any(self, other: I) -> Bit {
-        let width = self.width().max(other.width());
-        self.resize(width).equals(other.resize(width))
-    }
-
-    /// High where every bit is low.
-    #[track_caller]
-    pub fn is_zero(self) -> Bit {
-        self.equals(0)
-    }
-
     /// The sign bit.
     #[track_caller]
     pub fn is_negative(self) -> Bit {
@@ -437,34 +410,11 @@ impl I {
         I(resize(self.0, build::word(signed(width), "a word")))
     }
 
-    /// The product, cut to `width` bits; the sum of both widths loses nothing.
-    #[track_caller]
-    pub fn times(self, other: I, width: usize) -> Self {
-        I(product(self.0, other.0, signed(width)))
-    }
-
-    /// The sum of two words of any widths, one bit wider than the wider one: exact.
-    #[track_caller]
-    pub fn plus(self, other: I) -> Self {
-        let width = self.width().max(other.width()) + 1;
-        self.resize(width) + other.resize(width)
-    }
-
     /// The difference of two words of any widths, one bit wider than the wider one: exact.
     #[track_caller]
     pub fn minus(self, other: I) -> Self {
         let width = self.width().max(other.width()) + 1;
         self.resize(width) - other.resize(width)
-    }
-
-    /// Moved up by a fixed number of bits, zeros from below.
-    #[track_caller]
-    pub fn shift_left(self, by: usize) -> Self {
-        let shape = build::shape(self.0);
-        match by < shape.width {
-            true => I(node(Node::ShiftLeft(self.0, by), shape)),
-            false => I(constant(0, shape)),
-        }
     }
 
     /// Moved down by a fixed number of bits, the sign from above: a division by 2^`by` rounded

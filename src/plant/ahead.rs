@@ -1,7 +1,5 @@
 //! Plants that go ahead of the circuit, for as long as it leaves them alone.
 
-use std::array::from_fn;
-
 /// The most ticks that plants go ahead.
 const MOST: u64 = 256;
 
@@ -17,18 +15,18 @@ pub trait Plant {
     fn set_state(&mut self, state: Self::State);
 }
 
-impl<P: Plant, const N: usize> Plant for [P; N] {
-    type State = [P::State; N];
+/// Those of two axes.
+impl<P: Plant> Plant for [P; 2] {
+    type State = [P::State; 2];
 
     #[inline]
     fn state(&self) -> Self::State {
-        from_fn(|n| self[n].state())
+        [self[0].state(), self[1].state()]
     }
 
-    fn set_state(&mut self, state: Self::State) {
-        for (plant, state) in self.iter_mut().zip(state) {
-            plant.set_state(state);
-        }
+    fn set_state(&mut self, [x, y]: Self::State) {
+        self[0].set_state(x);
+        self[1].set_state(y);
     }
 }
 

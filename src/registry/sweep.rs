@@ -23,20 +23,20 @@ pub struct SweepEntry {
     pub widths: RangeInclusive<u64>,
 }
 
+/// A case of the integrator's law is four positions: 2^32 cases at 8 bits.
+const POSITIONS: RangeInclusive<u64> = 2..=8;
+
 /// Every law.
 pub static SWEEPS: &[SweepEntry] = &[SweepEntry {
     circuit: "integrator",
     make: |given| {
         let rule = one_of(given, RULES)?;
-        let position = usize::try_from(*given.first()?).ok()?;
-        // A case is four positions.
-        if !(2..=15).contains(&position) {
-            return None;
-        }
+        let width = given.first().filter(|width| POSITIONS.contains(*width))?;
+        let position = *width as usize;
         Some(Box::new(LineSweep::new(Integrator { position, rule })))
     },
     width: 6,
-    widths: 2..=8,
+    widths: POSITIONS,
 }];
 
 /// A law with its circuit, its type forgotten.

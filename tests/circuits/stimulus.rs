@@ -7,10 +7,7 @@ use motion_rtl::circuits::linear_interpolator::LinearInterpolator;
 use motion_rtl::circuits::pulse_interpolator::{
     Axis, Group, PatternMemory, UnitLaw, Variant, Widths,
 };
-use motion_rtl::hdl::{
-    Cells, Circuit, Contents, Field, MemoryShape, Observer, Record, Role, Shape, Simulator, Source,
-    Value, zero,
-};
+use motion_rtl::hdl::{Circuit, Observer, Shape, Simulator, Value, inputs, zero};
 use motion_rtl::registry::{AnyModel, CATALOGUE, Request};
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use rayon::prelude::*;
@@ -34,31 +31,6 @@ fn files<C: Circuit>(circuit: &C, run: &Drive) -> (Vec<u8>, String, Driven) {
     (waves, stimulus, driven)
 }
 
-/// Bits of a line of a stimulus file, the lowest first.
-struct Bits<'a>(&'a mut dyn Iterator<Item = u64>);
-
-impl Bits<'_> {
-    fn take(&mut self, width: usize) -> u64 {
-        let mut bit = |place| self.0.next().expect("a bit") << place;
-        (0..width).map(&mut bit).sum()
-    }
-}
-
-impl Source for Bits<'_> {
-    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
-        self.take(shape.width)
-    }
-    fn memory(
-        &mut self,
-        _: &'static Field,
-        _: &'static Field,
-        _: MemoryShape,
-        _: &dyn Fn() -> Contents,
-    ) -> Cells {
-        unreachable!("a port in is a word")
-    }
-}
-
 /// A line of a stimulus file: the ports in, and the reset.
 fn parse<C: Circuit>(circuit: &C, line: &str) -> (C::In<Value>, bool) {
     let digits = line.chars().rev();
@@ -66,9 +38,13 @@ fn parse<C: Circuit>(circuit: &C, line: &str) -> (C::In<Value>, bool) {
         let digit = digit.to_digit(16).expect("a hexadecimal digit");
         (0..4).map(move |bit| u64::from(digit >> bit & 1))
     });
-    let mut words = Bits(&mut bits);
-    let i = C::In::make(circuit, const { &Field::part(Role::Input) }, &mut words);
-    let reset = words.take(1) == 1;
+    let mut word = |width: usize| -> u64 {
+        (0..width)
+            .map(|place| bits.next().expect("a bit") << place)
+            .sum()
+    };
+    let i = inputs(circuit, |shape| word(shape.width));
+    let reset = word(1) == 1;
     let above: Vec<u64> = bits.collect();
     assert!(
         above.len() < 4 && above.iter().all(|bit| *bit == 0),

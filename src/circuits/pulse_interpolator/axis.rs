@@ -94,13 +94,14 @@ impl Specified for Axis {
                 require(low, ["sync.step", "unit_rst"], || "high across RST".into())
             })
             .step("dir changes only with a word read", |now, next| {
-                let kept = next.p.memory.q.direction == now.p.memory.q.direction;
+                let kept = next.p.memory.q.direction == now.registers.p.memory.q.direction;
                 require(kept || now.i.read, ["dir", "read"], || {
                     "changed by itself".into()
                 })
             })
             .always("the toggle and the flip-flop agree", |now| {
-                let same = now.p.generator.q.toggle == now.p.sync.q.step;
+                let p = &now.registers.p;
+                let same = p.generator.q.toggle == p.sync.q.step;
                 require(same, ["generator.toggle", "sync.step"], || {
                     "they differ".into()
                 })

@@ -106,44 +106,53 @@ impl Circuit for CommandPort {
         };
         (net, next)
     }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let accepted = i.valid & (w.ready | i.now);
+        let given = waits(next, [i.base, i.last, i.period], [i.cyclic, i.run, i.now]);
+        let kept = waits(
+            next,
+            [q.pending_base, q.pending_last, q.pending_period],
+            [q.pending_cyclic, q.pending_run, q.pending_now],
+        );
+        let stays = q.pending & !(i.valid & i.now);
+        vec![
+            Property::step(
+                "a command given to a ready port, or with now, waits as it was given",
+                &["pending", "pending_base", "pending_last"],
+                !accepted | (next.pending & given),
+            ),
+            Property::step(
+                "a waiting command stays until it is taken or replaced",
+                &["pending", "pending_base", "pending_last"],
+                !stays | (kept & (next.pending ^ i.take)),
+            ),
+            Property::step(
+                "no command comes by itself",
+                &["pending"],
+                q.pending | i.valid | !next.pending,
+            ),
+            Property::always(
+                "ready means that none waits",
+                &["ready"],
+                w.ready ^ q.pending,
+            ),
+        ]
+    }
 }
 
-/// The command that waits, if one does.
-fn waiting(q: &Reg<Value>) -> ([u64; 3], [bool; 3]) {
-    let words = [q.pending_base, q.pending_last, q.pending_period];
-    (words, [q.pending_cyclic, q.pending_run, q.pending_now])
+/// Whether the command that waits is the one of these words and bits.
+fn waits(q: &Reg<Seen>, words: [U; 3], bits: [Bit; 3]) -> Bit {
+    let [base, last, period] = words;
+    let [cyclic, run, now] = bits;
+    let pattern = q.pending_base.equals(base) & q.pending_last.equals(last);
+    let differs = (q.pending_cyclic ^ cyclic) | (q.pending_run ^ run) | (q.pending_now ^ now);
+    pattern & q.pending_period.equals(period) & !differs
 }
 
 impl Specified for CommandPort {
     fn invariants(&self) -> Invariants<'_, Self> {
-        let signals = ["pending", "pending_base", "pending_last"];
-        Invariants::<Self>::new()
-            .step(
-                "a command given to a ready port, or with now, waits as it was given",
-                move |now, next| {
-                    let i = now.i;
-                    let accepted = i.valid && (now.w.ready || i.now);
-                    let given = ([i.base, i.last, i.period], [i.cyclic, i.run, i.now]);
-                    let there = next.q.pending && waiting(&next.q) == given;
-                    require(!accepted || there, signals, || "not stored".into())
-                },
-            )
-            .step(
-                "a waiting command stays until it is taken or replaced",
-                move |now, next| {
-                    let replaced = now.i.valid && now.i.now;
-                    let stays = now.q.pending && !replaced;
-                    let same = waiting(&next.q) == waiting(now.q);
-                    let held = same && next.q.pending != now.i.take;
-                    require(!stays || held, signals, || "lost or altered".into())
-                },
-            )
-            .step("no command comes by itself", |now, next| {
-                let none = !now.q.pending && !now.i.valid;
-                require(!none || !next.q.pending, ["pending"], || "a command".into())
-            })
-            .always("ready means that none waits", |now| {
-                require(now.w.ready != now.q.pending, ["ready"], || "both".into())
-            })
+        Invariants::of(self)
     }
 }

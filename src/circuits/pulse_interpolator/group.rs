@@ -212,7 +212,7 @@ impl Specified for Group {
             .step(
                 "T, address, state and words change only at RST",
                 |now, next| {
-                    let (p, after) = (now.p, &next.p);
+                    let (p, after) = (&now.registers.p, &next.p);
                     let words = p.axes.iter().zip(&after.axes).all(|(now, next)| {
                         let (now, next) = (&now.p.memory.q, &next.p.memory.q);
                         now.half_period == next.half_period && now.direction == next.direction
@@ -227,8 +227,9 @@ impl Specified for Group {
                 },
             )
             .always("where the unit time stands decides every axis", |now| {
-                let elapsed = now.p.counter.q.count;
-                let right = now.p.axes.iter().all(|axis| {
+                let p = &now.registers.p;
+                let elapsed = p.counter.q.count;
+                let right = p.axes.iter().all(|axis| {
                     let (generator, step) = (&axis.p.generator.q, axis.p.sync.q.step);
                     let n = axis.p.memory.q.half_period;
                     let expected = pulse_generator::expected(n, elapsed);
@@ -240,6 +241,7 @@ impl Specified for Group {
             })
             .always("an idle group has no pulses", |now| {
                 let quiet = now
+                    .registers
                     .p
                     .axes
                     .iter()

@@ -95,14 +95,14 @@ fn made(task: &Task) -> Result<(), Failure> {
             Ok(_) => Ok(()),
             Err(error) => Err(chosen::refused(entry, request, &error)),
         },
-        Task::Sweep(sweep, given) => match (sweep.make)(given) {
-            Some(_) if !sweep.widths.contains(&given[0]) => Err(Failure::Argument {
+        Task::Sweep(sweep, given) => match given.first() {
+            Some(width) if !sweep.widths.contains(width) => Err(Failure::Argument {
                 field: "--width",
-                problem: format!("is {}", given[0]),
+                problem: format!("is {width}"),
                 allowed: format!("{} to {}", sweep.widths.start(), sweep.widths.end()),
             }),
-            Some(_) => Ok(()),
-            None => Err(Failure::Argument {
+            _ if (sweep.make)(given).is_some() => Ok(()),
+            _ => Err(Failure::Argument {
                 field: "--with",
                 problem: format!("{} cannot be made with {given:?}", sweep.circuit),
                 allowed: entry(sweep.circuit)?.arguments.to_owned(),

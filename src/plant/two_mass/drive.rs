@@ -35,8 +35,10 @@ impl TwoMassAxis {
             + 4 * usize::from(regime.touches);
         let start = self.untwisted();
         let gained = self.pieces[index].gained(&start, torques);
-        let end: State = std::array::from_fn(|row| start[row] + gained[row]);
-        let rates = [start, end].map(|x| self.equations.rates(regime, &x, torques));
+        let mut end = start;
+        gain(&mut end, gained);
+        let rates = |x| self.equations.rates(regime, x, torques);
+        let rates = [rates(&start), rates(&end)];
         let quiet = guards.list().iter().all(|guard| {
             let turns = guard.part(&rates[0]) < 0.0 && guard.part(&rates[1]) > 0.0;
             guard.value(&end) >= 0.0 && !turns
@@ -164,8 +166,13 @@ impl TwoMassAxis {
 
     #[inline]
     fn gain(&mut self, gained: State) {
-        for (x, gained) in self.state.iter_mut().zip(gained) {
-            *x += gained;
-        }
+        gain(&mut self.state, gained);
+    }
+}
+
+#[inline]
+fn gain(state: &mut State, gained: State) {
+    for (x, gained) in state.iter_mut().zip(gained) {
+        *x += gained;
     }
 }

@@ -1,0 +1,253 @@
+//! A search through the states of a circuit, whatever its type.
+
+use super::Fault;
+use super::reach::{Progress, Proof};
+use super::search::{Report, Search};
+use super::visited::Visited;
+use crate::engine::sliced::{LANES, Tick, Ticks};
+use crate::engine::{Engine, Watch};
+use crate::hdl::{Model, Role};
+
+/// What a search asks about a circuit: all that depends on its type.
+pub(super) trait Judge {
+    /// Whether an input, by its number, is assumed possible in a state.
+    fn possible(&self, state: u64, input: usize) -> bool;
+    /// Whether a settled tick, of this state and input, is as it has to be, with the registers after
+    /// its edge.
+    fn check(
+        &self,
+        depth: u64,
+        engine: &Engine,
+        of: (u64, usize),
+        next: Next<'_>,
+    ) -> Result<(), (String, Fault)>;
+}
+
+/// The registers after an edge, if they are looked at.
+#[derive(Clone, Copy)]
+pub(super) enum Next<'a> {
+    Nobody,
+    State(u64),
+    Engine(&'a Engine),
+}
+
+/// A search, whatever the circuit's type.
+pub(super) struct Searching<'j> {
+    /// All inputs that are applied, as one word each, and port by port.
+    pub(super) words: Vec<u64>,
+    pub(super) ports: Vec<Vec<u64>>,
+    pub(super) judge: &'j dyn Judge,
+    /// Whether some inputs are not possible in some states.
+    pub(super) assumes: bool,
+    /// Whether the registers after an edge are looked at.
+    pub(super) looks_ahead: bool,
+    /// The numbers of the circuit's own properties, if there are no others.
+    pub(super) own: Option<Vec<usize>>,
+}
+
+impl Searching<'_> {
+    pub(super) fn run(
+        &self,
+        model: &Model,
+        visited: Visited,
+        (limit, progress): (u32, Option<Box<Report<'_>>>),
+        simulated: bool,
+    ) -> Ended {
+        let states = Packing::of(model);
+        let power_on = states.pack(&model.engine(Watch::All));
+        let search = Search::new(power_on, visited, limit, progress);
+        let tick = match simulated {
+            true => None,
+            false => Tick::of(model.flat(), self.own.as_deref().unwrap_or(&[])).ok(),
+        };
+        let mut one = One {
+            name: model.name(),
+            judge: self.judge,
+            engine: Engine::straight(model.program(Watch::All)),
+            states,
+            state: None,
+        };
+        match &tick {
+            Some(tick) => self.side_by_side(search, tick, &mut one),
+            None => self.one_by_one(search, &mut one),
+        }
+    }
+
+    /// Transition by transition.
+    fn one_by_one(&self, mut search: Search<'_>, one: &mut One<'_>) -> Ended {
+        let mut after = one.engine.clone();
+        while let Some(state) = search.state() {
+            one.states.unpack(state, &mut one.engine);
+            let before = search.transitions;
+            for (index, words) in self.ports.iter().enumerate() {
+                if self.assumes && !self.judge.possible(state, index) {
+                    continue;
+                }
+                search.transitions += 1;
+                one.engine.inputs(words);
+                one.engine.settle();
+                // The edge is another engine's, so that the registers stay for the next inputs.
+                after.restore(one.engine.slab());
+                after.edge();
+                let next = match self.looks_ahead {
+                    true => Next::Engine(&after),
+                    false => Next::Nobody,
+                };
+                let of = (state, index);
+                if let Err((name, fault)) = self.judge.check(search.depth, &one.engine, of, next) {
+                    return Ended::Fault(search.way(index), name, fault);
+                }
+                if !search.found(one.states.pack(&after), index) {
+                    return Ended::Limit(search.progress());
+                }
+            }
+            search.tried(before);
+        }
+        Ended::Proof(search.proof())
+    }
+
+    /// Many transitions at once, as gates: in the same order, with the same outcome.
+    fn side_by_side(&self, mut search: Search<'_>, tick: &Tick, one: &mut One<'_>) -> Ended {
+        let mut ticks = Ticks::new(tick);
+        // The next case: a state by its number, and an input.
+        let (mut at, mut index) = (0, 0);
+        let mut cases: Vec<(usize, usize)> = Vec::with_capacity(LANES);
+        let (mut before, mut given) = (Vec::with_capacity(LANES), Vec::with_capacity(LANES));
+        let mut after = Vec::with_capacity(LANES);
+        let mut transitions = 0;
+        let mut state = search.state();
+        loop {
+            cases.clear();
+            before.clear();
+            given.clear();
+            while let Some(from) = search.nth(at)
+                && cases.len() < LANES
+            {
+                while index < self.words.len() && cases.len() < LANES {
+                    if !self.assumes || self.judge.possible(from, index) {
+                        cases.push((at, index));
+                        before.push(from);
+                        given.push(self.words[index]);
+                    }
+                    index += 1;
+                }
+                if index == self.words.len() {
+                    (at, index) = (at + 1, 0);
+                }
+            }
+            after.clone_from(&before);
+            let mut broken = None;
+            ticks.run(&mut after, &given, |lane| broken = broken.or(Some(lane)));
+            for (lane, &(from, index)) in cases.iter().enumerate() {
+                while search.at() < from {
+                    search.tried(transitions);
+                    transitions = search.transitions;
+                    state = search.state();
+                }
+                search.transitions += 1;
+                let ports = &self.ports[index];
+                if self.own.is_none() {
+                    let next = match self.looks_ahead {
+                        true => Next::State(after[lane]),
+                        false => Next::Nobody,
+                    };
+                    let checked = one.at(search.depth, (before[lane], index), ports, next);
+                    if let Err((name, fault)) = checked {
+                        return Ended::Fault(search.way(index), name, fault);
+                    }
+                }
+                if broken == Some(lane) {
+                    let (name, fault) = one.fault(search.depth, (before[lane], index), ports);
+                    return Ended::Fault(search.way(index), name, fault);
+                }
+                if !search.found(after[lane], index) {
+                    return Ended::Limit(search.progress());
+                }
+            }
+            if cases.is_empty() {
+                break;
+            }
+        }
+        while state.is_some() {
+            search.tried(transitions);
+            transitions = search.transitions;
+            state = search.state();
+        }
+        Ended::Proof(search.proof())
+    }
+}
+
+/// How a search ended, inputs by their numbers.
+pub(super) enum Ended {
+    Proof(Proof),
+    Limit(Progress),
+    Fault(Vec<usize>, String, Fault),
+}
+
+/// What looks at one transition.
+struct One<'j> {
+    name: &'static str,
+    judge: &'j dyn Judge,
+    engine: Engine,
+    states: Packing,
+    /// The state that was looked at last.
+    state: Option<u64>,
+}
+
+impl One<'_> {
+    /// Settles a tick and looks at it.
+    fn at(
+        &mut self,
+        depth: u64,
+        (state, input): (u64, usize),
+        ports: &[u64],
+        next: Next<'_>,
+    ) -> Result<(), (String, Fault)> {
+        if self.state != Some(state) {
+            self.states.unpack(state, &mut self.engine);
+            self.state = Some(state);
+        }
+        self.engine.inputs(ports);
+        self.engine.settle();
+        self.judge.check(depth, &self.engine, (state, input), next)
+    }
+
+    /// What is wrong with a transition of which one of the circuit's own properties does not hold.
+    fn fault(&mut self, depth: u64, of: (u64, usize), ports: &[u64]) -> (String, Fault) {
+        // Where the engine disagrees with the gates: a fault of these, and no reason to be silent.
+        let disagreed = |name: &str| {
+            let message = "the gates of a tick say so, the engine does not".to_owned();
+            let signals = Vec::new();
+            (name.to_owned(), Fault { signals, message })
+        };
+        let fault = self.at(depth, of, ports, Next::Nobody);
+        fault.err().unwrap_or_else(|| disagreed(self.name))
+    }
+}
+
+/// How the registers of a circuit are packed into one word, the first in the lowest bits.
+struct Packing(Vec<(usize, usize)>);
+
+impl Packing {
+    fn of(model: &Model) -> Self {
+        let mut bit = 0;
+        let leaves = model.leaves(Role::Register).map(|leaf| {
+            bit += usize::from(model.flat().width(leaf));
+            (leaf, bit - usize::from(model.flat().width(leaf)))
+        });
+        Packing(leaves.collect())
+    }
+
+    fn pack(&self, engine: &Engine) -> u64 {
+        let words = self.0.iter().map(|&(leaf, bit)| engine.leaf(leaf) << bit);
+        words.fold(0, |state, word| state | word)
+    }
+
+    fn unpack(&self, state: u64, engine: &mut Engine) {
+        for &(leaf, bit) in &self.0 {
+            let width = engine.flat().width(leaf);
+            engine.set_leaf(leaf, state >> bit & (u64::MAX >> (64 - u32::from(width))));
+        }
+        engine.wake();
+    }
+}

@@ -1,0 +1,140 @@
+//! How the leaves of a circuit's records become nodes.
+
+use super::build::{self, builder, flat, masked, mistake, node, signal};
+use super::memory::Contents;
+use super::netlist::{Id, Memory, Node, Port, Register};
+use super::record::{Cells, MemoryShape, Source};
+use super::{Field, Path, Role, Shape};
+
+/// Makes inputs and registers.
+#[derive(Default)]
+pub(super) struct Leaves {
+    path: Path,
+}
+
+impl Leaves {
+    /// Tells scopes to who declares parts.
+    fn scoped(&self) {
+        let scope = self.path.scopes().join("_");
+        builder(|builder| builder.scope = scope);
+    }
+
+    /// The name of the leaf that comes now in its module.
+    fn name(&mut self, field: &'static Field) -> String {
+        let name = self.path.name(field);
+        flat(self.path.scopes(), &name)
+    }
+}
+
+/// Something is wrong with a leaf; of a part it is told where that is elaborated.
+fn object(what: String) {
+    if let (site, false) = builder(|builder| (builder.site(), builder.of_part)) {
+        mistake(site, what);
+    }
+}
+
+impl Source for Leaves {
+    fn enter(&mut self, field: &'static Field) {
+        self.path.enter(field);
+        self.scoped();
+    }
+    fn leave(&mut self) {
+        self.path.leave();
+        self.scoped();
+    }
+    fn element(&mut self, index: usize) {
+        self.path.element(index);
+    }
+
+    fn word(&mut self, field: &'static Field, shape: Shape, power_on: u64) -> u64 {
+        let name = self.name(field);
+        let role = self.path.role();
+        let shape = match build::is_word(shape) {
+            Ok(()) => shape,
+            Err(wrong) => {
+                object(format!("`{name}` {wrong}"));
+                build::nearest(shape)
+            }
+        };
+        builder(|builder| {
+            let mut made = signal(name, field, role, shape);
+            if role == Role::Register {
+                made.power_on = masked(power_on, shape);
+                let register = Register::Signal(builder.signals.len());
+                builder.registers.push(register);
+            }
+            let signal = builder.signal(made);
+            let site = builder.site();
+            builder.node(Node::Signal(signal), shape, site) as u64
+        })
+    }
+
+    fn memory(
+        &mut self,
+        field: &'static Field,
+        _: &'static Field,
+        shape: MemoryShape,
+        contents: &dyn Fn() -> Contents,
+    ) -> Cells {
+        let name = self.name(field);
+        let contents = contents();
+        let most = 1 << 24;
+        if !(1..=64).contains(&shape.width) || !(1..=most).contains(&shape.words) {
+            object(format!(
+                "memory `{name}` has {} words of {}; there are 1 to {most} words of 1 to 64 bits",
+                shape.words,
+                build::bits(shape.width)
+            ));
+        }
+        if let Some((address, width)) = contents.shape()
+            && (shape.address != Some(address) || shape.width != width)
+        {
+            let words = match shape.address {
+                Some(address) => format!("addresses of {}", build::bits(address)),
+                None => format!("{} stages", shape.words),
+            };
+            object(format!(
+                "memory `{name}` has {words} and words of {}, what it holds at power-on has {} and {}",
+                build::bits(shape.width),
+                build::bits(address),
+                build::bits(width)
+            ));
+        }
+        let shape = MemoryShape {
+            words: shape.words.clamp(1, most),
+            width: shape.width.clamp(1, 64),
+            ..shape
+        };
+        let words = contents.words(shape);
+        let first = builder(|builder| {
+            builder.memories.push(Memory {
+                name,
+                doc: field.doc,
+                words: shape.words,
+                width: shape.width,
+                port: Port::Rom,
+                filled: words.iter().any(|word| *word != 0),
+                inner: false,
+            });
+            builder.shapes.push(shape);
+            builder.contents.push(words);
+            let memory = builder.memories.len() - 1;
+            builder.registers.push(Register::Memory(memory));
+            memory
+        });
+        Cells::at(first, shape)
+    }
+}
+
+/// Words that are nodes already, one after the other.
+pub(crate) struct Nodes<'a>(pub std::slice::Iter<'a, Id>);
+
+impl Source for Nodes<'_> {
+    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
+        match self.0.next() {
+            Some(id) => *id as u64,
+            // There are as many as the same walk found.
+            None => node(Node::Constant(0), shape) as u64,
+        }
+    }
+}
