@@ -105,7 +105,7 @@ impl<'m> Expressions<'m> {
             Node::Binary(operator @ (Operator::And | Operator::Or), ..) => {
                 let sign = self.sign(operator, id).0;
                 let mut terms = Vec::new();
-                self.terms(operator, id, true, &mut terms);
+                self.terms(operator, id, true, (room, indent), &mut terms);
                 let last = terms.len() - 1;
                 for (index, term) in terms.into_iter().enumerate() {
                     parts.push(match index == last {
@@ -119,16 +119,30 @@ impl<'m> Expressions<'m> {
         parts.join(&format!("\n{indent}"))
     }
 
-    /// The terms of a chain of one operator.
-    fn terms(&self, operator: Operator, id: Id, whole: bool, terms: &mut Vec<String>) {
+    /// The terms of a chain of one operator; long chains among them in several lines.
+    fn terms(
+        &self,
+        operator: Operator,
+        id: Id,
+        whole: bool,
+        (room, indent): (usize, &str),
+        terms: &mut Vec<String>,
+    ) {
         match self.module.nodes[id].0 {
             Node::Binary(here, a, b)
                 if here == operator && (whole || self.names.get(id).is_none()) =>
             {
-                self.terms(operator, a, false, terms);
-                self.terms(operator, b, false, terms);
+                self.terms(operator, a, false, (room, indent), terms);
+                self.terms(operator, b, false, (room, indent), terms);
             }
-            _ => terms.push(self.text(id).within(Rank::Equality)),
+            node => {
+                let text = self.text(id).within(Rank::Equality);
+                let chain = matches!(node, Node::Binary(Operator::And | Operator::Or, ..));
+                terms.push(match chain && text.len() > room {
+                    true => format!("({})", self.definition(id, room, &format!("{indent} "))),
+                    false => text,
+                });
+            }
         }
     }
 

@@ -3,7 +3,8 @@
 use super::design::Modules;
 use super::expression::Expressions;
 use super::names::Names;
-use crate::hdl::netlist::Module;
+use super::text::range;
+use crate::hdl::netlist::{Module, Node};
 use std::fmt::Write as _;
 
 /// Low in the first tick, whose past is not known.
@@ -16,7 +17,8 @@ impl Modules<'_> {
             return String::new();
         }
         // Names of its own: what only an assertion reads is read by nothing in the circuit.
-        let names = Names::new(module, self.modules);
+        let mut names = Names::new(module, self.modules);
+        names.share_in_assertions(module);
         let expressions = Expressions::new(module, &names);
         let mut text = String::from("`ifdef FORMAL\n");
         let steps = module.assertions.iter().any(|assertion| assertion.step);
@@ -25,6 +27,7 @@ impl Modules<'_> {
             let _ = writeln!(text, "    always @(posedge clk)");
             let _ = writeln!(text, "        {PAST_VALID} <= 1'b1;\n");
         }
+        text += &shared(module, &expressions);
         let _ = writeln!(text, "    always @(posedge clk) begin");
         for assertion in &module.assertions {
             let holds = expressions.definition(assertion.holds, 76, "                ");
@@ -44,4 +47,30 @@ impl Modules<'_> {
         }
         text + "    end\n`endif\n\n"
     }
+}
+
+/// What has a name in the assertions of a module: values of before as registers, others as wires.
+fn shared(module: &Module, expressions: &Expressions<'_>) -> String {
+    let (mut registers, mut edges, mut wires) = (String::new(), String::new(), String::new());
+    for &id in &expressions.names.shared {
+        let (node, shape) = module.nodes[id];
+        let name = expressions.names.get(id).unwrap_or_default();
+        match node {
+            Node::Past(of) => {
+                let _ = writeln!(registers, "    reg {}{name};", range(shape));
+                let _ = writeln!(edges, "        {name} <= {};", expressions.value(of));
+            }
+            _ => {
+                let definition = expressions.definition(id, 76, "        ");
+                let _ = writeln!(wires, "    wire {}{name} = {definition};", range(shape));
+            }
+        }
+    }
+    if registers.is_empty() && wires.is_empty() {
+        return String::new();
+    }
+    if !edges.is_empty() {
+        edges = format!("    always @(posedge clk) begin\n{edges}    end\n");
+    }
+    registers + &edges + &wires + "\n"
 }

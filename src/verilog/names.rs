@@ -93,13 +93,58 @@ impl Names {
     /// Names what is used more than once, and what Verilog takes no part of without a name.
     fn share(&mut self, module: &Module) {
         let live = module.live();
-        let mut uses = vec![0_usize; module.nodes.len()];
-        let mut parts = vec![false; module.nodes.len()];
+        let (mut uses, mut parts) = self.uses(module, &live);
         for root in module.roots() {
             uses[root] += 1;
         }
+        for memory in &module.memories {
+            if let Port::Ram { address, .. } = memory.port {
+                parts[address] |= !self.is_index(module, address);
+            }
+        }
+        self.share_of(module, &live, (&uses, &parts), true);
+    }
+
+    /// Names the same in what assertions compute: with it the values of before, where any is named,
+    /// for only the assertions themselves may ask for them.
+    pub(super) fn share_in_assertions(&mut self, module: &Module) {
+        self.shared.clear();
+        let mut read = vec![false; module.nodes.len()];
+        for assertion in &module.assertions {
+            read[assertion.holds] = true;
+        }
+        for id in (0..read.len()).rev() {
+            let (node, _) = module.nodes[id];
+            if read[id] && !self.of.contains_key(&id) && !matches!(node, Node::Past(_)) {
+                for operand in node.operands() {
+                    read[operand] = true;
+                }
+            }
+        }
+        let (uses, parts) = self.uses(module, &read);
+        let unnamed = |id: &usize| parts[*id] && !self.of.contains_key(id);
+        if !(0..parts.len()).any(|id| unnamed(&id)) {
+            return;
+        }
+        for (id, (node, _)) in module.nodes.iter().enumerate() {
+            if let Node::Past(of) = *node
+                && read[id]
+            {
+                let name = format!("past_{}", self.get(of).unwrap_or("net"));
+                let name = self.free(&name.replace('.', "_"));
+                self.of.insert(id, name);
+                self.shared.push(id);
+            }
+        }
+        self.share_of(module, &read, (&uses, &parts), false);
+    }
+
+    /// How often each node is used by those that are read, and whether parts of it are taken.
+    fn uses(&self, module: &Module, read: &[bool]) -> (Vec<usize>, Vec<bool>) {
+        let mut uses = vec![0_usize; module.nodes.len()];
+        let mut parts = vec![false; module.nodes.len()];
         for (id, (node, shape)) in module.nodes.iter().enumerate() {
-            if !live[id] {
+            if !read[id] {
                 continue;
             }
             for operand in node.operands() {
@@ -117,19 +162,22 @@ impl Names {
                 _ => {}
             }
         }
-        for memory in &module.memories {
-            if let Port::Ram { address, .. } = memory.port {
-                parts[address] |= !self.is_index(module, address);
-            }
-        }
+        (uses, parts)
+    }
+
+    /// Names what is read; `always`, though no short name says what is computed.
+    fn share_of(&mut self, module: &Module, read: &[bool], of: (&[usize], &[bool]), always: bool) {
+        let (uses, parts) = of;
         for id in 0..module.nodes.len() {
             let (node, _) = module.nodes[id];
             let constant = matches!(node, Node::Constant(_) | Node::Parameter(_));
-            if !live[id] || self.of.contains_key(&id) || constant {
+            if !read[id] || self.of.contains_key(&id) || constant {
                 continue;
             }
-            if parts[id] || uses[id] > 1 && !self.is_plain(module, id) {
-                let name = self.describe(module, id).unwrap_or_default();
+            let name = self.describe(module, id);
+            if parts[id] || uses[id] > 1 && !self.is_plain(module, id) && (always || name.is_some())
+            {
+                let name = name.unwrap_or_default();
                 let name = self.free(&name);
                 self.of.insert(id, name);
                 self.shared.push(id);

@@ -195,120 +195,91 @@ impl Circuit for Sequencer {
         };
         (net, next)
     }
-}
 
-/// Whether the commands of a scan are being computed by anything but the pattern.
-fn works(i: &In<Value>, q: &Reg<Value>) -> bool {
-    q.advance || i.pattern_valid || i.integrating || i.load
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (i, q, w, next) = (&now.i, &now.q, &now.w, &now.next.q);
+        let [idle, fetch, plan, runs] = [IDLE, FETCH, PLAN, RUN].map(|state| q.state.equals(state));
+        let ended = next.state.equals(IDLE);
+        // Nothing but the pattern computes the commands of a scan.
+        let rests = !q.advance & !i.pattern_valid & !i.integrating & !i.load;
+        let planned = |[master, slave, master_from, slave_from]: [I; 4]| {
+            let distances = next.master.equals(master) & next.slave.equals(slave);
+            let starts = next.master_from.equals(master_from);
+            distances & starts & next.slave_from.equals(slave_from)
+        };
+        let swapped = w.way_x.below(w.way_y);
+        let x_first = planned([q.delta_x, q.delta_y, i.x, i.y]) & !next.swapped;
+        let y_first = planned([q.delta_y, q.delta_x, i.y, i.x]) & next.swapped;
+        let stands = planned([q.master, q.slave, q.master_from, q.slave_from]);
+        let near_x = next.delta_x.equals(i.target_x - i.x);
+        let near_y = next.delta_y.equals(i.target_y - i.y);
+        // A distance that wraps has the wrong sign.
+        let far_x = next.delta_x.is_negative() ^ i.target_x.below(i.x);
+        let far_y = next.delta_y.is_negative() ^ i.target_y.below(i.y);
+        let far = far_x | far_y | !next.too_far;
+        let refused = far & (!far_x | next.too_far) & (!far_y | next.too_far);
+        let starts = next.state.equals(BEGIN);
+        let waits = !i.pattern_active | i.pattern_ready;
+        let cleared = i.clear & idle;
+        let kept = (!q.late | next.late) & (!q.refused | next.refused);
+        vec![
+            Property::step(
+                "the master axis is the one with the greater distance, X where they are alike",
+                &["swapped", "master", "slave"],
+                !plan | (swapped & y_first) | (!swapped & x_first),
+            ),
+            Property::step(
+                "distances are those from command to target, or the target is refused",
+                &["delta_x", "delta_y", "too_far"],
+                !fetch | (near_x & near_y & refused),
+            ),
+            Property::step(
+                "no cycle begins with a distance that is wrong",
+                &["state", "refused"],
+                !(q.too_far & plan) | (ended & (i.halt | next.refused)),
+            ),
+            Property::step(
+                "an abort before the start of a cycle ends it, none begins with one",
+                &["state", "start"],
+                !i.halt | runs | (ended & !next.start & !next.pop),
+            ),
+            Property::step(
+                "distances and starts stand while a cycle runs",
+                &["master", "slave", "swapped"],
+                !runs | (stands & !(next.swapped ^ q.swapped)),
+            ),
+            Property::step(
+                "a scan is begun where nothing is computed, and only with a cycle",
+                &["advance"],
+                !next.advance | (i.pattern_ready & rests & runs & i.scan),
+            ),
+            Property::step(
+                "a start comes once, when the distances stand",
+                &["start", "state"],
+                !(next.start ^ starts) & (!next.start | plan),
+            ),
+            Property::step(
+                "a scan that comes while one is computed is flagged",
+                &["late"],
+                !runs | !i.scan | !q.computing | (rests & waits) | next.late,
+            ),
+            Property::always(
+                "a cycle ends only when its last commands are out",
+                &["over"],
+                !w.over | !(i.load | i.integrating | i.pattern_valid | i.pattern_active),
+            ),
+            Property::step(
+                "flags go by clear alone, which acts between cycles",
+                &["late", "refused", "home"],
+                !(cleared ^ w.home) & (kept | cleared),
+            ),
+        ]
+    }
 }
 
 impl Specified for Sequencer {
     fn invariants(&self) -> Invariants<'_, Self> {
-        Invariants::<Self>::new()
-            .step(
-                "the master axis is the one with the greater distance, X where they are alike",
-                |now, next| {
-                    let (dx, dy) = (now.q.delta_x, now.q.delta_y);
-                    let swapped = dx.abs() < dy.abs();
-                    let expected = match swapped {
-                        false => [dx, dy, now.i.x, now.i.y],
-                        true => [dy, dx, now.i.y, now.i.x],
-                    };
-                    let q = &next.q;
-                    let found = [q.master, q.slave, q.master_from, q.slave_from];
-                    let right = q.swapped == swapped && found == expected;
-                    let planned = now.q.state == PLAN;
-                    require(!planned || right, ["swapped", "master", "slave"], || {
-                        format!("{expected:?}")
-                    })
-                },
-            )
-            .step(
-                "distances are those from command to target, or the target is refused",
-                |now, next| {
-                    let i = now.i;
-                    let far = [
-                        i.target_x - i.x - next.q.delta_x,
-                        i.target_y - i.y - next.q.delta_y,
-                    ];
-                    let right = next.q.too_far == (far != [0, 0]);
-                    let fetched = now.q.state == FETCH;
-                    require(!fetched || right, ["delta_x", "delta_y", "too_far"], || {
-                        format!("{far:?}")
-                    })
-                },
-            )
-            .step(
-                "no cycle begins with a distance that is wrong",
-                |now, next| {
-                    let wrong = now.q.too_far && now.q.state == PLAN;
-                    let refused = next.q.state == IDLE && (now.i.halt || next.q.refused);
-                    require(!wrong || refused, ["state", "refused"], || "begun".into())
-                },
-            )
-            .step(
-                "an abort before the start of a cycle ends it, none begins with one",
-                |now, next| {
-                    let early = now.q.state != RUN;
-                    let ended = next.q.state == IDLE && !next.q.start && !next.q.pop;
-                    require(!now.i.halt || !early || ended, ["state", "start"], || {
-                        "goes on".into()
-                    })
-                },
-            )
-            .step(
-                "distances and starts stand while a cycle runs",
-                |now, next| {
-                    let words = |q: &Reg<Value>| {
-                        let words = [q.master, q.slave, q.master_from, q.slave_from];
-                        (q.swapped, words)
-                    };
-                    let stands = now.q.state != RUN || words(now.q) == words(&next.q);
-                    require(stands, ["master", "slave", "swapped"], || "changed".into())
-                },
-            )
-            .step(
-                "a scan is begun where nothing is computed, and only with a cycle",
-                |now, next| {
-                    let rests = now.i.pattern_ready && !works(now.i, now.q);
-                    let runs = now.q.state == RUN && now.i.scan;
-                    let right = !next.q.advance || rests && runs;
-                    require(right, ["advance"], || "begun".into())
-                },
-            )
-            .step(
-                "a start comes once, when the distances stand",
-                |now, next| {
-                    let right = next.q.start == (next.q.state == BEGIN);
-                    let planned = !next.q.start || now.q.state == PLAN;
-                    require(right && planned, ["start", "state"], || {
-                        "at a wrong time".into()
-                    })
-                },
-            )
-            .step(
-                "a scan that comes while one is computed is flagged",
-                |now, next| {
-                    let scanning = now.i.pattern_active && !now.i.pattern_ready;
-                    let computed = now.q.computing && (scanning || works(now.i, now.q));
-                    let early = computed && now.q.state == RUN && now.i.scan;
-                    require(!early || next.q.late, ["late"], || "not flagged".into())
-                },
-            )
-            .always("a cycle ends only when its last commands are out", |now| {
-                let i = now.i;
-                let busy = i.load || i.integrating || i.pattern_valid || i.pattern_active;
-                require(!now.w.over || !busy, ["over"], || "too early".into())
-            })
-            .step(
-                "flags go by clear alone, which acts between cycles",
-                |now, next| {
-                    let cleared = now.i.clear && now.q.state == IDLE;
-                    let kept = (!now.q.late || next.q.late) && (!now.q.refused || next.q.refused);
-                    let right = cleared == now.w.home && (kept || cleared);
-                    require(right, ["late", "refused", "home"], || "lost".into())
-                },
-            )
+        Invariants::of(self)
     }
 
     /// Words are tried with the strobes low, and strobes with the words zero: no equation has both.

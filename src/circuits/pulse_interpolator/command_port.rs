@@ -147,8 +147,8 @@ fn waits(q: &Reg<Seen>, words: [U; 3], bits: [Bit; 3]) -> Bit {
     let [base, last, period] = words;
     let [cyclic, run, now] = bits;
     let pattern = q.pending_base.equals(base) & q.pending_last.equals(last);
-    let differs = (q.pending_cyclic ^ cyclic) | (q.pending_run ^ run) | (q.pending_now ^ now);
-    pattern & q.pending_period.equals(period) & !differs
+    let same = !(q.pending_cyclic ^ cyclic) & !(q.pending_run ^ run) & !(q.pending_now ^ now);
+    pattern & q.pending_period.equals(period) & same
 }
 
 impl Specified for CommandPort {

@@ -20,7 +20,9 @@ const fn small(rule: Rule) -> LinearInterpolator {
 }
 
 fn at_power_on(rule: Rule) -> Simulator<LinearInterpolator> {
-    Simulator::new(&small(rule)).unwrap()
+    let mut simulator = Simulator::new(&small(rule)).unwrap();
+    simulator.compile();
+    simulator
 }
 
 /// Where to, how fast in quarters of a count a scan, and with which times.

@@ -16,7 +16,9 @@ const fn small(rule: Rule) -> Integrator {
 }
 
 fn at_power_on(rule: Rule) -> Simulator<Integrator> {
-    Simulator::new(&small(rule)).unwrap()
+    let mut simulator = Simulator::new(&small(rule)).unwrap();
+    simulator.compile();
+    simulator
 }
 
 /// An integrator in the middle of a cycle.

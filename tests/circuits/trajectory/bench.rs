@@ -4,7 +4,7 @@ use motion_rtl::circuits::trajectory_controller::controller::In;
 use motion_rtl::circuits::trajectory_controller::model_state::ModelGains;
 use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use motion_rtl::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
-use motion_rtl::hdl::{Simulator, Value, zero};
+use motion_rtl::hdl::{At, Simulator, Value, zero};
 
 /// What stands when all points of a period do, in guard units.
 #[derive(Debug, Clone)]
@@ -140,17 +140,65 @@ impl Bench {
         profile: &[Record],
         gains: [u64; 2],
         correction: Correction,
+        periods: (u64, usize),
+    ) -> Vec<Period> {
+        let at_power_on = self.at_power_on(correction);
+        at_power_on.run(path, profile, gains, periods)
+    }
+
+    pub fn at_power_on(self, correction: Correction) -> AtPowerOn {
+        let circuit = self.controller(correction);
+        let watched = Simulator::watching(&circuit, false, |watch| Watched {
+            driven: watch.at(watch.p.axes[0].w.driven),
+            waiting: watch.at(watch.p.progress.q.waiting),
+            late: watch.at(watch.p.gather.q.late),
+        });
+        let (simulator, watched) = watched.unwrap();
+        AtPowerOn {
+            bench: self,
+            simulator,
+            watched,
+        }
+    }
+}
+
+/// A controller that has not run yet.
+pub struct AtPowerOn {
+    bench: Bench,
+    simulator: Simulator<TrajectoryController>,
+    watched: Watched,
+}
+
+#[derive(Clone, Copy)]
+struct Watched {
+    driven: At<bool>,
+    waiting: At<bool>,
+    late: At<bool>,
+}
+
+impl AtPowerOn {
+    /// It compiled, for many runs.
+    pub fn compiled(mut self) -> Self {
+        self.simulator.compile();
+        self
+    }
+
+    /// The first periods of a path; it fails where the arithmetic is late.
+    pub fn run(
+        &self,
+        path: &Path,
+        profile: &[Record],
+        gains: [u64; 2],
         (period, periods): (u64, usize),
     ) -> Vec<Period> {
-        let circuit = self.controller(correction);
-        let watched = Simulator::watching(&circuit, false, |watch| {
-            let driven = watch.at(watch.p.axes[0].w.driven);
-            let waiting = watch.at(watch.p.progress.q.waiting);
-            (driven, waiting, watch.at(watch.p.gather.q.late))
-        });
-        let (mut simulator, (driven, waiting, late)) = watched.unwrap();
-        let mut writes = self.writes(path, profile, gains, period).into_iter();
-        let idle = self.idle(path, gains, period);
+        let Watched {
+            driven,
+            waiting,
+            late,
+        } = self.watched;
+        let mut simulator = self.simulator.clone();
+        let mut writes = self.bench.writes(path, profile, gains, period).into_iter();
+        let idle = self.bench.idle(path, gains, period);
         let mut seen = Vec::new();
         while seen.len() < periods {
             let write = writes.next();

@@ -36,7 +36,9 @@ module enable_counter (
         // Without enable the count goes up by one and stays below the period.
         if (f_past_valid && !$past(rst))
             assert ($past(enable) ||
-                (count == $past(count) + 4'd1 && $past(count) < count && count < $past(period)));
+                (count == $past(count) + 4'd1 &&
+                 $past(count) < count &&
+                 count < $past(period)));
         // The count never reaches its greatest value.
         assert (count < 4'd15);
     end

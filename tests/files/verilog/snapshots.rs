@@ -4,10 +4,53 @@
 use expect_test::expect_file;
 use motion_rtl::circuits::blocks::EnableCounter;
 use motion_rtl::circuits::pulse_interpolator::{AddressSequencer, Axis, PatternMemory, Variant};
-use motion_rtl::hdl::Circuit;
+use motion_rtl::hdl::prelude::*;
 use motion_rtl::verilog::Verilog;
 
 const COUNTER: EnableCounter = EnableCounter { width: 4 };
+
+/// How far an input moves.
+#[derive(Debug, Clone)]
+struct Distance;
+
+signals! { for Distance as _c;
+    /// Ports in.
+    pub struct In {
+        /// A position.
+        pub position: I(4),
+    }
+    /// Registers.
+    pub struct Reg {
+        /// The position a tick ago.
+        pub old: I(4) = 0,
+        /// By how much it moved.
+        pub moved: I(5) = 0,
+    }
+}
+
+impl Circuit for Distance {
+    const NAME: &'static str = "distance";
+    const ABOUT: &'static str = "how far a position moves in a tick";
+    records!(In, Reg, Nothing);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+        let next = Reg {
+            old: i.position,
+            moved: i.position.minus(q.old),
+        };
+        (Nothing, next)
+    }
+
+    fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
+        let (position, old) = (now.i.position, now.q.old);
+        let moved = now.next.q.moved;
+        vec![Property::step(
+            "from where it was to where it is",
+            &["moved"],
+            (old.resize(5) + moved).equals(position.resize(5)),
+        )]
+    }
+}
 
 /// The sources of a circuit, one below the other.
 fn text(circuit: &impl Circuit) -> String {
@@ -33,6 +76,12 @@ fn circuits_in_a_circuit() {
         variant: Variant::Safe,
     };
     expect_file!["axis.v"].assert_eq(&text(&axis));
+}
+
+/// Verilog takes no part of `$past`.
+#[test]
+fn parts_of_words_of_before_in_an_assertion() {
+    expect_file!["distance.v"].assert_eq(&text(&Distance));
 }
 
 #[test]

@@ -1,0 +1,40 @@
+// distance: how far a position moves in a tick.
+// Made by motion-rtl from the circuit of that name.
+
+module distance (
+    input  wire              clk,
+    input  wire              rst,          // Registers to their power-on values; memories stay.
+    input  wire signed [3:0] position,     // A position.
+    output reg  signed [3:0] old = 4'sd0,  // The position a tick ago.
+    output reg  signed [4:0] moved = 5'sd0 // By how much it moved.
+);
+
+    always @(posedge clk)
+        if (rst) begin
+            old <= 4'sd0;
+            moved <= 5'sd0;
+        end else begin
+            old <= position;
+            moved <= $signed({{1{position[3]}}, position}) - $signed({{1{old[3]}}, old});
+        end
+
+`ifdef FORMAL
+    reg f_past_valid = 1'b0;
+    always @(posedge clk)
+        f_past_valid <= 1'b1;
+
+    reg signed [3:0] past_position;
+    reg signed [3:0] past_old;
+    always @(posedge clk) begin
+        past_position <= position;
+        past_old <= old;
+    end
+
+    always @(posedge clk) begin
+        // From where it was to where it is.
+        if (f_past_valid && !$past(rst))
+            assert ($signed({{1{past_old[3]}}, past_old}) + moved == $signed({{1{past_position[3]}}, past_position}));
+    end
+`endif
+
+endmodule
