@@ -70,7 +70,7 @@ signals! { for Comparator as c;
         side: U(2) as States(SIDES) = 0,
         /// It looks at all: from the first `arm` on.
         armed: Bit = 0,
-        /// The control signal, from the first crossing to the next `arm`.
+        /// The control signal, from the first crossing, or a halt, to the next `arm`.
         pub control: Bit = 0,
         /// It came from below.
         pub upward: Bit = 0,
