@@ -3,6 +3,7 @@
 use super::Circuit;
 use super::build::{builder, node};
 use super::elaborate::Nets;
+use super::leaves::Nodes;
 use super::record::{Pass, Record, Source};
 use super::view::{self, Seen, Wire};
 use super::words::Bit;
@@ -152,11 +153,7 @@ impl There {
     }
 
     fn moment<C: Circuit>(&self, circuit: &C, next: &There) -> Moment<C> {
-        let mut inputs = Again {
-            registers: self.inputs.iter(),
-            nets: [].iter(),
-            pass: Pass::Registers,
-        };
+        let mut inputs = Nodes(self.inputs.iter());
         let i = C::In::make(circuit, view::role(Role::Input), &mut inputs);
         let mut again = self.again();
         let q = C::Reg::make(circuit, view::role(Role::Register), &mut again);
@@ -174,8 +171,8 @@ impl There {
     /// Registers, and nets where a part has them.
     fn again(&self) -> Again<'_> {
         Again {
-            registers: self.registers.iter(),
-            nets: self.nets.iter(),
+            registers: Nodes(self.registers.iter()),
+            nets: Nodes(self.nets.iter()),
             pass: Pass::Registers,
         }
     }
@@ -183,8 +180,8 @@ impl There {
 
 /// Nodes that are there, in the order of the walks.
 struct Again<'a> {
-    registers: std::slice::Iter<'a, Id>,
-    nets: std::slice::Iter<'a, Id>,
+    registers: Nodes<'a>,
+    nets: Nodes<'a>,
     pass: Pass,
 }
 
@@ -195,15 +192,10 @@ impl Source for Again<'_> {
     fn passing(&self) -> Pass {
         self.pass
     }
-    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
-        let next = match self.pass {
-            Pass::Registers => self.registers.next(),
-            Pass::Nets => self.nets.next(),
-        };
-        match next {
-            Some(id) => *id as u64,
-            // There are as many as the same walk found.
-            None => node(Node::Constant(0), shape) as u64,
+    fn word(&mut self, field: &'static Field, shape: Shape, power_on: u64) -> u64 {
+        match self.pass {
+            Pass::Registers => self.registers.word(field, shape, power_on),
+            Pass::Nets => self.nets.word(field, shape, power_on),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Plants that go ahead of the circuit, for as long as it leaves them alone.
 
+use std::array::from_fn;
+
 /// The most ticks that plants go ahead.
 const MOST: u64 = 256;
 
@@ -15,18 +17,18 @@ pub trait Plant {
     fn set_state(&mut self, state: Self::State);
 }
 
-/// Those of two axes.
-impl<P: Plant> Plant for [P; 2] {
-    type State = [P::State; 2];
+impl<P: Plant, const N: usize> Plant for [P; N] {
+    type State = [P::State; N];
 
     #[inline]
     fn state(&self) -> Self::State {
-        [self[0].state(), self[1].state()]
+        from_fn(|n| self[n].state())
     }
 
-    fn set_state(&mut self, [x, y]: Self::State) {
-        self[0].set_state(x);
-        self[1].set_state(y);
+    fn set_state(&mut self, state: Self::State) {
+        for (plant, state) in self.iter_mut().zip(state) {
+            plant.set_state(state);
+        }
     }
 }
 

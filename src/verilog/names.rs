@@ -102,11 +102,11 @@ impl Names {
                 parts[address] |= !self.is_index(module, address);
             }
         }
-        self.share_of(module, &live, (&uses, &parts), true);
+        self.share_of(module, &live, &uses, &parts);
     }
 
-    /// Names the same in what assertions compute: with it the values of before, where any is named,
-    /// for only the assertions themselves may ask for them.
+    /// Names what Verilog takes no part of without a name in what assertions compute, and, where
+    /// there is any, all values of before: wires cannot ask for them.
     pub(super) fn share_in_assertions(&mut self, module: &Module) {
         self.shared.clear();
         let mut read = vec![false; module.nodes.len()];
@@ -121,7 +121,7 @@ impl Names {
                 }
             }
         }
-        let (uses, parts) = self.uses(module, &read);
+        let (_, parts) = self.uses(module, &read);
         let unnamed = |id: &usize| parts[*id] && !self.of.contains_key(id);
         if !(0..parts.len()).any(|id| unnamed(&id)) {
             return;
@@ -136,7 +136,7 @@ impl Names {
                 self.shared.push(id);
             }
         }
-        self.share_of(module, &read, (&uses, &parts), false);
+        self.share_of(module, &read, &vec![0; read.len()], &parts);
     }
 
     /// How often each node is used by those that are read, and whether parts of it are taken.
@@ -165,19 +165,16 @@ impl Names {
         (uses, parts)
     }
 
-    /// Names what is read; `always`, though no short name says what is computed.
-    fn share_of(&mut self, module: &Module, read: &[bool], of: (&[usize], &[bool]), always: bool) {
-        let (uses, parts) = of;
+    /// Names, of what is read, what is used more than once, and that of which parts are taken.
+    fn share_of(&mut self, module: &Module, read: &[bool], uses: &[usize], parts: &[bool]) {
         for id in 0..module.nodes.len() {
             let (node, _) = module.nodes[id];
             let constant = matches!(node, Node::Constant(_) | Node::Parameter(_));
             if !read[id] || self.of.contains_key(&id) || constant {
                 continue;
             }
-            let name = self.describe(module, id);
-            if parts[id] || uses[id] > 1 && !self.is_plain(module, id) && (always || name.is_some())
-            {
-                let name = name.unwrap_or_default();
+            if parts[id] || uses[id] > 1 && !self.is_plain(module, id) {
+                let name = self.describe(module, id).unwrap_or_default();
                 let name = self.free(&name);
                 self.of.insert(id, name);
                 self.shared.push(id);

@@ -216,13 +216,26 @@ impl Circuit for Sequencer {
         // A distance that wraps has the wrong sign.
         let far_x = next.delta_x.is_negative() ^ i.target_x.below(i.x);
         let far_y = next.delta_y.is_negative() ^ i.target_y.below(i.y);
-        let far = far_x | far_y | !next.too_far;
-        let refused = far & (!far_x | next.too_far) & (!far_y | next.too_far);
+        let far = (far_x | far_y | !next.too_far) & (!far_x | next.too_far);
+        let told = far & (!far_y | next.too_far);
+        // A distance below 0 and its amount add up to 0.
+        let amount = |way: U, distance: I| {
+            let distance_word = distance.unsigned();
+            let opposite = (way + distance_word).is_zero();
+            distance
+                .is_negative()
+                .mux(opposite, way.equals(distance_word))
+        };
         let starts = next.state.equals(BEGIN);
         let waits = !i.pattern_active | i.pattern_ready;
         let cleared = i.clear & idle;
         let kept = (!q.late | next.late) & (!q.refused | next.refused);
         vec![
+            Property::always(
+                "the ways are the distances without their signs",
+                &["way_x", "way_y"],
+                amount(w.way_x, q.delta_x) & amount(w.way_y, q.delta_y),
+            ),
             Property::step(
                 "the master axis is the one with the greater distance, X where they are alike",
                 &["swapped", "master", "slave"],
@@ -231,7 +244,7 @@ impl Circuit for Sequencer {
             Property::step(
                 "distances are those from command to target, or the target is refused",
                 &["delta_x", "delta_y", "too_far"],
-                !fetch | (near_x & near_y & refused),
+                !fetch | (near_x & near_y & told),
             ),
             Property::step(
                 "no cycle begins with a distance that is wrong",

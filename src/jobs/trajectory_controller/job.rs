@@ -189,11 +189,7 @@ impl Plant for Motors {
     type State = [Option<<TwoMassAxis as Plant>::State>; COORDINATES];
 
     fn state(&self) -> Self::State {
-        let mut states = [None; COORDINATES];
-        for (state, motor) in states.iter_mut().zip(&self.0) {
-            *state = Some(motor.state());
-        }
-        states
+        from_fn(|axis| self.0.get(axis).map(Plant::state))
     }
 
     fn set_state(&mut self, states: Self::State) {

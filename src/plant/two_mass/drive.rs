@@ -35,10 +35,8 @@ impl TwoMassAxis {
             + 4 * usize::from(regime.touches);
         let start = self.untwisted();
         let gained = self.pieces[index].gained(&start, torques);
-        let mut end = start;
-        gain(&mut end, gained);
-        let rates = |x| self.equations.rates(regime, x, torques);
-        let rates = [rates(&start), rates(&end)];
+        let end: State = std::array::from_fn(|row| start[row] + gained[row]);
+        let rates = [start, end].map(|x| self.equations.rates(regime, &x, torques));
         let quiet = guards.list().iter().all(|guard| {
             let turns = guard.part(&rates[0]) < 0.0 && guard.part(&rates[1]) > 0.0;
             guard.value(&end) >= 0.0 && !turns
@@ -166,13 +164,8 @@ impl TwoMassAxis {
 
     #[inline]
     fn gain(&mut self, gained: State) {
-        gain(&mut self.state, gained);
-    }
-}
-
-#[inline]
-fn gain(state: &mut State, gained: State) {
-    for (x, gained) in state.iter_mut().zip(gained) {
-        *x += gained;
+        for (x, gained) in self.state.iter_mut().zip(gained) {
+            *x += gained;
+        }
     }
 }

@@ -154,14 +154,13 @@ impl Step {
     pub fn gained(&self, x: &State, torques: [f64; 2]) -> State {
         let [twist, motor, load, on_motor, on_load] = &self.columns;
         let by = x[0] - x[1];
-        let row = |row: usize| {
+        std::array::from_fn(|row| {
             by * twist[row]
                 + x[2] * motor[row]
                 + x[3] * load[row]
                 + torques[0] * on_motor[row]
                 + torques[1] * on_load[row]
-        };
-        [row(0), row(1), row(2), row(3)]
+        })
     }
 }
 

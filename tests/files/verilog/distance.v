@@ -29,11 +29,16 @@ module distance (
         past_position <= position;
         past_old <= old;
     end
+    wire [4:0] net = $unsigned(moved);
+    wire [3:0] net_2 = $unsigned(past_position - past_old);
 
     always @(posedge clk) begin
         // From where it was to where it is.
         if (f_past_valid && !$past(rst))
             assert ($signed({{1{past_old[3]}}, past_old}) + moved == $signed({{1{past_position[3]}}, past_position}));
+        // A part of a difference is that of the exact one.
+        if (f_past_valid && !$past(rst))
+            assert (net_2[3:1] == net[3:1]);
     end
 `endif
 

@@ -44,11 +44,20 @@ impl Circuit for Distance {
     fn properties(&self, now: &Moment<Self>) -> Vec<Property> {
         let (position, old) = (now.i.position, now.q.old);
         let moved = now.next.q.moved;
-        vec![Property::step(
-            "from where it was to where it is",
-            &["moved"],
-            (old.resize(5) + moved).equals(position.resize(5)),
-        )]
+        // The same modulo 16.
+        let wrapped = (position - old).unsigned();
+        vec![
+            Property::step(
+                "from where it was to where it is",
+                &["moved"],
+                (old.resize(5) + moved).equals(position.resize(5)),
+            ),
+            Property::step(
+                "a part of a difference is that of the exact one",
+                &["moved"],
+                wrapped.slice(1, 3).equals(moved.unsigned().slice(1, 3)),
+            ),
+        ]
     }
 }
 
