@@ -24,6 +24,8 @@ enum Command {
     Table(cli::table::Arguments),
     /// Proves the invariants of the circuits over every state and input at small widths.
     Check(cli::check::Arguments),
+    /// Puts single faults into circuits, and says which no chart, proof or law finds.
+    Mutate(cli::mutate::Arguments),
     /// Writes a circuit as Verilog, with a testbench, its stimulus and the golden waves.
     Verilog(cli::verilog::Arguments),
     /// Holds a waveform, such as a simulator's, against a golden one, tick by tick.
@@ -62,6 +64,7 @@ fn run(command: Option<Command>) -> Result<(), cli::Failure> {
         Some(Command::Run(arguments)) => cli::run::run(&arguments),
         Some(Command::Table(arguments)) => cli::table::table(&arguments),
         Some(Command::Check(arguments)) => cli::check::check(&arguments),
+        Some(Command::Mutate(arguments)) => cli::mutate::mutate(&arguments),
         Some(Command::Verilog(arguments)) => cli::verilog::verilog(&arguments),
         Some(Command::Compare(arguments)) => cli::compare::compare(&arguments),
         Some(Command::Plan(arguments)) => cli::plan::plan(&arguments),

@@ -25,34 +25,24 @@ pub struct Counterexample<C: Circuit> {
     pub signals: Vec<String>,
     /// What is wrong with them.
     pub message: String,
+    /// The inputs, port by port.
+    ports: Vec<Vec<u64>>,
     table: String,
 }
 
 impl<C: Circuit> Counterexample<C> {
     pub(super) fn new(
         model: &Model,
-        inputs: Vec<C::In<Value>>,
+        (inputs, ports): (Vec<C::In<Value>>, Vec<Vec<u64>>),
         invariant: String,
         fault: Fault,
     ) -> Self {
         let Fault { signals, message } = fault;
-        let widths: Vec<usize> = model
-            .flat()
-            .inputs
-            .iter()
-            .map(|&width| width.into())
-            .collect();
         Counterexample {
-            tick: (inputs.len() as u64).saturating_sub(1),
-            table: table(
-                model,
-                &inputs
-                    .iter()
-                    .map(|i| hdl::pack::words(i, &widths))
-                    .collect::<Vec<_>>(),
-                &signals,
-            ),
+            tick: (ports.len() as u64).saturating_sub(1),
+            table: table(model, &ports, &signals),
             inputs,
+            ports,
             invariant,
             signals,
             message,
@@ -65,10 +55,14 @@ impl<C: Circuit> Counterexample<C> {
     /// # Errors
     /// The files cannot be written.
     pub fn save(&self, circuit: &C, clock: Clock, dir: &Path) -> Result<Vec<PathBuf>, RunError> {
-        let widths = hdl::pack::input_widths(circuit);
-        let inputs = self.inputs.iter().map(|i| hdl::pack::words(i, &widths));
         let stem = stem(circuit.name(), &self.invariant);
-        trace::replay(circuit, inputs, clock, dir, &stem)
+        trace::play(
+            &hdl::model(circuit)?,
+            &mut self.ports.iter().cloned(),
+            clock,
+            dir,
+            &stem,
+        )
     }
 }
 

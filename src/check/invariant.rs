@@ -1,5 +1,5 @@
-use crate::hdl::RunError;
-use crate::hdl::{self, Circuit, Observer, Registers, Sample};
+use crate::engine::{Engine, EngineError};
+use crate::hdl::{self, Circuit, Model, Observer, Registers, RunError, Sample};
 use std::fmt;
 use std::ops::ControlFlow;
 
@@ -37,11 +37,51 @@ type Always<'f, C> = dyn Fn(&Sample<'_, C>) -> Verdict + 'f;
 type Step<'f, C> = dyn Fn(&Sample<'_, C>, &Registers<C>) -> Verdict + 'f;
 
 enum Holds<'f, C: Circuit> {
-    /// One of the circuit's own, by its number, and the signals that it is about. A step property is
-    /// one of what this edge is about to do.
-    Own(usize, &'static [&'static str]),
     Always(Box<Always<'f, C>>),
     Step(Box<Step<'f, C>>),
+}
+
+/// The names of invariants, and which of them are the circuit's own. Nothing of it depends on the
+/// circuit's type.
+#[derive(Debug, Default)]
+struct Names {
+    /// In the order in which they are checked.
+    all: Vec<String>,
+    /// The signals that the circuit's own are about; these come first, in their own order. A step
+    /// property is one of what this edge is about to do.
+    own: Vec<&'static [&'static str]>,
+    /// Whether one of the others looks at the registers after the edge.
+    look_ahead: bool,
+}
+
+impl Names {
+    fn of(model: Result<Model, EngineError>) -> Self {
+        let mut names = Names::default();
+        let Ok(model) = model else {
+            return names;
+        };
+        let module = model.design().modules.last();
+        for known in module.map_or(&[][..], |module| &module.assertions) {
+            names.all.push(known.name.to_owned());
+            names.own.push(known.signals);
+        }
+        names
+    }
+
+    /// The first of the circuit's own that does not hold.
+    fn violated(&self, engine: &Engine) -> Option<(&str, Fault)> {
+        let index = (0..self.own.len()).find(|index| !engine.property(*index))?;
+        let fault = Fault {
+            signals: self.own[index].iter().map(|&name| name.into()).collect(),
+            message: "does not hold".to_owned(),
+        };
+        Some((&self.all[index], fault))
+    }
+
+    /// The numbers of the circuit's own, if there are no others.
+    fn only_own(&self) -> Option<Vec<usize>> {
+        (self.own.len() == self.all.len()).then(|| (0..self.own.len()).collect())
+    }
 }
 
 /// Named properties that hold on every tick: proved by [`reach`](super::reach()), watched by a
@@ -50,30 +90,28 @@ enum Holds<'f, C: Circuit> {
 /// They are checked in the order in which they were added. A property must not depend on
 /// [`Sample::tick`]: `reach` comes to every transition once, on a shortest way.
 pub struct Invariants<'f, C: Circuit> {
-    named: Vec<(String, Holds<'f, C>)>,
+    names: Names,
+    /// Those that are not the circuit's own.
+    others: Vec<Holds<'f, C>>,
 }
 
 impl<'f, C: Circuit> Invariants<'f, C> {
     /// None.
-    pub const fn new() -> Self {
-        Invariants { named: Vec::new() }
+    pub fn new() -> Self {
+        Invariants {
+            names: Names::default(),
+            others: Vec::new(),
+        }
     }
 
     /// The circuit's [properties](Circuit::properties).
     ///
     /// Of what is no netlist there are none: neither is there a proof of it, nor a run.
     pub fn of(circuit: &C) -> Self {
-        let mut invariants = Invariants::new();
-        let Ok(model) = hdl::model(circuit) else {
-            return invariants;
-        };
-        let known = model.design().modules.last();
-        let known = known.map_or(&[][..], |module| &module.assertions);
-        for (index, known) in known.iter().enumerate() {
-            let own = Holds::Own(index, known.signals);
-            invariants.named.push((known.name.to_owned(), own));
+        Invariants {
+            names: Names::of(hdl::model(circuit)),
+            others: Vec::new(),
         }
-        invariants
     }
 
     /// Adds a property of the settled signals of a tick.
@@ -83,8 +121,8 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         name: impl Into<String>,
         holds: impl Fn(&Sample<'_, C>) -> Verdict + 'f,
     ) -> Self {
-        let property = Holds::Always(Box::new(holds));
-        self.named.push((name.into(), property));
+        self.names.all.push(name.into());
+        self.others.push(Holds::Always(Box::new(holds)));
         self
     }
 
@@ -95,29 +133,25 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         name: impl Into<String>,
         holds: impl Fn(&Sample<'_, C>, &Registers<C>) -> Verdict + 'f,
     ) -> Self {
-        let property = Holds::Step(Box::new(holds));
-        self.named.push((name.into(), property));
+        self.names.all.push(name.into());
+        self.names.look_ahead = true;
+        self.others.push(Holds::Step(Box::new(holds)));
         self
     }
 
     /// Their names, in order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.named.iter().map(|(name, _)| name.as_str())
+        self.names.all.iter().map(String::as_str)
     }
 
     /// The numbers of the circuit's own properties, if there are no others.
     pub(super) fn own(&self) -> Option<Vec<usize>> {
-        let own = self.named.iter().map(|(_, property)| match property {
-            Holds::Own(index, _) => Some(*index),
-            _ => None,
-        });
-        own.collect()
+        self.names.only_own()
     }
 
     /// Whether one of them looks at the registers after the edge.
     pub(super) fn look_ahead(&self) -> bool {
-        let step = |(_, property): &(_, Holds<'_, C>)| matches!(property, Holds::Step(_));
-        self.named.iter().any(step)
+        self.names.look_ahead
     }
 
     /// The first that is violated, and how. Without `next`, step properties are left out.
@@ -127,20 +161,18 @@ impl<'f, C: Circuit> Invariants<'f, C> {
         now: &Sample<'_, C>,
         next: Option<&Registers<C>>,
     ) -> Result<(), (&str, Fault)> {
-        for (name, property) in &self.named {
-            match (property, next) {
-                (Holds::Own(index, signals), _) => match now.engine().property(*index) {
-                    true => Ok(()),
-                    false => Err(Fault {
-                        signals: signals.iter().map(|&name| name.into()).collect(),
-                        message: "does not hold".to_owned(),
-                    }),
-                },
+        if let Some(violated) = self.names.violated(now.engine()) {
+            return Err(violated);
+        }
+        for (at, property) in self.others.iter().enumerate() {
+            let verdict = match (property, next) {
                 (Holds::Always(holds), _) => holds(now),
                 (Holds::Step(holds), Some(next)) => holds(now, next),
                 (Holds::Step(_), None) => Ok(()),
+            };
+            if let Err(fault) = verdict {
+                return Err((&self.names.all[self.names.own.len() + at], fault));
             }
-            .map_err(|fault| (name.as_str(), fault))?;
         }
         Ok(())
     }

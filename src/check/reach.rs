@@ -9,7 +9,7 @@ use crate::hdl::pack::{
     bits_of, given, input_widths, joined, register_widths, registers_of, words,
 };
 use crate::hdl::sample::{Known, all_registers};
-use crate::hdl::{self, Circuit, Registers, Sample, Value};
+use crate::hdl::{self, Circuit, Model, Registers, Sample, Value};
 use std::cell::RefCell;
 use std::fmt;
 
@@ -116,6 +116,8 @@ pub struct Reach<'a, C: Circuit> {
     assume: Vec<Box<Assume<'a, C>>>,
     progress: Option<Box<Report<'a>>>,
     limit: u32,
+    transitions: u64,
+    model: Option<Model>,
     bitmap_bits: usize,
 }
 
@@ -133,6 +135,8 @@ pub fn reach<'a, C: Circuit>(circuit: &'a C, invariants: &'a Invariants<'a, C>) 
         assume: Vec::new(),
         progress: None,
         limit: 1 << 26,
+        transitions: u64::MAX,
+        model: None,
         bitmap_bits: 32,
     }
 }
@@ -156,6 +160,18 @@ impl<'a, C: Circuit> Reach<'a, C> {
     /// takes 16 bytes, and as many more where the visited set is no bitmap.
     pub fn limit(mut self, states: u32) -> Self {
         self.limit = states;
+        self
+    }
+
+    /// Ends the search undecided after this many transitions; unless set, after all there are.
+    pub fn transitions(mut self, transitions: u64) -> Self {
+        self.transitions = transitions;
+        self
+    }
+
+    /// Searches this netlist of the circuit: one that was elaborated before, or with a fault in it.
+    pub fn model(mut self, model: Model) -> Self {
+        self.model = Some(model);
         self
     }
 
@@ -190,27 +206,36 @@ impl<'a, C: Circuit> Reach<'a, C> {
     }
 
     fn search(mut self, simulated: bool) -> Result<Outcome<C>, CheckError> {
-        let model = hdl::model(self.circuit)?;
+        let model = match self.model.take() {
+            Some(model) => model,
+            None => hdl::model(self.circuit)?,
+        };
         let widths = input_widths(self.circuit);
         let wide = widths.iter().sum();
         TooWide::check_bits("the inputs", wide, INPUT_BITS)?;
         let bits = register_widths(self.circuit).iter().sum();
         TooWide::check_bits("the registers", bits, STATE_BITS)?;
-        let inputs: Vec<C::In<Value>> = (0..1u64 << wide)
-            .map(|word| given(self.circuit, bits_of(word)))
-            .filter(|i| self.only.as_ref().is_none_or(|possible| possible(i)))
-            .collect();
-        let ports: Vec<Vec<u64>> = inputs.iter().map(|i| words(i, &widths)).collect();
+        // Loops where iterators would read better: this is made anew for every circuit.
+        let (mut inputs, mut ports) = (Vec::new(), Vec::new());
+        for word in 0..1u64 << wide {
+            let i = given(self.circuit, bits_of(word));
+            if self.only.as_ref().is_none_or(|possible| possible(&i)) {
+                ports.push(words(&i, &widths));
+                inputs.push(i);
+            }
+        }
         let progress = self.progress.take();
+        let mut records = Vec::new();
+        records.resize_with(1 << 10, || None);
         let judge = Of {
             reach: &self,
             known: Known::of(self.circuit, &model, 0),
             inputs,
             last: RefCell::new(None),
-            records: RefCell::new((0..1 << 10).map(|_| None).collect()),
+            records: RefCell::new(records),
         };
         let searching = Searching {
-            words: ports.iter().map(|words| joined(words, &widths)).collect(),
+            words: all_joined(&ports, &widths),
             ports,
             judge: &judge,
             assumes: !self.assume.is_empty(),
@@ -218,19 +243,28 @@ impl<'a, C: Circuit> Reach<'a, C> {
             own: self.invariants.own(),
         };
         let visited = Visited::new(bits, self.bitmap_bits);
+        let limits = (self.limit, self.transitions);
         Ok(
-            match searching.run(&model, visited, (self.limit, progress), simulated) {
+            match searching.run(&model, visited, (limits, progress), simulated) {
                 Ended::Proof(proof) => Outcome::Proof(proof),
                 Ended::Limit(progress) => Outcome::Limit(progress),
                 Ended::Fault(way, name, fault) => {
-                    let given = |word| given(self.circuit, bits_of(word));
-                    let way = way.into_iter().map(|index| given(searching.words[index]));
-                    let found = Counterexample::new(&model, way.collect(), name, fault);
+                    let (mut inputs, mut ports) = (Vec::new(), Vec::new());
+                    for index in way {
+                        inputs.push(given(self.circuit, bits_of(searching.words[index])));
+                        ports.push(searching.ports[index].clone());
+                    }
+                    let found = Counterexample::new(&model, (inputs, ports), name, fault);
                     Outcome::Counterexample(Box::new(found))
                 }
             },
         )
     }
+}
+
+/// Every input as one word.
+fn all_joined(ports: &[Vec<u64>], widths: &[usize]) -> Vec<u64> {
+    ports.iter().map(|words| joined(words, widths)).collect()
 }
 
 /// The registers of a state, if they are kept.
@@ -262,8 +296,12 @@ impl<C: Circuit> Judge for Of<'_, '_, C> {
     fn possible(&self, state: u64, input: usize) -> bool {
         let mut last = self.last.borrow_mut();
         let q = self.registers(&mut last, state);
-        let mut assume = self.reach.assume.iter();
-        assume.all(|possible| possible(q, &self.inputs[input]))
+        for possible in &self.reach.assume {
+            if !possible(q, &self.inputs[input]) {
+                return false;
+            }
+        }
+        true
     }
 
     fn check(

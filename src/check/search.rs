@@ -16,6 +16,8 @@ pub(crate) struct Search<'a> {
     /// since the limit of states is a `u32` and inputs have 20 bits at most.
     links: Vec<(u32, u32)>,
     limit: usize,
+    /// The most transitions.
+    most: u64,
     report: Option<Box<Report<'a>>>,
     /// The state that is tried.
     at: usize,
@@ -30,7 +32,7 @@ impl<'a> Search<'a> {
     pub(crate) fn new(
         power_on: u64,
         mut visited: Visited,
-        limit: u32,
+        (limit, most): (u32, u64),
         report: Option<Box<Report<'a>>>,
     ) -> Self {
         visited.insert(power_on);
@@ -39,6 +41,7 @@ impl<'a> Search<'a> {
             states: vec![power_on],
             links: vec![(0, 0)],
             limit: limit as usize,
+            most,
             report,
             at: 0,
             depth: 0,
@@ -84,6 +87,9 @@ impl<'a> Search<'a> {
     /// A state after the one that is tried; whether there is room for it.
     #[inline]
     pub(crate) fn found(&mut self, state: u64, input: usize) -> bool {
+        if self.transitions > self.most {
+            return false;
+        }
         if self.visited.insert(state) {
             if self.states.len() >= self.limit {
                 return false;

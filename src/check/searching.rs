@@ -50,12 +50,12 @@ impl Searching<'_> {
         &self,
         model: &Model,
         visited: Visited,
-        (limit, progress): (u32, Option<Box<Report<'_>>>),
+        (limits, progress): ((u32, u64), Option<Box<Report<'_>>>),
         simulated: bool,
     ) -> Ended {
         let states = Packing::of(model);
         let power_on = states.pack(&model.engine(Watch::All));
-        let search = Search::new(power_on, visited, limit, progress);
+        let search = Search::new(power_on, visited, limits, progress);
         let tick = match simulated {
             true => None,
             false => Tick::of(model.flat(), self.own.as_deref().unwrap_or(&[])).ok(),

@@ -71,6 +71,7 @@ impl<C: Circuit> fmt::Debug for Swept<C> {
 pub struct Sweep<'a, W: Law> {
     law: &'a W,
     range: Option<Range<u64>>,
+    model: Option<Model>,
     progress: Option<&'a (dyn Fn(u64) + Sync)>,
 }
 
@@ -81,6 +82,7 @@ pub fn sweep<W: Law>(law: &W) -> Sweep<'_, W> {
     Sweep {
         law,
         range: None,
+        model: None,
         progress: None,
     }
 }
@@ -104,6 +106,19 @@ impl<'a, W: Law> Sweep<'a, W> {
         self
     }
 
+    /// Checks this netlist of the law: one that was elaborated before, or with a fault in it.
+    pub fn model(mut self, model: Model) -> Self {
+        self.model = Some(model);
+        self
+    }
+
+    fn netlist(&self) -> Result<Model, CheckError> {
+        match &self.model {
+            Some(model) => Ok(model.clone()),
+            None => Ok(hdl::model(self.law)?),
+        }
+    }
+
     /// Calls `report` now and then with the number of cases that were looked at since.
     pub fn progress(mut self, report: &'a (dyn Fn(u64) + Sync)) -> Self {
         self.progress = Some(report);
@@ -118,7 +133,7 @@ impl<'a, W: Law> Sweep<'a, W> {
     /// # Errors
     /// A case has more than 63 bits, or what is seen more than 64, or the circuit cannot be run.
     pub fn run(self) -> Result<Swept<W>, CheckError> {
-        let model = hdl::model(self.law)?;
+        let model = self.netlist()?;
         cases(self.law)?;
         let cases = Cases::of(self.law);
         let unrolled = model
@@ -137,7 +152,7 @@ impl<'a, W: Law> Sweep<'a, W> {
     /// # Errors
     /// A case has more than 63 bits, or what is seen more than 64, or the circuit cannot be run.
     pub fn run_simulated(self) -> Result<Swept<W>, CheckError> {
-        let model = hdl::model(self.law)?;
+        let model = self.netlist()?;
         cases(self.law)?;
         let cases = Cases::of(self.law);
         let engine = std::sync::Mutex::new(Engine::straight(model.program(Watch::All)));
@@ -317,8 +332,11 @@ fn replayed<W: Law>(law: &W, model: &Model, index: u64) -> Counterexample<W> {
     let named = named.collect::<Vec<_>>().join(", ");
     let message = format!("{} with {named} (case {index})", found.join(", "));
     let fault = Fault { signals, message };
-    let inputs = (0..law.ticks()).map(|_| given(law, bits_of(index)));
-    Counterexample::new(model, inputs.collect(), law.law().to_owned(), fault)
+    let ticks = 0..law.ticks();
+    let inputs = ticks.clone().map(|_| given(law, bits_of(index)));
+    let ports = ticks.map(|_| ports.clone());
+    let inputs = (inputs.collect(), ports.collect());
+    Counterexample::new(model, inputs, law.law().to_owned(), fault)
 }
 
 /// A port by its name in the circuit's scope.

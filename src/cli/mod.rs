@@ -12,6 +12,7 @@ mod linear;
 pub mod list;
 mod machine;
 mod magnification;
+pub mod mutate;
 mod pieces;
 pub mod plan;
 mod pulse;

@@ -5,6 +5,7 @@ use super::build::{self, Aside, Builder, builder, elaboration, mistake, signal};
 use super::leaves::Leaves;
 use super::memory::{State, Written};
 use super::mistake::Wrong;
+use super::mutation;
 use super::netlist::{Design, Id, Module, Port, Register, Setting, Value};
 use super::part::{Counted, pair};
 use super::property;
@@ -138,7 +139,7 @@ fn signals_of<C: Circuit>(circuit: &C, site: Site, more: &mut dyn FnMut(&mut dyn
     unsettled(site);
     let mut given = Counted::default();
     w.visit(view::role(Role::Net), &mut given);
-    let nets = nets(
+    let mut nets = nets(
         counted_nets(circuit),
         given,
         <C::Net<Wire> as Walk<Wire>>::SITE,
@@ -148,6 +149,7 @@ fn signals_of<C: Circuit>(circuit: &C, site: Site, more: &mut dyn FnMut(&mut dyn
     let mut given = Counted::default();
     next.visit(view::role(Role::Register), &mut given);
     drive(&wanted, given, <C::Reg<Edge> as Walk<Edge>>::SITE);
+    elaboration(|elaboration| mutation::visit(circuit.name(), elaboration, &mut nets));
     property::note(circuit, &nets);
     names(site);
     nets

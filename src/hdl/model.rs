@@ -124,6 +124,12 @@ impl Model {
         ports_out(&self.design)
     }
 
+    /// All bits of each port in.
+    pub(crate) fn masks(&self) -> Vec<u64> {
+        let widths = self.flat.inputs.iter();
+        widths.map(|width| u64::MAX >> (64 - width)).collect()
+    }
+
     /// The leaves of a part of the whole.
     pub(crate) fn leaves(&self, role: Role) -> std::ops::Range<usize> {
         self.flat.part(role)

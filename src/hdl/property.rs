@@ -88,7 +88,12 @@ pub(super) fn note<C: Circuit>(circuit: &C, nets: &Nets) {
         return;
     }
     let past = now.past();
-    let steps = circuit.properties(&past.moment(circuit, &now));
+    assert(always, circuit.properties(&past.moment(circuit, &now)));
+}
+
+/// Adds properties to the module being made, from the same ones about this tick and about the edge
+/// before it.
+fn assert(always: Vec<Property>, steps: Vec<Property>) {
     for (always, step) in always.into_iter().zip(steps) {
         let property = if always.step { step } else { always };
         builder(|builder| {

@@ -85,11 +85,10 @@ pub(crate) struct Known<C: Circuit> {
 
 impl<C: Circuit> Known<C> {
     pub fn of(circuit: &C, model: &Model, beside: usize) -> Self {
-        let inputs = model.flat().inputs.iter();
         Known {
             circuit: circuit.clone(),
             beside,
-            masks: inputs.map(|width| u64::MAX >> (64 - width)).collect(),
+            masks: model.masks(),
             nets: super::pack::widths::<C, C::Net<view::Shapes>>(circuit).len(),
             signals: OnceLock::new(),
         }

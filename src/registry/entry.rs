@@ -1,6 +1,7 @@
 use super::{AnyCircuit, AnyModel};
 use crate::check::Specified;
-use crate::hdl::{Circuit, Declarations};
+use crate::hdl::netlist::Design;
+use crate::hdl::{Circuit, Declarations, Wrong};
 use std::fmt;
 
 /// Widths that circuits are proved at unless others are asked for.
@@ -138,57 +139,88 @@ pub struct Of<C: 'static> {
     pub from: fn(&[u64]) -> Option<C>,
     /// With other numbers than widths.
     pub with: fn(C, &[u64]) -> Option<C>,
-    /// Its widths.
-    pub widths: &'static [Width<C>],
+    /// The names of its widths, and where they are.
+    pub names: &'static [&'static str],
+    pub fields: &'static [Field<C>],
     /// It with its proofs, if it has some.
     pub proved: Option<fn(C) -> Box<dyn AnyCircuit>>,
 }
 
-/// A width by its name.
-pub type Width<C> = (&'static str, fn(&mut C) -> &mut usize);
+/// One of a circuit's widths.
+pub type Field<C> = fn(&mut C) -> &mut usize;
 
 impl<C: Circuit> Of<C> {
     fn build(&self, request: &Request) -> Result<C, Refused> {
-        if self.widths.is_empty() && !request.named.is_empty() {
+        let Numbers { numbers, widths } = request.against(self.names)?;
+        let made = match request.width {
+            Some(_) => (self.from)(&numbers),
+            None => (self.with)((self.full)(), &numbers),
+        };
+        let Some(mut circuit) = made else {
+            return Err(Refused::Numbers(numbers));
+        };
+        for (width, bits) in widths {
+            *self.fields[width](&mut circuit) = bits;
+        }
+        sound(crate::hdl::elaborate(&circuit))?;
+        Ok(circuit)
+    }
+}
+
+// What does not depend on the circuit's type is not made for each.
+
+/// What a circuit is made from.
+struct Numbers {
+    numbers: Vec<u64>,
+    /// The widths that are named, by their place, with their bits.
+    widths: Vec<(usize, usize)>,
+}
+
+impl Request {
+    /// What is asked for of a circuit that has widths of these names.
+    fn against(&self, names: &[&'static str]) -> Result<Numbers, Refused> {
+        if names.is_empty() && !self.named.is_empty() {
             return Err(Refused::NoWidths);
         }
-        let named = request.named.iter().map(|(_, bits)| *bits);
-        if let Some(bits) = named.chain(request.width).find(|bits| *bits > MOST) {
+        let named = self.named.iter().map(|(_, bits)| *bits);
+        if let Some(bits) = named.chain(self.width).find(|bits| *bits > MOST) {
             return Err(Refused::Wrong(format!("{bits} is no width")));
         }
-        let refused = |given: &[u64]| Refused::Numbers(given.to_vec());
-        let mut circuit = match request.width {
-            Some(width) => {
-                let mut given = vec![width];
-                given.extend(&request.with);
-                (self.from)(&given).ok_or_else(|| refused(&given))?
-            }
-            None => {
-                (self.with)((self.full)(), &request.with).ok_or_else(|| refused(&request.with))?
-            }
-        };
-        for (name, bits) in &request.named {
-            let known = self.widths.iter().find(|(known, _)| known == name);
-            let (_, width) = known.ok_or_else(|| Refused::NoSuchWidth {
+        let numbers = self.width.iter().chain(&self.with).copied().collect();
+        let place = |(name, bits): &(String, u64)| {
+            let known = names.iter().position(|known| known == name);
+            let known = known.ok_or_else(|| Refused::NoSuchWidth {
                 name: name.clone(),
-                names: self.widths.iter().map(|(name, _)| *name).collect(),
+                names: names.to_vec(),
             })?;
-            *width(&mut circuit) = usize::try_from(*bits).unwrap_or(usize::MAX);
-        }
-        match crate::hdl::elaborate(&circuit) {
-            Ok(_) => Ok(circuit),
-            Err(wrong) => Err(Refused::Wrong(wrong.to_string())),
-        }
+            Ok((known, usize::try_from(*bits).unwrap_or(usize::MAX)))
+        };
+        let widths = self.named.iter().map(place).collect::<Result<_, _>>()?;
+        Ok(Numbers { numbers, widths })
     }
+}
+
+/// Whether a circuit could be elaborated.
+fn sound(elaborated: Result<Design, Wrong>) -> Result<(), Refused> {
+    match elaborated {
+        Ok(_) => Ok(()),
+        Err(wrong) => Err(Refused::Wrong(wrong.to_string())),
+    }
+}
+
+/// Names with what `width` says of each.
+fn named(
+    names: &[&'static str],
+    width: &mut dyn FnMut(usize) -> usize,
+) -> Vec<(&'static str, usize)> {
+    let names = names.iter().enumerate();
+    names.map(|(at, name)| (*name, width(at))).collect()
 }
 
 impl<C: Circuit> Maker for Of<C> {
     fn widths(&self) -> Vec<(&'static str, usize)> {
         let mut full = (self.full)();
-        let widths = self.widths.iter();
-        widths
-            .map(|(name, width)| (*name, *width(&mut full)))
-            .collect()
+        named(self.names, &mut |at| *self.fields[at](&mut full))
     }
 
     fn full(&self) -> Box<dyn AnyModel> {
@@ -205,7 +237,7 @@ impl<C: Circuit> Maker for Of<C> {
 
     fn requested(&self, request: &Request) -> Result<Box<dyn AnyModel>, Refused> {
         // A proof may have a number that is no width.
-        if self.widths.is_empty() && request.width.is_some() {
+        if self.names.is_empty() && request.width.is_some() {
             return Err(Refused::NoWidths);
         }
         Ok(Box::new(self.build(request)?))
@@ -261,10 +293,10 @@ macro_rules! entry {
                 full: $full,
                 from: $from,
                 with: $with,
-                widths: &[$((
-                    stringify!($name),
+                names: &[$(stringify!($name)),*],
+                fields: &[$(
                     |circuit: &mut $circuit| entry!(@field circuit $name $($first $(. $field)*)?),
-                )),*],
+                )*],
                 proved: entry!(@proof $proved),
             },
         }

@@ -1,13 +1,15 @@
 //! All circuits by name: what `list` and `check` show, what a note's timing charts run.
 
+mod campaign;
 mod circuits;
 mod entry;
 mod model;
 mod sweep;
 
+pub use campaign::{Campaign, CampaignError, Fate, Found, Suspect};
 pub use circuits::CATALOGUE;
 pub use entry::{Entry, Refused, Request, WIDTHS};
-pub use model::{AnyCircuit, AnyModel, Verdict};
+pub use model::{AnyCircuit, AnyModel, ProofSearch, Verdict};
 pub use sweep::{AnySweep, SWEEPS, SweepEntry};
 
 /// The entry of that name.

@@ -103,17 +103,39 @@ impl dyn AnyModel + '_ {
 pub trait AnyCircuit: AnyModel {
     /// The names of its invariants.
     fn invariants(&self) -> Vec<String>;
-    /// Proves its invariants, or finds the shortest way to break one; `waves` is where that is
-    /// written as VCD and save file.
+    /// Proves its invariants, or finds the shortest way to break one.
     ///
     /// # Errors
     /// The circuit is too wide to be proved.
     fn prove(
         &self,
-        limit: u32,
-        waves: Option<&Path>,
+        search: &ProofSearch<'_>,
         progress: &mut dyn FnMut(&Progress),
     ) -> Result<Verdict, CheckError>;
+}
+
+/// How a proof is searched for.
+#[derive(Debug, Clone)]
+pub struct ProofSearch<'a> {
+    /// States after which it is given up.
+    pub states: u32,
+    /// Transitions after which it is given up.
+    pub transitions: u64,
+    /// Where a counterexample is written as VCD and save file.
+    pub waves: Option<&'a Path>,
+    /// A netlist of the circuit to take in place of its own.
+    pub model: Option<Model>,
+}
+
+impl Default for ProofSearch<'_> {
+    fn default() -> Self {
+        ProofSearch {
+            states: 1 << 26,
+            transitions: u64::MAX,
+            waves: None,
+            model: None,
+        }
+    }
 }
 
 /// How a proof or a sweep ended.
@@ -141,23 +163,26 @@ impl<C: Specified> AnyCircuit for C {
 
     fn prove(
         &self,
-        limit: u32,
-        waves: Option<&Path>,
+        search: &ProofSearch<'_>,
         progress: &mut dyn FnMut(&Progress),
     ) -> Result<Verdict, CheckError> {
         let invariants = Specified::invariants(self);
-        let outcome = reach(self, &invariants)
+        let mut reach = reach(self, &invariants)
             .inputs(|i| self.applies(i))
             .assume(|q, i| self.assumes(q, i))
-            .limit(limit)
-            .progress(progress)
-            .run()?;
+            .limit(search.states)
+            .transitions(search.transitions)
+            .progress(progress);
+        if let Some(model) = &search.model {
+            reach = reach.model(model.clone());
+        }
+        let outcome = reach.run()?;
         Ok(match outcome {
             Outcome::Proof(proof) => Verdict::Proved(proof),
             Outcome::Limit(progress) => Verdict::Undecided(progress),
             Outcome::Counterexample(found) => Verdict::Broken {
                 report: found.to_string(),
-                waves: waves.map_or(Ok(Vec::new()), |directory| {
+                waves: search.waves.map_or(Ok(Vec::new()), |directory| {
                     let _directory = Directory::create(directory)?;
                     found.save(self, Clock::default(), directory)
                 }),

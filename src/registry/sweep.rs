@@ -1,10 +1,11 @@
 //! Laws that are swept, their types forgotten.
 
-use super::Verdict;
 use super::circuits::make::{RULES, one_of};
+use super::{AnyModel, Verdict};
 use crate::check::{CheckError, Law, Swept, cases, sweep};
 use crate::circuits::linear_interpolator::{Integrator, LineSweep};
 use crate::files::Directory;
+use crate::hdl::Model;
 use crate::trace::Clock;
 use std::ops::{Range, RangeInclusive};
 use std::path::Path;
@@ -40,7 +41,7 @@ pub static SWEEPS: &[SweepEntry] = &[SweepEntry {
 }];
 
 /// A law with its circuit, its type forgotten.
-pub trait AnySweep: Sync {
+pub trait AnySweep: Sync + AnyModel {
     /// What holds.
     fn law(&self) -> &str;
     /// The number of cases.
@@ -49,13 +50,14 @@ pub trait AnySweep: Sync {
     /// They are too wide to be counted.
     fn cases(&self) -> Result<u64, CheckError>;
     /// Checks the cases with these indices; `waves` is where the first that is wrong is written as
-    /// VCD and save file.
+    /// VCD and save file. A `model` is a netlist of the law to take in place of its own.
     ///
     /// # Errors
     /// They are too wide to be counted.
     fn sweep(
         &self,
         range: Range<u64>,
+        model: Option<Model>,
         waves: Option<&Path>,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Verdict<u64>, CheckError>;
@@ -73,10 +75,14 @@ impl<W: Law> AnySweep for W {
     fn sweep(
         &self,
         range: Range<u64>,
+        model: Option<Model>,
         waves: Option<&Path>,
         progress: &(dyn Fn(u64) + Sync),
     ) -> Result<Verdict<u64>, CheckError> {
-        let swept = sweep(self).range(range).progress(progress);
+        let mut swept = sweep(self).range(range).progress(progress);
+        if let Some(model) = model {
+            swept = swept.model(model);
+        }
         Ok(match swept.run()? {
             Swept::Held(cases) => Verdict::Proved(cases),
             Swept::Counterexample(found) => Verdict::Broken {

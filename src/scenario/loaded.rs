@@ -5,9 +5,10 @@ use crate::input::{DRAWINGS, Fault, Kind, POSITION_LOGS, read_string};
 use crate::settings::{Place, SettingError};
 use errors::{key_of, of_tables, split};
 use serde::Deserialize;
-use serde_path_to_error::{Segment, Track};
+use serde_path_to_error::Segment;
 use std::path::Path;
-use toml::{Table, Value};
+use toml::de::{DeTable, Deserializer};
+use toml::{Spanned, Table, Value};
 
 /// What faults call the file of an override.
 const SET: &str = "--set";
@@ -112,8 +113,10 @@ impl Loaded {
         pairs.sort_by_key(|(key, _)| *key != CIRCUIT);
         for (key, value) in pairs {
             insert(&mut table, key, value)?;
-            loaded.scenario =
-                scenario(|| Ok(table.clone())).map_err(|error| set_fault(key, &error))?;
+            // As text once more: reading a table from a tree as well is a second copy of all readers.
+            let text = table.to_string();
+            let table = DeTable::parse(&text).map_err(|error| errors::fault(SET, &text, &error))?;
+            loaded.scenario = scenario(&table).map_err(|error| set_fault(key, &error))?;
             loaded.overridden.push(key.to_owned());
         }
         Ok(loaded)
@@ -249,26 +252,18 @@ struct Head {
 type Located = serde_path_to_error::Error<toml::de::Error>;
 
 /// A scenario with the keys of its circuit.
-fn scenario<'de, D>(keys: impl Fn() -> Result<D, toml::de::Error>) -> Result<Scenario, Located>
-where
-    D: serde::Deserializer<'de, Error = toml::de::Error>,
-{
-    fn read<'de, D, T>(keys: Result<D, toml::de::Error>) -> Result<T, Located>
-    where
-        D: serde::Deserializer<'de, Error = toml::de::Error>,
-        T: Deserialize<'de>,
-    {
-        let keys = keys.map_err(|error| Located::new(Track::new().path(), error))?;
-        serde_path_to_error::deserialize(keys)
+fn scenario(table: &Spanned<DeTable<'_>>) -> Result<Scenario, Located> {
+    fn read<'de, T: Deserialize<'de>>(table: &Spanned<DeTable<'de>>) -> Result<T, Located> {
+        serde_path_to_error::deserialize(Deserializer::from(table.clone()))
     }
-    let Head { circuit } = read(keys())?;
+    let Head { circuit } = read(table)?;
     Ok(match circuit {
-        Runnable::PulseInterpolator => Scenario::PulseInterpolator(read(keys())?),
-        Runnable::LinearInterpolator => Scenario::LinearInterpolator(read(keys())?),
-        Runnable::LeadAngle => Scenario::LeadAngle(read(keys())?),
-        Runnable::ArcGenerator => Scenario::ArcGenerator(read(keys())?),
-        Runnable::TrajectoryController => Scenario::TrajectoryController(read(keys())?),
-        Runnable::Machine => Scenario::Machine(read(keys())?),
+        Runnable::PulseInterpolator => Scenario::PulseInterpolator(read(table)?),
+        Runnable::LinearInterpolator => Scenario::LinearInterpolator(read(table)?),
+        Runnable::LeadAngle => Scenario::LeadAngle(read(table)?),
+        Runnable::ArcGenerator => Scenario::ArcGenerator(read(table)?),
+        Runnable::TrajectoryController => Scenario::TrajectoryController(read(table)?),
+        Runnable::Machine => Scenario::Machine(read(table)?),
     })
 }
 

@@ -82,6 +82,9 @@ pub enum Problem {
     /// The fence does not name a circuit.
     #[error("a chart begins with ```chart CIRCUIT or ```chart CIRCUIT[NUMBER, ...]")]
     Fence,
+    /// A title that makes the line no fence.
+    #[error("a title has no backtick: Markdown takes the line for text")]
+    Backtick,
     /// The note ends within the chart.
     #[error("the chart is not closed")]
     Unclosed,

@@ -34,15 +34,15 @@ pub use wave_file::{WaveFile, WaveFormat};
 
 use crate::engine::Watch;
 use crate::files::{AtomicFile, commit_all};
-use crate::hdl::{Described, LeafView as View, RunError};
+use crate::hdl::{Described, LeafView as View, Model, RunError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Ticks that the window of a replay shows at first.
 const FOCUS: u64 = 40;
 
-/// Runs a circuit from power-on on these words of its ports in, a tick each, and writes `<stem>.vcd` and the save
-/// file `<stem>.gtkw` into `dir`. Returns both paths.
+/// Runs a circuit from power-on on these words of its ports in, a tick each, and writes
+/// `<stem>.vcd` and the save file `<stem>.gtkw` into `dir`. Returns both paths.
 ///
 /// Both files appear whole; where something fails, no new file is there.
 ///
@@ -55,7 +55,23 @@ pub fn replay(
     dir: &Path,
     stem: &str,
 ) -> Result<Vec<PathBuf>, RunError> {
-    let model = circuit.described()?;
+    play(
+        &circuit.described()?,
+        &mut inputs.into_iter(),
+        clock,
+        dir,
+        stem,
+    )
+}
+
+/// The same for a circuit that is elaborated.
+pub(crate) fn play(
+    model: &Model,
+    inputs: &mut dyn Iterator<Item = Vec<u64>>,
+    clock: Clock,
+    dir: &Path,
+    stem: &str,
+) -> Result<Vec<PathBuf>, RunError> {
     let name = format!("{stem}.vcd");
     let mut dump = AtomicFile::create(dir.join(&name))?;
     let leaves = model.declarations().leaves.clone();
@@ -64,12 +80,7 @@ pub fn replay(
     let mut waves = Dump::new(&layout, clock, &Options::default(), file);
     let mut engine = model.engine(Watch::All);
     let mut ticks = 0;
-    let masks = model
-        .flat()
-        .inputs
-        .iter()
-        .map(|width| u64::MAX >> (64 - width));
-    let masks: Vec<u64> = masks.collect();
+    let masks = model.masks();
     for i in inputs {
         for (port, (word, mask)) in i.iter().zip(&masks).enumerate() {
             engine.input(port, word & mask);

@@ -22,6 +22,7 @@ mod log_columns;
 mod machine;
 #[cfg(target_os = "linux")]
 mod memory;
+mod mutate;
 mod notes;
 mod plan;
 mod readme;

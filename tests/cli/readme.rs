@@ -166,7 +166,10 @@ fn every_command_exists() {
             _ => panic!("{line}: not known to this test"),
         }
     }
-    let all = ["check", "compare", "list", "run", "table", "verilog"].map(str::to_owned);
+    let all = [
+        "check", "compare", "list", "mutate", "run", "table", "verilog",
+    ]
+    .map(str::to_owned);
     assert_eq!(used, BTreeSet::from(all), "the commands that are shown");
 }
 

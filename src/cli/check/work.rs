@@ -7,7 +7,7 @@ use crate::cli::{Failure, threads};
 use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::check::Proof;
 use motion_rtl::hdl::RunError;
-use motion_rtl::registry::{AnyCircuit, AnySweep, Verdict};
+use motion_rtl::registry::{AnyCircuit, AnySweep, ProofSearch, Verdict};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -118,7 +118,12 @@ fn prove(
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
     let row = begun(name, Kind::Proof, width, circuit.invariants());
-    let verdict = circuit.prove(limit, Some(out), &mut |progress| {
+    let search = ProofSearch {
+        states: limit,
+        waves: Some(out),
+        ..ProofSearch::default()
+    };
+    let verdict = circuit.prove(&search, &mut |progress| {
         let (states, frontier) = (HumanCount(progress.states), HumanCount(progress.frontier));
         line.set_message(format!("{states} states, {frontier} to go"));
         line.tick();
@@ -169,7 +174,7 @@ fn sweep(
     let swept = law.cases().and_then(|cases| {
         let range = shard.range(cases);
         line.set_length(range.end - range.start);
-        law.sweep(range, Some(out), &|cases| {
+        law.sweep(range, None, Some(out), &|cases| {
             line.inc(cases);
             let (done, all) = (HumanCount(line.position()), line.length().unwrap_or(0));
             line.set_message(format!("{done} of {} cases", HumanCount(all)));

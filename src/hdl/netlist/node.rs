@@ -87,6 +87,25 @@ impl Node {
         };
         operands.into_iter().flatten()
     }
+
+    /// The same of other nodes, which are asked for in the order of [`operands`](Self::operands).
+    pub fn map(self, mut to: impl FnMut(Id) -> Id) -> Node {
+        match self {
+            Node::Constant(_) | Node::Parameter(_) | Node::Signal(_) | Node::Port { .. } => self,
+            Node::Not(a) => Node::Not(to(a)),
+            Node::Negate(a) => Node::Negate(to(a)),
+            Node::Binary(operator, a, b) => Node::Binary(operator, to(a), to(b)),
+            Node::Mux(a, b, c) => Node::Mux(to(a), to(b), to(c)),
+            Node::ShiftLeft(a, bits) => Node::ShiftLeft(to(a), bits),
+            Node::ShiftRight(a, bits) => Node::ShiftRight(to(a), bits),
+            Node::Slice(a, low) => Node::Slice(to(a), low),
+            Node::Extend(a) => Node::Extend(to(a)),
+            Node::Join(a, b) => Node::Join(to(a), to(b)),
+            Node::Cast(a) => Node::Cast(to(a)),
+            Node::Past(a) => Node::Past(to(a)),
+            Node::Read(memory, a) => Node::Read(memory, to(a)),
+        }
+    }
 }
 
 /// One wire.

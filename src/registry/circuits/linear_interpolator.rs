@@ -6,7 +6,7 @@ use crate::circuits::linear_interpolator::{
 };
 use crate::hdl::Circuit;
 use crate::registry::Entry;
-use crate::registry::entry::{Of, Width, alone, entry, nothing};
+use crate::registry::entry::{Field, Of, alone, entry, nothing};
 
 /// Widths of the circuits around a pattern, from that of positions.
 fn widths(position: usize) -> Widths {
@@ -67,15 +67,25 @@ fn source(circuit: &mut Controller) -> &mut Widths {
     }
 }
 
-/// The widths of a controller.
-const CONTROLLER: &[Width<Controller>] = &[
-    ("address", |circuit| &mut source(circuit).address),
-    ("position", |circuit| &mut source(circuit).position),
-    ("time", |circuit| &mut source(circuit).time),
-    ("gain", |circuit| &mut circuit.loops.gain),
-    ("fraction", |circuit| &mut circuit.loops.fraction),
-    ("converter", |circuit| &mut circuit.loops.converter),
-    ("scan", |circuit| &mut circuit.scan),
+/// The widths of a controller: their names, and where they are.
+const NAMES: &[&str] = &[
+    "address",
+    "position",
+    "time",
+    "gain",
+    "fraction",
+    "converter",
+    "scan",
+];
+
+const FIELDS: &[Field<Controller>] = &[
+    |circuit| &mut source(circuit).address,
+    |circuit| &mut source(circuit).position,
+    |circuit| &mut source(circuit).time,
+    |circuit| &mut circuit.loops.gain,
+    |circuit| &mut circuit.loops.fraction,
+    |circuit| &mut circuit.loops.converter,
+    |circuit| &mut circuit.scan,
 ];
 
 /// The circuits of JP3608587B2.
@@ -250,7 +260,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
                 let source = CommandSource::Linear(LinearInterpolator { widths, rule });
                 Some(Controller { source, ..circuit })
             },
-            widths: CONTROLLER,
+            names: NAMES,
+            fields: FIELDS,
             proved: None,
         },
     },
@@ -269,7 +280,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
                 })
             },
             with: nothing,
-            widths: CONTROLLER,
+            names: NAMES,
+            fields: FIELDS,
             proved: None,
         },
     },

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde_path_to_error::{Path, Segment};
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, Deserializer};
+use toml::de::{DeTable, DeValue};
 
 use super::super::Scenario;
 use super::{NO_DEFAULT, scenario};
@@ -24,7 +24,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Scenario, Fault> {
         .collect();
     let mut left_out: Vec<String> = Vec::new();
     while found.len() == left_out.len() && found.len() < MOST_FAULTS {
-        let error = match scenario(|| Ok(Deserializer::from(table.clone()))) {
+        let error = match scenario(&table) {
             Ok(scenario) if found.is_empty() => return Ok(scenario),
             Ok(_) => break,
             Err(error) => error,

@@ -10,6 +10,10 @@ pub fn parse(markdown: &str) -> Result<Vec<Chart>, ChartError> {
     let mut lines = markdown.lines().zip(1..);
     while let Some((text, line)) = lines.next() {
         let Some((fence, info)) = fence(text) else {
+            // A chart that would be passed over.
+            if text.trim().starts_with("```chart ") {
+                return Err(Problem::Backtick.at(line));
+            }
             continue;
         };
         let mut draft = match info.split_once(char::is_whitespace).unwrap_or((info, "")) {

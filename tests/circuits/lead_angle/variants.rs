@@ -1,6 +1,6 @@
 //! The variants that the catalogue's proofs do not take, since those take the default.
 
-use motion_rtl::registry::{Verdict, find};
+use motion_rtl::registry::{ProofSearch, Verdict, find};
 
 #[test]
 fn every_variant_is_proved() {
@@ -13,7 +13,7 @@ fn every_variant_is_proved() {
         let entry = find(name).expect("it is in the catalogue");
         for arguments in all {
             let circuit = entry.make(arguments).expect("it can be made");
-            let verdict = circuit.prove(10_000_000, None, &mut |_| ()).unwrap();
+            let verdict = circuit.prove(&ProofSearch::default(), &mut |_| ()).unwrap();
             let proved = matches!(verdict, Verdict::Proved(_));
             assert!(proved, "{name} {arguments:?}: {verdict:?}");
         }

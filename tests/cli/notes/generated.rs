@@ -6,7 +6,7 @@
 use super::{connections, expect_none, miscounts, notes, rotations};
 use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::hdl::{Declaration, Format, Kind, MemoryDeclaration, Role};
-use motion_rtl::registry::{CATALOGUE, Entry, Verdict, find};
+use motion_rtl::registry::{CATALOGUE, Entry, ProofSearch, Verdict, find};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -14,8 +14,6 @@ use std::fs;
 
 const BEGIN: &str = "<!-- begin generated: ";
 const END: &str = "<!-- end generated -->";
-/// More states than any circuit has at its proof width.
-const LIMIT: u32 = 1 << 26;
 
 /// The text between the markers for what the first of them names.
 fn make(what: &str) -> Result<String, String> {
@@ -202,7 +200,7 @@ fn proofs(patent: &str) -> String {
         .collect();
     let rows = entries.into_par_iter().map(|(entry, width)| {
         let circuit = entry.make(&[width]).expect("it is made for its proof");
-        let verdict = circuit.prove(LIMIT, None, &mut |_| {});
+        let verdict = circuit.prove(&ProofSearch::default(), &mut |_| {});
         let Ok(Verdict::Proved(proof)) = verdict else {
             panic!("{} is not proved: {verdict:?}", entry.name);
         };
@@ -226,7 +224,7 @@ fn literal() -> String {
         let entry = find(name).expect("it is in the catalogue");
         let width = entry.proof_width.expect("it is proved");
         let circuit = entry.make(&[width, 1]).expect("it has a literal variant");
-        let verdict = circuit.prove(LIMIT, None, &mut |_| {});
+        let verdict = circuit.prove(&ProofSearch::default(), &mut |_| {});
         let Ok(Verdict::Broken { report, .. }) = verdict else {
             panic!("the literal {name} is not broken: {verdict:?}");
         };

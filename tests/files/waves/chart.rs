@@ -201,6 +201,12 @@ fn what_can_be_wrong_with_a_fence() {
         parse(open).unwrap_err().to_string(),
         "line 2: the chart is not closed"
     );
+    // It would be passed over, and nobody would notice.
+    let ticked = "text\n```chart part `level` goes up\ntick 0\n= level 0\n```\n";
+    assert_eq!(
+        parse(ticked).unwrap_err().to_string(),
+        "line 2: a title has no backtick: Markdown takes the line for text"
+    );
     let other = parse("```chart zoo\ntick 0\n= level 0\n```").unwrap();
     assert_eq!(
         other[0].run(&Part).unwrap_err().to_string(),

@@ -1,0 +1,280 @@
+//! `mutate`: single faults in circuits, and what finds them.
+
+use super::check::entry;
+use super::{Failure, print, print_json, threads};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use motion_rtl::hdl::RunError;
+use motion_rtl::input::{Fault, read_string};
+use motion_rtl::registry::{CATALOGUE, Campaign, CampaignError, Entry, Fate, Found, Suspect};
+use motion_rtl::trace::chart::{Chart, parse};
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What to put faults into, and what is to find them.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Circuits; without them all.
+    #[arg(value_name = "CIRCUIT")]
+    circuits: Vec<String>,
+    /// The notes whose timing charts are run: a folder of Markdown, or one file.
+    #[arg(long, value_name = "PATH", default_value = "rtl_notes")]
+    charts: PathBuf,
+    /// Ticks of each random run that shows whether a fault reaches a port out.
+    #[arg(long, value_name = "TICKS", allow_negative_numbers = true, default_value_t = 2_000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    ticks: u64,
+    /// How many such runs there are.
+    #[arg(long, value_name = "RUNS", allow_negative_numbers = true, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    runs: u64,
+    /// Transitions after which a proof is given up.
+    #[arg(
+        long,
+        value_name = "TRANSITIONS",
+        allow_negative_numbers = true,
+        default_value_t = 20_000_000
+    )]
+    transitions: u64,
+    /// Fails where fewer of the faults that show are found, in per cent.
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = clap::value_parser!(u8).range(0..=100))]
+    least: Option<u8>,
+    /// Lists the faults that no random run shows too.
+    #[arg(long)]
+    unseen: bool,
+    /// Prints every fault as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Row {
+    circuit: &'static str,
+    /// Faults of a circuit that can still be elaborated.
+    faults: usize,
+    /// Those found by one of its charts.
+    chart: usize,
+    /// By its proof or a law.
+    proof: usize,
+    /// By a chart of a circuit around it.
+    around: usize,
+    /// That no random run shows.
+    unseen: usize,
+    /// That show, and nothing finds.
+    missed: usize,
+    seconds: f64,
+    suspects: Vec<Told>,
+}
+
+/// A fault and what became of it, in words.
+#[derive(Debug, Serialize)]
+struct Told {
+    fault: String,
+    fate: &'static str,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    by: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Report {
+    circuits: Vec<Row>,
+    found_percent: f64,
+}
+
+/// Puts faults into circuits.
+pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
+    let entries: Vec<&'static Entry> = match arguments.circuits.is_empty() {
+        true => CATALOGUE.iter().collect(),
+        false => {
+            let named = arguments.circuits.iter().map(|name| entry(name));
+            named.collect::<Result<_, _>>()?
+        }
+    };
+    let (notes, charts): (Vec<_>, Vec<_>) = charts(&arguments.charts)?.into_iter().unzip();
+    let campaign = Campaign {
+        charts,
+        ticks: arguments.ticks,
+        runs: arguments.runs,
+        transitions: arguments.transitions,
+    };
+    threads::start()?;
+    let rows = entries
+        .into_iter()
+        .map(|entry| row(&campaign, &notes, entry));
+    let report = Report::of(rows.collect::<Result<_, _>>()?);
+    match arguments.json {
+        true => print_json(&report)?,
+        false => print(&report.text(arguments.unseen))?,
+    }
+    match arguments.least {
+        Some(least) if report.found_percent < f64::from(least) => Err(Failure::Check(format!(
+            "{:.2} % of the faults that show are found; wanted: {least} %",
+            report.found_percent
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// The charts of a note, or of all notes of a folder, each with the note's name.
+fn charts(path: &Path) -> Result<Vec<(String, Chart)>, Failure> {
+    let allowed = "Markdown with timing charts, or a folder of it";
+    let mut notes = vec![path.to_owned()];
+    if path.is_dir() {
+        let failed = |error: std::io::Error| {
+            let problem = format!("cannot be read: {error}");
+            Fault::new(&path.display().to_string(), 0, "--charts", problem, allowed)
+        };
+        let files = path.read_dir().map_err(failed)?;
+        let files = files.map(|file| file.map(|file| file.path()));
+        notes = files.collect::<Result<Vec<_>, _>>().map_err(failed)?;
+        notes.retain(|file| file.extension().is_some_and(|extension| extension == "md"));
+        notes.sort();
+    }
+    let mut charts = Vec::new();
+    for note in notes {
+        let text = read_string(&note, allowed)?;
+        let name = note.display().to_string();
+        let parsed = parse(&text).map_err(|error| {
+            let problem = error.problem.to_string();
+            Fault::new(&name, error.line, "chart", problem, allowed)
+        })?;
+        charts.extend(parsed.into_iter().map(|chart| (name.clone(), chart)));
+    }
+    match charts.is_empty() {
+        true => Err(Failure::Argument {
+            field: "--charts",
+            problem: format!("{} has no timing chart", path.display()),
+            allowed: allowed.to_owned(),
+        }),
+        false => Ok(charts),
+    }
+}
+
+fn row(campaign: &Campaign, notes: &[String], entry: &'static Entry) -> Result<Row, Failure> {
+    let begun = Instant::now();
+    let bar = ProgressBar::new(0);
+    if let Ok(style) = ProgressStyle::with_template("{prefix} {wide_bar} {pos} of {len}") {
+        bar.set_style(style);
+    }
+    bar.set_prefix(entry.name);
+    let suspects = campaign.run(entry, &|all| {
+        bar.set_length(all as u64);
+        bar.inc(1);
+    });
+    bar.finish_and_clear();
+    let suspects = suspects.map_err(|error| match error {
+        CampaignError::Engine(error) => Failure::Run(RunError::from(error)),
+        CampaignError::Chart { chart, failure } => {
+            Failure::Check(format!("{}: {failure}", notes[chart]))
+        }
+    })?;
+    let count = |is: fn(&Fate) -> bool| suspects.iter().filter(|s| is(&s.fate)).count();
+    Ok(Row {
+        circuit: entry.name,
+        faults: suspects.len() - count(|fate| *fate == Fate::Refused),
+        chart: count(|fate| matches!(fate, Fate::Found(Found::Chart(_)))),
+        proof: count(|fate| matches!(fate, Fate::Found(Found::Proof | Found::Law))),
+        around: count(|fate| matches!(fate, Fate::Found(Found::Around(..)))),
+        unseen: count(|fate| *fate == Fate::Unseen),
+        missed: count(|fate| matches!(fate, Fate::Missed { .. })),
+        seconds: begun.elapsed().as_secs_f64(),
+        suspects: suspects.iter().map(Told::of).collect(),
+    })
+}
+
+impl Told {
+    fn of(suspect: &Suspect) -> Told {
+        let (fate, by) = match &suspect.fate {
+            Fate::Found(Found::Chart(title)) => ("chart", title.clone()),
+            Fate::Found(Found::Proof) => ("proof", String::new()),
+            Fate::Found(Found::Law) => ("law", String::new()),
+            Fate::Found(Found::Around(circuit, title)) => ("around", format!("{circuit}: {title}")),
+            Fate::Unseen => ("unseen", String::new()),
+            Fate::Refused => ("refused", String::new()),
+            Fate::Missed {
+                given,
+                run,
+                tick,
+                port,
+            } => {
+                let given: Vec<_> = given.iter().map(u64::to_string).collect();
+                let by = format!(
+                    "[{}], random run {run}, tick {tick}: {port}",
+                    given.join(", ")
+                );
+                ("missed", by)
+            }
+        };
+        Told {
+            fault: suspect.mutation.to_string(),
+            fate,
+            by,
+        }
+    }
+}
+
+impl Report {
+    fn of(circuits: Vec<Row>) -> Self {
+        let sum = |of: fn(&Row) -> usize| circuits.iter().map(of).sum::<usize>();
+        let missed = sum(|row| row.missed);
+        let found = sum(|row| row.chart + row.proof + row.around);
+        Report {
+            found_percent: percent(found, found + missed),
+            circuits,
+        }
+    }
+
+    fn text(&self, unseen: bool) -> String {
+        let mut text = String::new();
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            text,
+            "{:<24} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>8} {:>9}",
+            "circuit", "faults", "chart", "proof", "around", "unseen", "missed", "found", "time"
+        );
+        for row in &self.circuits {
+            let found = row.chart + row.proof + row.around;
+            let _ = writeln!(
+                text,
+                "{:<24} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6.1} % {:>7.2} s",
+                row.circuit,
+                row.faults,
+                row.chart,
+                row.proof,
+                row.around,
+                row.unseen,
+                row.missed,
+                percent(found, found + row.missed),
+                row.seconds
+            );
+        }
+        let faults: usize = self.circuits.iter().map(|row| row.faults).sum();
+        let missed: usize = self.circuits.iter().map(|row| row.missed).sum();
+        let hidden: usize = self.circuits.iter().map(|row| row.unseen).sum();
+        let _ = writeln!(
+            text,
+            "{faults} faults, {hidden} of them not seen at a port out; of the others {:.2} % found, {missed} missed",
+            self.found_percent
+        );
+        for row in &self.circuits {
+            let shown = row
+                .suspects
+                .iter()
+                .filter(|told| told.fate == "missed" || (unseen && told.fate == "unseen"));
+            for told in shown {
+                let _ = writeln!(text, "{}: {}: {}", row.circuit, told.fault, told.fate);
+                if !told.by.is_empty() {
+                    let _ = writeln!(text, "  shows at {}", told.by);
+                }
+            }
+        }
+        text
+    }
+}
+
+fn percent(part: usize, whole: usize) -> f64 {
+    match whole {
+        0 => 100.0,
+        _ => 100.0 * part as f64 / whole as f64,
+    }
+}

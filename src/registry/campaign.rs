@@ -1,0 +1,350 @@
+//! Single faults put into circuits, and what finds them.
+
+use super::{AnyModel, CATALOGUE, Entry, ProofSearch, Verdict, sweeps};
+use crate::check::Stimulus;
+use crate::engine::{EngineError, Watch};
+use crate::hdl::mutation::{mutated, mutations};
+use crate::hdl::{Model, Mutation};
+use crate::trace::chart::{Chart, ChartFailure};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// What faults of a circuit are looked for with: timing charts, proofs, laws.
+///
+/// A fault is put into the netlist wherever the circuit is in it. Charts of the circuit come first;
+/// what passes them all is run beside the circuit without the fault, on random inputs. Where the
+/// ports out differ, the circuit's proof, its laws, and charts of circuits around it are asked too.
+#[derive(Debug, Clone)]
+pub struct Campaign {
+    /// Timing charts, of any circuits.
+    pub charts: Vec<Chart>,
+    /// Ticks of each run on random inputs.
+    pub ticks: u64,
+    /// How many such runs there are at most.
+    pub runs: u64,
+    /// Transitions after which a proof is given up.
+    pub transitions: u64,
+}
+
+/// A fault and what became of it.
+#[derive(Debug, Clone)]
+pub struct Suspect {
+    /// The fault.
+    pub mutation: Mutation,
+    /// What became of it.
+    pub fate: Fate,
+}
+
+/// What became of a fault.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Fate {
+    /// Something found it.
+    Found(Found),
+    /// Nothing did, and no run on random inputs showed it at a port out.
+    Unseen,
+    /// With it, the circuit cannot be elaborated.
+    Refused,
+    /// Nothing found it, though it shows.
+    Missed {
+        /// The numbers that the circuit was made with; none for its full widths.
+        given: Vec<u64>,
+        /// The number of the random run.
+        run: u64,
+        /// The first tick at which it shows.
+        tick: u64,
+        /// The port out.
+        port: String,
+    },
+}
+
+/// What found a fault.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Found {
+    /// A chart of the circuit, by its title.
+    Chart(String),
+    /// Its proof.
+    Proof,
+    /// A law of it.
+    Law,
+    /// A chart of a circuit around it: the circuit, and the title.
+    Around(String, String),
+}
+
+/// Why faults cannot be looked for.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum CampaignError {
+    /// The circuit, or one around it, cannot be elaborated.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// A chart does not hold of the circuit without a fault: it would find every one.
+    #[error("chart {chart}: {failure}")]
+    Chart {
+        /// Its number in [`Campaign::charts`], from 0.
+        chart: usize,
+        /// Why it does not hold.
+        failure: Box<ChartFailure>,
+    },
+}
+
+/// A circuit made with numbers, and the charts of it.
+struct Made<'c> {
+    entry: &'static Entry,
+    given: Vec<u64>,
+    model: Model,
+    charts: Vec<&'c Chart>,
+}
+
+impl Made<'_> {
+    fn circuit(&self) -> Option<Box<dyn AnyModel>> {
+        match self.given.is_empty() && self.charts.is_empty() {
+            true => Some(self.entry.full()),
+            false => self.entry.model(&self.given),
+        }
+    }
+
+    /// It with a fault; nothing where the fault has no place in it.
+    fn mutated(&self, mutation: &Mutation) -> Option<Result<Model, EngineError>> {
+        let circuit = self.circuit()?;
+        mutated(mutation, || circuit.model())
+    }
+
+    /// Its charts hold; they are some of `all`.
+    fn holds(&self, all: &[Chart]) -> Result<(), CampaignError> {
+        for chart in &self.charts {
+            if let Err(failure) = chart.run_on(&self.model) {
+                let number = all.iter().position(|other| std::ptr::eq(other, *chart));
+                return Err(CampaignError::Chart {
+                    chart: number.unwrap_or_default(),
+                    failure: Box::new(failure),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The chart that finds a fault.
+    fn chart(&self, model: &Model) -> Option<&Chart> {
+        let mut charts = self.charts.iter().copied();
+        charts.find(|chart| matches!(chart.run_on(model), Err(ChartFailure::Mismatch(_))))
+    }
+}
+
+/// What the ports out of a circuit are on random inputs, run by run and tick by tick.
+struct Shown {
+    runs: Vec<Vec<u64>>,
+}
+
+impl Campaign {
+    /// The faults of a circuit, and what becomes of each. `progress` is called after each with the
+    /// number of all.
+    ///
+    /// # Errors
+    /// The circuit, or one that a chart is of, cannot be elaborated; a chart does not hold.
+    pub fn run(
+        &self,
+        entry: &'static Entry,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Vec<Suspect>, CampaignError> {
+        let (own, around) = self.made(entry)?;
+        for made in own.iter().chain(&around) {
+            made.holds(&self.charts)?;
+        }
+        let mut found: Vec<Mutation> = Vec::new();
+        for made in &own {
+            let Some(circuit) = made.circuit() else {
+                continue;
+            };
+            for mutation in mutations(made.model.name(), || circuit.model()).1 {
+                if !found.contains(&mutation) {
+                    found.push(mutation);
+                }
+            }
+        }
+        let shown: Vec<Shown> = own.iter().map(|made| self.shown(&made.model)).collect();
+        let all = found.len();
+        let suspects = found.into_par_iter().map(|mutation| {
+            let fate = self.fate(&mutation, (&own, &shown), &around);
+            progress(all);
+            Suspect { mutation, fate }
+        });
+        Ok(suspects.collect())
+    }
+
+    /// The circuit as its charts have it, with them, or else with its full widths; and other circuits
+    /// that it is inside of, with theirs.
+    fn made(&self, entry: &'static Entry) -> Result<(Vec<Made<'_>>, Vec<Made<'_>>), EngineError> {
+        let mut charts: BTreeMap<(&str, &[u64]), Vec<&Chart>> = BTreeMap::new();
+        for chart in &self.charts {
+            let key = (chart.circuit.as_str(), &chart.args[..]);
+            charts.entry(key).or_default().push(chart);
+        }
+        let full = entry.full().model()?;
+        let (mut own, mut around) = (Vec::new(), Vec::new());
+        for ((name, given), charts) in charts {
+            let of = CATALOGUE.iter().find(|entry| entry.name == name);
+            let Some((of, circuit)) = of.and_then(|of| Some((of, of.model(given)?))) else {
+                continue;
+            };
+            let model = circuit.model()?;
+            let inside = &model.design().modules[..model.design().modules.len() - 1];
+            let is_inside = inside
+                .iter()
+                .any(|module| of_circuit(&module.name, full.name()));
+            let made = Made {
+                entry: of,
+                given: given.to_vec(),
+                charts,
+                model,
+            };
+            if of.name == entry.name {
+                own.push(made);
+            } else if is_inside {
+                around.push(made);
+            }
+        }
+        if own.is_empty() {
+            own.push(Made {
+                entry,
+                given: Vec::new(),
+                model: full,
+                charts: Vec::new(),
+            });
+        }
+        Ok((own, around))
+    }
+
+    fn shown(&self, model: &Model) -> Shown {
+        let runs = (0..self.runs).map(|run| {
+            let mut rows = Vec::new();
+            self.play(model, run, &mut |_, _, value| {
+                rows.push(value);
+                true
+            });
+            rows
+        });
+        Shown {
+            runs: runs.collect(),
+        }
+    }
+
+    /// Runs a circuit on random inputs and tells what its ports out are, tick by tick, as long as
+    /// `see` wants to know.
+    fn play(&self, model: &Model, run: u64, see: &mut dyn FnMut(u64, usize, u64) -> bool) {
+        let ports = model.ports_out();
+        let mut engine = model.engine(Watch::All);
+        let mut random = Stimulus::new(run);
+        for tick in 0..self.ticks {
+            random.apply(&mut engine);
+            engine.settle();
+            for leaf in &ports {
+                if !see(tick, *leaf, engine.leaf(*leaf)) {
+                    return;
+                }
+            }
+            engine.edge();
+        }
+    }
+
+    /// Where a fault shows at first: run, tick, port out.
+    fn shows(&self, shown: &Shown, model: &Model) -> Option<(u64, u64, String)> {
+        for (run, rows) in shown.runs.iter().enumerate() {
+            let mut rows = rows.iter();
+            let mut seen = None;
+            self.play(model, run as u64, &mut |tick, leaf, value| {
+                let same = rows.next() == Some(&value);
+                if !same {
+                    seen = Some((tick, leaf));
+                }
+                same
+            });
+            if let Some((tick, leaf)) = seen {
+                let port = model.declarations().leaves[leaf].path();
+                return Some((run as u64, tick, port));
+            }
+        }
+        None
+    }
+
+    fn fate(
+        &self,
+        mutation: &Mutation,
+        (own, shown): (&[Made<'_>], &[Shown]),
+        around: &[Made<'_>],
+    ) -> Fate {
+        let mut faulty = Vec::new();
+        for (made, shown) in own.iter().zip(shown) {
+            match made.mutated(mutation) {
+                None => continue,
+                Some(Err(_)) => return Fate::Refused,
+                Some(Ok(model)) => {
+                    if let Some(chart) = made.chart(&model) {
+                        return Fate::Found(Found::Chart(chart.title.clone()));
+                    }
+                    faulty.push((made, shown, model));
+                }
+            }
+        }
+        let mut missed = Fate::Unseen;
+        for (made, shown, model) in &faulty {
+            if let Some((run, tick, port)) = self.shows(shown, model) {
+                missed = Fate::Missed {
+                    given: made.given.clone(),
+                    run,
+                    tick,
+                    port,
+                };
+                break;
+            }
+        }
+        if missed == Fate::Unseen {
+            return missed;
+        }
+        let entry = own.first().map(|made| made.entry);
+        if let Some(found) = entry.and_then(|entry| self.proof_or_law(entry, mutation)) {
+            return Fate::Found(found);
+        }
+        for made in around {
+            if let Some(Ok(model)) = made.mutated(mutation)
+                && let Some(chart) = made.chart(&model)
+            {
+                let circuit = made.entry.name.to_owned();
+                return Fate::Found(Found::Around(circuit, chart.title.clone()));
+            }
+        }
+        missed
+    }
+
+    /// Whether a proof or law of the circuit finds a fault.
+    fn proof_or_law(&self, entry: &Entry, mutation: &Mutation) -> Option<Found> {
+        if let Some(circuit) = entry.proof_width.and_then(|width| entry.make(&[width]))
+            && let Some(Ok(model)) = mutated(mutation, || circuit.model())
+        {
+            let search = ProofSearch {
+                transitions: self.transitions,
+                model: Some(model),
+                ..ProofSearch::default()
+            };
+            if let Ok(Verdict::Broken { .. }) = circuit.prove(&search, &mut |_| {}) {
+                return Some(Found::Proof);
+            }
+        }
+        for law in sweeps(entry.name) {
+            let law = (law.make)(&[*law.widths.start()])?;
+            let model = mutated(mutation, || law.model())?.ok()?;
+            let swept = law.sweep(0..law.cases().ok()?, Some(model), None, &|_| {});
+            if let Ok(Verdict::Broken { .. }) = swept {
+                return Some(Found::Law);
+            }
+        }
+        None
+    }
+}
+
+/// Whether a module is of this circuit: another of the same has a number behind its name.
+fn of_circuit(module: &str, circuit: &str) -> bool {
+    let rest = module.strip_prefix(circuit);
+    rest.is_some_and(|rest| {
+        let number = rest.strip_prefix('_').unwrap_or("0");
+        rest.is_empty() || number.bytes().all(|digit| digit.is_ascii_digit())
+    })
+}
