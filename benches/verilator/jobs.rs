@@ -176,7 +176,7 @@ pub fn plotting(ticks: u64, clock: Clock) -> Job<Controller> {
     };
     let settings = scenario.settings();
     let targets = targets::compile(&drawing(&whole), &settings).expect("it fits");
-    let circuit = plotter(settings.rule);
+    let circuit = plotter(&settings);
     let mut recorder = Recorder::new(&circuit, ticks);
     jobs::linear_interpolator::job::play(&circuit, &targets.targets, &settings, &mut recorder)
         .expect("nobody objects");

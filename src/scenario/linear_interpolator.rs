@@ -2,7 +2,7 @@
 
 use super::exactly::exactly;
 use super::{Program, Runnable};
-use crate::circuits::linear_interpolator::Rule;
+use crate::circuits::linear_interpolator::{MasterAxis, Rule};
 use crate::jobs::linear_interpolator::settings::{AxisSettings, Settings, ShortMoves};
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -22,6 +22,9 @@ pub struct Scenario {
     /// How the integrator 24 divides.
     #[serde(default = "default::variant")]
     pub variant: Rule,
+    /// Which axis has the position pattern.
+    #[serde(default = "default::master")]
+    pub master: MasterAxis,
     /// Reference clock in Hz.
     #[serde(default = "default::clock_hz")]
     pub clock_hz: u64,
@@ -89,6 +92,7 @@ impl Scenario {
     pub fn settings(&self) -> Settings {
         Settings {
             rule: self.variant,
+            master: self.master,
             clock_hz: self.clock_hz,
             scan_ticks: self.scan_ticks,
             counts_per_mm: self.counts_per_mm,
@@ -116,7 +120,7 @@ impl Scenario {
 
 /// What a key is worth that is not given: what the settings are by default.
 mod default {
-    use super::{AxisSettings, Rule, Settings, ShortMoves};
+    use super::{AxisSettings, MasterAxis, Rule, Settings, ShortMoves};
 
     fn settings() -> Settings {
         Settings::default()
@@ -126,6 +130,9 @@ mod default {
     }
     pub(super) fn variant() -> Rule {
         settings().rule
+    }
+    pub(super) fn master() -> MasterAxis {
+        settings().master
     }
     pub(super) fn clock_hz() -> u64 {
         settings().clock_hz

@@ -1,6 +1,7 @@
 //! `run` of the linear interpolator: summary, files, settings.
 
 use super::support::{Bench, LINE, keys, list, whole};
+use expect_test::expect;
 use serde_json::{Value, json};
 use std::fs;
 
@@ -58,6 +59,9 @@ fn ten_millimetres_are_a_hundred_and_thirty_four_scans() {
         "files",
         "input",
         "interpolator",
+        "interpolator_other_master",
+        "master",
+        "other_master",
         "scan_ticks",
         "scans",
         "seconds",
@@ -90,9 +94,11 @@ fn ten_millimetres_are_a_hundred_and_thirty_four_scans() {
         "contour_error_max_um",
         "deviation_max_lsb",
         "end_position",
+        "master_acceleration_max_counts_per_scan2",
         "saturated_scans",
         "scans",
         "seconds",
+        "slave_acceleration_max_counts_per_scan2",
         "ticks",
     ];
     let row = [
@@ -103,6 +109,7 @@ fn ten_millimetres_are_a_hundred_and_thirty_four_scans() {
         "interpolator",
         "line",
         "master",
+        "other_master",
         "rapid",
         "segment",
         "speed_asked_mm_per_min",
@@ -116,8 +123,10 @@ fn ten_millimetres_are_a_hundred_and_thirty_four_scans() {
         "deviation_lsb",
         "deviation_perpendicular_counts",
         "end_error_counts",
+        "master_acceleration_counts_per_scan2",
         "scans",
         "seconds",
+        "slave_acceleration_counts_per_scan2",
     ];
     assert_eq!(list(&summary, "segments").len(), 1);
     assert_eq!(keys(&summary["segments"][0]), row);
@@ -317,6 +326,67 @@ fn zigzag(strokes: usize) -> String {
 }
 
 #[test]
+fn another_master_axis_runs_beside_and_makes_a_longer_slave_accelerate() {
+    // 10 mm along X, 100 mm along Y.
+    let bench = Bench::with("steep.hpgl", "PD400,4000;");
+    let longer = bench.json(&run("steep.hpgl", &[]));
+    assert_eq!(
+        (&longer["master"], &longer["other_master"]),
+        (&json!("longer"), &json!("x"))
+    );
+    assert_eq!(longer["segments"][0]["master"], "y");
+    let accelerations = |system: &Value| {
+        let of = |axis: &str| {
+            whole(
+                system,
+                &format!("/{axis}_acceleration_max_counts_per_scan2"),
+            )
+        };
+        (of("master"), of("slave"))
+    };
+    let (master, slave) = accelerations(&longer["interpolator"]);
+    assert!(slave <= master + 1 && master <= 3, "{master}, {slave}");
+    let other = &longer["interpolator_other_master"];
+    let (master, slave) = accelerations(other);
+    // A count of X is ten of Y, and its speed changes by a count at times.
+    assert!(master <= 2 && slave >= 10 * master, "{master}, {slave}");
+    assert_eq!(other["end_position"], json!([2000, 20_000]));
+    assert!(other["deviation_max_lsb"].as_f64().unwrap() < 1.0);
+
+    let fixed = bench.json(&run("steep.hpgl", &["--set", "master=x"]));
+    assert_eq!(
+        (&fixed["master"], &fixed["other_master"]),
+        (&json!("x"), &json!("longer"))
+    );
+    assert_eq!(fixed["segments"][0]["master"], "x");
+    assert_eq!(&fixed["interpolator"], other);
+    assert_eq!(fixed["interpolator_other_master"], longer["interpolator"]);
+    for conventional in ["conventional", "conventional_in_proportion"] {
+        assert_eq!(fixed[conventional], longer[conventional]);
+    }
+}
+
+#[test]
+fn a_line_too_steep_for_a_fixed_master_is_told_or_refused() {
+    // 5 counts along X, 40,000 along Y.
+    let bench = Bench::with("steep.hpgl", "PD1,8000;");
+    let summary = bench.json(&run("steep.hpgl", &[]));
+    assert_eq!(summary["interpolator_other_master"], Value::Null);
+    assert_eq!(summary["segments"][0]["other_master"], Value::Null);
+    expect![[r#"["steep.hpgl: not drawn with x as the master axis for comparison: line 1: feed 6000 mm/min: allowed are 58593.8 and more in this direction"]"#]].assert_eq(&summary["warnings"].to_string());
+    let done = bench.run(&run("steep.hpgl", &["--set", "master=x"]));
+    assert_eq!((done.code, done.stdout.as_str()), (2, ""));
+    expect![[r#"
+        error: steep.hpgl:1: feed_mm_per_min: at 6000 mm/min the master axis goes too few counts in a scan; allowed: at least 58593.8 mm/min on this way, or a longer scan (scan_ticks)
+    "#]].assert_eq(&done.stderr);
+    // Where X stands, Y leads.
+    let bench = Bench::with("up.hpgl", "PD0,400;");
+    let summary = bench.json(&run("up.hpgl", &["--set", "master=x"]));
+    assert_eq!(summary["segments"][0]["master"], "y");
+    assert_eq!(summary["exact"], true);
+}
+
+#[test]
 fn people_see_the_worst_segments_or_all_and_machines_see_all() {
     let bench = Bench::with("z.hpgl", zigzag(15));
     let text = bench.succeed(&run("z.hpgl", &[]));
@@ -325,7 +395,7 @@ fn people_see_the_worst_segments_or_all_and_machines_see_all() {
     let (scans, ticks) = (whole(&json, "/scans"), whole(&json, "/ticks"));
     let seconds = ticks as f64 / 1e6;
     let head = format!(
-        "z.hpgl on linear_interpolator (floor): {scans} scans, {ticks} ticks, {seconds:.3} s at \
+        "z.hpgl on linear_interpolator (floor, master longer): {scans} scans, {ticks} ticks, {seconds:.3} s at \
          1000000 Hz\n"
     );
     assert!(text.starts_with(&head), "{text}");

@@ -3,7 +3,7 @@
 use super::linear::{LINEAR, run};
 use super::support::{Bench, LINE};
 
-const KEYS: &str = "one of `circuit`, `input`, `program`, `variant`, `clock_hz`, `scan_ticks`, \
+const KEYS: &str = "one of `circuit`, `input`, `program`, `variant`, `master`, `clock_hz`, `scan_ticks`, \
      `counts_per_mm`, `feed_mm_per_min`, `rapid_mm_per_min`, `full_speed_mm_per_min`, `acceleration_ms`, \
      `deceleration_ms`, `short_moves`, `chord_tolerance_mm`, `exact_stop`, \
      `in_position_counts`, `position_gain_per_s`, `rated_speed_rev_per_min`, `counts_per_rev`, \
@@ -42,6 +42,7 @@ fn bad_overrides_are_refused() {
         ("feed=1", format!("feed: unknown field `feed`; allowed: {KEYS}")),
         ("steps_per_mm=[80,80]", format!("steps_per_mm: unknown field `steps_per_mm`; allowed: {KEYS}")),
         ("variant=safe", "variant: unknown variant `safe`; allowed: one of `floor`, `truncating`, `centred`".into()),
+        ("master=z", "master: unknown variant `z`; allowed: one of `longer`, `x`, `y`".into()),
         ("short_moves=slow", "short_moves: unknown variant `slow`; allowed: `constant_acceleration` or `constant_time`".into()),
         ("exact_stop=1", "exact_stop: invalid type: integer `1`; allowed: true or false".into()),
         ("scan_ticks=1.5", "scan_ticks: invalid type: floating point `1.5`; allowed: a whole number from 0 to 4294967295".into()),
@@ -131,7 +132,7 @@ fn drawings_that_cannot_be_played_are_refused() {
         (
             "G1 X1 F1000\nG1 X2 F7.3\n",
             &[][..],
-            "p.ngc:2: F: at 7.3 mm/min the axis with the longer way goes too few counts in a \
+            "p.ngc:2: F: at 7.3 mm/min the master axis goes too few counts in a \
              scan; allowed: at least 7.32422 mm/min on this way, or a longer scan (scan_ticks)",
         ),
         (

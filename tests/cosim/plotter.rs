@@ -2,7 +2,7 @@
 //! Verilog.
 
 use super::tools::{Simulator, complete, write};
-use motion_rtl::circuits::linear_interpolator::{Controller, Rule};
+use motion_rtl::circuits::linear_interpolator::{Controller, MasterAxis, Rule};
 use motion_rtl::hdl::{Circuit, Declarations, Without};
 use motion_rtl::input::read_text;
 use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
@@ -68,17 +68,23 @@ fn the_whole_job_is_the_same_in_verilator() {
     let settings = settings(Rule::Floor);
     let targets = cycles(&settings);
     assert_eq!(targets.len(), 65);
-    let circuit = plotter(Rule::Floor);
+    let circuit = plotter(&settings);
     hold(&circuit, &targets, &settings, Simulator::Verilator);
 }
 
 #[test]
 #[ignore = "needs Icarus Verilog"]
-fn some_cycles_of_the_other_rules_are_the_same_in_icarus() {
-    for rule in [Rule::Truncating, Rule::Centred] {
-        let settings = settings(rule);
+fn some_cycles_of_the_other_rules_and_masters_are_the_same_in_icarus() {
+    for (rule, master) in [
+        (Rule::Truncating, MasterAxis::X),
+        (Rule::Centred, MasterAxis::Y),
+    ] {
+        let settings = Settings {
+            master,
+            ..settings(rule)
+        };
         let targets = &cycles(&settings)[20..24];
-        hold(&plotter(rule), targets, &settings, Simulator::Icarus);
+        hold(&plotter(&settings), targets, &settings, Simulator::Icarus);
     }
 }
 

@@ -1,6 +1,6 @@
 //! The reference of the linear interpolator, and the measures that runs are judged by.
 
-use motion_rtl::circuits::linear_interpolator::Rule;
+use motion_rtl::circuits::linear_interpolator::{MasterAxis, Rule};
 use motion_rtl::input::read_text;
 use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
 use motion_rtl::jobs::linear_interpolator::measure::{
@@ -273,6 +273,8 @@ fn the_measures_of_known_records() {
         master: 0,
         scans: 3,
         end_error: [0, 0],
+        // Speeds of 0, 20, 20, 0 and 1, 14, 15, 0.
+        acceleration: [20, 15],
         deviation: Deviation {
             numerator: 40,
             denominator: 40,
@@ -286,6 +288,8 @@ fn the_measures_of_known_records() {
         master: 1,
         scans: 2,
         end_error: [1, 0],
+        // 0, 1, 0 and −40, −10, 0.
+        acceleration: [1, 40],
         deviation: Deviation {
             numerator: 50,
             denominator: 50,
@@ -466,19 +470,39 @@ fn the_conventional_ways_are_given_what_the_text_says() {
 fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
     let text = include_bytes!("../../waves/plotter.hpgl");
     let drawing = read_text("plotter.hpgl", text).unwrap();
-    for (rule, exact_stop) in [
-        (Rule::Floor, true),
-        (Rule::Truncating, false),
-        (Rule::Centred, false),
+    for (rule, exact_stop, master) in [
+        (Rule::Floor, true, MasterAxis::Longer),
+        (Rule::Truncating, false, MasterAxis::X),
+        (Rule::Centred, false, MasterAxis::Y),
     ] {
         let settings = Settings {
             rule,
             exact_stop,
+            master,
             ..short_scans()
         };
         let targets = compile(&drawing, &settings).unwrap().targets;
-        let ours = play(&plotter(rule), &targets, &settings, ()).unwrap();
+        let ours = play(&plotter(&settings), &targets, &settings, ()).unwrap();
         as_the_formulas_say(&ours, &targets, &settings);
+        // ¶0014: a slave with the shorter way accelerates no more than its master, but for the
+        // count that rounding makes. A fixed master has slaves with longer ways.
+        let largest = |of: fn(&Segment) -> usize| {
+            let segments = ours.segments(settings.counts_per_mm);
+            let largest = segments
+                .iter()
+                .map(|segment| segment.acceleration[of(segment)]);
+            largest.max().unwrap()
+        };
+        let (leads, follows) = (largest(|s| s.master), largest(|s| 1 - s.master));
+        match master {
+            MasterAxis::Longer => assert!(follows <= leads + 1, "{leads}, {follows}"),
+            _ => assert!(follows > 5 * leads, "{leads}, {follows}"),
+        }
+        let longer = Settings {
+            master: MasterAxis::Longer,
+            ..settings.clone()
+        };
+        let targets = compile(&drawing, &longer).unwrap().targets;
         let mut bent = Vec::new();
         for way in Way::ALL {
             let targets = way.targets(&targets, &settings);
@@ -526,6 +550,7 @@ fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
 #[test]
 fn the_contour_error_of_the_circuit_is_that_of_theory() {
     let mut settings = short_scans();
+    settings.rule = Rule::Centred;
     settings.axes[0].position_gain_per_s = 50.0;
     settings.axes[1].position_gain_per_s = 40.0;
     for (x, y, feed) in [
@@ -535,7 +560,7 @@ fn the_contour_error_of_the_circuit_is_that_of_theory() {
     ] {
         // Counts of the master axis a scan of 1 ms.
         let targets = [target(x, y, feed as u64, [100, 100])];
-        let played = play(&plotter(Rule::Centred), &targets, &settings, ()).unwrap();
+        let played = play(&plotter(&settings), &targets, &settings, ()).unwrap();
         let cycle = &played.cycles[0];
         let scans = cycle.scans.clone();
         let middle = scans.start + 800..scans.end - 200;
@@ -612,7 +637,7 @@ fn a_motor_that_is_too_slow_is_counted_as_saturated() {
 fn a_setting_that_is_no_number_is_refused() {
     let mut settings = short_scans();
     settings.axes[1].position_gain_per_s = f64::NAN;
-    let error = play::<1>(&plotter(Rule::Floor), &[], &settings, ()).expect_err("not a number");
+    let error = play::<1>(&plotter(&settings), &[], &settings, ()).expect_err("not a number");
     assert!(
         error.to_string().starts_with("position_gain_per_s: "),
         "{error}"

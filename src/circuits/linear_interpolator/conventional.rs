@@ -43,7 +43,11 @@ signals! { for Conventional as c;
         /// Target data 20.
         pub targets: Part<TargetData>(c.targets()),
         /// Sequencer.
-        pub sequencer: Part<Sequencer>(Sequencer { position: c.widths.position }),
+        pub sequencer: Part<Sequencer>(Sequencer {
+            position: c.widths.position,
+            // No axis leads.
+            master: MasterAxis::Longer,
+        }),
         /// Position pattern generator 14 of X.
         pub pattern_x: Part<PatternGenerator>(c.widths.pattern()),
         /// Position pattern generator 14 of Y.

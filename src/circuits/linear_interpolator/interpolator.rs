@@ -21,6 +21,8 @@ pub struct LinearInterpolator {
     pub widths: Widths,
     /// How a quotient of the integrator is rounded.
     pub rule: Rule,
+    /// Which axis leads.
+    pub master: MasterAxis,
 }
 
 impl LinearInterpolator {
@@ -37,6 +39,13 @@ impl LinearInterpolator {
         Integrator {
             position: self.widths.position,
             rule: self.rule,
+        }
+    }
+
+    const fn sequencer(&self) -> Sequencer {
+        Sequencer {
+            position: self.widths.position,
+            master: self.master,
         }
     }
 
@@ -61,7 +70,7 @@ signals! { for LinearInterpolator as c;
         /// Target data 20.
         pub targets: Part<TargetData>(c.targets()),
         /// Sequencer.
-        pub sequencer: Part<Sequencer>(Sequencer { position: c.widths.position }),
+        pub sequencer: Part<Sequencer>(c.sequencer()),
         /// Position pattern generator 14.
         pub pattern: Part<PatternGenerator>(c.widths.pattern()),
         /// Differentiator 21.

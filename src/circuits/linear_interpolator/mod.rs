@@ -51,7 +51,7 @@ pub use line_sweep::LineSweep;
 pub use pattern_generator::PatternGenerator;
 pub use position_control::PositionControl;
 pub use position_loop::PositionLoop;
-pub use sequencer::Sequencer;
+pub use sequencer::{MasterAxis, Sequencer};
 pub use target_data::TargetData;
 pub use trapezoid::Trapezoid;
 pub use widths::{LoopWidths, Widths};

@@ -11,13 +11,18 @@
 //!                                      └───────────┘
 //! ```
 //!
+//! Which axis is the master is a choice: the one with the greater distance (claim 2), or always the
+//! same one (claim 1).
+//!
 //! Departures: a cycle starts from the command that stands, not from the target before, so that a
 //! cycle that was aborted leaves nothing behind. A target that is farther away than a signed word
 //! of the position's width can say is refused. A scan that comes before the last one is computed
-//! is left out, and flagged.
+//! is left out, and flagged. Where a fixed master axis stands still, the other one leads: its own
+//! distance would be a division by zero.
 
 use crate::hdl::Registers;
 use crate::hdl::prelude::*;
+use serde::Deserialize;
 
 /// Names of the states.
 const STATES: &[&str] = &["idle", "pop", "fetch", "plan", "begin", "run"];
@@ -28,11 +33,58 @@ const PLAN: u64 = 3;
 const BEGIN: u64 = 4;
 const RUN: u64 = 5;
 
+/// Which axis gets the position pattern, and leads the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MasterAxis {
+    /// The one with the greater distance, X where they are alike (claim 2, ¶0014).
+    #[default]
+    Longer,
+    /// X (claim 1), unless it stands.
+    X,
+    /// Y, unless it stands.
+    Y,
+}
+
+impl MasterAxis {
+    /// The name it has in scenarios.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            MasterAxis::Longer => "longer",
+            MasterAxis::X => "x",
+            MasterAxis::Y => "y",
+        }
+    }
+
+    /// The master axis of a move by Δx and Δy: 0 is X, 1 is Y.
+    #[must_use]
+    pub fn of(self, delta: [i64; 2]) -> usize {
+        let [x, y] = delta.map(i64::unsigned_abs);
+        usize::from(match self {
+            MasterAxis::Longer => x < y,
+            MasterAxis::X => x == 0,
+            MasterAxis::Y => y != 0,
+        })
+    }
+
+    /// Whether Y leads.
+    fn swapped(self, [x, y]: [U; 2]) -> Bit {
+        match self {
+            MasterAxis::Longer => x.below(y),
+            MasterAxis::X => x.is_zero(),
+            MasterAxis::Y => !y.is_zero(),
+        }
+    }
+}
+
 /// Sequencer. `start` is high four ticks after a target is available, `advance` a tick after `scan`.
 #[derive(Debug, Clone)]
 pub struct Sequencer {
     /// Width of a position in bits.
     pub position: usize,
+    /// Which axis leads.
+    pub master: MasterAxis,
 }
 
 signals! { for Sequencer as c;
@@ -159,7 +211,7 @@ impl Circuit for Sequencer {
 
         let onward = takes.mux(POP, idle.mux(IDLE, q.state + 1));
         let running = over.mux(U::new(IDLE, 3), RUN);
-        let swapped = way_x.below(way_y);
+        let swapped = self.master.swapped([way_x, way_y]);
         let pick = |choose: Bit, y: I, x: I, old: I| plan.mux(choose.mux(y, x), old);
         let next = Reg {
             state: runs.mux(running, ends.mux(IDLE, onward)),
@@ -207,7 +259,7 @@ impl Circuit for Sequencer {
             let starts = next.master_from.equals(master_from);
             distances & starts & next.slave_from.equals(slave_from)
         };
-        let swapped = w.way_x.below(w.way_y);
+        let swapped = self.master.swapped([w.way_x, w.way_y]);
         let x_first = planned([q.delta_x, q.delta_y, i.x, i.y]) & !next.swapped;
         let y_first = planned([q.delta_y, q.delta_x, i.y, i.x]) & next.swapped;
         let stands = planned([q.master, q.slave, q.master_from, q.slave_from]);
@@ -237,7 +289,13 @@ impl Circuit for Sequencer {
                 amount(w.way_x, q.delta_x) & amount(w.way_y, q.delta_y),
             ),
             Property::step(
-                "the master axis is the one with the greater distance, X where they are alike",
+                match self.master {
+                    MasterAxis::Longer => {
+                        "the master axis is the one with the greater distance, X where they are alike"
+                    }
+                    MasterAxis::X => "X is the master axis unless it stands",
+                    MasterAxis::Y => "Y is the master axis unless it stands",
+                },
                 &["swapped", "master", "slave"],
                 !plan | (swapped & y_first) | (!swapped & x_first),
             ),

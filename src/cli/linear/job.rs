@@ -2,6 +2,7 @@
 
 use crate::cli::Failure;
 use crate::cli::source::{Source, compiling, drawing_fault, plan_fault};
+use motion_rtl::circuits::linear_interpolator::MasterAxis;
 use motion_rtl::input::{Drawing, Fault};
 use motion_rtl::jobs::linear_interpolator::settings::Settings;
 use motion_rtl::jobs::linear_interpolator::targets::{
@@ -20,17 +21,52 @@ pub struct Job {
     pub settings: Settings,
     /// The cycles.
     pub compiled: Targets,
+    /// The same with another axis as the master, or why they cannot be had.
+    pub other: Other,
     /// The scenario it came from.
     pub loaded: Loaded,
 }
 
+/// The job with another master axis: X in place of the longer one, or the other way round.
+#[derive(Debug)]
+pub struct Other {
+    /// Its settings.
+    pub settings: Settings,
+    /// Its cycles.
+    pub compiled: Result<Targets, TargetError>,
+}
+
+impl Other {
+    fn of(drawing: &Drawing, settings: &Settings) -> Self {
+        let master = match settings.master {
+            MasterAxis::Longer => MasterAxis::X,
+            MasterAxis::X | MasterAxis::Y => MasterAxis::Longer,
+        };
+        let settings = Settings {
+            master,
+            ..settings.clone()
+        };
+        let compiled = compile(drawing, &settings);
+        Other { settings, compiled }
+    }
+}
+
 impl Job {
+    /// The cycles with the longer axis as the master, of which the conventional systems are made.
+    pub fn longer(&self) -> &Targets {
+        match (self.settings.master, &self.other.compiled) {
+            (MasterAxis::X | MasterAxis::Y, Ok(longer)) => longer,
+            _ => &self.compiled,
+        }
+    }
+
     /// Compiles an input.
     pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
         let drawing = source.drawing()?;
         let spinner = compiling();
-        let compiled = compile(&drawing, &settings)
-            .map_err(|error| fault(&source.loaded, &drawing, &settings, error))?;
+        let refused = |error| fault(&source.loaded, &drawing, &settings, error);
+        let compiled = compile(&drawing, &settings).map_err(refused)?;
+        let other = Other::of(&drawing, &settings);
         drop(spinner);
         let Source { stem, loaded, .. } = source;
         Ok(Job {
@@ -38,6 +74,7 @@ impl Job {
             drawing,
             settings,
             compiled,
+            other,
             loaded,
         })
     }
@@ -46,7 +83,8 @@ impl Job {
     pub fn ticks_at_least(&self) -> u64 {
         let (mut at, mut scans) = ([0, 0], 0u64);
         for target in &self.compiled.targets {
-            let way = target.x.abs_diff(at[0]).max(target.y.abs_diff(at[1]));
+            let delta = [target.x - at[0], target.y - at[1]];
+            let way = delta[self.settings.master.of(delta)].unsigned_abs();
             let [profile] = target.profiles;
             let ramps = (profile.acceleration_scans + profile.deceleration_scans) / 2;
             let steady = (way as f64 / profile.counts_per_scan()) as u64;
@@ -75,9 +113,8 @@ fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TargetE
                 Some(step) if !step.rapid => "feed_mm_per_min",
                 _ => "rapid_mm_per_min",
             };
-            let problem = format!(
-                "at {value} mm/min the axis with the longer way goes too few counts in a scan"
-            );
+            let problem =
+                format!("at {value} mm/min the master axis goes too few counts in a scan");
             let allowed =
                 format!("at least {least} mm/min on this way, or a longer scan (scan_ticks)");
             drawing_fault(drawing, line, field, problem, allowed)

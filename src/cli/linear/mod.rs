@@ -47,6 +47,8 @@ const OVERVIEW: [&str; 11] = [
 pub struct Runs {
     /// The linear interpolator.
     pub interpolator: Played,
+    /// The same with another master axis, if the job can be had so.
+    pub other: Option<Played>,
     /// The conventional system of Fig. 3, in each of its ways.
     pub conventional: [Played; 2],
 }
@@ -54,25 +56,36 @@ pub struct Runs {
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
-    let circuit = plotter(job.settings.rule);
+    let circuit = plotter(&job.settings);
     let model = model_beside(&circuit, &Axes).map_err(RunError::from)?;
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     // Before the others run, as what it refuses would wait for them.
     let traces = Traces::begin((&model, &circuit), arguments, scenario, &options, ticks)?;
     let conventional = |way: Way| {
-        let targets = way.targets(&job.compiled.targets, &job.settings);
+        let targets = way.targets(&job.longer().targets, &job.settings);
         play(&conventional(), &targets, &job.settings, ())
     };
-    let (interpolator, mut files, conventional) = thread::scope(|scope| {
+    let other = || match &job.other.compiled {
+        Err(_) => Ok(None),
+        Ok(compiled) => {
+            let settings = &job.other.settings;
+            let circuit = plotter(settings);
+            play(&circuit, &compiled.targets, settings, ()).map(Some)
+        }
+    };
+    let (interpolator, mut files, conventional, other) = thread::scope(|scope| {
         let start = |way| threads::beside(scope, move || conventional(way));
         let [same, inverse] = Way::ALL;
         let others = [start(same)?, start(inverse)?];
+        let other = threads::beside(scope, other)?;
         let (interpolator, files) = simulate((&circuit, &model), job, traces)?;
         let [same, inverse] = others.map(threads::joined);
-        Ok::<_, Failure>((interpolator, files, [same?, inverse?]))
+        let other = threads::joined(other);
+        Ok::<_, Failure>((interpolator, files, [same?, inverse?], other?))
     })?;
     let runs = Runs {
         interpolator,
+        other,
         conventional,
     };
     files.write("svg", &draw(job, &runs))?;

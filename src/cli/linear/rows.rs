@@ -1,7 +1,7 @@
 //! The figures of a run, cycle by cycle.
 
 use super::{Job, Runs};
-use motion_rtl::jobs::linear_interpolator::measure::Segment;
+use motion_rtl::jobs::linear_interpolator::measure::{Played, Segment};
 use motion_rtl::jobs::linear_interpolator::settings::AXIS_NAMES;
 use motion_rtl::jobs::linear_interpolator::targets::Target;
 use serde::Serialize;
@@ -21,7 +21,7 @@ pub struct Row {
     pub to: [i64; 2],
     /// Δx and Δy in counts.
     pub delta: [i64; 2],
-    /// The axis with the longer way.
+    /// The axis that leads.
     pub master: &'static str,
     /// Speed of that axis, in counts per scan.
     pub speed_counts_per_scan: f64,
@@ -31,6 +31,8 @@ pub struct Row {
     pub speed_reached_mm_per_min: f64,
     /// The linear interpolator.
     pub interpolator: Figures,
+    /// The same with another master axis.
+    pub other_master: Option<Figures>,
     /// The conventional system, both axes with the same settings.
     pub conventional: Figures,
     /// The conventional system, speeds in proportion to the distances, times inverse to them.
@@ -46,6 +48,11 @@ pub struct Figures {
     pub seconds: f64,
     /// The command at the end less the target, in counts.
     pub end_error_counts: [i64; 2],
+    /// Of the axis that leads, or has the longer way where none does: the largest change of the
+    /// commanded speed from scan to scan.
+    pub master_acceleration_counts_per_scan2: u64,
+    /// Of the other axis.
+    pub slave_acceleration_counts_per_scan2: u64,
     /// Largest deviation of the commands from the ideal line, along the slave axis.
     pub deviation_lsb: f64,
     /// The same perpendicular to the line.
@@ -62,6 +69,8 @@ impl Figures {
             scans: segment.scans,
             seconds: segment.scans as f64 * scan_s,
             end_error_counts: segment.end_error,
+            master_acceleration_counts_per_scan2: segment.acceleration[segment.master],
+            slave_acceleration_counts_per_scan2: segment.acceleration[1 - segment.master],
             deviation_lsb: segment.deviation.lsb(),
             deviation_perpendicular_counts: segment.perpendicular_counts,
             contour_error_counts: segment.contour_counts,
@@ -70,12 +79,40 @@ impl Figures {
     }
 }
 
+/// The measures of all systems, cycle by cycle.
+pub struct Segments {
+    /// Those of the linear interpolator.
+    pub ours: Vec<Segment>,
+    /// Those with another master axis.
+    pub other: Option<Vec<Segment>>,
+    /// Those of the conventional system, in each of its ways.
+    pub conventional: [Vec<Segment>; 2],
+}
+
+impl Segments {
+    /// Those of these runs.
+    pub fn of(job: &Job, runs: &Runs) -> Self {
+        let measured = |played: &Played| played.segments(job.settings.counts_per_mm);
+        let [same, inverse] = &runs.conventional;
+        Segments {
+            ours: measured(&runs.interpolator),
+            other: runs.other.as_ref().map(measured),
+            conventional: [measured(same), measured(inverse)],
+        }
+    }
+}
+
 /// Every cycle that all systems have played.
-pub fn rows(job: &Job, runs: &Runs, segments: &[Vec<Segment>; 3]) -> Vec<Row> {
+pub fn rows(job: &Job, runs: &Runs, segments: &Segments) -> Vec<Row> {
     let scan_s = job.settings.scan_s();
     let targets = job.compiled.targets.iter();
     let cycles = runs.interpolator.cycles.iter();
-    let [ours, same, inverse] = segments;
+    let Segments {
+        ours,
+        other,
+        conventional: [same, inverse],
+    } = segments;
+    let other = |segment: usize| Some(Figures::new(other.as_ref()?.get(segment)?, scan_s));
     let segments = ours.iter().zip(same).zip(inverse);
     targets
         .zip(cycles)
@@ -94,6 +131,7 @@ pub fn rows(job: &Job, runs: &Runs, segments: &[Vec<Segment>; 3]) -> Vec<Row> {
                 speed_asked_mm_per_min: target.feed_mm_per_min,
                 speed_reached_mm_per_min: reached(job, target, ours),
                 interpolator: Figures::new(ours, scan_s),
+                other_master: other(segment),
                 conventional: Figures::new(same, scan_s),
                 conventional_in_proportion: Figures::new(inverse, scan_s),
             },

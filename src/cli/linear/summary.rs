@@ -1,6 +1,6 @@
 //! What a run came to.
 
-use super::rows::{Figures, Row, rows};
+use super::rows::{Figures, Row, Segments, rows};
 use super::verdict::complaints;
 use super::{Job, Runs};
 use crate::cli::report::Outcome;
@@ -17,6 +17,8 @@ pub struct Summary {
     pub outcome: Outcome,
     /// How the integrator divides.
     pub variant: &'static str,
+    /// Which axis leads.
+    pub master: &'static str,
     /// Ticks of a scan.
     pub scan_ticks: u32,
     /// Scans of the run.
@@ -28,6 +30,10 @@ pub struct Summary {
     pub dropped_points: usize,
     /// The linear interpolator.
     pub interpolator: SystemSummary,
+    /// Which axis leads in the run with another one.
+    pub other_master: &'static str,
+    /// That run; none where the drawing cannot be had so.
+    pub interpolator_other_master: Option<SystemSummary>,
     /// The conventional system of Fig. 3, both axes with the same settings.
     pub conventional: SystemSummary,
     /// The same, speeds in proportion to the distances, times inverse to them.
@@ -49,6 +55,11 @@ pub struct SystemSummary {
     pub end_position: [i64; 2],
     /// Largest deviation of a command from its line.
     pub deviation_max_lsb: f64,
+    /// Largest change of the commanded speed from scan to scan, of the axis that leads, or has the
+    /// longer way where none does.
+    pub master_acceleration_max_counts_per_scan2: u64,
+    /// Of the other axis.
+    pub slave_acceleration_max_counts_per_scan2: u64,
     /// Largest contour error of the moves that draw.
     pub contour_error_max_um: f64,
     /// Largest contour error of the rapid moves.
@@ -58,11 +69,16 @@ pub struct SystemSummary {
 }
 
 impl SystemSummary {
-    fn new(job: &Job, played: &Played, rows: &[Row], of: impl Fn(&Row) -> Figures) -> Self {
+    fn new(job: &Job, played: &Played, rows: &[Row], of: impl Fn(&Row) -> Option<Figures>) -> Self {
+        let accelerated = |value: fn(Figures) -> u64| {
+            let all = rows.iter().filter_map(&of).map(value);
+            all.max().unwrap_or(0)
+        };
         let largest = |value: &dyn Fn(Figures) -> f64, rapid: &[bool]| {
             rows.iter()
                 .filter(|row| rapid.contains(&row.rapid))
-                .map(|row| value(of(row)))
+                .filter_map(&of)
+                .map(value)
                 .fold(0.0, f64::max)
         };
         let contour = |figures: Figures| figures.contour_error_um;
@@ -74,6 +90,12 @@ impl SystemSummary {
                 .records
                 .last()
                 .map_or([0; 2], |record| record.command),
+            master_acceleration_max_counts_per_scan2: accelerated(|figures| {
+                figures.master_acceleration_counts_per_scan2
+            }),
+            slave_acceleration_max_counts_per_scan2: accelerated(|figures| {
+                figures.slave_acceleration_counts_per_scan2
+            }),
             deviation_max_lsb: largest(&|figures| figures.deviation_lsb, &[false, true]),
             contour_error_max_um: largest(&contour, &[false]),
             contour_error_max_rapid_um: largest(&contour, &[true]),
@@ -85,15 +107,17 @@ impl SystemSummary {
 impl Summary {
     /// The summary of a job that was played.
     pub fn new(job: &Job, runs: &Runs) -> Self {
-        let per_mm = job.settings.counts_per_mm;
         let [same, inverse] = &runs.conventional;
-        let all = [&runs.interpolator, same, inverse].map(|played| played.segments(per_mm));
+        let all = Segments::of(job, runs);
         let complaints = complaints(job, runs, &all);
         let rows = rows(job, runs, &all);
-        let system = |played, of: fn(&Row) -> Figures| SystemSummary::new(job, played, &rows, of);
-        let interpolator = system(&runs.interpolator, |row| row.interpolator);
-        let conventional = system(same, |row| row.conventional);
-        let conventional_in_proportion = system(inverse, |row| row.conventional_in_proportion);
+        let system =
+            |played, of: fn(&Row) -> Option<Figures>| SystemSummary::new(job, played, &rows, of);
+        let interpolator = system(&runs.interpolator, |row| Some(row.interpolator));
+        let other = runs.other.as_ref();
+        let other = other.map(|played| system(played, |row| row.other_master));
+        let conventional = system(same, |row| Some(row.conventional));
+        let in_proportion = system(inverse, |row| Some(row.conventional_in_proportion));
         Summary {
             exact: complaints.is_empty(),
             outcome: Outcome {
@@ -107,12 +131,15 @@ impl Summary {
                 )
             },
             variant: job.settings.rule.name(),
+            master: job.settings.master.name(),
+            other_master: job.other.settings.master.name(),
+            interpolator_other_master: other,
             scan_ticks: job.settings.scan_ticks,
             scans: interpolator.scans,
             dropped_points: job.compiled.dropped,
             interpolator,
             conventional,
-            conventional_in_proportion,
+            conventional_in_proportion: in_proportion,
             segments: rows,
         }
     }
@@ -136,6 +163,12 @@ fn warnings(job: &Job, played: &Played) -> Vec<String> {
         many => warnings.push(format!(
             "{file}: {many} points left out that have the counts of the point before"
         )),
+    }
+    if let Err(error) = &job.other.compiled {
+        let master = job.other.settings.master.name();
+        warnings.push(format!(
+            "{file}: not drawn with {master} as the master axis for comparison: {error}"
+        ));
     }
     if job.compiled.targets.is_empty() {
         warnings.push(format!("{file}: no axis moves"));

@@ -17,18 +17,27 @@ impl Report for Summary {
     fn write(&self, text: &mut String, all: bool) -> std::fmt::Result {
         writeln!(
             text,
-            "{} ({}): {} scans, {}\n",
+            "{} ({}, master {}): {} scans, {}\n",
             self.outcome.subject(),
             self.variant,
+            self.master,
             self.scans,
             self.outcome.length()
         )?;
         writeln!(
             text,
-            "{:35}  scans  seconds       end position    deviation  contour error  of rapid moves",
+            "{:35}  scans  seconds       end position    deviation  contour error  of rapid moves  \
+             acceleration of master, slave",
             "system"
         )?;
         totals(text, "interpolator", &self.interpolator)?;
+        if let Some(other) = &self.interpolator_other_master {
+            totals(
+                text,
+                &format!("interpolator, master {}", self.other_master),
+                other,
+            )?;
+        }
         for (way, system) in Way::ALL
             .iter()
             .zip([&self.conventional, &self.conventional_in_proportion])
@@ -97,13 +106,15 @@ fn totals(text: &mut String, name: &str, system: &SystemSummary) -> std::fmt::Re
     let [x, y] = system.end_position;
     writeln!(
         text,
-        "{name:<33} {:>7} {:>8.3}  {:>17}  {:>7.3} LSB  {:>10.1} um  {:>11.1} um",
+        "{name:<33} {:>7} {:>8.3}  {:>17}  {:>7.3} LSB  {:>10.1} um  {:>11.1} um  {:>9}, {:>3} counts/scan2",
         system.scans,
         system.seconds,
         format!("{x}, {y}"),
         rounded_down(system.deviation_max_lsb),
         system.contour_error_max_um,
         system.contour_error_max_rapid_um,
+        system.master_acceleration_max_counts_per_scan2,
+        system.slave_acceleration_max_counts_per_scan2,
     )
 }
 

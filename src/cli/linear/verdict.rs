@@ -1,5 +1,6 @@
 //! Whether a run did what its targets say.
 
+use super::rows::Segments;
 use super::{Job, Runs};
 use crate::cli::report::first;
 use motion_rtl::circuits::linear_interpolator::Rule;
@@ -9,13 +10,22 @@ use motion_rtl::jobs::linear_interpolator::targets::Target;
 use motion_rtl::jobs::linear_interpolator::ways::Way;
 
 /// What is wrong with a run; empty where nothing is.
-pub fn complaints(job: &Job, runs: &Runs, segments: &[Vec<Segment>; 3]) -> Vec<String> {
+pub fn complaints(job: &Job, runs: &Runs, segments: &Segments) -> Vec<String> {
     let targets = &job.compiled.targets;
     let rule = Some(job.settings.rule);
-    let [ours, others @ ..] = segments;
-    let mut all = of_system(&runs.interpolator, ours, targets, rule);
+    let mut all = of_system(&runs.interpolator, &segments.ours, targets, rule);
+    if let (Some(played), Some(segments)) = (&runs.other, &segments.other) {
+        let texts = of_system(played, segments, targets, rule);
+        let name = job.other.settings.master.name();
+        all.extend(
+            texts
+                .into_iter()
+                .map(|text| format!("master {name}: {text}")),
+        );
+    }
     // That its path bends is what the conventional system is there to show.
-    for ((way, played), segments) in Way::ALL.iter().zip(&runs.conventional).zip(others) {
+    let ways = Way::ALL.iter().zip(&runs.conventional);
+    for ((way, played), segments) in ways.zip(&segments.conventional) {
         let texts = of_system(played, segments, targets, None);
         let name = way.name();
         all.extend(

@@ -7,7 +7,7 @@ use super::settings::{AxisSettings, Settings};
 use super::targets::Target;
 use crate::circuits::linear_interpolator::command_source::Orders;
 use crate::circuits::linear_interpolator::{
-    CommandSource, Controller, Conventional, LinearInterpolator, Rule, Widths, controller,
+    CommandSource, Controller, Conventional, LinearInterpolator, MasterAxis, Widths, controller,
 };
 use crate::hdl::{At, Observer, Sample, Simulator, Value, Watcher, zero};
 use crate::plant::{Ahead, ServoAxis, ServoParameters, waves};
@@ -19,10 +19,13 @@ const FULL_SCALE: i64 = (1 << 15) - 1;
 /// Scans without a new command after which an axis that is not in position is given up.
 const PATIENCE: u64 = 20_000;
 
-/// The plotter with the linear interpolator.
-pub fn plotter(rule: Rule) -> Controller {
-    let widths = Widths::FULL;
-    Controller::new(CommandSource::Linear(LinearInterpolator { widths, rule }))
+/// The plotter with the linear interpolator, with rule and master axis as the settings have them.
+pub fn plotter(settings: &Settings) -> Controller {
+    Controller::new(CommandSource::Linear(LinearInterpolator {
+        widths: Widths::FULL,
+        rule: settings.rule,
+        master: settings.master,
+    }))
 }
 
 /// The plotter with the conventional system of Fig. 3.
@@ -89,6 +92,7 @@ impl See {
 /// The control computer: gives targets, and writes down what comes of them.
 struct Bench<'a, const N: usize> {
     targets: &'a [Target<N>],
+    master: MasterAxis,
     pushed: usize,
     /// A push stood in the tick before.
     pushing: bool,
@@ -158,11 +162,11 @@ impl<const N: usize> Bench<'_, N> {
             && let Some(target) = self.targets.get(played.cycles.len())
         {
             let (from, to) = (command(), [target.x, target.y]);
-            let way = [0, 1].map(|axis| to[axis].abs_diff(from[axis]));
+            let delta = [0, 1].map(|axis| to[axis] - from[axis]);
             played.cycles.push(Cycle {
                 from,
                 to,
-                master: usize::from(way[0] < way[1]),
+                master: self.master.of(delta),
                 scans: 0..0,
                 end: from,
             });
@@ -225,6 +229,10 @@ pub fn play<const N: usize>(
     };
     let mut bench = Bench {
         targets,
+        master: match &circuit.source {
+            CommandSource::Linear(interpolator) => interpolator.master,
+            CommandSource::Conventional(_) => MasterAxis::Longer,
+        },
         pushed: 0,
         pushing: false,
         ready: true,

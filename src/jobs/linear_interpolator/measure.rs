@@ -21,7 +21,7 @@ pub struct Cycle {
     pub from: [i64; 2],
     /// Where it is to end.
     pub to: [i64; 2],
-    /// The axis with the longer way: 0 is X, 1 is Y.
+    /// The axis that leads, or has the longer way where none does: 0 is X, 1 is Y.
     pub master: usize,
     /// Its records, from the first command to the last.
     pub scans: Range<usize>,
@@ -89,6 +89,7 @@ impl Played {
         };
         Segment {
             delta,
+            acceleration: cycle.acceleration(commands),
             master,
             scans: commands.len(),
             end_error: [0, 1].map(|axis| cycle.end[axis] - cycle.to[axis]),
@@ -112,6 +113,22 @@ impl Cycle {
     #[must_use]
     pub fn delta(&self) -> [i64; 2] {
         [0, 1].map(|axis| self.to[axis] - self.from[axis])
+    }
+
+    /// The largest second difference of commands that begin and end at rest.
+    fn acceleration(&self, commands: &[ScanRecord]) -> [u64; 2] {
+        let Some(last) = commands.last() else {
+            return [0; 2];
+        };
+        let stands = |at| std::iter::repeat_n(at, 2);
+        let course = commands.iter().map(|record| record.command);
+        let course = stands(self.from).chain(course).chain(stands(last.command));
+        let course: Vec<[i64; 2]> = course.collect();
+        [0, 1].map(|axis| {
+            let second = |three: &[[i64; 2]]| three[0][axis] - 2 * three[1][axis] + three[2][axis];
+            let changes = course.windows(3).map(|three| second(three).unsigned_abs());
+            changes.max().unwrap_or(0)
+        })
     }
 
     /// |Δm·(s − s0) − Δs·(m − m0)|: |Δm| times the deviation of a point along the slave axis, and
@@ -178,12 +195,15 @@ impl Deviation {
 pub struct Segment {
     /// Δx and Δy in counts.
     pub delta: [i64; 2],
-    /// The axis with the longer way: 0 is X, 1 is Y.
+    /// The axis that leads, or has the longer way where none does: 0 is X, 1 is Y.
     pub master: usize,
     /// Scans from the first command to the last, both counted.
     pub scans: usize,
     /// The command at the end less the target.
     pub end_error: [i64; 2],
+    /// X and Y: the largest change of the commanded speed from scan to scan, from rest to rest, in
+    /// counts per scan.
+    pub acceleration: [u64; 2],
     /// Largest deviation of a command from the ideal line, along the slave axis.
     pub deviation: Deviation,
     /// The same perpendicular to the line, in counts.

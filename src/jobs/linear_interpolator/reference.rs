@@ -7,7 +7,7 @@ use super::measure::{Cycle, Played, ScanRecord};
 use super::profile::{Profile, SPEED_ONE};
 use super::settings::{AxisSettings, Settings};
 use super::targets::Target;
-use crate::circuits::linear_interpolator::Rule;
+use crate::circuits::linear_interpolator::{MasterAxis, Rule};
 
 /// The position pattern generator 14: x(n) of one cycle.
 ///
@@ -199,8 +199,11 @@ impl Commands {
         target: &Target<N>,
     ) -> (Self, usize) {
         let delta = [target.x - from[0], target.y - from[1]];
-        let longer = delta.map(i64::unsigned_abs);
-        let master = usize::from(longer[0] < longer[1]);
+        let leads = match N {
+            1 => settings.master,
+            _ => MasterAxis::Longer,
+        };
+        let master = leads.of(delta);
         let pattern = |axis: usize, profile| Pattern::new(from[axis], delta[axis], profile);
         let commands = match target.profiles.as_slice() {
             [x, y] => Commands::Separate([pattern(0, x), pattern(1, y)]),

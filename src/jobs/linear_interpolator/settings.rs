@@ -2,7 +2,7 @@
 
 use super::profile::speed_word;
 use super::targets::{LATENCY_TICKS, LONGEST_RAMP};
-use crate::circuits::linear_interpolator::Rule;
+use crate::circuits::linear_interpolator::{MasterAxis, Rule};
 use crate::plan::FEED_RANGE;
 use crate::settings::{
     CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, IN_POSITION_RANGE, Place, SettingError, WholeTime, within,
@@ -59,6 +59,8 @@ impl AxisSettings {
 pub struct Settings {
     /// How the integrator divides.
     pub rule: Rule,
+    /// Which axis leads.
+    pub master: MasterAxis,
     /// Reference clock in Hz.
     pub clock_hz: u64,
     /// Ticks of a scan.
@@ -93,6 +95,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             rule: Rule::default(),
+            master: MasterAxis::default(),
             clock_hz: 1_000_000,
             scan_ticks: 1000,
             counts_per_mm: [200.0; 2],

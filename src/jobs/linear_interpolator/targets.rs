@@ -5,7 +5,7 @@
 
 use super::profile::{Profile, SLOWEST, SPEED_ONE, speed_word};
 use super::settings::{AXIS_NAMES, Settings};
-use crate::circuits::linear_interpolator::{LinearInterpolator, Rule, Widths};
+use crate::circuits::linear_interpolator::{LinearInterpolator, MasterAxis, Rule, Widths};
 use crate::input::{Drawing, Point};
 use crate::plan::digits::round_up;
 use crate::plan::{PlanError, check, chords};
@@ -13,8 +13,12 @@ use crate::settings::SettingError;
 
 /// Ticks that the dividers need within a scan.
 pub const LATENCY_TICKS: u32 = {
-    let (widths, rule) = (Widths::FULL, Rule::Floor);
-    LinearInterpolator { widths, rule }.latency() as u32
+    let interpolator = LinearInterpolator {
+        widths: Widths::FULL,
+        rule: Rule::Floor,
+        master: MasterAxis::Longer,
+    };
+    interpolator.latency() as u32
 };
 
 /// Longest time of acceleration and of deceleration, in scans.
@@ -32,8 +36,8 @@ pub const MOST_TARGETS: usize = 1 << 20;
 /// The most steady scans of a cycle.
 const MOST_STEADY: f64 = i32::MAX as f64;
 
-/// One positioning cycle, with `N` settings of speed and times: that of the axis with the longer
-/// way, or those of X and Y.
+/// One positioning cycle, with `N` settings of speed and times: that of the master axis, or those
+/// of X and Y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target<const N: usize = 1> {
     /// X in counts.
@@ -80,8 +84,8 @@ pub enum TargetError {
         /// The fastest.
         most: f64,
     },
-    /// A feed at which the axis with the longer way goes so slowly that the fraction of its speed is
-    /// too coarse, or that the cycle has too many scans.
+    /// A feed at which the master axis goes so slowly that the fraction of its speed is too coarse,
+    /// or that the cycle has too many scans.
     #[error("line {line}: feed {value} mm/min: allowed are {least} and more in this direction")]
     Slow {
         /// Line of the input; 0 for the way to a start that is not the origin.
@@ -185,12 +189,11 @@ impl Compiler<'_> {
         let settings = self.settings;
         let way = [0, 1].map(|axis| to[axis] - self.at[axis]);
         let [x_mm, y_mm] = [0, 1].map(|axis| way[axis] as f64 / settings.counts_per_mm[axis]);
-        let longer = [0, 1].map(|axis| way[axis].unsigned_abs());
-        let master = usize::from(longer[0] < longer[1]);
-        let longer = longer[master];
+        let master = settings.master.of(way);
+        let own = way[master].unsigned_abs();
         let scans = x_mm.hypot(y_mm) / (feed / 60.0) / settings.scan_s();
-        let exact = longer as f64 / scans;
-        let slowest = SLOWEST.max(longer as f64 / MOST_STEADY);
+        let exact = own as f64 / scans;
+        let slowest = SLOWEST.max(own as f64 / MOST_STEADY);
         let Some(speed) = speed_word(exact).filter(|_| exact >= slowest) else {
             let least = round_up(feed * slowest / exact);
             let value = feed;
@@ -198,14 +201,7 @@ impl Compiler<'_> {
         };
         let speed = speed.min(u64::from(settings.scan_ticks) * SPEED_ONE);
         let short = Some(settings.short_moves);
-        let profile = Profile::over(
-            settings,
-            master,
-            longer,
-            speed,
-            settings.ramp_scans(),
-            short,
-        );
+        let profile = Profile::over(settings, master, own, speed, settings.ramp_scans(), short);
         self.made.targets.push(Target {
             x: to[0],
             y: to[1],

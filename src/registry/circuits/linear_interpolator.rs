@@ -1,8 +1,8 @@
-use super::make::{RULES, one_of, only};
+use super::make::{MASTERS, RULES, at_most, choice, one_of, only, width};
 use crate::circuits::linear_interpolator::{
     Accumulator, AxisSwitch, CommandSource, Controller, Conventional, CycleGate, Differentiator,
-    Integrator, LineLaw, LinearInterpolator, LoopWidths, PatternGenerator, PositionControl,
-    PositionLoop, Rule, Sequencer, TargetData, Trapezoid, Widths,
+    Integrator, LineLaw, LinearInterpolator, LoopWidths, MasterAxis, PatternGenerator,
+    PositionControl, PositionLoop, Rule, Sequencer, TargetData, Trapezoid, Widths,
 };
 use crate::hdl::Circuit;
 use crate::registry::Entry;
@@ -37,11 +37,23 @@ fn integrator(position: usize, rule: Rule) -> Integrator {
     Integrator { position, rule }
 }
 
-fn interpolator(position: usize, rule: Rule) -> LinearInterpolator {
-    LinearInterpolator {
-        widths: widths(position),
-        rule,
-    }
+/// A linear interpolator, from the width of positions, the number of a rule, and that of what leads.
+fn interpolator(given: &[u64]) -> Option<LinearInterpolator> {
+    let made = LinearInterpolator {
+        widths: widths(width(given)?),
+        ..LinearInterpolator::default()
+    };
+    kind(made, given.get(1..)?)
+}
+
+/// The same with other numbers than its width.
+fn kind(circuit: LinearInterpolator, given: &[u64]) -> Option<LinearInterpolator> {
+    at_most(given, 2)?;
+    Some(LinearInterpolator {
+        rule: choice(given, 0, RULES)?,
+        master: choice(given, 1, MASTERS)?,
+        ..circuit
+    })
 }
 
 fn conventional(position: usize) -> Conventional {
@@ -108,10 +120,14 @@ pub(super) const CIRCUITS: &[Entry] = &[
     ),
     entry!(
         Sequencer, "JP3608587B2 ¶0005, ¶0014",
-        full: || Sequencer { position: 32 },
+        full: || Sequencer { position: 32, master: MasterAxis::Longer },
         widths: [position],
-        from: "width", |given| alone(given, |position| Sequencer { position }),
-        with: nothing,
+        from: "width, 0 where the longer axis leads, 1 where X or 2 where Y does",
+        |given| {
+            let master = one_of(given, MASTERS)?;
+            alone(given.get(..1)?, |position| Sequencer { position, master })
+        },
+        with: |circuit, given| Some(Sequencer { master: only(given, MASTERS)?, ..circuit }),
         proved: 2,
     ),
     entry!(
@@ -194,9 +210,9 @@ pub(super) const CIRCUITS: &[Entry] = &[
             time = widths.time,
         ],
         from: "width of positions (times have half of it, addresses two bits), 0 for floor, 1 for \
-               truncating or 2 for centred",
-        |given| ruled(given, interpolator),
-        with: |circuit, given| Some(LinearInterpolator { rule: only(given, RULES)?, ..circuit }),
+               truncating or 2 for centred, 0 where the longer axis leads, 1 where X or 2 where Y does",
+        interpolator,
+        with: kind,
         proved: none,
     ),
     entry!(
@@ -245,19 +261,21 @@ pub(super) const CIRCUITS: &[Entry] = &[
         about: Controller::ABOUT,
         source: "JP3608587B2 1, Fig. 5",
         arguments: "width of positions, gains, references and the scan (times have half of it, \
-                    addresses two bits), 0 for floor, 1 for truncating or 2 for centred",
+                    addresses two bits), 0 for floor, 1 for truncating or 2 for centred, 0 where \
+                    the longer axis leads, 1 where X or 2 where Y does",
         proof_width: None,
         maker: &Of::<Controller> {
             full: || Controller::new(CommandSource::Linear(LinearInterpolator::default())),
             from: |given| {
-                ruled(given, |width, rule| {
-                    controller(width, CommandSource::Linear(interpolator(width, rule)))
-                })
+                let source = CommandSource::Linear(interpolator(given)?);
+                Some(controller(width(given)?, source))
             },
             with: |circuit, given| {
-                let rule = only(given, RULES)?;
-                let widths = circuit.source.targets().widths;
-                let source = CommandSource::Linear(LinearInterpolator { widths, rule });
+                let made = LinearInterpolator {
+                    widths: circuit.source.targets().widths,
+                    ..LinearInterpolator::default()
+                };
+                let source = CommandSource::Linear(kind(made, given)?);
                 Some(Controller { source, ..circuit })
             },
             names: NAMES,

@@ -1,7 +1,7 @@
 //! Circuits from the numbers that an entry takes.
 
 use crate::circuits::arc_generator::Rounding;
-use crate::circuits::linear_interpolator::Rule;
+use crate::circuits::linear_interpolator::{MasterAxis, Rule};
 use crate::circuits::pulse_interpolator::Variant;
 
 /// Both kinds of pulse interpolator, by their numbers.
@@ -9,6 +9,9 @@ pub const VARIANTS: &[Variant] = &[Variant::Safe, Variant::Literal];
 
 /// Which way a remainder goes, by its number.
 pub const RULES: &[Rule] = &[Rule::Floor, Rule::Truncating, Rule::Centred];
+
+/// Which axis leads, by its number.
+pub const MASTERS: &[MasterAxis] = &[MasterAxis::Longer, MasterAxis::X, MasterAxis::Y];
 
 /// How coordinates are rounded, by its number.
 pub const ROUNDINGS: &[Rounding] = &[Rounding::Nearest, Rounding::Floor];

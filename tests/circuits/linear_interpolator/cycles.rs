@@ -4,23 +4,30 @@
 use motion_rtl::circuits::linear_interpolator::command_source::Orders;
 use motion_rtl::circuits::linear_interpolator::interpolator::In;
 use motion_rtl::circuits::linear_interpolator::target_data::Settings;
-use motion_rtl::circuits::linear_interpolator::{LinearInterpolator, Rule, Widths};
+use motion_rtl::circuits::linear_interpolator::{LinearInterpolator, MasterAxis, Rule, Widths};
 use motion_rtl::hdl::{Simulator, Value};
 
 const WORDS: std::ops::Range<i64> = -16..16;
-const SCAN: u64 = small(Rule::Floor).latency();
+const SCAN: u64 = small(Rule::Floor, MasterAxis::Longer).latency();
 
-const fn small(rule: Rule) -> LinearInterpolator {
-    let widths = Widths {
-        address: 2,
-        position: 5,
-        time: 2,
-    };
-    LinearInterpolator { widths, rule }
+const fn small(rule: Rule, master: MasterAxis) -> LinearInterpolator {
+    LinearInterpolator {
+        widths: Widths {
+            address: 2,
+            position: 5,
+            time: 2,
+        },
+        rule,
+        master,
+    }
 }
 
 fn at_power_on(rule: Rule) -> Simulator<LinearInterpolator> {
-    let mut simulator = Simulator::new(&small(rule)).unwrap();
+    led(rule, MasterAxis::Longer)
+}
+
+fn led(rule: Rule, master: MasterAxis) -> Simulator<LinearInterpolator> {
+    let mut simulator = Simulator::new(&small(rule, master)).unwrap();
     simulator.compile();
     simulator
 }
@@ -152,6 +159,16 @@ fn shapes() -> impl Iterator<Item = (u64, [u64; 2])> {
 /// Whether a point is where the rule puts the slave on the line from `from` by `delta`.
 fn on_the_line(rule: Rule, from: [i64; 2], delta: [i64; 2], point: [i64; 2]) -> bool {
     let master = usize::from(delta[0].abs() < delta[1].abs());
+    on_the_line_of(master, rule, (from, delta), point)
+}
+
+/// The same with this master.
+fn on_the_line_of(
+    master: usize,
+    rule: Rule,
+    (from, delta): ([i64; 2], [i64; 2]),
+    point: [i64; 2],
+) -> bool {
     let slave = 1 - master;
     let (moved, ideal) = (point[master] - from[master], |moved: i64| {
         delta[slave] as f64 * moved as f64 / delta[master] as f64
@@ -198,6 +215,48 @@ fn every_cycle_runs_on_its_line_and_ends_exactly() {
             }
         }
         assert_eq!(cycles, 12 * 1024);
+    }
+}
+
+/// Claim 1: one axis leads, however short its way is; where it stands, the other one does.
+#[test]
+fn with_a_fixed_master_every_cycle_runs_on_its_line_and_ends_exactly() {
+    for (rule, fixed, axis) in [
+        (Rule::Floor, MasterAxis::X, 0),
+        (Rule::Centred, MasterAxis::X, 0),
+        (Rule::Floor, MasterAxis::Y, 1),
+        (Rule::Truncating, MasterAxis::Y, 1),
+    ] {
+        let circuit = led(rule, fixed);
+        let mut faster = 0;
+        for (speed, times) in shapes() {
+            for x in WORDS {
+                for y in WORDS {
+                    let delta = [x, y];
+                    let master = if delta[axis] == 0 { 1 - axis } else { axis };
+                    let mut run = Run::new(&circuit, SCAN);
+                    let points = run.go(Target { x, y, speed, times });
+                    let case =
+                        format!("{rule:?} {fixed:?} {x}, {y}, {speed}, {times:?}: {points:?}");
+                    assert!(!run.late && !run.refused, "{case}");
+                    assert_eq!(run.command(), delta, "{case}");
+                    let mut last = [0, 0];
+                    for point in points {
+                        let line = ([0, 0], delta);
+                        assert!(on_the_line_of(master, rule, line, point), "{case}");
+                        let moved = [0, 1].map(|axis| point[axis] - last[axis]);
+                        for (moved, delta) in moved.into_iter().zip(delta) {
+                            assert!(moved.signum() * delta.signum() >= 0, "{case}");
+                        }
+                        // The speed is that of the master; nothing bounds the slave.
+                        assert!(moved[master].unsigned_abs() <= speed.div_ceil(4), "{case}");
+                        faster += u32::from(moved[1 - master].abs() > moved[master].abs());
+                        last = point;
+                    }
+                }
+            }
+        }
+        assert!(faster > 10_000, "{faster}");
     }
 }
 
@@ -377,7 +436,7 @@ fn the_next_cycle_takes_a_scan_after_the_turnaround_and_not_before() {
         run.see(|s| s.p.sequencer.q.advance)
     };
     let first = (1..1_000).find(|ticks| is_taken(*ticks));
-    let turnaround = small(Rule::Floor).turnaround();
+    let turnaround = small(Rule::Floor, MasterAxis::Longer).turnaround();
     assert_eq!(first, Some(turnaround));
     assert!(is_taken(turnaround + 7));
 }
