@@ -14,6 +14,26 @@ use std::collections::BTreeMap;
 /// A fault is put into the netlist wherever the circuit is in it. Charts of the circuit come first;
 /// what passes them all is run beside the circuit without the fault, on random inputs. Where the
 /// ports out differ, the circuit's proof, its laws, and charts of circuits around it are asked too.
+///
+/// ```
+/// use motion_rtl::registry::{Campaign, Fate, find};
+/// use motion_rtl::trace::chart::parse;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let charts = parse(
+///     "```chart sync_stage a pulse shows a tick later
+/// tick        0 1 2
+/// > pulse     _ # _
+/// = step      _ _ #
+/// ```",
+/// )?;
+/// let campaign = Campaign { charts, ticks: 1_000, runs: 4, transitions: 1_000_000 };
+/// let circuit = find("sync_stage").expect("it is in the catalogue");
+/// let suspects = campaign.run(circuit, &|_| ())?;
+/// assert!(suspects.iter().any(|suspect| matches!(suspect.fate, Fate::Found(_))));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Clone)]
 pub struct Campaign {
     /// Timing charts, of any circuits.

@@ -289,8 +289,10 @@ const FAR: &[(&str, u32)] = &[
     ("completion_detector.next_still", 6),
     ("completion_detector.next_elapsed", 6),
     ("step_sequencer.count", 9),
-    // Never: the value of a record is whole, and nothing is below the fourth difference.
+    // Never: the value of a record is whole, the fourth difference takes no step, and nothing is
+    // below it.
     ("difference_engine.value.load_part", 0),
+    ("difference_engine.d4.step", 0),
     ("difference_engine.d4.by_whole", 0),
     ("difference_engine.d4.by_part", 0),
     // One word of 32, and most words are small.
@@ -388,6 +390,7 @@ const NEVER: &[(&str, u32)] = &[
     ("completion_detector.next_still", 6),
     ("completion_detector.next_elapsed", 6),
     ("difference_engine.value.load_part", 0),
+    ("difference_engine.d4.step", 0),
     ("difference_engine.d4.by_whole", 0),
     ("difference_engine.d4.by_part", 0),
     // Coefficients of 8 bits.

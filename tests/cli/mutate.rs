@@ -68,7 +68,7 @@ tick       0
         difference_engine: d3.data: crossed with the next one: missed
         shows at [4], random run 0, tick 829: difference_engine.nearest
         difference_engine: d4.data: crossed with the next one: missed
-        shows at [4], random run 0, tick 830: difference_engine.nearest
+        shows at [4], random run 0, tick 1994: difference_engine.nearest
     "#]]
     .assert_eq(&timeless(&done.stdout));
     expect![[r#"

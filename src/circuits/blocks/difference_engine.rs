@@ -103,7 +103,11 @@ impl Circuit for DifferenceEngine {
         p.d1.settle(column(p.d2.q.whole, p.d2.q.part));
         p.d2.settle(column(p.d3.q.whole, p.d3.q.part));
         p.d3.settle(column(p.d4.q.whole, p.d4.q.part));
-        p.d4.settle(column(nothing.0, nothing.1));
+        // The lowest one only is loaded.
+        p.d4.settle(difference_column::In {
+            step: Bit::low(),
+            ..column(nothing.0, nothing.1)
+        });
         let nearest = value.w.nearest;
         (Net { nearest }, Nothing)
     }

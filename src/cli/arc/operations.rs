@@ -5,7 +5,7 @@ use super::Job;
 use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::circuits::blocks::CoefficientControl;
 use motion_rtl::jobs::arc_generator::conventional::{
-    Conventional, DIFFERENCE_ENGINE, blend, blend_terms, rotation,
+    Conventional, Operations, blend, blend_terms, difference_engines, rotation,
 };
 use motion_rtl::path::vector::rodrigues;
 use serde::Serialize;
@@ -23,7 +23,7 @@ pub struct Row {
     pub method: &'static str,
     /// Products.
     pub multiplications: u64,
-    /// Sums and differences.
+    /// Sums, differences and comparisons.
     pub additions: u64,
     /// Sines and cosines.
     pub sines_and_cosines: u64,
@@ -47,21 +47,23 @@ pub fn rows(job: &Job) -> Vec<Row> {
     let [from, to] = piece.between_blends();
     let (_, rotation) = rotation(&matrix, &mut from.clone(), arc.circle.centre);
     let (_, quartic) = blend(&blend_terms(piece.from, piece.from, to), 0.5);
-    [
+    let mut rows = vec![
         ("conventional, arc", cost(run.ramp + 1), None),
         ("conventional, accelerating", cost(1), None),
         ("patent, arc", rotation, None),
         ("patent, blend", quartic, None),
         // Nine products at once, a bit of the coefficients a tick.
         ("circuit, arc", rotation, Some(ROTATION_TICKS)),
-        ("circuit, blend and line", DIFFERENCE_ENGINE, Some(1)),
-    ]
-    .map(|(method, operations, ticks)| Row {
+    ];
+    if let Ok(engines) = difference_engines() {
+        rows.push(("circuit, blend and line", engines, Some(1)));
+    }
+    let row = |(method, operations, ticks): (_, Operations, _)| Row {
         method,
         multiplications: operations.multiplications,
         additions: operations.additions,
         sines_and_cosines: operations.trigonometric,
         ticks,
-    })
-    .into()
+    };
+    rows.into_iter().map(row).collect()
 }

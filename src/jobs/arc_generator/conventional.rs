@@ -5,6 +5,9 @@
 //! circle while it accelerates.
 
 use super::prepare::Timing;
+use crate::circuits::arc_generator::Widths;
+use crate::engine::{EngineError, Op, passes};
+use crate::hdl;
 use crate::input::Point;
 use crate::path::circle::Circle;
 use crate::path::vector::{Matrix, sub};
@@ -15,7 +18,7 @@ use std::ops::{Add, AddAssign};
 pub struct Operations {
     /// Products.
     pub multiplications: u64,
-    /// Sums and differences.
+    /// Sums, differences and comparisons.
     pub additions: u64,
     /// Sines and cosines.
     pub trigonometric: u64,
@@ -213,9 +216,31 @@ pub fn blend(terms: &[Point; 3], h: f64) -> (Point, Operations) {
     (point, count)
 }
 
-/// One sample of a blend by differences: four additions for each coordinate.
-pub const DIFFERENCE_ENGINE: Operations = Operations {
-    multiplications: 0,
-    additions: 4 * 3,
-    trigonometric: 0,
-};
+/// One sample of a blend by differences, as the circuit has it: the adders, subtractors and
+/// comparators of the difference engines of all three coordinates, which work in one tick.
+///
+/// The text's four additions a coordinate are columns here, each with a part that wraps at the
+/// modulus and carries into the whole.
+///
+/// # Errors
+/// The engine is no netlist.
+pub fn difference_engines() -> Result<Operations, EngineError> {
+    let mut operations = Operations::default();
+    for coordinate in 0..3 {
+        let model = hdl::model(&Widths::FULL.engine(coordinate))?;
+        let flat = model.flat();
+        let mut seen = vec![false; flat.leaves.len()];
+        for leaf in model.ports_out() {
+            seen[leaf] = true;
+        }
+        let nodes = passes::all(flat, &seen).nodes;
+        let adders = nodes.iter().filter(|node| {
+            matches!(
+                node.op,
+                Op::Add(..) | Op::Subtract(..) | Op::Below(..) | Op::BelowSigned(..)
+            )
+        });
+        operations.additions += adders.count() as u64;
+    }
+    Ok(operations)
+}

@@ -3,7 +3,7 @@
 use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::jobs::arc_generator::bounds::rotation_error;
 use motion_rtl::jobs::arc_generator::conventional::{
-    Conventional, DIFFERENCE_ENGINE, Operations, blend, blend_terms, rotation,
+    Conventional, Operations, blend, blend_terms, difference_engines, rotation,
 };
 use motion_rtl::jobs::arc_generator::prepare::Timing;
 use motion_rtl::jobs::arc_generator::prepared::{Prepared, Segment, Shape};
@@ -121,7 +121,7 @@ pub fn operations() -> String {
         (
             "this text",
             "blend, by the difference engine",
-            DIFFERENCE_ENGINE,
+            difference_engines().unwrap(),
         ),
         ("this text", "arc", arc),
     ];

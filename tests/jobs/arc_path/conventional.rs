@@ -2,7 +2,7 @@
 
 use super::*;
 use motion_rtl::jobs::arc_generator::conventional::{
-    Conventional, DIFFERENCE_ENGINE, Operations, blend, blend_terms, rotation,
+    Conventional, Operations, blend, blend_terms, difference_engines, rotation,
 };
 use motion_rtl::path::vector::rodrigues;
 
@@ -107,5 +107,7 @@ fn the_patent_blends_by_its_equation() {
         assert_eq!(cost, count(9, 7, 0));
         assert!(length(minus(point, path.segments[0].point(n))) < 1e-12);
     }
-    assert_eq!(DIFFERENCE_ENGINE, count(0, 12, 0));
+    // A column: sum of the parts, comparison with the modulus, their difference, sum of the wholes,
+    // carry; four of them a coordinate, and what rounds.
+    assert_eq!(difference_engines().unwrap(), count(0, 3 * (4 * 5 + 2), 0));
 }
