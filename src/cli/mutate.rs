@@ -1,12 +1,12 @@
 //! `mutate`: single faults in circuits, and what finds them.
 
-use super::check::entry;
+use super::check::entries;
 use super::{Failure, print, print_json, threads};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use motion_rtl::hdl::RunError;
 use motion_rtl::input::{Fault, read_string};
-use motion_rtl::registry::{CATALOGUE, Campaign, CampaignError, Entry, Fate, Found, Suspect};
+use motion_rtl::registry::{Campaign, CampaignError, Entry, Fate, Found, Suspect};
 use motion_rtl::trace::chart::{Chart, parse};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -83,13 +83,7 @@ struct Report {
 
 /// Puts faults into circuits.
 pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
-    let entries: Vec<&'static Entry> = match arguments.circuits.is_empty() {
-        true => CATALOGUE.iter().collect(),
-        false => {
-            let named = arguments.circuits.iter().map(|name| entry(name));
-            named.collect::<Result<_, _>>()?
-        }
-    };
+    let entries = entries(&arguments.circuits)?;
     let (notes, charts): (Vec<_>, Vec<_>) = charts(&arguments.charts)?.into_iter().unzip();
     let campaign = Campaign {
         charts,

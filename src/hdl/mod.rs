@@ -45,7 +45,7 @@ pub use memory::{Contents, Image, Ram, Shift, Written, ram, shift};
 pub(crate) use memory::{STAGE, WORD};
 pub use mistake::{Mistake, Wrong};
 pub use model::{Described, Model};
-pub use mutation::{Change, Mutation};
+pub use mutation::Mutation;
 pub use observe::{Observer, RunError, StopWhen};
 pub(crate) use outline::declarations;
 pub use pack::inputs;

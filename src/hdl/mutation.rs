@@ -15,20 +15,18 @@ use super::record::Site;
 use std::cell::RefCell;
 use std::fmt;
 
-/// A single fault of a circuit.
+/// A single fault of a circuit; it prints as where it is and what it changes.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Mutation {
     /// The circuit's name.
     pub circuit: String,
-    /// Where it is.
-    pub place: Place,
-    /// What it changes there.
-    pub change: Change,
+    place: Place,
+    change: Change,
 }
 
 /// Where a fault is.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum Place {
+enum Place {
     /// What is computed there; of several that the same place makes, the one of this number.
     Node {
         /// The operator.
@@ -48,7 +46,7 @@ pub enum Place {
 
 /// What a fault changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Change {
+enum Change {
     /// Another operator: a difference for a sum, or for and, at least for equal, and so on.
     Operator,
     /// The operands are exchanged.

@@ -364,7 +364,7 @@ impl Campaign {
 fn of_circuit(module: &str, circuit: &str) -> bool {
     let rest = module.strip_prefix(circuit);
     rest.is_some_and(|rest| {
-        let number = rest.strip_prefix('_').unwrap_or("0");
-        rest.is_empty() || number.bytes().all(|digit| digit.is_ascii_digit())
+        let number = |rest: &str| rest.bytes().all(|digit| digit.is_ascii_digit());
+        rest.is_empty() || rest.strip_prefix('_').is_some_and(number)
     })
 }

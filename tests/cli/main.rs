@@ -17,6 +17,7 @@ mod fst;
 mod lead_angle;
 mod lenient;
 mod linear;
+mod linear_master;
 mod linear_refusals;
 mod log_columns;
 mod machine;

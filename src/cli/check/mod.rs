@@ -66,6 +66,21 @@ pub fn entry(name: &str) -> Result<&'static Entry, Failure> {
     })
 }
 
+/// The circuits of these names, each once; without any, all that there are.
+pub fn entries(names: &[String]) -> Result<Vec<&'static Entry>, Failure> {
+    let mut entries: Vec<&Entry> = Vec::new();
+    for name in names {
+        let named = entry(name)?;
+        if !entries.iter().any(|other| other.name == named.name) {
+            entries.push(named);
+        }
+    }
+    if entries.is_empty() {
+        entries.extend(CATALOGUE);
+    }
+    Ok(entries)
+}
+
 /// Proves and sweeps, or puts together what was proved and swept elsewhere.
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let report = if arguments.merge.is_empty() {

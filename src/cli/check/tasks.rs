@@ -1,9 +1,9 @@
 //! What there is to do, in the order of the table.
 
-use super::entry;
 use super::report::{Asked, Kind};
+use super::{entries, entry};
 use crate::cli::{Failure, chosen};
-use motion_rtl::registry::{CATALOGUE, Entry, Request, SweepEntry, WIDTHS, sweeps};
+use motion_rtl::registry::{Entry, Request, SweepEntry, WIDTHS, sweeps};
 
 /// A proof or a sweep.
 #[derive(Debug, Clone)]
@@ -31,19 +31,9 @@ impl Task {
 
 /// What was asked for, and the circuits of which nothing can be proved or swept.
 pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
-    let mut entries: Vec<&Entry> = Vec::new();
-    for name in &asked.circuits {
-        let named = entry(name)?;
-        // Once is enough; and the rows of parts are told apart by their circuit.
-        if !entries.iter().any(|other| other.name == named.name) {
-            entries.push(named);
-        }
-    }
-    if entries.is_empty() {
-        entries.extend(CATALOGUE);
-    }
     let (mut tasks, mut others) = (Vec::new(), Vec::new());
-    for entry in entries {
+    // Once is enough; and the rows of parts are told apart by their circuit.
+    for entry in entries(&asked.circuits)? {
         let before = tasks.len();
         if let Some(width) = entry.proof_width {
             let request = Request {

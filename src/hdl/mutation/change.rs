@@ -4,7 +4,7 @@ use super::{Change, Mutation, Place, find};
 use crate::hdl::build::{Builder, masked};
 use crate::hdl::elaborate::Nets;
 use crate::hdl::netlist::{Id, Module, Node, Operator, Port};
-use crate::hdl::record::BIT;
+use crate::hdl::record::{BIT, Site};
 use crate::hdl::{Kind, Role, Shape};
 
 /// Puts it in; says whether it has a place there.
@@ -24,14 +24,13 @@ pub(super) fn put(
             rebuild(builder, nets, id, change)
         }
         Place::Signal(name) => {
-            let own = |role| move |role_of: Role| role == role_of;
-            let of = match change {
-                Change::PowerOn => own(Role::Register),
-                _ => own(Role::Net),
+            let role = match change {
+                Change::PowerOn => Role::Register,
+                _ => Role::Net,
             };
             let mut signals = builder.signals.iter();
             let at = signals.position(|signal| {
-                signal.owner.is_none() && of(signal.role) && signal.name == *name
+                signal.owner.is_none() && signal.role == role && signal.name == *name
             });
             let Some(at) = at else {
                 return false;
@@ -84,11 +83,17 @@ pub(super) fn put(
     }
 }
 
-/// A new constant at the end.
-fn constant(builder: &mut Builder, value: u64, shape: Shape) -> Id {
-    builder.nodes.push((Node::Constant(value), shape));
-    builder.sites.push(builder.site());
+/// A new node at the end.
+fn add(builder: &mut Builder, node: Node, shape: Shape, site: Site) -> Id {
+    builder.nodes.push((node, shape));
+    builder.sites.push(site);
     builder.nodes.len() - 1
+}
+
+/// A new constant there.
+fn constant(builder: &mut Builder, value: u64, shape: Shape) -> Id {
+    let site = builder.site();
+    add(builder, Node::Constant(value), shape, site)
 }
 
 /// The nodes made anew, with another one in place of `at`.
@@ -99,89 +104,64 @@ fn rebuild(builder: &mut Builder, nets: &mut Nets, at: Id, change: Change) -> bo
     let mut done = false;
     for (id, ((node, shape), site)) in old.into_iter().zip(sites).enumerate() {
         let node = node.map(|id| map[id]);
-        let mut made = None;
-        if id == at {
-            made = other(builder, node, shape, change);
-            done = made.is_some();
-            // What was made on the way came from here too.
-            builder.sites.resize(builder.nodes.len(), site);
-        }
-        map.push(made.unwrap_or_else(|| {
-            builder.nodes.push((node, shape));
-            builder.sites.push(site);
-            builder.nodes.len() - 1
-        }));
+        let made = match id == at {
+            true => other(builder, (node, shape, site), change),
+            false => None,
+        };
+        done |= made.is_some();
+        map.push(made.unwrap_or_else(|| add(builder, node, shape, site)));
     }
     renumber(builder, nets, &map);
     done
 }
 
 /// What stands in place of a node, of which the operands are there already.
-fn other(builder: &mut Builder, node: Node, shape: Shape, change: Change) -> Option<Id> {
-    let mut make = |node, shape| {
-        builder.nodes.push((node, shape));
-        builder.nodes.len() - 1
-    };
-    Some(match (change, node) {
-        (Change::Low, _) => make(Node::Constant(0), shape),
-        (Change::Operator, Node::Binary(operator, a, b)) => {
-            let binary = |operator| Node::Binary(operator, a, b);
-            match operator {
-                Operator::Add => make(binary(Operator::Subtract), shape),
-                Operator::Subtract | Operator::Multiply => make(binary(Operator::Add), shape),
-                Operator::And | Operator::Xor => make(binary(Operator::Or), shape),
-                Operator::Or => make(binary(Operator::And), shape),
-                // At least.
-                Operator::Equal => {
-                    let below = make(binary(Operator::Below), BIT);
-                    make(Node::Not(below), shape)
-                }
-                // At most.
-                Operator::Below => {
-                    let above = make(Node::Binary(Operator::Below, b, a), BIT);
-                    make(Node::Not(above), shape)
-                }
-            }
-        }
-        (Change::Exchanged, Node::Binary(operator, a, b)) => {
-            make(Node::Binary(operator, b, a), shape)
-        }
-        (Change::First, Node::Binary(_, a, _)) => a,
-        (Change::Second, Node::Binary(_, _, b)) => b,
-        (Change::Plain, Node::Not(a) | Node::Negate(a)) => a,
+fn other(
+    builder: &mut Builder,
+    (node, shape, site): (Node, Shape, Site),
+    change: Change,
+) -> Option<Id> {
+    let make = |builder: &mut Builder, node, shape| add(builder, node, shape, site);
+    let node = match (change, node) {
+        (Change::First, Node::Binary(_, a, _))
+        | (Change::Second, Node::Binary(_, _, a))
+        | (Change::Plain, Node::Not(a) | Node::Negate(a))
+        | (Change::Then, Node::Mux(_, a, _))
+        | (Change::Otherwise, Node::Mux(_, _, a)) => return Some(a),
+        (Change::Low, _) => Node::Constant(0),
+        (Change::Operator, Node::Binary(operator, a, b)) => match operator {
+            Operator::Add => Node::Binary(Operator::Subtract, a, b),
+            Operator::Subtract | Operator::Multiply => Node::Binary(Operator::Add, a, b),
+            Operator::And | Operator::Xor => Node::Binary(Operator::Or, a, b),
+            Operator::Or => Node::Binary(Operator::And, a, b),
+            // At least.
+            Operator::Equal => Node::Not(make(builder, Node::Binary(Operator::Below, a, b), BIT)),
+            // At most.
+            Operator::Below => Node::Not(make(builder, Node::Binary(Operator::Below, b, a), BIT)),
+        },
+        (Change::Exchanged, Node::Binary(operator, a, b)) => Node::Binary(operator, b, a),
         (Change::Plain, Node::Extend(of)) => {
-            let from = builder.nodes[of].1;
             let unsigned = |width| Shape {
                 kind: Kind::Unsigned,
                 width,
             };
-            let mut make = |node, shape| {
-                builder.nodes.push((node, shape));
-                builder.nodes.len() - 1
-            };
-            let plain = make(Node::Cast(of), unsigned(from.width));
-            let wide = make(Node::Extend(plain), unsigned(shape.width));
-            make(Node::Cast(wide), shape)
+            let width = builder.shape(of).width;
+            let plain = make(builder, Node::Cast(of), unsigned(width));
+            Node::Cast(make(builder, Node::Extend(plain), unsigned(shape.width)))
         }
-        (Change::Then, Node::Mux(_, then, _)) => then,
-        (Change::Otherwise, Node::Mux(_, _, other)) => other,
         (Change::Priority, Node::Mux(first, then, other)) => {
             let Node::Mux(second, next, last) = builder.nodes[other].0 else {
                 return None;
             };
-            let mut make = |node| {
-                builder.nodes.push((node, shape));
-                builder.nodes.len() - 1
-            };
-            let inner = make(Node::Mux(first, then, last));
-            make(Node::Mux(second, next, inner))
+            let inner = make(builder, Node::Mux(first, then, last), shape);
+            Node::Mux(second, next, inner)
         }
-        (Change::Up, Node::ShiftLeft(a, by)) => make(Node::ShiftLeft(a, by + 1), shape),
-        (Change::Down, Node::ShiftLeft(a, by)) => make(Node::ShiftLeft(a, by - 1), shape),
-        (Change::Up, Node::ShiftRight(a, by)) => make(Node::ShiftRight(a, by + 1), shape),
-        (Change::Down, Node::ShiftRight(a, by)) => make(Node::ShiftRight(a, by - 1), shape),
-        (Change::Up, Node::Slice(a, low)) => make(Node::Slice(a, low + 1), shape),
-        (Change::Down, Node::Slice(a, low)) => make(Node::Slice(a, low - 1), shape),
+        (Change::Up, Node::ShiftLeft(a, by)) => Node::ShiftLeft(a, by + 1),
+        (Change::Down, Node::ShiftLeft(a, by)) => Node::ShiftLeft(a, by - 1),
+        (Change::Up, Node::ShiftRight(a, by)) => Node::ShiftRight(a, by + 1),
+        (Change::Down, Node::ShiftRight(a, by)) => Node::ShiftRight(a, by - 1),
+        (Change::Up, Node::Slice(a, low)) => Node::Slice(a, low + 1),
+        (Change::Down, Node::Slice(a, low)) => Node::Slice(a, low - 1),
         (Change::More(number) | Change::Less(number), node) => {
             let operand = node.operands().nth(number)?;
             let (Node::Constant(bits), of) = builder.nodes[operand] else {
@@ -191,20 +171,16 @@ fn other(builder: &mut Builder, node: Node, shape: Shape, change: Change) -> Opt
                 Change::More(_) => bits.wrapping_add(1),
                 _ => bits.wrapping_sub(1),
             };
-            let mut make = |node, shape| {
-                builder.nodes.push((node, shape));
-                builder.nodes.len() - 1
-            };
-            let constant = make(Node::Constant(masked(bits, of)), of);
-            let mut at = 0;
-            let node = node.map(|id| {
-                at += 1;
-                if at == number + 1 { constant } else { id }
-            });
-            make(node, shape)
+            let constant = make(builder, Node::Constant(masked(bits, of)), of);
+            let mut operands = 0..;
+            node.map(|id| match operands.next() == Some(number) {
+                true => constant,
+                false => id,
+            })
         }
         _ => return None,
-    })
+    };
+    Some(make(builder, node, shape))
 }
 
 /// Everything that names nodes.
@@ -213,22 +189,7 @@ fn renumber(builder: &mut Builder, nets: &mut Nets, map: &[Id]) {
         signal.driver = signal.driver.map(|id| map[id]);
     }
     for memory in &mut builder.memories {
-        memory.port = match memory.port {
-            Port::Rom => Port::Rom,
-            Port::Ram {
-                enable,
-                address,
-                data,
-            } => Port::Ram {
-                enable: map[enable],
-                address: map[address],
-                data: map[data],
-            },
-            Port::Shift { enable, data } => Port::Shift {
-                enable: map[enable],
-                data: map[data],
-            },
-        };
+        memory.port = memory.port.map(|id| map[id]);
     }
     for instance in &mut builder.instances {
         let inputs = instance.child.inputs.iter_mut();

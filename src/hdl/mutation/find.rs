@@ -3,7 +3,7 @@
 use super::{Change, Mutation, Place};
 use crate::hdl::build::{Builder, Instance};
 use crate::hdl::elaborate::Nets;
-use crate::hdl::netlist::{Id, Module, Node, Operator, Port, Register};
+use crate::hdl::netlist::{Id, Module, Node, Operator, Port, Register, live};
 use crate::hdl::{Kind, Role};
 use std::collections::HashMap;
 
@@ -22,9 +22,9 @@ pub(super) fn all(
             change,
         });
     };
-    let live = live(builder, nets);
+    let driving = driving(builder, nets);
     for (id, place) in places(builder).into_iter().enumerate() {
-        if live[id] {
+        if driving[id] {
             for change in of_node(builder, id) {
                 add(&place, change);
             }
@@ -80,38 +80,14 @@ pub(super) fn ports<'m>(
 }
 
 /// Which nodes drive something.
-fn live(builder: &Builder, nets: &Nets) -> Vec<bool> {
-    let mut live = vec![false; builder.nodes.len()];
+fn driving(builder: &Builder, nets: &Nets) -> Vec<bool> {
     let drivers = builder.signals.iter().filter_map(|signal| signal.driver);
-    let memories = builder
-        .memories
-        .iter()
-        .flat_map(|memory| match memory.port {
-            Port::Rom => vec![],
-            Port::Ram {
-                enable,
-                address,
-                data,
-            } => vec![enable, address, data],
-            Port::Shift { enable, data } => vec![enable, data],
-        });
-    let inputs = builder.instances.iter();
-    let inputs = inputs.flat_map(|instance| instance.child.inputs.iter().copied());
-    for id in drivers
-        .chain(memories)
-        .chain(inputs)
-        .chain(nets.nodes.iter().copied())
-    {
-        live[id] = true;
-    }
-    for id in (0..live.len()).rev() {
-        if live[id] {
-            for operand in builder.nodes[id].0.operands() {
-                live[operand] = true;
-            }
-        }
-    }
-    live
+    let memories = builder.memories.iter();
+    let memories = memories.flat_map(|memory| memory.port.operands());
+    let instances = builder.instances.iter();
+    let inputs = instances.flat_map(|instance| &instance.child.inputs);
+    let others = inputs.chain(&nets.nodes).copied();
+    live(&builder.nodes, drivers.chain(memories).chain(others))
 }
 
 /// Where each node is.

@@ -8,5 +8,5 @@ pub(crate) use module::Register;
 pub use module::{
     Assertion, Child, Design, Memory, Module, Parameter, Port, Setting, Signal, Value,
 };
-pub(crate) use modules::enter;
+pub(crate) use modules::{enter, live};
 pub use node::{Id, Node, Operator};

@@ -132,6 +132,42 @@ pub enum Port {
     },
 }
 
+impl Port {
+    /// The nodes that it takes.
+    pub fn operands(self) -> impl Iterator<Item = Id> {
+        let operands = match self {
+            Port::Rom => [None; 3],
+            Port::Ram {
+                enable,
+                address,
+                data,
+            } => [Some(enable), Some(address), Some(data)],
+            Port::Shift { enable, data } => [Some(enable), Some(data), None],
+        };
+        operands.into_iter().flatten()
+    }
+
+    /// The same of other nodes.
+    pub(crate) fn map(self, to: impl Fn(Id) -> Id) -> Port {
+        match self {
+            Port::Rom => Port::Rom,
+            Port::Ram {
+                enable,
+                address,
+                data,
+            } => Port::Ram {
+                enable: to(enable),
+                address: to(address),
+                data: to(data),
+            },
+            Port::Shift { enable, data } => Port::Shift {
+                enable: to(enable),
+                data: to(data),
+            },
+        }
+    }
+}
+
 /// A circuit inside a module.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Child {

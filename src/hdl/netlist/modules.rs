@@ -1,6 +1,6 @@
 //! What is asked of modules.
 
-use super::module::{Module, Port, Register};
+use super::module::{Module, Register};
 use super::node::{BIT, Id, Node};
 use crate::hdl::Shape;
 
@@ -8,36 +8,15 @@ impl Module {
     /// The nodes that something is driven by: nets, registers, memories, inputs of instances.
     pub fn roots(&self) -> impl Iterator<Item = Id> + '_ {
         let signals = self.signals.iter().filter_map(|signal| signal.driver);
-        let memories = self.memories.iter().flat_map(|memory| {
-            let ids = match memory.port {
-                Port::Rom => [None; 3],
-                Port::Ram {
-                    enable,
-                    address,
-                    data,
-                } => [Some(enable), Some(address), Some(data)],
-                Port::Shift { enable, data } => [Some(enable), Some(data), None],
-            };
-            ids.into_iter().flatten()
-        });
+        let memories = self.memories.iter();
+        let memories = memories.flat_map(|memory| memory.port.operands());
         let inputs = self.instances.iter().flat_map(|child| &child.inputs);
         signals.chain(memories).chain(inputs.copied())
     }
 
     /// Which nodes are used.
     pub fn live(&self) -> Vec<bool> {
-        let mut live = vec![false; self.nodes.len()];
-        for root in self.roots() {
-            live[root] = true;
-        }
-        for id in (0..live.len()).rev() {
-            if live[id] {
-                for operand in self.nodes[id].0.operands() {
-                    live[operand] = true;
-                }
-            }
-        }
-        live
+        live(&self.nodes, self.roots())
     }
 
     /// What is read of instances that is no port of theirs: the instance, and the signal.
@@ -106,6 +85,22 @@ impl Module {
     pub fn net(&self, leaf: usize) -> Option<usize> {
         self.nets.get(leaf).copied().flatten()
     }
+}
+
+/// Which of some nodes are used, by these and by those that they are computed from.
+pub(crate) fn live(nodes: &[(Node, Shape)], roots: impl Iterator<Item = Id>) -> Vec<bool> {
+    let mut live = vec![false; nodes.len()];
+    for root in roots {
+        live[root] = true;
+    }
+    for id in (0..live.len()).rev() {
+        if live[id] {
+            for operand in nodes[id].0.operands() {
+                live[operand] = true;
+            }
+        }
+    }
+    live
 }
 
 /// Adds a module, unless the same is there; another of the same circuit gets a number.
