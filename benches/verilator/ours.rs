@@ -130,15 +130,13 @@ impl<C: Outputs> Ours<C> {
 
     /// A run, and the checksum over the outputs of every so many ticks.
     pub fn run(&self, stimulus: &Stimulus, every: u64) -> (Duration, u64) {
-        let mut replay = Replay::new(self.simulator.circuit(), stimulus);
+        let mut replay = Replay::new(stimulus);
         let mut sum = Checksum::new(&self.outputs, every);
         let mut simulator = self.simulator.clone();
         let begun = Instant::now();
         let run = match self.way {
-            Way::Forward => {
-                simulator.fast_forward(stimulus.ticks, |tick, _| replay.held(tick), &mut sum)
-            }
-            _ => simulator.run_changes(stimulus.ticks, |tick, _| replay.held(tick), &mut sum),
+            Way::Forward => simulator.fast_forward(stimulus.ticks, |at| replay.held(at), &mut sum),
+            _ => simulator.run_changes(stimulus.ticks, |at| replay.held(at), &mut sum),
         };
         sum.until(stimulus.ticks);
         let taken = begun.elapsed();
@@ -202,19 +200,15 @@ fn seen<C: Outputs>(
     from: u64,
     observer: impl Observer<C>,
 ) -> (Instant, u64) {
-    let mut replay = Replay::new(circuit, stimulus);
+    let mut replay = Replay::new(stimulus);
     let watched = Simulator::watching(circuit, true, C::outputs);
     let (mut simulator, outputs) = watched.expect("a netlist");
     let mut sum = Checksum::new(&outputs, 1);
-    let before = simulator.run(from, |tick, _| replay.tick(tick), &mut sum);
+    let before = simulator.run_changes(from, |at| replay.tick(at), &mut sum);
     before.expect("no observer objects");
     let observers = (observer, &mut sum);
     let begun = Instant::now();
-    let run = simulator.run(
-        stimulus.ticks - from,
-        |tick, _| replay.tick(tick),
-        observers,
-    );
+    let run = simulator.run_changes(stimulus.ticks - from, |at| replay.tick(at), observers);
     sum.until(stimulus.ticks);
     run.expect("room");
     (begun, sum.sum)

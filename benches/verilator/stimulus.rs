@@ -1,6 +1,6 @@
 //! What goes into a circuit during a job, recorded once and applied to both models.
 
-use motion_rtl::hdl::{Circuit, Declarations, Observer, Role, RunError, Sample, Value, inputs};
+use motion_rtl::hdl::{Circuit, Declarations, Observer, Role, RunError, Sample, Simulator};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
@@ -88,56 +88,33 @@ impl<C: Circuit> Observer<C> for Recorder {
 }
 
 /// The recorded inputs, tick after tick.
-pub struct Replay<'a, C: Circuit> {
-    circuit: &'a C,
+pub struct Replay<'a> {
     changes: &'a [Change],
-    /// Of the ports that have changed, and those before them.
-    words: Vec<u64>,
-    next: u64,
 }
 
-impl<'a, C: Circuit> Replay<'a, C> {
-    pub fn new(circuit: &'a C, stimulus: &'a Stimulus) -> Self {
+impl<'a> Replay<'a> {
+    pub fn new(stimulus: &'a Stimulus) -> Self {
         Replay {
-            circuit,
-            next: stimulus
-                .changes
-                .first()
-                .map_or(u64::MAX, |change| change.tick.into()),
             changes: &stimulus.changes,
-            words: Vec::new(),
         }
     }
 
-    pub fn tick(&mut self, tick: u64) -> C::In<Value> {
-        if tick == self.next {
-            self.apply();
-        }
-        let mut words = self.words.iter().copied();
-        // Those that have not changed yet are low.
-        inputs(self.circuit, |_| words.next().unwrap_or_default())
-    }
-
-    /// The same, and for how many ticks they are held: the next tick asked for is in these, or the
-    /// one after them.
-    pub fn held(&mut self, tick: u64) -> (C::In<Value>, u64) {
-        let i = self.tick(tick);
-        (i, self.next - tick)
-    }
-
-    fn apply(&mut self) {
+    /// Sets what changes at the tick to come; for how many ticks it is held. That tick is in those
+    /// held before, or the one after them.
+    pub fn held<C: Circuit>(&mut self, at: &mut Simulator<C>) -> u64 {
         while let Some((change, rest)) = self.changes.split_first() {
-            if u64::from(change.tick) != self.next {
-                break;
+            let to_come = u64::from(change.tick) - at.tick();
+            if to_come > 0 {
+                return to_come;
             }
-            let port = change.port as usize;
-            self.words.resize(self.words.len().max(port + 1), 0);
-            self.words[port] = change.value;
+            at.set_port(change.port as usize, change.value);
             self.changes = rest;
         }
-        self.next = self
-            .changes
-            .first()
-            .map_or(u64::MAX, |change| change.tick.into());
+        u64::MAX
+    }
+
+    /// The same for one tick.
+    pub fn tick<C: Circuit>(&mut self, at: &mut Simulator<C>) -> u64 {
+        self.held(at).min(1)
     }
 }

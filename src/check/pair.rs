@@ -93,6 +93,9 @@ impl<A: Circuit, V: View> Walk<V> for PairIn<A, V> {
     fn visit(&self, field: &'static Field, sink: &mut dyn Sink) {
         self.0.visit(field, sink);
     }
+    fn words(&self, words: &mut Vec<u64>) {
+        self.0.words(words);
+    }
 }
 
 const fn side(name: &'static str) -> Field {
@@ -119,6 +122,7 @@ impl<A: Circuit, B: Circuit, V: View> Record<Pair<A, B>, V> for Sides<A, B, V> {
 impl<A: Circuit, B: Circuit, V: View> Walk<V> for Sides<A, B, V> {
     const SITE: Site = HERE;
     fn visit(&self, _: &'static Field, _: &mut dyn Sink) {}
+    fn words(&self, _: &mut Vec<u64>) {}
 }
 
 /// The ports in of a circuit: names and shapes.

@@ -32,4 +32,3 @@ pub(crate) use program::ports_out;
 pub use program::{Program, Watch};
 pub use report::report;
 pub use run::Engine;
-pub(crate) use run::Ports;

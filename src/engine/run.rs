@@ -1,6 +1,6 @@
 use super::flat::{Flat, Op, Place};
 use super::interpreter::{self, Counts};
-use super::layout::{Layout, Slot, Spot};
+use super::layout::Spot;
 use super::lines::Lines;
 use super::program::Program;
 use super::tier::Tier;
@@ -41,33 +41,6 @@ impl Clone for Engine {
             whole: RefCell::default(),
             memories: RefCell::default(),
         }
-    }
-}
-
-/// Ports in that are yet to be set; see [`Engine::ports`].
-pub(crate) struct Ports<'e> {
-    slots: std::slice::Iter<'e, Slot>,
-    layout: &'e Layout,
-    slab: &'e mut [u64],
-    whole: &'e mut Option<Vec<u64>>,
-}
-
-impl Ports<'_> {
-    /// Sets the next one.
-    #[inline(always)]
-    pub(crate) fn give(&mut self, word: u64) {
-        if let Some(&slot) = self.slots.next()
-            && self.slab[slot as usize] != word
-        {
-            self.change(slot, word);
-        }
-    }
-
-    /// Few ports change in a tick.
-    #[inline(never)]
-    fn change(&mut self, slot: Slot, word: u64) {
-        interpreter::put(self.layout, self.slab, slot, word);
-        self.whole.take();
     }
 }
 
@@ -134,32 +107,24 @@ impl Engine {
     /// Sets a port in, by its number.
     #[inline]
     pub fn input(&mut self, port: usize, word: u64) {
-        let layout = &self.program.plan.layout;
-        let Some(&slot) = layout.inputs.get(port) else {
-            return;
-        };
-        if self.slab[slot as usize] != word {
-            interpreter::put(layout, &mut self.slab, slot, word);
-            self.whole.take();
-        }
-    }
-
-    /// Sets ports in one after the other, from the first.
-    #[inline]
-    pub(crate) fn ports(&mut self) -> Ports<'_> {
-        let layout = &self.program.plan.layout;
-        Ports {
-            slots: layout.inputs.iter(),
-            layout,
-            slab: &mut self.slab,
-            whole: self.whole.get_mut(),
-        }
+        self.inputs_from(port, &[word]);
     }
 
     /// Sets all ports in.
+    #[inline]
     pub fn inputs(&mut self, words: &[u64]) {
-        for (port, &word) in words.iter().enumerate() {
-            self.input(port, word);
+        self.inputs_from(0, words);
+    }
+
+    /// Sets ports in one after the other, from one on.
+    #[inline]
+    fn inputs_from(&mut self, port: usize, words: &[u64]) {
+        let layout = &self.program.plan.layout;
+        for (&slot, &word) in layout.inputs.iter().skip(port).zip(words) {
+            if self.slab[slot as usize] != word {
+                interpreter::put(layout, &mut self.slab, slot, word);
+                self.whole.take();
+            }
         }
     }
 

@@ -105,6 +105,11 @@ macro_rules! hdl_record {
                 ); )*
                 sink.leave();
             }
+
+            fn words(&self, words: &mut ::std::vec::Vec<u64>) {
+                let _ = &words;
+                $( $crate::hdl_words!(V; words; (&self.$field); $kind $(<$($part)::+>)?); )*
+            }
         }
 
         impl<V: $crate::hdl::View> ::std::clone::Clone for $name<V>
@@ -292,6 +297,41 @@ macro_rules! hdl_visit {
     };
 }
 
+/// The words of a field, one after the other.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_words {
+    ($v:ident; $words:ident; ($value:expr); Bit) => {
+        $words.push(<$v as $crate::hdl::View>::of_bit(*$value))
+    };
+    ($v:ident; $words:ident; ($value:expr); U) => {
+        $words.push(<$v as $crate::hdl::View>::of_u(*$value))
+    };
+    ($v:ident; $words:ident; ($value:expr); I) => {
+        $words.push(<$v as $crate::hdl::View>::of_i(*$value))
+    };
+    ($v:ident; $words:ident; ($value:expr); Ram) => {
+        let _ = $value;
+    };
+    ($v:ident; $words:ident; ($value:expr); Shift) => {
+        let _ = $value;
+    };
+    ($v:ident; $words:ident; ($value:expr); Part<$($part:ident)::+>) => {
+        let _ = $value;
+    };
+    (
+        $v:ident; $words:ident; ($value:expr);
+        [$kind:tt $(<$($part:ident)::+>)? $(($($arg:tt)*))? ; $($count:tt)+]
+    ) => {
+        for value in $value {
+            $crate::hdl_words!($v; $words; (value); $kind $(<$($part)::+>)?);
+        }
+    };
+    ($v:ident; $words:ident; ($value:expr); $bundle:ident) => {
+        $crate::hdl::Walk::<$v>::words($value, $words)
+    };
+}
+
 /// What is known of a field without its value.
 #[macro_export]
 #[doc(hidden)]
@@ -394,6 +434,7 @@ macro_rules! hdl_choice {
 
             // A circuit inside shows itself where it is settled.
             fn visit(&self, _: &'static $crate::hdl::Field, _: &mut dyn $crate::hdl::Sink) {}
+            fn words(&self, _: &mut ::std::vec::Vec<u64>) {}
         }
 
         impl<V: $crate::hdl::View> ::std::fmt::Debug for $part<V> {

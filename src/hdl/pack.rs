@@ -1,7 +1,7 @@
 //! Records of numbers as words, and back.
 
 use super::memory::Contents;
-use super::record::{Cells, MemoryShape, Pass, Record, Sink, Source, Walk};
+use super::record::{Cells, MemoryShape, Pass, Record, Source, Walk};
 use super::view::{self, Shapes, Value, View};
 use super::{Circuit, Registers};
 use crate::hdl::{Field, Role, Shape};
@@ -68,15 +68,9 @@ pub(crate) fn words<R: Walk<Value>>(record: &R, widths: &[usize]) -> Vec<u64> {
 
 /// What a record shows of its words.
 pub(crate) fn tokens<V: View, R: Walk<V>>(record: &R) -> Vec<u64> {
-    struct Tokens(Vec<u64>);
-    impl Sink for Tokens {
-        fn word(&mut self, _: &'static Field, token: u64) {
-            self.0.push(token);
-        }
-    }
-    let mut tokens = Tokens(Vec::new());
-    record.visit(view::role(Role::Input), &mut tokens);
-    tokens.0
+    let mut tokens = Vec::new();
+    record.words(&mut tokens);
+    tokens
 }
 
 /// Ports in whose words are given one after the other, each cut to its width.

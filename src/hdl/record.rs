@@ -21,6 +21,8 @@ pub trait Walk<V: View>: Sized + 'static {
     const SITE: Site;
     /// Shows each leaf to `sink`.
     fn visit(&self, field: &'static Field, sink: &mut dyn Sink);
+    /// Adds what it would show of its words.
+    fn words(&self, words: &mut Vec<u64>);
 }
 
 /// A place in a source file.
@@ -174,6 +176,7 @@ impl<V: View> Walk<V> for Nothing {
         column: column!(),
     };
     fn visit(&self, _: &'static Field, _: &mut dyn Sink) {}
+    fn words(&self, _: &mut Vec<u64>) {}
 }
 
 /// One wire.

@@ -4,12 +4,12 @@ mod run;
 
 use super::pack;
 use super::place::{At, Number, Signals};
-use super::record::{Sink, Walk};
+use super::record::Walk;
 use super::sample::Known;
-use super::view::{self, Place, Shapes, Value};
+use super::view::{Place, Shapes, Value};
 use super::{Beside, Circuit, Sample, State};
-use crate::engine::{Engine, EngineError, Ports, Watch};
-use crate::hdl::{Field, Model, Role};
+use crate::engine::{Engine, EngineError, Watch};
+use crate::hdl::Model;
 use std::cell::RefCell;
 use std::fmt;
 use std::ops::Deref;
@@ -37,6 +37,8 @@ pub struct Simulator<C: Circuit> {
     tick: u64,
     settled: bool,
     known: Arc<Known<C>>,
+    /// Room for ports in that are applied.
+    words: Vec<u64>,
 }
 
 /// Two runs that go on from the same tick, each with inputs of its own.
@@ -48,6 +50,7 @@ impl<C: Circuit> Clone for Simulator<C> {
             tick: self.tick,
             settled: self.settled,
             known: self.known.clone(),
+            words: Vec::new(),
         }
     }
 }
@@ -159,6 +162,7 @@ impl<C: Circuit> Simulator<C> {
             tick: 0,
             settled: false,
             known: Arc::new(known),
+            words: Vec::new(),
         };
         (simulator, chosen)
     }
@@ -197,26 +201,36 @@ impl<C: Circuit> Simulator<C> {
     /// Sets a port in, from this tick on.
     pub fn set<T: Number>(&mut self, port: impl FnOnce(&C::In<Place>) -> At<T>, value: T) {
         let port = port(&self.known.signals().i);
-        let mask = u64::MAX >> (64 - port.width());
-        self.engine.input(port.leaf(), value.word() & mask);
-        self.settled = false;
+        self.set_port(port.leaf(), value.word());
+    }
+
+    /// Sets a port in by its number, from 0 in the order of declaration, from this tick on: for who
+    /// plays what was recorded. Bits above its width are cut off; where there is no such port,
+    /// nothing is set.
+    pub fn set_port(&mut self, port: usize, word: u64) {
+        if let Some(mask) = self.known.masks.get(port) {
+            self.engine.input(port, word & mask);
+            self.settled = false;
+        }
     }
 
     /// Sets all ports in, from this tick on.
     pub fn apply(&mut self, i: &C::In<Value>) {
-        let mut apply = Apply(self.engine.ports(), self.known.masks.iter());
-        i.visit(view::role(Role::Input), &mut apply);
+        self.words.clear();
+        i.words(&mut self.words);
+        for (word, mask) in self.words.iter_mut().zip(&self.known.masks) {
+            *word &= mask;
+        }
+        self.engine.inputs(&self.words);
         self.settled = false;
     }
 
     /// Says what stands beside it, from this tick on.
     pub fn show<B: Beside>(&mut self, beside: &B::Signals<Value>) {
         let ports = self.known.ports();
-        let masks = self.known.masks[ports..].iter();
-        for ((port, mask), token) in (ports..).zip(masks).zip(pack::tokens(beside)) {
-            self.engine.input(port, token & mask);
+        for (port, token) in (ports..).zip(pack::tokens(beside)) {
+            self.set_port(port, token);
         }
-        self.settled = false;
     }
 
     fn settle(&mut self) {
@@ -321,16 +335,5 @@ impl<C: Circuit> Simulator<C> {
             false => self.step(),
         }
         shown
-    }
-}
-
-/// Applies ports in, one after the other.
-struct Apply<'a>(Ports<'a>, std::slice::Iter<'a, u64>);
-
-impl Sink for Apply<'_> {
-    fn word(&mut self, _: &'static Field, token: u64) {
-        if let Some(mask) = self.1.next() {
-            self.0.give(token & mask);
-        }
     }
 }

@@ -33,26 +33,24 @@ impl<C: Circuit> Simulator<C> {
     /// Runs like [`run`](Simulator::run), but shows only ticks in which something watched may have
     /// changed: in those between, everything that is watched is as in the tick shown last.
     ///
-    /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it gives
-    /// the same.
+    /// `drive` is asked at the tick to come, before it is settled: it [sets](Self::set) ports in
+    /// that change, and says for how many ticks, this one included, they are held.
     ///
     /// # Errors
     /// The first error of an observer; the run is over then.
     pub fn run_changes(
         &mut self,
         ticks: u64,
-        stimulus: impl FnMut(u64, &State<'_, C>) -> (C::In<Value>, u64),
+        drive: impl FnMut(&mut Self) -> u64,
         observer: impl Observer<C>,
     ) -> Result<(), RunError> {
-        self.run_held(ticks, stimulus, observer, false)
+        self.run_held(ticks, drive, observer, false)
     }
 
-    /// Runs like [`run`](Simulator::run), but goes over idle ticks in one.
+    /// Runs like [`run_changes`](Simulator::run_changes), but goes over idle ticks in one.
     ///
-    /// `stimulus` gives the inputs of a tick, and for how many ticks, this one included, it gives
-    /// the same. `observer` sees every tick in which a port out may have changed. It does not see
-    /// every value of a counter: waves, stimulus files and monitors are for
-    /// [`run`](Simulator::run).
+    /// `observer` sees every tick in which a port out may have changed. It does not see every value
+    /// of a counter: waves, stimulus files and monitors are for [`run`](Simulator::run).
     ///
     /// Idle are ticks in which registers do nothing but count: everything is on straight lines, and
     /// no decision comes out otherwise than before. No circuit needs to know of it.
@@ -62,23 +60,22 @@ impl<C: Circuit> Simulator<C> {
     pub fn fast_forward(
         &mut self,
         ticks: u64,
-        stimulus: impl FnMut(u64, &State<'_, C>) -> (C::In<Value>, u64),
+        drive: impl FnMut(&mut Self) -> u64,
         observer: impl Observer<C>,
     ) -> Result<(), RunError> {
-        self.run_held(ticks, stimulus, observer, true)
+        self.run_held(ticks, drive, observer, true)
     }
 
     fn run_held(
         &mut self,
         ticks: u64,
-        mut stimulus: impl FnMut(u64, &State<'_, C>) -> (C::In<Value>, u64),
+        mut drive: impl FnMut(&mut Self) -> u64,
         mut observer: impl Observer<C>,
         jumps: bool,
     ) -> Result<(), RunError> {
         let end = self.tick.saturating_add(ticks);
         while self.tick < end {
-            let (i, held) = self.state(|q| stimulus(self.tick, q));
-            self.apply(&i);
+            let held = drive(self);
             // Until then ports in are as they are.
             let until = self.tick.saturating_add(held.max(1)).min(end);
             loop {

@@ -148,9 +148,10 @@ pub fn fast_forward(
         bench.pieces = true;
         while !bench.over {
             // All that the computer looks at is whether a command waits: no counter.
-            let drive = |_, q: &State<'_, Group>| match computer.drive(q.get(pending)) {
-                Some(i) => (i, 1),
-                None => (quiet.clone(), u64::MAX),
+            let drive = |simulator: &mut Simulator<Group>| {
+                let given = computer.drive(simulator.state(|q| q.get(pending)));
+                simulator.apply(given.as_ref().unwrap_or(&quiet));
+                if given.is_some() { 1 } else { u64::MAX }
             };
             simulator.fast_forward(u64::MAX, drive, &mut *bench)?;
         }

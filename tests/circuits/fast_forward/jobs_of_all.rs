@@ -47,11 +47,13 @@ fn same<C: Outputs>(job: Job<C>) {
         simulator
     };
 
-    let mut replay = Replay::new(&circuit, &stimulus);
+    let mut replay = Replay::new(&stimulus);
     let mut step = interpreted(&whole);
     let mut words = Vec::new();
-    for tick in 0..ticks {
-        words.push(step.step_with(&replay.tick(tick), |now| word(&outputs, now)));
+    for _ in 0..ticks {
+        replay.tick(&mut step);
+        words.push(step.now(|now| word(&outputs, now)));
+        step.step();
     }
     let due = registers(&step);
 
@@ -66,11 +68,11 @@ fn same<C: Outputs>(job: Job<C>) {
     ];
     for (how, mut simulator, way) in ways {
         let mut seen = Words::new(&outputs);
-        let mut replay = Replay::new(&circuit, &stimulus);
+        let mut replay = Replay::new(&stimulus);
         let run = match way {
-            Way::Run => simulator.run(ticks, |tick, _| replay.tick(tick), &mut seen),
-            Way::Changes => simulator.run_changes(ticks, |tick, _| replay.held(tick), &mut seen),
-            Way::Forward => simulator.fast_forward(ticks, |tick, _| replay.held(tick), &mut seen),
+            Way::Run => simulator.run_changes(ticks, |at| replay.tick(at), &mut seen),
+            Way::Changes => simulator.run_changes(ticks, |at| replay.held(at), &mut seen),
+            Way::Forward => simulator.fast_forward(ticks, |at| replay.held(at), &mut seen),
         };
         run.expect("no objection");
         seen.hold(ticks);
