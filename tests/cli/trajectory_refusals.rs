@@ -35,6 +35,26 @@ fn bad_settings_are_refused_with_their_line() {
             "s.toml:8: piece 0: speed_mm_per_s: is 0 mm/s; allowed: a speed above 0",
         ),
         (
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[piece]]\nto_mm = [30, 0, 0]\nvia_mm = [20, 9, 0]\nspline = true\n",
+            "s.toml:11: piece 1: spline: given beside via_mm; allowed: an arc or a spline",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\nspline = true\n[[piece]]\nto_mm = [10, 0, 0]\nspline = true\n",
+            "s.toml:10: piece 1: to_mm: start and end are the same point; allowed: points apart",
+        ),
+        (
+            "[[piece]]\nto_mm = [nan, 0, 0]\nspline = true\n",
+            "s.toml:7: piece 0: to_mm: x is NaN; allowed: a number",
+        ),
+        (
+            "axes = 2\n[[piece]]\nto_mm = [10, 0, 1]\nspline = true\n[[piece]]\nto_mm = [20, 0, 0]\nspline = true\n",
+            "s.toml:8: piece 0: to_mm: leaves the plane of x and y by ",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\nspline = 1\n",
+            "s.toml:8: spline: invalid type: integer `1`; allowed: true or false",
+        ),
+        (
             "k1_per_s = 0\n[[piece]]\nto_mm = [10, 0, 0]\n",
             "s.toml:6: k1_per_s: is 0: ",
         ),
@@ -151,21 +171,21 @@ fn bad_machines_are_refused_with_their_line() {
 
 #[test]
 fn bad_moves_are_refused_with_their_line() {
-    let cases = [
-        (
-            "G1 X20 F600\nG2 X40 I10 Z5\n",
-            "p.ngc:2: Z: climbs 5 mm along its axis: a helix; allowed: an arc in a plane: a rotation has no feed along its axis",
-        ),
-        (
-            "G1 X20 F600\nG2 X40 Y1 I3\n",
-            "p.ngc:2: I, J: the radius is 3.0000 mm at the start and 17.0294 mm at the end; allowed: radii that agree to 0.005 mm or 0.1 %",
-        ),
-    ];
+    let cases = [(
+        "G1 X20 F600\nG2 X40 Y1 I3\n",
+        "p.ngc:2: I, J: the radius is 3.0000 mm at the start and 17.0294 mm at the end; allowed: radii that agree to 0.005 mm or 0.1 %",
+    )];
     for (text, refusal) in cases {
         let bench = with("input = \"p.ngc\"\n");
         bench.write("p.ngc", text);
         bench.refuse(&["run", "s.toml", "--out", "new"], refusal);
     }
+    let bench = with("input = \"p.ngc\"\naxes = 2\n");
+    bench.write("p.ngc", "G1 X20 F600\nG2 X40 I10 Z5\n");
+    bench.refuse(
+        &["run", "s.toml", "--out", "new"],
+        "p.ngc:2: Z: leaves the plane of x and y by 5 mm; allowed: the height of the start, or three axes",
+    );
     let many: String = (1..=4097)
         .map(|k| format!("G1 X{k} Y{}\n", k % 2))
         .collect();

@@ -94,11 +94,11 @@ pub struct SegmentRow {
     pub piece: usize,
     /// Line of the input.
     pub line: Option<usize>,
-    /// "line", "arc" or "rapid".
+    /// "line", "arc", "helix", "spline" or "rapid".
     pub kind: &'static str,
     /// Length.
     pub length_mm: f64,
-    /// r, of an arc.
+    /// Radius of curvature of an arc or a helix; of a spline the least.
     pub radius_mm: Option<f64>,
     /// F.
     pub speed_wanted_mm_per_s: f64,
@@ -184,10 +184,9 @@ pub fn segments(job: &Job, runs: &Runs) -> Vec<SegmentRow> {
                 segment: number,
                 piece: stretch.piece,
                 line: stretch.line,
-                kind: match (job.is_rapid(stretch.piece), stretch.radius) {
+                kind: match (job.is_rapid(stretch.piece), &stretch.segment) {
                     (true, _) => "rapid",
-                    (false, None) => "line",
-                    (false, Some(_)) => "arc",
+                    (false, segment) => segment.kind(),
                 },
                 length_mm: stretch.length as f64 / unit,
                 radius_mm: stretch.radius,

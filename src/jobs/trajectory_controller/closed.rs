@@ -14,6 +14,7 @@ use super::measure::Errors;
 use super::segments::Segment;
 use super::settings::Correction;
 use crate::circuits::trajectory_controller::Widths;
+use crate::input::COORDINATES;
 use std::ops::Range;
 
 /// After so many times of its slowest decay a model has forgotten what was before.
@@ -154,7 +155,8 @@ fn circles(program: &Program) -> Vec<(Range<u64>, f64)> {
     for stretch in &program.path.stretches {
         let segment = stretch.segment;
         let end = stretch.begin + stretch.length;
-        let Some(arc) = segment.arc else {
+        let flat = segment.third == [0.0; COORDINATES];
+        let Some(arc) = segment.arc.filter(|_| flat) else {
             before = None;
             continue;
         };

@@ -21,3 +21,4 @@ pub mod segments;
 pub mod servo_gains;
 pub mod settings;
 pub mod speed_limits;
+pub mod splines;

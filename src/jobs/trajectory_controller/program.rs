@@ -120,6 +120,8 @@ fn flat(start: Point, pieces: &[Piece]) -> Result<(), PathError> {
         let [low, high] = match &of.course {
             Course::Line => [of.to[2]; 2],
             Course::Arc(circle) => circle.extremes()[2],
+            Course::Helix(helix) => helix.extremes()[2],
+            Course::Spline(cubic) => cubic.extremes()[2],
         };
         let leaves = [low, high].map(|z| z - start[2]);
         if let Some(&off) = leaves.iter().find(|off| off.abs() > ZERO_MM) {

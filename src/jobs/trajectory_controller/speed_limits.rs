@@ -15,7 +15,7 @@ pub struct Span {
     pub entry: f64,
 }
 
-/// The spans of a path, in guard units and seconds: feed or rapid, √(a·r) on arcs, and where two
+/// The spans of a path, in guard units and seconds: feed or rapid, √(a·r) in curves, and where two
 /// meet, the speed at which the velocity changes by the corner speed.
 #[must_use]
 pub fn spans(path: &Path, motion: &Motion) -> Vec<Span> {

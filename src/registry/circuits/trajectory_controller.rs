@@ -5,9 +5,10 @@ use crate::circuits::trajectory_controller::servo_arithmetic::ServoWidths;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::widths::PointWidths;
 use crate::circuits::trajectory_controller::{
-    ArcAngle, AxisRow, ControlledAxis, Cordic, CordicState, LengthClamp, ModelState, PathLength,
-    PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, Scaler, SegmentSearch,
-    SegmentStore, Servo, ServoArithmetic, Shifter, TrajectoryController, VectorCorrection, Widths,
+    ArcAngle, AxisRow, ControlledAxis, Cordic, CordicState, LengthClamp, LengthPowers, ModelState,
+    PathLength, PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, Scaler,
+    SegmentSearch, SegmentStore, Servo, ServoArithmetic, Shifter, TrajectoryController,
+    VectorCorrection, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
@@ -202,6 +203,16 @@ pub(super) const CIRCUITS: &[Entry] = &[
                 let widths = PointWidths { radius, ..points(radius) };
                 Cordic { widths }
             })
+        },
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        LengthPowers, "CN104204977 2, 3: spline",
+        full: || LengthPowers { widths: FULL.point() },
+        widths: [point = widths.point, radius = widths.radius],
+        from: "width of lengths; two bits more inside", |given| {
+            alone(given, |width| LengthPowers { widths: points(width) })
         },
         with: nothing,
         proved: none,

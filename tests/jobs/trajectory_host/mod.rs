@@ -4,6 +4,7 @@ mod planner;
 mod records;
 mod segments;
 mod settings;
+mod splines;
 
 use motion_rtl::jobs::trajectory_controller::speed_limits::Span;
 use proptest::prelude::*;
