@@ -200,6 +200,7 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
 
         stop error in counts   largest       rms  missed  timed out
         no lead                   1555     910.3       0          0
+        displaced switch           549     231.1       0          0
         by speed                   555     239.5       0          0
         tuned                      549     231.1       0          0
         fixed lead                 955     464.6       0          0
@@ -207,22 +208,22 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
         literal sign              1429     678.8       0          0
 
         positionings 0 to 3: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  by speed     tuned  fixed lead  learning  literal sign      lead  one code  settled after
-           0      3000   20000       366      -134         0          66        12           120   17.7 ms       2.0          never
-           1         0   40000      1010        10         0         410       160           652   21.2 ms       8.0          never
+        step    target   speed   no lead  displaced switch  by speed     tuned  fixed lead  learning  literal sign      lead  one code  settled after
+           0      3000   20000       366                 0      -134         0          66        12           120   17.7 ms       2.0          never
+           1         0   40000      1010                 4        10         0         410       160           652   21.2 ms       8.0          never
 
         positionings 4 to 5, with the other load: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  by speed     tuned  fixed lead  learning  literal sign      lead  one code  settled after
-           0      3000   20000       504         4       138         204       138           338   18.3 ms       2.0          never
-           1         0   40000      1555       555       549         955       569          1429   24.6 ms       8.0          never
+        step    target   speed   no lead  displaced switch  by speed     tuned  fixed lead  learning  literal sign      lead  one code  settled after
+           0      3000   20000       504               138         4       138         204       138           338   18.3 ms       2.0          never
+           1         0   40000      1555               549       555       549         955       569          1429   24.6 ms       8.0          never
 
-        positioning  step   no lead  by speed     tuned  fixed lead  learning  literal sign      lead  one code
-                  0     0       366      -134         0          66        66            66   15.0 ms       2.0
-                  1     1      1006         6         0         406       406           406   15.0 ms       4.0
-                  2     0       366      -134         0          66        12           120   17.7 ms       2.0
-                  3     1      1010        10         0         410       160           652   21.2 ms       8.0
-                  4     0       504         4       138         204       138           338   18.3 ms       2.0
-                  5     1      1555       555       549         955       569          1429   24.6 ms       8.0
+        positioning  step   no lead  displaced switch  by speed     tuned  fixed lead  learning  literal sign      lead  one code
+                  0     0       366                 0      -134         0          66        66            66   15.0 ms       2.0
+                  1     1      1006                 0         6         0         406       406           406   15.0 ms       4.0
+                  2     0       366                 0      -134         0          66        12           120   17.7 ms       2.0
+                  3     1      1010                 4        10         0         410       160           652   21.2 ms       8.0
+                  4     0       504               138         4       138         204       138           338   18.3 ms       2.0
+                  5     1      1555               549       555       549         955       569          1429   24.6 ms       8.0
 
         wrote waves/s.svg
     "#]].assert_eq(&text);
@@ -230,6 +231,59 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
     let (start, end) = text.split_at(text.find("positioning  step").unwrap());
     let files = &end[end.find("wrote").unwrap()..];
     assert_eq!(short, start.to_owned() + files);
+}
+
+/// The simplest conventional system: as good as its distances are, up to the load change.
+#[test]
+fn displaced_switches_stand_as_far_off_as_the_first_stops_went() {
+    let run = ["run", "waves/turntable.toml", "--no-vcd"];
+    let summary = Bench::new().json(&run);
+    let [none, switch] = ["no lead", "displaced switch"].map(|name| system(&summary, name));
+    let phases = list(&summary, "phases");
+    let error = |step: &Value, system: usize| step["last_error_counts"][system].as_i64().unwrap();
+    for (before, after) in list(&phases[0], "steps")
+        .iter()
+        .zip(list(&phases[1], "steps"))
+    {
+        assert!(error(before, switch).abs() <= 30, "{before}");
+        let more = error(after, none) - error(before, none);
+        let off = error(after, switch) - error(before, switch);
+        assert!(more > 80 && (more - off).abs() <= 10, "{after}: {more}");
+    }
+    // One distance for all is right for one speed.
+    let summary = Bench::new().json(&[&run[..], &["--set", "switch_counts=1200"]].concat());
+    for row in list(&summary, "positionings") {
+        let [none, switch] = [none, switch].map(|system| row["error_counts"][system].as_i64());
+        let moved = none.unwrap() - switch.unwrap();
+        assert!((moved - 1200).abs() <= 20, "{row}");
+    }
+}
+
+/// Fig. 7 in the waves, with what it measures on top.
+#[test]
+fn the_conventional_system_can_be_in_the_waves() {
+    let bench = small();
+    let run = ["run", "s.toml", "--to", "3000", "--set", "lead=speed"];
+    let summary = bench.json(&run);
+    assert_eq!(summary["lead"], "speed");
+    let own = &summary["systems"][system(&summary, "by speed")];
+    assert_eq!(own["own"], true);
+    assert_eq!(system(&summary, "by speed"), 2);
+    let other = small().json(&["run", "s.toml", "--no-vcd"]);
+    assert_eq!(summary["positionings"], other["positionings"]);
+    let save = bench.read("waves/s.gtkw");
+    let overview = save.split("-overview\n").nth(1).unwrap();
+    let overview = overview.split("-ports in\n").next().unwrap();
+    assert!(
+        overview.contains("conventional_compensator.lead_source.speed["),
+        "{overview}"
+    );
+    assert_eq!(overview.matches("conventional_compensator.").count(), 11);
+    let text = bench.succeed(&run);
+    assert!(
+        text.contains("complete by standstill, lead by speed\n"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -559,7 +613,29 @@ fn settings_are_checked_and_named_with_their_line() {
         refused("sign = \"both\"\n"),
         "error: s.toml:2: sign: unknown variant `both`; allowed: `converging` or `literal`\n"
     );
+    assert_eq!(
+        refused("lead = \"way\"\n"),
+        "error: s.toml:2: lead: unknown variant `way`; allowed: `time` or `speed`\n"
+    );
+    assert_eq!(
+        refused("targets = \"turn\"\n"),
+        "error: s.toml:2: targets: unknown variant `turn`; allowed: `absolute` or `relative`\n"
+    );
+    assert_eq!(
+        refused("targets = \"relative\"\n"),
+        "error: s.toml:7: step 1: target: is 0; allowed: a way other than 0\n"
+    );
+    assert_eq!(
+        refused("switch_counts = 9000\n"),
+        "error: s.toml:2: switch_counts: is 9000; allowed: 0 to 8999\n"
+    );
     let bench = small();
+    let one = "step=[{target=9000,speed_counts_per_s=20000}]";
+    assert_eq!(
+        refusal(&bench, &["s.toml", "--set", one]),
+        "error: --set: step: is 1 step; allowed: 2 to 16, or targets = \"relative\", or \
+         positionings = 1\n"
+    );
     let set = ["s.toml", "--set", "common_time=true"];
     assert_eq!(
         refusal(&bench, &set),

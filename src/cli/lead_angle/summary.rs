@@ -6,7 +6,7 @@ use crate::cli::report::Outcome;
 use motion_rtl::circuits::lead_angle::codes::{STAGES, code};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
-    Comparing, Completion, History, Placement, Settings, Sign,
+    Comparing, Completion, History, LeadBy, Placement, Settings, Sign, Targets,
 };
 use serde::Serialize;
 use std::ops::Range;
@@ -22,6 +22,10 @@ pub struct Summary {
     pub outcome: Outcome,
     /// What keeps the positions of the past.
     pub history: History,
+    /// Where the lead comes from.
+    pub lead: LeadBy,
+    /// What targets count from.
+    pub targets: Targets,
     /// What the lead is put on.
     pub placement: Placement,
     /// When the target is reached.
@@ -81,7 +85,7 @@ pub struct Phase {
 pub struct StepSummary {
     /// Its number.
     pub step: usize,
-    /// Sx in counts.
+    /// Sx in counts, from where targets count from.
     pub target: i64,
     /// Its speed.
     pub speed_counts_per_s: u32,
@@ -157,6 +161,8 @@ impl Summary {
                 ..Outcome::new("lead_angle", &job.stem, settings.clock_hz, ticks)
             },
             history: settings.history,
+            lead: settings.lead,
+            targets: settings.targets,
             placement: settings.placement,
             comparing: settings.comparing,
             completion: settings.completion,
@@ -263,7 +269,7 @@ fn step_summary(
     let settled_after = numbers.iter().rposition(off).map_or(0, |place| place + 1);
     Some(StepSummary {
         step,
-        target: all[last].target,
+        target: settings.steps[step].target,
         speed_counts_per_s: settings.steps[step].speed_counts_per_s,
         positionings: numbers.len(),
         last_error_counts: of_all(played, last, |one| one.error),
@@ -312,7 +318,8 @@ fn warnings(summary: &Summary) -> Vec<String> {
             ));
         }
     }
-    if !(summary.learn && summary.sign == Sign::Converging) {
+    let by_time = summary.lead == LeadBy::Time;
+    if !(by_time && summary.learn && summary.sign == Sign::Converging) {
         return all;
     }
     for phase in &summary.phases {

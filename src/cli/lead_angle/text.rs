@@ -2,6 +2,7 @@
 
 use super::summary::{Phase, Summary, SystemSummary};
 use crate::cli::report::{Outcome, Report};
+use motion_rtl::jobs::lead_angle::settings::LeadBy;
 use std::fmt::Write;
 
 /// Characters of a column of stop errors at least.
@@ -34,9 +35,10 @@ impl Report for Summary {
             name(self.placement),
             name(self.comparing),
             name(self.completion).replace('_', " "),
-            match self.learn {
-                true => format!("learning, sign {}", name(self.sign)),
-                false => "not learning".to_owned(),
+            match (self.lead, self.learn) {
+                (LeadBy::Speed, _) => "lead by speed".to_owned(),
+                (LeadBy::Time, true) => format!("learning, sign {}", name(self.sign)),
+                (LeadBy::Time, false) => "not learning".to_owned(),
             }
         )?;
         writeln!(
