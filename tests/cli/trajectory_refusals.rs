@@ -91,6 +91,50 @@ fn bad_settings_are_refused_with_their_line() {
             "s.toml:7: piece 0: to_mm: x reaches ",
         ),
         (
+            "acceleration_time_ms = 50\nacceleration_mm_per_s2 = 1e3\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: acceleration_time_ms: is 50 beside acceleration_mm_per_s2; allowed: one of both",
+        ),
+        (
+            "axis_acceleration_mm_per_s2 = [1e3]\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: axis_acceleration_mm_per_s2: is a list of 1; allowed: a number for all axes, or a list of 2",
+        ),
+        (
+            "k1_per_s = [50, 60]\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml: k2_per_s: is 200: 0.20001220703125 a period; allowed: ",
+        ),
+        (
+            "k1_per_s = [50, 40, 30]\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: k1_per_s: is a list of 3; allowed: a number for all axes, or a list of 2",
+        ),
+        (
+            "inertia_factor = [1, 1, 1]\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: inertia_factor: is a list of 3; allowed: a number for all axes, or a list of 2",
+        ),
+        (
+            "inertia_factor = \"half\"\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: inertia_factor: invalid type: string \"half\"; allowed: a number for all axes, or a list of one for each",
+        ),
+        (
+            "inertia_factor = [1, -2]\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: inertia_factor: is -2 for y; allowed: 0 to 100",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[load_torque]]\naxis = \"z\"\ntorque_nm = 1\n",
+            "s.toml:9: load_torque 0: axis: is z; allowed: one of x, y",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[load_torque]]\naxis = \"w\"\ntorque_nm = 1\n",
+            "s.toml:9: axis: unknown variant `w`; allowed: one of `x`, `y`, `z`",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[load_torque]]\naxis = \"x\"\ntorque_nm = 1\nfrom_s = 2\nto_s = 1\n",
+            "s.toml:12: load_torque 0: to_s: is 1; allowed: above from_s, 2, to 1000000",
+        ),
+        (
+            "load_torque = 3\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: load_torque: invalid type: integer `3`; allowed: tables [[load_torque]]",
+        ),
+        (
             "[machine]\nmass = 1\n",
             "s.toml:7: mass: unknown field `mass`; allowed: one of `max_torque_nm`, ",
         ),

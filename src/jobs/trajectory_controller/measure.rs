@@ -72,6 +72,8 @@ pub struct Measured {
     pub torque: Vec<i64>,
     /// Periods in which it was limited, of each axis.
     pub saturated: Vec<usize>,
+    /// Largest distance of each motor from its model, in mm.
+    pub off_model_mm: Vec<f64>,
 }
 
 impl Measured {
@@ -94,6 +96,13 @@ impl Measured {
                 .collect(),
             saturated: (0..played.axes)
                 .map(|axis| each(axis).filter(limited).count())
+                .collect(),
+            off_model_mm: (0..played.axes)
+                .map(|axis| {
+                    let off = |period: &Period| motor(period, axis) - model(period, axis);
+                    let all = played.periods.iter().map(|period| off(period).abs());
+                    all.fold(0.0, f64::max) / program.motion.units_per_mm
+                })
                 .collect(),
         })
     }

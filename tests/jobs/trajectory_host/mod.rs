@@ -1,5 +1,6 @@
 //! The host side of the trajectory controller: paths, profiles, records, settings.
 
+mod axis_limits;
 mod planner;
 mod records;
 mod segments;
