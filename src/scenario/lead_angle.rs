@@ -3,7 +3,7 @@
 use super::Runnable;
 use crate::input::position_log::Columns;
 use crate::jobs::lead_angle::settings::{
-    Comparing, Completion, History, LeadBy, Placement, Settings, Sign, Step, Targets,
+    Comparing, Completion, Function, History, LeadBy, Placement, Settings, Sign, Step, Targets,
 };
 use crate::plant::{BodyParameters, Load};
 use serde::Deserialize;
@@ -47,6 +47,9 @@ pub struct Scenario {
     /// The sign of the stop error that corrects the time data.
     #[serde(default)]
     pub sign: Sign,
+    /// What is made of error and overrun.
+    #[serde(default)]
+    pub function: Function,
     /// What keeps the positions of the past.
     #[serde(default)]
     pub history: History,
@@ -151,6 +154,7 @@ impl Scenario {
             comparing: self.comparing,
             completion: self.completion,
             sign: self.sign,
+            function: self.function,
             history: self.history,
             learn: self.learn,
             common_time: self.common_time,

@@ -281,6 +281,7 @@ const FAR: &[(&str, u32)] = &[
     ("correction_arithmetic.multiplicand", 24),
     ("correction_arithmetic.divisor", 24),
     ("correction_arithmetic.addend", 23),
+    ("refinement.addend", 23),
     ("lead_arithmetic.factor", 4),
     ("speed_lead.factor", 14),
     // Times in CKs.
@@ -386,6 +387,7 @@ const NEVER: &[(&str, u32)] = &[
     ("correction_arithmetic.multiplicand", 8),
     ("correction_arithmetic.divisor", 8),
     ("correction_arithmetic.addend", 7),
+    ("refinement.addend", 7),
     ("lead_arithmetic.factor", 4),
     ("speed_lead.factor", 14),
     ("completion_detector.still", 6),
@@ -432,6 +434,7 @@ const JOBS: &[&str] = &[
     "time_lead",
     "ram_time_lead",
     "correction",
+    "second_order_correction",
     "compensator",
     "ram_compensator",
     "conventional_compensator",

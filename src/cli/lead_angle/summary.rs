@@ -1,12 +1,12 @@
 //! What a run came to.
 
 use super::Job;
-use super::systems::{LEARNING, LITERAL, System};
+use super::systems::{LEARNING, SECOND_ORDER, System, learner};
 use crate::cli::report::Outcome;
 use motion_rtl::circuits::lead_angle::codes::{STAGES, code};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
-    Comparing, Completion, History, LeadBy, Placement, Settings, Sign, Targets,
+    Comparing, Completion, Function, History, LeadBy, Placement, Settings, Sign, Targets,
 };
 use serde::Serialize;
 use std::ops::Range;
@@ -34,6 +34,8 @@ pub struct Summary {
     pub completion: Completion,
     /// Which way the error counts.
     pub sign: Sign,
+    /// What is made of error and overrun.
+    pub function: Function,
     /// Whether times are learned.
     pub learn: bool,
     /// Ticks of a CK.
@@ -102,6 +104,17 @@ pub struct StepSummary {
     /// After how many positionings of the phase `lead_times_of` stays within a code's travel;
     /// `null` where it never does.
     pub settled_after: Option<usize>,
+    /// The same for learning to either order.
+    pub settled_by_order: ByOrder,
+}
+
+/// After how many positionings learning stays within a code's travel; `null` where it never does.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct ByOrder {
+    /// To first order.
+    pub first: Option<usize>,
+    /// To second order.
+    pub second: Option<usize>,
 }
 
 /// One positioning.
@@ -151,9 +164,9 @@ impl Summary {
         let settings = &job.settings;
         let own = played.iter().find(|(system, _)| system.own);
         let ticks = own.map_or(0, |(_, run)| run.ticks);
-        let lead_times_of = match settings.sign {
-            Sign::Literal if settings.learn => LITERAL,
-            _ => LEARNING,
+        let lead_times_of = match settings.learn {
+            true => learner(settings.sign, settings.function),
+            false => LEARNING,
         };
         let mut summary = Summary {
             outcome: Outcome {
@@ -167,6 +180,7 @@ impl Summary {
             comparing: settings.comparing,
             completion: settings.completion,
             sign: settings.sign,
+            function: settings.function,
             learn: settings.learn,
             ck_ticks: settings.ck_ticks,
             systems: played.iter().map(system_summary).collect(),
@@ -265,8 +279,7 @@ fn step_summary(
     let all = &learner.positionings;
     let numbers: Vec<usize> = phase.filter(|number| all[*number].step == step).collect();
     let last = *numbers.last()?;
-    let off = |number: &usize| !settled(settings, &all[*number]);
-    let settled_after = numbers.iter().rposition(off).map_or(0, |place| place + 1);
+    let order = |name| of(played, name).and_then(|run| settled_after(settings, run, &numbers));
     Some(StepSummary {
         step,
         target: settings.steps[step].target,
@@ -276,8 +289,20 @@ fn step_summary(
         last_timed_out: of_all(played, last, |one| one.timed_out),
         lead_ms: all[last].code as f64 * settings.ck_ms(),
         code_travel_counts: code_travel(settings, &all[last]),
-        settled_after: Some(settled_after).filter(|after| *after < numbers.len()),
+        settled_after: settled_after(settings, learner, &numbers),
+        settled_by_order: ByOrder {
+            first: order(LEARNING),
+            second: order(SECOND_ORDER),
+        },
     })
+}
+
+/// After how many of these positionings a system stays within a code's travel.
+fn settled_after(settings: &Settings, run: &Played, numbers: &[usize]) -> Option<usize> {
+    let all = &run.positionings;
+    let off = |number: &usize| !all.get(*number).is_some_and(|one| settled(settings, one));
+    let after = numbers.iter().rposition(off).map_or(0, |place| place + 1);
+    Some(after).filter(|after| *after < numbers.len())
 }
 
 /// What keeps a run from being what it was to be.

@@ -1,13 +1,16 @@
 //! What a run is compared with: the same steps without a lead, with switches that stand a distance
 //! before their targets, by speed with one parameter and with one for each step that is tuned to the
-//! nominal load, with a fixed lead, with a lead that is learned, and learned with the text's sign;
-//! where the scenario has positionings complete by a fixed time, learned at standstills too.
+//! nominal load, with a fixed lead, with a lead that is learned, learned to second order, and learned
+//! with the text's sign; where the scenario has positionings complete by a fixed time, learned at
+//! standstills too.
 
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
-use motion_rtl::jobs::lead_angle::settings::{Completion, LeadBy, Settings, Sign};
+use motion_rtl::jobs::lead_angle::settings::{Completion, Function, LeadBy, Settings, Sign};
 
-/// Name of the system that learns with the sign that converges.
+/// Name of the system that learns with the sign that converges, to first order.
 pub const LEARNING: &str = "learning";
+/// Name of the system that learns with the sign that converges, to second order.
+pub const SECOND_ORDER: &str = "second order";
 /// Name of the system that learns with the text's sign.
 pub const LITERAL: &str = "literal sign";
 /// Name of the system that learns where the body has stopped, though the scenario has a fixed time.
@@ -36,11 +39,21 @@ pub struct System {
     pub own: bool,
 }
 
+/// The name of the system that learns so.
+pub fn learner(sign: Sign, function: Function) -> &'static str {
+    match (sign, function) {
+        (Sign::Converging, Function::FirstOrder) => LEARNING,
+        (Sign::Converging, Function::SecondOrder) => SECOND_ORDER,
+        (Sign::Literal, _) => LITERAL,
+    }
+}
+
 /// All of them, one of them the scenario's own.
 pub fn systems(settings: &Settings) -> Vec<System> {
-    let learning = |sign| Settings {
+    let learning = |sign, function| Settings {
         learn: true,
         sign,
+        function,
         ..settings.clone()
     };
     let fixed = Settings {
@@ -51,11 +64,11 @@ pub fn systems(settings: &Settings) -> Vec<System> {
     for step in &mut none.steps {
         step.lead_ms = 0.0;
     }
-    let own = match (settings.lead, settings.learn, settings.sign) {
-        (LeadBy::Speed, ..) => BY_SPEED,
-        (LeadBy::Time, false, _) => FIXED,
-        (LeadBy::Time, true, Sign::Converging) => LEARNING,
-        (LeadBy::Time, true, Sign::Literal) => LITERAL,
+    let (sign, function) = (settings.sign, settings.function);
+    let own = match (settings.lead, settings.learn) {
+        (LeadBy::Speed, _) => BY_SPEED,
+        (LeadBy::Time, false) => FIXED,
+        (LeadBy::Time, true) => learner(sign, function),
     };
     let system = |name, settings, conventional| System {
         name,
@@ -69,11 +82,20 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         system(BY_SPEED, fixed.clone(), true),
         system(TUNED, fixed.clone(), true),
         system(FIXED, fixed, false),
-        system(LEARNING, learning(Sign::Converging), false),
-        system(LITERAL, learning(Sign::Literal), false),
+        system(
+            LEARNING,
+            learning(Sign::Converging, Function::FirstOrder),
+            false,
+        ),
+        system(
+            SECOND_ORDER,
+            learning(Sign::Converging, Function::SecondOrder),
+            false,
+        ),
+        system(LITERAL, learning(Sign::Literal, function), false),
     ];
     if settings.completion == Completion::FixedTime {
-        let mut stopped = learning(Sign::Converging);
+        let mut stopped = learning(Sign::Converging, function);
         stopped.completion = Completion::Standstill;
         stopped.time_out_ms = stopped.time_out_ms.max(Settings::default().time_out_ms);
         all.push(system(STANDSTILL, stopped, false));

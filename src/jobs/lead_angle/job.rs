@@ -40,6 +40,7 @@ pub fn positioner(settings: &Settings, lead_from: LeadFrom) -> Compensator {
             placement: settings.placement,
             comparing: settings.comparing,
             sign: settings.sign,
+            function: settings.function,
         },
         rom: Image::of(WIDTHS.step, WIDTHS.time(), codes),
     }

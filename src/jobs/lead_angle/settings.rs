@@ -2,7 +2,7 @@
 
 use super::job::WIDTHS;
 use crate::circuits::lead_angle::codes::{LARGEST, STAGES, code, neighbours};
-pub use crate::circuits::lead_angle::{Comparing, Placement, Sign};
+pub use crate::circuits::lead_angle::{Comparing, Function, Placement, Sign};
 use crate::circuits::lead_angle::{LeadFrom, Memory};
 use crate::plant::{BodyParameters, Load};
 use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
@@ -98,6 +98,8 @@ pub struct Settings {
     pub comparing: Comparing,
     /// The sign of the stop error.
     pub sign: Sign,
+    /// What is made of error and overrun.
+    pub function: Function,
     /// What keeps the positions of the past.
     pub history: History,
     /// The time data are corrected after each positioning.
@@ -154,6 +156,7 @@ impl Default for Settings {
             comparing: Comparing::default(),
             completion: Completion::default(),
             sign: Sign::default(),
+            function: Function::default(),
             history: History::default(),
             learn: true,
             common_time: false,
