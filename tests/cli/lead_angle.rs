@@ -177,7 +177,7 @@ fn the_second_order_is_a_system_beside_the_first_and_can_be_the_own_one() {
         assert_eq!(summary["lead_times_of"], own);
         let systems = list(summary, "systems");
         let of = |name: &str| &systems[system(summary, name)]["own"];
-        assert_eq!((of(own) == true, systems.len()), (true, 7));
+        assert_eq!((of(own) == true, systems.len()), (true, 8));
         let owns = systems.iter().filter(|system| system["own"] == true);
         assert_eq!(owns.count(), 1);
     }
@@ -185,7 +185,7 @@ fn the_second_order_is_a_system_beside_the_first_and_can_be_the_own_one() {
     // literal sign, is of the scenario's order.
     let errors = |summary: &Value| {
         let rows = list(summary, "positionings").iter();
-        let errors = rows.map(|row| list(row, "error_counts")[..6].to_vec());
+        let errors = rows.map(|row| list(row, "error_counts")[..7].to_vec());
         errors.collect::<Vec<_>>()
     };
     assert_eq!(errors(&first), errors(&second));
@@ -212,6 +212,7 @@ fn the_summary_has_these_keys() {
         "function",
         "history",
         "input",
+        "lead",
         "lead_times_of",
         "learn",
         "phases",
@@ -220,6 +221,7 @@ fn the_summary_has_these_keys() {
         "seconds",
         "sign",
         "systems",
+        "targets",
         "ticks",
         "vcd_window",
         "warnings",
@@ -268,22 +270,22 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
         literal sign              1429     678.8       0          0
 
         positionings 0 to 3: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
-           0      3000   20000       366      -134         0          66        12             2           120   17.7 ms       2.0          never        never, 1
-           1         0   40000      1010        10         0         410       160            66           652   21.2 ms       8.0          never    never, never
+        step    target   speed   no lead  displaced switch  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
+           0      3000   20000       366                 0      -134         0          66        12             2           120   17.7 ms       2.0          never        never, 1
+           1         0   40000      1010                 4        10         0         410       160            66           652   21.2 ms       8.0          never    never, never
 
         positionings 4 to 5, with the other load: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
-           0      3000   20000       504         4       138         204       138           138           338   18.3 ms       2.0          never    never, never
-           1         0   40000      1555       555       549         955       569           545          1429   24.6 ms       8.0          never    never, never
+        step    target   speed   no lead  displaced switch  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
+           0      3000   20000       504               138         4       138         204       138           138           338   18.3 ms       2.0          never    never, never
+           1         0   40000      1555               549       555       549         955       569           545          1429   24.6 ms       8.0          never    never, never
 
-        positioning  step   no lead  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code
-                  0     0       366      -134         0          66        66            66            66   15.0 ms       2.0
-                  1     1      1006         6         0         406       406           406           406   15.0 ms       4.0
-                  2     0       366      -134         0          66        12             2           120   17.7 ms       2.0
-                  3     1      1010        10         0         410       160            66           652   21.2 ms       8.0
-                  4     0       504         4       138         204       138           138           338   18.3 ms       2.0
-                  5     1      1555       555       549         955       569           545          1429   24.6 ms       8.0
+        positioning  step   no lead  displaced switch  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code
+                  0     0       366                 0      -134         0          66        66            66            66   15.0 ms       2.0
+                  1     1      1006                 0         6         0         406       406           406           406   15.0 ms       4.0
+                  2     0       366                 0      -134         0          66        12             2           120   17.7 ms       2.0
+                  3     1      1010                 4        10         0         410       160            66           652   21.2 ms       8.0
+                  4     0       504               138         4       138         204       138           138           338   18.3 ms       2.0
+                  5     1      1555               549       555       549         955       569           545          1429   24.6 ms       8.0
 
         wrote waves/s.svg
     "#]].assert_eq(&text);

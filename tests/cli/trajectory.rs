@@ -565,7 +565,7 @@ fn a_torque_from_outside_is_not_corrected() {
         "{text}"
     );
     let text = bench.succeed(&set("inertia_factor=[0.5,1]"));
-    let told = "\nthe feed-forward is told 0.5, 1 of the inertia of each axis\nmotors off ";
+    let told = "\nthe feed-forward is told 0.5, 1 of the inertia\nmotors off ";
     assert!(text.contains(told), "{text}");
 }
 

@@ -84,6 +84,8 @@ signals! { for Refinement as c;
         converges: Bit,
         /// The first division is over, and the second begins.
         refine: Bit,
+        /// The last division is over.
+        over: Bit,
         /// Δt1 and Δtd of the first order.
         first_order: U(c.time + 1),
         /// The divider is to begin.
@@ -118,6 +120,7 @@ impl Circuit for Refinement {
             take,
             converges,
             refine,
+            over,
             first_order,
             divide: take | refine,
             first_factor: refine.mux(q.error_amount, i.multiplicand),

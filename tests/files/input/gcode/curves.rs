@@ -149,7 +149,7 @@ fn splines_are_moves_where_they_are_asked_for() {
     let still = read("G1 X1 F60\nG5 X1 I0 J0 P0 Q0").unwrap();
     assert_eq!((still.moves.len(), still.zero_length), (1, 1));
     assert_eq!(read("G5 X0 I9 J0 P0 Q9 F60").unwrap().moves.len(), 1);
-    let far = read("G5 X0 I2e6 J0 P0 Q9 F60").unwrap_err().to_string();
+    let far = read("G5 X0 I2000000 J0 P0 Q9 F60").unwrap_err().to_string();
     assert!(
         far.starts_with("t:1: G5: a control point's X would be 2000000 mm"),
         "{far}"
