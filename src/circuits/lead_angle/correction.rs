@@ -10,7 +10,7 @@
 //!
 //! Error 27, position register 30 and overrun 31, the arithmetic 28 with a sequential
 //! multiplier-divider, and the [ratio logic](super::ratio_logic) to put the result on the grid. To
-//! second order the [refinement](super::refinement) has it divided twice.
+//! second order the [refinement] has it divided twice.
 
 use super::{CorrectionArithmetic, Function, RatioLogic, Refinement, Sign, StopError};
 use super::{correction_arithmetic, ratio_logic, refinement, stop_error};
