@@ -106,20 +106,9 @@ impl Cubic {
     /// 64 parts.
     #[must_use]
     pub fn nearest(&self, point: Point) -> Point {
-        const PARTS: u32 = 64;
         let ahead = |t: f64| dot(sub(self.point(t), point), self.derivative(t));
-        let mut best = self.points[0];
-        let mut try_at = |at: Point| {
-            if distance(at, point) < distance(best, point) {
-                best = at;
-            }
-        };
-        try_at(self.points[3]);
-        for part in 0..PARTS {
-            let ends = [part, part + 1].map(|at| f64::from(at) / f64::from(PARTS));
-            try_at(self.point(rise(ends, ahead)));
-        }
-        best
+        let turns = rises([0.0, 1.0], 64, ahead).map(|t| self.point(t));
+        nearest(point, self.points[3], turns)
     }
 
     /// The curve through points, of which there are two or more and none is the one before it: a
@@ -170,6 +159,25 @@ impl Cubic {
         };
         (0..spans).map(cubic).collect()
     }
+}
+
+/// The point of some that is nearest to a point.
+pub(crate) fn nearest(point: Point, first: Point, others: impl Iterator<Item = Point>) -> Point {
+    let off = |at: &Point| distance(*at, point);
+    others.fold(first, |best, at| match off(&at) < off(&best) {
+        true => at,
+        false => best,
+    })
+}
+
+/// [`rise`] in each of so many parts between two numbers.
+pub(crate) fn rises(
+    [from, to]: [f64; 2],
+    parts: u32,
+    of: impl Fn(f64) -> f64,
+) -> impl Iterator<Item = f64> {
+    let end = move |at: u32| from + (to - from) * f64::from(at) / f64::from(parts);
+    (0..parts).map(move |part| rise([part, part + 1].map(end), &of))
 }
 
 /// Where a function goes from below to above zero between two numbers, if it does; one of them if

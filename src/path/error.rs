@@ -65,7 +65,7 @@ pub enum Reason {
     #[error("is a spline")]
     Spline,
     /// The arc or spline does not begin or end where the path does.
-    #[error("the arc is {gap} mm off the path's points")]
+    #[error("the curve is {gap} mm off the path's points")]
     Gap {
         /// Distance in mm.
         gap: f64,
@@ -208,7 +208,7 @@ impl Reason {
             }
             Reason::Circle(CircleError::Radii { .. }) => "a centre as far from both".into(),
             Reason::Spline => "a line or an arc".into(),
-            Reason::Gap { .. } => "an arc from the end of the piece before to its own end".into(),
+            Reason::Gap { .. } => "a curve from the end of the piece before to its own end".into(),
             Reason::Tight { most, .. } => {
                 format!(
                     "{}, whose blends reach no farther than the radius",

@@ -1,8 +1,8 @@
 //! A helix: an arc that climbs along its axis in proportion to its angle.
 
 use super::circle::{Circle, CircleError};
-use super::cubic::rise;
-use super::vector::{add, distance, dot, scale, sub, unit};
+use super::cubic::{nearest, rises};
+use super::vector::{add, dot, scale, sub, unit};
 use crate::input::{COORDINATES, Point};
 use std::f64::consts::TAU;
 
@@ -70,17 +70,9 @@ impl Helix {
     /// The point of it that is nearest to a point.
     #[must_use]
     pub fn nearest(&self, point: Point) -> Point {
-        let parts = (self.circle.angle / TAU * 8.0).ceil();
+        let parts = (self.circle.angle / TAU * 8.0).ceil() as u32;
         let ahead = |part: f64| dot(sub(self.point(part), point), self.direction(part));
-        let turns = (0..parts as u32).map(|k| {
-            let ends = [k, k + 1].map(|at| f64::from(at) / parts);
-            self.point(rise(ends, ahead))
-        });
-        let off = |at: &Point| distance(*at, point);
-        let end = self.point(1.0);
-        turns.fold(
-            end,
-            |best, at| if off(&at) < off(&best) { at } else { best },
-        )
+        let turns = rises([0.0, 1.0], parts, ahead).map(|part| self.point(part));
+        nearest(point, self.point(1.0), turns)
     }
 }

@@ -5,7 +5,7 @@ use super::cubic::Cubic;
 use super::error::{PathError, Reason};
 use super::helix::Helix;
 use super::vector::{add, distance, dot, scale, sub, unit};
-use crate::input::{self, Drawing, Move, Point, ZERO_MM};
+use crate::input::{self, COORDINATES, Drawing, Move, Point, ZERO_MM};
 
 /// How far an arc may be off the path's points, as a part of its length and 1 mm.
 const GAP: f64 = 1e-6;
@@ -51,6 +51,33 @@ impl Course {
                 };
                 add(from, scale(way, along.clamp(0.0, 1.0)))
             }
+        }
+    }
+
+    /// Least and largest value of each coordinate, or beyond; of a line those of its end.
+    #[must_use]
+    pub fn extremes(&self, to: Point) -> [[f64; 2]; COORDINATES] {
+        match self {
+            Course::Line => to.map(|mm| [mm; 2]),
+            Course::Arc(circle) => circle.extremes(),
+            Course::Helix(helix) => helix.extremes(),
+            Course::Spline(cubic) => cubic.extremes(),
+        }
+    }
+
+    /// Its arc, for who runs lines and arcs; none of a line.
+    ///
+    /// # Errors
+    /// It is a helix or a spline.
+    pub fn arc(&self) -> Result<Option<&Circle>, Reason> {
+        match self {
+            Course::Line => Ok(None),
+            Course::Arc(circle) => Ok(Some(circle)),
+            Course::Helix(helix) => {
+                let rise = helix.rise.abs();
+                Err(CircleError::Helix { rise }.into())
+            }
+            Course::Spline(_) => Err(Reason::Spline),
         }
     }
 

@@ -257,10 +257,11 @@ impl Panel {
     fn legend(&self, mut group: Group, left: f64, across: f64, top: f64) -> Group {
         let width = |curve: &Curve| 6.8 * curve.name.chars().count() as f64;
         let mut at = left + 7.5 * self.title.chars().count() as f64 + 30.0;
-        // Many names stand closer, by shorter samples.
+        // Many names stand closer.
         let names: f64 = self.curves.iter().map(width).sum();
         let room = (left + across - at - names) / self.curves.len().max(1) as f64;
-        let sample_width = (room - 20.0).clamp(8.0, 24.0);
+        let room = room.clamp(22.0, 44.0);
+        let (sample_width, gap) = (room * 24.0 / 44.0, room * 20.0 / 44.0);
         for (curve, colour) in self.curves.iter().zip(self.colours()) {
             let mut sample = Line::new()
                 .set("x1", hundredths(at))
@@ -273,12 +274,12 @@ impl Panel {
                 sample = sample.set("stroke-dasharray", dashes);
             }
             let name = Text::new(curve.name.as_str())
-                .set("x", hundredths(at + sample_width + 6.0))
+                .set("x", hundredths(at + sample_width + gap * 0.3))
                 .set("y", hundredths(top + 14.0))
                 .set("font-size", 12)
                 .set("fill", "#333");
             group = group.add(sample).add(name);
-            at += sample_width + 20.0 + width(curve);
+            at += room + width(curve);
         }
         group
     }

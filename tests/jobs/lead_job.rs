@@ -2,12 +2,11 @@
 //! position logs.
 
 use motion_rtl::circuits::lead_angle::codes::{LARGEST, STAGES, code};
-use motion_rtl::circuits::lead_angle::{LeadFrom, Memory};
 use motion_rtl::input::position_log::{Columns, PositionLog, read};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning, play, positioner};
 use motion_rtl::jobs::lead_angle::replay::{replay, settings_for};
 use motion_rtl::jobs::lead_angle::settings::{
-    Comparing, LeadBy, Placement, Settings, Sign, Step, Targets,
+    Comparing, History, LeadBy, Placement, Settings, Sign, Step, Targets,
 };
 use motion_rtl::scenario::{Loaded, Scenario};
 use std::fmt::Write;
@@ -23,11 +22,8 @@ fn turntable() -> Settings {
     scenario.settings()
 }
 
-const SHIFT: LeadFrom = LeadFrom::Time(Memory::ShiftRegister);
-const RAM: LeadFrom = LeadFrom::Time(Memory::Ram);
-
 fn with_lead(settings: &Settings) -> Played {
-    let played = play(&positioner(settings, SHIFT), settings, ()).expect("it runs");
+    let played = play(&positioner(settings), settings, ()).expect("it runs");
     assert!(!played.lost && !played.unsettled);
     assert_eq!(played.positionings.len(), settings.positionings as usize);
     played
@@ -98,7 +94,10 @@ fn without_learning_the_load_change_stays_in_the_errors() {
     for step in &mut none.steps {
         step.lead_ms = 0.0;
     }
-    let by_speed = play(&positioner(&fixed, LeadFrom::Speed), &fixed, ()).expect("it runs");
+    let by_speed = with_lead(&Settings {
+        lead: LeadBy::Speed,
+        ..fixed.clone()
+    });
     let last = |played: &Played| -> Vec<f64> {
         let all = &played.positionings;
         all[all.len() - settings.steps.len()..]
@@ -156,7 +155,10 @@ fn the_literal_sign_diverges() {
 fn forms_and_placements_give_the_same_positionings() {
     let settings = turntable();
     let played = with_lead(&settings);
-    let ram = play(&positioner(&settings, RAM), &settings, ()).expect("it runs");
+    let ram = with_lead(&Settings {
+        history: History::Ram,
+        ..settings.clone()
+    });
     assert_eq!(ram.positionings, played.positionings);
     for placement in [Placement::Target, Placement::Halves] {
         let settings = Settings {
@@ -317,7 +319,7 @@ fn a_log_at_constant_speed_is_predicted_within_the_bound() {
         ..Settings::default()
     };
     let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings, SHIFT), &settings, &log, ()).unwrap();
+    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
     let signals = &replayed.signals;
     assert_eq!(signals.len(), 3, "{signals:?}");
     for (signal, ratio) in signals.iter().zip([2.0, 10.0, 1.0]) {
@@ -345,13 +347,7 @@ fn a_log_that_turns_on_gives_a_signal_a_turn() {
     settings.lead = LeadBy::Speed;
     settings.speed_lead_ms = 10.0;
     let settings = settings_for(&log, &settings);
-    let replayed = replay(
-        &positioner(&settings, settings.lead_from()),
-        &settings,
-        &log,
-        (),
-    )
-    .unwrap();
+    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
     let targets: Vec<_> = replayed
         .signals
         .iter()
@@ -380,11 +376,12 @@ fn a_log_is_taken_from_its_first_sample_on() {
     };
     let settings = Settings {
         steps: vec![step(-10_000), step(-20_000)],
+        history: History::Ram,
         time_out_ms: 50.0,
         ..Settings::default()
     };
     let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings, RAM), &settings, &log, ()).unwrap();
+    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
     let targets: Vec<_> = replayed
         .signals
         .iter()

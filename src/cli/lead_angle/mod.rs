@@ -15,10 +15,9 @@ use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
-use motion_rtl::circuits::lead_angle::{LeadFrom, Memory};
 use motion_rtl::hdl::{RunError, model_beside};
 use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
-use motion_rtl::jobs::lead_angle::settings::{LeadBy, Settings};
+use motion_rtl::jobs::lead_angle::settings::{History, LeadBy, Settings};
 use motion_rtl::plant::waves::Body;
 use motion_rtl::trace::Options;
 use summary::Summary;
@@ -88,13 +87,12 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 
 /// Plays a system without waves.
 fn alone(system: &System) -> Result<Played, Failure> {
-    let settings = &system.settings;
-    let lead_from = match system.conventional {
-        true => LeadFrom::Speed,
+    let settings = &Settings {
         // The RAM gives the same in every tick.
-        false => LeadFrom::Time(Memory::ShiftRegister),
+        history: History::ShiftRegister,
+        ..system.settings.clone()
     };
-    Ok(play(&positioner(settings, lead_from), settings, ())?)
+    Ok(play(&positioner(settings), settings, ())?)
 }
 
 /// Plays the settings' own system with its waves.
@@ -104,7 +102,7 @@ fn simulate(
     settings: &Settings,
     options: &Options,
 ) -> Result<(Played, Files), Failure> {
-    let circuit = positioner(settings, settings.lead_from());
+    let circuit = positioner(settings);
     let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;

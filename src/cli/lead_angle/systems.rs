@@ -33,8 +33,6 @@ pub struct System {
     pub name: &'static str,
     /// Its settings.
     pub settings: Settings,
-    /// The lead comes from the speed, as in Fig. 7.
-    pub conventional: bool,
     /// It is what the scenario asks for.
     pub own: bool,
 }
@@ -51,14 +49,20 @@ pub fn learner(sign: Sign, function: Function) -> &'static str {
 /// All of them, one of them the scenario's own.
 pub fn systems(settings: &Settings) -> Vec<System> {
     let learning = |sign, function| Settings {
+        lead: LeadBy::Time,
         learn: true,
         sign,
         function,
         ..settings.clone()
     };
     let fixed = Settings {
+        lead: LeadBy::Time,
         learn: false,
         ..settings.clone()
+    };
+    let by_speed = Settings {
+        lead: LeadBy::Speed,
+        ..fixed.clone()
     };
     let mut none = fixed.clone();
     for step in &mut none.steps {
@@ -70,35 +74,27 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         (LeadBy::Time, false) => FIXED,
         (LeadBy::Time, true) => learner(sign, function),
     };
-    let system = |name, settings, conventional| System {
+    let system = |name, settings| System {
         name,
         settings,
-        conventional,
         own: name == own,
     };
+    let (first, second) = (Function::FirstOrder, Function::SecondOrder);
     let mut all = vec![
-        system(NONE, none.clone(), false),
-        system(SWITCH, none, false),
-        system(BY_SPEED, fixed.clone(), true),
-        system(TUNED, fixed.clone(), true),
-        system(FIXED, fixed, false),
-        system(
-            LEARNING,
-            learning(Sign::Converging, Function::FirstOrder),
-            false,
-        ),
-        system(
-            SECOND_ORDER,
-            learning(Sign::Converging, Function::SecondOrder),
-            false,
-        ),
-        system(LITERAL, learning(Sign::Literal, function), false),
+        system(NONE, none.clone()),
+        system(SWITCH, none),
+        system(BY_SPEED, by_speed.clone()),
+        system(TUNED, by_speed),
+        system(FIXED, fixed),
+        system(LEARNING, learning(Sign::Converging, first)),
+        system(SECOND_ORDER, learning(Sign::Converging, second)),
+        system(LITERAL, learning(Sign::Literal, function)),
     ];
     if settings.completion == Completion::FixedTime {
         let mut stopped = learning(Sign::Converging, function);
         stopped.completion = Completion::Standstill;
         stopped.time_out_ms = stopped.time_out_ms.max(Settings::default().time_out_ms);
-        all.push(system(STANDSTILL, stopped, false));
+        all.push(system(STANDSTILL, stopped));
     }
     all
 }

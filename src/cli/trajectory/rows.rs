@@ -2,8 +2,8 @@
 
 use super::Job;
 use super::runs::{CircleError, Run, Runs};
+use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use motion_rtl::jobs::trajectory_controller::closed::Variants;
-use motion_rtl::jobs::trajectory_controller::each_axis::AXIS_NAMES;
 use motion_rtl::jobs::trajectory_controller::measure::Errors;
 use motion_rtl::jobs::trajectory_controller::profile::Profile;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;

@@ -4,7 +4,8 @@ use super::rows::{AxisRow, CorrectionRow, SegmentRow};
 use super::summary::Summary;
 use crate::cli::report::{Outcome, Report};
 use crate::cli::rows::{fixed, more, or_dash, table, worst};
-use motion_rtl::jobs::trajectory_controller::each_axis::{AXIS_NAMES, EachAxis};
+use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
+use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
 use std::fmt::{self, Write};
 
 /// Width of the column that says what a row is of.

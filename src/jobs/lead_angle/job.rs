@@ -4,7 +4,7 @@ use super::computer::{ControlComputer, word};
 use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings};
 use crate::circuits::lead_angle::codes::STAGES;
 use crate::circuits::lead_angle::compensator::In;
-use crate::circuits::lead_angle::{Compensator, LeadFrom, Variant, Widths};
+use crate::circuits::lead_angle::{Compensator, Variant, Widths};
 use crate::hdl::{At, Image, Observer, Sample, Simulator, Value, Watcher};
 use crate::plant::BrakedBody;
 use crate::plant::waves::{Body, BodySignals};
@@ -28,14 +28,13 @@ const PATIENCE_S: f64 = 600.0;
 /// The ports in of a compensator.
 pub(super) type Ports = In<Value>;
 
-/// The compensator of these settings, its lead from where it is said;
-/// [`Settings::lead_from`] is what they say themselves.
-pub fn positioner(settings: &Settings, lead_from: LeadFrom) -> Compensator {
+/// The compensator of these settings.
+pub fn positioner(settings: &Settings) -> Compensator {
     let steps = settings.steps.iter();
     let codes = steps.map(|step| settings.code(step.lead_ms).unwrap_or(0));
     Compensator {
         widths: WIDTHS,
-        lead_from,
+        lead_from: settings.lead_from(),
         variant: Variant {
             placement: settings.placement,
             comparing: settings.comparing,

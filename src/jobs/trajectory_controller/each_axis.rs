@@ -1,13 +1,10 @@
 //! A setting that is one number for all axes, or a list with one for each.
 
-use crate::input::COORDINATES;
+use crate::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use crate::settings::{Place, SettingError};
 use serde::Serialize;
 use serde::de::{Deserialize, Deserializer, SeqAccess, Visitor};
 use std::fmt;
-
-/// Names of the axes.
-pub const AXIS_NAMES: [&str; COORDINATES] = ["x", "y", "z"];
 
 /// A number for all axes, or one for each.
 #[derive(Debug, Clone, PartialEq, Serialize)]

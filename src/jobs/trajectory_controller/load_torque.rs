@@ -1,6 +1,6 @@
 //! Torques on the loads from outside: cutting forces, weights.
 
-use super::each_axis::AXIS_NAMES;
+use crate::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use crate::settings::{Place, SettingError, within};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;

@@ -4,7 +4,7 @@ use super::job::{Period, Played, Program};
 use super::segments::{Arc, Path, Segment};
 use crate::circuits::trajectory_controller::Widths;
 use crate::input::{COORDINATES, Point};
-use crate::path::cubic::rise;
+use crate::path::cubic::{rise, rises};
 use crate::path::vector::{add, distance, dot, norm, scale, sub};
 use std::array::from_fn;
 use std::f64::consts::TAU;
@@ -204,12 +204,9 @@ impl Segment {
             return vec![(along / (size * size)).clamp(from, to)];
         };
         if self.third != [0.0; COORDINATES] {
-            let parts = ((to - from) / arc.turn * 8.0).ceil().max(1.0);
+            let parts = ((to - from) / arc.turn * 8.0).ceil().max(1.0) as u32;
             let ahead = |at: f64| dot(sub(self.point(at), point), self.helical(&arc, at));
-            let turns = (0..parts as u32).map(|k| {
-                let ends = [k, k + 1].map(|at| from + (to - from) * f64::from(at) / parts);
-                rise(ends, ahead)
-            });
+            let turns = rises([from, to], parts, ahead);
             return turns.chain([from, to]).collect();
         }
         let turn = arc.turn / TAU * across.atan2(along).rem_euclid(TAU);

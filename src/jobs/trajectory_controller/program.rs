@@ -12,7 +12,7 @@ use super::speed_limits::spans;
 use crate::circuits::trajectory_controller::Widths;
 use crate::input::{COORDINATES, Point, ZERO_MM};
 use crate::path::error::{PathError, Reason};
-use crate::path::pieces::{Course, Piece};
+use crate::path::pieces::Piece;
 use crate::path::record::Record;
 use crate::plant::TwoMassParameters;
 use crate::settings::{Place, SettingError};
@@ -136,13 +136,7 @@ impl Program {
 /// Checks that a path stays at its z.
 fn flat(start: Point, pieces: &[Piece]) -> Result<(), PathError> {
     for (piece, of) in pieces.iter().enumerate() {
-        let [low, high] = match &of.course {
-            Course::Line => [of.to[2]; 2],
-            Course::Arc(circle) => circle.extremes()[2],
-            Course::Helix(helix) => helix.extremes()[2],
-            Course::Spline(cubic) => cubic.extremes()[2],
-        };
-        let leaves = [low, high].map(|z| z - start[2]);
+        let leaves = of.course.extremes(of.to)[2].map(|z| z - start[2]);
         if let Some(&off) = leaves.iter().find(|off| off.abs() > ZERO_MM) {
             return Err(PathError {
                 piece,

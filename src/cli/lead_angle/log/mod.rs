@@ -85,7 +85,7 @@ fn simulate(
     log: &PositionLog,
     options: &Options,
 ) -> Result<(Replayed, Files), Failure> {
-    let circuit = positioner(settings, settings.lead_from());
+    let circuit = positioner(settings);
     let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
     let ticks = ticks(log, settings.clock_hz);
     let scenario = (&job.loaded, job.stem.as_str());

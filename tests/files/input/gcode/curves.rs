@@ -154,6 +154,13 @@ fn splines_are_moves_where_they_are_asked_for() {
         far.starts_with("t:1: G5: a control point's X would be 2000000 mm"),
         "{far}"
     );
+    // One of a quarter's circle of 10 mm, which is many chords.
+    let quarter = "G5 X-10 Y10 I0 J5.5228475 P5.5228475 Q0 F600";
+    let chords = read_with("t", quarter.as_bytes(), &Options::default()).unwrap();
+    assert_eq!(
+        [read(quarter).unwrap().moves.len(), chords.moves.len()],
+        [1, 59]
+    );
     // NURBS are chords whatever is asked for, and the planner of other circuits takes no splines.
     let nurbs = read(LOOP[0]).unwrap();
     assert!(nurbs.moves.iter().all(|step| step.course == Course::Line));
