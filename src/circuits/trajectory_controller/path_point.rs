@@ -14,10 +14,10 @@
 
 use super::widths::PointWidths;
 use super::{
-    ArcAngle, AxisRow, Cordic, PointSequencer, SegmentSearch, SegmentStore, arc_angle, axis_row,
-    cordic, point_sequencer, segment_search, segment_store,
+    ArcAngle, AxisRow, PointSequencer, SegmentSearch, SegmentStore, arc_angle, axis_row,
+    point_sequencer, segment_search, segment_store,
 };
-use crate::circuits::blocks::{CoefficientControl, coefficient_control};
+use crate::circuits::blocks::{CoefficientControl, Cordic, coefficient_control, cordic};
 use crate::hdl::prelude::*;
 
 /// Names of the axes.
@@ -48,7 +48,14 @@ impl PathPoint {
     pub const fn latency(&self) -> u64 {
         let widths = self.widths;
         let measure = ArcAngle { widths }.latency() + (widths.angle as u64 - 3);
-        self.line_latency() + measure + Cordic { widths }.latency() + 2
+        self.line_latency() + measure + self.cordic().latency() + 2
+    }
+
+    const fn cordic(&self) -> Cordic {
+        Cordic {
+            radius: self.widths.radius,
+            angle: self.widths.angle,
+        }
     }
 
     const fn control(&self) -> CoefficientControl {
@@ -94,7 +101,7 @@ signals! { for PathPoint as c;
         /// Length to angle.
         pub measure: Part<ArcAngle>(ArcAngle { widths: c.widths }),
         /// Angle to point.
-        pub cordic: Part<Cordic>(Cordic { widths: c.widths }),
+        pub cordic: Part<Cordic>(c.cordic()),
         /// Which bit the axes are at.
         pub control: Part<CoefficientControl>(c.control()),
         /// The axes.
@@ -144,6 +151,7 @@ impl Circuit for PathPoint {
         });
         let cordic = p.cordic.settle(cordic::In {
             start: p.sequencer.q.turn,
+            halt: Bit::low(),
             radius: p.sequencer.q.radius,
             angle: measure.q.angle,
         });

@@ -72,7 +72,7 @@ impl Operations {
 /// An arc from rest to rest by the conventional method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conventional {
-    circle: Circle,
+    pub(super) circle: Circle,
     /// v: speed between the ramps, in mm/s.
     pub speed: f64,
     /// Samples of each ramp.
@@ -80,7 +80,7 @@ pub struct Conventional {
     /// Samples between the ramps.
     pub samples: u64,
     /// Angle that a ramp takes.
-    ramp_angle: f64,
+    pub(super) ramp_angle: f64,
     /// Angle of a sample between the ramps.
     step: f64,
 }
@@ -228,19 +228,49 @@ pub fn difference_engines() -> Result<Operations, EngineError> {
     let mut operations = Operations::default();
     for coordinate in 0..3 {
         let model = hdl::model(&Widths::FULL.engine(coordinate))?;
+        operations.additions += Hardware::of(&model).adders;
+    }
+    Ok(operations)
+}
+
+/// What a circuit is made of, without what nothing needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Hardware {
+    /// Adders, subtractors and comparators.
+    pub adders: u64,
+    /// Bits of their operands.
+    pub adder_bits: u64,
+    /// Bits of its registers; memories are none.
+    pub flip_flops: u64,
+}
+
+impl Hardware {
+    /// Counts it in the netlist of a circuit.
+    #[must_use]
+    pub fn of(model: &hdl::Model) -> Self {
         let flat = model.flat();
         let mut seen = vec![false; flat.leaves.len()];
         for leaf in model.ports_out() {
             seen[leaf] = true;
         }
-        let nodes = passes::all(flat, &seen).nodes;
-        let adders = nodes.iter().filter(|node| {
-            matches!(
-                node.op,
-                Op::Add(..) | Op::Subtract(..) | Op::Below(..) | Op::BelowSigned(..)
-            )
-        });
-        operations.additions += adders.count() as u64;
+        let flat = passes::all(flat, &seen);
+        let registers = flat
+            .registers
+            .iter()
+            .map(|register| u64::from(register.width));
+        let mut hardware = Hardware {
+            flip_flops: registers.sum(),
+            ..Hardware::default()
+        };
+        for node in &flat.nodes {
+            let bits = match node.op {
+                Op::Add(..) | Op::Subtract(..) => node.width,
+                Op::Below(a, _) | Op::BelowSigned(a, _) => flat.node(a).width,
+                _ => continue,
+            };
+            hardware.adders += 1;
+            hardware.adder_bits += u64::from(bits);
+        }
+        hardware
     }
-    Ok(operations)
 }
