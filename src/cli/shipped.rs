@@ -47,7 +47,7 @@ macro_rules! input {
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 12] = [
+pub const SHIPPED: [Shipped; 13] = [
     shipped!(
         "waves/machine.toml",
         "a bracket in G-code on steppers, servos and a pen lift, by all five circuits; runs by default",
@@ -97,6 +97,10 @@ pub const SHIPPED: [Shipped; 12] = [
         "waves/cam.toml",
         "a cam of 3600 short chords in G-code, run at feed, on the trajectory controller",
         input: "waves/cam.ngc"
+    ),
+    shipped!(
+        "waves/saddle.toml",
+        "a seam taught by points in space, as one spline, on the trajectory controller"
     ),
     shipped!(
         "waves/pocket.toml",

@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressFinish};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
 use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
 use motion_rtl::plan::{FEED_RANGE, PlanError};
-use motion_rtl::scenario::Loaded;
+use motion_rtl::scenario::{Loaded, Runnable};
 use std::path::{Path, PathBuf};
 
 /// What to run.
@@ -40,6 +40,7 @@ impl Input {
             strict: self.strict,
             most_lines: self.most_lines.unwrap_or(Options::MOST_LINES),
             zeros: zeros.map_err(|error| loaded.refuse(error))?,
+            splines: loaded.scenario.circuit() == Runnable::TrajectoryController,
         })
     }
 }
@@ -207,6 +208,10 @@ pub fn plan_fault(loaded: &Loaded, drawing: &Drawing, error: PlanError) -> Fault
         } => {
             let (problem, allowed) = (format!("is {value} mm"), format!("-{reach} to {reach} mm"));
             drawing_fault(drawing, line, coordinate, problem, allowed)
+        }
+        PlanError::Spline { line } => {
+            let (problem, allowed) = ("is a spline".to_owned(), "lines and arcs".to_owned());
+            drawing_fault(drawing, line, "G5", problem, allowed)
         }
         PlanError::Radius { line, radius_mm } => {
             let problem = format!("has a radius of {radius_mm} mm");

@@ -74,6 +74,7 @@ fn the_turntable_shows_what_the_circuit_is_for() {
     let learning = system(&summary, "learning");
     let phases = list(&summary, "phases");
     assert_eq!(phases.len(), 2);
+    let mut orders = Vec::new();
     for (phase, loaded) in phases.iter().zip([false, true]) {
         assert_eq!(phase["loaded"], loaded);
         assert_eq!(list(phase, "steps").len(), 4);
@@ -89,8 +90,25 @@ fn the_turntable_shows_what_the_circuit_is_for() {
             let after = (0..6).find(|&from| within[from..].iter().all(|&one| one));
             assert_eq!(step["settled_after"], json!(after), "{within:?}");
             assert!(after.is_some_and(|after| after > 0), "{step}");
+            let by_order = &step["settled_by_order"];
+            assert_eq!(by_order["first"], step["settled_after"]);
+            orders.push(json!([by_order["first"], by_order["second"]]));
         }
     }
+    // To first and to second order, step by step, with either load.
+    assert_eq!(
+        json!(orders),
+        json!([
+            [3, 2],
+            [1, 1],
+            [3, 2],
+            [3, 2],
+            [2, 1],
+            [2, 2],
+            [3, 2],
+            [3, 2]
+        ])
+    );
     // The last of each step, by a limit that does not come from the summary: a code at 90000
     // counts/s is 5 CKs of 0.1 ms, 45 counts.
     for row in &list(&summary, "positionings")[44..] {
@@ -141,6 +159,46 @@ fn the_literal_sign_drives_the_lead_times_to_their_ends() {
 }
 
 #[test]
+fn the_second_order_is_a_system_beside_the_first_and_can_be_the_own_one() {
+    let bench = small();
+    let first = bench.json(&["run", "s.toml", "--no-vcd"]);
+    let second = bench.json(&[
+        "run",
+        "s.toml",
+        "--no-vcd",
+        "--set",
+        "function=second_order",
+    ]);
+    for (summary, function, own) in [
+        (&first, "first_order", "learning"),
+        (&second, "second_order", "second order"),
+    ] {
+        assert_eq!(summary["function"], function);
+        assert_eq!(summary["lead_times_of"], own);
+        let systems = list(summary, "systems");
+        let of = |name: &str| &systems[system(summary, name)]["own"];
+        assert_eq!((of(own) == true, systems.len()), (true, 7));
+        let owns = systems.iter().filter(|system| system["own"] == true);
+        assert_eq!(owns.count(), 1);
+    }
+    // What the systems come to does not depend on which of them is in the waves; the last, with the
+    // literal sign, is of the scenario's order.
+    let errors = |summary: &Value| {
+        let rows = list(summary, "positionings").iter();
+        let errors = rows.map(|row| list(row, "error_counts")[..6].to_vec());
+        errors.collect::<Vec<_>>()
+    };
+    assert_eq!(errors(&first), errors(&second));
+    let leads = |summary: &Value| {
+        let rows = list(summary, "positionings").iter();
+        rows.map(|row| number(row, "/lead_ms")).collect::<Vec<_>>()
+    };
+    // The third positioning is the first that can have learned.
+    assert_eq!(leads(&first)[..2], leads(&second)[..2]);
+    assert!(leads(&first)[2] < leads(&second)[2]);
+}
+
+#[test]
 fn the_summary_has_these_keys() {
     let summary = small().json(&["run", "s.toml", "--no-vcd"]);
     let expected = [
@@ -151,6 +209,7 @@ fn the_summary_has_these_keys() {
         "complaints",
         "completion",
         "files",
+        "function",
         "history",
         "input",
         "lead_times_of",
@@ -196,33 +255,35 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
     let text = small().succeed(&["run", "s.toml", "--no-vcd", "--segments"]);
     expect![[r#"
         s on lead_angle: 6 positionings, 225442 ticks, 1.127 s at 200000 Hz, CK of 20 ticks
-        history shift_register, lead on position, comparing crossing, complete by standstill, learning, sign converging
+        history shift_register, lead on position, comparing crossing, complete by standstill, learning to first order, sign converging
 
         stop error in counts   largest       rms  missed  timed out
         no lead                   1555     910.3       0          0
+        displaced switch           549     231.1       0          0
         by speed                   555     239.5       0          0
         tuned                      549     231.1       0          0
         fixed lead                 955     464.6       0          0
         learning                   569     299.4       0          0  in the waves
+        second order               545     285.7       0          0
         literal sign              1429     678.8       0          0
 
         positionings 0 to 3: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  by speed     tuned  fixed lead  learning  literal sign      lead  one code  settled after
-           0      3000   20000       366      -134         0          66        12           120   17.7 ms       2.0          never
-           1         0   40000      1010        10         0         410       160           652   21.2 ms       8.0          never
+        step    target   speed   no lead  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
+           0      3000   20000       366      -134         0          66        12             2           120   17.7 ms       2.0          never        never, 1
+           1         0   40000      1010        10         0         410       160            66           652   21.2 ms       8.0          never    never, never
 
         positionings 4 to 5, with the other load: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  by speed     tuned  fixed lead  learning  literal sign      lead  one code  settled after
-           0      3000   20000       504         4       138         204       138           338   18.3 ms       2.0          never
-           1         0   40000      1555       555       549         955       569          1429   24.6 ms       8.0          never
+        step    target   speed   no lead  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
+           0      3000   20000       504         4       138         204       138           138           338   18.3 ms       2.0          never    never, never
+           1         0   40000      1555       555       549         955       569           545          1429   24.6 ms       8.0          never    never, never
 
-        positioning  step   no lead  by speed     tuned  fixed lead  learning  literal sign      lead  one code
-                  0     0       366      -134         0          66        66            66   15.0 ms       2.0
-                  1     1      1006         6         0         406       406           406   15.0 ms       4.0
-                  2     0       366      -134         0          66        12           120   17.7 ms       2.0
-                  3     1      1010        10         0         410       160           652   21.2 ms       8.0
-                  4     0       504         4       138         204       138           338   18.3 ms       2.0
-                  5     1      1555       555       549         955       569          1429   24.6 ms       8.0
+        positioning  step   no lead  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code
+                  0     0       366      -134         0          66        66            66            66   15.0 ms       2.0
+                  1     1      1006         6         0         406       406           406           406   15.0 ms       4.0
+                  2     0       366      -134         0          66        12             2           120   17.7 ms       2.0
+                  3     1      1010        10         0         410       160            66           652   21.2 ms       8.0
+                  4     0       504         4       138         204       138           138           338   18.3 ms       2.0
+                  5     1      1555       555       549         955       569           545          1429   24.6 ms       8.0
 
         wrote waves/s.svg
     "#]].assert_eq(&text);
@@ -230,6 +291,59 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
     let (start, end) = text.split_at(text.find("positioning  step").unwrap());
     let files = &end[end.find("wrote").unwrap()..];
     assert_eq!(short, start.to_owned() + files);
+}
+
+/// The simplest conventional system: as good as its distances are, up to the load change.
+#[test]
+fn displaced_switches_stand_as_far_off_as_the_first_stops_went() {
+    let run = ["run", "waves/turntable.toml", "--no-vcd"];
+    let summary = Bench::new().json(&run);
+    let [none, switch] = ["no lead", "displaced switch"].map(|name| system(&summary, name));
+    let phases = list(&summary, "phases");
+    let error = |step: &Value, system: usize| step["last_error_counts"][system].as_i64().unwrap();
+    for (before, after) in list(&phases[0], "steps")
+        .iter()
+        .zip(list(&phases[1], "steps"))
+    {
+        assert!(error(before, switch).abs() <= 30, "{before}");
+        let more = error(after, none) - error(before, none);
+        let off = error(after, switch) - error(before, switch);
+        assert!(more > 80 && (more - off).abs() <= 10, "{after}: {more}");
+    }
+    // One distance for all is right for one speed.
+    let summary = Bench::new().json(&[&run[..], &["--set", "switch_counts=1200"]].concat());
+    for row in list(&summary, "positionings") {
+        let [none, switch] = [none, switch].map(|system| row["error_counts"][system].as_i64());
+        let moved = none.unwrap() - switch.unwrap();
+        assert!((moved - 1200).abs() <= 20, "{row}");
+    }
+}
+
+/// Fig. 7 in the waves, with what it measures on top.
+#[test]
+fn the_conventional_system_can_be_in_the_waves() {
+    let bench = small();
+    let run = ["run", "s.toml", "--to", "3000", "--set", "lead=speed"];
+    let summary = bench.json(&run);
+    assert_eq!(summary["lead"], "speed");
+    let own = &summary["systems"][system(&summary, "by speed")];
+    assert_eq!(own["own"], true);
+    assert_eq!(system(&summary, "by speed"), 2);
+    let other = small().json(&["run", "s.toml", "--no-vcd"]);
+    assert_eq!(summary["positionings"], other["positionings"]);
+    let save = bench.read("waves/s.gtkw");
+    let overview = save.split("-overview\n").nth(1).unwrap();
+    let overview = overview.split("-ports in\n").next().unwrap();
+    assert!(
+        overview.contains("conventional_compensator.lead_source.speed["),
+        "{overview}"
+    );
+    assert_eq!(overview.matches("conventional_compensator.").count(), 11);
+    let text = bench.succeed(&run);
+    assert!(
+        text.contains("complete by standstill, lead by speed\n"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -559,7 +673,34 @@ fn settings_are_checked_and_named_with_their_line() {
         refused("sign = \"both\"\n"),
         "error: s.toml:2: sign: unknown variant `both`; allowed: `converging` or `literal`\n"
     );
+    assert_eq!(
+        refused("lead = \"way\"\n"),
+        "error: s.toml:2: lead: unknown variant `way`; allowed: `time` or `speed`\n"
+    );
+    assert_eq!(
+        refused("targets = \"turn\"\n"),
+        "error: s.toml:2: targets: unknown variant `turn`; allowed: `absolute` or `relative`\n"
+    );
+    assert_eq!(
+        refused("targets = \"relative\"\n"),
+        "error: s.toml:7: step 1: target: is 0; allowed: a way other than 0\n"
+    );
+    assert_eq!(
+        refused("switch_counts = 9000\n"),
+        "error: s.toml:2: switch_counts: is 9000; allowed: 0 to 8999\n"
+    );
+    assert_eq!(
+        refused("function = \"quadratic\"\n"),
+        "error: s.toml:2: function: unknown variant `quadratic`; allowed: `first_order` or \
+         `second_order`\n"
+    );
     let bench = small();
+    let one = "step=[{target=9000,speed_counts_per_s=20000}]";
+    assert_eq!(
+        refusal(&bench, &["s.toml", "--set", one]),
+        "error: --set: step: is 1 step; allowed: 2 to 16, or targets = \"relative\", or \
+         positionings = 1\n"
+    );
     let set = ["s.toml", "--set", "common_time=true"];
     assert_eq!(
         refusal(&bench, &set),

@@ -60,9 +60,11 @@ fn the_circle_is_what_closed_forms_say() {
             "counts_per_mm",
             "exact",
             "files",
+            "inertia_factor",
             "input",
             "k1_per_s",
             "k2_per_s",
+            "load_torque",
             "loading_ticks",
             "path",
             "period_ms",
@@ -376,6 +378,8 @@ fn every_key_of_a_scenario_is_taken() {
          jerk_time_ms = 10\ncorner_mm_per_s = 0\nk1_per_s = 40\nk2_per_s = 90\n\
          allow_overshoot = true\nrounding = \"floor\"\ncorrection = \"none\"\n\
          position_gain_per_s = 20\nspeed_hz = 15\nintegral_ms = 0\nvcd_ticks = 100\n\
+         inertia_factor = [1, 0.9, 1]\n\
+         [[load_torque]]\naxis = \"y\"\ntorque_nm = 0.1\nfrom_s = 0.1\nto_s = 0.2\n\
          [[axis]]\nmax_torque_nm = 5\nmotor_inertia_kg_m2 = 1e-3\nload_inertia_kg_m2 = 1e-3\n\
          stiffness_nm_per_rad = 300\ncounts_per_rev = 5000\nmm_per_rev = 10\n\
          damping_nm_s_per_rad = 0.02\n";
@@ -422,6 +426,14 @@ fn every_key_of_a_scenario_is_taken() {
         "position_gain_per_s=10",
         "speed_hz=10",
         "integral_ms=100",
+        "axis_acceleration_mm_per_s2=300",
+        "axis_acceleration_mm_per_s2=[1e5,300,1e5]",
+        "k1_per_s=[40,38,40]",
+        "k2_per_s=[90,95,90]",
+        "inertia_factor=1",
+        "load_torque=[]",
+        "load_torque=[{axis=\"y\",torque_nm=0.1,from_s=0.1,to_s=0.19}]",
+        "load_torque=[{axis=\"y\",torque_nm=0.1,to_s=0.2}]",
         "rounding=nearest",
     ] {
         let changed = bench.json(&["run", "all.toml", "--no-vcd", "--set", set]);
@@ -482,6 +494,81 @@ pub const MACHINE: &str = "max_torque_nm = 10\nmotor_inertia_kg_m2 = 1e-3\n\
      load_inertia_kg_m2 = 2e-3\nstiffness_nm_per_rad = 200\ncounts_per_rev = 10_000\n\
      mm_per_rev = 10\n";
 
+/// The time to the feed, and what the axes are allowed, are the acceleration along the path.
+#[test]
+fn the_acceleration_is_told_in_other_ways() {
+    let bench = with("[[piece]]\nto_mm = [8, 6, 0]\n");
+    let run = ["run", "s.toml", "--no-vcd", "--set"];
+    for (set, acceleration) in [
+        ("rapid_mm_per_s=300", 2000.0),
+        ("acceleration_time_ms=50", 1000.0),
+        ("axis_acceleration_mm_per_s2=[800,900]", 1000.0),
+        ("axis_acceleration_mm_per_s2=480", 600.0),
+        ("axis_acceleration_mm_per_s2=[8e5,9e5]", 2000.0),
+    ] {
+        let summary = bench.json(&[&run[..], &[set]].concat());
+        close(
+            number(&summary, "/plan/acceleration_mm_per_s2"),
+            acceleration,
+            1e-6,
+        );
+        let seconds = 10.0 / 50.0 + 50.0 / acceleration;
+        close(number(&summary, "/plan/seconds"), seconds, 1e-6);
+    }
+}
+
+/// Models of different gains leave a line, and the vector has most of that.
+#[test]
+fn each_axis_may_have_its_own_gains() {
+    let bench = with("[[piece]]\nto_mm = [24, 18, 0]\n");
+    let run = ["run", "s.toml", "--no-vcd", "--set", "k1_per_s=[50,40]"];
+    let summary = bench.json(&run);
+    assert_eq!(summary["k1_per_s"], json!([50.0, 40.0]));
+    assert_eq!(summary["k2_per_s"], json!(200.0));
+    // F·sin·cos of the lags' difference, but for the words of the gains.
+    let exact = 50.0 * 0.48 * (1.0 / 40.0 - 1.0 / 50.0) * 1e3;
+    let contour = |correction| number(of(&summary, correction), "/model/contour_max_um");
+    close(contour("none"), exact, 0.01);
+    assert!(contour("vector") < 0.5 * exact, "{}", contour("vector"));
+    let text = bench.succeed(&run);
+    assert!(text.contains("; K1 = 50, 40/s, K2 = 200/s; "), "{text}");
+}
+
+/// Across a line the load gives way by the same amount whatever is added to the commands.
+#[test]
+fn a_torque_from_outside_is_not_corrected() {
+    let bench = with("[[piece]]\nto_mm = [40, 0, 0]\n");
+    let run = ["run", "s.toml", "--no-vcd", "--set"];
+    let set = |value| [&run[..], &[value]].concat();
+    let torque = "load_torque=[{axis=\"y\",torque_nm=0.5,from_s=0.3}]";
+    let summary = bench.json(&set(torque));
+    assert_eq!(summary["load_torque"][0]["axis"], "y");
+    assert_eq!(summary["load_torque"][0]["to_s"], Value::Null);
+    let contour = |correction| number(of(&summary, correction), "/load/contour_max_um");
+    let plain = contour("none");
+    // What the loops leave of the torque, and what the shaft gives way by.
+    close(plain, 45.8, 0.03);
+    for correction in ["steady", "vector"] {
+        near(contour(correction), plain, 1.5);
+        let row = of(&summary, correction);
+        assert!(number(row, "/model/contour_max_um") < 0.01, "{row}");
+        assert!(number(row, "/axes/0/off_model_um") < 12.0, "{row}");
+        let off = number(row, "/axes/1/off_model_um");
+        // What the shaft gives way by, the load is further off.
+        near(plain - off, 0.5 / 200.0 * 10_000.0 / TAU, 2.0);
+    }
+    let text = bench.succeed(&set(torque));
+    assert!(
+        text.contains(
+            "\na torque of 0.5 Nm on the load of y from 0.3 s on\nmotors off their models by up to x "
+        ),
+        "{text}"
+    );
+    let text = bench.succeed(&set("inertia_factor=[0.5,1]"));
+    let told = "\nthe feed-forward is told 0.5, 1 of the inertia of each axis\nmotors off ";
+    assert!(text.contains(told), "{text}");
+}
+
 #[test]
 fn a_torque_that_is_not_enough_is_said() {
     let weak = MACHINE.replace("max_torque_nm = 10", "max_torque_nm = 1");
@@ -509,4 +596,137 @@ fn the_overview_is_whole() {
         .filter(|line| line.contains("trajectory_controller."));
     // Sixteen, and two states by name.
     assert_eq!(rows.count(), 18, "{overview}");
+}
+
+#[test]
+fn splines_of_a_program_are_run_as_curves() {
+    // A circle of 10 mm in four parts, entered and left in its tangent; the fourth part leaves out
+    // what goes on from the third.
+    let program = "G17 G21 G90\nG1 Y10 F6000\nG5 X-10 Y20 I0 J5.5228475 P5.5228475 Q0\n\
+         G5 X-20 Y10 I-5.5228475 J0 P0 Q5.5228475\nX-10 Y0 P-5.5228475 Q0\nX0 Y10 P0 Q-5.5228475\n\
+         G1 Y20\nM2\n";
+    let bench = with("input = \"l.ngc\"\nacceleration_mm_per_s2 = 2000\ncorner_mm_per_s = 1\n");
+    bench.write("l.ngc", program);
+    let summary = bench.json(&["run", "s.toml", "--out", "o"]);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(summary["warnings"], json!([]));
+    assert_eq!(summary["plan"]["stops"], 0);
+    let segments = list(&summary, "segments");
+    // As many a quarter as its curvature asks for, of the quarter's line each.
+    for line in 3..=6 {
+        let own = segments.iter().filter(|row| row["line"] == line);
+        let own: Vec<_> = own.collect();
+        assert_eq!(own.len(), 18, "{line}");
+        for row in own {
+            assert_eq!(row["kind"], "spline");
+            near(number(row, "/radius_mm"), 10.0, 0.2);
+            near(number(row, "/speed_mm_per_s"), 100.0, 0.01);
+        }
+    }
+    near(number(&summary, "/path/length_mm"), 20.0 + 10.0 * TAU, 0.02);
+    // The errors are those of the circle, as its closed forms say but for the periods of 1 ms.
+    let [none, _] = closed_forms(10.0, 100.0, [50.0, 200.0]);
+    let model = |correction: &str, key: &str| {
+        number(
+            of(&summary, correction),
+            &format!("/model/contour_{key}_um"),
+        )
+    };
+    close(model("none", "max"), none, 0.15);
+    assert!(model("vector", "max") < none / 2.0);
+    assert!(model("vector", "rms") < model("none", "rms") / 5.0);
+    // The prior art knows arcs only.
+    assert_eq!(model("steady", "max"), model("none", "max"));
+    assert!(bench.read("o/s.svg").contains("ideal"));
+}
+
+#[test]
+fn taught_points_are_joined_by_one_curve_in_space() {
+    // A closed loop that rises and falls, with a line to it.
+    let mut text = String::from("[[piece]]\nto_mm = [20, 0, 5]\n");
+    for k in 1..=12 {
+        let (sin, cos) = (TAU * f64::from(k) / 12.0).sin_cos();
+        let to = [
+            20.0 * cos,
+            20.0 * sin,
+            5.0 * (2.0 * TAU * f64::from(k) / 12.0).cos(),
+        ];
+        let to = to.map(|mm| (mm * 1e3).round() / 1e3);
+        text.push_str(&format!("[[piece]]\nto_mm = {to:?}\nspline = true\n"));
+    }
+    let bench = with(&format!("start_mm = [20, -10, 5]\n{text}"));
+    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(summary["axes"], 3);
+    let segments = list(&summary, "segments");
+    let of_piece = |piece: usize| segments.iter().filter(move |row| row["piece"] == piece);
+    assert!(of_piece(0).all(|row| row["kind"] == "line"));
+    for piece in 1..=12 {
+        assert!(of_piece(piece).count() > 2, "{piece}");
+        assert!(
+            of_piece(piece).all(|row| row["kind"] == "spline"),
+            "{piece}"
+        );
+    }
+    // Where points are it does not slow down, nor where the line meets it.
+    for row in &segments[1..] {
+        let entry = number(row, "/entry_limit_mm_per_s");
+        near(entry, number(row, "/speed_limit_mm_per_s"), 2.0);
+    }
+    let rms = |correction: &str| number(of(&summary, correction), "/model/contour_rms_um");
+    assert!(
+        rms("vector") < rms("none") / 3.0,
+        "{} {}",
+        rms("vector"),
+        rms("none")
+    );
+    for row in list(&summary, "corrections") {
+        for (axis, end) in [0, 10_000, 0].into_iter().enumerate() {
+            let seen = whole(row, &format!("/axes/{axis}/end_position"));
+            assert!((seen - end).abs() <= 2, "{row}");
+        }
+        assert!(number(row, "/model/end_um") < 1.0, "{row}");
+    }
+}
+
+#[test]
+fn a_helix_is_a_segment_a_turn() {
+    let program = "G17 G21 G90\nG1 X20 F6000\nG3 X20 Z4 I0 J10 P2\nG1 X40\nM2\n";
+    let bench = with("input = \"l.ngc\"\n");
+    bench.write("l.ngc", program);
+    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    assert_eq!(
+        (&summary["complaints"], &summary["axes"]),
+        (&json!([]), &json!(3))
+    );
+    let segments = list(&summary, "segments");
+    let turns: Vec<_> = segments.iter().filter(|row| row["line"] == 3).collect();
+    assert_eq!(turns.len(), 2);
+    for turn in turns {
+        assert_eq!(turn["kind"], "helix");
+        near(
+            number(turn, "/length_mm"),
+            (20.0 * TAU / 2.0).hypot(2.0),
+            1e-6,
+        );
+        // (r² + h²)/r, h being what it climbs a radian.
+        let climb = 2.0 / TAU;
+        near(
+            number(turn, "/radius_mm"),
+            10.0 + climb * climb / 10.0,
+            1e-9,
+        );
+    }
+    // Around it is a circle, along its axis a line.
+    let [none, _] = closed_forms(10.0, 100.0, [50.0, 200.0]);
+    let model = |correction: &str| number(of(&summary, correction), "/model/contour_rms_um");
+    close(model("none"), none, 0.3);
+    assert!(model("vector") < none / 5.0, "{}", model("vector"));
+    for row in list(&summary, "corrections") {
+        assert_eq!(row["circle"], Value::Null);
+        for (axis, end) in [40_000, 0, 4_000].into_iter().enumerate() {
+            let seen = whole(row, &format!("/axes/{axis}/end_position"));
+            assert!((seen - end).abs() <= 2, "{row}");
+        }
+    }
 }

@@ -9,7 +9,7 @@ use motion_rtl::hdl::{self, RunError};
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::beside::{RECORDS, play, records};
 use motion_rtl::jobs::arc_generator::bounds::conventional_error;
-use motion_rtl::jobs::arc_generator::conventional::{Conventional as Method, Hardware};
+use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
 use motion_rtl::jobs::arc_generator::job::{Played, arc_generator};
 use motion_rtl::jobs::arc_generator::prepared::Shape;
 use motion_rtl::path::vector::distance;
@@ -154,14 +154,14 @@ pub struct Row {
 
 impl Row {
     fn of(model: &hdl::Model, played: &Played, [error, bound]: [f64; 2]) -> Self {
-        let hardware = Hardware::of(model);
+        let cost = model.cost();
         let needed = played.needed;
         let there = |ticks: u64| (ticks > 0).then_some(ticks);
         Row {
             circuit: model.name(),
-            adders: hardware.adders,
-            adder_bits: hardware.adder_bits,
-            flip_flops: hardware.flip_flops,
+            adders: cost.adders,
+            adder_bits: cost.adder_bits,
+            flip_flops: cost.register_bits,
             ticks_straight: there(needed.straight),
             ticks_arc: there(needed.arc),
             ticks_change: there(needed.change),

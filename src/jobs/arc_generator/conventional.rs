@@ -6,7 +6,7 @@
 
 use super::prepare::Timing;
 use crate::circuits::arc_generator::Widths;
-use crate::engine::{EngineError, Op, passes};
+use crate::engine::EngineError;
 use crate::hdl;
 use crate::input::Point;
 use crate::path::circle::Circle;
@@ -228,49 +228,7 @@ pub fn difference_engines() -> Result<Operations, EngineError> {
     let mut operations = Operations::default();
     for coordinate in 0..3 {
         let model = hdl::model(&Widths::FULL.engine(coordinate))?;
-        operations.additions += Hardware::of(&model).adders;
+        operations.additions += model.cost().adders;
     }
     Ok(operations)
-}
-
-/// What a circuit is made of, without what nothing needs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Hardware {
-    /// Adders, subtractors and comparators.
-    pub adders: u64,
-    /// Bits of their operands.
-    pub adder_bits: u64,
-    /// Bits of its registers; memories are none.
-    pub flip_flops: u64,
-}
-
-impl Hardware {
-    /// Counts it in the netlist of a circuit.
-    #[must_use]
-    pub fn of(model: &hdl::Model) -> Self {
-        let flat = model.flat();
-        let mut seen = vec![false; flat.leaves.len()];
-        for leaf in model.ports_out() {
-            seen[leaf] = true;
-        }
-        let flat = passes::all(flat, &seen);
-        let registers = flat
-            .registers
-            .iter()
-            .map(|register| u64::from(register.width));
-        let mut hardware = Hardware {
-            flip_flops: registers.sum(),
-            ..Hardware::default()
-        };
-        for node in &flat.nodes {
-            let bits = match node.op {
-                Op::Add(..) | Op::Subtract(..) => node.width,
-                Op::Below(a, _) | Op::BelowSigned(a, _) => flat.node(a).width,
-                _ => continue,
-            };
-            hardware.adders += 1;
-            hardware.adder_bits += u64::from(bits);
-        }
-        hardware
-    }
 }

@@ -128,6 +128,14 @@ fn join(legs: &[PieceReport], timing: &Timing) -> Vec<Segment> {
 /// Speed and samples of a piece.
 fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reason> {
     piece.check(from)?;
+    match piece.course {
+        Course::Line | Course::Arc(_) => {}
+        Course::Spline(_) => return Err(Reason::Spline),
+        Course::Helix(helix) => {
+            let rise = helix.rise.abs();
+            return Err(CircleError::Helix { rise }.into());
+        }
+    }
     let length = piece.course.length(from, piece.to);
     if length <= 0.0 {
         let points = ["start", "end"];
@@ -138,7 +146,9 @@ fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reaso
     // Samples between the blends at that speed: at most by so much more than a whole number as
     // rounding makes.
     let samples = match &piece.course {
-        Course::Line => length / (speed * sample) - timing.blend_samples as f64,
+        Course::Line | Course::Helix(_) | Course::Spline(_) => {
+            length / (speed * sample) - timing.blend_samples as f64
+        }
         Course::Arc(circle) => {
             let between = circle.angle - 2.0 * blend_angle(circle, speed * half_blend);
             between * circle.radius / (speed * sample)
@@ -153,12 +163,14 @@ fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reaso
         });
     }
     let speed = match &piece.course {
-        Course::Line => length / (sample * (samples + timing.blend_samples as f64)),
+        Course::Line | Course::Helix(_) | Course::Spline(_) => {
+            length / (sample * (samples + timing.blend_samples as f64))
+        }
         Course::Arc(circle) => arc_speed(circle, samples, timing),
     };
     let reach = speed * half_blend;
     let arc = match &piece.course {
-        Course::Line => None,
+        Course::Line | Course::Helix(_) | Course::Spline(_) => None,
         Course::Arc(circle) => Some(arc_report(circle, speed, reach, samples)),
     };
     Ok(PieceReport {
@@ -180,14 +192,14 @@ fn fitting(piece: &Piece, length: f64, timing: &Timing) -> Result<f64, Reason> {
     let (speed, half_blend) = (piece.speed, timing.half_blend_s());
     // With one sample between the blends.
     let (mut most, mut radius) = match &piece.course {
-        Course::Line => {
+        Course::Line | Course::Helix(_) | Course::Spline(_) => {
             let samples = timing.blend_samples as f64 + 1.0;
             (length / (timing.sample_s * samples), f64::INFINITY)
         }
         Course::Arc(circle) => (arc_speed(circle, 1.0, timing), circle.radius),
     };
     let room = match &piece.course {
-        Course::Line => length - 2.0 * speed * half_blend,
+        Course::Line | Course::Helix(_) | Course::Spline(_) => length - 2.0 * speed * half_blend,
         Course::Arc(circle) => circle.angle - 2.0 * blend_angle(circle, speed * half_blend),
     };
     let tight = speed * half_blend > radius * (1.0 + ROUNDING);

@@ -17,7 +17,7 @@ use crate::jobs::trajectory_controller::program::{
 };
 use crate::jobs::trajectory_controller::ramp::Slope;
 use crate::jobs::trajectory_controller::speed_limits::{Span, spans};
-use crate::path::circle::Circle;
+use crate::path::circle::{Circle, CircleError};
 use crate::path::error::{PathError, Reason};
 use crate::path::pieces::{Course, Piece, Speeds, from_drawing};
 use crate::path::record::Record;
@@ -177,6 +177,21 @@ impl Program {
             let way = [0, 1].map(|k| counts(piece.to)[k] - counts(from)[k]);
             let speed = limit.speed / unit;
             let (made, speed, ramp_s) = match &piece.course {
+                Course::Helix(_) | Course::Spline(_) => {
+                    let reason = match &piece.course {
+                        Course::Helix(helix) => {
+                            let rise = helix.rise.abs();
+                            CircleError::Helix { rise }.into()
+                        }
+                        _ => Reason::Spline,
+                    };
+                    return Err(PathError {
+                        piece: index,
+                        line: Some(step.line),
+                        reason,
+                    }
+                    .into());
+                }
                 Course::Line => {
                     let ramp_s = self.ramp_scans as f64 * settings.scan_s();
                     let fault = |reason| PathError {

@@ -20,11 +20,21 @@ pub(super) fn fits(
     let names = ["x", "y", "z"];
     check(names, from)?;
     check(names, piece.to)?;
-    let Course::Arc(circle) = &piece.course else {
-        return Ok(());
+    let inside = |extremes: [[f64; 2]; COORDINATES]| {
+        (0..2).try_for_each(|end| check(names, extremes.map(|extreme| extreme[end])))
     };
-    let extremes = circle.extremes();
-    (0..2).try_for_each(|end| check(names, extremes.map(|extreme| extreme[end])))?;
+    let circle = match &piece.course {
+        Course::Line => return Ok(()),
+        Course::Spline(cubic) => return inside(cubic.extremes()),
+        Course::Helix(helix) => {
+            inside(helix.extremes())?;
+            &helix.circle
+        }
+        Course::Arc(circle) => {
+            inside(circle.extremes())?;
+            circle
+        }
+    };
     check(["centre x", "centre y", "centre z"], circle.centre)?;
     hold("radius", circle.radius * counts_per_mm, widths)
 }
@@ -40,6 +50,8 @@ pub(super) fn margin(
     let (extremes, radius) = match &piece.course {
         Course::Line => (piece.to.map(|mm| [mm; 2]), 0.0),
         Course::Arc(circle) => (circle.extremes(), circle.radius),
+        Course::Helix(helix) => (helix.extremes(), helix.circle.radius),
+        Course::Spline(cubic) => (cubic.extremes(), 0.0),
     };
     let ways = (0..COORDINATES).flat_map(|axis| {
         let name = ["x from the start", "y from the start", "z from the start"][axis];

@@ -5,9 +5,9 @@ use crate::circuits::trajectory_controller::servo_arithmetic::ServoWidths;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::widths::PointWidths;
 use crate::circuits::trajectory_controller::{
-    ArcAngle, AxisRow, ControlledAxis, LengthClamp, ModelState, PathLength, PathPoint, PeriodJoin,
-    PointSequencer, ReferenceModel, Rounding, Scaler, SegmentSearch, SegmentStore, Servo,
-    ServoArithmetic, TrajectoryController, VectorCorrection, Widths,
+    ArcAngle, AxisRow, ControlledAxis, LengthClamp, LengthPowers, ModelState, PathLength,
+    PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, Scaler, SegmentSearch,
+    SegmentStore, Servo, ServoArithmetic, TrajectoryController, VectorCorrection, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
@@ -168,6 +168,16 @@ pub(super) const CIRCUITS: &[Entry] = &[
         widths: [point = widths.point, curvature = widths.curvature, angle = widths.angle],
         from: "width of lengths, curvatures and angles", |given| {
             alone(given, |width| ArcAngle { widths: points(width) })
+        },
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        LengthPowers, "CN104204977 2, 3: spline",
+        full: || LengthPowers { widths: FULL.point() },
+        widths: [point = widths.point, radius = widths.radius],
+        from: "width of lengths; two bits more inside", |given| {
+            alone(given, |width| LengthPowers { widths: points(width) })
         },
         with: nothing,
         proved: none,

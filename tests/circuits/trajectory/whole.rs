@@ -93,7 +93,9 @@ fn segment(length: u64, base: [f64; 2], along: [f64; 2], radius: Option<f64>) ->
             Some(_) => [-along[1], along[0], 0.0],
             None => [0.0; 3],
         },
+        third: [0.0; 3],
         radius,
+        powers: None,
     }
 }
 

@@ -246,7 +246,14 @@ fn a_radius_a_centre_and_an_arc_too_far() {
 #[test]
 fn taught_points_that_make_no_piece() {
     let settings = Settings::default();
-    let taught = |via, speed| [Taught { to: C, via, speed }];
+    let taught = |via, speed| {
+        [Taught {
+            to: C,
+            via,
+            spline: false,
+            speed,
+        }]
+    };
     let text = |points: &[Taught]| from_points(A, points, &settings).unwrap_err();
     let error = text(&taught(None, None));
     assert_eq!(

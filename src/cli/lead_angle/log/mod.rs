@@ -106,7 +106,7 @@ fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summa
         target: signal.target,
         tick: signal.tick,
         seconds: signal.tick as f64 / settings.clock_hz as f64,
-        lead_ms: signal.code as f64 * settings.ck_ms(),
+        lead_ms: signal.lead_ms,
         position: signal.position,
         position_after: signal.position_after,
         error_counts: signal.position_after.map(|at| at - signal.target as f64),
