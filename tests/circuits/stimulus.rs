@@ -299,6 +299,7 @@ const FAR: &[(&str, u32)] = &[
     ("difference_engine.d4.by_whole", 0),
     ("difference_engine.d4.by_part", 0),
     // One word of 32, and most words are small.
+    ("axis_terms.x", 23),
     ("rotation.row_y.by_y", 31),
     ("rotation.row_y.bits_y", 41),
     // Never: a gain of 24 bits; what is shifted up, and what has room for the sum of two.
@@ -439,6 +440,7 @@ const JOBS: &[&str] = &[
     "ram_compensator",
     "conventional_compensator",
     "arc_generator",
+    "conventional_generator",
     "reference_model",
     "cordic",
     "path_point",

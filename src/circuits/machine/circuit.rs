@@ -89,7 +89,7 @@ signals! { for Machine as c;
         /// To the linear interpolator.
         pub lines: Lines(&c.linear_interpolator),
         /// To the arc generator.
-        pub arcs: Segments(&c.arc_generator),
+        pub arcs: Segments(&c.arc_generator.widths),
         /// To the trajectory controller.
         pub trajectory: Trajectory(&c.trajectory_controller),
         /// To the lead-angle compensator.

@@ -15,10 +15,10 @@
 
 use super::widths::PointWidths;
 use super::{
-    ArcAngle, AxisRow, Cordic, LengthPowers, PointSequencer, SegmentSearch, SegmentStore,
-    arc_angle, axis_row, cordic, length_powers, point_sequencer, segment_search, segment_store,
+    ArcAngle, AxisRow, LengthPowers, PointSequencer, SegmentSearch, SegmentStore, arc_angle,
+    axis_row, length_powers, point_sequencer, segment_search, segment_store,
 };
-use crate::circuits::blocks::{CoefficientControl, coefficient_control};
+use crate::circuits::blocks::{CoefficientControl, Cordic, coefficient_control, cordic};
 use crate::hdl::prelude::*;
 
 /// Names of the axes.
@@ -50,9 +50,16 @@ impl PathPoint {
     pub const fn latency(&self) -> u64 {
         let widths = self.widths;
         let measure = ArcAngle { widths }.latency() + (widths.angle as u64 - 3);
-        let arc = measure + Cordic { widths }.latency() + 2;
+        let arc = measure + self.cordic().latency() + 2;
         let spline = LengthPowers { widths }.latency() + 1;
         self.line_latency() + if arc > spline { arc } else { spline }
+    }
+
+    const fn cordic(&self) -> Cordic {
+        Cordic {
+            radius: self.widths.radius,
+            angle: self.widths.angle,
+        }
     }
 
     const fn control(&self) -> CoefficientControl {
@@ -98,7 +105,7 @@ signals! { for PathPoint as c;
         /// Length to angle.
         pub measure: Part<ArcAngle>(ArcAngle { widths: c.widths }),
         /// Angle to point.
-        pub cordic: Part<Cordic>(Cordic { widths: c.widths }),
+        pub cordic: Part<Cordic>(c.cordic()),
         /// Length to powers.
         pub powers: Part<LengthPowers>(LengthPowers { widths: c.widths }),
         /// Which bit the axes are at.
@@ -150,6 +157,7 @@ impl Circuit for PathPoint {
         });
         let cordic = p.cordic.settle(cordic::In {
             start: p.sequencer.q.turn,
+            halt: Bit::low(),
             radius: p.sequencer.q.radius,
             angle: measure.q.angle,
         });

@@ -21,8 +21,8 @@
 use super::extent::{fits, hold, margin};
 use super::speed_limits::Span;
 use super::splines;
+use crate::circuits::blocks::cordic_state::GAIN;
 use crate::circuits::trajectory_controller::Widths;
-use crate::circuits::trajectory_controller::cordic_state::GAIN;
 use crate::circuits::trajectory_controller::segment_store::WORDS;
 use crate::input::{COORDINATES, Point};
 use crate::path::circle::Circle;

@@ -5,10 +5,9 @@ use crate::circuits::trajectory_controller::servo_arithmetic::ServoWidths;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::widths::PointWidths;
 use crate::circuits::trajectory_controller::{
-    ArcAngle, AxisRow, ControlledAxis, Cordic, CordicState, LengthClamp, LengthPowers, ModelState,
-    PathLength, PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, Scaler,
-    SegmentSearch, SegmentStore, Servo, ServoArithmetic, Shifter, TrajectoryController,
-    VectorCorrection, Widths,
+    ArcAngle, AxisRow, ControlledAxis, LengthClamp, LengthPowers, ModelState, PathLength,
+    PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, Scaler, SegmentSearch,
+    SegmentStore, Servo, ServoArithmetic, TrajectoryController, VectorCorrection, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
@@ -169,40 +168,6 @@ pub(super) const CIRCUITS: &[Entry] = &[
         widths: [point = widths.point, curvature = widths.curvature, angle = widths.angle],
         from: "width of lengths, curvatures and angles", |given| {
             alone(given, |width| ArcAngle { widths: points(width) })
-        },
-        with: nothing,
-        proved: none,
-    ),
-    entry!(
-        Shifter, "CN104204977 2, 3: arc",
-        full: || Shifter { width: FULL.radius },
-        widths: [width],
-        from: "width", |given| alone(given, |width| Shifter { width }),
-        with: nothing,
-        proved: 4,
-    ),
-    entry!(
-        CordicState, "CN104204977 2, 3: arc",
-        full: || CordicState { widths: FULL.point() },
-        widths: [radius = widths.radius, angle = widths.angle],
-        from: "width of coordinates and angles", |given| {
-            alone(given, |radius| {
-                let widths = PointWidths { radius, ..points(radius) };
-                CordicState { widths }
-            })
-        },
-        with: nothing,
-        proved: none,
-    ),
-    entry!(
-        Cordic, "CN104204977 2, 3: arc",
-        full: || Cordic { widths: FULL.point() },
-        widths: [radius = widths.radius, angle = widths.angle],
-        from: "width of coordinates and angles", |given| {
-            alone(given, |radius| {
-                let widths = PointWidths { radius, ..points(radius) };
-                Cordic { widths }
-            })
         },
         with: nothing,
         proved: none,

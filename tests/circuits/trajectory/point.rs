@@ -1,6 +1,6 @@
 //! Points on paths of lines, arcs, helices and splines in space, against sine, cosine and powers.
 
-use motion_rtl::circuits::trajectory_controller::cordic_state::GAIN;
+use motion_rtl::circuits::blocks::cordic_state::GAIN;
 use motion_rtl::circuits::trajectory_controller::path_point::In;
 use motion_rtl::circuits::trajectory_controller::point_sequencer::RADIUS;
 use motion_rtl::circuits::trajectory_controller::widths::PointWidths;

@@ -2,8 +2,8 @@
 
 use super::bench::{PLANE, Path, Period, Record, SMALL, SPACE};
 use super::point::Segment;
+use motion_rtl::circuits::blocks::cordic_state;
 use motion_rtl::circuits::trajectory_controller::controller::In;
-use motion_rtl::circuits::trajectory_controller::cordic_state;
 use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use motion_rtl::hdl::Simulator;
 use proptest::prelude::*;
