@@ -4,10 +4,11 @@ use super::tools::{Simulator, complete, run, write};
 use motion_rtl::check::Drive;
 use motion_rtl::registry::{AnyModel, CATALOGUE, Entry};
 use motion_rtl::trace::Clock;
+use rayon::prelude::*;
 use std::fs::File;
-use std::thread;
 
 const TICKS: u64 = 100_000;
+const OWN_TICKS: u64 = 20_000;
 /// The test of the stimulus says which bits it moves: at 8 bits all that can move.
 const SEED: u64 = 3;
 
@@ -32,20 +33,21 @@ pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64)
     resets
 }
 
-/// The circuit of an entry at several widths: an odd one where it can be made so, a middle one, its
-/// own.
-fn widths(entry: &Entry) -> Vec<Box<dyn AnyModel>> {
+/// The circuit of an entry at several widths, with the ticks it is held for: an odd one where it can
+/// be made so, a middle one, its own, at which Icarus goes through thousands of words in each tick.
+fn widths(entry: &Entry) -> Vec<(Box<dyn AnyModel>, u64)> {
     let made = |width| entry.model(&[width]).filter(|made| made.model().is_ok());
-    let narrow = [made(3).or_else(|| made(4)), made(8)];
-    narrow.into_iter().flatten().chain([entry.full()]).collect()
+    let narrow = [made(3).or_else(|| made(4)), made(8)].into_iter().flatten();
+    let narrow = narrow.map(|made| (made, TICKS));
+    narrow.chain([(entry.full(), OWN_TICKS)]).collect()
 }
 
-/// Half of the entries each, for two cores.
-fn by_halves(work: impl Fn(&Entry) + Sync) {
-    thread::scope(|scope| {
-        let work = &work;
-        for half in 0..2 {
-            scope.spawn(move || CATALOGUE.iter().skip(half).step_by(2).for_each(work));
+/// Every circuit of the catalogue at every width, on all cores.
+fn all(work: impl Fn(&dyn AnyModel, u64) + Sync) {
+    let entries = CATALOGUE.par_iter().with_max_len(1);
+    entries.for_each(|entry| {
+        for (circuit, ticks) in widths(entry) {
+            work(&*circuit, ticks);
         }
     });
 }
@@ -53,11 +55,7 @@ fn by_halves(work: impl Fn(&Entry) + Sync) {
 #[test]
 #[ignore = "needs Icarus Verilog"]
 fn every_circuit_equals_its_verilog_in_icarus() {
-    by_halves(|entry| {
-        for circuit in widths(entry) {
-            assert!(hold(&*circuit, Simulator::Icarus, SEED, TICKS) > 0);
-        }
-    });
+    all(|circuit, ticks| assert!(hold(circuit, Simulator::Icarus, SEED, ticks) > 0));
 }
 
 #[test]
@@ -87,11 +85,7 @@ fn the_top_circuits_equal_their_verilog_in_verilator() {
 #[test]
 #[ignore = "needs Verilator"]
 fn verilator_finds_nothing_to_warn_of() {
-    by_halves(|entry| {
-        for circuit in widths(entry) {
-            lint(&*circuit);
-        }
-    });
+    all(|circuit, _| lint(circuit));
 }
 
 /// Verilator finds nothing to warn of.

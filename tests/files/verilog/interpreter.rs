@@ -192,28 +192,45 @@ impl<'d> Instance<'d> {
         }
     }
 
-    /// Every signal and every word of a memory, its path joined by `_`.
-    pub fn show(&self, around: &str, seen: &mut dyn FnMut(&str, u64)) {
-        for (index, signal) in self.module.signals.iter().enumerate() {
-            if signal.owner.is_none() {
-                seen(&format!("{around}_{}", signal.name), self.signal(index));
-            }
+    /// The paths of every signal and of every word of a memory, joined by `_`.
+    pub fn names(&self, around: &str) -> Vec<String> {
+        let mut names = Vec::new();
+        let module = self.module;
+        let own = module.signals.iter().filter(|signal| signal.owner.is_none());
+        names.extend(own.map(|signal| format!("{around}_{}", signal.name)));
+        for (name, label, words) in self.shown_memories() {
+            names.extend((0..words.len()).map(|index| format!("{around}_{name}_{label}{index}")));
         }
-        for (memory, words) in self.module.memories.iter().zip(&self.memories) {
-            // A ROM is no signal.
-            if memory.inner || memory.name.starts_with("rom") {
-                continue;
-            }
+        for (child, instance) in module.instances.iter().zip(&self.children) {
+            names.extend(instance.names(&format!("{around}_{}", child.name)));
+        }
+        names
+    }
+
+    /// Their values, in the same order, behind what is there.
+    pub fn values(&self, values: &mut Vec<u64>) {
+        let own = self.module.signals.iter().enumerate();
+        let own = own.filter(|(_, signal)| signal.owner.is_none());
+        values.extend(own.map(|(index, _)| self.signal(index)));
+        for (_, _, words) in self.shown_memories() {
+            values.extend(words);
+        }
+        for instance in &self.children {
+            instance.values(values);
+        }
+    }
+
+    /// Name, label of a word and words of each memory that is signals, which a ROM is not.
+    fn shown_memories(&self) -> impl Iterator<Item = (&str, &str, &[u64])> {
+        let memories = self.module.memories.iter().zip(&self.memories);
+        let shown =
+            memories.filter(|(memory, _)| !memory.inner && !memory.name.starts_with("rom"));
+        shown.map(|(memory, words)| {
             let label = match memory.port {
                 Port::Shift { .. } => "stage",
                 _ => "word",
             };
-            for (index, word) in words.iter().enumerate() {
-                seen(&format!("{around}_{}_{label}{index}", memory.name), *word);
-            }
-        }
-        for (child, instance) in self.module.instances.iter().zip(&self.children) {
-            instance.show(&format!("{around}_{}", child.name), seen);
-        }
+            (&memory.name[..], label, &words[..])
+        })
     }
 }
