@@ -37,6 +37,7 @@ pub mod stop_error;
 pub mod target_setter;
 pub mod time_data;
 pub mod time_lead;
+pub mod touch_probe;
 
 pub use comparator::{Comparator, Comparing};
 pub use compensator::{Compensator, Variant, Widths};
@@ -56,3 +57,4 @@ pub use stop_error::{Sign, StopError};
 pub use target_setter::TargetSetter;
 pub use time_data::TimeData;
 pub use time_lead::{History, Memory, TimeLead};
+pub use touch_probe::TouchProbe;

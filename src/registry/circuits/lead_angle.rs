@@ -3,7 +3,7 @@ use crate::circuits::lead_angle::{
     Comparator, Comparing, Compensator, CompletionDetector, Correction, CorrectionArithmetic,
     Function, Lead, LeadFrom, LeadPlacement, Memory, Placement, PositionHistory, RamHistory,
     RatioLogic, Refinement, Sign, SpeedLead, StepSequencer, StopError, TargetSetter, TimeData,
-    TimeLead, Variant, Widths,
+    TimeLead, TouchProbe, Variant, Widths,
 };
 use crate::hdl::Image;
 use crate::registry::Entry;
@@ -227,6 +227,14 @@ pub(super) const CIRCUITS: &[Entry] = &[
         },
         with: nothing,
         proved: 2,
+    ),
+    entry!(
+        TouchProbe, "JPH0646367B2, any operation",
+        full: || TouchProbe { position: 24 },
+        widths: [position],
+        from: "width", |given| alone(given, |position| TouchProbe { position }),
+        with: nothing,
+        proved: 4,
     ),
     entry!(
         StopError, "JPH0646367B2 27, 30, 31",
