@@ -102,11 +102,7 @@ impl Compensator {
             stages, position, ..
         } = self.widths;
         match self.lead_from {
-            LeadFrom::Time(memory) => LeadSource::Time(TimeLead {
-                stages,
-                position,
-                memory,
-            }),
+            LeadFrom::Time(memory) => LeadSource::Time(TimeLead::new(stages, position, memory)),
             LeadFrom::Speed => LeadSource::Speed(SpeedLead {
                 position,
                 gate: self.widths.cks,
