@@ -3,7 +3,8 @@
 use super::Runnable;
 use crate::input::position_log::Columns;
 use crate::jobs::lead_angle::settings::{
-    Comparing, Completion, Function, History, LeadBy, Placement, Settings, Sign, Step, Targets,
+    Action, Comparing, Completion, Function, History, LeadBy, Placement, Settings, Sign, Step,
+    Targets,
 };
 use crate::plant::{BodyParameters, Load};
 use serde::Deserialize;
@@ -35,6 +36,15 @@ pub struct Scenario {
     /// What their targets count from.
     #[serde(default)]
     pub targets: Targets,
+    /// What the control signal is for.
+    #[serde(default)]
+    pub action: Action,
+    /// Time from the control signal until an operation takes effect.
+    #[serde(default = "default::operation_delay")]
+    pub operation_delay_s: f64,
+    /// The factor of that time from the load change on.
+    #[serde(default = "default::load_factor")]
+    pub load_delay_factor: f64,
     /// Where the lead comes from.
     #[serde(default)]
     pub lead: LeadBy,
@@ -149,6 +159,9 @@ impl Scenario {
             ck_ticks: self.ck_ticks,
             steps: self.step.iter().map(step).collect(),
             targets: self.targets,
+            action: self.action,
+            operation_delay_s: self.operation_delay_s,
+            load_delay_factor: self.load_delay_factor,
             lead: self.lead,
             placement: self.placement,
             comparing: self.comparing,
@@ -236,6 +249,9 @@ mod default {
     }
     pub(super) fn time_out() -> f64 {
         settings().time_out_ms
+    }
+    pub(super) fn operation_delay() -> f64 {
+        settings().operation_delay_s
     }
     pub(super) fn rest() -> f64 {
         settings().rest_ms

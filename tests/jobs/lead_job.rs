@@ -6,7 +6,7 @@ use motion_rtl::input::position_log::{Columns, PositionLog, read};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning, play, positioner};
 use motion_rtl::jobs::lead_angle::replay::{replay, settings_for};
 use motion_rtl::jobs::lead_angle::settings::{
-    Comparing, History, LeadBy, Placement, Settings, Sign, Step, Targets,
+    Action, Comparing, History, LeadBy, Placement, Settings, Sign, Step, Targets,
 };
 use motion_rtl::scenario::{Loaded, Scenario};
 use std::fmt::Write;
@@ -267,6 +267,89 @@ fn a_body_that_turns_on_goes_over_the_seam_of_the_positions() {
     let way = last.speed_counts_per_s * LARGEST as f64 * settings.ck_ms() / 1e3;
     assert!((lead - way).abs() <= 80.0, "{last:?}");
     assert!((20_000..26_000).contains(&last.error), "{last:?}");
+}
+
+/// Operations in passing, whose delay grows by half when the load changes.
+fn operating() -> Settings {
+    Settings {
+        action: Action::Operate,
+        load_delay_factor: 1.5,
+        ..turntable()
+    }
+}
+
+/// What is learned from is where the operation took effect; the body goes on.
+#[test]
+fn an_operation_in_passing_is_learned_from_where_it_took_effect() {
+    let settings = operating();
+    let played = with_lead(&settings);
+    for step in 0..settings.steps.len() {
+        let [before, after] = phases(&settings, &played, step);
+        for (phase, delay_ms) in [(before, 20.0), (after, 30.0)] {
+            for one in &phase[5..] {
+                assert!(off(one) <= code_travel(&settings, one), "{one:?}");
+                // Ticks from the sample to the operation are learned with it, and a CK may be lost.
+                let lead_ms = one.code as f64 * settings.ck_ms();
+                assert!((lead_ms - delay_ms).abs() <= 0.5, "{one:?}");
+                let speed = f64::from(settings.steps[step].speed_counts_per_s);
+                assert_eq!(one.end_speed_counts_per_s.abs(), speed);
+            }
+        }
+    }
+    let all = &played.positionings;
+    assert!(all.iter().all(|one| !one.missed && !one.timed_out));
+    // Kept as it is, the lead leaves the way of ten milliseconds.
+    let fixed = Settings {
+        learn: false,
+        ..settings.clone()
+    };
+    for (number, one) in with_lead(&fixed).positionings.iter().enumerate() {
+        let loaded = settings
+            .load_change_after
+            .is_some_and(|after| number >= after as usize);
+        let late_ms = if loaded { 5.0 } else { -5.0 };
+        let expected = one.speed_counts_per_s.abs() * late_ms / 1e3;
+        let travel = 2.0 * code_travel(&settings, one);
+        assert!(
+            (one.error as f64 - expected).abs() <= travel,
+            "{one:?}, {expected}"
+        );
+    }
+}
+
+/// Without an effect in its time there is nothing to learn from.
+#[test]
+fn an_operation_without_effect_teaches_nothing() {
+    let settings = Settings {
+        time_out_ms: 10.0,
+        ..operating()
+    };
+    let played = with_lead(&settings);
+    for one in &played.positionings {
+        assert!(one.timed_out && one.learned.is_none(), "{one:?}");
+    }
+}
+
+/// A log goes on in any case, so operations are learned from on it.
+#[test]
+fn operations_on_a_log_are_learned() {
+    let log = log(|seconds| 500 + (20_000.0 * seconds) as i64, 400);
+    let mut settings = one_step(4000, 20_000, 1);
+    settings.action = Action::Operate;
+    settings.operation_delay_s = 0.03;
+    let settings = settings_for(&log, &settings);
+    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
+    let errors: Vec<f64> = replayed
+        .signals
+        .iter()
+        .filter_map(|signal| Some(signal.effect_position? - signal.target as f64))
+        .collect();
+    assert_eq!(errors.len(), 9, "{:?}", replayed.signals);
+    assert!((errors[0] - 200.0).abs() <= 6.0, "{errors:?}");
+    assert!(
+        errors[4..].iter().all(|error| error.abs() <= 4.0),
+        "{errors:?}"
+    );
 }
 
 /// Switches a distance before their targets, on the way there from either side.

@@ -8,19 +8,21 @@
 //!  write_target, write_time, … ──────▶│ compensator ├──▶ fire, complete, timed_out
 //!  ck_period, standstill, time_out ──▶│             ├──▶ error, overrun, learned
 //!  rest, last_step, seed ────────────▶│             ├──▶ busy, refused, lost
+//!  passing, effect ──────────────────▶│             ├──▶ operate
 //!                                     └─────────────┘
 //! ```
 //!
 //! Where the lead comes from is a choice: from the time Δt with the history as a shift register
 //! or as a RAM, or from the speed as in Fig. 7. `brake` is the control signal; it holds from the
-//! crossing through the rest up to the next step.
+//! crossing through the rest up to the next step. With `passing` the body goes on, and `operate` is
+//! the control signal in place of `brake`: of an operation that is complete with its `effect`.
 
 use super::lead_source::{LeadFrom, LeadPart, LeadSource};
 use super::{
     Comparator, Comparing, CompletionDetector, Correction, Function, LeadPlacement, Memory,
-    Placement, RatioLogic, Sign, SpeedLead, StepSequencer, TargetSetter, TimeData, TimeLead, codes,
-    comparator, completion_detector, correction, placement, ratio_logic, speed_lead,
-    step_sequencer, target_setter, time_data, time_lead,
+    Placement, RatioLogic, Sign, SpeedLead, StepSequencer, TargetSetter, TimeData, TimeLead,
+    TouchProbe, codes, comparator, completion_detector, correction, placement, ratio_logic,
+    speed_lead, step_sequencer, target_setter, time_data, time_lead, touch_probe,
 };
 use crate::circuits::blocks::{
     EnableCounter, QuadratureCounter, enable_counter, quadrature_counter,
@@ -100,11 +102,7 @@ impl Compensator {
             stages, position, ..
         } = self.widths;
         match self.lead_from {
-            LeadFrom::Time(memory) => LeadSource::Time(TimeLead {
-                stages,
-                position,
-                memory,
-            }),
+            LeadFrom::Time(memory) => LeadSource::Time(TimeLead::new(stages, position, memory)),
             LeadFrom::Speed => LeadSource::Speed(SpeedLead {
                 position,
                 gate: self.widths.cks,
@@ -126,6 +124,10 @@ signals! { for Compensator as c;
         pub run: Bit,
         /// Ends the move of this step at once; nothing is learned from it.
         pub halt: Bit,
+        /// The body goes on: the control signal begins an operation in passing.
+        pub passing: Bit,
+        /// The operation takes effect; synchronised. Without `passing` it does nothing.
+        pub effect: Bit,
         /// Times are learned.
         pub learn: Bit,
         /// All steps share the time of step 0.
@@ -185,6 +187,8 @@ signals! { for Compensator as c;
         pub comparator: Part<Comparator>(Comparator {
             position: c.widths.position, comparing: c.variant.comparing,
         }),
+        /// Where an operation took effect.
+        pub probe: Part<TouchProbe>(TouchProbe { position: c.widths.position }),
         /// 26.
         pub completion: Part<CompletionDetector>(CompletionDetector {
             position: c.widths.position, time: c.widths.cks,
@@ -223,8 +227,10 @@ signals! { for Compensator as c;
         pub speed: U(c.widths.speed),
         /// The control signal begins.
         pub fire: Bit,
-        /// The control signal.
+        /// The control signal, where it stops the body.
         pub brake: Bit,
+        /// The control signal, where the body goes on.
+        pub operate: Bit,
         /// The positioning is complete.
         pub complete: Bit,
         /// It was complete because its time was over.
@@ -323,21 +329,31 @@ impl Circuit for Compensator {
             arm: sequence.arm,
             halt: sequence.halting,
         });
+        let control = comparator.q.control;
+        let (brake, operate) = (control & !i.passing, control & i.passing);
+        let probe = p.probe.settle(touch_probe::In {
+            active: operate,
+            effect: i.effect,
+            position,
+            present,
+        });
         let completion = p.completion.settle(completion_detector::In {
             evaluate: fresh,
             position: present,
             active: sequence.braking,
+            effect: probe.q.taken,
             standstill: i.standstill,
             time_out: i.time_out,
         });
         let correction = p.correction.settle(correction::In {
             fire: comparator.w.fire,
             complete: completion.q.complete,
-            position: present,
+            position: probe.w.measured,
             target,
             lead_time,
             learn: i.learn,
-            missed: sequence.missed,
+            // An operation without effect has no way to learn from.
+            missed: sequence.missed | (i.passing & !probe.q.taken),
             seed: i.seed,
         });
         let write_check = p.write_check.settle(ratio_logic::In {
@@ -362,10 +378,11 @@ impl Circuit for Compensator {
             position: present,
             target,
             evaluate: fresh,
-            control: comparator.q.control,
+            control,
             complete: completion.q.complete,
             corrected: correction.w.corrected,
             ck,
+            passing: i.passing,
             rest: i.rest,
         });
         let net = Net {
@@ -380,7 +397,8 @@ impl Circuit for Compensator {
             reverse: sequencer.q.reverse,
             speed: target_setter.q.speed,
             fire: comparator.w.fire,
-            brake: comparator.q.control,
+            brake,
+            operate,
             complete: completion.q.complete,
             timed_out: completion.q.timed_out,
             overrun: correction.w.overrun,

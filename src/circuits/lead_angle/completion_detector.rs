@@ -1,10 +1,10 @@
-//! Completion detector 26: the positioning is complete when the body stands still, or when its time
-//! is over.
+//! Completion detector 26: the positioning is complete when the body stands still, when what the
+//! control signal is for has taken effect, or when its time is over.
 //!
 //! ```text
 //!                          ┌─────────────────────┐
 //!  evaluate, position ────▶│                     ├──▶ complete
-//!  active ────────────────▶│ completion detector │
+//!  active, effect ────────▶│ completion detector │
 //!  standstill, time_out ──▶│                     ├──▶ timed_out
 //!                          └─────────────────────┘
 //! ```
@@ -32,6 +32,8 @@ signals! { for CompletionDetector as c;
         pub position: I(c.position),
         /// The control signal has been given for the step that runs.
         pub active: Bit,
+        /// What it is for has taken effect.
+        pub effect: Bit,
         /// CKs without a change that are a standstill; 0 counts as 1.
         pub standstill: U(c.time),
         /// CKs from the control signal on after which it is complete anyway; 0 counts as 1.
@@ -47,7 +49,7 @@ signals! { for CompletionDetector as c;
         elapsed: U(c.time) as Analog,
         /// The positioning is complete; one tick.
         pub complete: Bit,
-        /// Its time was over before it stood still; until the next.
+        /// Its time was over before it stood still or took effect; until the next.
         pub timed_out: Bit,
     }
     /// Nets.
@@ -62,6 +64,8 @@ signals! { for CompletionDetector as c;
         running: Bit,
         /// It stands still.
         stands: Bit,
+        /// It stands still, or has taken effect.
+        done: Bit,
         /// It is complete with this sample.
         over: Bit,
         /// The times go on.
@@ -81,7 +85,8 @@ impl Circuit for CompletionDetector {
         let stands = same & !next_still.below(i.standstill);
         let late = !next_elapsed.below(i.time_out);
         let running = i.active & !q.complete;
-        let over = i.evaluate & running & (stands | late);
+        let done = stands | i.effect;
+        let over = i.evaluate & running & (done | late);
         let counts = running & !over;
         let count = |more: Bit, next: U, old: U| {
             let counted = i.evaluate.mux(more.mux(next, 0), old);
@@ -92,7 +97,7 @@ impl Circuit for CompletionDetector {
             still: count(same, next_still, q.still),
             elapsed: count(Bit::high(), next_elapsed, q.elapsed),
             complete: over,
-            timed_out: over.mux(!stands, q.timed_out),
+            timed_out: over.mux(!done, q.timed_out),
         };
         let net = Net {
             same,
@@ -100,6 +105,7 @@ impl Circuit for CompletionDetector {
             next_elapsed,
             running,
             stands,
+            done,
             over,
             counts,
         };
@@ -111,14 +117,14 @@ impl Specified for CompletionDetector {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new()
             .step(
-                "it is complete when it stood still for long enough, or its time is over",
+                "it is complete when it stood still for long enough, took effect, or its time is over",
                 |now, next| {
                     let (i, q, next) = (now.i, now.q, &next.q);
                     let still = match i.position == q.last {
                         true => q.still + 1,
                         false => 0,
                     };
-                    let stands = still >= i.standstill.max(1);
+                    let stands = still >= i.standstill.max(1) || i.effect;
                     let late = q.elapsed + 1 >= i.time_out.max(1);
                     let looks = i.evaluate && i.active && !q.complete;
                     let right = next.complete == (looks && (stands || late))

@@ -9,6 +9,9 @@
 //!
 //! Words wrap, so the difference is right as long as the way of a tap is below half the range of a
 //! position, and so is the prediction, wherever on the ring the lead ends.
+//!
+//! Where N is fixed at 1 there is no multiplier (この場合は論理回路13と乗算器16は不要): the lead is the
+//! difference, or nothing.
 
 use crate::hdl::prelude::*;
 
@@ -17,6 +20,8 @@ use crate::hdl::prelude::*;
 pub struct Lead {
     /// Width of a position.
     pub position: usize,
+    /// N is 1, or 0 for no lead.
+    pub one: bool,
 }
 
 signals! { for Lead as c;
@@ -51,7 +56,10 @@ impl Circuit for Lead {
         let net = Net {
             factor,
             difference,
-            lead: difference.times(factor, self.position),
+            lead: match self.one {
+                true => i.ratio.bit(0).mux(difference, 0),
+                false => difference.times(factor, self.position),
+            },
         };
         (net, Nothing)
     }
@@ -78,5 +86,10 @@ impl Specified for Lead {
                     })
                 },
             )
+    }
+
+    /// Of a ratio that is fixed there is one bit.
+    fn applies(&self, i: &In<Value>) -> bool {
+        !self.one || i.ratio <= 1
     }
 }

@@ -15,8 +15,8 @@
 //! predicts twice the position. Sample and earlier sample change at the same edge, so that they
 //! always belong together, whatever the rate of CK.
 
-use super::RamHistory;
 use super::codes::tap_width;
+use super::{DifferenceHistory, RamHistory};
 use crate::hdl::prelude::*;
 
 /// Position history as a shift register.
@@ -30,8 +30,9 @@ pub struct PositionHistory {
     pub position: usize,
 }
 
-signals! { for (PositionHistory, RamHistory) as c;
-    /// Ports in; also those of the [RAM form](super::ram_history).
+signals! { for (PositionHistory, RamHistory, DifferenceHistory) as c;
+    /// Ports in; also those of the [RAM form](super::ram_history) and of the
+    /// [differences](super::difference_history).
     pub struct In {
         /// CK: a sample is taken.
         pub ck: Bit,
@@ -62,7 +63,7 @@ signals! { for (PositionHistory, RamHistory) as c;
     /// Nets; also those of the [RAM form](super::ram_history).
     pub struct Net {
         /// The stage that the tap names before the shift.
-        index: U(tap_width(c.stages)),
+        pub(super) index: U(tap_width(c.stages)),
         /// There is such a stage, and a sample is taken.
         pub(super) load: Bit,
         /// There are samples for this tap.

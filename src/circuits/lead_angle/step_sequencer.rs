@@ -7,6 +7,7 @@
 //!  position, target ────────▶│ step sequencer ├──▶ drive, reverse
 //!  control, complete ───────▶│                ├──▶ halting, braking
 //!  corrected, ck, rest ─────▶│                ├──▶ missed, busy
+//!  passing ─────────────────▶│                │
 //!                            └────────────────┘
 //! ```
 //!
@@ -14,7 +15,11 @@
 //! *move* until the control signal, *brake* until the positioning is complete, *correct* the time,
 //! *rest*. Then the next step, from step 0 again after the last, as long as `run` is high.
 //!
-//! `halt` during *move* gives the control signal by hand; what comes of it is not learned from.
+//! With `passing` the control signal stops nothing: the motor is on from the first *move* until the
+//! last step is over, and *brake* waits for the operation that the signal is for. Where `passing`
+//! goes meanwhile, the signal stops the body.
+//!
+//! `halt` during *move* gives the control signal by hand; what comes of either is not learned from.
 
 use crate::hdl::prelude::*;
 
@@ -63,6 +68,8 @@ signals! { for StepSequencer as c;
         pub corrected: Bit,
         /// CK.
         pub ck: Bit,
+        /// The body goes on: the motor stays on from step to step.
+        pub passing: Bit,
         /// CKs between two steps.
         pub rest: U(c.rest),
     }
@@ -84,9 +91,9 @@ signals! { for StepSequencer as c;
         pub reverse: Bit = 0,
         /// The control signal is asked for; one tick.
         pub halting: Bit = 0,
-        /// The body is being stopped.
+        /// The body is being stopped, or what the control signal is for awaited.
         pub braking: Bit = 0,
-        /// The control signal was asked for in this step.
+        /// The control signal was asked for in this step, or stops the body instead of an operation.
         pub missed: Bit = 0,
         /// A step runs.
         pub busy: Bit = 0,
@@ -99,6 +106,8 @@ signals! { for StepSequencer as c;
         goes_on: Bit,
         /// A halt is taken.
         halts: Bit,
+        /// `passing` goes while an operation is awaited: the body is stopped instead.
+        stopped: Bit,
         /// The rest is over with this tick.
         rested: Bit,
         /// The state of the next tick.
@@ -126,7 +135,8 @@ impl Circuit for StepSequencer {
         let last = !q.step.below(i.last_step);
         let following = last.mux(0, q.step + 1);
         let way = i.target - i.position;
-        let halts = i.halt & q.drive & !q.missed;
+        let halts = i.halt & is(MOVE) & !q.missed;
+        let stopped = is(BRAKE) & q.drive & !i.passing;
         let after = (is(IDLE) | rested).mux(begin, onwards);
         let next_step = rested.mux(following, q.step);
         let to = |state: u64| after.equals(state);
@@ -138,17 +148,18 @@ impl Circuit for StepSequencer {
             step: next_step,
             load: to(LOAD),
             arm: to(ARM),
-            drive: to(MOVE),
+            drive: to(MOVE) | (i.passing & q.drive & !to(IDLE)),
             reverse: q.arm.mux(way.is_negative(), q.reverse),
             halting: halts,
             braking: to(BRAKE),
-            missed: (q.missed | halts) & !q.load,
+            missed: (q.missed | halts | stopped) & !q.load,
             busy: !to(IDLE),
         };
         let net = Net {
             way,
             goes_on,
             halts,
+            stopped,
             rested,
             after,
             next_step,
@@ -186,13 +197,26 @@ impl Specified for StepSequencer {
                 let q = now.q;
                 let right = q.load == (q.state == LOAD)
                     && q.arm == (q.state == ARM)
-                    && q.drive == (q.state == MOVE)
                     && q.braking == (q.state == BRAKE)
                     && q.busy == (q.state != IDLE);
-                require(right, ["load", "arm", "drive", "braking", "busy"], || {
+                require(right, ["load", "arm", "braking", "busy"], || {
                     format!("in {}", STATES[q.state as usize])
                 })
             })
+            .step(
+                "the motor is on in the move, and stays on where the body goes on",
+                |now, next| {
+                    let stays = now.i.passing && now.q.drive;
+                    let expected = match next.q.state {
+                        MOVE => true,
+                        IDLE => false,
+                        _ => stays,
+                    };
+                    require(next.q.drive == expected, ["drive"], || {
+                        format!("{expected} expected")
+                    })
+                },
+            )
             .step("steps come in turn, each after its rest", |now, next| {
                 let ends = now.q.state == REST && next.q.state != REST;
                 let step = now.q.step;
@@ -218,11 +242,13 @@ impl Specified for StepSequencer {
                 },
             )
             .step(
-                "a halt of the move asks for the control signal once, and is remembered",
+                "a halt of the move asks for the control signal once; it is remembered, as is a stop in place \
+                 of an operation",
                 |now, next| {
                     let q = now.q;
                     let halts = now.i.halt && q.state == MOVE && !q.missed;
-                    let missed = (q.missed || halts) && q.state != LOAD;
+                    let stopped = q.state == BRAKE && q.drive && !now.i.passing;
+                    let missed = (q.missed || halts || stopped) && q.state != LOAD;
                     let right = next.q.halting == halts && next.q.missed == missed;
                     require(right, ["halting", "missed"], || {
                         format!("{halts} and {missed} expected")

@@ -8,10 +8,14 @@
 //!                          └───────────┘
 //! ```
 //!
-//! The history is a choice: the shift register, or the RAM that equals it in every tick.
+//! The history is a choice: the shift register, or the RAM that equals it in every tick. So are the
+//! forms that the text gives as equal: time data that need no logic circuit 13, the two products in
+//! place of 15, and 15 before 14. They take the same samples in the same ticks, and on the ring of
+//! positions their predictions are the same number.
 
 use super::{
-    Lead, PositionHistory, RamHistory, RatioLogic, codes, lead, position_history, ratio_logic,
+    DifferenceHistory, DividedTime, Division, Lead, LeadProducts, PositionHistory, RamHistory,
+    RatioLogic, codes, divided_time, lead, lead_products, position_history, ratio_logic,
 };
 use crate::hdl::prelude::*;
 
@@ -25,6 +29,18 @@ pub enum Memory {
     Ram,
 }
 
+/// How the prediction is worked out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Form {
+    /// Subtractor 15 behind the take-out 14, then multiplier 16.
+    #[default]
+    Difference,
+    /// (N + 1)·Dx − N·Dx(−Δt/N), without 15.
+    Products,
+    /// Subtractor 15 before the take-out 14: one at each stage of a shift register.
+    EarlyDifference,
+}
+
 choice! {
     /// A history in one of the forms of the memory 11.
     pub enum History as HistoryPart {
@@ -32,6 +48,28 @@ choice! {
         ShiftRegister(PositionHistory),
         /// A RAM with a moving address.
         Ram(RamHistory),
+        /// A shift register with subtractors before the taps.
+        Differences(DifferenceHistory),
+    }
+}
+
+choice! {
+    /// Where ratio and tap come from.
+    pub enum Ratio as RatioPart {
+        /// The logic circuit 13.
+        Logic(RatioLogic),
+        /// The time data themselves.
+        Divided(DividedTime),
+    }
+}
+
+choice! {
+    /// What makes lead or prediction.
+    pub enum Arithmetic as ArithmeticPart {
+        /// 15 and 16.
+        Difference(Lead),
+        /// The two products.
+        Products(LeadProducts),
     }
 }
 
@@ -46,16 +84,68 @@ pub struct TimeLead {
     pub position: usize,
     /// What the history is kept in.
     pub memory: Memory,
+    /// Where N comes from.
+    pub division: Division,
+    /// How the prediction is worked out.
+    pub form: Form,
 }
 
 impl TimeLead {
+    /// The embodiment: N by the logic circuit 13, and 15 between 14 and 16.
+    #[must_use]
+    pub fn new(stages: usize, position: usize, memory: Memory) -> Self {
+        TimeLead {
+            stages,
+            position,
+            memory,
+            division: Division::default(),
+            form: Form::default(),
+        }
+    }
+
     fn history(&self) -> History {
         let &TimeLead {
             stages, position, ..
         } = self;
-        match self.memory {
-            Memory::ShiftRegister => History::ShiftRegister(PositionHistory { stages, position }),
-            Memory::Ram => History::Ram(RamHistory { stages, position }),
+        match (self.memory, self.form) {
+            (Memory::Ram, _) => History::Ram(RamHistory { stages, position }),
+            (_, Form::EarlyDifference) => {
+                History::Differences(DifferenceHistory { stages, position })
+            }
+            _ => History::ShiftRegister(PositionHistory { stages, position }),
+        }
+    }
+
+    fn divided(&self) -> DividedTime {
+        DividedTime {
+            stages: self.stages,
+            one: self.division == Division::One,
+        }
+    }
+
+    fn ratio(&self) -> Ratio {
+        match self.division {
+            Division::Logic => Ratio::Logic(RatioLogic {
+                stages: self.stages,
+            }),
+            _ => Ratio::Divided(self.divided()),
+        }
+    }
+
+    fn arithmetic(&self) -> Arithmetic {
+        let (position, one) = (self.position, self.division == Division::One);
+        match self.form {
+            Form::Products => Arithmetic::Products(LeadProducts { position, one }),
+            _ => Arithmetic::Difference(Lead { position, one }),
+        }
+    }
+
+    /// Width of the time data.
+    #[must_use]
+    pub fn word(&self) -> usize {
+        match self.division {
+            Division::Logic => codes::time_width(self.stages),
+            _ => self.divided().word(),
         }
     }
 }
@@ -69,23 +159,23 @@ signals! { for TimeLead as c;
         pub restart: Bit,
         /// The position.
         pub position: I(c.position),
-        /// Δt in CKs.
-        pub lead_time: U(codes::time_width(c.stages)),
+        /// Δt in CKs, or the divided time data.
+        pub lead_time: U(c.word()),
     }
     /// The circuits inside.
     pub struct Parts {
-        /// 13.
-        pub ratio_logic: Part<RatioLogic>(RatioLogic { stages: c.stages }),
+        /// 13, or what stands in its place.
+        pub ratio_logic: RatioPart(&c.ratio()),
         /// 11 and 14.
         pub history: HistoryPart(&c.history()),
-        /// 15 and 16.
-        pub lead_arithmetic: Part<Lead>(Lead { position: c.position }),
+        /// 15 and 16, or what stands in their place.
+        pub lead_arithmetic: ArithmeticPart(&c.arithmetic()),
     }
     /// Ports out.
     pub struct Net {
         /// Dx: the present sample.
         pub present: I(c.position) as Analog,
-        /// N·Δx: the lead.
+        /// N·Δx: the lead; of the two products Dx(+Δt) itself.
         pub lead: I(c.position) as Analog,
         /// Sample and lead are new in this tick.
         pub fresh: Bit,
@@ -113,30 +203,72 @@ impl Circuit for TimeLead {
         }
     }
 
+    fn objection(&self) -> Option<String> {
+        let wrong = (self.memory, self.form) == (Memory::Ram, Form::EarlyDifference);
+        wrong.then(|| "a RAM is its own take-out: no subtractor stands before that".into())
+    }
+
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
         let lead_time = i.lead_time;
-        let ratio_logic = p.ratio_logic.settle(ratio_logic::In { lead_time });
+        let (tap, ratio) = match p.ratio_logic {
+            RatioPart::Logic(part) => {
+                let w = part.settle(ratio_logic::In { lead_time }).w;
+                (w.tap, w.ratio)
+            }
+            RatioPart::Divided(part) => {
+                let w = part.settle(divided_time::In { lead_time }).w;
+                (w.tap, w.ratio)
+            }
+        };
         let ports = position_history::In {
             ck: i.ck,
             restart: i.restart,
             position: i.position,
-            tap: ratio_logic.w.tap,
-            ratio: ratio_logic.w.ratio,
+            tap,
+            ratio,
         };
-        let pair = match p.history {
-            HistoryPart::ShiftRegister(part) => part.settle(ports).q.pair,
-            HistoryPart::Ram(part) => part.settle(ports).q.pair,
+        // What is subtracted from what, and the rest of the pair.
+        let (ends, present, ratio, fresh, enough) = match p.history {
+            HistoryPart::ShiftRegister(part) => {
+                let pair = part.settle(ports).q.pair;
+                let ends = [pair.present, pair.old];
+                (ends, pair.present, pair.pair_ratio, pair.fresh, pair.enough)
+            }
+            HistoryPart::Ram(part) => {
+                let pair = part.settle(ports).q.pair;
+                let ends = [pair.present, pair.old];
+                (ends, pair.present, pair.pair_ratio, pair.fresh, pair.enough)
+            }
+            HistoryPart::Differences(part) => {
+                let pair = part.settle(ports).q.pair;
+                let ends = [pair.difference, I::new(0, self.position)];
+                (ends, pair.present, pair.pair_ratio, pair.fresh, pair.enough)
+            }
         };
-        let lead_arithmetic = p.lead_arithmetic.settle(lead::In {
-            present: pair.present,
-            old: pair.old,
-            ratio: pair.pair_ratio,
-        });
+        let [minuend, subtrahend] = ends;
+        let lead = match p.lead_arithmetic {
+            ArithmeticPart::Difference(part) => {
+                let ports = lead::In {
+                    present: minuend,
+                    old: subtrahend,
+                    ratio,
+                };
+                part.settle(ports).w.lead
+            }
+            ArithmeticPart::Products(part) => {
+                let ports = lead_products::In {
+                    present: minuend,
+                    old: subtrahend,
+                    ratio,
+                };
+                part.settle(ports).w.predicted
+            }
+        };
         let net = Net {
-            present: pair.present,
-            lead: lead_arithmetic.w.lead,
-            fresh: pair.fresh,
-            enough: pair.enough,
+            present,
+            lead,
+            fresh,
+            enough,
         };
         (net, Nothing)
     }

@@ -253,6 +253,8 @@ impl Circuit for Machine {
             clear: low,
             run: of.run,
             halt,
+            passing: low,
+            effect: low,
             learn: of.learn,
             common: low,
             last_step: of.last_step,

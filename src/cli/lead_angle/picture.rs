@@ -2,7 +2,7 @@
 //! with either sign.
 
 use super::Job;
-use super::summary::{code_travel, of};
+use super::summary::{code_travel, error_name, of};
 use super::systems::{LEARNING, LITERAL, System};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::picture::{Curve, Panel, Picture};
@@ -42,7 +42,11 @@ pub fn draw(job: &Job, played: &[(System, Played)]) -> String {
 
 /// The stop errors of every system.
 fn all_errors(job: &Job, played: &[(System, Played)]) -> Panel {
-    let mut panel = Panel::new("stop error", AXIS, "counts past the target");
+    let mut panel = Panel::new(
+        error_name(job.settings.action),
+        AXIS,
+        "counts past the target",
+    );
     let mut range = [0.0, 0.0_f64];
     for ((system, run), colour) in played.iter().zip(COLOURS) {
         let errors = run.positionings.iter().map(|one| one.error as f64);
@@ -77,7 +81,10 @@ fn timed_out(run: &Played, half: f64) -> Vec<(f64, f64)> {
 
 /// The stop errors of learning by what a code is worth, in which it is to end within one.
 fn errors_in_codes(job: &Job, learning: &Played) -> Panel {
-    let title = format!("stop error of learning, held at ±{CODES_SHOWN}");
+    let title = format!(
+        "{} of learning, held at ±{CODES_SHOWN}",
+        error_name(job.settings.action)
+    );
     let last = learning.positionings.len().saturating_sub(1) as f64;
     let limits = [
         (0.0, 1.0),

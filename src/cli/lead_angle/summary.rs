@@ -6,7 +6,7 @@ use crate::cli::report::Outcome;
 use motion_rtl::circuits::lead_angle::codes::{STAGES, code};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
-    Comparing, Completion, Function, History, LeadBy, Placement, Settings, Sign, Targets,
+    Action, Comparing, Completion, Function, History, LeadBy, Placement, Settings, Sign, Targets,
 };
 use serde::Serialize;
 use std::ops::Range;
@@ -22,6 +22,8 @@ pub struct Summary {
     pub outcome: Outcome,
     /// What keeps the positions of the past.
     pub history: History,
+    /// What the control signal is for.
+    pub action: Action,
     /// Where the lead comes from.
     pub lead: LeadBy,
     /// What targets count from.
@@ -152,6 +154,14 @@ fn settled(settings: &Settings, positioning: &Positioning) -> bool {
         && positioning.error.unsigned_abs() as f64 <= code_travel(settings, positioning) + 1e-6
 }
 
+/// What is to be small.
+pub fn error_name(action: Action) -> &'static str {
+    match action {
+        Action::Stop => "stop error",
+        Action::Operate => "effect error",
+    }
+}
+
 /// The run of that name.
 pub fn of<'a>(played: &'a [(System, Played)], name: &str) -> Option<&'a Played> {
     let found = played.iter().find(|(system, _)| system.name == name);
@@ -174,6 +184,7 @@ impl Summary {
                 ..Outcome::new("lead_angle", &job.stem, settings.clock_hz, ticks)
             },
             history: settings.history,
+            action: settings.action,
             lead: settings.lead,
             targets: settings.targets,
             placement: settings.placement,
@@ -328,12 +339,23 @@ fn warnings(summary: &Summary) -> Vec<String> {
     for system in summary.systems.iter().filter(|system| system.own) {
         if system.missed > 0 {
             all.push(format!(
-                "{} of {} positionings missed their target and were stopped by hand",
+                "{} of {} positionings missed their target and were {} by hand",
                 system.missed,
-                summary.positionings.len()
+                summary.positionings.len(),
+                match summary.action {
+                    Action::Stop => "stopped",
+                    Action::Operate => "operated",
+                }
             ));
         }
-        if system.timed_out > 0 {
+        if system.timed_out > 0 && summary.action == Action::Operate {
+            all.push(format!(
+                "{} of {} operations had no effect before their time-out: nothing was learned from \
+                 them; a longer time_out_ms waits for it",
+                system.timed_out,
+                summary.positionings.len()
+            ));
+        } else if system.timed_out > 0 {
             all.push(format!(
                 "{} of {} positionings ended by their time-out before the body stood still: their \
                  errors are of where it was then, and nothing of them is a stop; a longer \

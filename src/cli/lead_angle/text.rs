@@ -1,8 +1,8 @@
 //! The summary for people.
 
-use super::summary::{ByOrder, Phase, Summary, SystemSummary};
+use super::summary::{ByOrder, Phase, Summary, SystemSummary, error_name};
 use crate::cli::report::{Outcome, Report};
-use motion_rtl::jobs::lead_angle::settings::LeadBy;
+use motion_rtl::jobs::lead_angle::settings::{Action, LeadBy};
 use std::fmt::Write;
 
 /// Characters of a column of stop errors at least.
@@ -34,7 +34,10 @@ impl Report for Summary {
             name(self.history),
             name(self.placement),
             name(self.comparing),
-            name(self.completion).replace('_', " "),
+            match self.action {
+                Action::Stop => name(self.completion).replace('_', " "),
+                Action::Operate => "effect".to_owned(),
+            },
             match (self.lead, self.learn) {
                 (LeadBy::Speed, _) => "lead by speed".to_owned(),
                 (LeadBy::Time, true) => format!(
@@ -47,7 +50,11 @@ impl Report for Summary {
         )?;
         writeln!(
             text,
-            "stop error in counts   largest       rms  missed  timed out"
+            "{:<20}   largest       rms  missed  timed out",
+            match self.action {
+                Action::Stop => "stop error in counts",
+                Action::Operate => "effect error, counts",
+            }
         )?;
         for system in &self.systems {
             writeln!(
@@ -71,7 +78,11 @@ impl Report for Summary {
         if self.systems.iter().any(|system| system.timed_out > 0) {
             writeln!(
                 text,
-                "* its time was over: where the body was then, not where it stopped\n"
+                "* its time was over: where the body was then, not where it {}\n",
+                match self.action {
+                    Action::Stop => "stopped",
+                    Action::Operate => "took effect",
+                }
             )?;
         }
         Ok(())
@@ -99,7 +110,7 @@ impl Summary {
     fn phase(&self, text: &mut String, phase: &Phase) -> std::fmt::Result {
         writeln!(
             text,
-            "positionings {} to {}{}: stop error of the last of each step; lead of {}",
+            "positionings {} to {}{}: {} of the last of each step; lead of {}",
             phase.from,
             phase.to.saturating_sub(1),
             if phase.loaded {
@@ -107,6 +118,7 @@ impl Summary {
             } else {
                 ""
             },
+            error_name(self.action),
             self.lead_times_of
         )?;
         writeln!(

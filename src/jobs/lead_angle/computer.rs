@@ -2,7 +2,7 @@
 //! finds its next target.
 
 use super::job::{Ports, WIDTHS};
-use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings};
+use super::settings::{Action, Completion, SPEED_UNIT_COUNTS_PER_S, Settings};
 use crate::circuits::lead_angle::Compensator;
 use crate::hdl::zero;
 
@@ -30,13 +30,14 @@ impl<'a> ControlComputer<'a> {
     pub(super) fn standing(&self, circuit: &Compensator) -> Ports {
         let settings = self.settings;
         let cks = |ms: f64| u64::from(settings.cks(ms));
-        let standstill = match settings.completion {
-            Completion::Standstill => cks(settings.standstill_ms),
+        let standstill = match (settings.action, settings.completion) {
+            (Action::Stop, Completion::Standstill) => cks(settings.standstill_ms),
             // No standstill is so long.
-            Completion::FixedTime => (1 << WIDTHS.cks) - 1,
+            _ => (1 << WIDTHS.cks) - 1,
         };
         // The times are in the ROM.
         Ports {
+            passing: settings.action == Action::Operate,
             learn: settings.learn,
             common: settings.common_time,
             last_step: settings.steps.len().saturating_sub(1) as u64,

@@ -6,8 +6,8 @@ use crate::circuits::lead_angle::codes::STAGES;
 use crate::circuits::lead_angle::compensator::In;
 use crate::circuits::lead_angle::{Compensator, Variant, Widths};
 use crate::hdl::{At, Image, Observer, Sample, Simulator, Value, Watcher};
-use crate::plant::BrakedBody;
 use crate::plant::waves::{Body, BodySignals};
+use crate::plant::{BrakedBody, Operation};
 use crate::settings::JobError;
 
 /// Widths of the compensator that jobs run on.
@@ -68,10 +68,10 @@ pub struct Positioning {
     pub completed: u64,
     /// Dx then, likewise.
     pub stopped: i64,
-    /// Way past the target in the direction of the move; negative where it stopped short. Where the
-    /// time was over, of where the body was then.
+    /// Way past the target in the direction of the move; negative where it stopped short, or where
+    /// the operation took effect before it. Where the time was over, of where the body was then.
     pub error: i64,
-    /// Its time was over before the body stood still.
+    /// Its time was over before the body stood still, or the operation took effect.
     pub timed_out: bool,
     /// True speed when it was complete, in counts a second.
     pub end_speed_counts_per_s: f64,
@@ -153,6 +153,10 @@ struct Bench<'a> {
     arming: bool,
     /// The body is far past its target.
     past: bool,
+    /// The operation has effect.
+    effect: bool,
+    /// Where it took effect since the step was armed.
+    effect_at: Option<i64>,
     played: Played,
 }
 
@@ -162,6 +166,14 @@ impl Bench<'_> {
         self.played.positionings.len() < self.settings.positionings as usize
     }
 
+    /// Whether the operation has effect in this tick, as its sensor says.
+    fn operate(&mut self, effect: bool, body: &BrakedBody) {
+        if effect && !self.effect {
+            self.effect_at = Some(body.position_counts().round() as i64);
+        }
+        self.effect = effect;
+    }
+
     /// Takes the tick up; whether the run goes on.
     fn take(&mut self, now: &Sample<'_, Compensator>, see: &See, body: &BrakedBody) -> bool {
         let tick = self.played.ticks;
@@ -169,6 +181,7 @@ impl Bench<'_> {
         self.idle += 1;
         let arm = now.get(see.arm);
         if arm {
+            self.effect_at = None;
             if self.arming {
                 // The sample that ends it says where the body is.
                 self.played.positionings.pop();
@@ -203,6 +216,7 @@ impl Bench<'_> {
             }
             if now.get(see.complete) {
                 let position = unwrapped(now.get(see.position), current.target);
+                let position = self.effect_at.unwrap_or(position);
                 let way = position - current.target;
                 current.completed = tick;
                 current.stopped = position;
@@ -257,23 +271,29 @@ pub fn play(
         patience: (PATIENCE_S * clock) as u64,
         arming: false,
         past: false,
+        effect: false,
+        effect_at: None,
         played: Played::default(),
     };
     let mut computer = ControlComputer::new(settings);
     let mut i = computer.standing(circuit);
+    let mut operation = Operation::new(settings.operation_delay(false));
     let mut loaded = false;
     let (mut simulator, see) =
         Simulator::watching_beside(circuit, &Body, observer.needs_all(), See::of)?;
     loop {
         if settings.load_change_after == Some(bench.completed) && !loaded {
             body.set_load(settings.load)?;
+            operation.set_delay(settings.operation_delay(true));
             loaded = true;
         }
         let [speed, step] = simulator.state(|q| [see.speed, see.step].map(|at| q.get(at)));
         let signals = [see.drive, see.reverse, see.control, see.arm];
         let [drive, reverse, control, arm] = simulator.state(|q| signals.map(|at| q.get(at)));
         let speed = speed * u64::from(SPEED_UNIT_COUNTS_PER_S);
-        let (a, b) = body.step(drive, reverse, speed as f64, control);
+        let (a, b) = body.step(drive, reverse, speed as f64, control && !i.passing);
+        i.effect = operation.step(control && i.passing);
+        bench.operate(i.effect, &body);
         computer.tick(&mut i, bench.played.ticks, arm, bench.run());
         computer.choose_parameter(&mut i, step);
         i.a = a;

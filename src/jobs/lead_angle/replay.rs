@@ -2,12 +2,12 @@
 //! predictions were.
 
 use super::computer::ControlComputer;
-use super::settings::{LeadBy, Settings, Targets};
+use super::settings::{Action, LeadBy, Settings, Targets};
 use crate::circuits::lead_angle::Compensator;
 use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
 use crate::input::position_log::PositionLog;
-use crate::plant::Encoder;
 use crate::plant::waves::{Body, BodySignals};
+use crate::plant::{Encoder, Operation};
 use crate::settings::JobError;
 
 /// A control signal that the log gave rise to.
@@ -23,6 +23,8 @@ pub struct Signal {
     pub lead_ms: f64,
     /// Position at the signal, in the log's counts.
     pub position: i64,
+    /// Where its operation took effect, in the log's counts.
+    pub effect_position: Option<f64>,
     /// Position that time after the sample that the signal came of, in the log's counts; `None` where the
     /// log is over by then.
     pub position_after: Option<f64>,
@@ -62,8 +64,9 @@ pub struct Replayed {
     pub lost: bool,
 }
 
-/// The settings that a log is replayed with: targets count from its first sample. No signal has an
-/// effect on a log: nothing is learned, and the next step begins as soon as it can.
+/// The settings that a log is replayed with: targets count from its first sample. No signal stops a
+/// log, and so no stop is learned from; an operation is, as the body goes on in any case. The next
+/// step begins as soon as it can.
 #[must_use]
 pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
     let mut settings = settings.clone();
@@ -72,10 +75,12 @@ pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
             step.target = step.target.saturating_sub(origin(log));
         }
     }
-    settings.learn = false;
     let ck_ms = settings.ck_ms();
+    if settings.action == Action::Stop {
+        settings.learn = false;
+        settings.time_out_ms = ck_ms;
+    }
     settings.standstill_ms = ck_ms;
-    settings.time_out_ms = ck_ms;
     settings.rest_ms = ck_ms;
     settings
 }
@@ -88,6 +93,7 @@ fn origin(log: &PositionLog) -> i64 {
 /// What is looked at.
 struct See {
     arm: At<bool>,
+    control: At<bool>,
     fire: At<bool>,
     fresh: At<bool>,
     enough: At<bool>,
@@ -104,6 +110,7 @@ impl See {
         let (w, comparator) = (&watch.w, &watch.p.comparator.i);
         See {
             arm: watch.at(watch.p.sequencer.q.arm),
+            control: watch.at(watch.p.comparator.q.control),
             fire: watch.at(w.fire),
             fresh: watch.at(comparator.evaluate),
             enough: watch.at(comparator.valid),
@@ -169,17 +176,21 @@ pub fn replay(
     sums.parts = vec![[f64::NAN; 2]; PARTS];
     let mut computer = ControlComputer::new(settings);
     let mut i = computer.standing(circuit);
-    let mut before = 0.0;
+    let mut operation = Operation::new(settings.operation_delay(false));
+    let (mut before, mut effect) = (0.0, false);
     let (mut simulator, see) =
         Simulator::watching_beside(circuit, &Body, observer.needs_all(), See::of)?;
     for tick in 0..=ticks {
         let seconds = tick as f64 * tick_s;
         let position = at(seconds);
         let (a, b) = Encoder::default().channels(position);
-        let arm = simulator.state(|q| q.get(see.arm));
+        let [arm, control] = simulator.state(|q| [see.arm, see.control].map(|at| q.get(at)));
         computer.tick(&mut i, tick, arm, true);
         i.a = a;
         i.b = b;
+        i.effect = operation.step(control && i.passing);
+        let takes_effect = i.effect && !effect;
+        effect = i.effect;
         let speed = (position - before) / tick_s;
         before = position;
         if observer.looks(tick) {
@@ -206,12 +217,18 @@ pub fn replay(
                 let part = u128::from(tick) * PARTS as u128 / (u128::from(ticks) + 1);
                 sums.add(part as usize, [position + lead - truth, position - truth]);
             }
+            if let Some(signal) = replayed.signals.last_mut()
+                && takes_effect
+            {
+                signal.effect_position = Some(position + origin as f64);
+            }
             if fire {
                 replayed.signals.push(Signal {
                     step: now.get(see.step) as usize,
                     target: now.get(see.target) + origin,
                     tick,
                     lead_ms,
+                    effect_position: None,
                     position: now.get(see.position) + origin,
                     position_after: known.map(|position| position + origin as f64),
                 });

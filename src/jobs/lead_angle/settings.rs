@@ -46,6 +46,18 @@ pub enum LeadBy {
     Speed,
 }
 
+/// What the control signal is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Action {
+    /// To stop the body at the target.
+    #[default]
+    Stop,
+    /// An operation that is to take effect at the target while the body goes on; a sensor says when
+    /// it does.
+    Operate,
+}
+
 /// What a target counts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -90,6 +102,12 @@ pub struct Settings {
     pub steps: Vec<Step>,
     /// What their targets count from.
     pub targets: Targets,
+    /// What the control signal is for.
+    pub action: Action,
+    /// Time from the control signal until an operation takes effect.
+    pub operation_delay_s: f64,
+    /// The factor of that time from the load change on.
+    pub load_delay_factor: f64,
     /// Where the lead comes from.
     pub lead: LeadBy,
     /// Where the lead is placed.
@@ -151,6 +169,9 @@ impl Default for Settings {
             ck_ticks: 100,
             steps: vec![step(15_000, 40_000), step(0, 40_000)],
             targets: Targets::default(),
+            action: Action::default(),
+            operation_delay_s: 0.02,
+            load_delay_factor: 1.0,
             lead: LeadBy::default(),
             placement: Placement::default(),
             comparing: Comparing::default(),
@@ -228,6 +249,14 @@ impl Settings {
         u32::try_from(shortest).unwrap_or(u32::MAX)
     }
 
+    /// Ticks from the control signal until an operation takes effect, before the load change or
+    /// after it.
+    #[must_use]
+    pub fn operation_delay(&self, loaded: bool) -> u64 {
+        let factor = if loaded { self.load_delay_factor } else { 1.0 };
+        (self.operation_delay_s * factor * self.clock_hz as f64).round() as u64
+    }
+
     /// A time other than a lead time in whole CKs; saturates.
     #[must_use]
     pub fn cks(&self, ms: f64) -> u16 {
@@ -299,6 +328,12 @@ impl Settings {
         if let Some(after) = self.load_change_after {
             within("load_change_after", after, &(1..=self.positionings))?;
         }
+        if self.action == Action::Operate && self.completion == Completion::FixedTime {
+            let allowed = "standstill with action = \"operate\": its effect is what it waits for";
+            return Err(SettingError::value("completion", "fixed_time", allowed));
+        }
+        within("operation_delay_s", self.operation_delay_s, &(0.0..=10.0))?;
+        within("load_delay_factor", self.load_delay_factor, &(1e-3..=1e3))?;
         self.load.validate()?;
         self.body.validate()
     }

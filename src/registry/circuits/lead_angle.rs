@@ -1,9 +1,10 @@
-use super::make::{choice, one_of, only, width, words};
+use super::make::{at_most, choice, one_of, only, width, words};
 use crate::circuits::lead_angle::{
     Comparator, Comparing, Compensator, CompletionDetector, Correction, CorrectionArithmetic,
-    Function, Lead, LeadFrom, LeadPlacement, Memory, Placement, PositionHistory, RamHistory,
-    RatioLogic, Refinement, Sign, SpeedLead, StepSequencer, StopError, TargetSetter, TimeData,
-    TimeLead, Variant, Widths,
+    DifferenceHistory, DividedTime, Division, Form, Function, Lead, LeadFrom, LeadPlacement,
+    LeadProducts, Memory, Placement, PositionHistory, RamHistory, RatioLogic, Refinement, Sign,
+    SpeedLead, StepSequencer, StopError, TargetSetter, TimeData, TimeLead, TouchProbe, Variant,
+    Widths,
 };
 use crate::hdl::Image;
 use crate::registry::Entry;
@@ -20,6 +21,10 @@ const fn stages(width: usize) -> usize {
 
 const PLACEMENTS: &[Placement] = &[Placement::Position, Placement::Target, Placement::Halves];
 const COMPARINGS: &[Comparing] = &[Comparing::Crossing, Comparing::Equal];
+/// N as it is, or fixed at 1.
+const ONES: &[bool] = &[false, true];
+const DIVISIONS: &[Division] = &[Division::Logic, Division::Beforehand, Division::One];
+const FORMS: &[Form] = &[Form::Difference, Form::Products, Form::EarlyDifference];
 const SIGNS: &[Sign] = &[Sign::Converging, Sign::Literal];
 
 /// Either sign, then either sign to second order.
@@ -95,13 +100,25 @@ fn time_data(given: &[u64]) -> Option<TimeData> {
     Some(TimeData { step, time, rom })
 }
 
-/// A time lead of positions that have `position` bits.
-fn time_lead(memory: Memory, position: usize) -> TimeLead {
-    TimeLead {
-        stages: stages(position),
-        position,
-        memory,
-    }
+/// A time lead of positions of the width that is given, and what follows.
+fn time_lead(memory: Memory, given: &[u64]) -> Option<TimeLead> {
+    let position = width(given)?;
+    formed(
+        TimeLead::new(stages(position), position, memory),
+        &given[1..],
+    )
+}
+
+/// The numbers of where N comes from and of how the prediction is worked out.
+fn formed(circuit: TimeLead, given: &[u64]) -> Option<TimeLead> {
+    at_most(given, 2)?;
+    let division = choice(given, 0, DIVISIONS)?;
+    let form = choice(given, 1, FORMS)?;
+    Some(TimeLead {
+        division,
+        form,
+        ..circuit
+    })
 }
 
 const SHIFT: LeadFrom = LeadFrom::Time(Memory::ShiftRegister);
@@ -140,31 +157,63 @@ pub(super) const CIRCUITS: &[Entry] = &[
         proved: 2,
     ),
     entry!(
-        Lead, "JPH0646367B2 15 + 16",
-        full: || Lead { position: 24 },
-        widths: [position],
-        from: "width", |given| alone(given, |position| Lead { position }),
+        DifferenceHistory, "JPH0646367B2 11 + 15 + 14",
+        full: || DifferenceHistory { stages: 199, position: 24 },
+        widths: [stages, position],
+        from: "width: 2 stages for 2, 3 for 4, 15 for 8", |given| {
+            alone(given, |position| DifferenceHistory { stages: stages(position), position })
+        },
         with: nothing,
+        proved: 2,
+    ),
+    entry!(
+        DividedTime, "JPH0646367B2, without 13",
+        full: || DividedTime { stages: 199, one: false },
+        widths: [stages],
+        from: "4 for 3 stages, 8 for 15, then 0 for N above Δt/N or 1 for N = 1", |given| {
+            Some(DividedTime { stages: stages(width(given)?), one: one_of(given, ONES)? })
+        },
+        with: |circuit, given| Some(DividedTime { one: only(given, ONES)?, ..circuit }),
+        proved: 4,
+    ),
+    entry!(
+        Lead, "JPH0646367B2 15 + 16",
+        full: || Lead { position: 24, one: false },
+        widths: [position],
+        from: "width, 0 for N or 1 for N = 1", |given| {
+            Some(Lead { position: width(given)?, one: one_of(given, ONES)? })
+        },
+        with: |circuit, given| Some(Lead { one: only(given, ONES)?, ..circuit }),
+        proved: 4,
+    ),
+    entry!(
+        LeadProducts, "JPH0646367B2 17, without 15",
+        full: || LeadProducts { position: 24, one: false },
+        widths: [position],
+        from: "width, 0 for N or 1 for N = 1", |given| {
+            Some(LeadProducts { position: width(given)?, one: one_of(given, ONES)? })
+        },
+        with: |circuit, given| Some(LeadProducts { one: only(given, ONES)?, ..circuit }),
         proved: 4,
     ),
     entry!(
         TimeLead, "JPH0646367B2 11, 13–16",
-        full: || TimeLead { stages: 199, position: 24, memory: Memory::ShiftRegister },
+        full: || TimeLead::new(199, 24, Memory::ShiftRegister),
         widths: [stages, position],
-        from: "width of positions: 3 stages for 4, 15 for 8", |given| {
-            alone(given, |position| time_lead(Memory::ShiftRegister, position))
-        },
-        with: nothing,
+        from: "width of positions (3 stages for 4, 15 for 8), 0 for N by 13, 1 beforehand or 2 for \
+               N = 1, 0 for 15 behind 14, 1 for the products or 2 for 15 before 14",
+            |given| time_lead(Memory::ShiftRegister, given),
+        with: formed,
         proved: none,
     ),
     entry!(
         TimeLead, "JPH0646367B2 11, 13–16, with a RAM",
-        full: || TimeLead { stages: 199, position: 24, memory: Memory::Ram },
+        full: || TimeLead::new(199, 24, Memory::Ram),
         widths: [stages, position],
-        from: "width of positions: 3 stages for 4, 15 for 8", |given| {
-            alone(given, |position| time_lead(Memory::Ram, position))
-        },
-        with: nothing,
+        from: "width of positions (3 stages for 4, 15 for 8), 0 for N by 13, 1 beforehand or 2 for \
+               N = 1, 0 for 15 behind 14 or 1 for the products",
+            |given| time_lead(Memory::Ram, given),
+        with: formed,
         proved: none,
         named: "ram_time_lead", "the lead of a time, from a RAM of samples",
     ),
@@ -227,6 +276,14 @@ pub(super) const CIRCUITS: &[Entry] = &[
         },
         with: nothing,
         proved: 2,
+    ),
+    entry!(
+        TouchProbe, "JPH0646367B2, any operation",
+        full: || TouchProbe { position: 24 },
+        widths: [position],
+        from: "width", |given| alone(given, |position| TouchProbe { position }),
+        with: nothing,
+        proved: 4,
     ),
     entry!(
         StopError, "JPH0646367B2 27, 30, 31",

@@ -2,7 +2,7 @@
 
 use motion_rtl::circuits::lead_angle::codes;
 use motion_rtl::circuits::lead_angle::{
-    Lead, LeadPlacement, Memory, Placement, TimeLead, lead, placement, time_lead,
+    Division, Lead, LeadPlacement, Memory, Placement, TimeLead, lead, placement, time_lead,
 };
 use motion_rtl::hdl::{Simulator, Value};
 use proptest::prelude::*;
@@ -28,7 +28,11 @@ fn the_prediction_is_exact_on_the_ring_and_the_placements_agree() {
     let mut placed = circuits.map(|circuit| Simulator::new(&circuit).unwrap());
     let w = &placed[0].signals().w;
     let compared = [w.compared_position, w.compared_target];
-    let mut lead = Simulator::new(&Lead { position: 8 }).unwrap();
+    let mut lead = Simulator::new(&Lead {
+        position: 8,
+        one: false,
+    })
+    .unwrap();
     let mut placed_leads = HashSet::new();
     for position in -128..128 {
         for way in -127..=127 {
@@ -69,12 +73,13 @@ fn the_prediction_is_exact_on_the_ring_and_the_placements_agree() {
 /// What the circuit predicts for `time` CKs ahead from the positions of `count` CKs, the last of
 /// them 0, when all are in its history; a CK every tick.
 fn predicted(time: u64, count: i64, position: impl Fn(i64) -> i64) -> i64 {
-    let circuit = TimeLead {
-        stages: 199,
-        position: 24,
-        memory: Memory::ShiftRegister,
-    };
-    let mut simulator = Simulator::new(&circuit).unwrap();
+    let circuit = TimeLead::new(199, 24, Memory::ShiftRegister);
+    predicted_by(&circuit, time, count, position)
+}
+
+/// The same of another circuit.
+fn predicted_by(circuit: &TimeLead, time: u64, count: i64, position: impl Fn(i64) -> i64) -> i64 {
+    let mut simulator = Simulator::new(circuit).unwrap();
     let mut i: time_lead::In<Value> = time_lead::In {
         ck: true,
         restart: false,
@@ -150,4 +155,25 @@ fn the_bound_is_reached() {
         let bound = -f64::from(ratio + 1);
         assert!(share(least) < bound * 0.97, "{ratio}: {least}");
     }
+}
+
+/// What N is for: of a ten times longer memory without it the prediction is of a longer ago.
+#[test]
+fn a_long_memory_with_n_fixed_at_one_is_further_off_in_acceleration() {
+    let long = TimeLead {
+        division: Division::One,
+        ..TimeLead::new(1990, 24, Memory::Ram)
+    };
+    // 40,000 counts/s² at a CK of 0.1 ms.
+    let at = |ck: i64| ck * ck / 5_000;
+    let error = |predicted: i64, time: u64| predicted - at(time as i64);
+    let compared = [199, 398, 995, 1990].map(|time| {
+        let short = error(predicted(time, 2_000, at), time);
+        [short, error(predicted_by(&long, time, 2_000, at), time)]
+    });
+    // −(aΔt²/2)(1 + 1/N), with N of 1, 2, 5 and 10 against 1.
+    assert_eq!(
+        compared,
+        [[-14, -14], [-45, -62], [-233, -396], [-862, -1584]]
+    );
 }

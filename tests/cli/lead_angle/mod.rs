@@ -3,6 +3,7 @@
 mod completion;
 mod files;
 mod log;
+mod operation;
 mod refusals;
 
 use super::support::{Bench, DRAWINGS, keys, list, number, whole};
@@ -207,6 +208,7 @@ fn the_second_order_is_a_system_beside_the_first_and_can_be_the_own_one() {
 fn the_summary_has_these_keys() {
     let summary = small().json(&["run", "s.toml", "--no-vcd"]);
     let expected = [
+        "action",
         "circuit",
         "ck_ticks",
         "clock_hz",

@@ -57,6 +57,23 @@ fn settings_are_checked_and_named_with_their_line() {
         "error: s.toml:2: lead: unknown variant `way`; allowed: `time` or `speed`\n"
     );
     assert_eq!(
+        refused("action = \"cam\"\n"),
+        "error: s.toml:2: action: unknown variant `cam`; allowed: `stop` or `operate`\n"
+    );
+    assert_eq!(
+        refused("action = \"operate\"\ncompletion = \"fixed_time\"\n"),
+        "error: s.toml:3: completion: is fixed_time; allowed: standstill with action = \"operate\": \
+         its effect is what it waits for\n"
+    );
+    assert_eq!(
+        refused("operation_delay_s = 11\n"),
+        "error: s.toml:2: operation_delay_s: is 11; allowed: 0 to 10\n"
+    );
+    assert_eq!(
+        refused("load_delay_factor = 0\n"),
+        "error: s.toml:2: load_delay_factor: is 0; allowed: 0.001 to 1000\n"
+    );
+    assert_eq!(
         refused("targets = \"turn\"\n"),
         "error: s.toml:2: targets: unknown variant `turn`; allowed: `absolute` or `relative`\n"
     );

@@ -52,7 +52,9 @@ struct Row {
     position: i64,
     /// Position a lead time later; `null` where the log is over by then.
     position_after: Option<f64>,
-    /// The same less the target: what the prediction was off.
+    /// Where its operation took effect, less the target; `null` where there is none.
+    effect_error_counts: Option<f64>,
+    /// `position_after` less the target: what the prediction was off.
     error_counts: Option<f64>,
 }
 
@@ -109,6 +111,7 @@ fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summa
         lead_ms: signal.lead_ms,
         position: signal.position,
         position_after: signal.position_after,
+        effect_error_counts: signal.effect_position.map(|at| at - signal.target as f64),
         error_counts: signal.position_after.map(|at| at - signal.target as f64),
     };
     let predictions = replayed.predictions;

@@ -71,17 +71,26 @@ impl Summary {
             true => self.signals.len(),
             false => SHOWN.min(self.signals.len()),
         };
+        let operates = self
+            .signals
+            .iter()
+            .any(|row| row.effect_error_counts.is_some());
         writeln!(
             text,
-            "signal of step    target       time      lead  position  a lead later     error"
+            "signal of step    target       time      lead  position  a lead later     error{}",
+            if operates { "  at effect" } else { "" }
         )?;
         for row in &self.signals[..shown] {
             let [after, error] = [row.position_after, row.error_counts].map(tenths);
-            writeln!(
+            write!(
                 text,
                 "{:>14}  {:>8}  {:>7.3} s  {:>5.1} ms  {:>8}  {after:>12}  {error:>8}",
                 row.step, row.target, row.seconds, row.lead_ms, row.position
             )?;
+            if operates {
+                write!(text, "  {:>9}", tenths(row.effect_error_counts))?;
+            }
+            text.push('\n');
         }
         writeln!(text, "times are from the first sample of the log on")?;
         let more = self.signals.len() - shown;

@@ -43,7 +43,7 @@ fn lead_times_are_codes() {
 #[test]
 fn what_is_out_of_range_is_named_with_what_is_allowed() {
     type Break = fn(&mut Settings);
-    let cases: [(Break, &str); 33] = [
+    let cases: [(Break, &str); 36] = [
         (
             |s| s.clock_hz = 0,
             "clock_hz: is 0; allowed: 1 to 10000000000",
@@ -144,6 +144,19 @@ fn what_is_out_of_range_is_named_with_what_is_allowed() {
         (
             |s| s.speed_lead_ms = -1.0,
             "speed_lead_ms: is -1; allowed: 0 to 199",
+        ),
+        (
+            |s| (s.action, s.completion) = (Action::Operate, Completion::FixedTime),
+            "completion: is fixed_time; allowed: standstill with action = \"operate\": its effect is \
+             what it waits for",
+        ),
+        (
+            |s| s.operation_delay_s = -0.1,
+            "operation_delay_s: is -0.1; allowed: 0 to 10",
+        ),
+        (
+            |s| s.load_delay_factor = 0.0,
+            "load_delay_factor: is 0; allowed: 0.001 to 1000",
         ),
         (
             |s| s.positionings = 0,

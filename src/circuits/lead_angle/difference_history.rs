@@ -1,0 +1,150 @@
+//! Position history with the subtractor 15 between memory 11 and take-out 14.
+//!
+//! ```text
+//!                          ┌────────────────────┐
+//!  ck, position, restart ─▶│                    ├──▶ present, difference, pair_ratio
+//!  tap, ratio ────────────▶│ difference history ├──▶ fresh, enough
+//!                          └────────────────────┘
+//! ```
+//!
+//! The text allows it (引算器15は記憶回路11と取り出し回路14との間に設けてもよい). Every stage then has a
+//! subtractor, and the tap takes a way out instead of a sample. What is taken, and when, is as in the
+//! [shift register](super::position_history).
+
+use super::codes::tap_width;
+use super::position_history::{In, Net as Taking, Pair, nets, objection, pair_after, stored};
+use crate::hdl::prelude::*;
+
+/// Position history whose tap takes a difference.
+///
+/// A position that stands in the tick of CK is at the outputs in the tick after it.
+#[derive(Debug, Clone)]
+pub struct DifferenceHistory {
+    /// How many samples it keeps.
+    pub stages: usize,
+    /// Width of a position.
+    pub position: usize,
+}
+
+signals! { for DifferenceHistory as c;
+    /// What leads a sample to the outputs.
+    pub struct DifferencePair {
+        /// Dx: the present sample.
+        pub present: I(c.position) as Analog,
+        /// 15: Δx, the way since the sample a tap of CKs before it.
+        pub difference: I(c.position) as Analog,
+        /// N of this pair.
+        pub pair_ratio: U(4),
+        /// The earlier sample was taken since the last restart, or none is wanted.
+        pub enough: Bit,
+        /// The pair is new in this tick.
+        pub fresh: Bit,
+        /// Samples since the last restart, up to K.
+        pub samples: U(tap_width(c.stages)),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// What is at the outputs.
+        pub pair: DifferencePair(c),
+        /// 11: stage k holds the sample k CKs before the present one.
+        stages: Shift(c.stages, c.position),
+    }
+    /// Nets.
+    pub struct Net {
+        /// What is taken.
+        taking: Taking(c) as Flat,
+        /// 15: the way since the sample of each stage.
+        ways: [I(c.position); c.stages],
+    }
+}
+
+/// The word that `index` names, by a tree of choices; where there is none it is of no use.
+fn taken(words: &[I], index: U) -> I {
+    if let [word] = words {
+        return *word;
+    }
+    let half = words.len().next_power_of_two() / 2;
+    let (low, high) = words.split_at(half);
+    let bit = index.bit(half.trailing_zeros() as usize);
+    bit.mux(taken(high, index), taken(low, index))
+}
+
+impl Circuit for DifferenceHistory {
+    const NAME: &'static str = "difference_history";
+    const ABOUT: &'static str =
+        "shift register of position samples, with a subtractor at each stage";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        objection(self.stages)
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let stage = |stage| i.position - q.stages.stage(stage).signed();
+        let ways: Vec<I> = (0..self.stages).map(stage).collect();
+        let before = Pair {
+            present: q.pair.present,
+            old: q.pair.difference,
+            pair_ratio: q.pair.pair_ratio,
+            enough: q.pair.enough,
+            fresh: q.pair.fresh,
+            samples: q.pair.samples,
+        };
+        let taking = nets(self.stages, &before, &i);
+        let way = taking.load.mux(taken(&ways, taking.index), before.old);
+        let after = pair_after(self.stages, &before, &taking, &i, way);
+        let edge = Reg {
+            pair: DifferencePair {
+                present: after.present,
+                difference: after.old,
+                pair_ratio: after.pair_ratio,
+                enough: after.enough,
+                fresh: after.fresh,
+                samples: after.samples,
+            },
+            stages: q.stages.shift(i.ck, i.position.unsigned()),
+        };
+        (Net { taking, ways }, edge)
+    }
+}
+
+impl Specified for DifferenceHistory {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let &DifferenceHistory { stages, position } = self;
+        let range = 1i64 << position;
+        Invariants::<Self>::new()
+            .step(
+                "at CK every sample becomes a CK older, between CKs nothing moves",
+                move |now, next| {
+                    let mut expected = now.q.stages.to_vec();
+                    if now.i.ck {
+                        expected.insert(0, stored(now.i.position, position));
+                        expected.truncate(stages);
+                    }
+                    let after = &next.q.stages;
+                    require(after[..] == expected[..], ["stages"], || {
+                        format!("{after:?} where {expected:?} is expected")
+                    })
+                },
+            )
+            .step(
+                "at CK the way is that since the sample a tap of CKs before",
+                move |now, next| {
+                    let (tap, way) = (now.i.tap as usize, next.q.pair.difference);
+                    let right = match now.i.ck && (1..=stages).contains(&tap) {
+                        true => {
+                            let old = now.q.stages[tap - 1] as i64;
+                            (now.i.position - old - way) % range == 0
+                        }
+                        false => way == now.q.pair.difference,
+                    };
+                    require(right, ["pair.difference"], || format!("{way}"))
+                },
+            )
+    }
+
+    /// The ratio is only handed on: it may depend on the position.
+    fn applies(&self, i: &In<Value>) -> bool {
+        i.ratio == i.position.rem_euclid(2) as u64 * 15
+    }
+}

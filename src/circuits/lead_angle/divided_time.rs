@@ -1,0 +1,97 @@
+//! Time data that need no logic circuit 13: divided into N and Δt/N beforehand, or with N fixed at 1.
+//!
+//! ```text
+//!               ┌──────────────┐
+//!  lead_time ──▶│ divided time ├──▶ ratio, tap
+//!               └──────────────┘
+//! ```
+//!
+//! The text allows both (N=1に固定する場合はこのような論理回路13は不要; 予め分けたデータを供給). What
+//! supplies the data then sees to it that a tap is one of the history: of one beyond it there is never
+//! enough.
+//!
+//! Departure: a tap of 0 is no lead, whatever N stands beside it.
+
+use super::codes::tap_width;
+use crate::hdl::prelude::*;
+
+/// Where N comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Division {
+    /// The logic circuit 13, from Δt.
+    #[default]
+    Logic,
+    /// The time data, which hold N above Δt/N.
+    Beforehand,
+    /// Nowhere: it is 1, and the time data are the tap.
+    One,
+}
+
+/// Divided time data. Combinational.
+#[derive(Debug, Clone)]
+pub struct DividedTime {
+    /// Stages of history.
+    pub stages: usize,
+    /// N is 1 and does not stand in the data.
+    pub one: bool,
+}
+
+impl DividedTime {
+    fn tap(&self) -> usize {
+        tap_width(self.stages)
+    }
+
+    /// Width of the time data.
+    #[must_use]
+    pub fn word(&self) -> usize {
+        self.tap() + if self.one { 0 } else { 4 }
+    }
+}
+
+signals! { for DividedTime as c;
+    /// Ports in.
+    pub struct In {
+        /// Δt in CKs where N is 1, or N above Δt/N.
+        pub lead_time: U(c.word()) as Hex,
+    }
+    /// Nets.
+    pub struct Net {
+        /// N: 0 for no lead.
+        pub ratio: U(4),
+        /// Δt/N: CKs that the earlier sample is old; 0 for no lead.
+        pub tap: U(c.tap()),
+    }
+}
+
+impl Circuit for DividedTime {
+    const NAME: &'static str = "divided_time";
+    const ABOUT: &'static str = "ratio N and tap from time data that hold them";
+    records!(In, Nothing, Net);
+
+    fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
+        let tap = i.lead_time.slice(0, self.tap());
+        let ratio = match self.one {
+            true => (!tap.is_zero()).word().resize(4),
+            false => tap.is_zero().mux(0, i.lead_time.slice(self.tap(), 4)),
+        };
+        (Net { ratio, tap }, Nothing)
+    }
+}
+
+impl Specified for DividedTime {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let range = 1u64 << self.tap();
+        Invariants::<Self>::new().always(
+            "the data are N and tap, and no tap is no lead",
+            move |now| {
+                let (ratio, tap) = (now.i.lead_time / range, now.i.lead_time % range);
+                let ratio = if self.one { 1 } else { ratio };
+                let expected = if tap == 0 { (0, 0) } else { (ratio, tap) };
+                let given = (now.w.ratio, now.w.tap);
+                require(given == expected, ["ratio", "tap"], || {
+                    format!("{given:?} where {expected:?} is expected")
+                })
+            },
+        )
+    }
+}

@@ -1,0 +1,93 @@
+//! The prediction without the subtractor 15: (N + 1)·Dx − N·Dx(−Δt/N).
+//!
+//! ```text
+//!                 ┌───────────────┐
+//!  present, old ─▶│               │
+//!                 │ lead products ├──▶ predicted
+//!  ratio ────────▶│               │
+//!                 └───────────────┘
+//! ```
+//!
+//! The text's way round 15 and 16, with a product of each sample; where N is fixed at 1 it is
+//! 2·Dx − Dx(−Δt), without a multiplier. Adder 17 is in it: what comes out is Dx(+Δt), on which nothing
+//! is put any more.
+
+use crate::hdl::prelude::*;
+
+/// Prediction from two products. Combinational.
+#[derive(Debug, Clone)]
+pub struct LeadProducts {
+    /// Width of a position.
+    pub position: usize,
+    /// N is 1, or 0 for no lead.
+    pub one: bool,
+}
+
+signals! { for LeadProducts as c;
+    /// Ports in.
+    pub struct In {
+        /// Dx: the present sample.
+        pub present: I(c.position),
+        /// Dx(−Δt/N): the earlier one.
+        pub old: I(c.position),
+        /// N, up to 10; 0 for no lead.
+        pub ratio: U(4),
+    }
+    /// Nets.
+    pub struct Net {
+        /// (N + 1)·Dx.
+        present_product: I(c.position) as Analog,
+        /// N·Dx(−Δt/N).
+        old_product: I(c.position) as Analog,
+        /// Dx(+Δt).
+        pub predicted: I(c.position) as Analog,
+    }
+}
+
+impl Circuit for LeadProducts {
+    const NAME: &'static str = "lead_products";
+    const ABOUT: &'static str = "prediction from a product of each sample";
+    records!(In, Nothing, Net);
+
+    fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
+        let (some, ratio) = (i.ratio.bit(0), i.ratio.resize(6).signed());
+        let (present_product, old_product) = match self.one {
+            true => (
+                some.mux(i.present.shift_left(1), i.present),
+                some.mux(i.old, 0),
+            ),
+            false => (
+                i.present.times(ratio + 1, self.position),
+                i.old.times(ratio, self.position),
+            ),
+        };
+        let net = Net {
+            present_product,
+            old_product,
+            predicted: present_product - old_product,
+        };
+        (net, Nothing)
+    }
+}
+
+impl Specified for LeadProducts {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let range = 1i128 << self.position;
+        Invariants::<Self>::new().always(
+            "the prediction is the sample and N times the way of the tap, on the ring",
+            move |now| {
+                let [present, old] = [now.i.present, now.i.old].map(i128::from);
+                let expected = present + i128::from(now.i.ratio) * (present - old);
+                let predicted = i128::from(now.w.predicted);
+                require((predicted - expected) % range == 0, ["predicted"], || {
+                    format!("{predicted} for {expected}")
+                })
+            },
+        )
+    }
+
+    /// Of a ratio that is fixed there is one bit.
+    fn applies(&self, i: &In<Value>) -> bool {
+        !self.one || i.ratio <= 1
+    }
+}

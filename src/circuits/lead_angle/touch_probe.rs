@@ -1,0 +1,105 @@
+//! Touch probe: where the body was when what the control signal is for took effect.
+//!
+//! ```text
+//!                        ┌─────────────┐
+//!  active, effect ──────▶│             ├──▶ taken
+//!                        │ touch probe │
+//!  position, present ───▶│             ├──▶ measured
+//!                        └─────────────┘
+//! ```
+//!
+//! A control signal need not stop the body (停止制御のみならず): it can begin any operation while the
+//! body goes on. A sensor then says when the operation takes effect. The count of the detector is
+//! kept with its rise, and not a sample, which would be up to a CK older.
+
+use crate::hdl::prelude::*;
+
+/// Touch probe; `taken` and the count show in the tick after the rise of `effect`.
+#[derive(Debug, Clone)]
+pub struct TouchProbe {
+    /// Width of a position.
+    pub position: usize,
+}
+
+signals! { for TouchProbe as c;
+    /// Ports in.
+    pub struct In {
+        /// The control signal of an operation stands.
+        pub active: Bit,
+        /// The operation takes effect; synchronised.
+        pub effect: Bit,
+        /// Count of the detector.
+        pub position: I(c.position),
+        /// Dx: the present sample.
+        pub present: I(c.position),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// `effect`, a tick ago.
+        effect_before: Bit = 0,
+        /// It has come since the control signal.
+        pub taken: Bit = 0,
+        /// Where it came.
+        latched: I(c.position) as Analog,
+    }
+    /// Nets.
+    pub struct Net {
+        /// It comes, for the first time since the control signal.
+        comes: Bit,
+        /// What a positioning is judged by: where the operation took effect, or, up to then, where the
+        /// body is.
+        pub measured: I(c.position) as Analog,
+    }
+}
+
+impl Circuit for TouchProbe {
+    const NAME: &'static str = "touch_probe";
+    const ABOUT: &'static str = "keeps where an operation took effect";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let comes = i.effect & !q.effect_before & i.active & !q.taken;
+        let edge = Reg {
+            effect_before: i.effect,
+            taken: (q.taken | comes) & i.active,
+            latched: comes.mux(i.position, q.latched),
+        };
+        let measured = q.taken.mux(q.latched, i.present);
+        (Net { comes, measured }, edge)
+    }
+}
+
+impl Specified for TouchProbe {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step(
+                "the first rise since the control signal takes the count",
+                |now, next| {
+                    let (i, q, next) = (now.i, now.q, &next.q);
+                    let (taken, latched) = match (i.active, q.taken, q.effect_before, i.effect) {
+                        (true, false, false, true) => (true, i.position),
+                        (true, taken, ..) => (taken, q.latched),
+                        (false, ..) => (false, q.latched),
+                    };
+                    let right = next.taken == taken && next.latched == latched;
+                    require(
+                        right && next.effect_before == i.effect,
+                        ["taken", "latched"],
+                        || format!("{taken} and {latched} expected"),
+                    )
+                },
+            )
+            .always(
+                "what is measured is of the effect, or, up to it, of the body",
+                |now| {
+                    let expected = match now.q.taken {
+                        true => now.q.latched,
+                        false => now.i.present,
+                    };
+                    require(now.w.measured == expected, ["measured"], || {
+                        format!("{expected} expected")
+                    })
+                },
+            )
+    }
+}
