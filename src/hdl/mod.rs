@@ -12,6 +12,7 @@
 
 mod beside;
 mod build;
+mod cost;
 mod declare;
 mod elaborate;
 pub(crate) mod leaves;
@@ -38,6 +39,7 @@ mod words;
 
 pub use crate::{hdl_choice as choice, hdl_records as records, hdl_signals as signals};
 pub use beside::{Beside, Without};
+pub use cost::Cost;
 pub(crate) use declare::Outline;
 pub use declare::{Declaration, Declarations, MemoryDeclaration, Path};
 pub use elaborate::elaborate;

@@ -19,11 +19,11 @@ use crate::circuits::blocks::{EnableCounter, enable_counter};
 use crate::hdl::prelude::*;
 
 /// Names of the step outputs.
-const STEP: &[&str] = &[
+pub(super) const STEP: &[&str] = &[
     "step_x", "step_y", "step_z", "step_a", "step_b", "step_c", "step_u", "step_v",
 ];
 /// Names of the direction outputs.
-const DIR: &[&str] = &[
+pub(super) const DIR: &[&str] = &[
     "dir_x", "dir_y", "dir_z", "dir_a", "dir_b", "dir_c", "dir_u", "dir_v",
 ];
 

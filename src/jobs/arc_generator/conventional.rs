@@ -6,7 +6,7 @@
 
 use super::prepare::Timing;
 use crate::circuits::arc_generator::Widths;
-use crate::engine::{EngineError, Op, passes};
+use crate::engine::EngineError;
 use crate::hdl;
 use crate::input::Point;
 use crate::path::circle::Circle;
@@ -228,19 +228,7 @@ pub fn difference_engines() -> Result<Operations, EngineError> {
     let mut operations = Operations::default();
     for coordinate in 0..3 {
         let model = hdl::model(&Widths::FULL.engine(coordinate))?;
-        let flat = model.flat();
-        let mut seen = vec![false; flat.leaves.len()];
-        for leaf in model.ports_out() {
-            seen[leaf] = true;
-        }
-        let nodes = passes::all(flat, &seen).nodes;
-        let adders = nodes.iter().filter(|node| {
-            matches!(
-                node.op,
-                Op::Add(..) | Op::Subtract(..) | Op::Below(..) | Op::BelowSigned(..)
-            )
-        });
-        operations.additions += adders.count() as u64;
+        operations.additions += model.cost().adders;
     }
     Ok(operations)
 }

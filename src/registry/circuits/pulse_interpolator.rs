@@ -2,8 +2,9 @@ use super::make::words;
 use super::make::{VARIANTS, address_bits, at_most, choice, one_of, only, second, width, word};
 use crate::circuits::pulse_interpolator::pattern_memory::Contents;
 use crate::circuits::pulse_interpolator::{
-    AddressSequencer, Axis, CommandPort, Group, Pattern, PatternMemory, PulseGenerator, SyncStage,
-    UnitLaw, UnitTimeRegister, Variant, Widths,
+    AddressSequencer, Axis, CommandPort, Conventional, ConventionalWidths, Group, MotorController,
+    Pattern, PatternMemory, PulseGenerator, PulseTrain, SyncStage, UnitLaw, UnitTimeRegister,
+    Variant, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
@@ -86,6 +87,24 @@ fn playing(group: Group, given: &[u64]) -> Option<Group> {
         memories,
         ..group
     })
+}
+
+/// Widths of the conventional device, all that number but for distances, which have a bit less.
+fn conventional_widths(width: usize) -> ConventionalWidths {
+    ConventionalWidths {
+        distance: width.saturating_sub(1).max(1),
+        units: width,
+        half_period: width,
+        period: width,
+    }
+}
+
+/// How many axes a motor controller has: the first number behind the width, or 1.
+fn controller(given: &[u64]) -> Option<MotorController> {
+    let widths = conventional_widths(width(given)?);
+    at_most(given, 2)?;
+    let axes = given.get(1).copied().unwrap_or(1) as usize;
+    Some(MotorController { axes, widths })
 }
 
 /// The circuits of JP3640909B2.
@@ -200,5 +219,51 @@ pub(super) const CIRCUITS: &[Entry] = &[
         },
         with: playing,
         proved: 2,
+    ),
+    entry!(
+        PulseTrain, "JP3640909B2 6x, 6y, Fig. 5",
+        full: || PulseTrain { half_period: 16, pulses: 17 },
+        widths: [half_period, pulses],
+        from: "width of both words", |given| alone(given, |width| {
+            PulseTrain { half_period: width, pulses: width }
+        }),
+        with: nothing,
+        proved: 3,
+    ),
+    entry!(
+        MotorController, "JP3640909B2 5, Fig. 5",
+        full: || MotorController { axes: 2, widths: ConventionalWidths::default() },
+        widths: [
+            axes, distance = widths.distance, units = widths.units,
+            half_period = widths.half_period, period = widths.period,
+        ],
+        from: "width of all words (distances have a bit less), axes", controller,
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        Conventional, "JP3640909B2 Fig. 5",
+        full: || Conventional {
+            axes: 2,
+            widths: ConventionalWidths::default(),
+            period: 1000,
+        },
+        widths: [
+            axes, distance = widths.distance, units = widths.units,
+            half_period = widths.half_period, period = widths.period,
+        ],
+        from: "width of all words (distances have a bit less), axes, T at power-on",
+        |given| {
+            at_most(given, 3)?;
+            let MotorController { axes, widths } = controller(&given[..given.len().min(2)])?;
+            let period = word(given.get(2).copied().unwrap_or(1), widths.period)?;
+            Some(Conventional { axes, widths, period })
+        },
+        with: |circuit, given| {
+            at_most(given, 1)?;
+            let period = given.first().copied().unwrap_or(circuit.period);
+            Some(Conventional { period: word(period, circuit.widths.period)?, ..circuit })
+        },
+        proved: none,
     ),
 ];

@@ -3,7 +3,7 @@
 //!
 //! `UPDATE_NOTES=1 cargo test --release --test cli notes` writes them anew.
 
-use super::{connections, expect_none, miscounts, notes, rotations};
+use super::{axes, connections, expect_none, miscounts, notes, rotations};
 use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::hdl::{Declaration, Format, Kind, MemoryDeclaration, Role};
 use motion_rtl::registry::{CATALOGUE, Entry, ProofSearch, Verdict, find};
@@ -24,6 +24,7 @@ fn make(what: &str) -> Result<String, String> {
         ("blocks", None) => Ok(blocks(name)),
         ("proofs", None) => Ok(proofs(name)),
         ("literal", None) => Ok(literal()),
+        ("axes", None) => Ok(axes::table()),
         ("miscounts", None) => Ok(miscounts::table()),
         ("vectors", None) => Ok(vectors()),
         ("counts", None) => Ok(offers()),

@@ -1,5 +1,6 @@
 //! The notes in rtl_notes: their charts run, their tables are those of the code.
 
+mod axes;
 mod catalogue;
 mod charts;
 mod connections;

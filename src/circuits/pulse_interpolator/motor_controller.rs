@@ -1,0 +1,279 @@
+//! Motor controller 5 of the conventional device (¶0003–0004): computes for every unit time how far
+//! each axis goes, and from that the length of its pulses.
+//!
+//! ```text
+//!                       ┌──────────────────┐
+//!  command, delta… ────▶│                  ├──▶ ready, prepared, busy, late
+//!  units, period ──────▶│ motor controller ├──▶ unit_period
+//!  unit_rst ───────────▶│                  ├──▶ amount, half_period, down of each axis
+//!                       └──┬────────────▲──┘
+//!    start, dividend, addend, divisor   │ done, quotient, remainder
+//!                       ┌──▼────────────┴──┐
+//!                       │ divider          │
+//!                       └──────────────────┘
+//! ```
+//!
+//! A move is a straight line of U unit times. For each axis, one behind the other, a divider makes
+//!
+//! ```text
+//! amount, rest <= (|delta| + rest) / U, remainder     rest = U/2 at the start of a move
+//! half_period   = T / (2 · amount), at most the greatest word
+//! ```
+//!
+//! so after u units an axis has gone |delta|·u/U, rounded, and ends exactly. What it makes for a unit
+//! stands until the RST that begins it.
+//!
+//! The text does not say how the controller computes. This is the cheapest that makes a line: curves
+//! come as short lines, whose points the computer 7 computes.
+
+use super::{AXES_MAX, AXIS_NAMES};
+use crate::circuits::blocks::MulDiv;
+use crate::hdl::prelude::*;
+
+/// Names of the states.
+const STATES: &[&str] = &["wait", "amount", "length", "prepared"];
+const WAIT: u64 = 0;
+const AMOUNT: u64 = 1;
+const LENGTH: u64 = 2;
+const PREPARED: u64 = 3;
+
+/// Widths of the conventional device in bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ConventionalWidths {
+    /// Steps of a move, without their sign.
+    pub distance: usize,
+    /// A number of unit times.
+    pub units: usize,
+    /// A half-period.
+    pub half_period: usize,
+    /// T, the unit time.
+    pub period: usize,
+}
+
+impl Default for ConventionalWidths {
+    fn default() -> Self {
+        ConventionalWidths {
+            distance: 16,
+            units: 16,
+            half_period: 16,
+            period: 24,
+        }
+    }
+}
+
+impl ConventionalWidths {
+    /// Width of the divider's words: a sum, T, twice an amount, and a quotient above the greatest
+    /// half-period have room.
+    pub fn divider(&self) -> usize {
+        let words = [self.distance + 3, self.units + 2, self.half_period + 1];
+        words.into_iter().fold(self.period, usize::max)
+    }
+}
+
+/// Motor controller 5 of 1 to 8 axes.
+#[derive(Debug, Clone)]
+pub struct MotorController {
+    /// How many axes.
+    pub axes: usize,
+    /// Its widths.
+    pub widths: ConventionalWidths,
+}
+
+impl MotorController {
+    /// The divider that it wants: the multiplier is 1.
+    pub fn divider(&self) -> MulDiv {
+        MulDiv {
+            multiplier: 1,
+            word: self.widths.divider(),
+        }
+    }
+
+    /// The shortest unit time in ticks in which the next is prepared, where a new move begins.
+    pub fn least_period(&self) -> u64 {
+        // Two divisions an axis, each handed on in a tick of its own.
+        3 + 2 * self.axes as u64 * (self.divider().latency() + 1)
+    }
+}
+
+signals! { for MotorController as c;
+    /// A move, from the computer 7.
+    pub struct Move {
+        /// A move is given.
+        pub command: Bit,
+        /// Its steps on each axis.
+        pub delta: [I(c.widths.distance + 1); c.axes] as Elements(DELTA),
+        /// U: how many unit times it takes; with 0 it is dropped.
+        pub units: U(c.widths.units),
+        /// Its unit time T in ticks.
+        pub period: U(c.widths.period),
+    }
+    /// Ports in.
+    pub struct In {
+        /// The move.
+        pub order: Move(c) as Flat,
+        /// The last tick of the unit time: what is prepared is taken.
+        pub unit_rst: Bit,
+        /// The divider has a result.
+        pub done: Bit,
+        /// Its quotient.
+        pub quotient: U(c.widths.divider()),
+        /// Its remainder.
+        pub remainder: U(c.widths.divider()),
+    }
+    /// Words of an axis.
+    pub struct Words {
+        /// Steps of the move that waits.
+        pending_delta: I(c.widths.distance + 1),
+        /// Steps of the move under way, without their sign.
+        distance: U(c.widths.distance + 1),
+        /// Their sign; high counts down.
+        pub down: Bit,
+        /// What the division left, for the next unit.
+        rest: U(c.widths.units),
+        /// Steps of the unit that is prepared.
+        pub amount: U(c.widths.distance + 1),
+        /// Half-period of the unit that is prepared, in ticks; 0 where the steps do not fit into T.
+        pub half_period: U(c.widths.half_period),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// A move waits.
+        pending: Bit,
+        /// Its unit times.
+        pending_units: U(c.widths.units),
+        /// Its T.
+        pending_period: U(c.widths.period),
+        /// What it does.
+        state: U(2) as States(STATES),
+        /// The axis that is computed.
+        axis: U(3),
+        /// U of the move under way.
+        length: U(c.widths.units),
+        /// Unit times of it that are not prepared yet.
+        left: U(c.widths.units),
+        /// T of the move under way, in ticks.
+        pub unit_period: U(c.widths.period),
+        /// The divider begins.
+        pub start: Bit,
+        /// A unit that was prepared runs.
+        pub busy: Bit,
+        /// Words of each axis.
+        pub words: [Words(c); c.axes] as Elements(&AXIS_NAMES),
+    }
+    /// Nets.
+    pub struct Net {
+        /// A move would be accepted.
+        pub ready: Bit,
+        /// The waiting move begins: it is computed from the next tick on.
+        begins: Bit,
+        /// A result is taken from the divider.
+        divided: Bit,
+        /// The next unit time is prepared.
+        pub prepared: Bit,
+        /// A unit time without pulses begins, because the next of a move is not prepared yet.
+        pub late: Bit,
+        /// What the divider divides, less the addend.
+        pub dividend: U(c.widths.divider()),
+        /// Added to it.
+        pub addend: U(c.widths.divider()),
+        /// What it divides by.
+        pub divisor: U(c.widths.divider()),
+    }
+}
+
+/// Names of the steps of a move.
+const DELTA: &[&str] = &[
+    "delta_x", "delta_y", "delta_z", "delta_a", "delta_b", "delta_c", "delta_u", "delta_v",
+];
+
+impl Circuit for MotorController {
+    const NAME: &'static str = "motor_controller";
+    const ABOUT: &'static str = "conventional: amount and pulse length of every axis and unit time";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        let wrong = !(1..=AXES_MAX).contains(&self.axes);
+        wrong.then(|| format!("a motor controller has 1 to {AXES_MAX} axes"))
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let word = self.widths.divider();
+        let state = |number| q.state.equals(number);
+        let (waiting, amounts, lengths) = (state(WAIT), state(AMOUNT), state(LENGTH));
+        let prepared = state(PREPARED);
+        let none_left = q.left.is_zero();
+        let begins = waiting & none_left & q.pending;
+        let divided = i.done & (amounts | lengths);
+        let taken = i.unit_rst & prepared;
+        let accept = i.order.command & !q.pending;
+
+        let is = |axis: usize| q.axis.equals(axis as u64);
+        let last_axis = is(self.axes - 1);
+        // The words of the axis that is computed.
+        let chosen = |of: &dyn Fn(&Words) -> U| {
+            let words = q
+                .words
+                .iter()
+                .enumerate()
+                .map(|(axis, words)| (is(axis), of(words)));
+            let chosen = words.reduce(|(_, others), (this, word)| (this, this.mux(word, others)));
+            let (_, chosen) = chosen.unwrap_or((last_axis, U::new(0, word)));
+            chosen.resize(word)
+        };
+        let net = Net {
+            ready: !q.pending,
+            begins,
+            divided,
+            prepared,
+            late: i.unit_rst & !prepared & (q.pending | !none_left),
+            dividend: lengths.mux(q.unit_period.resize(word), chosen(&|words| words.distance)),
+            addend: lengths.mux(0, chosen(&|words| words.rest)),
+            divisor: lengths.mux(
+                chosen(&|words| words.amount).shift_left(1),
+                q.length.resize(word),
+            ),
+        };
+
+        let half_period = self.widths.half_period;
+        let above = !i.quotient.shift_right(half_period).is_zero();
+        let length = above.mux(u64::MAX, i.quotient.resize(half_period));
+        let words = q.words.iter().zip(&i.order.delta).enumerate();
+        let words = words.map(|(axis, (words, &delta))| {
+            let this = divided & is(axis);
+            let amount = i.quotient.resize(words.amount.width());
+            let half = q.pending_units.shift_right(1);
+            let rest = i.remainder.resize(self.widths.units);
+            Words {
+                pending_delta: accept.mux(delta, words.pending_delta),
+                distance: begins.mux(words.pending_delta.magnitude(), words.distance),
+                down: begins.mux(words.pending_delta.is_negative(), words.down),
+                rest: begins.mux(half, (this & amounts).mux(rest, words.rest)),
+                amount: (this & amounts).mux(amount, words.amount),
+                half_period: (this & lengths).mux(length, words.half_period),
+            }
+        });
+        let number = |state| U::new(state, 2);
+        let after_length = last_axis.mux(number(PREPARED), number(AMOUNT));
+        let after = divided.mux(amounts.mux(LENGTH, after_length), q.state);
+        let first = waiting & !none_left;
+        let after = first.mux(AMOUNT, after);
+        let computed = divided & lengths;
+        let next = Reg {
+            pending: accept | (q.pending & !begins),
+            pending_units: accept.mux(i.order.units, q.pending_units),
+            pending_period: accept.mux(i.order.period, q.pending_period),
+            state: taken.mux(WAIT, after),
+            axis: computed.mux(last_axis.mux(0, q.axis + 1), q.axis),
+            length: begins.mux(q.pending_units, q.length),
+            left: begins.mux(
+                q.pending_units,
+                (computed & last_axis).mux(q.left - 1, q.left),
+            ),
+            unit_period: begins.mux(q.pending_period, q.unit_period),
+            start: first | (divided & !(lengths & last_axis)),
+            busy: i.unit_rst.mux(prepared, q.busy),
+            words: words.collect(),
+        };
+        (net, next)
+    }
+}

@@ -1,0 +1,157 @@
+//! Pulse generator 6x, 6y of the conventional device (¶0003–0004): a number of pulses of one length.
+//!
+//! ```text
+//!                       ┌─────────────┐
+//!  load ───────────────▶│             ├──▶ step
+//!  half_period, pulses ▶│ pulse train ├──▶ dir
+//!  down ───────────────▶│             ├──▶ spent
+//!                       └─────────────┘
+//! ```
+//!
+//! The first pulse rises n ticks after the tick of `load`, as that of the pulse generator 20 does.
+//! Pulses are counted where they fall, so any number of them is made exactly that has room, 2·Y·n
+//! ticks.
+//!
+//! Departures: the text has no direction; `dir` changes with the first tick of a train, and with no
+//! train of 0 pulses. A half-period of 0 gives no pulse.
+
+use crate::hdl::prelude::*;
+
+/// Pulse generator 6x, 6y.
+#[derive(Debug, Clone)]
+pub struct PulseTrain {
+    /// Width of a half-period in bits.
+    pub half_period: usize,
+    /// Width of a number of pulses.
+    pub pulses: usize,
+}
+
+signals! { for PulseTrain as c;
+    /// Ports in.
+    pub struct In {
+        /// A new train begins with the next tick; what is left of the old one is dropped.
+        pub load: Bit,
+        /// Its half-period in ticks; 0 for no pulse.
+        pub half_period: U(c.half_period),
+        /// Its number of pulses.
+        pub pulses: U(c.pulses),
+        /// Its direction.
+        pub down: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Half-period in force.
+        held: U(c.half_period),
+        /// Pulses that have not fallen yet.
+        left: U(c.pulses) as Analog,
+        /// Ticks since the last toggle.
+        count: U(c.half_period) as Analog,
+        /// Step pulses; a step is a rising edge.
+        pub step: Bit,
+        /// Direction; high counts down.
+        pub dir: Bit,
+    }
+    /// Nets.
+    pub struct Net {
+        /// `count + 1`: ticks since the last toggle, this one included.
+        next: U(c.half_period),
+        /// Pulses are left, and can be made.
+        active: Bit,
+        /// The half-period is over with this tick.
+        over: Bit,
+        /// A pulse falls at the end of this tick.
+        falls: Bit,
+        /// With this tick all pulses are made.
+        pub spent: Bit,
+    }
+}
+
+impl Circuit for PulseTrain {
+    const NAME: &'static str = "pulse_train";
+    const ABOUT: &'static str = "makes a number of pulses of one length";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let next = q.count + 1;
+        let none = q.left.is_zero();
+        let active = !none & !q.held.is_zero();
+        let over = active & !next.below(q.held);
+        let falls = over & q.step;
+        let spent = none | (falls & q.left.equals(1));
+        let net = Net {
+            next,
+            active,
+            over,
+            falls,
+            spent,
+        };
+        let after = Reg {
+            held: i.load.mux(i.half_period, q.held),
+            left: i.load.mux(i.pulses, falls.mux(q.left - 1, q.left)),
+            count: (i.load | over | !active).mux(0, next),
+            step: !i.load & (q.step ^ over),
+            dir: (i.load & !i.pulses.is_zero()).mux(i.down, q.dir),
+        };
+        (net, after)
+    }
+}
+
+impl Specified for PulseTrain {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step("load takes the train and drops the old one", |now, next| {
+                let (i, q) = (now.i, &next.q);
+                let taken =
+                    (q.held, q.left, q.count, q.step) == (i.half_period, i.pulses, 0, false);
+                require(taken || !i.load, ["held", "left", "count", "step"], || {
+                    "something else".into()
+                })
+            })
+            .step(
+                "the direction changes with a train that has pulses",
+                |now, next| {
+                    let begins = now.i.load && now.i.pulses > 0;
+                    let expected = if begins { now.i.down } else { now.q.dir };
+                    require(next.q.dir == expected, ["dir"], || "another".into())
+                },
+            )
+            .step(
+                "step toggles after a half-period, while pulses are left",
+                |now, next| {
+                    let (q, after) = (now.q, &next.q);
+                    let due = q.left > 0 && q.held > 0 && q.count + 1 >= q.held;
+                    let right = after.step == (q.step ^ due);
+                    require(right || now.i.load, ["step", "count"], || {
+                        format!("{} ticks of {}", q.count + 1, q.held)
+                    })
+                },
+            )
+            .step("a pulse is counted where it falls", |now, next| {
+                let (q, after) = (now.q, &next.q);
+                let fell = q.step && !after.step;
+                let right = after.left + u64::from(fell) == q.left;
+                require(right || now.i.load, ["left", "step"], || {
+                    format!("{} after {}", after.left, q.left)
+                })
+            })
+            .step(
+                "spent says that nothing is left after this tick",
+                |now, next| {
+                    let right = now.w.spent == (next.q.left == 0);
+                    require(right || now.i.load, ["spent", "left"], || {
+                        "it is wrong".into()
+                    })
+                },
+            )
+            .always(
+                "step is low with no pulse left, and the count below the half-period",
+                |now| {
+                    let q = now.q;
+                    let counts = q.count == 0 || q.count < q.held;
+                    require(counts && (q.left > 0 || !q.step), ["step", "count"], || {
+                        format!("{} of {}", q.count, q.held)
+                    })
+                },
+            )
+    }
+}

@@ -1,0 +1,42 @@
+//! What each axis adds, to the patent's device and to the conventional one.
+
+use motion_rtl::circuits::pulse_interpolator::{
+    AXES_MAX, Conventional, ConventionalWidths, Group, Variant, Widths,
+};
+use motion_rtl::hdl;
+use std::fmt::Write as _;
+
+/// A table of what both cost with 1 to 8 axes, counted in their netlists, and of the shortest unit
+/// time that the conventional one computes in.
+pub fn table() -> String {
+    let mut text = String::from(
+        "| axes | adders and comparators | their bits | flip-flops | memory bits a unit time \
+         | conventional: adders and comparators | their bits | flip-flops | ticks to compute |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
+    );
+    for axes in 1..=AXES_MAX {
+        let widths = Widths::default();
+        let group = Group::new(axes, widths, Variant::Safe, 1000);
+        let conventional = Conventional {
+            axes,
+            widths: ConventionalWidths::default(),
+            period: 1000,
+        };
+        let ours = hdl::model(&group).unwrap().cost();
+        let before = hdl::model(&conventional).unwrap().cost();
+        assert_eq!(before.memory_bits, 0);
+        let memory = ours.memory_bits >> widths.address;
+        let ticks = conventional.controller().least_period();
+        let _ = writeln!(
+            text,
+            "| {axes} | {} | {} | {} | {memory} | {} | {} | {} | {ticks} |",
+            ours.adders,
+            ours.adder_bits,
+            ours.register_bits,
+            before.adders,
+            before.adder_bits,
+            before.register_bits
+        );
+    }
+    text
+}
