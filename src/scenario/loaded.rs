@@ -45,6 +45,15 @@ impl Loaded {
         {
             *input = directory.join(&*input);
         }
+        let given = loaded.overrides("pattern");
+        if let (Scenario::PulseInterpolator(scenario), Some(directory)) =
+            (&mut loaded.scenario, path.parent())
+            && !given
+        {
+            for pattern in &mut scenario.pattern {
+                pattern.table = directory.join(&pattern.table);
+            }
+        }
         Ok(loaded)
     }
 
