@@ -4,7 +4,7 @@
 use super::ours::{Outputs, Port};
 use super::stimulus::{Recorder, Stimulus};
 use motion_rtl::circuits::arc_generator::{self, ArcGenerator};
-use motion_rtl::circuits::lead_angle::{Compensator, LeadFrom, Memory};
+use motion_rtl::circuits::lead_angle::Compensator;
 use motion_rtl::circuits::linear_interpolator::Controller;
 use motion_rtl::circuits::machine::Machine;
 use motion_rtl::circuits::pulse_interpolator::pattern_memory::WritePort;
@@ -194,7 +194,7 @@ pub fn turntable(ticks: u64, clock: Clock) -> Job<Compensator> {
         unreachable!("the lead-angle compensator's")
     };
     let settings = scenario.settings();
-    let circuit = positioner(&settings, LeadFrom::Time(Memory::ShiftRegister));
+    let circuit = positioner(&settings);
     let mut recorder = Recorder::new(&circuit, ticks);
     jobs::lead_angle::job::play(&circuit, &settings, &mut recorder).expect("nobody objects");
     let stimulus = recorder.finish();

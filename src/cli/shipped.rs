@@ -58,7 +58,7 @@ macro_rules! embedded {
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 13] = [
+pub const SHIPPED: [Shipped; 14] = [
     shipped!(
         "waves/machine.toml",
         "a bracket in G-code on steppers, servos and a pen lift, by all five circuits; runs by default",
@@ -115,6 +115,10 @@ pub const SHIPPED: [Shipped; 13] = [
         input: "waves/cam.ngc"
     ),
     shipped!(
+        "waves/saddle.toml",
+        "a seam taught by points in space, as one spline, on the trajectory controller"
+    ),
+    shipped!(
         "waves/pocket.toml",
         "a pocket in G-code with lines, arcs and ramps, on the trajectory controller of three axes",
         input: "waves/pocket.ngc"
@@ -132,12 +136,13 @@ pub fn find(path: &Path) -> Option<&'static Shipped> {
 impl Shipped {
     /// The scenario with overrides.
     pub fn load(&self, sets: &[String]) -> Result<Loaded, Fault> {
-        Loaded::parse(self.file, self.text, sets)
+        let loaded = Loaded::parse(self.file, self.text, sets)?;
+        Ok(loaded.with_tables_beside(Path::new(self.file)))
     }
 
     /// One of its tables.
     pub fn table(&self, path: &Path, clock_hz: u64) -> Result<Table, Fault> {
-        let named = |table: &&Input| Path::new(table.file).file_name() == Some(path.as_os_str());
+        let named = |table: &&Input| Path::new(table.file) == path;
         match self.tables.iter().find(named) {
             Some(table) => read::read(table.file, table.text, clock_hz),
             None => read::read_path(path, clock_hz),

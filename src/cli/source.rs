@@ -8,7 +8,7 @@ use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
 use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::table::read;
 use motion_rtl::plan::{FEED_RANGE, PlanError};
-use motion_rtl::scenario::Loaded;
+use motion_rtl::scenario::{Loaded, Runnable};
 use std::path::{Path, PathBuf};
 
 /// What to run.
@@ -42,6 +42,7 @@ impl Input {
             strict: self.strict,
             most_lines: self.most_lines.unwrap_or(Options::MOST_LINES),
             zeros: zeros.map_err(|error| loaded.refuse(error))?,
+            splines: loaded.scenario.circuit() == Runnable::TrajectoryController,
         })
     }
 }
@@ -219,6 +220,10 @@ pub fn plan_fault(loaded: &Loaded, drawing: &Drawing, error: PlanError) -> Fault
         } => {
             let (problem, allowed) = (format!("is {value} mm"), format!("-{reach} to {reach} mm"));
             drawing_fault(drawing, line, coordinate, problem, allowed)
+        }
+        PlanError::Spline { line } => {
+            let (problem, allowed) = ("is a spline".to_owned(), "lines and arcs".to_owned());
+            drawing_fault(drawing, line, "G5", problem, allowed)
         }
         PlanError::Radius { line, radius_mm } => {
             let problem = format!("has a radius of {radius_mm} mm");

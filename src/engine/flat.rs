@@ -171,64 +171,8 @@ pub struct Memory {
     pub instance: u32,
 }
 
-/// How a memory is written at an edge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Port {
-    /// Never.
-    Rom,
-    /// A word at an address, which names no more words than there are.
-    Ram {
-        /// Where this is high.
-        enable: Id,
-        /// The address.
-        address: Id,
-        /// The word.
-        data: Id,
-    },
-    /// All words move up by one place.
-    Shift {
-        /// Where this is high.
-        enable: Id,
-        /// The new first word.
-        data: Id,
-    },
-}
-
-impl Port {
-    /// The nodes that it takes: enable, data, address.
-    pub fn operands(self) -> impl Iterator<Item = Id> {
-        let operands = match self {
-            Port::Rom => [None; 3],
-            Port::Ram {
-                enable,
-                address,
-                data,
-            } => [Some(enable), Some(data), Some(address)],
-            Port::Shift { enable, data } => [Some(enable), Some(data), None],
-        };
-        operands.into_iter().flatten()
-    }
-
-    /// The same of other nodes.
-    pub fn map(self, mut to: impl FnMut(Id) -> Id) -> Port {
-        match self {
-            Port::Rom => Port::Rom,
-            Port::Ram {
-                enable,
-                address,
-                data,
-            } => Port::Ram {
-                enable: to(enable),
-                address: to(address),
-                data: to(data),
-            },
-            Port::Shift { enable, data } => Port::Shift {
-                enable: to(enable),
-                data: to(data),
-            },
-        }
-    }
-}
+/// How a memory is written at an edge; an address names no more words than there are.
+pub type Port = crate::hdl::netlist::Port<Id>;
 
 /// Where a leaf of a walk stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

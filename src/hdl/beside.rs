@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 /// Signals that stand in the waves beside a circuit without being part of it: what a motor does,
 /// say.
-pub trait Beside: 'static {
+pub trait Beside: Clone + Send + Sync + 'static {
     /// The scope they stand in.
     const SCOPE: &'static str;
     /// They.

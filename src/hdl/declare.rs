@@ -1,7 +1,8 @@
 //! Signals by name, in the order of a walk.
 
 use super::Circuit;
-use super::signal::{Field, Kind, Role, Shape};
+use super::record::unsigned;
+use super::signal::{Field, Role, Shape};
 use std::sync::Arc;
 
 /// Where a walk is: the scopes around the next leaf and the part of the circuit it belongs to.
@@ -236,11 +237,19 @@ impl Outline for Declarations {
         let first = self.leaves.len();
         self.enter(field);
         let name = self.path.scopes().last().cloned().unwrap_or_default();
-        let kind = Kind::Unsigned;
-        for index in 0..words {
-            self.element(index);
-            self.leaf(label, Shape { kind, width });
-        }
+        let word = Declaration {
+            scopes: self.path.scopes().into(),
+            name: String::new(),
+            role: self.path.role(),
+            shape: unsigned(width),
+            power_on: 0,
+            field: label,
+            part: self.path.outermost_role(),
+        };
+        self.leaves.extend((0..words).map(|index| Declaration {
+            name: label.element(index).into_owned(),
+            ..word.clone()
+        }));
         self.leave();
         self.memories.push(MemoryDeclaration {
             scopes,

@@ -194,9 +194,8 @@ impl Contents {
 
     /// The words, as many and as wide as a memory of that shape has.
     pub(super) fn words(&self, shape: MemoryShape) -> Vec<u64> {
-        let word = |address| self.0.as_ref().map_or(0, |image| image.get(address));
-        let given = self.0.as_ref().map_or(0, Image::words).min(shape.words);
-        let mut words: Vec<u64> = (0..given).map(word).collect();
+        let image = self.0.iter().flat_map(Image::iter);
+        let mut words: Vec<u64> = image.take(shape.words).collect();
         words.resize(shape.words, 0);
         words
     }
@@ -232,11 +231,11 @@ impl Image {
     }
 
     /// The words that `word` gives, each cut to the width.
-    pub fn from_fn(address: usize, width: usize, word: impl FnMut(usize) -> u64) -> Self {
+    pub fn from_fn(address: usize, width: usize, mut word: impl FnMut(usize) -> u64) -> Self {
         let mut image = Image::new(address, width);
-        let words = image.words();
-        for (address, word) in (0..words).map(word).enumerate() {
-            image.set(address, word);
+        let bits = Arc::make_mut(&mut image.bits);
+        for (address, place) in bits.chunks_exact_mut(width.max(1)).enumerate() {
+            place.store_le(word(address) & u64::MAX >> (64 - width));
         }
         image
     }
@@ -268,6 +267,13 @@ impl Image {
         first..first + self.width
     }
 
+    /// Its words, from address 0 up.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = u64> {
+        self.bits
+            .chunks_exact(self.width.max(1))
+            .map(|word| word.load_le())
+    }
+
     /// The word at `address`, which wraps at the number of words.
     pub fn get(&self, address: usize) -> u64 {
         let place = self.place(address);
@@ -286,8 +292,7 @@ impl Image {
     /// Combinational read as a ROM.
     #[track_caller]
     pub fn rom(&self, address: U) -> U {
-        let words = (0..self.words()).map(|word| self.get(word)).collect();
-        let memory = build::rom(self.width, words);
+        let memory = build::rom(self.width, self.iter().collect());
         let address = build::fit(address.0, unsigned(self.address), "the address");
         U(build::node(
             Node::Read(memory, address),

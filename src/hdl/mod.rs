@@ -77,6 +77,7 @@ pub mod prelude {
 use crate::engine::EngineError;
 use beside::scope;
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// A clocked circuit; its fields are its widths, its variants, the contents of its memories.
 pub trait Circuit: Clone + Debug + Send + Sync + 'static {
@@ -129,22 +130,24 @@ pub trait Circuit: Clone + Debug + Send + Sync + 'static {
 /// # Errors
 /// All that is wrong with it.
 pub fn model<C: Circuit>(circuit: &C) -> Result<Model, EngineError> {
+    let declared = circuit.clone();
     Model::new(
         (circuit.name(), circuit.about()),
         elaborate(circuit)?,
-        outline::declarations(circuit, &mut |_| {}),
+        Arc::new(move || declarations(&declared, &mut |_| {})),
     )
 }
 
 /// The same with signals beside it.
 pub fn model_beside<C: Circuit, B: Beside>(circuit: &C, beside: &B) -> Result<Model, EngineError> {
-    let mut signals = |source: &mut dyn Source| {
+    let signals = |beside: &B, source: &mut dyn Source| {
         B::Signals::<Shapes>::make(beside, const { &scope::<B>() }, source);
     };
+    let declared = (circuit.clone(), beside.clone());
     Model::new(
         (circuit.name(), circuit.about()),
-        elaborate::with_inputs(circuit, &mut signals)?,
-        outline::declarations(circuit, &mut signals),
+        elaborate::with_inputs(circuit, &mut |source| signals(beside, source))?,
+        Arc::new(move || declarations(&declared.0, &mut |source| signals(&declared.1, source))),
     )
 }
 

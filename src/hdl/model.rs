@@ -2,6 +2,7 @@
 
 use super::{Circuit, Declarations, Role, netlist::Design};
 use crate::engine::{Engine, EngineError, Flat, Program, Watch, ports_out};
+use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 /// What a [`Model`] can be made of: a circuit, or a model.
@@ -35,30 +36,46 @@ impl<C: Circuit> Described for C {
 
 /// A circuit that is elaborated, its type forgotten: what waves, charts, Verilog and random runs
 /// are made of.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Model {
     name: &'static str,
     about: &'static str,
     design: Arc<Design>,
     flat: Arc<Flat>,
+    /// Names of all words of memories take as long as the rest of a circuit, and who only runs it
+    /// wants none.
+    declare: Declare,
     /// The signals without what they are at power-on.
-    outline: Arc<Declarations>,
+    outline: OnceLock<Arc<Declarations>>,
     declarations: OnceLock<Arc<Declarations>>,
 }
 
+/// Makes the signals of a circuit, without what they are at power-on.
+pub(crate) type Declare = Arc<dyn Fn() -> Declarations + Send + Sync>;
+
+impl fmt::Debug for Model {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Model")
+            .field("name", &self.name)
+            .finish_non_exhaustive()
+    }
+}
+
 impl Model {
-    /// Of a circuit that is elaborated: its name and what it does, its modules, its signals.
+    /// Of a circuit that is elaborated: its name and what it does, its modules, what makes its
+    /// signals.
     pub(crate) fn new(
         (name, about): (&'static str, &'static str),
         design: Design,
-        declarations: Declarations,
+        declare: Declare,
     ) -> Result<Model, EngineError> {
         Ok(Model {
             name,
             about,
             flat: Arc::new(Flat::of(&design)?),
             design: Arc::new(design),
-            outline: Arc::new(declarations),
+            declare,
+            outline: OnceLock::new(),
             declarations: OnceLock::new(),
         })
     }
@@ -80,7 +97,7 @@ impl Model {
 
     /// Its signals, in the order of its leaves; what they are at power-on is left at 0.
     pub(crate) fn outline(&self) -> &Declarations {
-        &self.outline
+        self.outline.get_or_init(|| Arc::new((self.declare)()))
     }
 
     /// It as one netlist.
@@ -92,7 +109,7 @@ impl Model {
     /// at power-on.
     pub fn declarations(&self) -> &Declarations {
         self.declarations.get_or_init(|| {
-            let mut declarations = Declarations::clone(&self.outline);
+            let mut declarations = self.outline().clone();
             let mut engine = self.engine(Watch::All);
             engine.settle();
             for (leaf, declaration) in declarations.leaves.iter_mut().enumerate() {

@@ -397,6 +397,7 @@ fn a_simulator_is_set_stepped_and_asked() {
 }
 
 /// Something that moves beside a circuit.
+#[derive(Clone)]
 struct Load;
 
 signals! { for Load as _c;

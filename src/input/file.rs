@@ -85,6 +85,8 @@ pub struct Options {
     pub most_lines: u64,
     /// G-code: where its zeros are, until it says otherwise.
     pub zeros: Zeros,
+    /// G-code: G5 and G5.1 are moves on splines; else, and as NURBS always, chords.
+    pub splines: bool,
 }
 
 impl Options {
@@ -108,6 +110,7 @@ impl Default for Options {
             strict: false,
             most_lines: Self::MOST_LINES,
             zeros: Zeros::default(),
+            splines: false,
         }
     }
 }

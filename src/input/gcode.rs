@@ -7,7 +7,8 @@
 //! probing (G38.2 to G38.5, which goes to its end as if nothing was touched), drilling (G73, G81 to
 //! G86 and G89 with G98 and G99, L or K times), and G28 and G30 by way of their axis words. G80 with
 //! another motion in its line yields to it.
-//! Arcs in G18 and G19 and splines become chords within 0.001 mm, which a warning says.
+//! Arcs in G18 and G19, NURBS, and without [`Options::splines`] splines, become chords within 0.001
+//! mm, which a warning says.
 //!
 //! The position starts at the origin, in millimetres and absolute, without a motion in force. G20,
 //! G21, G90, G91 and the planes act before the other words of their line, F included. G93 gives a

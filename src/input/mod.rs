@@ -48,6 +48,12 @@ pub enum Course {
         /// Seen from +Z. A start equal to the end in X and Y is a full circle.
         clockwise: bool,
     },
+    /// On a cubic curve with these two control points between start and end, in Bézier's form. Only
+    /// where [`Options::splines`] asks for it.
+    Spline {
+        /// In millimetres.
+        controls: [Point; 2],
+    },
 }
 
 /// One move, from the end of the move before it.

@@ -53,7 +53,25 @@ impl<'a> Track<'a> {
                 self.check_reach(field, next.line, axis, value)?;
             }
         }
-        if next.course == Course::Line && self.is_at(next.to) {
+        if let Course::Spline { controls } = next.course {
+            let names = [
+                "a control point's X",
+                "a control point's Y",
+                "a control point's Z",
+            ];
+            for (axis, value) in controls
+                .into_iter()
+                .flat_map(|at| names.into_iter().zip(at))
+            {
+                self.check_reach(field, next.line, axis, value)?;
+            }
+        }
+        let still = match next.course {
+            Course::Line => true,
+            Course::Arc { .. } => false,
+            Course::Spline { controls } => controls.iter().all(|at| self.is_at(*at)),
+        };
+        if still && self.is_at(next.to) {
             self.zero_length += 1;
         } else {
             self.here = next.to;

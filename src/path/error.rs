@@ -61,8 +61,11 @@ pub enum Reason {
     /// The points make no line or arc.
     #[error(transparent)]
     Circle(#[from] CircleError),
-    /// The arc does not begin or end where the path does.
-    #[error("the arc is {gap} mm off the path's points")]
+    /// The circuit makes lines and arcs only.
+    #[error("is a spline")]
+    Spline,
+    /// The arc or spline does not begin or end where the path does.
+    #[error("the curve is {gap} mm off the path's points")]
     Gap {
         /// Distance in mm.
         gap: f64,
@@ -145,6 +148,7 @@ impl Reason {
     pub fn field(&self) -> &'static str {
         match self {
             Reason::Empty | Reason::Segments { .. } => "piece",
+            Reason::Spline => "spline",
             Reason::NoSpeed
             | Reason::Speed { .. }
             | Reason::Tight { .. }
@@ -176,6 +180,7 @@ impl Reason {
             | Reason::Slow { .. }
             | Reason::Samples { .. } => "F",
             Reason::Circle(CircleError::Helix { .. }) | Reason::Plane { .. } => "Z",
+            Reason::Spline => "G5",
             Reason::Circle(_) | Reason::Gap { .. } => "arc",
             Reason::Reach { what, .. } => what,
             Reason::Coordinate { axis, .. } | Reason::Via { axis, .. } => axis,
@@ -202,7 +207,8 @@ impl Reason {
                 "an arc in a plane: a rotation has no feed along its axis".into()
             }
             Reason::Circle(CircleError::Radii { .. }) => "a centre as far from both".into(),
-            Reason::Gap { .. } => "an arc from the end of the piece before to its own end".into(),
+            Reason::Spline => "a line or an arc".into(),
+            Reason::Gap { .. } => "a curve from the end of the piece before to its own end".into(),
             Reason::Tight { most, .. } => {
                 format!(
                     "{}, whose blends reach no farther than the radius",

@@ -1,8 +1,10 @@
 //! Paths in space, which arc generator and trajectory controller both run along: their pieces, the
-//! geometry of arcs, and records as a control computer writes them.
+//! geometry of arcs and splines, and records as a control computer writes them.
 
 pub mod circle;
+pub mod cubic;
 pub mod error;
+pub mod helix;
 pub mod pieces;
 pub mod record;
 pub(crate) mod record_writer;

@@ -1,9 +1,11 @@
 //! A path as it is wanted: pieces, from taught points or from the moves of a drawing.
 
 use super::circle::{Circle, CircleError};
+use super::cubic::Cubic;
 use super::error::{PathError, Reason};
+use super::helix::Helix;
 use super::vector::{add, distance, dot, scale, sub, unit};
-use crate::input::{self, Drawing, Move, Point};
+use crate::input::{self, COORDINATES, Drawing, Move, Point, ZERO_MM};
 
 /// How far an arc may be off the path's points, as a part of its length and 1 mm.
 const GAP: f64 = 1e-6;
@@ -15,6 +17,10 @@ pub enum Course {
     Line,
     /// On an arc, which begins where the piece before ends.
     Arc(Circle),
+    /// On a helix, likewise.
+    Helix(Helix),
+    /// On a spline, likewise.
+    Spline(Cubic),
 }
 
 impl Course {
@@ -24,6 +30,8 @@ impl Course {
         match self {
             Course::Line => distance(from, to),
             Course::Arc(circle) => circle.length(),
+            Course::Helix(helix) => helix.length(),
+            Course::Spline(cubic) => cubic.length(),
         }
     }
 
@@ -32,6 +40,8 @@ impl Course {
     pub fn nearest(&self, from: Point, to: Point, point: Point) -> Point {
         match self {
             Course::Arc(circle) => circle.nearest(point),
+            Course::Helix(helix) => helix.nearest(point),
+            Course::Spline(cubic) => cubic.nearest(point),
             Course::Line => {
                 let way = sub(to, from);
                 let square = dot(way, way);
@@ -44,12 +54,41 @@ impl Course {
         }
     }
 
+    /// Least and largest value of each coordinate, or beyond; of a line those of its end.
+    #[must_use]
+    pub fn extremes(&self, to: Point) -> [[f64; 2]; COORDINATES] {
+        match self {
+            Course::Line => to.map(|mm| [mm; 2]),
+            Course::Arc(circle) => circle.extremes(),
+            Course::Helix(helix) => helix.extremes(),
+            Course::Spline(cubic) => cubic.extremes(),
+        }
+    }
+
+    /// Its arc, for who runs lines and arcs; none of a line.
+    ///
+    /// # Errors
+    /// It is a helix or a spline.
+    pub fn arc(&self) -> Result<Option<&Circle>, Reason> {
+        match self {
+            Course::Line => Ok(None),
+            Course::Arc(circle) => Ok(Some(circle)),
+            Course::Helix(helix) => {
+                let rise = helix.rise.abs();
+                Err(CircleError::Helix { rise }.into())
+            }
+            Course::Spline(_) => Err(Reason::Spline),
+        }
+    }
+
     /// Direction of motion at its start and at its end; not a number for a line without length.
     #[must_use]
     pub fn directions(&self, from: Point, to: Point) -> [Point; 2] {
         match self {
             Course::Line => [unit(sub(to, from)); 2],
             Course::Arc(circle) => [0.0, circle.angle].map(|angle| circle.direction(angle)),
+            Course::Helix(helix) => [0.0, 1.0].map(|part| helix.direction(part)),
+            Course::Spline(cubic) => [cubic.direction(0.0, false), cubic.direction(1.0, true)],
         }
     }
 }
@@ -57,7 +96,7 @@ impl Course {
 /// One piece of a path, from the end of the piece before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
-    /// Straight or on an arc.
+    /// Straight, on an arc, a helix or a spline.
     pub course: Course,
     /// Where it ends, in mm.
     pub to: Point,
@@ -81,12 +120,16 @@ impl Piece {
         if !(self.speed.is_finite() && self.speed > 0.0) {
             return Err(Reason::Speed { speed: self.speed });
         }
-        if let Course::Arc(circle) = &self.course {
-            let gap = distance(circle.start, from).max(distance(circle.end(), self.to));
-            let meets = gap <= GAP * (1.0 + circle.length());
-            if !meets {
-                return Err(Reason::Gap { gap });
-            }
+        let ends = match &self.course {
+            Course::Line => return Ok(()),
+            Course::Arc(circle) => [circle.start, circle.end()],
+            Course::Helix(helix) => [helix.circle.start, helix.point(1.0)],
+            Course::Spline(cubic) => [cubic.points[0], cubic.points[3]],
+        };
+        let gap = distance(ends[0], from).max(distance(ends[1], self.to));
+        let meets = gap <= GAP * (1.0 + self.course.length(from, self.to));
+        if !meets {
+            return Err(Reason::Gap { gap });
         }
         Ok(())
     }
@@ -112,8 +155,10 @@ pub struct Speeds {
 pub struct Taught {
     /// C: where it ends, in mm.
     pub to: Point,
-    /// B: a point of the arc; without it the piece is a line.
+    /// B: a point of the arc; without it the piece is a line or a spline.
     pub via: Option<Point>,
+    /// The piece is a spline: one curve through the ends of all such pieces in a row.
+    pub spline: bool,
     /// Its speed in mm/s, where it has its own.
     pub speed: Option<f64>,
 }
@@ -121,14 +166,16 @@ pub struct Taught {
 /// The pieces of taught points.
 ///
 /// # Errors
-/// Three points that make no arc, or one via that is not made of numbers; a piece without a speed
-/// where there is none for all either.
+/// Three points that make no arc, or one via that is not made of numbers; a spline with an end that
+/// is not, or is that of the piece before; a piece without a speed where there is none for all
+/// either.
 pub fn from_points(
     start: Point,
     taught: &[Taught],
     speeds: impl Into<Speeds>,
 ) -> Result<Vec<Piece>, PathError> {
     let speeds = speeds.into();
+    let splines = splines(start, taught)?;
     let mut from = start;
     let pieces = taught.iter().enumerate().map(|(piece, taught)| {
         let begin = std::mem::replace(&mut from, taught.to);
@@ -140,9 +187,10 @@ pub fn from_points(
         if let Some((axis, value)) = taught.via.and_then(no_number) {
             return Err(refuse(Reason::Via { axis, value }));
         }
-        let course = match taught.via {
-            None => Ok(Course::Line),
-            Some(via) => Circle::through(begin, via, taught.to).map(Course::Arc),
+        let course = match (taught.via, splines[piece]) {
+            (Some(via), _) => Circle::through(begin, via, taught.to).map(Course::Arc),
+            (None, Some(cubic)) => Ok(Course::Spline(cubic)),
+            (None, None) => Ok(Course::Line),
         };
         let speed = taught.speed.or(speeds.wanted);
         Ok(Piece {
@@ -155,10 +203,44 @@ pub fn from_points(
     pieces.collect()
 }
 
+/// The curve of each piece that is a spline.
+fn splines(start: Point, taught: &[Taught]) -> Result<Vec<Option<Cubic>>, PathError> {
+    let mut curves = vec![None; taught.len()];
+    let mut points = vec![start];
+    for (piece, of) in taught.iter().enumerate() {
+        let refuse = |reason| PathError {
+            piece,
+            line: None,
+            reason,
+        };
+        if of.spline {
+            if let Some((axis, value)) = no_number(of.to) {
+                return Err(refuse(Reason::Coordinate { axis, value }));
+            }
+            if points.last() == Some(&of.to) {
+                let points = ["start", "end"];
+                return Err(refuse(CircleError::Coincident { points }.into()));
+            }
+            points.push(of.to);
+        } else {
+            points = vec![of.to];
+        }
+        let goes_on = taught.get(piece + 1).is_some_and(|next| next.spline);
+        if of.spline && !goes_on {
+            let first = piece + 2 - points.len();
+            let cubics = Cubic::through(&points);
+            for (curve, cubic) in curves[first..].iter_mut().zip(cubics) {
+                *curve = Some(cubic);
+            }
+        }
+    }
+    Ok(curves)
+}
+
 /// The pieces of a drawing's or a part program's moves. The path begins at `drawing.start`.
 ///
 /// # Errors
-/// An arc that rises, or whose centre fits no arc; a move without a feed where there is no speed for
+/// An arc whose centre fits no arc; a move without a feed where there is no speed for
 /// all either.
 pub fn from_drawing(drawing: &Drawing, speeds: impl Into<Speeds>) -> Result<Vec<Piece>, PathError> {
     let speeds = speeds.into();
@@ -190,10 +272,18 @@ pub fn from_drawing(drawing: &Drawing, speeds: impl Into<Speeds>) -> Result<Vec<
 fn course(from: Point, step: &Move) -> Result<Course, CircleError> {
     match step.course {
         input::Course::Line => Ok(Course::Line),
+        input::Course::Spline {
+            controls: [one, two],
+        } => Ok(Course::Spline(Cubic {
+            points: [from, one, two, step.to],
+        })),
         input::Course::Arc { centre, clockwise } => {
             let axis = [0.0, 0.0, if clockwise { -1.0 } else { 1.0 }];
             let centre = [centre[0], centre[1], from[2]];
-            Circle::around(centre, from, step.to, axis).map(Course::Arc)
+            match (step.to[2] - from[2]).abs() > ZERO_MM {
+                true => Helix::around(centre, from, step.to, axis).map(Course::Helix),
+                false => Circle::around(centre, from, step.to, axis).map(Course::Arc),
+            }
         }
     }
 }

@@ -199,7 +199,7 @@ impl Panel {
             };
             group = group.add(dot).add(words);
         }
-        (self.legend(group, left, top), above + down + below)
+        (self.legend(group, left, across, top), above + down + below)
     }
 
     fn colours(&self) -> impl Iterator<Item = &str> {
@@ -254,12 +254,18 @@ impl Panel {
     }
 
     /// The names of the curves, to the right of the title.
-    fn legend(&self, mut group: Group, left: f64, top: f64) -> Group {
+    fn legend(&self, mut group: Group, left: f64, across: f64, top: f64) -> Group {
+        let width = |curve: &Curve| 6.8 * curve.name.chars().count() as f64;
         let mut at = left + 7.5 * self.title.chars().count() as f64 + 30.0;
+        // Many names stand closer.
+        let names: f64 = self.curves.iter().map(width).sum();
+        let room = (left + across - at - names) / self.curves.len().max(1) as f64;
+        let room = room.clamp(22.0, 44.0);
+        let (sample_width, gap) = (room * 24.0 / 44.0, room * 20.0 / 44.0);
         for (curve, colour) in self.curves.iter().zip(self.colours()) {
             let mut sample = Line::new()
                 .set("x1", hundredths(at))
-                .set("x2", hundredths(at + 24.0))
+                .set("x2", hundredths(at + sample_width))
                 .set("y1", hundredths(top + 10.0))
                 .set("y2", hundredths(top + 10.0))
                 .set("stroke", colour)
@@ -268,12 +274,12 @@ impl Panel {
                 sample = sample.set("stroke-dasharray", dashes);
             }
             let name = Text::new(curve.name.as_str())
-                .set("x", hundredths(at + 30.0))
+                .set("x", hundredths(at + sample_width + gap * 0.3))
                 .set("y", hundredths(top + 14.0))
                 .set("font-size", 12)
                 .set("fill", "#333");
             group = group.add(sample).add(name);
-            at += 44.0 + 6.8 * curve.name.chars().count() as f64;
+            at += room + width(curve);
         }
         group
     }

@@ -34,7 +34,8 @@ impl Curve {
         let Move { to, course, .. } = drawing.moves[index];
         let rise = to[2] - from[2];
         match course {
-            Course::Line => Self {
+            // `check` refuses splines.
+            Course::Line | Course::Spline { .. } => Self {
                 from,
                 to,
                 length: norm([to[0] - from[0], to[1] - from[1], rise]),
@@ -208,6 +209,9 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), PlanError> {
         check_point(line, step.to)?;
         if let Some(value) = step.feed_mm_per_min.filter(|f| !FEED_RANGE.contains(f)) {
             return Err(PlanError::Feed { line, value });
+        }
+        if let Course::Spline { .. } = step.course {
+            return Err(PlanError::Spline { line });
         }
         if let Course::Arc { centre, .. } = step.course {
             for (coordinate, value) in ["centre X", "centre Y"].into_iter().zip(centre) {

@@ -113,6 +113,12 @@ pub enum PlanError {
         /// Farthest value allowed.
         reach: f64,
     },
+    /// A move is on a spline.
+    #[error("line {line}: a spline: allowed are lines and arcs, as without Options::splines")]
+    Spline {
+        /// Line of the input.
+        line: usize,
+    },
     /// An arc starts or ends at its centre.
     #[error("line {line}: arc of radius {radius_mm} mm: allowed is any above 0")]
     Radius {

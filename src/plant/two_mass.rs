@@ -5,7 +5,8 @@
 //!              ┌───────────────────── two-mass axis ─────────────────────┐
 //!              │ ┌───────────┐ torque ┌──────────┐ twist ┌─────────┐     │
 //!  torque word ┼▶│ amplifier ├───────▶│ motor 32 ├───────┤ load 33 ├─────┼▶ load position
-//!              │ └───────────┘        └────┬─────┘       └─────────┘     │
+//!              │ └───────────┘        └────┬─────┘       └────▲────┘     │
+//!  load torque ┼───────────────────────────┼──────────────────┘          │
 //!              │                           └─▶ encoder ──────────────────┼▶ a, b
 //!              └─────────────────────────────────────────────────────────┘
 //! ```
@@ -44,6 +45,8 @@ pub struct TwoMassAxis {
     /// The torque word that stands, and its torque.
     asked: (i64, f64),
     torque_nm: f64,
+    /// On the load from outside.
+    load_torque_nm: f64,
     /// Motor angle, load angle, motor speed, load speed, in rad and rad/s.
     state: State,
     grips: [Grip; 2],
@@ -54,6 +57,7 @@ pub struct TwoMassAxis {
 #[derive(Debug, Clone, Copy)]
 pub struct TwoMassState {
     torque_nm: f64,
+    load_torque_nm: f64,
     state: State,
     grips: [Grip; 2],
     flank: Flank,
@@ -66,6 +70,7 @@ impl Plant for TwoMassAxis {
     fn state(&self) -> TwoMassState {
         TwoMassState {
             torque_nm: self.torque_nm,
+            load_torque_nm: self.load_torque_nm,
             state: self.state,
             grips: self.grips,
             flank: self.flank,
@@ -74,6 +79,7 @@ impl Plant for TwoMassAxis {
 
     fn set_state(&mut self, state: TwoMassState) {
         self.torque_nm = state.torque_nm;
+        self.load_torque_nm = state.load_torque_nm;
         self.state = state.state;
         self.grips = state.grips;
         self.flank = state.flank;
@@ -132,6 +138,7 @@ impl TwoMassAxis {
             count: count as u32,
             asked: (0, 0.0),
             torque_nm: 0.0,
+            load_torque_nm: 0.0,
             state: [0.0; 4],
             grips: dry.map(|dry| if dry > 0.0 { Grip::Stuck } else { Grip::Loose }),
             flank: match parameters.backlash_rad > 0.0 {
@@ -139,6 +146,12 @@ impl TwoMassAxis {
                 false => Flank::Touches(0.0),
             },
         })
+    }
+
+    /// The torque on the load from outside, in N·m at the motor's shaft, from the next tick on: a
+    /// cutting force, a weight.
+    pub fn set_load_torque_nm(&mut self, torque_nm: f64) {
+        self.load_torque_nm = torque_nm;
     }
 
     /// One tick under this torque word of 16 bits, beyond [`TwoMassAxis::FULL_SCALE`] the greatest

@@ -27,7 +27,7 @@ signals! { for Axes as _c;
 }
 
 /// The axes of an X-Y machine beside the circuit that drives them.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Axes;
 
 impl Beside for Axes {
@@ -72,7 +72,7 @@ signals! { for Body as _c;
 }
 
 /// A braked body beside the circuit that stops it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Body;
 
 impl Beside for Body {

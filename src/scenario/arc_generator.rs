@@ -6,7 +6,7 @@ use crate::circuits::arc_generator::Rounding;
 use crate::input::Point;
 use crate::jobs::arc_generator::settings::{Settings, ShortPieces};
 use crate::path::pieces::Taught;
-use crate::settings::SettingError;
+use crate::settings::{Place, SettingError};
 use serde::{Deserialize, Deserializer};
 use std::path::PathBuf;
 
@@ -66,9 +66,12 @@ pub struct PieceKeys {
     /// Where it ends.
     #[serde(deserialize_with = "exactly")]
     pub to_mm: Point,
-    /// A point of the arc; without it the piece is a line.
+    /// A point of the arc; without it the piece is a line or a spline.
     #[serde(default, deserialize_with = "some_point")]
     pub via_mm: Option<Point>,
+    /// It is a spline: one curve through the ends of all such pieces in a row.
+    #[serde(default)]
+    pub spline: bool,
     /// Its speed, where it has its own.
     pub speed_mm_per_s: Option<f64>,
 }
@@ -115,9 +118,14 @@ pub(super) fn taught(
             "a drawing or pieces, not both",
         ));
     }
+    if let Some(both) = piece.iter().position(|of| of.spline && of.via_mm.is_some()) {
+        let error = SettingError::new("spline", "given beside via_mm", "an arc or a spline");
+        return Err(error.at(Place::Row("piece", both)));
+    }
     let taught = |piece: &PieceKeys| Taught {
         to: piece.to_mm,
         via: piece.via_mm,
+        spline: piece.spline,
         speed: piece.speed_mm_per_s,
     };
     Ok(piece.iter().map(taught).collect())

@@ -3,7 +3,7 @@
 use super::Runnable;
 use crate::input::position_log::Columns;
 use crate::jobs::lead_angle::settings::{
-    Comparing, Completion, History, Placement, Settings, Sign, Step,
+    Comparing, Completion, Function, History, LeadBy, Placement, Settings, Sign, Step, Targets,
 };
 use crate::plant::{BodyParameters, Load};
 use serde::Deserialize;
@@ -32,6 +32,12 @@ pub struct Scenario {
     pub ck_ticks: u32,
     /// The steps, run over and over.
     pub step: Vec<StepKeys>,
+    /// What their targets count from.
+    #[serde(default)]
+    pub targets: Targets,
+    /// Where the lead comes from.
+    #[serde(default)]
+    pub lead: LeadBy,
     /// Where the lead is placed.
     #[serde(default)]
     pub placement: Placement,
@@ -41,6 +47,9 @@ pub struct Scenario {
     /// The sign of the stop error that corrects the time data.
     #[serde(default)]
     pub sign: Sign,
+    /// What is made of error and overrun.
+    #[serde(default)]
+    pub function: Function,
     /// What keeps the positions of the past.
     #[serde(default)]
     pub history: History,
@@ -71,6 +80,8 @@ pub struct Scenario {
     /// What the conventional compensator multiplies the speed with.
     #[serde(default = "default::speed_lead")]
     pub speed_lead_ms: f64,
+    /// How far before its target a displaced switch stands; without it as its step wants.
+    pub switch_counts: Option<u32>,
     /// How many positionings there are in all.
     #[serde(default = "default::positionings")]
     pub positionings: u32,
@@ -137,10 +148,13 @@ impl Scenario {
             clock_hz: self.clock_hz,
             ck_ticks: self.ck_ticks,
             steps: self.step.iter().map(step).collect(),
+            targets: self.targets,
+            lead: self.lead,
             placement: self.placement,
             comparing: self.comparing,
             completion: self.completion,
             sign: self.sign,
+            function: self.function,
             history: self.history,
             learn: self.learn,
             common_time: self.common_time,
@@ -151,6 +165,8 @@ impl Scenario {
             speed_gate_ms: self.speed_gate_ms,
             speed_lead_ms: self.speed_lead_ms,
             speed_leads_ms: Vec::new(),
+            switch_counts: self.switch_counts,
+            switches_counts: Vec::new(),
             positionings: self.positionings,
             load_change_after: self.load_change_after,
             load: Load {

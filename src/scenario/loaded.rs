@@ -45,16 +45,22 @@ impl Loaded {
         {
             *input = directory.join(&*input);
         }
-        let given = loaded.overrides("pattern");
+        Ok(loaded.with_tables_beside(path))
+    }
+
+    /// The tables that it names, and no override, are in the directory of `path`.
+    #[must_use]
+    pub fn with_tables_beside(mut self, path: &Path) -> Self {
+        let given = self.overrides("pattern");
         if let (Scenario::PulseInterpolator(scenario), Some(directory)) =
-            (&mut loaded.scenario, path.parent())
+            (&mut self.scenario, path.parent())
             && !given
         {
             for pattern in &mut scenario.pattern {
                 pattern.table = directory.join(&pattern.table);
             }
         }
-        Ok(loaded)
+        self
     }
 
     /// Reads a scenario from text that is called `file` in faults.

@@ -5,6 +5,8 @@ use super::exactly::exactly;
 use super::{Program, Runnable};
 use crate::circuits::trajectory_controller::Rounding;
 use crate::input::Point;
+use crate::jobs::trajectory_controller::each_axis::EachAxis;
+use crate::jobs::trajectory_controller::load_torque::LoadTorque;
 use crate::jobs::trajectory_controller::settings::{Correction, Settings};
 use crate::path::pieces::Taught;
 use crate::plant::TwoMassParameters;
@@ -50,8 +52,11 @@ pub struct Scenario {
     #[serde(default = "default::rapid_mm_per_s")]
     pub rapid_mm_per_s: f64,
     /// Largest acceleration along the path.
-    #[serde(default = "default::acceleration_mm_per_s2")]
-    pub acceleration_mm_per_s2: f64,
+    pub acceleration_mm_per_s2: Option<f64>,
+    /// In its place the time from rest to the feed.
+    pub acceleration_time_ms: Option<f64>,
+    /// Largest acceleration of the axes: of all, or a list.
+    pub axis_acceleration_mm_per_s2: Option<EachAxis>,
     /// Largest acceleration across it, on arcs.
     #[serde(default = "default::normal_acceleration_mm_per_s2")]
     pub normal_acceleration_mm_per_s2: f64,
@@ -61,12 +66,12 @@ pub struct Scenario {
     /// Largest step of the velocity between two segments; 0 stops at every corner.
     #[serde(default = "default::corner_mm_per_s")]
     pub corner_mm_per_s: f64,
-    /// K1 of all models.
+    /// K1 of the models: of all axes, or a list.
     #[serde(default = "default::k1_per_s")]
-    pub k1_per_s: f64,
-    /// K2 of all models.
+    pub k1_per_s: EachAxis,
+    /// K2 likewise.
     #[serde(default = "default::k2_per_s")]
-    pub k2_per_s: f64,
+    pub k2_per_s: EachAxis,
     /// Gains with which the model goes beyond its target are allowed.
     #[serde(default)]
     pub allow_overshoot: bool,
@@ -85,6 +90,12 @@ pub struct Scenario {
     /// Integral time of the speed controls; 0 for no integral.
     #[serde(default = "default::integral_ms")]
     pub integral_ms: f64,
+    /// What the feed-forward is told of the inertia, as a part of it: of all axes, or a list.
+    #[serde(default = "default::inertia_factor")]
+    pub inertia_factor: EachAxis,
+    /// Torques on the loads from outside.
+    #[serde(default)]
+    pub load_torque: Vec<LoadTorque>,
     /// Amplifier, motor, load and encoder of every axis.
     #[serde(default)]
     pub machine: TwoMassParameters,
@@ -107,17 +118,21 @@ impl Scenario {
             feed_mm_per_s: self.feed_mm_per_s,
             rapid_mm_per_s: self.rapid_mm_per_s,
             acceleration_mm_per_s2: self.acceleration_mm_per_s2,
+            acceleration_time_ms: self.acceleration_time_ms,
+            axis_acceleration_mm_per_s2: self.axis_acceleration_mm_per_s2.clone(),
             normal_acceleration_mm_per_s2: self.normal_acceleration_mm_per_s2,
             jerk_time_ms: self.jerk_time_ms,
             corner_mm_per_s: self.corner_mm_per_s,
-            k1_per_s: self.k1_per_s,
-            k2_per_s: self.k2_per_s,
+            k1_per_s: self.k1_per_s.clone(),
+            k2_per_s: self.k2_per_s.clone(),
             allow_overshoot: self.allow_overshoot,
             rounding: self.rounding,
             correction: self.correction,
             position_gain_per_s: self.position_gain_per_s,
             speed_hz: self.speed_hz,
             integral_ms: self.integral_ms,
+            inertia_factor: self.inertia_factor.clone(),
+            load_torque: self.load_torque.clone(),
         }
     }
 
@@ -177,9 +192,6 @@ mod default {
     pub(super) fn rapid_mm_per_s() -> f64 {
         settings().rapid_mm_per_s
     }
-    pub(super) fn acceleration_mm_per_s2() -> f64 {
-        settings().acceleration_mm_per_s2
-    }
     pub(super) fn normal_acceleration_mm_per_s2() -> f64 {
         settings().normal_acceleration_mm_per_s2
     }
@@ -189,10 +201,10 @@ mod default {
     pub(super) fn corner_mm_per_s() -> f64 {
         settings().corner_mm_per_s
     }
-    pub(super) fn k1_per_s() -> f64 {
+    pub(super) fn k1_per_s() -> super::EachAxis {
         settings().k1_per_s
     }
-    pub(super) fn k2_per_s() -> f64 {
+    pub(super) fn k2_per_s() -> super::EachAxis {
         settings().k2_per_s
     }
     pub(super) fn position_gain_per_s() -> f64 {
@@ -203,6 +215,9 @@ mod default {
     }
     pub(super) fn integral_ms() -> f64 {
         settings().integral_ms
+    }
+    pub(super) fn inertia_factor() -> super::EachAxis {
+        settings().inertia_factor
     }
     pub(super) fn vcd_ticks() -> u64 {
         super::super::VCD_TICKS

@@ -51,6 +51,7 @@ fn the_seam_is_what_closed_forms_say() {
             "blend_samples",
             "blends",
             "circuit",
+            "circuits",
             "clock_hz",
             "complaints",
             "counts_per_mm",
@@ -217,6 +218,48 @@ fn a_sample_costs_what_the_patent_counts() {
             "{method}"
         );
     }
+}
+
+/// The shorter sampling time that the text claims, and what it takes.
+#[test]
+fn the_conventional_circuit_runs_beside() {
+    let bench = Bench::new();
+    let run = ["run", "waves/weld.toml", "--no-vcd"];
+    let summary = bench.json(&run);
+    let [own, conventional] = list(&summary, "circuits") else {
+        panic!("two circuits");
+    };
+    assert_eq!(own["circuit"], "arc_generator");
+    assert_eq!(conventional["circuit"], "conventional_generator");
+    let ticks = |row: &Value| {
+        ["straight", "arc", "change", "most"].map(|name| row[format!("ticks_{name}")].as_u64())
+    };
+    assert_eq!(ticks(own), [2, 47, 82, 82].map(Some));
+    assert_eq!(ticks(conventional), [None, Some(134), Some(169), Some(169)]);
+    // Ts is 100 ticks.
+    assert_eq!([&own["in_time"], &conventional["in_time"]], [true, false]);
+    for row in [own, conventional] {
+        let error = number(row, "/error_max_um");
+        assert!(
+            error > 0.03 && error < number(row, "/error_bound_um"),
+            "{row}"
+        );
+        assert!(whole(row, "/adder_bits") > 20 * whole(row, "/adders"));
+    }
+    // By one: the engines of two coordinates against CORDIC and the matrix.
+    assert!(whole(own, "/adders") > whole(conventional, "/adders"));
+    let slow = [
+        "--set",
+        "sample_period_ms=17",
+        "--set",
+        "acceleration_ms=340",
+    ];
+    let summary = bench.json(&[&run[..], &slow].concat());
+    let [_, conventional] = list(&summary, "circuits") else {
+        panic!("two circuits");
+    };
+    assert_eq!(conventional["in_time"], true);
+    assert_eq!(summary["complaints"], json!([]));
 }
 
 #[test]

@@ -123,11 +123,15 @@ fn bad_pieces_are_refused_with_their_line() {
         ),
         (
             "[[piece]]\nvia = [200, 0, 0]\n".into(),
-            "s.toml:8: via: unknown field `via`; allowed: one of `to_mm`, `via_mm`, `speed_mm_per_s`",
+            "s.toml:8: via: unknown field `via`; allowed: one of `to_mm`, `via_mm`, `spline`, `speed_mm_per_s`",
         ),
         (
             "[[piece]]\nvia_mm = [200, 0, 0]\n".into(),
             "s.toml:7: to_mm: missing; allowed: a value for it: it has no default",
+        ),
+        (
+            "[[piece]]\nto_mm = [200, 0, 0]\nspline = true\n".into(),
+            "s.toml:9: piece 0: spline: is a spline; allowed: a line or an arc",
         ),
         (
             "[[piece]]\nto_mm = [nan, 0, 0]\n".into(),

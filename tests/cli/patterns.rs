@@ -84,9 +84,11 @@ fn a_table_is_played_as_the_drawing_that_it_was_made_from() {
     bench.succeed(&[&["table", "l.ngc", "--out", "t.csv"], &set[..]].concat());
     let drawn = bench.json(&[&["run", "l.ngc", "--no-vcd"], &set[..]].concat());
     let stored = bench.json(&["run", "s.toml", "--no-vcd"]);
-    for field in ["ticks", "units", "idle_units", "exact"] {
+    for field in ["units", "idle_units", "exact"] {
         assert_eq!(drawn[field], stored[field], "{field}");
     }
+    // Words that are written first take longer than the silent unit time at power-on.
+    assert_eq!(whole(&drawn, "/ticks"), whole(&stored, "/ticks") + 1000);
     assert_eq!(whole(&stored, "/commands"), 3);
     assert_eq!(
         stored["patterns"][0]["unit_ticks"],
@@ -205,6 +207,10 @@ fn bad_patterns_are_refused() {
             "s.toml:6: pattern 1: name: is a once more; allowed: a name for each",
         ),
         (
+            ONE.replace("\"a\"", "\"\""),
+            "s.toml:3: pattern 0: name: is empty; allowed: a name",
+        ),
+        (
             format!("play = [\"a\", \"c\"]\n{ONE}"),
             "s.toml:1: play: c is no pattern; allowed: a",
         ),
@@ -229,6 +235,15 @@ fn bad_patterns_are_refused() {
         bench.write("s.toml", text);
         bench.refuse(&["run", "s.toml"], expected);
     }
+    // One that does not end beyond T has to fit its word, also scaled.
+    bench.write("t.csv", HEADER.to_owned() + "0,100000,40000,0\n");
+    bench.write("s.toml", format!("{ONE}scale = \"2\"\n"));
+    bench.refuse(
+        &["run", "s.toml"],
+        "s.toml:5: pattern 0: scale: unit 0, x: scaled half-period 80000: allowed are 1 to 65535; \
+         allowed: a smaller ratio",
+    );
+    bench.write("t.csv", rows(2));
     // Half-periods beyond T are none, and no fault.
     bench.write(
         "s.toml",

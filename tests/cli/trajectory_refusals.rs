@@ -35,6 +35,26 @@ fn bad_settings_are_refused_with_their_line() {
             "s.toml:8: piece 0: speed_mm_per_s: is 0 mm/s; allowed: a speed above 0",
         ),
         (
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[piece]]\nto_mm = [30, 0, 0]\nvia_mm = [20, 9, 0]\nspline = true\n",
+            "s.toml:11: piece 1: spline: given beside via_mm; allowed: an arc or a spline",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\nspline = true\n[[piece]]\nto_mm = [10, 0, 0]\nspline = true\n",
+            "s.toml:10: piece 1: to_mm: start and end are the same point; allowed: points apart",
+        ),
+        (
+            "[[piece]]\nto_mm = [nan, 0, 0]\nspline = true\n",
+            "s.toml:7: piece 0: to_mm: x is NaN; allowed: a number",
+        ),
+        (
+            "axes = 2\n[[piece]]\nto_mm = [10, 0, 1]\nspline = true\n[[piece]]\nto_mm = [20, 0, 0]\nspline = true\n",
+            "s.toml:8: piece 0: to_mm: leaves the plane of x and y by ",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\nspline = 1\n",
+            "s.toml:8: spline: invalid type: integer `1`; allowed: true or false",
+        ),
+        (
             "k1_per_s = 0\n[[piece]]\nto_mm = [10, 0, 0]\n",
             "s.toml:6: k1_per_s: is 0: ",
         ),
@@ -69,6 +89,50 @@ fn bad_settings_are_refused_with_their_line() {
         (
             "[[piece]]\nto_mm = [2e6, 0, 0]\n",
             "s.toml:7: piece 0: to_mm: x reaches ",
+        ),
+        (
+            "acceleration_time_ms = 50\nacceleration_mm_per_s2 = 1e3\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: acceleration_time_ms: is 50 beside acceleration_mm_per_s2; allowed: one of both",
+        ),
+        (
+            "axis_acceleration_mm_per_s2 = [1e3]\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: axis_acceleration_mm_per_s2: is a list of 1; allowed: a number for all axes, or a list of 2",
+        ),
+        (
+            "k1_per_s = [50, 60]\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml: k2_per_s: is 200: 0.20001220703125 a period; allowed: ",
+        ),
+        (
+            "k1_per_s = [50, 40, 30]\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: k1_per_s: is a list of 3; allowed: a number for all axes, or a list of 2",
+        ),
+        (
+            "inertia_factor = [1, 1, 1]\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: inertia_factor: is a list of 3; allowed: a number for all axes, or a list of 2",
+        ),
+        (
+            "inertia_factor = \"half\"\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: inertia_factor: invalid type: string \"half\"; allowed: a number for all axes, or a list of one for each",
+        ),
+        (
+            "inertia_factor = [1, -2]\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: inertia_factor: is -2 for y; allowed: 0 to 100",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[load_torque]]\naxis = \"z\"\ntorque_nm = 1\n",
+            "s.toml:9: load_torque 0: axis: is z; allowed: one of x, y",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[load_torque]]\naxis = \"w\"\ntorque_nm = 1\n",
+            "s.toml:9: axis: unknown variant `w`; allowed: one of `x`, `y`, `z`",
+        ),
+        (
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[load_torque]]\naxis = \"x\"\ntorque_nm = 1\nfrom_s = 2\nto_s = 1\n",
+            "s.toml:12: load_torque 0: to_s: is 1; allowed: above from_s, 2, to 1000000",
+        ),
+        (
+            "load_torque = 3\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: load_torque: invalid type: integer `3`; allowed: tables [[load_torque]]",
         ),
         (
             "[machine]\nmass = 1\n",
@@ -151,21 +215,21 @@ fn bad_machines_are_refused_with_their_line() {
 
 #[test]
 fn bad_moves_are_refused_with_their_line() {
-    let cases = [
-        (
-            "G1 X20 F600\nG2 X40 I10 Z5\n",
-            "p.ngc:2: Z: climbs 5 mm along its axis: a helix; allowed: an arc in a plane: a rotation has no feed along its axis",
-        ),
-        (
-            "G1 X20 F600\nG2 X40 Y1 I3\n",
-            "p.ngc:2: I, J: the radius is 3.0000 mm at the start and 17.0294 mm at the end; allowed: radii that agree to 0.005 mm or 0.1 %",
-        ),
-    ];
+    let cases = [(
+        "G1 X20 F600\nG2 X40 Y1 I3\n",
+        "p.ngc:2: I, J: the radius is 3.0000 mm at the start and 17.0294 mm at the end; allowed: radii that agree to 0.005 mm or 0.1 %",
+    )];
     for (text, refusal) in cases {
         let bench = with("input = \"p.ngc\"\n");
         bench.write("p.ngc", text);
         bench.refuse(&["run", "s.toml", "--out", "new"], refusal);
     }
+    let bench = with("input = \"p.ngc\"\naxes = 2\n");
+    bench.write("p.ngc", "G1 X20 F600\nG2 X40 I10 Z5\n");
+    bench.refuse(
+        &["run", "s.toml", "--out", "new"],
+        "p.ngc:2: Z: leaves the plane of x and y by 5 mm; allowed: the height of the start, or three axes",
+    );
     let many: String = (1..=4097)
         .map(|k| format!("G1 X{k} Y{}\n", k % 2))
         .collect();

@@ -42,6 +42,7 @@ fn hold(axes: usize, correction: Correction, rounding: Rounding, simulator: Simu
     let taught = pieces(if axes == 3 { 0.4 } else { 0.0 }).map(|(to, via)| Taught {
         to,
         via,
+        spline: false,
         speed: None,
     });
     let start = [0.0; 3];

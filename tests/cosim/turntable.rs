@@ -2,10 +2,11 @@
 //! their Verilog.
 
 use super::tools::{Simulator, complete, write};
-use motion_rtl::circuits::lead_angle::{LeadFrom, Memory};
 use motion_rtl::hdl::{Circuit, Declarations, Without};
 use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
-use motion_rtl::jobs::lead_angle::settings::{Comparing, Placement, Settings, Step};
+use motion_rtl::jobs::lead_angle::settings::{
+    Comparing, History, LeadBy, Placement, Settings, Step,
+};
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
 use std::fs::File;
@@ -30,11 +31,9 @@ fn settings(positionings: u32) -> Settings {
     settings
 }
 
-const SHIFT: LeadFrom = LeadFrom::Time(Memory::ShiftRegister);
-
 /// Plays positionings, and drives the Verilog with the same inputs.
-fn hold(settings: &Settings, lead_from: LeadFrom, simulator: Simulator) -> Played {
-    let circuit = positioner(settings, lead_from);
+fn hold(settings: &Settings, simulator: Simulator) -> Played {
+    let circuit = positioner(settings);
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
     let verilog = Verilog::of(&circuit).unwrap();
@@ -59,7 +58,7 @@ fn hold(settings: &Settings, lead_from: LeadFrom, simulator: Simulator) -> Playe
 #[test]
 #[ignore = "needs Verilator"]
 fn positionings_are_the_same_in_verilator() {
-    let played = hold(&settings(6), SHIFT, Simulator::Verilator);
+    let played = hold(&settings(6), Simulator::Verilator);
     assert!(played.positionings.iter().all(|one| one.learned.is_some()));
 }
 
@@ -68,19 +67,24 @@ fn positionings_are_the_same_in_verilator() {
 fn other_variants_are_the_same_in_icarus() {
     let halves = Settings {
         placement: Placement::Halves,
+        history: History::Ram,
         ..settings(2)
     };
-    hold(&halves, LeadFrom::Time(Memory::Ram), Simulator::Icarus);
+    hold(&halves, Simulator::Icarus);
     let equal = Settings {
         comparing: Comparing::Equal,
         placement: Placement::Target,
         ..settings(2)
     };
-    hold(&equal, SHIFT, Simulator::Icarus);
+    hold(&equal, Simulator::Icarus);
 }
 
 #[test]
 #[ignore = "needs Icarus Verilog"]
 fn the_conventional_compensator_is_the_same_in_icarus() {
-    hold(&settings(2), LeadFrom::Speed, Simulator::Icarus);
+    let by_speed = Settings {
+        lead: LeadBy::Speed,
+        ..settings(2)
+    };
+    hold(&by_speed, Simulator::Icarus);
 }

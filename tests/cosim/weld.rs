@@ -39,6 +39,7 @@ fn hold(rounding: Rounding, simulator: Simulator) -> Played {
     let taught = PIECES.map(|(to, via)| Taught {
         to,
         via,
+        spline: false,
         speed: None,
     });
     let pieces = from_points(START, &taught, &settings).unwrap();

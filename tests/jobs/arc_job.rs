@@ -91,6 +91,7 @@ fn path(wanted: &Wanted, speed: f64, blend_samples: u64) -> Prepared {
     let taught = Taught {
         to,
         via: Some(via),
+        spline: false,
         speed: Some(speed),
     };
     let pieces = from_points(from, &[taught], &Settings::default()).expect("an arc");

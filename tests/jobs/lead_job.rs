@@ -2,11 +2,12 @@
 //! position logs.
 
 use motion_rtl::circuits::lead_angle::codes::{LARGEST, STAGES, code};
-use motion_rtl::circuits::lead_angle::{LeadFrom, Memory};
 use motion_rtl::input::position_log::{Columns, PositionLog, read};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning, play, positioner};
 use motion_rtl::jobs::lead_angle::replay::{replay, settings_for};
-use motion_rtl::jobs::lead_angle::settings::{Comparing, Placement, Settings, Sign, Step};
+use motion_rtl::jobs::lead_angle::settings::{
+    Comparing, History, LeadBy, Placement, Settings, Sign, Step, Targets,
+};
 use motion_rtl::scenario::{Loaded, Scenario};
 use std::fmt::Write;
 use std::path::Path;
@@ -21,11 +22,8 @@ fn turntable() -> Settings {
     scenario.settings()
 }
 
-const SHIFT: LeadFrom = LeadFrom::Time(Memory::ShiftRegister);
-const RAM: LeadFrom = LeadFrom::Time(Memory::Ram);
-
 fn with_lead(settings: &Settings) -> Played {
-    let played = play(&positioner(settings, SHIFT), settings, ()).expect("it runs");
+    let played = play(&positioner(settings), settings, ()).expect("it runs");
     assert!(!played.lost && !played.unsettled);
     assert_eq!(played.positionings.len(), settings.positionings as usize);
     played
@@ -96,7 +94,10 @@ fn without_learning_the_load_change_stays_in_the_errors() {
     for step in &mut none.steps {
         step.lead_ms = 0.0;
     }
-    let by_speed = play(&positioner(&fixed, LeadFrom::Speed), &fixed, ()).expect("it runs");
+    let by_speed = with_lead(&Settings {
+        lead: LeadBy::Speed,
+        ..fixed.clone()
+    });
     let last = |played: &Played| -> Vec<f64> {
         let all = &played.positionings;
         all[all.len() - settings.steps.len()..]
@@ -154,7 +155,10 @@ fn the_literal_sign_diverges() {
 fn forms_and_placements_give_the_same_positionings() {
     let settings = turntable();
     let played = with_lead(&settings);
-    let ram = play(&positioner(&settings, RAM), &settings, ()).expect("it runs");
+    let ram = with_lead(&Settings {
+        history: History::Ram,
+        ..settings.clone()
+    });
     assert_eq!(ram.positionings, played.positionings);
     for placement in [Placement::Target, Placement::Halves] {
         let settings = Settings {
@@ -211,6 +215,84 @@ fn a_common_time_is_one_for_all_steps() {
     }
 }
 
+/// One step, run over and over on a body that turns on and on.
+fn one_step(way: i64, speed_counts_per_s: u32, positionings: u32) -> Settings {
+    Settings {
+        targets: Targets::Relative,
+        steps: vec![Step {
+            target: way,
+            speed_counts_per_s,
+            lead_ms: 20.0,
+        }],
+        positionings,
+        load_change_after: None,
+        ..turntable()
+    }
+}
+
+/// A stop a turn: it is learned as any other, and what one stop is off is not in the next.
+#[test]
+fn a_single_step_stops_once_a_turn() {
+    for way in [90_000, -90_000] {
+        let settings = one_step(way, 90_000, 10);
+        let played = with_lead(&settings);
+        for (number, one) in (1..).zip(&played.positionings) {
+            assert_eq!((one.step, one.target), (0, number * way));
+            assert_eq!(one.upward, way > 0);
+            let past = (one.stopped - one.target) * way.signum();
+            assert_eq!(one.error, past);
+        }
+        let errors: Vec<f64> = played.positionings.iter().map(off).collect();
+        assert!(errors[0] > 1000.0, "{errors:?}");
+        for one in &played.positionings[5..] {
+            assert!(off(one) <= code_travel(&settings, one), "{errors:?}");
+        }
+    }
+}
+
+/// Positions are a ring of 2^24 counts: a body that turns on and on goes over its seam, and the
+/// control signal comes a lead before the target as anywhere.
+#[test]
+fn a_body_that_turns_on_goes_over_the_seam_of_the_positions() {
+    let mut settings = one_step(2_000_000, 655_350, 6);
+    (settings.clock_hz, settings.ck_ticks) = (700_000, 70);
+    let last = with_lead(&settings).positionings[5];
+    assert_eq!(last.target, 12_000_000);
+    assert!(last.trigger_position > 1 << 23);
+    assert!(last.upward && !last.missed);
+    assert_eq!(last.error, last.stopped - last.target);
+    // So fast a body takes longer to stop than the greatest lead time.
+    assert_eq!(last.code, LARGEST);
+    let lead = (last.target - last.trigger_position) as f64;
+    let way = last.speed_counts_per_s * LARGEST as f64 * settings.ck_ms() / 1e3;
+    assert!((lead - way).abs() <= 80.0, "{last:?}");
+    assert!((20_000..26_000).contains(&last.error), "{last:?}");
+}
+
+/// Switches a distance before their targets, on the way there from either side.
+#[test]
+fn a_displaced_switch_is_a_distance_before_its_target() {
+    let mut settings = turntable();
+    settings.learn = false;
+    for step in &mut settings.steps {
+        step.lead_ms = 0.0;
+    }
+    let none = with_lead(&settings);
+    settings.switches_counts = vec![100, 1000, 2000, 3000];
+    let displaced = with_lead(&settings);
+    let pairs = none.positionings.iter().zip(&displaced.positionings);
+    for (without, with) in pairs {
+        assert_eq!(with.target, settings.steps[with.step].target);
+        let per_ck = with.speed_counts_per_s.abs() * settings.ck_ms() / 1e3;
+        let moved = (without.error - with.error) as f64;
+        let distance = f64::from(settings.switches_counts[with.step]);
+        assert!(
+            (moved - distance).abs() <= per_ck + 2.0,
+            "{without:?} {with:?}"
+        );
+    }
+}
+
 /// A log of positions, a sample every 5 ms.
 fn log(position: impl Fn(f64) -> i64, samples: u32) -> PositionLog {
     let mut text = "time, counts\n".to_owned();
@@ -237,7 +319,7 @@ fn a_log_at_constant_speed_is_predicted_within_the_bound() {
         ..Settings::default()
     };
     let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings, SHIFT), &settings, &log, ()).unwrap();
+    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
     let signals = &replayed.signals;
     assert_eq!(signals.len(), 3, "{signals:?}");
     for (signal, ratio) in signals.iter().zip([2.0, 10.0, 1.0]) {
@@ -257,6 +339,32 @@ fn a_log_at_constant_speed_is_predicted_within_the_bound() {
     assert!(!replayed.lost);
 }
 
+/// One target a turn, from the log's first sample on, and a lead by the speed.
+#[test]
+fn a_log_that_turns_on_gives_a_signal_a_turn() {
+    let log = log(|seconds| 500 + (20_000.0 * seconds) as i64, 200);
+    let mut settings = one_step(4000, 20_000, 1);
+    settings.lead = LeadBy::Speed;
+    settings.speed_lead_ms = 10.0;
+    let settings = settings_for(&log, &settings);
+    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
+    let targets: Vec<_> = replayed
+        .signals
+        .iter()
+        .map(|signal| signal.target)
+        .collect();
+    assert_eq!(targets, [4500, 8500, 12_500, 16_500, 20_500]);
+    for signal in &replayed.signals {
+        assert_eq!(signal.lead_ms, 10.0);
+        let away = signal.target - signal.position;
+        assert!((away - 200).abs() <= 4, "{signal:?}");
+        // The log is over before the last target.
+        let after = signal.position_after;
+        assert_eq!(after.is_none(), signal.target == 20_500);
+        assert!(after.is_none_or(|after| (after - signal.target as f64).abs() <= 4.0));
+    }
+}
+
 /// A log that begins elsewhere than at 0, and goes down.
 #[test]
 fn a_log_is_taken_from_its_first_sample_on() {
@@ -268,11 +376,12 @@ fn a_log_is_taken_from_its_first_sample_on() {
     };
     let settings = Settings {
         steps: vec![step(-10_000), step(-20_000)],
+        history: History::Ram,
         time_out_ms: 50.0,
         ..Settings::default()
     };
     let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings, RAM), &settings, &log, ()).unwrap();
+    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
     let targets: Vec<_> = replayed
         .signals
         .iter()

@@ -9,7 +9,9 @@
 //!                          └───────────────┘
 //! ```
 
-use super::{PositionCommand, Rotation, Rounding, Widths, position_command, rotation};
+use super::{
+    Conventional, PositionCommand, Rotation, Rounding, Widths, position_command, rotation,
+};
 use crate::circuits::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
     enable_counter, record_memory, record_sequencer,
@@ -77,7 +79,7 @@ impl Default for ArcGenerator {
     }
 }
 
-signals! { for ArcGenerator as c;
+signals! { for Widths as c;
     /// Segments, as they are written, and the start of their path.
     pub struct Segments {
         /// Writes a word of the free record; not taken unless `ready`.
@@ -85,21 +87,48 @@ signals! { for ArcGenerator as c;
         /// Number of the word.
         pub write_word: U(5),
         /// Its data.
-        pub write_data: U(c.widths.data) as Hex,
+        pub write_data: U(c.data) as Hex,
         /// The free record is complete; not taken unless `ready`.
         pub push: Bit,
         /// Begins a path, unless one is under way or no segment waits.
         pub start: Bit,
     }
+}
+
+signals! { for (ArcGenerator, Conventional) as c;
     /// Ports in.
     pub struct In {
         /// The path.
-        pub segments: Segments(c) as Flat,
+        pub segments: Segments(&c.widths) as Flat,
         /// Ends it where it is: the commands stay, the segments that wait are forgotten.
         pub halt: Bit,
         /// Ts: ticks from one point to the next.
         pub sample_period: U(c.widths.period),
     }
+    /// Ports out.
+    pub struct Net {
+        /// Position command of x in counts.
+        pub x: I(c.widths.position) as Analog,
+        /// Position command of y.
+        pub y: I(c.widths.position) as Analog,
+        /// Position command of z.
+        pub z: I(c.widths.position) as Analog,
+        /// New commands stand in this tick.
+        pub sampled: Bit,
+        /// There is a free record.
+        pub ready: Bit,
+        /// A path is under way.
+        pub busy: Bit,
+        /// The segment that makes the points.
+        pub kind: U(2) as States(record_memory::KINDS),
+        /// A sampling time began before its point was ready; until the next path begins.
+        pub late: Bit,
+        /// The path ended in motion, since no segment waited; until the next path begins.
+        pub starved: Bit,
+    }
+}
+
+signals! { for ArcGenerator as c;
     /// The blocks.
     pub struct Parts {
         /// Sampling time.
@@ -122,27 +151,6 @@ signals! { for ArcGenerator as c;
         pub command_y: Part<PositionCommand>(c.command(1)),
         /// Command of z.
         pub command_z: Part<PositionCommand>(c.command(2)),
-    }
-    /// Ports out.
-    pub struct Net {
-        /// Position command of x in counts.
-        pub x: I(c.widths.position) as Analog,
-        /// Position command of y.
-        pub y: I(c.widths.position) as Analog,
-        /// Position command of z.
-        pub z: I(c.widths.position) as Analog,
-        /// New commands stand in this tick.
-        pub sampled: Bit,
-        /// There is a free record.
-        pub ready: Bit,
-        /// A path is under way.
-        pub busy: Bit,
-        /// The segment that makes the points.
-        pub kind: U(2) as States(record_memory::KINDS),
-        /// A sampling time began before its point was ready; until the next path begins.
-        pub late: Bit,
-        /// The path ended in motion, since no segment waited; until the next path begins.
-        pub starved: Bit,
     }
 }
 

@@ -14,16 +14,28 @@
 //! What runs on the control computer is in [`jobs`](crate::jobs::arc_generator).
 //! `rtl_notes/arc_generator.md` is the note of this circuit.
 
+pub mod angle_step;
+pub mod axis_terms;
+pub mod conventional;
 pub mod generator;
+pub mod matrix_element;
 pub mod position_command;
 pub mod rotation;
 pub mod rotation_row;
+pub mod sine_words;
+pub mod vector_row;
 pub mod widths;
 
+pub use angle_step::AngleStep;
+pub use axis_terms::AxisTerms;
+pub use conventional::Conventional;
 pub use generator::ArcGenerator;
+pub use matrix_element::MatrixElement;
 pub use position_command::PositionCommand;
 pub use rotation::Rotation;
 pub use rotation_row::RotationRow;
+pub use sine_words::SineWords;
+pub use vector_row::VectorRow;
 pub use widths::Widths;
 
 /// How the rotation rounds its points to guard units.

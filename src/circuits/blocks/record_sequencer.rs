@@ -25,10 +25,10 @@ use crate::hdl::prelude::*;
 /// Names of the states.
 const STATES: &[&str] = &["idle", "fetch", "step", "rotate", "ready"];
 const IDLE: u64 = 0;
-const FETCH: u64 = 1;
+pub(crate) const FETCH: u64 = 1;
 const STEP: u64 = 2;
 const ROTATE: u64 = 3;
-const READY: u64 = 4;
+pub(crate) const READY: u64 = 4;
 
 /// Sequencer of records.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ signals! { for RecordSequencer as c;
     /// Flip-flops.
     pub struct Reg {
         /// What it does.
-        state: U(3) as States(STATES) = 0,
+        pub(crate) state: U(3) as States(STATES) = 0,
         /// The point is the first of a path.
         first: Bit = 0,
         /// The segment's kind.

@@ -17,8 +17,8 @@
 
 use super::lead_source::{LeadFrom, LeadPart, LeadSource};
 use super::{
-    Comparator, Comparing, CompletionDetector, Correction, LeadPlacement, Memory, Placement,
-    RatioLogic, Sign, SpeedLead, StepSequencer, TargetSetter, TimeData, TimeLead, codes,
+    Comparator, Comparing, CompletionDetector, Correction, Function, LeadPlacement, Memory,
+    Placement, RatioLogic, Sign, SpeedLead, StepSequencer, TargetSetter, TimeData, TimeLead, codes,
     comparator, completion_detector, correction, placement, ratio_logic, speed_lead,
     step_sequencer, target_setter, time_data, time_lead,
 };
@@ -75,6 +75,8 @@ pub struct Variant {
     pub comparing: Comparing,
     /// Which way the error counts.
     pub sign: Sign,
+    /// What is made of error and overrun.
+    pub function: Function,
 }
 
 /// Compensator.
@@ -190,6 +192,7 @@ signals! { for Compensator as c;
         /// 23.
         pub correction: Part<Correction>(Correction {
             stages: c.widths.stages, position: c.widths.position, sign: c.variant.sign,
+            function: c.variant.function,
         }),
         /// The steps.
         pub sequencer: Part<StepSequencer>(StepSequencer {

@@ -9,10 +9,11 @@
 //! ```
 //!
 //! Error 27, position register 30 and overrun 31, the arithmetic 28 with a sequential
-//! multiplier-divider, and the [ratio logic](super::ratio_logic) to put the result on the grid.
+//! multiplier-divider, and the [ratio logic](super::ratio_logic) to put the result on the grid. To
+//! second order the [refinement] has it divided twice.
 
-use super::{CorrectionArithmetic, RatioLogic, Sign, StopError};
-use super::{correction_arithmetic, ratio_logic, stop_error};
+use super::{CorrectionArithmetic, Function, RatioLogic, Refinement, Sign, StopError};
+use super::{correction_arithmetic, ratio_logic, refinement, stop_error};
 use crate::circuits::blocks::{MulDiv, mul_div};
 use crate::hdl::prelude::*;
 
@@ -28,13 +29,21 @@ pub struct Correction {
     pub position: usize,
     /// Which way the error counts.
     pub sign: Sign,
+    /// What is made of error and overrun.
+    pub function: Function,
 }
 
 impl Correction {
-    /// Ticks from `complete` to `corrected` of a division.
+    /// Ticks from `complete` to `corrected` where `divisions` are made, one or two. Two are made to
+    /// second order, of an error that is less than the overrun.
     #[must_use]
-    pub fn latency(&self) -> u64 {
-        self.mul_div().latency() + 1
+    pub fn latency(&self, divisions: u64) -> u64 {
+        let refined = u64::from(self.second_order());
+        divisions * self.mul_div().latency() + refined + 1
+    }
+
+    fn second_order(&self) -> bool {
+        self.function == Function::SecondOrder
     }
 
     fn arithmetic(&self) -> CorrectionArithmetic {
@@ -44,10 +53,18 @@ impl Correction {
         }
     }
 
+    fn refinement(&self) -> Refinement {
+        Refinement {
+            time: self.arithmetic().time(),
+            position: self.position,
+        }
+    }
+
+    /// To second order a factor can be twice a time.
     fn mul_div(&self) -> MulDiv {
         let arithmetic = self.arithmetic();
         MulDiv {
-            multiplier: arithmetic.time(),
+            multiplier: arithmetic.time() + usize::from(self.second_order()),
             word: arithmetic.word(),
         }
     }
@@ -79,6 +96,8 @@ signals! { for Correction as c;
         pub stop_error: Part<StopError>(StopError { position: c.position, sign: c.sign }),
         /// 28.
         pub arithmetic: Part<CorrectionArithmetic>(c.arithmetic()),
+        /// Has it divided twice, to second order.
+        pub refinement: [Part<Refinement>(c.refinement()); usize::from(c.second_order())],
         /// The divider.
         pub mul_div: Part<MulDiv>(c.mul_div()),
         /// Puts the result on the grid.
@@ -104,7 +123,25 @@ impl Circuit for Correction {
     const ABOUT: &'static str = "learns the lead time of a step from how it stopped";
     records!(In, Nothing, Net, Parts);
 
+    fn name(&self) -> &'static str {
+        match self.function {
+            Function::FirstOrder => Self::NAME,
+            Function::SecondOrder => "second_order_correction",
+        }
+    }
+
+    fn about(&self) -> &'static str {
+        match self.function {
+            Function::FirstOrder => Self::ABOUT,
+            Function::SecondOrder => "learns the lead time of a step to second order",
+        }
+    }
+
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let divider = &p.mul_div.q;
+        let (divider_done, quotient) = (divider.done, divider.quotient);
+        let refinement = p.refinement.into_iter().next();
+        let done = refinement.as_ref().map_or(divider_done, |part| part.q.done);
         let stop_error = p.stop_error.settle(stop_error::In {
             fire: i.fire,
             position: i.position,
@@ -118,17 +155,39 @@ impl Circuit for Correction {
             overrun: stop_error.w.overrun,
             error: stop_error.w.error,
             seed: i.seed,
-            done: p.mul_div.q.done,
-            quotient: p.mul_div.q.quotient,
+            done,
+            quotient,
         });
-        p.mul_div.settle(mul_div::In {
-            start: arithmetic.w.divide,
+        let w = &arithmetic.w;
+        let mut divided = mul_div::In {
+            start: w.divide,
             product_only: Bit::low(),
-            multiplicand: arithmetic.w.multiplicand,
-            multiplier: arithmetic.w.multiplier,
-            addend: arithmetic.w.addend,
-            divisor: arithmetic.w.divisor,
-        });
+            multiplicand: w.multiplicand,
+            multiplier: w.multiplier,
+            addend: w.addend,
+            divisor: w.divisor,
+        };
+        if let Some(part) = refinement {
+            let refined = part.settle(refinement::In {
+                start: w.divide,
+                multiplicand: w.multiplicand.resize(self.position),
+                multiplier: w.multiplier,
+                divisor: w.divisor.resize(self.position),
+                negative: arithmetic.q.negative,
+                divider_done,
+                quotient: quotient.resize(w.multiplier.width()),
+            });
+            let word = w.divisor.width();
+            divided = mul_div::In {
+                start: refined.w.divide,
+                product_only: Bit::low(),
+                multiplicand: refined.w.first_factor.resize(word),
+                multiplier: refined.w.second_factor,
+                addend: refined.w.addend.resize(word),
+                divisor: refined.w.divide_by.resize(word),
+            };
+        }
+        p.mul_div.settle(divided);
         let grid = p.grid.settle(ratio_logic::In {
             lead_time: arithmetic.q.raw,
         });

@@ -72,7 +72,7 @@ signals! { for CorrectionArithmetic as c;
         /// The divider works on a correction.
         dividing: Bit,
         /// Δtd is negative.
-        negative: Bit,
+        pub negative: Bit,
         /// Δt2 before it is put on the grid.
         pub raw: U(c.time()),
         /// `raw` is a new time; one tick.

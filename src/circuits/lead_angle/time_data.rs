@@ -38,8 +38,7 @@ impl TimeData {
 
     /// The ROM with as many words as there are steps.
     fn contents(&self) -> Image {
-        let times = (0..self.rom.words()).map(|step| self.rom.get(step));
-        Image::of(self.step, self.time, times)
+        Image::of(self.step, self.time, self.rom.iter())
     }
 }
 

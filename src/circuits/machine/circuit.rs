@@ -89,7 +89,7 @@ signals! { for Machine as c;
         /// To the linear interpolator.
         pub lines: Lines(&c.linear_interpolator),
         /// To the arc generator.
-        pub arcs: Segments(&c.arc_generator),
+        pub arcs: Segments(&c.arc_generator.widths),
         /// To the trajectory controller.
         pub trajectory: Trajectory(&c.trajectory_controller),
         /// To the lead-angle compensator.
@@ -233,6 +233,8 @@ impl Circuit for Machine {
             last: of.last,
             path_end: of.path_end,
             period: enables.w.sample_led,
+            axis_gain_1: vec![of.model_gains.gain_1; self.trajectory_controller.axes],
+            axis_gain_2: vec![of.model_gains.gain_2; self.trajectory_controller.axes],
             model_gains: of.model_gains,
             position_gain: of.position_gain,
             speed_gain: of.speed_gain,

@@ -168,6 +168,10 @@ signals! { for MotorController as c;
         begins: Bit,
         /// A result is taken from the divider.
         divided: Bit,
+        /// That of an axis.
+        result: [Bit; c.axes] as Elements(RESULT),
+        /// The half-period that the divider gives; the greatest where it is above.
+        rounded: U(c.widths.half_period),
         /// The next unit time is prepared.
         pub prepared: Bit,
         /// A unit time without pulses begins, because the next of a move is not prepared yet.
@@ -181,6 +185,10 @@ signals! { for MotorController as c;
     }
 }
 
+/// Names of the results of the axes.
+const RESULT: &[&str] = &[
+    "result_x", "result_y", "result_z", "result_a", "result_b", "result_c", "result_u", "result_v",
+];
 /// Names of the steps of a move.
 const DELTA: &[&str] = &[
     "delta_x", "delta_y", "delta_z", "delta_a", "delta_b", "delta_c", "delta_u", "delta_v",
@@ -220,10 +228,14 @@ impl Circuit for MotorController {
             let (_, chosen) = chosen.unwrap_or((last_axis, U::new(0, word)));
             chosen.resize(word)
         };
+        let half_period = self.widths.half_period;
+        let above = !i.quotient.shift_right(half_period).is_zero();
         let net = Net {
             ready: !q.pending,
             begins,
             divided,
+            result: (0..self.axes).map(|axis| divided & is(axis)).collect(),
+            rounded: above.mux(u64::MAX, i.quotient.resize(half_period)),
             prepared,
             late: i.unit_rst & !prepared & (q.pending | !none_left),
             dividend: lengths.mux(q.unit_period.resize(word), chosen(&|words| words.distance)),
@@ -234,12 +246,9 @@ impl Circuit for MotorController {
             ),
         };
 
-        let half_period = self.widths.half_period;
-        let above = !i.quotient.shift_right(half_period).is_zero();
-        let length = above.mux(u64::MAX, i.quotient.resize(half_period));
         let words = q.words.iter().zip(&i.order.delta).enumerate();
         let words = words.map(|(axis, (words, &delta))| {
-            let this = divided & is(axis);
+            let this: Bit = net.result[axis];
             let amount = i.quotient.resize(words.amount.width());
             let half = q.pending_units.shift_right(1);
             let rest = i.remainder.resize(self.widths.units);
@@ -249,7 +258,7 @@ impl Circuit for MotorController {
                 down: begins.mux(words.pending_delta.is_negative(), words.down),
                 rest: begins.mux(half, (this & amounts).mux(rest, words.rest)),
                 amount: (this & amounts).mux(amount, words.amount),
-                half_period: (this & lengths).mux(length, words.half_period),
+                half_period: (this & lengths).mux(net.rounded, words.half_period),
             }
         });
         let number = |state| U::new(state, 2);

@@ -41,12 +41,15 @@ impl Contents {
 
 /// The same words in an image of other widths; as it is where a word would be lost.
 fn fitted(image: &Image, address: usize, width: usize) -> Image {
-    let words = || (0..image.words()).map(|word| image.get(word));
-    let fitted = Image::of(address, width, words());
-    let kept = words().enumerate().all(|(address, word)| {
-        word == 0 || address < fitted.words() && fitted.get(address) == word
-    });
-    if kept { fitted } else { image.clone() }
+    if (image.address(), image.width()) == (address, width) {
+        return image.clone();
+    }
+    let fitted = Image::of(address, width, image.iter());
+    let lost = |(place, word)| word != 0 && (place >= fitted.words() || fitted.get(place) != word);
+    match image.iter().enumerate().any(lost) {
+        true => image.clone(),
+        false => fitted,
+    }
 }
 
 /// Pattern memory 10 of one axis.

@@ -1,18 +1,19 @@
-//! Axis row: one coordinate of the point at `along` and `across` of a segment's own two directions.
+//! Axis row: one coordinate of the point at a segment's own three coordinates.
 //!
 //! ```text
 //!                           ┌──────────┐
 //!  load, word, data ───────▶│          │
 //!  copy, fraction, top ────▶│ axis_row ├──▶ point
 //!  commit ─────────────────▶│          │
-//!  along, across ──────────▶│          │
+//!  along, across, third ───▶│          │
 //!                           └──────────┘
 //! ```
 //!
-//! base + by_along·along + by_across·across: on a line the base is its start, `along` the length on
-//! it, and the coefficient the direction's cosine (equation (1), with the ratio worked out
-//! beforehand); on an arc the base is the centre, and the coefficients are those of the two radii.
-//! A bit of both coefficients a tick, from the lowest up; nothing is lost before the rounding.
+//! base + by_along·along + by_across·across + by_third·third: on a line the base is its start, `along`
+//! the length on it, and the coefficient the direction's cosine (equation (1), with the ratio worked
+//! out beforehand); on an arc the base is the centre, and the coefficients are those of the two
+//! radii, on a helix of the rise too; on a spline the coordinates are the powers of the length.
+//! A bit of all coefficients a tick, from the lowest up; nothing is lost before the rounding.
 
 use super::widths::PointWidths;
 use crate::hdl::prelude::*;
@@ -47,6 +48,8 @@ signals! { for AxisRow as c;
         pub along: I(c.widths.radius),
         /// Second coordinate likewise.
         pub across: I(c.widths.radius),
+        /// Third coordinate likewise.
+        pub third: I(c.widths.radius),
     }
     /// Flip-flops.
     pub struct Reg {
@@ -56,10 +59,14 @@ signals! { for AxisRow as c;
         by_along: U(c.widths.coefficient) as Hex = 0,
         /// Coefficient of `across`.
         by_across: U(c.widths.coefficient) as Hex = 0,
+        /// Coefficient of `third`.
+        by_third: U(c.widths.coefficient) as Hex = 0,
         /// Bits of the coefficient of `along` that are yet to come.
         bits_along: U(c.widths.coefficient) as Hex = 0,
         /// Bits of that of `across`.
         bits_across: U(c.widths.coefficient) as Hex = 0,
+        /// Bits of that of `third`.
+        bits_third: U(c.widths.coefficient) as Hex = 0,
         /// The products so far, by the weight of the bit to come.
         sum: I(c.widths.sum()) = 0,
         /// The coordinate of the point.
@@ -71,7 +78,9 @@ signals! { for AxisRow as c;
         term_along: I(c.widths.sum()),
         /// `across` likewise.
         term_across: I(c.widths.sum()),
-        /// Both terms added.
+        /// `third` likewise.
+        term_third: I(c.widths.sum()),
+        /// All terms added.
         addend: I(c.widths.sum()),
         /// The sum with it.
         total: I(c.widths.sum()),
@@ -93,7 +102,8 @@ impl Circuit for AxisRow {
         let term = |bits: U, word: I| bits.bit(0).mux(word.resize(self.widths.sum()), 0);
         let term_along = term(q.bits_along, i.along);
         let term_across = term(q.bits_across, i.across);
-        let addend = term_along + term_across;
+        let term_third = term(q.bits_third, i.third);
+        let addend = term_along + term_across + term_third;
         let total = q.sum + i.top.mux(-addend.shift_left(1), addend);
         let raised = q.sum + (1i64 << (fine - 1));
         let nearest = raised.shift_right(fine).resize(point);
@@ -104,8 +114,10 @@ impl Circuit for AxisRow {
             base: is("base_word", 3 + self.coordinate).mux(base, q.base),
             by_along: is("along_word", 6 + self.coordinate).mux(by, q.by_along),
             by_across: is("across_word", 9 + self.coordinate).mux(by, q.by_across),
+            by_third: is("third_word", 13 + self.coordinate).mux(by, q.by_third),
             bits_along: i.copy.mux(q.by_along, q.bits_along.shift_right(1)),
             bits_across: i.copy.mux(q.by_across, q.bits_across.shift_right(1)),
+            bits_third: i.copy.mux(q.by_third, q.bits_third.shift_right(1)),
             // Without bits left the total is the sum.
             sum: i.copy.mux(0, i.fraction.mux(total.shift_right(1), total)),
             point: i.commit.mux(q.base + nearest, q.point),
@@ -113,6 +125,7 @@ impl Circuit for AxisRow {
         let net = Net {
             term_along,
             term_across,
+            term_third,
             addend,
             total,
             raised,

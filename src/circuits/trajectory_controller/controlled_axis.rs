@@ -40,7 +40,7 @@ signals! { for ControlledAxis as c;
         pub a: Bit,
         /// Channel B.
         pub b: Bit,
-        /// K1 and K2, the same for all axes.
+        /// K1 and K2, of response and servo control.
         pub model_gains: ModelGains(&c.servo.widths.model()) as Flat,
         /// Of the servo control's loops.
         pub gains: ServoGains(&c.servo.widths) as Flat,

@@ -156,8 +156,12 @@ signals! { for TrajectoryController as c;
         pub path_end: I(c.widths.point),
         /// Interpolation period in ticks.
         pub period: U(c.widths.period),
-        /// K1 and K2 of all models.
+        /// K1 and K2 of the tangential response.
         pub model_gains: ModelGains(&c.widths.model()) as Flat,
+        /// K1 of each axis, of its response and its servo control's model, likewise.
+        pub axis_gain_1: [U(c.widths.gain); c.axes] as Elements(of_axes!("gain_1")),
+        /// K2, likewise.
+        pub axis_gain_2: [U(c.widths.gain); c.axes] as Elements(of_axes!("gain_2")),
         /// Of the position controls 27.
         pub position_gain: [U(c.widths.servo_gain); c.axes] as Elements(of_axes!("position_gain")),
         /// Of the speed controls 29, proportional.
@@ -295,7 +299,7 @@ impl Circuit for TrajectoryController {
             step: fresh,
             preset: progress.q.preset,
             target: length,
-            gains: i.model_gains.clone(),
+            gains: i.model_gains,
         });
         let response = p.clamp_response.settle(on_path(tangential.w.position));
         let point = |start, length| path_point::In {
@@ -324,7 +328,10 @@ impl Circuit for TrajectoryController {
             target: referred[axis],
             a: i.a[axis],
             b: i.b[axis],
-            model_gains: i.model_gains.clone(),
+            model_gains: ModelGains {
+                gain_1: i.axis_gain_1[axis],
+                gain_2: i.axis_gain_2[axis],
+            },
             gains: ServoGains {
                 position_gain: i.position_gain[axis],
                 speed_gain: i.speed_gain[axis],

@@ -4,7 +4,8 @@
 //!                      ┌──────────────────────────────┐
 //!  start, length ─────▶│ search ▶ store ▶ sequencer   ├──▶ points, segment
 //!  last ──────────────▶│   ▶ arc_angle ▶ cordic       ├──▶ done, busy
-//!  write, write_… ────▶│   ▶ rows of x, y, z          │
+//!  write, write_… ────▶│   ▶ length_powers            │
+//!                      │   ▶ rows of x, y, z          │
 //!                      └──────────────────────────────┘
 //! ```
 //!
@@ -14,10 +15,10 @@
 
 use super::widths::PointWidths;
 use super::{
-    ArcAngle, AxisRow, Cordic, PointSequencer, SegmentSearch, SegmentStore, arc_angle, axis_row,
-    cordic, point_sequencer, segment_search, segment_store,
+    ArcAngle, AxisRow, LengthPowers, PointSequencer, SegmentSearch, SegmentStore, arc_angle,
+    axis_row, length_powers, point_sequencer, segment_search, segment_store,
 };
-use crate::circuits::blocks::{CoefficientControl, coefficient_control};
+use crate::circuits::blocks::{CoefficientControl, Cordic, coefficient_control, cordic};
 use crate::hdl::prelude::*;
 
 /// Names of the axes.
@@ -44,11 +45,21 @@ impl PathPoint {
         search.latency() + store.latency() + self.control().latency() + 4
     }
 
-    /// The same on the smallest arc, whose angle is shifted most: it is measured and turned besides.
+    /// The most of any segment: on the smallest arc, whose angle is shifted most, it is measured and
+    /// turned besides; on the longest spline it is raised.
     pub const fn latency(&self) -> u64 {
         let widths = self.widths;
         let measure = ArcAngle { widths }.latency() + (widths.angle as u64 - 3);
-        self.line_latency() + measure + Cordic { widths }.latency() + 2
+        let arc = measure + self.cordic().latency() + 2;
+        let spline = LengthPowers { widths }.latency() + 1;
+        self.line_latency() + if arc > spline { arc } else { spline }
+    }
+
+    const fn cordic(&self) -> Cordic {
+        Cordic {
+            radius: self.widths.radius,
+            angle: self.widths.angle,
+        }
     }
 
     const fn control(&self) -> CoefficientControl {
@@ -94,7 +105,9 @@ signals! { for PathPoint as c;
         /// Length to angle.
         pub measure: Part<ArcAngle>(ArcAngle { widths: c.widths }),
         /// Angle to point.
-        pub cordic: Part<Cordic>(Cordic { widths: c.widths }),
+        pub cordic: Part<Cordic>(c.cordic()),
+        /// Length to powers.
+        pub powers: Part<LengthPowers>(LengthPowers { widths: c.widths }),
         /// Which bit the axes are at.
         pub control: Part<CoefficientControl>(c.control()),
         /// The axes.
@@ -116,7 +129,7 @@ signals! { for PathPoint as c;
 
 impl Circuit for PathPoint {
     const NAME: &'static str = "path_point";
-    const ABOUT: &'static str = "the point at a length along a path of lines and arcs";
+    const ABOUT: &'static str = "the point at a length along a path of lines, arcs and splines";
     records!(In, Nothing, Net, Parts);
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
@@ -144,8 +157,14 @@ impl Circuit for PathPoint {
         });
         let cordic = p.cordic.settle(cordic::In {
             start: p.sequencer.q.turn,
+            halt: Bit::low(),
             radius: p.sequencer.q.radius,
             angle: measure.q.angle,
+        });
+        let powers = p.powers.settle(length_powers::In {
+            start: p.sequencer.q.raise,
+            offset: search.q.offset,
+            shift: p.sequencer.q.shift,
         });
         let control = p.control.settle(coefficient_control::In {
             step: p.sequencer.q.project,
@@ -157,6 +176,7 @@ impl Circuit for PathPoint {
             loaded: store.q.loaded,
             measured: measure.q.done,
             turned: cordic.w.done,
+            raised: powers.q.done,
             projected: control.q.done,
             load,
             word,
@@ -164,6 +184,8 @@ impl Circuit for PathPoint {
             offset: search.q.offset,
             arc_along: cordic.w.along,
             arc_across: cordic.w.across,
+            square: powers.q.factor,
+            cube: powers.q.product,
         });
         let axes = settle_each(p.axes, |_| axis_row::In {
             load,
@@ -175,6 +197,7 @@ impl Circuit for PathPoint {
             commit: control.w.commit,
             along: sequencer.w.along,
             across: sequencer.w.across,
+            third: sequencer.w.third,
         });
         let net = Net {
             points: axes.iter().map(|axis| axis.q.point).collect(),

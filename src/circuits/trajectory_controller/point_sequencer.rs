@@ -1,13 +1,14 @@
-//! Point sequencer: search, segment, angle, point, one after the other.
+//! Point sequencer: search, segment, angle or powers, point, one after the other.
 //!
 //! ```text
 //!                        ┌─────────────────┐
-//!  start ───────────────▶│                 ├──▶ search, fetch, measure, turn, project
+//!  start ───────────────▶│                 ├──▶ search, fetch, measure, turn, raise, project
 //!  found, loaded ───────▶│ point_sequencer ├──▶ curvature, shift, radius
-//!  measured, turned ────▶│                 ├──▶ along, across
-//!  projected ───────────▶│                 ├──▶ done, busy
+//!  measured, turned ────▶│                 ├──▶ along, across, third
+//!  raised, projected ───▶│                 ├──▶ done, busy
 //!  load, word, data ────▶│                 │
 //!  offset, arc_… ───────▶│                 │
+//!  square, cube ────────▶│                 │
 //!                        └─────────────────┘
 //! ```
 
@@ -15,13 +16,16 @@ use super::widths::PointWidths;
 use crate::hdl::prelude::*;
 
 /// Names of the states.
-const STATES: &[&str] = &["idle", "search", "fetch", "measure", "turn", "project"];
+const STATES: &[&str] = &[
+    "idle", "search", "fetch", "measure", "turn", "project", "raise",
+];
 const IDLE: u64 = 0;
 const SEARCH: u64 = 1;
 const FETCH: u64 = 2;
 const MEASURE: u64 = 3;
 const TURN: u64 = 4;
 const PROJECT: u64 = 5;
+const RAISE: u64 = 6;
 
 /// Word that is the radius of an arc.
 pub const RADIUS: u64 = 2;
@@ -51,6 +55,8 @@ signals! { for PointSequencer as c;
         pub measured: Bit,
         /// The point on the arc is there.
         pub turned: Bit,
+        /// The powers of the length are there.
+        pub raised: Bit,
         /// The point is there.
         pub projected: Bit,
         /// `data` is word `word` of the segment.
@@ -65,14 +71,20 @@ signals! { for PointSequencer as c;
         pub arc_along: I(c.widths.radius),
         /// Second coordinate.
         pub arc_across: I(c.widths.radius),
+        /// The length's square on a spline.
+        pub square: U(c.widths.radius),
+        /// Its cube.
+        pub cube: U(c.widths.radius),
     }
     /// Flip-flops.
     pub struct Reg {
         /// What it does.
         state: U(3) as States(STATES) = 0,
-        /// The segment is an arc.
+        /// The segment is an arc or a helix.
         arc: Bit = 0,
-        /// Of the angle.
+        /// The segment has a third coordinate: it is a helix or a spline.
+        spatial: Bit = 0,
+        /// Of the angle, or of the powers.
         pub shift: U(6) = 0,
         /// Of the arc.
         pub curvature: U(c.widths.curvature) as Hex = 0,
@@ -86,6 +98,8 @@ signals! { for PointSequencer as c;
         pub measure: Bit = 0,
         /// The arc's radius is turned.
         pub turn: Bit = 0,
+        /// The length is raised to its powers.
+        pub raise: Bit = 0,
         /// The point is projected to the axes.
         pub project: Bit = 0,
         /// The point stands in this tick.
@@ -101,20 +115,24 @@ signals! { for PointSequencer as c;
         fetched: Bit,
         /// The word is a segment's first.
         header: Bit,
-        /// The segment is there, an arc.
+        /// The segment is there, an arc or a helix.
         on_arc: Bit,
-        /// The segment is there, a line, or the point on the arc is.
+        /// The segment is there, a spline.
+        on_spline: Bit,
+        /// The segment is there, a line, or the point on the arc is, or the powers are.
         placed: Bit,
         /// The angle is there.
         angled: Bit,
         /// The point is there.
         reached: Bit,
-        /// The length on a line, with bits behind the guard unit.
+        /// The length on the segment, with bits behind the guard unit.
         ahead: I(c.widths.radius),
         /// First coordinate of the point in the segment.
         pub along: I(c.widths.radius),
-        /// Second coordinate: 0 on a line.
+        /// Second coordinate: the length's square on a spline, 0 on a line.
         pub across: I(c.widths.radius),
+        /// Third coordinate: the length on a helix, its cube on a spline, else 0.
+        pub third: I(c.widths.radius),
         /// A point is under way.
         pub busy: Bit,
     }
@@ -122,7 +140,7 @@ signals! { for PointSequencer as c;
 
 impl Circuit for PointSequencer {
     const NAME: &'static str = "point_sequencer";
-    const ABOUT: &'static str = "search, segment, angle, point, one after the other";
+    const ABOUT: &'static str = "search, segment, angle or powers, point, one after the other";
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
@@ -132,7 +150,9 @@ impl Circuit for PointSequencer {
         let searched = is(SEARCH) & i.found;
         let fetched = is(FETCH) & i.loaded;
         let on_arc = fetched & q.arc;
-        let placed = (fetched & !q.arc) | (is(TURN) & i.turned);
+        let on_spline = fetched & !q.arc & q.spatial;
+        let straight = fetched & !q.arc & !q.spatial;
+        let placed = straight | (is(TURN) & i.turned) | (is(RAISE) & i.raised);
         let angled = is(MEASURE) & i.measured;
         let reached = is(PROJECT) & i.projected;
         let ahead = i
@@ -147,11 +167,13 @@ impl Circuit for PointSequencer {
         let state = searched.mux(FETCH, state);
         let state = on_arc.mux(MEASURE, state);
         let state = angled.mux(TURN, state);
+        let state = on_spline.mux(RAISE, state);
         let state = placed.mux(PROJECT, state);
         let given = i.data.resize(radius).signed();
         let next = Reg {
             state: reached.mux(IDLE, state),
             arc: header.mux(i.data.bit(0), q.arc),
+            spatial: header.mux(i.data.resize(8).bit(7), q.spatial),
             shift: header.mux(i.data.shift_right(1).resize(6), q.shift),
             curvature: word(1).mux(i.data.resize(curvature), q.curvature),
             radius: word(self.radius_word).mux(given, q.radius),
@@ -159,6 +181,7 @@ impl Circuit for PointSequencer {
             fetch: searched,
             measure: on_arc,
             turn: angled,
+            raise: on_spline,
             project: placed,
             done: reached,
         };
@@ -168,12 +191,14 @@ impl Circuit for PointSequencer {
             fetched,
             header,
             on_arc,
+            on_spline,
             placed,
             angled,
             reached,
             ahead,
             along: q.arc.mux(i.arc_along, ahead),
-            across: q.arc.mux(i.arc_across, 0),
+            across: q.arc.mux(i.arc_across, q.spatial.mux(i.square.signed(), 0)),
+            third: q.spatial.mux(q.arc.mux(ahead, i.cube.signed()), 0),
             busy: !is(IDLE),
         };
         (net, next)

@@ -157,10 +157,10 @@ impl PointWidths {
         self.radius - self.point
     }
 
-    /// Sum of an axis: two radii, doubled.
+    /// Sum of an axis: three radii, doubled.
     #[must_use]
     pub const fn sum(&self) -> usize {
-        self.radius + 2
+        self.radius + 3
     }
 
     /// Product of an offset and a curvature: a sum of two offsets with the bits behind them.

@@ -1,8 +1,8 @@
 //! What is measured on the commands of a run, sample by sample.
 
 use super::Job;
+use super::beside::Beside;
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::conventional::Conventional;
 use motion_rtl::jobs::arc_generator::job::Played;
 use motion_rtl::jobs::arc_generator::measure::Measured;
 use motion_rtl::jobs::arc_generator::prepared::{ArcReport, PieceReport, Segment, Shape};
@@ -17,6 +17,8 @@ pub struct Figures {
     pub measured: Option<Measured>,
     /// The arcs, in order.
     pub arcs: Vec<ArcFigures>,
+    /// The arcs by the conventional method.
+    pub beside: Beside,
 }
 
 /// The figures of an arc.
@@ -32,14 +34,14 @@ pub struct ArcFigures {
     pub radius_errors: Vec<f64>,
     /// Largest deviation of its speed from what it should be, from sample to sample, in mm/s.
     pub speed_deviation: f64,
-    /// The same arc from rest to rest by the conventional method, rounded to counts: its points
-    /// and their radius errors in mm.
+    /// The same arc from rest to rest on the conventional circuit: its points and their radius
+    /// errors in mm.
     pub conventional: Vec<(Point, f64)>,
 }
 
 impl Figures {
     /// Of what was played.
-    pub fn of(job: &Job, played: &Played) -> Self {
+    pub fn of(job: &Job, played: &Played, beside: Beside) -> Self {
         let counts: Vec<_> = played
             .commands
             .iter()
@@ -49,17 +51,18 @@ impl Figures {
         let points: Vec<Point> = counts.into_iter().map(|counts| job.mm(counts)).collect();
         let arcs = match &measured {
             None => Vec::new(),
-            Some(measured) => arcs(job, &points, measured),
+            Some(measured) => arcs(job, &points, measured, &beside),
         };
         Figures {
             points,
             measured,
             arcs,
+            beside,
         }
     }
 }
 
-fn arcs(job: &Job, points: &[Point], measured: &Measured) -> Vec<ArcFigures> {
+fn arcs(job: &Job, points: &[Point], measured: &Measured, beside: &Beside) -> Vec<ArcFigures> {
     let segments = job.prepared.segments.iter().enumerate();
     segments
         .filter_map(|(index, segment)| {
@@ -76,7 +79,7 @@ fn arcs(job: &Job, points: &[Point], measured: &Measured) -> Vec<ArcFigures> {
                     .iter()
                     .map(|speed| (speed - piece.speed).abs())
                     .fold(0.0, f64::max),
-                conventional: conventional(job, piece, &circle),
+                conventional: conventional(beside.points(index), &circle),
             })
         })
         .collect()
@@ -91,13 +94,7 @@ fn arc<'a>(job: &'a Job, segment: &Segment) -> Option<(&'a PieceReport, ArcRepor
     Some((piece, piece.arc?, circle))
 }
 
-fn conventional(job: &Job, piece: &PieceReport, circle: &Circle) -> Vec<(Point, f64)> {
-    let run = Conventional::new(circle, piece.wanted, &job.prepared.timing);
-    let per_mm = job.settings.counts_per_mm;
-    run.samples()
-        .map(|(point, _)| {
-            let rounded = point.map(|mm| (mm * per_mm).round() / per_mm);
-            (rounded, circle.off(rounded)[0])
-        })
-        .collect()
+fn conventional(points: &[Point], circle: &Circle) -> Vec<(Point, f64)> {
+    let off = |point: &Point| (*point, circle.off(*point)[0]);
+    points.iter().map(off).collect()
 }

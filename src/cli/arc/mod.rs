@@ -1,5 +1,6 @@
 //! `run` of the arc generator: its path, waves, summary and picture.
 
+mod beside;
 mod figures;
 mod job;
 mod operations;
@@ -17,6 +18,7 @@ use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
+use beside::Beside;
 use figures::Figures;
 use motion_rtl::jobs::arc_generator::job::{Played, arc_generator, play};
 use motion_rtl::trace::Options;
@@ -48,9 +50,9 @@ const OVERVIEW: [&str; 14] = [
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (played, mut files) = simulate(arguments, job, &options)?;
-    let figures = Figures::of(job, &played);
+    let figures = Figures::of(job, &played, Beside::run(job)?);
     files.write("svg", &draw(job, &figures))?;
-    let summary = Summary::new(job, &played, &figures);
+    let summary = Summary::new(job, &played, &figures)?;
     conclude(arguments, &options, files, summary)
 }
 

@@ -1,11 +1,13 @@
 //! What a run came to.
 
 use super::Job;
+use super::beside;
 use super::figures::Figures;
 use super::operations;
 use super::rows::{self, ArcRow, BlendRow, LineRow};
 use super::verdict::{bounds, complaints};
 use crate::cli::report::Outcome;
+use motion_rtl::hdl::RunError;
 use motion_rtl::jobs::arc_generator::job::Played;
 use motion_rtl::jobs::arc_generator::settings::LEAST_SAMPLE_TICKS;
 use serde::Serialize;
@@ -46,11 +48,13 @@ pub struct Summary {
     pub blends: Vec<BlendRow>,
     /// What a sample costs.
     pub operations: Vec<operations::Row>,
+    /// The circuit, and that of the conventional method.
+    pub circuits: Vec<beside::Row>,
 }
 
 impl Summary {
     /// The summary of a path that was played.
-    pub fn new(job: &Job, played: &Played, figures: &Figures) -> Self {
+    pub fn new(job: &Job, played: &Played, figures: &Figures) -> Result<Self, RunError> {
         let settings = &job.settings;
         let arcs = rows::arcs(job, figures);
         let complaints = complaints(job, played, figures, &arcs);
@@ -61,11 +65,11 @@ impl Summary {
             Some(drawing) => &drawing.file,
             None => &job.stem,
         };
-        Summary {
+        Ok(Summary {
             exact: complaints.is_empty(),
             outcome: Outcome {
                 complaints,
-                warnings: warnings(job),
+                warnings: warnings(job, figures),
                 ..Outcome::new("arc_generator", input, settings.clock_hz, played.ticks)
             },
             rounding: settings.rounding.name(),
@@ -87,12 +91,18 @@ impl Summary {
             lines: rows::lines(job),
             blends: rows::blends(job, figures),
             operations: operations::rows(job),
-        }
+            circuits: beside::rows(job, played, figures)?,
+        })
     }
 }
 
 /// What was skipped or assumed on the way to the segments.
-fn warnings(job: &Job) -> Vec<String> {
+fn warnings(job: &Job, figures: &Figures) -> Vec<String> {
     let own = job.drawing.iter().flat_map(|drawing| &drawing.warnings);
-    own.map(ToString::to_string).collect()
+    let left = figures.beside.left.map(|piece| {
+        format!(
+            "the conventional method is not run: the whole arc of piece {piece} is no path in words"
+        )
+    });
+    own.map(ToString::to_string).chain(left).collect()
 }

@@ -46,7 +46,7 @@ impl Report for Summary {
         self.lines(text, all)?;
         self.blends(text, all)?;
         self.operations(text)?;
-        Ok(())
+        self.circuits(text)
     }
 }
 
@@ -186,6 +186,56 @@ impl Summary {
                 row.additions.to_string(),
                 row.sines_and_cosines.to_string(),
                 or_dash(row.ticks),
+            ]
+        });
+        table(text, heads, cells)?;
+        text.push('\n');
+        Ok(())
+    }
+}
+
+impl Summary {
+    fn circuits(&self, text: &mut String) -> fmt::Result {
+        if self.circuits.is_empty() {
+            return Ok(());
+        }
+        let heads = [
+            ("from a sampling time to the next point, ticks", 0),
+            ("blend", 0),
+            ("arc", 4),
+            ("segment", 0),
+            ("most", 4),
+            ("in time", 0),
+        ];
+        let cells = self.circuits.iter().map(|row| {
+            let in_time = if row.in_time { "yes" } else { "no" };
+            [
+                format!("{:<45}", row.circuit),
+                or_dash(row.ticks_straight),
+                or_dash(row.ticks_arc),
+                or_dash(row.ticks_change),
+                row.ticks_most.to_string(),
+                in_time.to_owned(),
+            ]
+        });
+        table(text, heads, cells)?;
+        text.push('\n');
+        let heads = [
+            ("a circuit has                                ", 0),
+            ("adders", 0),
+            ("their bits", 0),
+            ("flip-flops", 0),
+            ("error um", 0),
+            ("bound um", 0),
+        ];
+        let cells = self.circuits.iter().map(|row| {
+            [
+                format!("{:<45}", row.circuit),
+                row.adders.to_string(),
+                row.adder_bits.to_string(),
+                row.flip_flops.to_string(),
+                fixed(row.error_max_um, 3),
+                fixed(row.error_bound_um, 3),
             ]
         });
         table(text, heads, cells)?;

@@ -34,6 +34,7 @@ pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]
         }
     }
     all.extend(astray(job, figures));
+    all.extend(figures.beside.complaints());
     all
 }
 
@@ -85,6 +86,7 @@ fn straight(job: &Job) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::arc::beside::Beside;
     use crate::cli::arc::rows::arcs;
     use crate::cli::source::{Input, Source};
     use motion_rtl::jobs::arc_generator::job::Command;
@@ -113,7 +115,7 @@ mod tests {
     }
 
     fn judged(job: &Job, played: &Played) -> Vec<String> {
-        let figures = Figures::of(job, played);
+        let figures = Figures::of(job, played, Beside::default());
         complaints(job, played, &figures, &arcs(job, &figures))
     }
 

@@ -56,13 +56,9 @@ impl Job {
     pub fn ticks_at_least(&self) -> u64 {
         let settings = &self.settings;
         let ways = (0..settings.positionings as usize).map(|number| {
-            let count = settings.steps.len();
-            let step = &settings.steps[number % count];
-            let from = match number {
-                0 => 0,
-                _ => settings.steps[(number - 1) % count].target,
-            };
-            let seconds = step.target.abs_diff(from) as f64 / f64::from(step.speed_counts_per_s);
+            let step = &settings.steps[number % settings.steps.len()];
+            let way = settings.way(number).unsigned_abs();
+            let seconds = way as f64 / f64::from(step.speed_counts_per_s);
             let pauses = (settings.rest_ms + settings.standstill_ms) / 1e3;
             ((seconds + pauses) * settings.clock_hz as f64) as u64
         });

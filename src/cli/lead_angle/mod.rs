@@ -15,14 +15,13 @@ use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
-use motion_rtl::circuits::lead_angle::{LeadFrom, Memory};
 use motion_rtl::hdl::{RunError, model_beside};
 use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
-use motion_rtl::jobs::lead_angle::settings::Settings;
+use motion_rtl::jobs::lead_angle::settings::{History, LeadBy, Settings};
 use motion_rtl::plant::waves::Body;
 use motion_rtl::trace::Options;
 use summary::Summary;
-use systems::{NONE, System, TUNED, systems, tuned};
+use systems::{NONE, System, systems};
 
 /// CKs that the save file's window shows.
 const CKS_SHOWN: u64 = 400;
@@ -45,17 +44,35 @@ const OVERVIEW: [&str; 14] = [
     "learned_time",
 ];
 
+/// The same where the lead is of the speed.
+const OVERVIEW_BY_SPEED: [&str; 11] = [
+    "ck",
+    "position",
+    "predicted",
+    "target",
+    "lead_source.speed",
+    "placement.lead",
+    "drive",
+    "fire",
+    "brake",
+    "complete",
+    "error",
+];
+
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     if let Some(log) = &job.log {
         return log::run(arguments, job, log, &options);
     }
-    let (own, mut files) = simulate(arguments, job, &options)?;
+    let systems = systems(&job.settings);
+    let shown = systems.iter().find(|system| system.own);
+    let shown = shown.map_or(&job.settings, |system| &system.settings);
+    let (own, mut files) = simulate(arguments, job, shown, &options)?;
     let mut played: Vec<(System, Played)> = Vec::new();
-    for mut system in systems(&job.settings) {
-        if let (TUNED, Some(none)) = (system.name, summary::of(&played, NONE)) {
-            system.settings.speed_leads_ms = tuned(&job.settings, none);
+    for mut system in systems {
+        if let Some(none) = summary::of(&played, NONE) {
+            system.set_up(none);
         }
         let run = match system.own {
             true => own.clone(),
@@ -70,23 +87,22 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 
 /// Plays a system without waves.
 fn alone(system: &System) -> Result<Played, Failure> {
-    let settings = &system.settings;
-    let lead_from = match system.conventional {
-        true => LeadFrom::Speed,
+    let settings = &Settings {
         // The RAM gives the same in every tick.
-        false => LeadFrom::Time(Memory::ShiftRegister),
+        history: History::ShiftRegister,
+        ..system.settings.clone()
     };
-    Ok(play(&positioner(settings, lead_from), settings, ())?)
+    Ok(play(&positioner(settings), settings, ())?)
 }
 
 /// Plays the settings' own system with its waves.
 fn simulate(
     arguments: &Arguments,
     job: &Job,
+    settings: &Settings,
     options: &Options,
 ) -> Result<(Played, Files), Failure> {
-    let settings = &job.settings;
-    let circuit = positioner(settings, settings.lead_from());
+    let circuit = positioner(settings);
     let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
@@ -108,6 +124,9 @@ fn focus(settings: &Settings, action: u64) -> Focus {
         action,
         before: shown / 2,
         shown,
-        overview: &OVERVIEW,
+        overview: match settings.lead {
+            LeadBy::Time => &OVERVIEW,
+            LeadBy::Speed => &OVERVIEW_BY_SPEED,
+        },
     }
 }

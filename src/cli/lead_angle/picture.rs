@@ -7,8 +7,9 @@ use super::systems::{LEARNING, LITERAL, System};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::picture::{Curve, Panel, Picture};
 
-const COLOURS: [&str; 6] = [
-    "#8c8c8c", "#cc79a7", "#009e73", "#0072b2", "#d55e00", "#56b4e9",
+const COLOURS: [&str; 9] = [
+    "#8c8c8c", "#8c564b", "#cc79a7", "#009e73", "#0072b2", "#d55e00", "#e69f00", "#56b4e9",
+    "#9467bd",
 ];
 const TIMED_OUT: &str = "#000000";
 const MARK: &str = "#b0b0b0";

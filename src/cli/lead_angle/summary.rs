@@ -1,12 +1,12 @@
 //! What a run came to.
 
 use super::Job;
-use super::systems::{LEARNING, LITERAL, System};
+use super::systems::{LEARNING, SECOND_ORDER, System, learner};
 use crate::cli::report::Outcome;
 use motion_rtl::circuits::lead_angle::codes::{STAGES, code};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
-    Comparing, Completion, History, Placement, Settings, Sign,
+    Comparing, Completion, Function, History, LeadBy, Placement, Settings, Sign, Targets,
 };
 use serde::Serialize;
 use std::ops::Range;
@@ -22,6 +22,10 @@ pub struct Summary {
     pub outcome: Outcome,
     /// What keeps the positions of the past.
     pub history: History,
+    /// Where the lead comes from.
+    pub lead: LeadBy,
+    /// What targets count from.
+    pub targets: Targets,
     /// What the lead is put on.
     pub placement: Placement,
     /// When the target is reached.
@@ -30,6 +34,8 @@ pub struct Summary {
     pub completion: Completion,
     /// Which way the error counts.
     pub sign: Sign,
+    /// What is made of error and overrun.
+    pub function: Function,
     /// Whether times are learned.
     pub learn: bool,
     /// Ticks of a CK.
@@ -81,7 +87,7 @@ pub struct Phase {
 pub struct StepSummary {
     /// Its number.
     pub step: usize,
-    /// Sx in counts.
+    /// Sx in counts, from where targets count from.
     pub target: i64,
     /// Its speed.
     pub speed_counts_per_s: u32,
@@ -98,6 +104,17 @@ pub struct StepSummary {
     /// After how many positionings of the phase `lead_times_of` stays within a code's travel;
     /// `null` where it never does.
     pub settled_after: Option<usize>,
+    /// The same for learning to either order.
+    pub settled_by_order: ByOrder,
+}
+
+/// After how many positionings learning stays within a code's travel; `null` where it never does.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct ByOrder {
+    /// To first order.
+    pub first: Option<usize>,
+    /// To second order.
+    pub second: Option<usize>,
 }
 
 /// One positioning.
@@ -147,9 +164,9 @@ impl Summary {
         let settings = &job.settings;
         let own = played.iter().find(|(system, _)| system.own);
         let ticks = own.map_or(0, |(_, run)| run.ticks);
-        let lead_times_of = match settings.sign {
-            Sign::Literal if settings.learn => LITERAL,
-            _ => LEARNING,
+        let lead_times_of = match settings.learn {
+            true => learner(settings.sign, settings.function),
+            false => LEARNING,
         };
         let mut summary = Summary {
             outcome: Outcome {
@@ -157,10 +174,13 @@ impl Summary {
                 ..Outcome::new("lead_angle", &job.stem, settings.clock_hz, ticks)
             },
             history: settings.history,
+            lead: settings.lead,
+            targets: settings.targets,
             placement: settings.placement,
             comparing: settings.comparing,
             completion: settings.completion,
             sign: settings.sign,
+            function: settings.function,
             learn: settings.learn,
             ck_ticks: settings.ck_ticks,
             systems: played.iter().map(system_summary).collect(),
@@ -259,19 +279,30 @@ fn step_summary(
     let all = &learner.positionings;
     let numbers: Vec<usize> = phase.filter(|number| all[*number].step == step).collect();
     let last = *numbers.last()?;
-    let off = |number: &usize| !settled(settings, &all[*number]);
-    let settled_after = numbers.iter().rposition(off).map_or(0, |place| place + 1);
+    let order = |name| of(played, name).and_then(|run| settled_after(settings, run, &numbers));
     Some(StepSummary {
         step,
-        target: all[last].target,
+        target: settings.steps[step].target,
         speed_counts_per_s: settings.steps[step].speed_counts_per_s,
         positionings: numbers.len(),
         last_error_counts: of_all(played, last, |one| one.error),
         last_timed_out: of_all(played, last, |one| one.timed_out),
         lead_ms: all[last].code as f64 * settings.ck_ms(),
         code_travel_counts: code_travel(settings, &all[last]),
-        settled_after: Some(settled_after).filter(|after| *after < numbers.len()),
+        settled_after: settled_after(settings, learner, &numbers),
+        settled_by_order: ByOrder {
+            first: order(LEARNING),
+            second: order(SECOND_ORDER),
+        },
     })
+}
+
+/// After how many of these positionings a system stays within a code's travel.
+fn settled_after(settings: &Settings, run: &Played, numbers: &[usize]) -> Option<usize> {
+    let all = &run.positionings;
+    let off = |number: &usize| !all.get(*number).is_some_and(|one| settled(settings, one));
+    let after = numbers.iter().rposition(off).map_or(0, |place| place + 1);
+    Some(after).filter(|after| *after < numbers.len())
 }
 
 /// What keeps a run from being what it was to be.
@@ -312,7 +343,8 @@ fn warnings(summary: &Summary) -> Vec<String> {
             ));
         }
     }
-    if !(summary.learn && summary.sign == Sign::Converging) {
+    let by_time = summary.lead == LeadBy::Time;
+    if !(by_time && summary.learn && summary.sign == Sign::Converging) {
         return all;
     }
     for phase in &summary.phases {

@@ -1,21 +1,28 @@
-//! What a run is compared with: the same steps without a lead, by speed with one parameter and with
-//! one for each step that is tuned to the nominal load, with a fixed lead, with a lead that is
-//! learned, and learned with the text's sign; where the scenario has positionings
-//! complete by a fixed time, learned at standstills too.
+//! What a run is compared with: the same steps without a lead, with switches that stand a distance
+//! before their targets, by speed with one parameter and with one for each step that is tuned to the
+//! nominal load, with a fixed lead, with a lead that is learned, learned to second order, and learned
+//! with the text's sign; where the scenario has positionings complete by a fixed time, learned at
+//! standstills too.
 
-use motion_rtl::jobs::lead_angle::job::Played;
-use motion_rtl::jobs::lead_angle::settings::{Completion, Settings, Sign};
+use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
+use motion_rtl::jobs::lead_angle::settings::{Completion, Function, LeadBy, Settings, Sign};
 
-/// Name of the system that learns with the sign that converges.
+/// Name of the system that learns with the sign that converges, to first order.
 pub const LEARNING: &str = "learning";
+/// Name of the system that learns with the sign that converges, to second order.
+pub const SECOND_ORDER: &str = "second order";
 /// Name of the system that learns with the text's sign.
 pub const LITERAL: &str = "literal sign";
 /// Name of the system that learns where the body has stopped, though the scenario has a fixed time.
 const STANDSTILL: &str = "at standstill";
 /// Name of the system without a lead.
 pub const NONE: &str = "no lead";
+/// Name of the system whose signals come at a distance from the targets.
+const SWITCH: &str = "displaced switch";
+/// Name of the system by speed with the scenario's parameter.
+pub const BY_SPEED: &str = "by speed";
 /// Name of the system by speed whose parameters are tuned.
-pub const TUNED: &str = "tuned";
+const TUNED: &str = "tuned";
 /// Name of the system that keeps its lead times.
 const FIXED: &str = "fixed lead";
 
@@ -26,69 +33,116 @@ pub struct System {
     pub name: &'static str,
     /// Its settings.
     pub settings: Settings,
-    /// The lead comes from the speed, as in Fig. 7.
-    pub conventional: bool,
     /// It is what the scenario asks for.
     pub own: bool,
 }
 
+/// The name of the system that learns so.
+pub fn learner(sign: Sign, function: Function) -> &'static str {
+    match (sign, function) {
+        (Sign::Converging, Function::FirstOrder) => LEARNING,
+        (Sign::Converging, Function::SecondOrder) => SECOND_ORDER,
+        (Sign::Literal, _) => LITERAL,
+    }
+}
+
 /// All of them, one of them the scenario's own.
 pub fn systems(settings: &Settings) -> Vec<System> {
-    let learning = |sign| Settings {
+    let learning = |sign, function| Settings {
+        lead: LeadBy::Time,
         learn: true,
         sign,
+        function,
         ..settings.clone()
     };
     let fixed = Settings {
+        lead: LeadBy::Time,
         learn: false,
         ..settings.clone()
+    };
+    let by_speed = Settings {
+        lead: LeadBy::Speed,
+        ..fixed.clone()
     };
     let mut none = fixed.clone();
     for step in &mut none.steps {
         step.lead_ms = 0.0;
     }
-    let own = match (settings.learn, settings.sign) {
-        (false, _) => FIXED,
-        (true, Sign::Converging) => LEARNING,
-        (true, Sign::Literal) => LITERAL,
+    let (sign, function) = (settings.sign, settings.function);
+    let own = match (settings.lead, settings.learn) {
+        (LeadBy::Speed, _) => BY_SPEED,
+        (LeadBy::Time, false) => FIXED,
+        (LeadBy::Time, true) => learner(sign, function),
     };
-    let system = |name, settings, conventional| System {
+    let system = |name, settings| System {
         name,
         settings,
-        conventional,
         own: name == own,
     };
+    let (first, second) = (Function::FirstOrder, Function::SecondOrder);
     let mut all = vec![
-        system(NONE, none, false),
-        system("by speed", fixed.clone(), true),
-        system(TUNED, fixed.clone(), true),
-        system(FIXED, fixed, false),
-        system(LEARNING, learning(Sign::Converging), false),
-        system(LITERAL, learning(Sign::Literal), false),
+        system(NONE, none.clone()),
+        system(SWITCH, none),
+        system(BY_SPEED, by_speed.clone()),
+        system(TUNED, by_speed),
+        system(FIXED, fixed),
+        system(LEARNING, learning(Sign::Converging, first)),
+        system(SECOND_ORDER, learning(Sign::Converging, second)),
+        system(LITERAL, learning(Sign::Literal, function)),
     ];
     if settings.completion == Completion::FixedTime {
-        let mut stopped = learning(Sign::Converging);
+        let mut stopped = learning(Sign::Converging, function);
         stopped.completion = Completion::Standstill;
         stopped.time_out_ms = stopped.time_out_ms.max(Settings::default().time_out_ms);
-        all.push(system(STANDSTILL, stopped, false));
+        all.push(system(STANDSTILL, stopped));
     }
     all
 }
 
-/// The parameter of each step that is right for it at the nominal load, as one who sets the machine up
-/// finds it: the stopping distance without a lead by the speed, at the first positioning of the step.
-/// Where there was none, or no speed, the one that is the same for all.
-pub fn tuned(settings: &Settings, without_lead: &Played) -> Vec<f64> {
+impl System {
+    /// Sets it up as one does who tries the machine without a lead first, at the nominal load.
+    pub fn set_up(&mut self, without_lead: &Played) {
+        match self.name {
+            SWITCH => self.settings.switches_counts = switches(&self.settings, without_lead),
+            TUNED => self.settings.speed_leads_ms = tuned(&self.settings, without_lead),
+            _ => (),
+        }
+    }
+}
+
+/// The first stop of each step at the nominal load, where there was one.
+fn first_stops<'a>(settings: &Settings, run: &'a Played) -> Vec<Option<&'a Positioning>> {
     let nominal = settings
         .load_change_after
         .map_or(usize::MAX, |after| after as usize);
-    let runs = &without_lead.positionings;
     let step = |number: usize| {
-        let mut first = runs.iter().take(nominal).filter(|one| one.step == number);
-        let found = first.next().filter(|one| !one.timed_out && !one.missed);
-        let ms = found.map(|one| 1e3 * one.error as f64 / one.speed_counts_per_s.abs());
+        let mut own = run.positionings.iter().take(nominal);
+        let first = own.find(|one| one.step == number);
+        first.filter(|one| !one.timed_out && !one.missed)
+    };
+    (0..settings.steps.len()).map(step).collect()
+}
+
+/// How far before its target the switch of each step stands: the scenario's distance, or else what
+/// the step went too far without a lead, as far as there is room for it.
+fn switches(settings: &Settings, without_lead: &Played) -> Vec<u32> {
+    let steps = first_stops(settings, without_lead).into_iter().enumerate();
+    let distance = |(step, first): (usize, Option<&Positioning>)| {
+        let wanted = first.map_or(0, |one| u32::try_from(one.error).unwrap_or(0));
+        let farthest = settings.farthest_switch(step);
+        settings.switch_counts.unwrap_or(wanted.min(farthest))
+    };
+    steps.map(distance).collect()
+}
+
+/// The parameter of each step that is right for it at the nominal load: the stopping distance
+/// without a lead by the speed. Where there was none, or no speed, the one that is the same for all.
+fn tuned(settings: &Settings, without_lead: &Played) -> Vec<f64> {
+    let steps = first_stops(settings, without_lead).into_iter();
+    let parameter = |first: Option<&Positioning>| {
+        let ms = first.map(|one| 1e3 * one.error as f64 / one.speed_counts_per_s.abs());
         ms.filter(|ms| ms.is_finite() && *ms >= 0.0)
             .unwrap_or(settings.speed_lead_ms)
     };
-    (0..settings.steps.len()).map(step).collect()
+    steps.map(parameter).collect()
 }

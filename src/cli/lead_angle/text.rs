@@ -1,7 +1,8 @@
 //! The summary for people.
 
-use super::summary::{Phase, Summary, SystemSummary};
+use super::summary::{ByOrder, Phase, Summary, SystemSummary};
 use crate::cli::report::{Outcome, Report};
+use motion_rtl::jobs::lead_angle::settings::LeadBy;
 use std::fmt::Write;
 
 /// Characters of a column of stop errors at least.
@@ -34,9 +35,14 @@ impl Report for Summary {
             name(self.placement),
             name(self.comparing),
             name(self.completion).replace('_', " "),
-            match self.learn {
-                true => format!("learning, sign {}", name(self.sign)),
-                false => "not learning".to_owned(),
+            match (self.lead, self.learn) {
+                (LeadBy::Speed, _) => "lead by speed".to_owned(),
+                (LeadBy::Time, true) => format!(
+                    "learning to {}, sign {}",
+                    name(self.function).replace('_', " "),
+                    name(self.sign)
+                ),
+                (LeadBy::Time, false) => "not learning".to_owned(),
             }
         )?;
         writeln!(
@@ -105,7 +111,7 @@ impl Summary {
         )?;
         writeln!(
             text,
-            "step    target   speed{}      lead  one code  settled after",
+            "step    target   speed{}      lead  one code  settled after  1st, 2nd order",
             self.heads()
         )?;
         for step in &phase.steps {
@@ -117,14 +123,18 @@ impl Summary {
                 step.speed_counts_per_s,
                 self.errors(&step.last_error_counts, &step.last_timed_out)
             )?;
-            let settled = match step.settled_after {
+            let after = |settled: Option<usize>| match settled {
                 Some(after) => after.to_string(),
                 None => "never".to_owned(),
             };
+            let ByOrder { first, second } = step.settled_by_order;
             writeln!(
                 text,
-                "  {:>5.1} ms  {:>8.1}  {:>13}",
-                step.lead_ms, step.code_travel_counts, settled
+                "  {:>5.1} ms  {:>8.1}  {:>13}  {:>14}",
+                step.lead_ms,
+                step.code_travel_counts,
+                after(step.settled_after),
+                format!("{}, {}", after(first), after(second))
             )?;
         }
         text.push('\n');

@@ -91,6 +91,8 @@ fn row(job: &Job, one: &PieceMeasured) -> PieceRow {
             (true, _) => "rapid",
             (false, Course::Line) => "line",
             (false, Course::Arc(_)) => "arc",
+            (false, Course::Helix(_)) => "helix",
+            (false, Course::Spline(_)) => "spline",
         },
         length_mm: piece.course.length(from, piece.to),
         steppers: one.steppers.farthest.map(FarthestRow::from),

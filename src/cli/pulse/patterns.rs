@@ -54,6 +54,9 @@ impl Job {
             let refuse = |key, problem: String, allowed: &str| {
                 loaded.table_fault(("pattern", index), key, problem, allowed.to_owned())
             };
+            if keys.name.is_empty() {
+                return Err(refuse("name", "is empty".into(), "a name").into());
+            }
             if scenario.pattern[..index]
                 .iter()
                 .any(|other| other.name == keys.name)

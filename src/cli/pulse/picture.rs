@@ -162,7 +162,7 @@ impl Pair {
 fn commanded(job: &Job) -> (Points, Points) {
     let points = job.drawing.moves.iter().map(|step| match step.course {
         Course::Line => 1,
-        Course::Arc { .. } => CHORDS as usize,
+        Course::Arc { .. } | Course::Spline { .. } => CHORDS as usize,
     });
     let mut strokes = Pair::expecting(points.sum());
     let mut at = job.drawing.start;

@@ -2,6 +2,7 @@
 
 use super::Job;
 use super::runs::{CircleError, Run, Runs};
+use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use motion_rtl::jobs::trajectory_controller::closed::Variants;
 use motion_rtl::jobs::trajectory_controller::measure::Errors;
 use motion_rtl::jobs::trajectory_controller::profile::Profile;
@@ -9,9 +10,6 @@ use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::jobs::trajectory_controller::speed_limits::spans;
 use motion_rtl::plant::TwoMassAxis;
 use serde::Serialize;
-
-/// Names of the axes.
-pub const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// What one correction came to.
 #[derive(Debug, Serialize)]
@@ -64,6 +62,8 @@ pub struct AxisRow {
     pub torque_max_nm: f64,
     /// Periods in which the torque was limited.
     pub saturated_periods: usize,
+    /// Largest distance of its motor from its model.
+    pub off_model_um: f64,
 }
 
 /// Mean of the steady part on a circle, inwards positive where there is a sign.
@@ -94,11 +94,11 @@ pub struct SegmentRow {
     pub piece: usize,
     /// Line of the input.
     pub line: Option<usize>,
-    /// "line", "arc" or "rapid".
+    /// "line", "arc", "helix", "spline" or "rapid".
     pub kind: &'static str,
     /// Length.
     pub length_mm: f64,
-    /// r, of an arc.
+    /// Radius of curvature of an arc or a helix; of a spline the least.
     pub radius_mm: Option<f64>,
     /// F.
     pub speed_wanted_mm_per_s: f64,
@@ -151,6 +151,7 @@ fn axes(job: &Job, run: &Run) -> Vec<AxisRow> {
             torque_max_nm: run.measured.torque[axis] as f64 / TwoMassAxis::FULL_SCALE as f64
                 * machine.max_torque_nm,
             saturated_periods: run.measured.saturated[axis],
+            off_model_um: run.measured.off_model_mm[axis] * 1e3,
         })
         .collect()
 }
@@ -184,10 +185,9 @@ pub fn segments(job: &Job, runs: &Runs) -> Vec<SegmentRow> {
                 segment: number,
                 piece: stretch.piece,
                 line: stretch.line,
-                kind: match (job.is_rapid(stretch.piece), stretch.radius) {
+                kind: match (job.is_rapid(stretch.piece), &stretch.segment) {
                     (true, _) => "rapid",
-                    (false, None) => "line",
-                    (false, Some(_)) => "arc",
+                    (false, segment) => segment.kind(),
                 },
                 length_mm: stretch.length as f64 / unit,
                 radius_mm: stretch.radius,

@@ -5,6 +5,9 @@ use super::rows::{self, CorrectionRow, SegmentRow};
 use super::runs::Runs;
 use super::verdict::complaints;
 use crate::cli::report::Outcome;
+use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
+use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
+use motion_rtl::jobs::trajectory_controller::load_torque::LoadTorque;
 use motion_rtl::jobs::trajectory_controller::settings::LEAST_PERIOD_TICKS;
 use serde::Serialize;
 
@@ -27,9 +30,13 @@ pub struct Summary {
     /// Δt.
     pub period_ms: f64,
     /// K1.
-    pub k1_per_s: f64,
+    pub k1_per_s: EachAxis,
     /// K2.
-    pub k2_per_s: f64,
+    pub k2_per_s: EachAxis,
+    /// What the feed-forward of each axis is told of its inertia, as a part of it.
+    pub inertia_factor: EachAxis,
+    /// Torques on the loads from outside.
+    pub load_torque: Vec<LoadTorque>,
     /// Counts of a millimetre.
     pub counts_per_mm: f64,
     /// Ticks of it in which the path was written, before it began.
@@ -66,6 +73,8 @@ pub struct PlanSummary {
     pub seconds: f64,
     /// Highest speed.
     pub speed_max_mm_per_s: f64,
+    /// Acceleration along the path.
+    pub acceleration_mm_per_s2: f64,
     /// Joints of two segments at which the path stops.
     pub stops: usize,
     /// The slowest of the other joints of two segments that are no rapid moves.
@@ -114,8 +123,10 @@ impl Summary {
             period_ticks: program.period_ticks,
             period_ticks_needed: LEAST_PERIOD_TICKS,
             period_ms: settings.period_ms,
-            k1_per_s: settings.k1_per_s,
-            k2_per_s: settings.k2_per_s,
+            k1_per_s: settings.k1_per_s.clone(),
+            k2_per_s: settings.k2_per_s.clone(),
+            inertia_factor: settings.inertia_factor.clone(),
+            load_torque: settings.load_torque.clone(),
             counts_per_mm: settings.counts_per_mm,
             loading_ticks: traced.start,
             periods: traced.periods,
@@ -132,6 +143,7 @@ impl Summary {
 }
 
 fn plan(job: &Job, segments: &[SegmentRow]) -> PlanSummary {
+    let motion = &job.program.motion;
     let joints = segments.windows(2);
     let stop = |row: &SegmentRow| row.entry_limit_mm_per_s <= 0.0;
     let at_feed = joints.clone().filter(|pair| {
@@ -148,6 +160,7 @@ fn plan(job: &Job, segments: &[SegmentRow]) -> PlanSummary {
     PlanSummary {
         seconds: job.program.profile.duration,
         speed_max_mm_per_s: speeds.fold(0.0, f64::max),
+        acceleration_mm_per_s2: motion.slope.acceleration / motion.units_per_mm,
         stops: joints.filter(|pair| stop(&pair[1])).count(),
         slowest_joint: passed.min_by(|a, b| a.speed_mm_per_s.total_cmp(&b.speed_mm_per_s)),
     }
@@ -168,7 +181,7 @@ fn warnings(job: &Job, runs: &Runs) -> Vec<String> {
                 warnings.push(format!(
                     "{}: in {periods} periods {} asks for more than {} Nm",
                     run.correction.name(),
-                    rows::AXIS_NAMES[axis],
+                    AXIS_NAMES[axis],
                     job.machines[axis].max_torque_nm
                 ));
             }

@@ -4,6 +4,8 @@ use super::rows::{AxisRow, CorrectionRow, SegmentRow};
 use super::summary::Summary;
 use crate::cli::report::{Outcome, Report};
 use crate::cli::rows::{fixed, more, or_dash, table, worst};
+use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
+use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
 use std::fmt::{self, Write};
 
 /// Width of the column that says what a row is of.
@@ -36,6 +38,7 @@ impl Report for Summary {
             self.k2_per_s,
             1e3 / self.counts_per_mm
         )?;
+        self.disturbances(text)?;
         self.path(text)?;
         self.errors(text)?;
         self.circle(text)?;
@@ -57,6 +60,33 @@ fn plural(count: usize, what: &str) -> String {
 }
 
 impl Summary {
+    /// What the servo controls do not know of.
+    fn disturbances(&self, text: &mut String) -> fmt::Result {
+        for torque in &self.load_torque {
+            let until = torque.to_s.map_or("on".to_owned(), |s| format!("to {s} s"));
+            let axis = AXIS_NAMES[torque.axis.index()];
+            let (nm, from) = (torque.torque_nm, torque.from_s);
+            writeln!(
+                text,
+                "a torque of {nm} Nm on the load of {axis} from {from} s {until}"
+            )?;
+        }
+        let told = &self.inertia_factor;
+        let wrong = *told != EachAxis::All(1.0);
+        if wrong {
+            writeln!(text, "the feed-forward is told {told} of the inertia")?;
+        }
+        let shown = self.corrections.iter().find(|row| row.in_waves);
+        if (wrong || !self.load_torque.is_empty())
+            && let Some(row) = shown
+        {
+            let off = |axis: &AxisRow| format!("{} {} um", axis.axis, fixed(axis.off_model_um, 1));
+            let off: Vec<_> = row.axes.iter().map(off).collect();
+            writeln!(text, "motors off their models by up to {}", off.join(", "))?;
+        }
+        Ok(())
+    }
+
     fn path(&self, text: &mut String) -> fmt::Result {
         let (path, plan) = (&self.path, &self.plan);
         write!(

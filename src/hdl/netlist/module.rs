@@ -109,46 +109,46 @@ pub struct Assertion {
     pub holds: Id,
 }
 
-/// How a memory is written.
+/// How a memory is written, by nodes that are called so.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Port {
+pub enum Port<I = Id> {
     /// Never.
     Rom,
     /// A word at an address.
     Ram {
         /// Where this is high.
-        enable: Id,
+        enable: I,
         /// The address.
-        address: Id,
+        address: I,
         /// The word.
-        data: Id,
+        data: I,
     },
     /// All words move up by one place.
     Shift {
         /// Where this is high.
-        enable: Id,
+        enable: I,
         /// The new first word.
-        data: Id,
+        data: I,
     },
 }
 
-impl Port {
-    /// The nodes that it takes.
-    pub fn operands(self) -> impl Iterator<Item = Id> {
+impl<I> Port<I> {
+    /// The nodes that it takes: enable, data, address.
+    pub fn operands(self) -> impl Iterator<Item = I> {
         let operands = match self {
-            Port::Rom => [None; 3],
+            Port::Rom => [None, None, None],
             Port::Ram {
                 enable,
                 address,
                 data,
-            } => [Some(enable), Some(address), Some(data)],
+            } => [Some(enable), Some(data), Some(address)],
             Port::Shift { enable, data } => [Some(enable), Some(data), None],
         };
         operands.into_iter().flatten()
     }
 
     /// The same of other nodes.
-    pub(crate) fn map(self, to: impl Fn(Id) -> Id) -> Port {
+    pub fn map<J>(self, mut to: impl FnMut(I) -> J) -> Port<J> {
         match self {
             Port::Rom => Port::Rom,
             Port::Ram {

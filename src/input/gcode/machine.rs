@@ -48,6 +48,8 @@ pub(super) struct Machine<'a> {
     pub(super) spindle: f64,
     pub(super) tool: f64,
     strict: bool,
+    /// G5 and G5.1 are no chords.
+    pub(super) splines: bool,
 }
 
 impl<'a> Machine<'a> {
@@ -67,6 +69,7 @@ impl<'a> Machine<'a> {
             spindle: 0.0,
             tool: 0.0,
             strict: options.strict,
+            splines: options.splines,
         }
     }
 

@@ -288,27 +288,28 @@ impl Machine<'_> {
             let problem = "with Z, or outside of G17";
             return Err(Problem::new(field, problem, "curves in the X-Y plane"));
         }
-        let mut pair = |first: u8, second: u8| {
-            let words = [block.take(first), block.take(second)];
-            let given = words.iter().any(Option::is_some);
-            given.then(|| words.map(|word| word.unwrap_or(0.0) * units))
-        };
-        let first = pair(b'I', b'J');
+        let mut pair =
+            |letters: [u8; 2]| letters.map(|letter| block.take(letter).map(|word| word * units));
+        let first = pair([b'I', b'J']);
         let ([x, y, z], [end_x, end_y, _]) = (from, to);
         let [one, other] = if motion == Motion::Cubic {
-            let second = pair(b'P', b'Q');
-            let first = first.or(self.last_control.map(|[p, q]| [-p, -q]));
-            let (Some([i, j]), Some([p, q])) = (first, second) else {
+            let first = match (first, self.last_control) {
+                ([None, None], Some([p, q])) => [Some(-p), Some(-q)],
+                _ => first,
+            };
+            let ([Some(i), Some(j)], [Some(p), Some(q)]) = (first, pair([b'P', b'Q'])) else {
                 let problem = "without its control points";
-                return Err(Problem::new(field, problem, "I, J, P and Q").following());
+                let allowed = "I, J, P and Q; behind another G5 P and Q";
+                return Err(Problem::new(field, problem, allowed).following());
             };
             self.last_control = Some([p, q]);
             [[x + i, y + j], [end_x + p, end_y + q]]
         } else {
-            let Some([i, j]) = first else {
+            let [i, j] = first.map(|word| word.unwrap_or(0.0));
+            if i == 0.0 && j == 0.0 {
                 let problem = "without its control point";
-                return Err(Problem::new(field, problem, "I and J"));
-            };
+                return Err(Problem::new(field, problem, "I and J, not both 0"));
+            }
             let control = [x + i, y + j];
             let towards = |[x, y]: [f64; 2]| {
                 let part = 2.0 / 3.0;
@@ -316,10 +317,27 @@ impl Machine<'_> {
             };
             [towards([x, y]), towards([end_x, end_y])]
         };
-        self.say_chords(line);
         let mut ends = Vec::new();
         let points = [[x, y], one, other, [end_x, end_y]];
         chords::cubic(points, |[x, y]| ends.push([x, y, z]));
+        if self.splines {
+            let mut at = from;
+            let lengths = ends.into_iter().map(|end| {
+                let [a, b, _] = std::mem::replace(&mut at, end);
+                (end[0] - a).hypot(end[1] - b)
+            });
+            let length = lengths.sum();
+            let controls = [one, other].map(|[x, y]| [x, y, z]);
+            self.pieces.push(Piece {
+                to,
+                course: Course::Spline { controls },
+                rapid: false,
+                length,
+            });
+            self.at = to;
+            return Ok(());
+        }
+        self.say_chords(line);
         for end in ends {
             self.straight(end, false);
         }

@@ -5,7 +5,10 @@
 //! |ρ| <= √3·2^-(G+1) to the nearest, twice that towards minus infinity. R keeps lengths, so with
 //! ε = 3·2^-(B+1) the error follows e ← (1 + ε)·e + ε·r + |ρ|, in first order n·(ε·r + |ρ|).
 
+use crate::circuits::arc_generator::sine_words::FINE;
 use crate::circuits::arc_generator::{Rounding, Widths};
+use crate::circuits::blocks::cordic_state::GAIN;
+use std::f64::consts::TAU;
 
 /// How far the `f64` of a coefficient may be off: the sine, the cosine, and three roundings.
 const COEFFICIENT_F64: f64 = 4.0 * f64::EPSILON;
@@ -15,22 +18,52 @@ const COEFFICIENT_F64: f64 = 4.0 * f64::EPSILON;
 /// rounding of every step.
 #[must_use]
 pub fn rotation_error(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64 {
-    let half = |bits: usize| (-((bits + 1) as f64)).exp2();
-    let guard = 3f64.sqrt() * half(widths.guard());
     let coefficients = 3.0 * (half(widths.coefficient_fraction()) + COEFFICIENT_F64);
+    grown(radius, steps, coefficients, widths, rounding)
+}
+
+/// Half a unit of a word with so many bits below the point.
+fn half(bits: usize) -> f64 {
+    (-((bits + 1) as f64)).exp2()
+}
+
+/// What an error of the matrix and the rounding of every step grow to.
+fn grown(radius: f64, steps: u64, matrix: f64, widths: &Widths, rounding: Rounding) -> f64 {
+    let guard = 3f64.sqrt() * half(widths.guard());
     let rounded = match rounding {
         Rounding::Nearest => guard,
         Rounding::Floor => 2.0 * guard,
     };
     // (1 + ε)^n − 1.
-    let grown = (steps as f64 * coefficients.ln_1p()).exp_m1();
+    let grown = (steps as f64 * matrix.ln_1p()).exp_m1();
     // The vector is the difference of two rounded points; the centre is rounded itself.
     let begun = 2.0 * guard * (1.0 + grown) + guard;
-    begun + grown / coefficients * (coefficients * radius + rounded)
+    begun + grown / matrix * (matrix * radius + rounded)
 }
 
 /// The same of a position command, which is rounded to counts.
 #[must_use]
 pub fn command_error(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64 {
     rotation_error(radius, steps, widths, rounding) + 3f64.sqrt() / 2.0
+}
+
+/// Largest distance, in counts, of a position command of the conventional circuit from the exact
+/// point of its sample, after `steps` steps at a radius of `radius` counts.
+///
+/// An angle is off by a unit and a half, whatever came before it: the ramp and the end as words, and
+/// the angle itself. The matrix of a step is that of another angle, by half a unit for each angle of
+/// the CORDIC's table and two that are left, and has elements that are off: by sine and versine, of
+/// which each iteration rounds both coordinates down, by the axis and its products, and by their own
+/// rounding.
+#[must_use]
+pub fn conventional_error(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64 {
+    let iterations = widths.coefficient as f64;
+    let unit = TAU * (-iterations).exp2();
+    let coefficient = half(widths.coefficient_fraction());
+    let fine = half(widths.coefficient_fraction() + FINE);
+    let sine = coefficient + 2.0 * iterations * 2f64.sqrt() * GAIN * fine;
+    let element = 2.0 * (sine + COEFFICIENT_F64) + 4.0 * coefficient;
+    let matrix = 3.0 * element + unit * (iterations / 2.0 + 2.0);
+    let angle = 1.5 * unit * radius;
+    grown(radius, steps, matrix, widths, rounding) + angle + 3f64.sqrt() / 2.0
 }

@@ -72,7 +72,7 @@ impl Operations {
 /// An arc from rest to rest by the conventional method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conventional {
-    circle: Circle,
+    pub(super) circle: Circle,
     /// v: speed between the ramps, in mm/s.
     pub speed: f64,
     /// Samples of each ramp.
@@ -80,7 +80,7 @@ pub struct Conventional {
     /// Samples between the ramps.
     pub samples: u64,
     /// Angle that a ramp takes.
-    ramp_angle: f64,
+    pub(super) ramp_angle: f64,
     /// Angle of a sample between the ramps.
     step: f64,
 }

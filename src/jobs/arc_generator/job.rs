@@ -1,7 +1,9 @@
 //! A path on the arc generator: the control computer that feeds it, and the commands that come out.
 
 use crate::circuits::arc_generator::{ArcGenerator, Rounding, generator};
-use crate::hdl::{At, Observer, RunError, Simulator, Value};
+use crate::circuits::blocks::record_memory::ARC;
+use crate::circuits::blocks::record_sequencer::{self, FETCH, READY};
+use crate::hdl::{At, Circuit, Observer, Place, RunError, Sample, Simulator, Value, Watcher};
 use crate::input::COORDINATES;
 use crate::path::record::Record;
 use crate::path::record_writer::RecordWriter;
@@ -35,10 +37,32 @@ pub struct Played {
     pub late: bool,
     /// The path ended in motion.
     pub starved: bool,
+    /// Most ticks from a sampling time to the next point.
+    pub needed: Needed,
 }
 
-/// The control computer: it writes records as they find room.
-struct Host<'a> {
+/// Most ticks from a sampling time to the tick in which the next point is ready; 0 where there was
+/// none.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Needed {
+    /// To one on the same line or blend.
+    pub straight: u64,
+    /// To one on the same arc.
+    pub arc: u64,
+    /// To the first of the next segment, which is fetched before.
+    pub change: u64,
+}
+
+impl Needed {
+    /// To any.
+    #[must_use]
+    pub fn most(&self) -> u64 {
+        self.straight.max(self.arc).max(self.change)
+    }
+}
+
+/// The control computer: it writes records as they find room, and takes down what comes.
+pub(super) struct Bench<'a> {
     records: RecordWriter<'a>,
     /// Records that are written before the path begins.
     waiting: usize,
@@ -46,20 +70,46 @@ struct Host<'a> {
     started: bool,
     /// It gave nothing but what stands in this tick.
     quiet: bool,
+    /// A start or a record was given in this tick.
+    given: [bool; 2],
+    /// The sampling time whose next point is made, and whether a segment is fetched for it.
+    making: Option<(u64, bool)>,
+    over: bool,
+    pub(super) played: Played,
 }
 
-impl Host<'_> {
-    /// Whether it gives in the tick to come what it gave in this one, if what it looks at does not
-    /// change.
-    fn stands(&self) -> bool {
-        self.quiet && self.records.stands(usize::MAX)
+impl<'a> Bench<'a> {
+    pub(super) fn new(records: &'a [Record], sample_ticks: u32) -> Self {
+        Bench {
+            records: RecordWriter::new(records),
+            waiting: records.len().min(HEAD_START),
+            sample_ticks: u64::from(sample_ticks),
+            started: false,
+            quiet: false,
+            given: [false; 2],
+            making: None,
+            over: records.is_empty(),
+            played: Played::default(),
+        }
     }
 
-    fn ports(&mut self) -> generator::In<Value> {
+    /// Whether the path is over.
+    pub(super) fn over(&self) -> bool {
+        self.over
+    }
+
+    /// Whether it gives in the tick to come what it gave in this one, and takes nothing down, if what
+    /// it looks at does not change.
+    pub(super) fn stands(&self) -> bool {
+        self.quiet && !self.over && self.records.stands(usize::MAX)
+    }
+
+    pub(super) fn ports(&mut self) -> generator::In<Value> {
         let start = !self.started && self.records.written() == self.waiting;
         self.started |= start;
         let record = self.records.write();
         self.quiet = self.started && !start && !record.write;
+        self.given = [start, record.push];
         generator::In {
             segments: generator::Segments {
                 write: record.write,
@@ -72,16 +122,68 @@ impl Host<'_> {
             sample_period: self.sample_ticks,
         }
     }
+
+    /// Takes down a tick.
+    pub(super) fn take<C: Circuit>(&mut self, now: &Sample<'_, C>, see: &See) {
+        let [started, pushed] = self.given;
+        let (state, sampled) = (now.get(see.state), now.get(see.sampled));
+        self.records.free = now.get(see.ready) && !pushed;
+        self.quiet &= !sampled;
+        let played = &mut self.played;
+        if sampled {
+            let counts = see.command.map(|word| now.get(word));
+            let tick = now.tick;
+            played.commands.push(Command { tick, counts });
+            self.making = Some((tick - 1, false));
+        }
+        if let Some((since, fetched)) = &mut self.making {
+            *fetched |= state == FETCH;
+            if state == READY {
+                let needed = match (*fetched, now.get(see.kind)) {
+                    (true, _) => &mut played.needed.change,
+                    (_, ARC) => &mut played.needed.arc,
+                    _ => &mut played.needed.straight,
+                };
+                *needed = (now.tick - *since).max(*needed);
+                self.making = None;
+            }
+        }
+        played.ticks = now.tick + 1;
+        played.late = now.get(see.late);
+        played.starved = now.get(see.starved);
+        self.over = self.started && !started && !now.get(see.busy);
+    }
 }
 
 /// What is looked at.
-struct See {
+pub(super) struct See {
     ready: At<bool>,
     busy: At<bool>,
     sampled: At<bool>,
     command: [At<i64>; COORDINATES],
     late: At<bool>,
     starved: At<bool>,
+    state: At<u64>,
+    kind: At<u64>,
+}
+
+impl See {
+    pub(super) fn of<C: Circuit>(
+        watch: &Watcher<'_, C>,
+        q: &record_sequencer::Reg<Place>,
+        w: &generator::Net<Place>,
+    ) -> Self {
+        See {
+            ready: watch.at(w.ready),
+            busy: watch.at(w.busy),
+            sampled: watch.at(w.sampled),
+            command: [w.x, w.y, w.z].map(|word| watch.at(word)),
+            late: watch.at(q.late),
+            starved: watch.at(q.starved),
+            state: watch.at(q.state),
+            kind: watch.at(q.kind),
+        }
+    }
 }
 
 /// Plays a path on `circuit`, a sample every `sample_ticks` ticks, seen by `observer` too. An empty
@@ -95,53 +197,21 @@ pub fn play(
     sample_ticks: u32,
     mut observer: impl Observer<ArcGenerator>,
 ) -> Result<Played, RunError> {
-    let mut host = Host {
-        records: RecordWriter::new(records),
-        waiting: records.len().min(HEAD_START),
-        sample_ticks: u64::from(sample_ticks),
-        started: false,
-        quiet: false,
-    };
-    let mut played = Played::default();
+    let mut bench = Bench::new(records, sample_ticks);
     let all = observer.needs_all();
     let (mut simulator, see) = Simulator::watching(circuit, all, |watch| {
-        let (q, w) = (&watch.p.sequencer.q, &watch.w);
-        See {
-            ready: watch.at(w.ready),
-            busy: watch.at(w.busy),
-            sampled: watch.at(w.sampled),
-            command: [w.x, w.y, w.z].map(|word| watch.at(word)),
-            late: watch.at(q.late),
-            starved: watch.at(q.starved),
-        }
+        See::of(watch, &watch.p.sequencer.q, &watch.w)
     })?;
-    let (mut over, mut stopped) = (records.is_empty(), false);
-    while !over && !stopped {
-        let i = host.ports();
-        let (started, pushed) = (i.segments.start, i.segments.push);
-        let mut quiet = true;
-        let (busy, flow) = simulator.look(&i, &mut observer, |now| {
-            host.records.free = now.get(see.ready) && !pushed;
-            quiet = !now.get(see.sampled);
-            if now.get(see.sampled) {
-                let counts = see.command.map(|word| now.get(word));
-                played.commands.push(Command {
-                    tick: now.tick,
-                    counts,
-                });
-            }
-            now.get(see.busy)
-        })?;
-        played.ticks = simulator.tick() + 1;
-        over = host.started && !started && !busy;
+    let mut stopped = false;
+    while !bench.over() && !stopped {
+        let i = bench.ports();
+        let ((), flow) = simulator.look(&i, &mut observer, |now| bench.take(now, &see))?;
         stopped = flow.is_break();
-        let most = match quiet && host.stands() && !over && !stopped {
+        let most = match bench.stands() && !stopped {
             true => simulator.unseen(&observer),
             false => 1,
         };
         simulator.go_on(most);
     }
-    played.late = simulator.get(see.late);
-    played.starved = simulator.get(see.starved);
-    Ok(played)
+    Ok(bench.played)
 }

@@ -6,7 +6,7 @@ use super::settings::ShortPieces;
 use crate::input::Point;
 use crate::path::circle::{Circle, CircleError};
 use crate::path::error::{PathError, Reason};
-use crate::path::pieces::{Course, Piece};
+use crate::path::pieces::Piece;
 use crate::path::vector::{add, angle_between, scale, sub, unit};
 
 /// Speeds that exceed what fits by no more than this part are taken for it: the rounding of numbers
@@ -128,18 +128,19 @@ fn join(legs: &[PieceReport], timing: &Timing) -> Vec<Segment> {
 /// Speed and samples of a piece.
 fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reason> {
     piece.check(from)?;
+    let arc = piece.course.arc()?;
     let length = piece.course.length(from, piece.to);
     if length <= 0.0 {
         let points = ["start", "end"];
         return Err(CircleError::Coincident { points }.into());
     }
     let (sample, half_blend) = (timing.sample_s, timing.half_blend_s());
-    let speed = fitting(piece, length, timing)?;
+    let speed = fitting(piece.speed, arc, length, timing)?;
     // Samples between the blends at that speed: at most by so much more than a whole number as
     // rounding makes.
-    let samples = match &piece.course {
-        Course::Line => length / (speed * sample) - timing.blend_samples as f64,
-        Course::Arc(circle) => {
+    let samples = match arc {
+        None => length / (speed * sample) - timing.blend_samples as f64,
+        Some(circle) => {
             let between = circle.angle - 2.0 * blend_angle(circle, speed * half_blend);
             between * circle.radius / (speed * sample)
         }
@@ -152,15 +153,12 @@ fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reaso
             most: timing.most_samples,
         });
     }
-    let speed = match &piece.course {
-        Course::Line => length / (sample * (samples + timing.blend_samples as f64)),
-        Course::Arc(circle) => arc_speed(circle, samples, timing),
+    let speed = match arc {
+        None => length / (sample * (samples + timing.blend_samples as f64)),
+        Some(circle) => arc_speed(circle, samples, timing),
     };
     let reach = speed * half_blend;
-    let arc = match &piece.course {
-        Course::Line => None,
-        Course::Arc(circle) => Some(arc_report(circle, speed, reach, samples)),
-    };
+    let arc = arc.map(|circle| arc_report(circle, speed, reach, samples));
     Ok(PieceReport {
         line: piece.line,
         course: piece.course,
@@ -176,19 +174,19 @@ fn leg(from: Point, piece: &Piece, timing: &Timing) -> Result<PieceReport, Reaso
 }
 
 /// The wanted speed, or the largest that fits.
-fn fitting(piece: &Piece, length: f64, timing: &Timing) -> Result<f64, Reason> {
-    let (speed, half_blend) = (piece.speed, timing.half_blend_s());
+fn fitting(speed: f64, arc: Option<&Circle>, length: f64, timing: &Timing) -> Result<f64, Reason> {
+    let half_blend = timing.half_blend_s();
     // With one sample between the blends.
-    let (mut most, mut radius) = match &piece.course {
-        Course::Line => {
+    let (mut most, mut radius) = match arc {
+        None => {
             let samples = timing.blend_samples as f64 + 1.0;
             (length / (timing.sample_s * samples), f64::INFINITY)
         }
-        Course::Arc(circle) => (arc_speed(circle, 1.0, timing), circle.radius),
+        Some(circle) => (arc_speed(circle, 1.0, timing), circle.radius),
     };
-    let room = match &piece.course {
-        Course::Line => length - 2.0 * speed * half_blend,
-        Course::Arc(circle) => circle.angle - 2.0 * blend_angle(circle, speed * half_blend),
+    let room = match arc {
+        None => length - 2.0 * speed * half_blend,
+        Some(circle) => circle.angle - 2.0 * blend_angle(circle, speed * half_blend),
     };
     let tight = speed * half_blend > radius * (1.0 + ROUNDING);
     if !tight && (room > 0.0 || speed <= most * (1.0 + ROUNDING)) {

@@ -95,7 +95,6 @@ fn fits(
 fn record(segment: &Segment, counts_per_mm: f64, widths: &Widths) -> Record {
     let units =
         |point: Point| scale(point, counts_per_mm).map(|counts| quantise(counts, widths.guard()));
-    let signed = |value: i64, bits: usize| value as u64 & ((1 << bits) - 1);
     let mut words = [0; WORDS];
     words[0] = segment.kind() as u64 | u64::from(segment.ends_at_rest) << 2 | segment.samples << 3;
     let mut put = |first: usize, values: [i64; COORDINATES], bits: usize| {
@@ -140,19 +139,33 @@ fn record(segment: &Segment, counts_per_mm: f64, widths: &Widths) -> Record {
     };
     words[1] = modulus as u64;
     for (coordinate, differences) in differences.into_iter().enumerate() {
-        let pairs = words[coordinate_word(coordinate)..].chunks_exact_mut(2);
-        for (pair, difference) in pairs.zip(differences) {
-            let modulus = modulus as i128;
-            pair[0] = signed(difference.div_euclid(modulus) as i64, point);
-            pair[1] = difference.rem_euclid(modulus) as u64;
-        }
+        let words = &mut words[coordinate_word(coordinate)..];
+        put_differences(words, differences, modulus as i128, point);
     }
     Record { words }
 }
 
+/// A word in two's complement.
+pub(super) fn signed(value: i64, bits: usize) -> u64 {
+    value as u64 & ((1 << bits) - 1)
+}
+
+/// Writes differences as wholes of so many bits and parts.
+pub(super) fn put_differences(
+    words: &mut [u64],
+    differences: [i128; 4],
+    modulus: i128,
+    bits: usize,
+) {
+    for (pair, difference) in words.chunks_exact_mut(2).zip(differences) {
+        pair[0] = signed(difference.div_euclid(modulus) as i64, bits);
+        pair[1] = difference.rem_euclid(modulus) as u64;
+    }
+}
+
 /// The differences of x·M⁴ at the first sample, in guard units, of
 /// x = A⁻ + 2(A − A⁻)h + S(2 − h)h³ with h = n/M and S = A⁻ − 2A + A⁺.
-fn blend_differences([before, corner, behind]: [i64; 3], samples: u64) -> [i128; 4] {
+pub(super) fn blend_differences([before, corner, behind]: [i64; 3], samples: u64) -> [i128; 4] {
     let [before, corner, behind] = [before, corner, behind].map(i128::from);
     let (bend, m) = (before - 2 * corner + behind, i128::from(samples));
     [
@@ -164,7 +177,7 @@ fn blend_differences([before, corner, behind]: [i64; 3], samples: u64) -> [i128;
 }
 
 /// The nearest multiple of 2^-`fraction`, in units of it, a half away from zero.
-fn quantise(value: f64, fraction: usize) -> i64 {
+pub(super) fn quantise(value: f64, fraction: usize) -> i64 {
     // A number of 64 bits on either side of the point holds whatever fits into a word.
     let units = I64F64::saturating_from_num(value).saturating_mul(I64F64::ONE << fraction);
     units.round().saturating_to_num()

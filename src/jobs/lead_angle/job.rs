@@ -1,10 +1,11 @@
 //! Positionings one after the other: a compensator, a body, and its brake.
 
+use super::computer::{ControlComputer, word};
 use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings};
 use crate::circuits::lead_angle::codes::STAGES;
 use crate::circuits::lead_angle::compensator::In;
-use crate::circuits::lead_angle::{Compensator, LeadFrom, Variant, Widths};
-use crate::hdl::{At, Image, Observer, Sample, Simulator, Value, Watcher, zero};
+use crate::circuits::lead_angle::{Compensator, Variant, Widths};
+use crate::hdl::{At, Image, Observer, Sample, Simulator, Value, Watcher};
 use crate::plant::BrakedBody;
 use crate::plant::waves::{Body, BodySignals};
 use crate::settings::JobError;
@@ -27,84 +28,20 @@ const PATIENCE_S: f64 = 600.0;
 /// The ports in of a compensator.
 pub(super) type Ports = In<Value>;
 
-/// The compensator of these settings, its lead from where it is said;
-/// [`Settings::lead_from`] is what they say themselves.
-pub fn positioner(settings: &Settings, lead_from: LeadFrom) -> Compensator {
+/// The compensator of these settings.
+pub fn positioner(settings: &Settings) -> Compensator {
     let steps = settings.steps.iter();
     let codes = steps.map(|step| settings.code(step.lead_ms).unwrap_or(0));
     Compensator {
         widths: WIDTHS,
-        lead_from,
+        lead_from: settings.lead_from(),
         variant: Variant {
             placement: settings.placement,
             comparing: settings.comparing,
             sign: settings.sign,
+            function: settings.function,
         },
         rom: Image::of(WIDTHS.step, WIDTHS.time(), codes),
-    }
-}
-
-/// The control computer: writes a step a tick, then lets them run.
-#[derive(Debug)]
-pub(super) struct ControlComputer<'a> {
-    settings: &'a Settings,
-}
-
-impl<'a> ControlComputer<'a> {
-    pub(super) fn new(settings: &'a Settings) -> Self {
-        ControlComputer { settings }
-    }
-
-    /// What it gives `circuit` in every tick, with all else low.
-    pub(super) fn standing(&self, circuit: &Compensator) -> Ports {
-        let settings = self.settings;
-        let cks = |ms: f64| u64::from(settings.cks(ms));
-        let standstill = match settings.completion {
-            Completion::Standstill => cks(settings.standstill_ms),
-            // No standstill is so long.
-            Completion::FixedTime => (1 << WIDTHS.cks) - 1,
-        };
-        // The times are in the ROM.
-        Ports {
-            learn: settings.learn,
-            common: settings.common_time,
-            last_step: settings.steps.len().saturating_sub(1) as u64,
-            ck_period: u64::from(settings.ck_ticks),
-            standstill,
-            time_out: cks(settings.time_out_ms),
-            rest: cks(settings.rest_ms),
-            seed: settings.code(settings.seed_ms).unwrap_or(0),
-            lead_parameter: self.parameter(settings.speed_lead_ms),
-            gate: cks(settings.speed_gate_ms),
-            ..zero(circuit)
-        }
-    }
-
-    /// A lead time of the conventional compensator as its parameter: in gates, in 1/256.
-    fn parameter(&self, ms: f64) -> u64 {
-        let gates = 256.0 * ms / self.settings.speed_gate_ms;
-        (gates.round() as u64).min((1 << 14) - 1)
-    }
-
-    /// Sets the parameter of the step that runs, where each has its own.
-    fn choose_parameter(&self, i: &mut Ports, step: u64) {
-        let step = usize::try_from(step).unwrap_or(usize::MAX);
-        if let Some(ms) = self.settings.speed_leads_ms.get(step) {
-            i.lead_parameter = self.parameter(*ms);
-        }
-    }
-
-    /// What it gives in `tick`; steps run as soon as all are written.
-    pub(super) fn tick(&self, i: &mut Ports, tick: u64, run: bool) {
-        let steps = &self.settings.steps;
-        let place = usize::try_from(tick).unwrap_or(usize::MAX);
-        let step = steps.get(place);
-        let speed = step.map_or(0, |step| step.speed_counts_per_s / SPEED_UNIT_COUNTS_PER_S);
-        i.write_target = step.is_some();
-        i.write_step = step.map_or(0, |_| tick);
-        i.step_target = step.map_or(0, |step| step.target);
-        i.step_speed = u64::from(speed);
-        i.run = step.is_none() && run;
     }
 }
 
@@ -115,7 +52,7 @@ pub struct Positioning {
     pub step: usize,
     /// The last tick in which it was armed.
     pub begun: u64,
-    /// Sx.
+    /// Sx, from the start on: of a body that turns on and on it exceeds the word.
     pub target: i64,
     /// It went to greater counts.
     pub upward: bool,
@@ -123,13 +60,13 @@ pub struct Positioning {
     pub code: u64,
     /// Tick of the control signal.
     pub fired: u64,
-    /// Dx at the control signal.
+    /// Dx at the control signal, likewise.
     pub trigger_position: i64,
     /// True speed at the control signal, in counts a second.
     pub speed_counts_per_s: f64,
     /// Tick in which it was complete.
     pub completed: u64,
-    /// Dx then.
+    /// Dx then, likewise.
     pub stopped: i64,
     /// Way past the target in the direction of the move; negative where it stopped short. Where the
     /// time was over, of where the body was then.
@@ -236,12 +173,14 @@ impl Bench<'_> {
                 // The sample that ends it says where the body is.
                 self.played.positionings.pop();
             }
-            let (target, position) = (now.get(see.target), now.get(see.position));
+            let number = self.played.positionings.len();
+            let target = self.settings.target(number);
+            let position = unwrapped(now.get(see.position), target);
             self.played.positionings.push(Positioning {
                 step: now.get(see.step) as usize,
                 begun: tick,
                 target,
-                upward: target >= position,
+                upward: word(now.get(see.target) - position) >= 0,
                 code: now.get(see.time),
                 fired: tick,
                 trigger_position: position,
@@ -259,12 +198,12 @@ impl Bench<'_> {
         if let Some(current) = self.played.positionings.last_mut() {
             if now.get(see.fire) || now.get(see.halting) {
                 current.fired = tick;
-                current.trigger_position = now.get(see.position);
+                current.trigger_position = unwrapped(now.get(see.position), current.target);
                 current.speed_counts_per_s = body.speed_counts_per_s();
             }
             if now.get(see.complete) {
-                let position = now.get(see.position);
-                let way = position - now.get(see.target);
+                let position = unwrapped(now.get(see.position), current.target);
+                let way = position - current.target;
                 current.completed = tick;
                 current.stopped = position;
                 current.error = if current.upward { way } else { -way };
@@ -293,6 +232,11 @@ impl Bench<'_> {
     }
 }
 
+/// The position nearest to `target` that this word stands for.
+fn unwrapped(position: i64, target: i64) -> i64 {
+    target + word(position - target)
+}
+
 /// Plays the positionings of `settings` on `circuit`, with a body and its brake, seen by `observer`
 /// too.
 ///
@@ -315,7 +259,7 @@ pub fn play(
         past: false,
         played: Played::default(),
     };
-    let computer = ControlComputer::new(settings);
+    let mut computer = ControlComputer::new(settings);
     let mut i = computer.standing(circuit);
     let mut loaded = false;
     let (mut simulator, see) =
@@ -326,11 +270,11 @@ pub fn play(
             loaded = true;
         }
         let [speed, step] = simulator.state(|q| [see.speed, see.step].map(|at| q.get(at)));
-        let signals = [see.drive, see.reverse, see.control];
-        let [drive, reverse, control] = simulator.state(|q| signals.map(|at| q.get(at)));
+        let signals = [see.drive, see.reverse, see.control, see.arm];
+        let [drive, reverse, control, arm] = simulator.state(|q| signals.map(|at| q.get(at)));
         let speed = speed * u64::from(SPEED_UNIT_COUNTS_PER_S);
         let (a, b) = body.step(drive, reverse, speed as f64, control);
-        computer.tick(&mut i, bench.played.ticks, bench.run());
+        computer.tick(&mut i, bench.played.ticks, arm, bench.run());
         computer.choose_parameter(&mut i, step);
         i.a = a;
         i.b = b;

@@ -1,5 +1,6 @@
 //! Positionings on the lead-angle compensator, with a body and its brake, and position logs.
 
+mod computer;
 pub mod job;
 pub mod replay;
 pub mod settings;

@@ -1,8 +1,8 @@
 //! A position log on a compensator: where it would have given its signals, and how good its
 //! predictions were.
 
-use super::job::ControlComputer;
-use super::settings::Settings;
+use super::computer::ControlComputer;
+use super::settings::{LeadBy, Settings, Targets};
 use crate::circuits::lead_angle::Compensator;
 use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
 use crate::input::position_log::PositionLog;
@@ -19,11 +19,11 @@ pub struct Signal {
     pub target: i64,
     /// Its tick.
     pub tick: u64,
-    /// Δt1 in CKs.
-    pub code: u64,
+    /// Its lead time in milliseconds.
+    pub lead_ms: f64,
     /// Position at the signal, in the log's counts.
     pub position: i64,
-    /// Position Δt1 after the sample that the signal came of, in the log's counts; `None` where the
+    /// Position that time after the sample that the signal came of, in the log's counts; `None` where the
     /// log is over by then.
     pub position_after: Option<f64>,
 }
@@ -67,8 +67,10 @@ pub struct Replayed {
 #[must_use]
 pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
     let mut settings = settings.clone();
-    for step in &mut settings.steps {
-        step.target = step.target.saturating_sub(origin(log));
+    if settings.targets == Targets::Absolute {
+        for step in &mut settings.steps {
+            step.target = step.target.saturating_sub(origin(log));
+        }
     }
     settings.learn = false;
     let ck_ms = settings.ck_ms();
@@ -85,6 +87,7 @@ fn origin(log: &PositionLog) -> i64 {
 
 /// What is looked at.
 struct See {
+    arm: At<bool>,
     fire: At<bool>,
     fresh: At<bool>,
     enough: At<bool>,
@@ -100,6 +103,7 @@ impl See {
     fn of(watch: &Watcher<'_, Compensator>) -> Self {
         let (w, comparator) = (&watch.w, &watch.p.comparator.i);
         See {
+            arm: watch.at(watch.p.sequencer.q.arm),
             fire: watch.at(w.fire),
             fresh: watch.at(comparator.evaluate),
             enough: watch.at(comparator.valid),
@@ -159,12 +163,11 @@ pub fn replay(
     settings.validate()?;
     let origin = origin(log);
     let tick_s = 1.0 / settings.clock_hz as f64;
-    let ck_s = f64::from(settings.ck_ticks) * tick_s;
     let ticks = (log.seconds() / tick_s).floor() as u64;
     let at = |seconds: f64| log.position_at(seconds) - origin as f64;
     let (mut replayed, mut sums) = (Replayed::default(), Sums::default());
     sums.parts = vec![[f64::NAN; 2]; PARTS];
-    let computer = ControlComputer::new(settings);
+    let mut computer = ControlComputer::new(settings);
     let mut i = computer.standing(circuit);
     let mut before = 0.0;
     let (mut simulator, see) =
@@ -173,7 +176,8 @@ pub fn replay(
         let seconds = tick as f64 * tick_s;
         let position = at(seconds);
         let (a, b) = Encoder::default().channels(position);
-        computer.tick(&mut i, tick, true);
+        let arm = simulator.state(|q| q.get(see.arm));
+        computer.tick(&mut i, tick, arm, true);
         i.a = a;
         i.b = b;
         let speed = (position - before) / tick_s;
@@ -182,11 +186,15 @@ pub fn replay(
             simulator.show::<Body>(&BodySignals::at(position, speed));
         }
         let take = |now: &Sample<'_, _>| {
-            let (fire, time) = (now.get(see.fire), now.get(see.time));
-            let predicts = now.get(see.fresh) && now.get(see.enough) && time > 0;
+            let fire = now.get(see.fire);
+            let lead_ms = match settings.lead {
+                LeadBy::Time => now.get(see.time) as f64 * settings.ck_ms(),
+                LeadBy::Speed => settings.speed_lead_ms,
+            };
+            let predicts = now.get(see.fresh) && now.get(see.enough) && lead_ms > 0.0;
             let known = if predicts || fire {
                 // The sample of this pair was taken a tick ago.
-                let after = seconds - tick_s + time as f64 * ck_s;
+                let after = seconds - tick_s + lead_ms / 1e3;
                 (after <= log.seconds()).then(|| at(after))
             } else {
                 None
@@ -203,7 +211,7 @@ pub fn replay(
                     step: now.get(see.step) as usize,
                     target: now.get(see.target) + origin,
                     tick,
-                    code: time,
+                    lead_ms,
                     position: now.get(see.position) + origin,
                     position_after: known.map(|position| position + origin as f64),
                 });

@@ -2,7 +2,7 @@
 
 use super::job::WIDTHS;
 use crate::circuits::lead_angle::codes::{LARGEST, STAGES, code, neighbours};
-pub use crate::circuits::lead_angle::{Comparing, Placement, Sign};
+pub use crate::circuits::lead_angle::{Comparing, Function, Placement, Sign};
 use crate::circuits::lead_angle::{LeadFrom, Memory};
 use crate::plant::{BodyParameters, Load};
 use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
@@ -17,8 +17,8 @@ pub const CK_RANGE_TICKS: RangeInclusive<u32> = 4..=(1 << WIDTHS.ck_period) - 1;
 /// Targets that are accepted, in counts: no way between two of them is half of what wraps.
 pub const TARGET_RANGE_COUNTS: RangeInclusive<i64> =
     -(1 << (WIDTHS.position - 3))..=1 << (WIDTHS.position - 3);
-/// How many steps there may be. With one there would be no way to go from the second cycle on.
-pub const STEPS_RANGE: RangeInclusive<usize> = 2..=1 << WIDTHS.step;
+/// How many steps there may be.
+pub const STEPS_RANGE: RangeInclusive<usize> = 1..=1 << WIDTHS.step;
 /// How many positionings a run may have.
 pub const POSITIONINGS_RANGE: RangeInclusive<u32> = 1..=10_000;
 /// Times other than lead times that are accepted, in CKs.
@@ -35,6 +35,28 @@ pub enum History {
     Ram,
 }
 
+/// Where the lead of the scenario's own system comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LeadBy {
+    /// The way of the last Δt.
+    #[default]
+    Time,
+    /// The measured speed, as in Fig. 7.
+    Speed,
+}
+
+/// What a target counts from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Targets {
+    /// The start: steps come to the same places over and over.
+    #[default]
+    Absolute,
+    /// The target before it: the body turns, or feeds, on and on. No stop error goes into the next.
+    Relative,
+}
+
 /// When a positioning is complete (26).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -49,7 +71,7 @@ pub enum Completion {
 /// One step of the sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// Sx: where to stop, in counts.
+    /// Sx: where to stop, in counts from where [`Targets`] says.
     pub target: i64,
     /// Speed on the way, in counts a second.
     pub speed_counts_per_s: u32,
@@ -66,12 +88,18 @@ pub struct Settings {
     pub ck_ticks: u32,
     /// The steps, run over and over from a rest at position 0.
     pub steps: Vec<Step>,
+    /// What their targets count from.
+    pub targets: Targets,
+    /// Where the lead comes from.
+    pub lead: LeadBy,
     /// Where the lead is placed.
     pub placement: Placement,
     /// When the comparator gives the control signal.
     pub comparing: Comparing,
     /// The sign of the stop error.
     pub sign: Sign,
+    /// What is made of error and overrun.
+    pub function: Function,
     /// What keeps the positions of the past.
     pub history: History,
     /// The time data are corrected after each positioning.
@@ -94,6 +122,12 @@ pub struct Settings {
     pub speed_lead_ms: f64,
     /// The same for each step, read by its number from a memory; empty where it is the same for all.
     pub speed_leads_ms: Vec<f64>,
+    /// How far before its target each switch of the simplest conventional system stands, in counts;
+    /// without it, as far as the first stop of its step wants.
+    pub switch_counts: Option<u32>,
+    /// How far before the target of a step its control signal comes, whatever else the lead does;
+    /// empty for none.
+    pub switches_counts: Vec<u32>,
     /// How many positionings there are in all.
     pub positionings: u32,
     /// How many there are before the load changes; without it the load stays.
@@ -116,10 +150,13 @@ impl Default for Settings {
             clock_hz: 1_000_000,
             ck_ticks: 100,
             steps: vec![step(15_000, 40_000), step(0, 40_000)],
+            targets: Targets::default(),
+            lead: LeadBy::default(),
             placement: Placement::default(),
             comparing: Comparing::default(),
             completion: Completion::default(),
             sign: Sign::default(),
+            function: Function::default(),
             history: History::default(),
             learn: true,
             common_time: false,
@@ -130,6 +167,8 @@ impl Default for Settings {
             speed_gate_ms: 5.0,
             speed_lead_ms: 25.0,
             speed_leads_ms: Vec::new(),
+            switch_counts: None,
+            switches_counts: Vec::new(),
             positionings: 24,
             load_change_after: None,
             load: Load::NONE,
@@ -148,10 +187,45 @@ impl Settings {
     /// Where the lead of their compensator comes from.
     #[must_use]
     pub fn lead_from(&self) -> LeadFrom {
-        LeadFrom::Time(match self.history {
-            History::ShiftRegister => Memory::ShiftRegister,
-            History::Ram => Memory::Ram,
-        })
+        match (self.lead, self.history) {
+            (LeadBy::Speed, _) => LeadFrom::Speed,
+            (LeadBy::Time, History::ShiftRegister) => LeadFrom::Time(Memory::ShiftRegister),
+            (LeadBy::Time, History::Ram) => LeadFrom::Time(Memory::Ram),
+        }
+    }
+
+    /// Where a positioning, by its number from 0 on, is to stop, in counts from the start.
+    #[must_use]
+    pub fn target(&self, positioning: usize) -> i64 {
+        let count = self.steps.len();
+        let (cycle, step) = (positioning / count, positioning % count);
+        let ways = |steps: &[Step]| steps.iter().map(|step| step.target).sum::<i64>();
+        match self.targets {
+            Targets::Absolute => self.steps[step].target,
+            Targets::Relative => cycle as i64 * ways(&self.steps) + ways(&self.steps[..=step]),
+        }
+    }
+
+    /// Its way from the target before.
+    #[must_use]
+    pub fn way(&self, positioning: usize) -> i64 {
+        let before = positioning.checked_sub(1);
+        self.target(positioning) - before.map_or(0, |before| self.target(before))
+    }
+
+    /// Where its switch stands: the target, or so much before it.
+    pub(super) fn switch(&self, positioning: usize) -> i64 {
+        let counts = self.switches_counts.get(positioning % self.steps.len());
+        let before = counts.map_or(0, |counts| i64::from(*counts));
+        self.target(positioning) - self.way(positioning).signum() * before
+    }
+
+    /// How far before its target the switch of a step can stand: less than its way.
+    #[must_use]
+    pub fn farthest_switch(&self, step: usize) -> u32 {
+        let ways = [step, step + self.steps.len()].map(|number| self.way(number).unsigned_abs());
+        let shortest = ways[0].min(ways[1]).saturating_sub(1);
+        u32::try_from(shortest).unwrap_or(u32::MAX)
     }
 
     /// A time other than a lead time in whole CKs; saturates.
@@ -191,6 +265,11 @@ impl Settings {
             let (value, allowed) = (format!("{count} steps"), format!("{least} to {most} steps"));
             return Err(SettingError::value("step", value, allowed));
         }
+        if count == 1 && self.targets == Targets::Absolute && self.positionings > 1 {
+            // From the second positioning on there would be no way to go.
+            let allowed = "2 to 16, or targets = \"relative\", or positionings = 1";
+            return Err(SettingError::value("step", "1 step", allowed));
+        }
         for index in 0..count {
             self.validate_step(index)
                 .map_err(|error| error.at(Place::Row("step", index)))?;
@@ -212,6 +291,10 @@ impl Settings {
         for ms in [self.speed_lead_ms].iter().chain(&self.speed_leads_ms) {
             within("speed_lead_ms", *ms, &(0.0..=longest))?;
         }
+        if let Some(counts) = self.switch_counts {
+            let farthest = (0..count).map(|step| self.farthest_switch(step)).min();
+            within("switch_counts", counts, &(0..=farthest.unwrap_or(0)))?;
+        }
         within("positionings", self.positionings, &POSITIONINGS_RANGE)?;
         if let Some(after) = self.load_change_after {
             within("load_change_after", after, &(1..=self.positionings))?;
@@ -228,8 +311,13 @@ impl Settings {
         } = self.steps[index];
         within("target", target, &TARGET_RANGE_COUNTS)?;
         let before = (index + self.steps.len() - 1) % self.steps.len();
-        let start = index == 0 && target == 0;
-        if start || target == self.steps[before].target {
+        if self.targets == Targets::Relative && target == 0 {
+            return Err(SettingError::value("target", target, "a way other than 0"));
+        }
+        let absolute = self.targets == Targets::Absolute;
+        let start = absolute && index == 0 && target == 0;
+        let same = absolute && before != index && target == self.steps[before].target;
+        if start || same {
             let place = match start {
                 true => "the start".to_owned(),
                 false => format!("step {before}"),

@@ -161,8 +161,8 @@ impl<'a> Host<'a> {
                 last: program.path.stretches.len().saturating_sub(1) as u64,
                 path_end: program.path.length as i64,
                 model_gains: ModelGains {
-                    gain_1: program.gains.k1,
-                    gain_2: program.gains.k2,
+                    gain_1: program.tangential.k1,
+                    gain_2: program.tangential.k2,
                 },
                 position_gain: gain(|servo| servo.position),
                 speed_gain: gain(|servo| servo.speed),

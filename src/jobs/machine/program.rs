@@ -176,18 +176,18 @@ impl Program {
             };
             let way = [0, 1].map(|k| counts(piece.to)[k] - counts(from)[k]);
             let speed = limit.speed / unit;
-            let (made, speed, ramp_s) = match &piece.course {
-                Course::Line => {
+            let fault = |reason| PathError {
+                piece: index,
+                line: Some(step.line),
+                reason,
+            };
+            let (made, speed, ramp_s) = match piece.course.arc().map_err(fault)? {
+                None => {
                     let ramp_s = self.ramp_scans as f64 * settings.scan_s();
-                    let fault = |reason| PathError {
-                        piece: index,
-                        line: Some(step.line),
-                        reason,
-                    };
                     let (word, speed) = line_speed(way, speed, settings).map_err(fault)?;
                     (Way::Line { speed: word }, speed, ramp_s)
                 }
-                Course::Arc(circle) => {
+                Some(circle) => {
                     let refuse = |error: PathError| PathError {
                         piece: index,
                         line: Some(step.line),

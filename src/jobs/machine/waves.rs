@@ -25,7 +25,7 @@ signals! { for Plants as _c;
 }
 
 /// The plants beside the machine.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Plants;
 
 impl Beside for Plants {

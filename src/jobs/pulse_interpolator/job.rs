@@ -186,6 +186,10 @@ pub fn fast_forward_by(
     computer: &mut Computer<'_>,
     observer: impl Observer<Group>,
 ) -> Result<Played, JobError> {
+    // With T = 1 RST stands, and a unit time ends without an edge to stop at.
+    if table.patterns().iter().any(|pattern| pattern.period == 1) {
+        return play_by(group, table, computer, observer);
+    }
     played(group, table, observer, |simulator, bench| {
         let (pending, quiet) = (bench.see.pending, zero(group));
         bench.pieces = true;

@@ -14,6 +14,7 @@ use super::measure::Errors;
 use super::segments::Segment;
 use super::settings::Correction;
 use crate::circuits::trajectory_controller::Widths;
+use crate::input::COORDINATES;
 use std::ops::Range;
 
 /// After so many times of its slowest decay a model has forgotten what was before.
@@ -103,11 +104,19 @@ pub struct Steady {
 }
 
 impl Steady {
-    /// The longest such part; none where there is no period of one.
+    /// The longest such part; none where there is no period of one, or the models of the axes differ,
+    /// so that a circle becomes none.
     #[must_use]
     pub fn of(program: &Program, played: &Played) -> Option<Self> {
+        if program
+            .gains
+            .iter()
+            .any(|gains| *gains != program.tangential)
+        {
+            return None;
+        }
         let motion = &program.motion;
-        let [k1, k2] = program.gains.parts(&Widths::FULL);
+        let [k1, k2] = program.tangential.parts(&Widths::FULL);
         let root = (k2 * k2 - 4.0 * k1 * k2).max(0.0).sqrt();
         let wait = (FORGOTTEN / ((k2 - root) / 2.0)).ceil() as usize;
         let mut longest: Option<Steady> = None;
@@ -130,7 +139,7 @@ impl Steady {
                 if periods.len() > longer {
                     let mm = 1.0 / motion.units_per_mm;
                     let gains = [k1, k2].map(|gain| gain / motion.period);
-                    let c = program.gains.radial_s2(&Widths::FULL, motion.period);
+                    let c = program.tangential.radial_s2(&Widths::FULL, motion.period);
                     let forms = ClosedForms::of(radius * mm, piece.v * mm, gains, motion.period, c);
                     longest = Some(Steady { periods, forms });
                 }
@@ -154,7 +163,8 @@ fn circles(program: &Program) -> Vec<(Range<u64>, f64)> {
     for stretch in &program.path.stretches {
         let segment = stretch.segment;
         let end = stretch.begin + stretch.length;
-        let Some(arc) = segment.arc else {
+        let flat = segment.third == [0.0; COORDINATES];
+        let Some(arc) = segment.arc.filter(|_| flat) else {
             before = None;
             continue;
         };

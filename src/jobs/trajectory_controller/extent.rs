@@ -2,7 +2,9 @@
 //! commands.
 
 use crate::circuits::arc_generator::Widths as RecordWidths;
+use crate::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use crate::input::{COORDINATES, Point};
+use crate::path::circle::Circle;
 use crate::path::error::Reason;
 use crate::path::pieces::{Course, Piece};
 
@@ -17,14 +19,13 @@ pub(super) fn fits(
         let mut coordinates = names.into_iter().zip(point);
         coordinates.try_for_each(|(what, mm)| hold(what, mm * counts_per_mm, widths))
     };
-    let names = ["x", "y", "z"];
-    check(names, from)?;
-    check(names, piece.to)?;
-    let Course::Arc(circle) = &piece.course else {
+    check(AXIS_NAMES, from)?;
+    check(AXIS_NAMES, piece.to)?;
+    let extremes = piece.course.extremes(piece.to);
+    (0..2).try_for_each(|end| check(AXIS_NAMES, extremes.map(|extreme| extreme[end])))?;
+    let Some(circle) = turned(&piece.course) else {
         return Ok(());
     };
-    let extremes = circle.extremes();
-    (0..2).try_for_each(|end| check(names, extremes.map(|extreme| extreme[end])))?;
     check(["centre x", "centre y", "centre z"], circle.centre)?;
     hold("radius", circle.radius * counts_per_mm, widths)
 }
@@ -37,10 +38,8 @@ pub(super) fn margin(
     counts_per_mm: f64,
     widths: &RecordWidths,
 ) -> Result<(), Reason> {
-    let (extremes, radius) = match &piece.course {
-        Course::Line => (piece.to.map(|mm| [mm; 2]), 0.0),
-        Course::Arc(circle) => (circle.extremes(), circle.radius),
-    };
+    let extremes = piece.course.extremes(piece.to);
+    let radius = turned(&piece.course).map_or(0.0, |circle| circle.radius);
     let ways = (0..COORDINATES).flat_map(|axis| {
         let name = ["x from the start", "y from the start", "z from the start"][axis];
         extremes[axis].map(|mm| (name, mm - start[axis]))
@@ -58,6 +57,15 @@ pub(super) fn margin(
         }
     }
     Ok(())
+}
+
+/// The circle that a piece is turned on.
+fn turned(course: &Course) -> Option<&Circle> {
+    match course {
+        Course::Line | Course::Spline(_) => None,
+        Course::Arc(circle) => Some(circle),
+        Course::Helix(helix) => Some(&helix.circle),
+    }
 }
 
 /// Checks that counts are a word.

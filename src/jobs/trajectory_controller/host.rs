@@ -46,9 +46,11 @@ impl<'a> Host<'a> {
             path_end: program.path.length as i64,
             period: u64::from(program.period_ticks),
             model_gains: ModelGains {
-                gain_1: program.gains.k1,
-                gain_2: program.gains.k2,
+                gain_1: program.tangential.k1,
+                gain_2: program.tangential.k2,
             },
+            axis_gain_1: program.gains.iter().map(|gains| gains.k1).collect(),
+            axis_gain_2: program.gains.iter().map(|gains| gains.k2).collect(),
             position_gain: servo(|gains| gains.position),
             speed_gain: servo(|gains| gains.speed),
             integral_gain: servo(|gains| gains.integral),

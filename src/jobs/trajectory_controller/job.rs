@@ -2,6 +2,7 @@
 //! that feeds it, and what comes out, period by period.
 
 use super::host::Host;
+use super::load_torque::LoadStep;
 pub use super::program::{Program, ProgramError};
 use super::settings::Correction;
 use crate::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
@@ -170,14 +171,42 @@ impl See {
     }
 }
 
-/// Motors with their loads, one for each axis.
-struct Motors(Vec<TwoMassAxis>);
+/// Motors with their loads, one for each axis, and what acts on these from outside.
+struct Motors<'a> {
+    axes: Vec<TwoMassAxis>,
+    loads: &'a [LoadStep],
+    now: Since,
+}
 
-impl Motors {
+/// How far the torques from outside are.
+#[derive(Debug, Clone, Copy, Default)]
+struct Since {
+    /// Ticks since the path's start; none before it.
+    start: Option<u64>,
+    /// The step that comes next.
+    next: usize,
+}
+
+impl Motors<'_> {
+    /// What acts on the loads in the tick to come.
+    fn load(&mut self) {
+        let Some(tick) = self.now.start else {
+            return;
+        };
+        while let Some(step) = self.loads.get(self.now.next)
+            && step.tick <= tick
+        {
+            self.axes[step.axis].set_load_torque_nm(step.torque_nm);
+            self.now.next += 1;
+        }
+        self.now.start = Some(tick + 1);
+    }
+
     /// Steps them under these torques; gives the channels of their encoders.
     fn step(&mut self, torques: [i64; COORDINATES]) -> [(bool, bool); COORDINATES] {
+        self.load();
         let mut channels = [(false, false); COORDINATES];
-        let motors = self.0.iter_mut().zip(torques);
+        let motors = self.axes.iter_mut().zip(torques);
         for ((motor, torque), channels) in motors.zip(&mut channels) {
             *channels = motor.step(torque);
         }
@@ -185,24 +214,26 @@ impl Motors {
     }
 }
 
-impl Plant for Motors {
-    type State = [Option<<TwoMassAxis as Plant>::State>; COORDINATES];
+impl Plant for Motors<'_> {
+    type State = ([Option<<TwoMassAxis as Plant>::State>; COORDINATES], Since);
 
     fn state(&self) -> Self::State {
-        from_fn(|axis| self.0.get(axis).map(Plant::state))
+        let state = |axis| self.axes.get(axis).map(Plant::state);
+        (from_fn(state), self.now)
     }
 
-    fn set_state(&mut self, states: Self::State) {
-        for (motor, state) in self.0.iter_mut().zip(states.into_iter().flatten()) {
+    fn set_state(&mut self, (states, now): Self::State) {
+        for (motor, state) in self.axes.iter_mut().zip(states.into_iter().flatten()) {
             motor.set_state(state);
         }
+        self.now = now;
     }
 }
 
 /// How long models and motors may take to settle, in periods: 20 times their slowest decay, and a
 /// second.
 pub(crate) fn patience(program: &Program) -> usize {
-    let [k1, k2] = program.gains.parts(&Widths::FULL);
+    let [k1, k2] = program.tangential.parts(&Widths::FULL);
     let slowest = 1.0 / k1 + 1.0 / k2;
     (20.0 * slowest + 1.0 / program.motion.period) as usize
 }
@@ -241,16 +272,21 @@ pub fn play(
     let mut compared = None;
     let (mut rests, mut calm, patience) = (0, 0, patience(program));
     let unit = (Widths::FULL.guard() as f64).exp2();
-    let mut motors = Ahead::new(Motors(plants));
+    let mut motors = Ahead::new(Motors {
+        axes: plants,
+        loads: &program.load_steps,
+        now: Since::default(),
+    });
     loop {
         let drives = see.each(|axis| simulator.get(axis.drive));
-        let step = |motors: &mut Motors| motors.step(drives);
+        let step = |motors: &mut Motors<'_>| motors.step(drives);
         host.drive(&mut i, motors.step(step));
         let (starts, pushed) = (i.start, i.push);
         if starts {
             played.start = played.ticks;
+            motors.plants.now.start = Some(0);
         }
-        let plants = &motors.plants.0;
+        let plants = &motors.plants.axes;
         let (mut quiet, mut ended) = (true, false);
         let take = |now: &Sample<'_, _>| {
             host.records.free = now.get(see.ready) && !pushed;

@@ -1,10 +1,11 @@
 //! What came out: how far models, motors and loads were from the path, and from their commands.
 
 use super::job::{Period, Played, Program};
-use super::segments::{Path, Segment};
+use super::segments::{Arc, Path, Segment};
 use crate::circuits::trajectory_controller::Widths;
-use crate::input::Point;
-use crate::path::vector::{distance, dot, norm, scale, sub};
+use crate::input::{COORDINATES, Point};
+use crate::path::cubic::{rise, rises};
+use crate::path::vector::{add, distance, dot, norm, scale, sub};
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
@@ -71,6 +72,8 @@ pub struct Measured {
     pub torque: Vec<i64>,
     /// Periods in which it was limited, of each axis.
     pub saturated: Vec<usize>,
+    /// Largest distance of each motor from its model, in mm.
+    pub off_model_mm: Vec<f64>,
 }
 
 impl Measured {
@@ -93,6 +96,13 @@ impl Measured {
                 .collect(),
             saturated: (0..played.axes)
                 .map(|axis| each(axis).filter(limited).count())
+                .collect(),
+            off_model_mm: (0..played.axes)
+                .map(|axis| {
+                    let off = |period: &Period| motor(period, axis) - model(period, axis);
+                    let all = played.periods.iter().map(|period| off(period).abs());
+                    all.fold(0.0, f64::max) / program.motion.units_per_mm
+                })
                 .collect(),
         })
     }
@@ -181,6 +191,11 @@ impl Path {
 impl Segment {
     /// Offsets between two of them of which one is nearest to a point.
     fn candidates(&self, point: Point, [from, to]: [f64; 2]) -> Vec<f64> {
+        if let Some(bits) = self.powers {
+            // It turns by so little that there is one at most.
+            let ahead = |at: f64| dot(sub(self.point(at), point), self.derivatives(bits, at)[0]);
+            return vec![from, to, rise([from, to], ahead)];
+        }
         let way = sub(point, self.base.map(|units| units as f64));
         let [along, across] = [dot(way, self.along), dot(way, self.across)];
         let Some(arc) = self.arc else {
@@ -188,10 +203,23 @@ impl Segment {
             let size = norm(self.along);
             return vec![(along / (size * size)).clamp(from, to)];
         };
+        if self.third != [0.0; COORDINATES] {
+            let parts = ((to - from) / arc.turn * 8.0).ceil().max(1.0) as u32;
+            let ahead = |at: f64| dot(sub(self.point(at), point), self.helical(&arc, at));
+            let turns = rises([from, to], parts, ahead);
+            return turns.chain([from, to]).collect();
+        }
         let turn = arc.turn / TAU * across.atan2(along).rem_euclid(TAU);
         let turns = turn + ((from - turn) / arc.turn).ceil() * arc.turn;
         let mut offsets = vec![from, to];
         offsets.extend((from..=to).contains(&turns).then_some(turns));
         offsets
+    }
+
+    /// Derivative of a helix by its length.
+    fn helical(&self, arc: &Arc, offset: f64) -> Point {
+        let (sin, cos) = (TAU * (offset / arc.turn)).sin_cos();
+        let around = sub(scale(self.across, cos), scale(self.along, sin));
+        add(scale(around, arc.radius * TAU / arc.turn), self.third)
     }
 }

@@ -1,15 +1,20 @@
 //! A path on the trajectory controller: planned, written as segments and records, played with motors
 //! and loads, and measured.
 //!
-//! [`segments`] (pieces of a path by their length), [`speed_limits`] and [`planner`] (how fast it is
-//! run where, by [`ramp`]s, as a [`profile`](mod@profile)), [`profile_record`] (the profile as
-//! words), [`servo_gains`], [`program`] (all of it together), [`job`] (a path on the circuit, with
-//! motors), [`measure`] (what came out), [`closed`] (what comes out on a circle), [`settings`].
+//! [`segments`] and [`splines`] (pieces of a path by their length), [`axis_limits`],
+//! [`speed_limits`] and [`planner`] (how fast it is run where, by [`ramp`]s, as a
+//! [`profile`](mod@profile)), [`profile_record`] (the profile as words), [`servo_gains`], [`program`]
+//! (all of it together), [`job`] (a path on the circuit, with motors), [`mod@load_torque`] (what acts
+//! on the loads from outside), [`measure`] (what came out), [`closed`] (what comes out on a circle),
+//! [`settings`], in which [`each_axis`] is one number or one for each axis.
 
+pub mod axis_limits;
 pub mod closed;
+pub mod each_axis;
 mod extent;
 mod host;
 pub mod job;
+pub mod load_torque;
 pub mod measure;
 pub(crate) mod path_writer;
 pub mod planner;
@@ -21,3 +26,4 @@ pub mod segments;
 pub mod servo_gains;
 pub mod settings;
 pub mod speed_limits;
+pub mod splines;

@@ -3,8 +3,8 @@
 use super::program::Program;
 use crate::circuits::trajectory_controller::{Widths, segment_store};
 
-/// Words of a segment that are written.
-const SEGMENT_WORDS: usize = 13;
+/// Words of a segment that are looked at, and of one with a third coordinate.
+const SEGMENT_WORDS: [usize; 2] = [13, segment_store::WORDS];
 
 /// A path that is written segment after segment.
 #[derive(Debug)]
@@ -76,8 +76,10 @@ impl<'a> PathWriter<'a> {
             data: self.words[word],
         };
         if given.write {
-            self.word = (word + 1) % SEGMENT_WORDS;
-            if self.word == 0 {
+            self.word += 1;
+            let spatial = self.words[0] >> 7 & 1;
+            if self.word == SEGMENT_WORDS[spatial as usize] {
+                self.word = 0;
                 self.segment += 1;
                 self.prepare();
             }

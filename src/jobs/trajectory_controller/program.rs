@@ -1,5 +1,7 @@
 //! What a run is made of: the path, its profile in time, and the words of both and of the servos.
 
+use super::axis_limits;
+use super::load_torque::{LoadStep, load_steps};
 use super::planner::plan;
 use super::profile::Profile;
 use super::profile_record::records;
@@ -10,7 +12,7 @@ use super::speed_limits::spans;
 use crate::circuits::trajectory_controller::Widths;
 use crate::input::{COORDINATES, Point, ZERO_MM};
 use crate::path::error::{PathError, Reason};
-use crate::path::pieces::{Course, Piece};
+use crate::path::pieces::Piece;
 use crate::path::record::Record;
 use crate::plant::TwoMassParameters;
 use crate::settings::{Place, SettingError};
@@ -31,10 +33,14 @@ pub struct Program {
     pub period_ticks: u32,
     /// What it was planned by.
     pub motion: Motion,
-    /// K1 and K2.
-    pub gains: Gains,
+    /// K1 and K2 of each axis.
+    pub gains: Vec<Gains>,
+    /// Those of the tangential response: of the slowest axis, as no other is to be waited for by it.
+    pub tangential: Gains,
     /// Of the axes, of which there are as many as there are machine parameters; the others are 0.
     pub servo: [ServoGains; COORDINATES],
+    /// Torques on the loads from outside.
+    pub load_steps: Vec<LoadStep>,
     /// Where the path begins, in guard units: the motors stand at 0 there.
     pub origin: [i64; COORDINATES],
 }
@@ -66,15 +72,23 @@ impl Program {
         machine: &[TwoMassParameters],
         widths: &Widths,
     ) -> Result<Self, ProgramError> {
-        let motion = settings.motion(widths)?;
-        let gains = settings.gains(widths)?;
+        let mut motion = settings.motion(widths)?;
         if !(2..=COORDINATES).contains(&machine.len()) {
             return Err(SettingError::value("axes", machine.len(), "2 or 3").into());
         }
+        let gains = settings.gains(widths, machine.len())?;
+        if let Some(told) = &settings.axis_acceleration_mm_per_s2 {
+            told.check("axis_acceleration_mm_per_s2", machine.len())?;
+        }
+        let slowest = gains.iter().min_by_key(|gains| (gains.k1, gains.k2));
+        let tangential = slowest.copied().unwrap_or(gains[0]);
+        settings
+            .inertia_factor
+            .check("inertia_factor", machine.len())?;
+        let load_steps = load_steps(&settings.load_torque, machine.len(), settings.clock_hz)?;
         let mut servo = [ServoGains::default(); COORDINATES];
         for (axis, parameters) in machine.iter().enumerate() {
-            let place = Place::Row("axis", axis);
-            servo[axis] = ServoGains::of(settings, parameters, place, widths)?;
+            servo[axis] = ServoGains::of(settings, axis, parameters, widths)?;
             let (own, path) = (parameters.counts_per_mm(), settings.counts_per_mm);
             if (own / path - 1.0).abs() > SAME {
                 let problem = format!("is {}: {own} counts a millimetre", parameters.mm_per_rev);
@@ -83,15 +97,18 @@ impl Program {
                     parameters.counts_per_rev / path
                 );
                 let error = SettingError::new("mm_per_rev", problem, allowed);
-                return Err(error.at(place).into());
+                return Err(error.at(Place::Row("axis", axis)).into());
             }
         }
         if machine.len() < COORDINATES {
             flat(start, pieces)?;
         }
         let mut path = Path::of(start, pieces, settings.counts_per_mm, widths)?;
+        let along = axis_limits::along(&path, &motion.axis_acceleration);
+        let most = along * motion.units_per_mm;
+        motion.slope.acceleration = motion.slope.acceleration.min(most);
         let spans = spans(&path, &motion);
-        path.widen(&spans, gains.radial_s2(widths, motion.period));
+        path.widen(&spans, tangential.radial_s2(widths, motion.period));
         let profile = plan(&spans, motion.slope);
         let periods = profile.duration / motion.period;
         if periods > MOST_PERIODS as f64 {
@@ -108,7 +125,9 @@ impl Program {
             period_ticks: settings.period_ticks(widths)?,
             motion,
             gains,
+            tangential,
             servo,
+            load_steps,
             origin,
         })
     }
@@ -117,11 +136,7 @@ impl Program {
 /// Checks that a path stays at its z.
 fn flat(start: Point, pieces: &[Piece]) -> Result<(), PathError> {
     for (piece, of) in pieces.iter().enumerate() {
-        let [low, high] = match &of.course {
-            Course::Line => [of.to[2]; 2],
-            Course::Arc(circle) => circle.extremes()[2],
-        };
-        let leaves = [low, high].map(|z| z - start[2]);
+        let leaves = of.course.extremes(of.to)[2].map(|z| z - start[2]);
         if let Some(&off) = leaves.iter().find(|off| off.abs() > ZERO_MM) {
             return Err(PathError {
                 piece,

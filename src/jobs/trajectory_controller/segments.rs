@@ -1,31 +1,35 @@
 //! A path as segments: what the segment store and the search are filled with.
 //!
-//! | word | line | arc |
-//! |---|---|---|
-//! | 0 | 0 | bit 0 set, bits 6..1 H − n |
-//! | 1 | 0 | 2^(M + n − 4) / turn, of M bits |
-//! | 2 | 0 | radius / gain of CORDIC, with R − P bits behind the guard unit |
-//! | 3, 4, 5 | where it begins | the centre |
-//! | 6, 7, 8 | way / length | direction to where it begins |
-//! | 9, 10, 11 | 0 | direction a quarter turn on |
-//! | 12 | 0 | as word 2, the radius widened for constant speed |
-//! | 13 … 15 | 0 | 0 |
+//! | word | line | arc | spline |
+//! |---|---|---|---|
+//! | 0 | 0 | bit 0 set, bits 6..1 H − n | bit 7 set, bits 6..1 n |
+//! | 1 | 0 | 2^(M + n − 4) / turn, of M bits | 0 |
+//! | 2 | 0 | radius / gain of CORDIC, with R − P bits behind the guard unit | 0 |
+//! | 3, 4, 5 | where it begins | the centre | where it begins |
+//! | 6, 7, 8 | way / length | direction to where it begins | direction where it begins |
+//! | 9, 10, 11 | 0 | direction a quarter turn on | that of the length's square, times 2^n |
+//! | 12 | 0 | as word 2, the radius widened for constant speed | 0 |
+//! | 13, 14, 15 | not looked at | not looked at | that of its cube, times 2^2n |
 //!
-//! Lengths are whole guard units of 2^-G count. A piece's own length is rounded, and what the
-//! rounding takes is spread over the piece: a line's coefficients are its way divided by the rounded
-//! length, an arc's angle at the rounded length is the arc's own. So each ends where the piece ends.
-//! The speed is off by as little: half a guard unit in the length of the piece.
+//! A spline's length has n bits. A helix has the words of an arc with bit 7 of word 0 set, and in
+//! words 13 to 15 its rise over its length. Lengths are whole guard units of 2^-G count. A piece's
+//! own length is rounded, and what the rounding takes is spread over the piece: a line's
+//! coefficients are its way divided by the rounded length, an arc's angle at the rounded length is
+//! the arc's own. So each ends where the piece ends. The speed is off by as little: half a guard
+//! unit in the length of the piece.
 
 use super::extent::{fits, hold, margin};
 use super::speed_limits::Span;
+use super::splines;
+use crate::circuits::blocks::cordic_state::GAIN;
 use crate::circuits::trajectory_controller::Widths;
-use crate::circuits::trajectory_controller::cordic_state::GAIN;
 use crate::circuits::trajectory_controller::segment_store::WORDS;
 use crate::input::{COORDINATES, Point};
 use crate::path::circle::Circle;
 use crate::path::error::{PathError, Reason};
+use crate::path::helix::Helix;
 use crate::path::pieces::{Course, Piece};
-use crate::path::vector::{add, cross, scale, sub, unit};
+use crate::path::vector::{self, add, cross, dot, scale, sub};
 use std::f64::consts::TAU;
 
 /// What a length within a segment becomes a point by. All in guard units.
@@ -36,10 +40,16 @@ pub struct Segment {
     /// A line's way in a guard unit of its length; of an arc the direction from the centre to where
     /// it begins.
     pub along: Point,
-    /// Of an arc the direction of its motion where it begins.
+    /// Of an arc the direction of its motion where it begins; of a spline the part of the length's
+    /// square over 2^n.
     pub across: Point,
-    /// What an arc has besides.
+    /// Of a helix its rise in a guard unit of its length; of a spline the part of the length's cube
+    /// over 2^2n.
+    pub third: Point,
+    /// What an arc or a helix has besides.
     pub arc: Option<Arc>,
+    /// n of a spline: its length is below 2^n, and not below 2^(n − 1).
+    pub powers: Option<u32>,
 }
 
 /// An arc, in guard units.
@@ -55,6 +65,18 @@ pub struct Arc {
 }
 
 impl Segment {
+    /// A line, by where it begins and its way in a guard unit of its length.
+    pub(super) fn line(base: Point, along: Point) -> Self {
+        Segment {
+            base: base.map(|units| units as i64),
+            along,
+            across: [0.0; COORDINATES],
+            third: [0.0; COORDINATES],
+            arc: None,
+            powers: None,
+        }
+    }
+
     /// Its words, each below 2^D. A turn is 1 or longer.
     #[must_use]
     pub fn words(&self, widths: &Widths) -> [u64; WORDS] {
@@ -71,13 +93,29 @@ impl Segment {
             words[2] = radius(arc.radius);
             words[12] = radius(arc.widened);
         }
+        words[0] |= u64::from(self.third != [0.0; COORDINATES]) << 7;
+        if let Some(bits) = self.powers {
+            words[0] = 1 << 7 | u64::from(bits) << 1;
+        }
         let unit = two_to(widths.coefficient - 2);
         for axis in 0..COORDINATES {
             words[3 + axis] = word(self.base[axis]);
             words[6 + axis] = word((self.along[axis] * unit).round() as i64);
             words[9 + axis] = word((self.across[axis] * unit).round() as i64);
+            words[13 + axis] = word((self.third[axis] * unit).round() as i64);
         }
         words
+    }
+
+    /// What it is called.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match (self.arc, self.powers) {
+            (Some(_), _) if self.third != [0.0; COORDINATES] => "helix",
+            (Some(_), _) => "arc",
+            (None, Some(_)) => "spline",
+            (None, None) => "line",
+        }
     }
 
     /// Whether both are arcs of one circle, run the same way.
@@ -99,14 +137,19 @@ impl Segment {
     /// The point at a length behind its beginning, unrounded.
     #[must_use]
     pub fn point(&self, offset: f64) -> Point {
-        let [along, across] = match self.arc {
-            None => [offset, 0.0],
-            Some(arc) => {
+        let [along, across, third] = match (self.arc, self.powers) {
+            (None, None) => [offset, 0.0, 0.0],
+            (Some(arc), _) => {
                 let (sin, cos) = (TAU * (offset / arc.turn)).sin_cos();
-                [arc.radius * cos, arc.radius * sin]
+                [arc.radius * cos, arc.radius * sin, offset]
+            }
+            (None, Some(bits)) => {
+                let part = offset / f64::from(bits).exp2();
+                [offset, offset * part, offset * part * part]
             }
         };
         let way = add(scale(self.along, along), scale(self.across, across));
+        let way = add(way, scale(self.third, third));
         add(self.base.map(|units| units as f64), way)
     }
 }
@@ -124,7 +167,7 @@ pub struct Stretch {
     pub directions: [Point; 2],
     /// The speed that is wanted, in mm/s.
     pub speed: f64,
-    /// Radius of an arc in mm.
+    /// Radius of curvature of an arc or a helix in mm; of a spline the least, where it is bent.
     pub radius: Option<f64>,
     /// The piece it comes from.
     pub piece: usize,
@@ -157,7 +200,7 @@ impl Path {
         widths: &Widths,
     ) -> Result<Self, PathError> {
         let mut stretches: Vec<Stretch> = Vec::with_capacity(pieces.len());
-        let (mut from, mut length) = (start, 0);
+        let (mut from, mut length, mut zero_length) = (start, 0, 0);
         for (index, piece) in pieces.iter().enumerate() {
             let refuse = |reason| PathError {
                 piece: index,
@@ -169,23 +212,15 @@ impl Path {
             margin(start, piece, counts_per_mm, &widths.record()).map_err(refuse)?;
             let begin = std::mem::replace(&mut from, piece.to);
             let unit = counts_per_mm * two_to(widths.guard());
-            let Some((segment, own)) = segment(begin, piece, unit) else {
-                continue;
-            };
-            stretches.push(Stretch {
-                segment,
-                begin: length,
-                length: own,
-                directions: piece.course.directions(begin, piece.to),
-                speed: piece.speed,
-                radius: match &piece.course {
-                    Course::Line => None,
-                    Course::Arc(circle) => Some(circle.radius),
-                },
-                piece: index,
-                line: piece.line,
-            });
-            length += own;
+            let made = made(begin, piece, index, [unit, two_to(widths.guard())]);
+            zero_length += usize::from(made.is_empty());
+            for one in made {
+                stretches.push(Stretch {
+                    begin: length,
+                    ..one
+                });
+                length += one.length;
+            }
             let counts = length as f64 / two_to(widths.guard());
             hold("length", counts, &widths.record()).map_err(refuse)?;
         }
@@ -209,7 +244,7 @@ impl Path {
             });
         }
         Ok(Path {
-            zero_length: pieces.len() - count,
+            zero_length,
             stretches,
             length,
         })
@@ -221,7 +256,9 @@ impl Path {
     pub fn widen(&mut self, spans: &[Span], c: f64) {
         for (stretch, span) in self.stretches.iter_mut().zip(spans) {
             if let Some(arc) = &mut stretch.segment.arc {
-                let by = c * span.speed * span.speed / arc.radius;
+                // Of the speed of a helix a part goes up.
+                let flat = 1.0 - dot(stretch.segment.third, stretch.segment.third);
+                let by = c * span.speed * span.speed * flat / arc.radius;
                 arc.widened = arc.radius + by.clamp(-arc.radius / 2.0, arc.radius);
             }
         }
@@ -244,36 +281,55 @@ impl Path {
     }
 }
 
-/// The segment of a piece and its length, with so many guard units a millimetre; none where the
-/// piece has no length.
-fn segment(from: Point, piece: &Piece, unit_per_mm: f64) -> Option<(Segment, u64)> {
-    let units = |point: Point| point.map(|mm| (mm * unit_per_mm).round());
-    let (base, along, across, arc, length) = match &piece.course {
-        Course::Line => {
+/// The segments of a piece, with so many guard units a millimetre and a count; none where it has no
+/// length. Where they begin is not in them.
+fn made(from: Point, piece: &Piece, index: usize, [unit, count]: [f64; 2]) -> Vec<Stretch> {
+    let units = |point: Point| point.map(|mm| (mm * unit).round());
+    let (segment, length, radius) = match &piece.course {
+        Course::Line | Course::Spline(_) => {
             let way = sub(units(piece.to), units(from));
             let length = crate::plan::norm(way).round();
-            let along = scale(way, 1.0 / length);
-            (units(from), along, [0.0; COORDINATES], None, length)
+            let line = Segment::line(units(from), scale(way, 1.0 / length));
+            (line, length, None)
         }
-        Course::Arc(circle) => {
+        Course::Arc(circle) | Course::Helix(Helix { circle, .. }) => {
             let Circle { centre, axis, .. } = *circle;
-            let length = (circle.length() * unit_per_mm).round();
-            let along = unit(sub(circle.start, centre));
-            let arc = Arc {
-                radius: circle.radius * unit_per_mm,
-                turn: length * (TAU / circle.angle),
-                widened: circle.radius * unit_per_mm,
+            let length = (piece.course.length(from, piece.to) * unit).round();
+            let along = vector::unit(sub(circle.start, centre));
+            let arc = Segment {
+                across: cross(axis, along),
+                arc: Some(Arc {
+                    radius: circle.radius * unit,
+                    turn: length * (TAU / circle.angle),
+                    widened: circle.radius * unit,
+                }),
+                ..Segment::line(units(centre), along)
             };
-            (units(centre), along, cross(axis, along), Some(arc), length)
+            match &piece.course {
+                Course::Helix(helix) => {
+                    let third = scale(axis, helix.rise * unit / length);
+                    let helical = Segment { third, ..arc };
+                    (helical, length, Some(helix.curvature_radius()))
+                }
+                _ => (arc, length, Some(circle.radius)),
+            }
         }
     };
-    let segment = Segment {
-        base: base.map(|units| units as i64),
-        along,
-        across,
-        arc,
+    let stretch = Stretch {
+        segment,
+        begin: 0,
+        length: length as u64,
+        directions: piece.course.directions(from, piece.to),
+        speed: piece.speed,
+        radius,
+        piece: index,
+        line: piece.line,
     };
-    (length >= 1.0).then_some((segment, length as u64))
+    match &piece.course {
+        Course::Spline(cubic) => splines::stretches(cubic, unit, count, stretch),
+        _ if length < 1.0 => Vec::new(),
+        _ => vec![stretch],
+    }
 }
 
 fn two_to(exponent: usize) -> f64 {

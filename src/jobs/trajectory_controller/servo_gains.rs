@@ -13,6 +13,9 @@ pub const RATE_RANGE: RangeInclusive<f64> = 1e-6..=1e9;
 /// Integral times that are accepted, in ms; 0 for no integral.
 pub const INTEGRAL_RANGE_MS: RangeInclusive<f64> = 0.0..=1e9;
 
+/// Parts of the inertia that the feed-forward may be told.
+pub const INERTIA_FACTOR_RANGE: RangeInclusive<f64> = 0.0..=100.0;
+
 /// Words of servo control 11 of one axis.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ServoGains {
@@ -29,22 +32,22 @@ pub struct ServoGains {
 }
 
 impl ServoGains {
-    /// The gains for an axis, whose own faults are those of `place`.
+    /// The gains for an axis by its number, whose own faults are those of that row `axis`.
     ///
     /// With J = J_motor + J_load the speed control has Kp = J·2πf and an integral of Kp/Ti, and the
-    /// feed-forward has J.
+    /// feed-forward has the part of J that it is told.
     ///
     /// # Errors
     /// A setting or a parameter of the axis that is out of range, or makes a gain that is no word;
     /// an axis that is too fast for the clock.
     pub fn of(
         settings: &Settings,
+        index: usize,
         axis: &TwoMassParameters,
-        place: Place,
         widths: &Widths,
     ) -> Result<Self, SettingError> {
         let period = settings.period_s(widths)?;
-        let of_axis = |error: SettingError| error.at(place);
+        let of_axis = |error: SettingError| error.at(Place::Row("axis", index));
         axis.validate().map_err(of_axis)?;
         let (hz, longest_s) = (settings.clock_hz, axis.longest_tick_s());
         let tick_s = 1.0 / hz as f64;
@@ -57,6 +60,10 @@ impl ServoGains {
         within("position_gain_per_s", rate, &RATE_RANGE)?;
         within("speed_hz", hz, &RATE_RANGE)?;
         within("integral_ms", settings.integral_ms, &INTEGRAL_RANGE_MS)?;
+        let told = &settings.inertia_factor;
+        let factor = told.of(index);
+        within("inertia_factor", factor, &INERTIA_FACTOR_RANGE)
+            .map_err(|error| told.fault(index, error))?;
         let inertia = axis.motor_inertia_kg_m2 + axis.load_inertia_kg_m2;
         let full_scale = TwoMassAxis::FULL_SCALE as f64;
         let units_per_rad = axis.counts_per_rad() * (widths.guard() as f64).exp2();
@@ -88,6 +95,7 @@ impl ServoGains {
         };
         let one = ((widths.servo_gain - 1) as f64).exp2();
         let (torque_nm, inertia) = (axis.max_torque_nm, inertia * torque / (period * period));
+        let told = inertia * factor;
         Ok(ServoGains {
             position: word("position_gain_per_s", rate, rate * period * one, true)?,
             speed: word("speed_hz", hz, speed, true)?,
@@ -95,7 +103,10 @@ impl ServoGains {
                 true => word("integral_ms", settings.integral_ms, integral, false)?,
                 false => 0,
             },
-            inertia: word("max_torque_nm", torque_nm, inertia * fine, false).map_err(of_axis)?,
+            inertia: match factor > 0.0 {
+                true => word("max_torque_nm", torque_nm, told * fine, false).map_err(of_axis)?,
+                false => 0,
+            },
             limit: full_scale as u64,
         })
     }

@@ -1,10 +1,12 @@
 //! What the trajectory controller is run with: clock and period, machine, motion, reference model.
 
+use super::each_axis::EachAxis;
 use super::job::controller;
+use super::load_torque::LoadTorque;
 use super::ramp::Slope;
 pub use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::{Rounding, Widths};
-use crate::input::COORDINATES;
+use crate::input::{COORDINATES, Point};
 use crate::jobs::arc_generator::settings::SPEED_RANGE_MM_PER_S;
 use crate::path::pieces::Speeds;
 use crate::plan::ACCELERATION_RANGE;
@@ -19,6 +21,12 @@ pub const LEAST_PERIOD_TICKS: u64 =
 /// Longest jerk time that is accepted, in ms.
 pub const JERK_TIME_RANGE_MS: RangeInclusive<f64> = 0.0..=1e6;
 
+/// Acceleration along the path where nothing else is told, in mm/s².
+pub const ACCELERATION_MM_PER_S2: f64 = 2000.0;
+
+/// Acceleration times that are accepted, in ms.
+pub const ACCELERATION_TIME_RANGE_MS: RangeInclusive<f64> = 1e-6..=1e6;
+
 /// Settings of a path and its run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -32,8 +40,13 @@ pub struct Settings {
     pub feed_mm_per_s: Option<f64>,
     /// Speed of rapid moves.
     pub rapid_mm_per_s: f64,
-    /// Largest acceleration along the path.
-    pub acceleration_mm_per_s2: f64,
+    /// Largest acceleration along the path; [`ACCELERATION_MM_PER_S2`] without it, and without
+    /// [`Settings::acceleration_time_ms`].
+    pub acceleration_mm_per_s2: Option<f64>,
+    /// The time from rest to [`Settings::feed_mm_per_s`], but for the jerk time, in its place.
+    pub acceleration_time_ms: Option<f64>,
+    /// Largest acceleration of the axes; none where they are not asked.
+    pub axis_acceleration_mm_per_s2: Option<EachAxis>,
     /// Largest acceleration across it, on arcs.
     pub normal_acceleration_mm_per_s2: f64,
     /// Time in which the acceleration along the path comes and goes; 0 for a trapezoid of speed.
@@ -41,9 +54,9 @@ pub struct Settings {
     /// Largest step of the velocity between two segments; 0 stops at every corner.
     pub corner_mm_per_s: f64,
     /// K1 in 1/s.
-    pub k1_per_s: f64,
+    pub k1_per_s: EachAxis,
     /// K2 in 1/s.
-    pub k2_per_s: f64,
+    pub k2_per_s: EachAxis,
     /// Gains with which the model goes beyond its target are allowed: K2 from 2·K1 on.
     pub allow_overshoot: bool,
     /// How the model rounds.
@@ -56,6 +69,11 @@ pub struct Settings {
     pub speed_hz: f64,
     /// Integral time of the speed controls; 0 for no integral.
     pub integral_ms: f64,
+    /// What the feed-forward is told of the inertia of motor and load, as a part of it: 0 for no
+    /// feed-forward.
+    pub inertia_factor: EachAxis,
+    /// Torques on the loads from outside.
+    pub load_torque: Vec<LoadTorque>,
 }
 
 impl Default for Settings {
@@ -69,18 +87,22 @@ impl Default for Settings {
             counts_per_mm: 1000.0,
             feed_mm_per_s: None,
             rapid_mm_per_s: 200.0,
-            acceleration_mm_per_s2: 2000.0,
+            acceleration_mm_per_s2: None,
+            acceleration_time_ms: None,
+            axis_acceleration_mm_per_s2: None,
             normal_acceleration_mm_per_s2: 2000.0,
             jerk_time_ms: 0.0,
             corner_mm_per_s: 10.0,
-            k1_per_s: 50.0,
-            k2_per_s: 200.0,
+            k1_per_s: EachAxis::All(50.0),
+            k2_per_s: EachAxis::All(200.0),
             allow_overshoot: false,
             rounding: Rounding::default(),
             correction: Correction::default(),
             position_gain_per_s: 30.0,
             speed_hz: 17.0,
             integral_ms: 40.0,
+            inertia_factor: EachAxis::All(1.0),
+            load_torque: Vec::new(),
         }
     }
 }
@@ -96,6 +118,8 @@ pub struct Motion {
     pub slope: Slope,
     /// Largest acceleration across the path, in mm/s².
     pub normal_acceleration: f64,
+    /// Largest acceleration of each axis, in mm/s².
+    pub axis_acceleration: Point,
     /// Largest step of the velocity, in mm/s.
     pub corner_speed: f64,
 }
@@ -143,7 +167,10 @@ impl Settings {
     /// Names the first field at fault, its value and what is allowed.
     pub fn validate(&self, widths: &Widths) -> Result<(), SettingError> {
         self.motion(widths)?;
-        self.gains(widths).map(drop)
+        let told = [&self.k1_per_s, &self.k2_per_s].map(EachAxis::told);
+        let axes = told.into_iter().flatten().next().unwrap_or(1);
+        let axes = axes.min(COORDINATES);
+        self.gains(widths, axes).map(drop)
     }
 
     /// Δt as ticks of the clock.
@@ -176,16 +203,10 @@ impl Settings {
         for (field, speed) in feed.into_iter().chain([rapid]) {
             within(field, speed, &SPEED_RANGE_MM_PER_S)?;
         }
-        let accelerations = [
-            ("acceleration_mm_per_s2", self.acceleration_mm_per_s2),
-            (
-                "normal_acceleration_mm_per_s2",
-                self.normal_acceleration_mm_per_s2,
-            ),
-        ];
-        for (field, acceleration) in accelerations {
-            within(field, acceleration, &ACCELERATION_RANGE)?;
-        }
+        let acceleration = self.acceleration()?;
+        let normal = self.normal_acceleration_mm_per_s2;
+        within("normal_acceleration_mm_per_s2", normal, &ACCELERATION_RANGE)?;
+        let axis_acceleration = self.axis_accelerations()?;
         within("jerk_time_ms", self.jerk_time_ms, &JERK_TIME_RANGE_MS)?;
         let corners = 0.0..=*SPEED_RANGE_MM_PER_S.end();
         within("corner_mm_per_s", self.corner_mm_per_s, &corners)?;
@@ -194,16 +215,74 @@ impl Settings {
             units_per_mm,
             period,
             slope: Slope {
-                acceleration: self.acceleration_mm_per_s2 * units_per_mm,
+                acceleration: acceleration * units_per_mm,
                 jerk_time: self.jerk_time_ms / 1e3,
             },
-            normal_acceleration: self.normal_acceleration_mm_per_s2,
+            normal_acceleration: normal,
+            axis_acceleration,
             corner_speed: self.corner_mm_per_s,
         })
     }
 
-    /// The model's gains, to the nearest word; but K1 rounds down where rounding alone would make the
-    /// model go beyond its target.
+    /// Acceleration along the path, in mm/s².
+    fn acceleration(&self) -> Result<f64, SettingError> {
+        let Some(time_ms) = self.acceleration_time_ms else {
+            let told = self.acceleration_mm_per_s2;
+            let acceleration = told.unwrap_or(ACCELERATION_MM_PER_S2);
+            within("acceleration_mm_per_s2", acceleration, &ACCELERATION_RANGE)?;
+            return Ok(acceleration);
+        };
+        let field = "acceleration_time_ms";
+        if self.acceleration_mm_per_s2.is_some() {
+            let problem = format!("is {time_ms} beside acceleration_mm_per_s2");
+            return Err(SettingError::new(field, problem, "one of both"));
+        }
+        within(field, time_ms, &ACCELERATION_TIME_RANGE_MS)?;
+        let Some(feed) = self.feed_mm_per_s else {
+            let problem = format!("is {time_ms} without feed_mm_per_s");
+            return Err(SettingError::new(field, problem, "the time to that feed"));
+        };
+        let acceleration = feed / (time_ms / 1e3);
+        if !ACCELERATION_RANGE.contains(&acceleration) {
+            let problem = format!("is {time_ms}: {acceleration} mm/s² to {feed} mm/s");
+            let [most, least] = [ACCELERATION_RANGE.start(), ACCELERATION_RANGE.end()]
+                .map(|acceleration| feed / acceleration * 1e3);
+            return Err(SettingError::new(
+                field,
+                problem,
+                format!("{least} to {most}"),
+            ));
+        }
+        Ok(acceleration)
+    }
+
+    /// Largest acceleration of each axis, in mm/s².
+    fn axis_accelerations(&self) -> Result<Point, SettingError> {
+        let mut allowed = [f64::INFINITY; COORDINATES];
+        let Some(told) = &self.axis_acceleration_mm_per_s2 else {
+            return Ok(allowed);
+        };
+        let axes = told.told().unwrap_or(COORDINATES).min(COORDINATES);
+        for (axis, allowed) in allowed[..axes].iter_mut().enumerate() {
+            *allowed = told.of(axis);
+            within("axis_acceleration_mm_per_s2", *allowed, &ACCELERATION_RANGE)
+                .map_err(|error| told.fault(axis, error))?;
+        }
+        Ok(allowed)
+    }
+
+    /// The gains of the models of so many axes.
+    ///
+    /// # Errors
+    /// As [`Settings::validate`]; a list that is not one for each axis.
+    pub fn gains(&self, widths: &Widths, axes: usize) -> Result<Vec<Gains>, SettingError> {
+        self.k1_per_s.check("k1_per_s", axes)?;
+        self.k2_per_s.check("k2_per_s", axes)?;
+        (0..axes).map(|axis| self.gains_of(widths, axis)).collect()
+    }
+
+    /// The gains of an axis's model, to the nearest word; but K1 rounds down where rounding alone
+    /// would make the model go beyond its target.
     ///
     /// # Errors
     /// As [`Settings::validate`], of clock, period and gains. With gains k1, k2 a period: the model is
@@ -211,13 +290,14 @@ impl Settings {
     /// its target where also 4·k1 <= k2; what rounding makes of it dies out where 2·k1 <= k2; and it
     /// comes to the count it is told to where k1·k2 is a guard unit or more, with
     /// [`Rounding::Floor`] two of them.
-    pub fn gains(&self, widths: &Widths) -> Result<Gains, SettingError> {
+    fn gains_of(&self, widths: &Widths, axis: usize) -> Result<Gains, SettingError> {
         let period = self.period_s(widths)?;
         let bits = widths.gain - 1;
         let one = 1u64 << bits;
         let word = |per_s: f64| (per_s * period * one as f64).round();
-        let [mut k1, k2] = [self.k1_per_s, self.k2_per_s].map(word);
-        if 4.0 * self.k1_per_s <= self.k2_per_s {
+        let [k1_per_s, k2_per_s] = [self.k1_per_s.of(axis), self.k2_per_s.of(axis)];
+        let [mut k1, k2] = [k1_per_s, k2_per_s].map(word);
+        if 4.0 * k1_per_s <= k2_per_s {
             k1 = k1.min((k2 / 4.0).floor());
         }
         let refuse = |field, value: f64, word: f64, allowed: [u64; 2], why: &str| {
@@ -244,7 +324,8 @@ impl Settings {
         // Written so that NaN fails.
         if !(k1 >= allowed[0] as f64 && k1 <= allowed[1] as f64) {
             let why = "there is a k2_per_s for it";
-            return Err(refuse("k1_per_s", self.k1_per_s, k1, allowed, why));
+            let error = refuse("k1_per_s", k1_per_s, k1, allowed, why);
+            return Err(self.k1_per_s.fault(axis, error));
         }
         let first = k1 as u64;
         let allowed = [(damping * first).max(exact.div_ceil(first)), most_k2];
@@ -254,7 +335,8 @@ impl Settings {
                 (true, _) => "2 times k1_per_s or more",
                 (false, _) => "with less it would not come to its target",
             };
-            return Err(refuse("k2_per_s", self.k2_per_s, k2, allowed, why));
+            let error = refuse("k2_per_s", k2_per_s, k2, allowed, why);
+            return Err(self.k2_per_s.fault(axis, error));
         }
         Ok(Gains {
             k1: first,

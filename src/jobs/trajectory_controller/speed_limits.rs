@@ -1,5 +1,6 @@
 //! How fast the path may be run where, and the lowest limit between two lengths at once.
 
+use super::axis_limits;
 use super::segments::Path;
 use super::settings::Motion;
 use crate::plan::junction;
@@ -15,16 +16,19 @@ pub struct Span {
     pub entry: f64,
 }
 
-/// The spans of a path, in guard units and seconds: feed or rapid, √(a·r) on arcs, and where two
-/// meet, the speed at which the velocity changes by the corner speed.
+/// The spans of a path, in guard units and seconds: feed or rapid, √(a·r) in curves, with the
+/// acceleration that the path and its axes allow, and where two meet, the speed at which the velocity
+/// changes by the corner speed.
 #[must_use]
 pub fn spans(path: &Path, motion: &Motion) -> Vec<Span> {
     let unit = motion.units_per_mm;
     let mut before = None;
     let spans = path.stretches.iter().map(|stretch| {
-        let around = stretch
-            .radius
-            .map(|radius| (motion.normal_acceleration * radius).sqrt());
+        let along = motion.slope.acceleration / unit;
+        let around = stretch.radius.map(|radius| {
+            let across = axis_limits::across(&stretch.segment, &motion.axis_acceleration, along);
+            (motion.normal_acceleration.min(across) * radius).sqrt()
+        });
         let [first, last] = stretch.directions;
         let entry = before.map_or(0.0, |before| junction(before, first, motion.corner_speed));
         before = Some(last);

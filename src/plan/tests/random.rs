@@ -33,7 +33,7 @@ proptest! {
                 Course::Arc { centre: [at[0] + c[0], at[1] + c[1]], clockwise }
             });
             at = match course {
-                Course::Line => std::array::from_fn(|k| at[k] + by[k]),
+                Course::Line | Course::Spline { .. } => std::array::from_fn(|k| at[k] + by[k]),
                 // Round by an arbitrary angle, to a radius off by up to a tenth.
                 Course::Arc { centre, .. } => {
                     let r = (at[0] - centre[0]).hypot(at[1] - centre[1]) * (1.0 + by[1] / 500.0);

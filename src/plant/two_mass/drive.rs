@@ -14,7 +14,10 @@ impl TwoMassAxis {
     pub(super) fn drive(&mut self, torque_nm: f64) {
         self.torque_nm = torque_nm;
         if self.grips == [Grip::Loose; 2] && self.flank == Flank::Touches(0.0) {
-            return self.gain(self.whole.gained(&self.state, [torque_nm, 0.0]));
+            return self.gain(
+                self.whole
+                    .gained(&self.state, [torque_nm, self.load_torque_nm]),
+            );
         }
         self.break_loose();
         for _ in 0..self.count {
@@ -94,7 +97,8 @@ impl TwoMassAxis {
     fn break_loose(&mut self) {
         let shaft = self.shaft_torque_nm();
         let held = self.held();
-        for (body, torque) in [self.torque_nm - shaft, shaft].into_iter().enumerate() {
+        let torques = [self.torque_nm - shaft, self.load_torque_nm + shaft];
+        for (body, torque) in torques.into_iter().enumerate() {
             if self.grips[body] == Grip::Stuck && torque.abs() > held[body] {
                 self.grips[body] = Grip::Slides(torque.signum());
             }
@@ -108,7 +112,7 @@ impl TwoMassAxis {
     fn held(&self) -> [f64; 2] {
         let p = &self.parameters;
         let [motor, load, ..] = self.state;
-        let blur = 1e-12 * self.torque_nm.abs()
+        let blur = 1e-12 * (self.torque_nm.abs() + self.load_torque_nm.abs())
             + 4.0 * f64::EPSILON * self.equations.stiffness * (motor.abs() + load.abs());
         [
             p.motor_friction_nm.max(p.motor_stiction_nm),
@@ -126,7 +130,7 @@ impl TwoMassAxis {
         };
         [
             self.torque_nm - against(0, self.parameters.motor_friction_nm),
-            -against(1, self.parameters.load_friction_nm),
+            self.load_torque_nm - against(1, self.parameters.load_friction_nm),
         ]
     }
 
@@ -143,7 +147,8 @@ impl TwoMassAxis {
         let touches = matches!(self.flank, Flank::Touches(_));
         let mut guards = Guards::new();
         let held = self.held();
-        for (body, torque) in [self.torque_nm, 0.0].into_iter().enumerate() {
+        let torques = [self.torque_nm, self.load_torque_nm];
+        for (body, torque) in torques.into_iter().enumerate() {
             let grip = (body, self.grips[body], held[body]);
             guards.body(grip, torque, &self.equations, touches);
         }

@@ -1,6 +1,8 @@
 use super::make::{ROUNDINGS, one_of, only, width};
+use crate::circuits::arc_generator::matrix_element::Sign;
 use crate::circuits::arc_generator::{
-    ArcGenerator, PositionCommand, Rotation, RotationRow, Rounding, Widths,
+    AngleStep, ArcGenerator, AxisTerms, Conventional, MatrixElement, PositionCommand, Rotation,
+    RotationRow, Rounding, SineWords, VectorRow, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
@@ -29,6 +31,18 @@ fn command(widths: Widths) -> PositionCommand {
     PositionCommand {
         widths,
         coordinate: 0,
+    }
+}
+
+/// Signs of an element's second term, by their numbers.
+const SIGNS: &[Sign] = &[Sign::Plus, Sign::Minus];
+
+/// A row of x whose matrix changes.
+fn vector_row(widths: Widths, rounding: Rounding) -> VectorRow {
+    VectorRow {
+        widths,
+        coordinate: 0,
+        rounding,
     }
 }
 
@@ -96,6 +110,84 @@ pub(super) const CIRCUITS: &[Entry] = &[
             rounding: one_of(given, ROUNDINGS)?,
         }),
         with: |arcs, given| Some(ArcGenerator { rounding: only(given, ROUNDINGS)?, ..arcs }),
+        proved: none,
+    ),
+    entry!(
+        AngleStep, "JPH0743606B2, prior art: Δθ",
+        full: || AngleStep { width: Widths::FULL.coefficient },
+        widths: [width],
+        from: "width", |given| alone(given, |width| AngleStep { width }),
+        with: nothing,
+        proved: 4,
+    ),
+    entry!(
+        SineWords, "JPH0743606B2, prior art: sin, cos, vers",
+        full: || SineWords { coefficient: Widths::FULL.coefficient },
+        widths: [coefficient],
+        from: "width of a coefficient",
+        |given| alone(given, |coefficient| SineWords { coefficient }),
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        AxisTerms, "JPH0743606B2, prior art: k",
+        full: || AxisTerms {
+            coefficient: Widths::FULL.coefficient,
+            data: Widths::FULL.data,
+        },
+        widths: [coefficient, data],
+        from: "width of a coefficient",
+        |given| alone(given, |width| AxisTerms { coefficient: width, data: width }),
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        MatrixElement, "JPH0743606B2, prior art [2]",
+        full: || MatrixElement {
+            coefficient: Widths::FULL.coefficient,
+            sign: Sign::default(),
+        },
+        widths: [coefficient],
+        from: "width of a coefficient, 1 for a term that is subtracted", |given| {
+            Some(MatrixElement { coefficient: width(given)?, sign: one_of(given, SIGNS)? })
+        },
+        with: |element, given| Some(MatrixElement { sign: only(given, SIGNS)?, ..element }),
+        proved: none,
+    ),
+    entry!(
+        VectorRow, "JPH0743606B2, prior art [3], a row",
+        full: || vector_row(Widths::FULL, Rounding::default()),
+        widths: [
+            point = widths.point,
+            coefficient = widths.coefficient,
+            data = widths.data,
+        ],
+        from: "width of points and coefficients, 1 for rounding down", |given| {
+            Some(vector_row(square(width(given)?), one_of(given, ROUNDINGS)?))
+        },
+        with: |row, given| Some(VectorRow { rounding: only(given, ROUNDINGS)?, ..row }),
+        proved: none,
+    ),
+    entry!(
+        Conventional, "JPH0743606B2, prior art: Figs 5 and 6",
+        full: Conventional::default,
+        widths: [
+            position = widths.position,
+            point = widths.point,
+            coefficient = widths.coefficient,
+            fraction = widths.fraction,
+            data = widths.data,
+            samples = widths.samples,
+            records,
+            period = widths.period,
+        ],
+        from: "width of commands, 1 for rounding down (half as many guard bits, two records)",
+        |given| Some(Conventional {
+            widths: Widths::narrow(width(given)?),
+            records: 1,
+            rounding: one_of(given, ROUNDINGS)?,
+        }),
+        with: |arcs, given| Some(Conventional { rounding: only(given, ROUNDINGS)?, ..arcs }),
         proved: none,
     ),
 ];

@@ -1,6 +1,6 @@
 use crate::circuits::blocks::{
-    CoefficientControl, DifferenceColumn, DifferenceEngine, EnableCounter, MulDiv,
-    QuadratureCounter, RecordMemory, RecordSequencer, difference_column::Widths,
+    CoefficientControl, Cordic, CordicState, DifferenceColumn, DifferenceEngine, EnableCounter,
+    MulDiv, QuadratureCounter, RecordMemory, RecordSequencer, Shifter, difference_column::Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
@@ -73,6 +73,32 @@ pub(super) const CIRCUITS: &[Entry] = &[
         |given| alone(given, |coefficient| CoefficientControl { coefficient }),
         with: nothing,
         proved: 4,
+    ),
+    entry!(
+        Shifter, "block: CORDIC",
+        full: || Shifter { width: 55 },
+        widths: [width],
+        from: "width", |given| alone(given, |width| Shifter { width }),
+        with: nothing,
+        proved: 4,
+    ),
+    entry!(
+        CordicState, "block: sine and cosine",
+        full: || CordicState { radius: 55, angle: 44 },
+        widths: [radius, angle],
+        from: "width of coordinates and angles",
+        |given| alone(given, |width| CordicState { radius: width, angle: width }),
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        Cordic, "block: sine and cosine",
+        full: || Cordic { radius: 55, angle: 44 },
+        widths: [radius, angle],
+        from: "width of coordinates and angles",
+        |given| alone(given, |width| Cordic { radius: width, angle: width }),
+        with: nothing,
+        proved: none,
     ),
     entry!(
         RecordMemory, "block: records that wait",

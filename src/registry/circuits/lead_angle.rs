@@ -1,8 +1,9 @@
 use super::make::{choice, one_of, only, width, words};
 use crate::circuits::lead_angle::{
-    Comparator, Comparing, Compensator, CompletionDetector, Correction, CorrectionArithmetic, Lead,
-    LeadFrom, LeadPlacement, Memory, Placement, PositionHistory, RamHistory, RatioLogic, Sign,
-    SpeedLead, StepSequencer, StopError, TargetSetter, TimeData, TimeLead, Variant, Widths,
+    Comparator, Comparing, Compensator, CompletionDetector, Correction, CorrectionArithmetic,
+    Function, Lead, LeadFrom, LeadPlacement, Memory, Placement, PositionHistory, RamHistory,
+    RatioLogic, Refinement, Sign, SpeedLead, StepSequencer, StopError, TargetSetter, TimeData,
+    TimeLead, Variant, Widths,
 };
 use crate::hdl::Image;
 use crate::registry::Entry;
@@ -21,13 +22,23 @@ const PLACEMENTS: &[Placement] = &[Placement::Position, Placement::Target, Place
 const COMPARINGS: &[Comparing] = &[Comparing::Crossing, Comparing::Equal];
 const SIGNS: &[Sign] = &[Sign::Converging, Sign::Literal];
 
-/// The numbers of placement, comparing and sign, then the times of the ROM, one in each word from
-/// step 0 up.
+/// Either sign, then either sign to second order.
+const LEARNINGS: &[(Sign, Function)] = &[
+    (Sign::Converging, Function::FirstOrder),
+    (Sign::Literal, Function::FirstOrder),
+    (Sign::Converging, Function::SecondOrder),
+    (Sign::Literal, Function::SecondOrder),
+];
+
+/// The numbers of placement, comparing and learning, then the times of the ROM, one in each word
+/// from step 0 up.
 fn chosen(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
+    let (sign, function) = choice(given, 2, LEARNINGS)?;
     let variant = Variant {
         placement: choice(given, 0, PLACEMENTS)?,
         comparing: choice(given, 1, COMPARINGS)?,
-        sign: choice(given, 2, SIGNS)?,
+        sign,
+        function,
     };
     let rom = rom(circuit.rom.address(), circuit.rom.width(), given, 3)?;
     Some(Compensator {
@@ -41,6 +52,16 @@ fn chosen(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
 fn rom(step: usize, time: usize, given: &[u64], place: usize) -> Option<Image> {
     let times = words(given, place, 1 << step, time)?;
     Some(Image::of(step, time, times.iter().copied()))
+}
+
+/// A correction with the sign that converges.
+fn correction(function: Function, stages: usize, position: usize) -> Correction {
+    Correction {
+        stages,
+        position,
+        sign: Sign::Converging,
+        function,
+    }
 }
 
 /// A compensator without any time.
@@ -228,17 +249,41 @@ pub(super) const CIRCUITS: &[Entry] = &[
         proved: none,
     ),
     entry!(
+        Refinement, "JPH0646367B2 28, second order",
+        full: || Refinement { time: 11, position: 24 },
+        widths: [time, position],
+        from: "width", |given| {
+            alone(given, |width| Refinement { time: width, position: width })
+        },
+        with: nothing,
+        proved: 2,
+    ),
+    entry!(
         Correction, "JPH0646367B2 23 = 27, 28, 30, 31",
-        full: || Correction { stages: 199, position: 24, sign: Sign::Converging },
+        full: || correction(Function::FirstOrder, 199, 24),
         widths: [stages, position],
         from: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
                the literal one", |given| {
-            let position = width(given)?;
-            let (stages, sign) = (stages(position), one_of(given, SIGNS)?);
-            Some(Correction { stages, position, sign })
+            let (position, sign) = (width(given)?, one_of(given, SIGNS)?);
+            let circuit = correction(Function::FirstOrder, stages(position), position);
+            Some(Correction { sign, ..circuit })
         },
         with: |circuit, given| Some(Correction { sign: only(given, SIGNS)?, ..circuit }),
         proved: none,
+    ),
+    entry!(
+        Correction, "JPH0646367B2 23 = 27, 28, 30, 31, second order",
+        full: || correction(Function::SecondOrder, 199, 24),
+        widths: [stages, position],
+        from: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
+               the literal one", |given| {
+            let (position, sign) = (width(given)?, one_of(given, SIGNS)?);
+            let circuit = correction(Function::SecondOrder, stages(position), position);
+            Some(Correction { sign, ..circuit })
+        },
+        with: |circuit, given| Some(Correction { sign: only(given, SIGNS)?, ..circuit }),
+        proved: none,
+        named: "second_order_correction", "learns the lead time of a step to second order",
     ),
     entry!(
         StepSequencer, "JPH0646367B2, step numbers",
@@ -258,7 +303,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
-               placement, comparing and sign as 0, 1 and 2, times of the ROM",
+               placement, comparing and learning as 0, 1 and so on, times of the ROM",
             |given| small(SHIFT, given),
         with: chosen,
         proved: none,
@@ -271,7 +316,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
-               placement, comparing and sign as 0, 1 and 2, times of the ROM",
+               placement, comparing and learning as 0, 1 and so on, times of the ROM",
             |given| small(RAM, given),
         with: chosen,
         proved: none,
@@ -285,7 +330,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
         ],
         from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
-               sign as 0, 1 and 2, times of the ROM",
+               learning as 0, 1 and so on, times of the ROM",
             |given| small(LeadFrom::Speed, given),
         with: chosen,
         proved: none,

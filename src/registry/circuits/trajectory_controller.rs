@@ -5,9 +5,9 @@ use crate::circuits::trajectory_controller::servo_arithmetic::ServoWidths;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::widths::PointWidths;
 use crate::circuits::trajectory_controller::{
-    ArcAngle, AxisRow, ControlledAxis, Cordic, CordicState, LengthClamp, ModelState, PathLength,
+    ArcAngle, AxisRow, ControlledAxis, LengthClamp, LengthPowers, ModelState, PathLength,
     PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, Scaler, SegmentSearch,
-    SegmentStore, Servo, ServoArithmetic, Shifter, TrajectoryController, VectorCorrection, Widths,
+    SegmentStore, Servo, ServoArithmetic, TrajectoryController, VectorCorrection, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
@@ -173,35 +173,11 @@ pub(super) const CIRCUITS: &[Entry] = &[
         proved: none,
     ),
     entry!(
-        Shifter, "CN104204977 2, 3: arc",
-        full: || Shifter { width: FULL.radius },
-        widths: [width],
-        from: "width", |given| alone(given, |width| Shifter { width }),
-        with: nothing,
-        proved: 4,
-    ),
-    entry!(
-        CordicState, "CN104204977 2, 3: arc",
-        full: || CordicState { widths: FULL.point() },
-        widths: [radius = widths.radius, angle = widths.angle],
-        from: "width of coordinates and angles", |given| {
-            alone(given, |radius| {
-                let widths = PointWidths { radius, ..points(radius) };
-                CordicState { widths }
-            })
-        },
-        with: nothing,
-        proved: none,
-    ),
-    entry!(
-        Cordic, "CN104204977 2, 3: arc",
-        full: || Cordic { widths: FULL.point() },
-        widths: [radius = widths.radius, angle = widths.angle],
-        from: "width of coordinates and angles", |given| {
-            alone(given, |radius| {
-                let widths = PointWidths { radius, ..points(radius) };
-                Cordic { widths }
-            })
+        LengthPowers, "CN104204977 2, 3: spline",
+        full: || LengthPowers { widths: FULL.point() },
+        widths: [point = widths.point, radius = widths.radius],
+        from: "width of lengths; two bits more inside", |given| {
+            alone(given, |width| LengthPowers { widths: points(width) })
         },
         with: nothing,
         proved: none,

@@ -130,7 +130,7 @@ fn line_at(text: &[u8], place: usize) -> usize {
 /// Problem and what is allowed of a key whose value is a list of tables.
 pub(super) fn of_tables(key: &str, message: &str) -> Option<(String, String)> {
     let (problem, _) = message.split_once(", expected a sequence")?;
-    let tables = ["step", "piece", "axis"].contains(&key);
+    let tables = ["step", "piece", "axis", "load_torque"].contains(&key);
     tables.then(|| (problem.to_owned(), format!("tables [[{key}]]")))
 }
 

@@ -1,5 +1,6 @@
 //! The arc generator: difference engine, rotation, memory and the whole against programs.
 
+mod conventional;
 mod engine;
 mod example;
 mod memory;

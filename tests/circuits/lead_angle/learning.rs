@@ -2,7 +2,7 @@
 
 use motion_rtl::circuits::lead_angle::codes;
 use motion_rtl::circuits::lead_angle::correction::In;
-use motion_rtl::circuits::lead_angle::{Correction, Sign};
+use motion_rtl::circuits::lead_angle::{Correction, Function, Sign};
 use motion_rtl::hdl::Simulator;
 
 /// What came of a correction.
@@ -33,7 +33,7 @@ fn correct(
     let mut simulator = ready.clone();
     simulator.step_with(&input(true, false, -overrun), |_| ());
     simulator.step_with(&input(false, true, 0), |_| ());
-    for ticks in 1..=2 * ready.circuit().latency() {
+    for ticks in 1..=2 * ready.circuit().latency(2) {
         let (corrected, learned, time) = simulator.step_with(&input(false, false, 0), |now| {
             (now.w.corrected, now.w.learned, now.w.learned_time)
         });
@@ -63,25 +63,36 @@ fn snapped(stages: u64, time: u64) -> u64 {
     }
 }
 
-/// Δt1 + Δt1·d2/d1 to the nearest, an error by `sign`, within the codes.
-fn expected(stages: u64, time: u64, overrun: i64, error: i64, sign: i64) -> u64 {
+/// Whether a function divides twice.
+fn twice(function: Function, overrun: i64, error: i64) -> bool {
+    function == Function::SecondOrder && error.abs() < overrun.abs()
+}
+
+/// Δt1 + Δt·d2/d1 to the nearest, an error by `sign`, within the codes. Δt is Δt1, or to second
+/// order what the same with Δt1 gives.
+fn expected(stages: u64, time: u64, [overrun, error]: [i64; 2], sign: i64, twice: bool) -> u64 {
     let (time, overrun, error) = (
         i128::from(time),
         i128::from(overrun),
         i128::from(error * sign),
     );
-    let amount = (2 * time * error.abs() + overrun.abs()) / (2 * overrun.abs());
-    let change = amount * error.signum() * overrun.signum();
-    let sum = (time + change).clamp(1, 10 * i128::from(stages));
+    let change = |of: i128| {
+        let amount = (2 * of * error.abs() + overrun.abs()) / (2 * overrun.abs());
+        amount * error.signum() * overrun.signum()
+    };
+    let first = time + change(time);
+    let sum = if twice { time + change(first) } else { first };
+    let sum = sum.clamp(1, 10 * i128::from(stages));
     snapped(stages, sum as u64)
 }
 
 /// The correction with so many stages and positions of so many bits, ready to run.
-fn ready(stages: usize, position: usize, sign: Sign) -> Simulator<Correction> {
+fn ready(stages: usize, position: usize, sign: Sign, function: Function) -> Simulator<Correction> {
     let circuit = Correction {
         stages,
         position,
         sign,
+        function,
     };
     Simulator::new(&circuit).unwrap()
 }
@@ -90,8 +101,12 @@ fn every_correction(stages: u64, position: usize) {
     let half = 1i64 << (position - 1);
     let codes = codes::grid(stages);
     let on_grid = |time: u64| codes.iter().any(|code| code.time == time);
-    for sign in [Sign::Converging, Sign::Literal] {
-        let ready = ready(stages as usize, position, sign);
+    for (sign, function) in [
+        (Sign::Converging, Function::FirstOrder),
+        (Sign::Literal, Function::FirstOrder),
+        (Sign::Converging, Function::SecondOrder),
+    ] {
+        let ready = ready(stages as usize, position, sign, function);
         let factor = if sign == Sign::Converging { 1 } else { -1 };
         for time in std::iter::once(0).chain(codes.iter().map(|code| code.time)) {
             for overrun in -half..half {
@@ -105,12 +120,17 @@ fn every_correction(stages: u64, position: usize) {
                         (0, _) => ((error != 0).then_some(2), 1),
                         (_, 0) => (None, 1),
                         _ => {
-                            let time = expected(stages, time, overrun, error, factor);
-                            (Some(time), ready.circuit().latency())
+                            let twice = twice(function, overrun, error);
+                            let time = expected(stages, time, [overrun, error], factor, twice);
+                            let divisions = 1 + u64::from(twice);
+                            (Some(time), ready.circuit().latency(divisions))
                         }
                     };
                     let right = Seen { ticks, learned };
-                    assert_eq!(seen, right, "{time}, {overrun}, {error}, {sign:?}");
+                    assert_eq!(
+                        seen, right,
+                        "{time}, {overrun}, {error}, {sign:?}, {function:?}"
+                    );
                     assert!(learned.is_none_or(on_grid));
                 }
             }
@@ -129,8 +149,14 @@ fn every_correction_of_six_bits_is_right_and_on_the_grid() {
 }
 
 /// The correction at full width.
-fn full(sign: Sign) -> Simulator<Correction> {
-    ready(199, 24, sign)
+fn full(sign: Sign, function: Function) -> Simulator<Correction> {
+    ready(199, 24, sign, function)
+}
+
+/// Both signs to first order.
+fn both_signs() -> (Simulator<Correction>, Simulator<Correction>) {
+    let signs = [Sign::Converging, Sign::Literal];
+    signs.map(|sign| full(sign, Function::FirstOrder)).into()
 }
 
 /// The next time of a body that stops `true_time` CKs after the control signal, at `speed` counts
@@ -150,10 +176,11 @@ fn pitch(time: u64) -> f64 {
 }
 
 #[test]
-fn with_the_right_sign_the_error_is_squared_every_time_and_with_the_literal_one_the_ratio() {
-    let (right, literal) = (full(Sign::Converging), full(Sign::Literal));
+fn the_error_is_squared_every_time_to_second_order_cubed_and_literally_the_ratio_is() {
+    let (right, literal) = both_signs();
+    let second = full(Sign::Converging, Function::SecondOrder);
     for true_time in [30u64, 150, 350, 900] {
-        for share in [0.3, 0.6, 0.9, 1.1, 1.5] {
+        for share in [0.3, 0.6, 0.9, 1.1, 1.5, 1.9, 2.1] {
             for speed in [-40, 3, 1000] {
                 let time = snapped(199, (true_time as f64 * share) as u64);
                 let r = time as f64 / true_time as f64;
@@ -170,6 +197,11 @@ fn with_the_right_sign_the_error_is_squared_every_time_and_with_the_literal_one_
                     1.0 - (1.0 - r) * (1.0 - r),
                 );
                 near(next(&literal, time, true_time, speed), r * r);
+                let by_second = match r < 2.0 {
+                    true => 1.0 - (1.0 - r).powi(3),
+                    false => 1.0 - (1.0 - r) * (1.0 - r),
+                };
+                near(next(&second, time, true_time, speed), by_second);
             }
         }
     }
@@ -178,7 +210,7 @@ fn with_the_right_sign_the_error_is_squared_every_time_and_with_the_literal_one_
 /// From a third of the true time to nearly twice of it, within six positionings.
 #[test]
 fn six_positionings_are_enough_and_the_literal_sign_runs_away() {
-    let (right, literal) = (full(Sign::Converging), full(Sign::Literal));
+    let (right, literal) = both_signs();
     for true_time in [20u64, 57, 150, 333, 700, 1500] {
         for start in [true_time / 3, true_time / 2, true_time * 9 / 5] {
             let (mut time, mut lost) = (snapped(199, start), snapped(199, start));
@@ -194,4 +226,131 @@ fn six_positionings_are_enough_and_the_literal_sign_runs_away() {
             assert!(away, "{start}: {lost} for {true_time}");
         }
     }
+}
+
+/// A body that comes by, and its brake: counts and CKs.
+#[derive(Debug, Clone, Copy)]
+struct Body {
+    /// Speed at CK 0.
+    speed: f64,
+    /// Acceleration up to the control signal.
+    acceleration: f64,
+    /// Deceleration of the brake.
+    deceleration: f64,
+    /// Where it is at CK 0.
+    start: f64,
+}
+
+/// CKs until the brake bites.
+const DEAD_TIME: f64 = 120.0;
+
+/// How many stops of a step are looked at.
+const STOPS: usize = 10;
+
+impl Body {
+    fn position(&self, ck: u64) -> i64 {
+        let ck = ck as f64;
+        let way = self.speed * ck + self.acceleration * ck * ck / 2.0;
+        (self.start + way).floor() as i64
+    }
+
+    /// Overrun and error of a stop with the code `time` at target 0, and what one code is worth.
+    fn stop(&self, time: u64) -> ([i64; 2], f64) {
+        let code = codes::code(199, time).expect("a code");
+        let predicted = |ck: u64| {
+            let (present, old) = (self.position(ck), self.position(ck - code.tap));
+            present + code.ratio as i64 * (present - old)
+        };
+        let fired = (code.tap..)
+            .find(|ck| predicted(*ck) >= 0)
+            .expect("it comes by");
+        let speed = self.speed + self.acceleration * fired as f64;
+        let way = speed * DEAD_TIME + speed * speed / (2.0 * self.deceleration);
+        let at = self.speed * fired as f64 + self.acceleration * (fired as f64).powi(2) / 2.0;
+        let stopped = (self.start + at + way).floor() as i64;
+        let overrun = stopped - self.position(fired);
+        ([overrun, stopped], speed * code.ratio as f64)
+    }
+
+    /// After how many stops it stays within a code's travel; `STOPS` where it never does.
+    fn settles(&self, ready: &Simulator<Correction>, mut time: u64) -> usize {
+        let mut after = 0;
+        for stop in 0..STOPS {
+            let (ways, travel) = self.stop(time);
+            if ways[1].unsigned_abs() as f64 > travel + 1e-6 {
+                after = stop + 1;
+            }
+            time = correct(ready, [time, 200], ways).learned.unwrap_or(time);
+        }
+        after
+    }
+}
+
+/// How second order compares with first over bodies and leads to begin with: in how many cases it
+/// settles earlier, at the same stop and later, and the stops of all cases to either order.
+fn compared(bodies: &[Body], times: &[u64]) -> ([usize; 3], [usize; 2]) {
+    let orders = [Function::FirstOrder, Function::SecondOrder];
+    let ready = orders.map(|function| full(Sign::Converging, function));
+    let (mut cases, mut stops) = ([0; 3], [0; 2]);
+    for body in bodies {
+        for time in times {
+            let [first, second] = [0, 1].map(|order| body.settles(&ready[order], *time));
+            cases[1 + usize::from(second > first) - usize::from(second < first)] += 1;
+            stops = [stops[0] + first, stops[1] + second];
+        }
+    }
+    (cases, stops)
+}
+
+const DECELERATIONS: [f64; 3] = [0.0073, 0.0143, 0.031];
+
+/// At constant speeds of 2 to 20 counts per CK, with leads from 1/300 of the right one to eight times it.
+#[test]
+fn to_second_order_it_settles_earlier_at_constant_speed() {
+    let body = |speed: f64, deceleration: f64| Body {
+        speed,
+        acceleration: 0.0,
+        deceleration,
+        start: -speed * 5000.0,
+    };
+    let bodies: Vec<Body> = [2.0, 4.5, 9.0, 20.0]
+        .iter()
+        .flat_map(|speed| DECELERATIONS.map(|deceleration| body(*speed, deceleration)))
+        .collect();
+    let (cases, stops) = compared(&bodies, &[5, 50, 250, 800, 1600]);
+    assert_eq!((cases, stops), ([54, 6, 0], [397, 287]));
+}
+
+/// At less than a count per CK a code's travel is below a count: some cases never settle to either order.
+#[test]
+fn at_a_creep_it_settles_earlier_in_two_cases_of_three() {
+    let bodies = DECELERATIONS.map(|deceleration| Body {
+        speed: 0.37,
+        acceleration: 0.0,
+        deceleration,
+        start: -2000.0,
+    });
+    let (cases, stops) = compared(&bodies, &[5, 50, 250, 800, 1600]);
+    assert_eq!((cases, stops), ([10, 5, 0], [134, 104]));
+}
+
+/// Where the control signal comes while the body accelerates, another lead meets another speed; where the
+/// right time lies at a change of N, it goes to and fro to either order.
+#[test]
+fn in_acceleration_it_settles_earlier_in_most_cases() {
+    let ways = [1500.0, 3000.0, 5000.0];
+    let body = |acceleration: f64, way: f64, deceleration: f64| Body {
+        speed: 0.0,
+        acceleration,
+        deceleration,
+        start: -way,
+    };
+    let mut bodies = Vec::new();
+    for acceleration in [0.003, 0.006] {
+        for way in ways {
+            bodies.extend(DECELERATIONS.map(|deceleration| body(acceleration, way, deceleration)));
+        }
+    }
+    let (cases, stops) = compared(&bodies, &[5, 50, 250, 800]);
+    assert_eq!((cases, stops), ([59, 13, 0], [473, 356]));
 }

@@ -86,6 +86,8 @@ impl Bench {
                 gain_1: gains[0],
                 gain_2: gains[1],
             },
+            axis_gain_1: vec![gains[0]; self.axes],
+            axis_gain_2: vec![gains[1]; self.axes],
             ..zero(&self.controller(Correction::Vector))
         }
     }

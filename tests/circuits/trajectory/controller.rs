@@ -93,7 +93,9 @@ fn line(base: [i64; 2], direction: [f64; 2], length: u64) -> Segment {
         base: [base[0], base[1], 0],
         along: [direction[0], direction[1], 0.0],
         across: [0.0; 3],
+        third: [0.0; 3],
         radius: None,
+        powers: None,
     }
 }
 
@@ -176,7 +178,9 @@ fn contour_error(correction: Correction, period_ms: f64) -> f64 {
         base: [-(radius as i64), 0, 0],
         along: [1.0, 0.0, 0.0],
         across: [0.0, 1.0, 0.0],
+        third: [0.0; 3],
         radius: Some(radius),
+        powers: None,
     }];
     let (ramp, settled, looked_at) = (0.1, 0.4, 0.05);
     let periods = |seconds: f64| (seconds * 1e3 / period_ms).round() as u64;

@@ -1,31 +1,25 @@
 //! CORDIC against sine and cosine.
 
-use motion_rtl::circuits::trajectory_controller::cordic::In;
-use motion_rtl::circuits::trajectory_controller::cordic_state::GAIN;
-use motion_rtl::circuits::trajectory_controller::widths::PointWidths;
-use motion_rtl::circuits::trajectory_controller::{Cordic, Widths};
+use motion_rtl::circuits::blocks::Cordic;
+use motion_rtl::circuits::blocks::cordic::In;
+use motion_rtl::circuits::blocks::cordic_state::GAIN;
 use motion_rtl::hdl::Simulator;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
 /// CORDIC of radii and angles of so many bits.
 fn cordic(radius: usize, angle: usize) -> Simulator<Cordic> {
-    let full = Widths::FULL.point();
-    let widths = PointWidths {
-        radius,
-        angle,
-        ..full
-    };
-    Simulator::new(&Cordic { widths }).unwrap()
+    Simulator::new(&Cordic { radius, angle }).unwrap()
 }
 
 /// The point at an angle; nothing before its tick.
 fn point(cordic: &Simulator<Cordic>, radius: i64, angle: u64) -> [i64; 2] {
-    let latency = cordic.circuit().widths.angle as u64 + 1;
+    let latency = cordic.circuit().angle as u64 + 1;
     let mut simulator = cordic.clone();
     for ticks in 1..=latency {
         let i = In {
             start: ticks == 1 || ticks == 3,
+            halt: false,
             radius: if ticks == 1 { radius } else { 1 },
             angle: if ticks == 1 { angle } else { 0 },
         };
@@ -40,7 +34,7 @@ fn point(cordic: &Simulator<Cordic>, radius: i64, angle: u64) -> [i64; 2] {
 /// How far the point is from that of sine and cosine.
 fn error(cordic: &Simulator<Cordic>, radius: i64, angle: u64) -> f64 {
     let [along, across] = point(cordic, radius, angle);
-    let turn = angle as f64 / (cordic.circuit().widths.angle as f64).exp2() * TAU;
+    let turn = angle as f64 / (cordic.circuit().angle as f64).exp2() * TAU;
     let exact = radius as f64 * GAIN;
     (along as f64 - exact * turn.cos()).hypot(across as f64 - exact * turn.sin())
 }

@@ -5,6 +5,7 @@ mod controller;
 mod cordic;
 mod model;
 mod point;
+mod powers;
 mod search;
 mod servo;
 mod whole;

@@ -1,6 +1,6 @@
-//! Points on paths of lines and arcs in space, against sine and cosine.
+//! Points on paths of lines, arcs, helices and splines in space, against sine, cosine and powers.
 
-use motion_rtl::circuits::trajectory_controller::cordic_state::GAIN;
+use motion_rtl::circuits::blocks::cordic_state::GAIN;
 use motion_rtl::circuits::trajectory_controller::path_point::In;
 use motion_rtl::circuits::trajectory_controller::point_sequencer::RADIUS;
 use motion_rtl::circuits::trajectory_controller::widths::PointWidths;
@@ -25,8 +25,12 @@ pub struct Segment {
     pub base: [i64; 3],
     pub along: Vector,
     pub across: Vector,
-    /// Of an arc.
+    /// A helix's rise, or a spline's part of the length's cube.
+    pub third: Vector,
+    /// Of an arc or a helix.
     pub radius: Option<f64>,
+    /// Of a spline: bits of its length.
+    pub powers: Option<u32>,
 }
 
 pub fn two_to(exponent: i32) -> f64 {
@@ -45,6 +49,10 @@ impl Segment {
             words[0] = 1 + ((H as i32 - n) as u64) * 2;
             words[1] = mantissa;
             words[2] = (radius / GAIN * two_to((R - P) as i32)).round() as u64;
+            words[0] += u64::from(self.third != [0.0; 3]) << 7;
+        }
+        if let Some(bits) = self.powers {
+            words[0] = 1 << 7 | u64::from(bits) << 1;
         }
         let unit = two_to(C as i32 - 2);
         let mask = (1u64 << D) - 1;
@@ -52,27 +60,35 @@ impl Segment {
             words[3 + axis] = self.base[axis] as u64 & mask;
             words[6 + axis] = (self.along[axis] * unit).round() as i64 as u64 & mask;
             words[9 + axis] = (self.across[axis] * unit).round() as i64 as u64 & mask;
+            words[13 + axis] = (self.third[axis] * unit).round() as i64 as u64 & mask;
         }
         words
     }
 
     fn point(&self, offset: u64) -> Vector {
         let offset = offset as f64;
-        let (a, b) = match self.radius {
-            None => (offset, 0.0),
-            Some(radius) => {
+        let (a, b, c) = match (self.radius, self.powers) {
+            (None, None) => (offset, 0.0, 0.0),
+            (Some(radius), _) => {
                 let (sin, cos) = (offset / radius).sin_cos();
-                (radius * cos, radius * sin)
+                (radius * cos, radius * sin, offset)
+            }
+            (None, Some(bits)) => {
+                let part = offset / f64::from(bits).exp2();
+                (offset, offset * part, offset * part * part)
             }
         };
-        [0, 1, 2].map(|k| self.base[k] as f64 + a * self.along[k] + b * self.across[k])
+        let way = |k: usize| a * self.along[k] + b * self.across[k] + c * self.third[k];
+        [0, 1, 2].map(|k| self.base[k] as f64 + way(k))
     }
 
     /// What the note's tables of errors add up to, and what doubles leave out.
     fn bound(&self) -> f64 {
-        let words = match self.radius {
-            Some(radius) => 0.87 + radius * 9.6e-12,
-            None => 0.5 + self.length as f64 * two_to(1 - C as i32),
+        let coefficient = self.length as f64 * two_to(1 - C as i32);
+        let words = match (self.radius, self.powers) {
+            (Some(radius), _) => 0.87 + radius * 9.6e-12 + coefficient,
+            (None, Some(_)) => 0.53 + 3.0 * coefficient,
+            (None, None) => 0.5 + coefficient,
         };
         words + 0.001
     }
@@ -80,9 +96,11 @@ impl Segment {
     /// Ticks from `start` to `done`.
     fn latency(&self) -> u64 {
         let line = 2 * A + C + 25;
-        let turned = match self.radius {
-            Some(_) => M + H + 4 + (self.words()[0] >> 1) as usize,
-            None => 0,
+        let shift = (self.words()[0] >> 1 & 63) as usize;
+        let turned = match (self.radius, self.powers) {
+            (Some(_), _) => M + H + 4 + shift,
+            (None, Some(_)) => 2 * shift + 2,
+            (None, None) => 0,
         };
         (line + turned) as u64
     }
@@ -104,21 +122,27 @@ fn frame(azimuth: f64, height: f64, turn: f64) -> [Vector; 2] {
 fn segment() -> impl Strategy<Value = Segment> {
     let attitude = (0.0..TAU, -1.0..1.0f64, 0.0..TAU);
     let base = prop::array::uniform3(-(1i64 << 38)..1i64 << 38);
-    let size = prop::option::of(17.0..38.0f64);
-    (attitude, base, size, 0.05..0.99f64, 10.0..38.0f64).prop_map(
-        |((azimuth, height, turn), base, size, part, length)| {
+    let third = prop::option::of(prop::array::uniform3(-1.99..1.99f64));
+    let kind = (prop::option::of(17.0..38.0f64), third);
+    (attitude, base, kind, 0.05..0.99f64, 1.0..38.0f64).prop_map(
+        |((azimuth, height, turn), base, (size, third), part, length)| {
             let [along, across] = frame(azimuth, height, turn);
             let radius = size.map(f64::exp2);
             let length = match radius {
                 Some(radius) => TAU * radius * part,
                 None => length.exp2(),
             };
+            let length = length as u64 + 1;
+            let bits = length.ilog2() + 1;
             Segment {
-                length: length as u64 + 1,
+                length,
                 base,
                 along,
-                across,
+                // Of a spline any that words have.
+                across: across.map(|one| one * if radius.is_none() { 1.99 } else { 1.0 }),
+                third: third.unwrap_or_default(),
                 radius,
+                powers: third.and(radius.is_none().then_some(bits)),
             }
         },
     )

@@ -2,8 +2,8 @@
 
 use super::bench::{PLANE, Path, Period, Record, SMALL, SPACE};
 use super::point::Segment;
+use motion_rtl::circuits::blocks::cordic_state;
 use motion_rtl::circuits::trajectory_controller::controller::In;
-use motion_rtl::circuits::trajectory_controller::cordic_state;
 use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use motion_rtl::hdl::Simulator;
 use proptest::prelude::*;
@@ -93,7 +93,9 @@ fn segment(length: u64, base: [f64; 2], along: [f64; 2], radius: Option<f64>) ->
             Some(_) => [-along[1], along[0], 0.0],
             None => [0.0; 3],
         },
+        third: [0.0; 3],
         radius,
+        powers: None,
     }
 }
 

@@ -30,6 +30,7 @@ pub fn moves(drawing: &Drawing) -> Vec<String> {
         let how = match (step.rapid, step.course) {
             (true, Course::Line) => "rapid".to_owned(),
             (false, Course::Line) => "line".to_owned(),
+            (_, Course::Spline { .. }) => "spline".to_owned(),
             (
                 _,
                 Course::Arc {

@@ -36,6 +36,9 @@ fn check(result: Result<Drawing, Fault>) -> Result<(), TestCaseError> {
         match step.course {
             Course::Line => prop_assert_ne!(step.to, from),
             Course::Arc { centre, .. } => prop_assert!(within(&centre), "{step:?}"),
+            Course::Spline { controls } => {
+                prop_assert!(within(controls.as_flattened()), "{step:?}")
+            }
         }
         from = step.to;
     }
@@ -278,7 +281,7 @@ proptest! {
         let read = |form: String| accept(gcode::read, &format!("G{code} X{x} Y{y} {form} F60"));
         let centre = |drawing: &Drawing| match drawing.moves[0].course {
             Course::Arc { centre: [x, y], clockwise: way } => (way, [x, y, 0.0]),
-            Course::Line => panic!("{drawing:?}"),
+            Course::Line | Course::Spline { .. } => panic!("{drawing:?}"),
         };
         let (one_way, one) = centre(&read(format!("I{i} J{j}")));
         let (other_way, other) = centre(&read(format!("R{signed}")));

@@ -6,6 +6,7 @@ use motion_rtl::hdl::prelude::*;
 use motion_rtl::hdl::{Beside, Without, model_beside};
 use motion_rtl::trace::{Clock, Options, Vcd};
 
+#[derive(Clone)]
 struct Motor;
 
 signals! { for Motor as _c;

@@ -2,6 +2,7 @@
 
 use super::*;
 use motion_rtl::input::{self, Drawing, Move};
+use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::settings::Settings;
 use motion_rtl::path::circle::CircleError;
 use motion_rtl::path::pieces::from_drawing;
@@ -185,7 +186,8 @@ fn arcs_of_a_drawing_turn_as_they_say() {
 #[test]
 fn a_helix_of_a_drawing_is_refused_with_its_line() {
     let helix = drawing([11.0, 2.0, 4.0], [6.0, 2.0], true);
-    let error = from_drawing(&helix, &Settings::default()).unwrap_err();
+    let pieces = from_drawing(&helix, &Settings::default()).unwrap();
+    let error = prepare(helix.start, &pieces, &timing(64)).unwrap_err();
     assert_eq!(
         error.to_string(),
         "piece 0 (line 7): climbs 1 mm along its axis: a helix; allowed: an arc in a plane: \

@@ -78,7 +78,7 @@ fn an_arc_off_the_path() {
     let elsewhere = arc([0.0, 1.0, 0.0], B, C, 5.0);
     assert_eq!(
         refusal(&[elsewhere]).to_string(),
-        "piece 0: the arc is 1 mm off the path's points; allowed: an arc from the end of the \
+        "piece 0: the curve is 1 mm off the path's points; allowed: a curve from the end of the \
          piece before to its own end"
     );
 }
@@ -246,7 +246,14 @@ fn a_radius_a_centre_and_an_arc_too_far() {
 #[test]
 fn taught_points_that_make_no_piece() {
     let settings = Settings::default();
-    let taught = |via, speed| [Taught { to: C, via, speed }];
+    let taught = |via, speed| {
+        [Taught {
+            to: C,
+            via,
+            spline: false,
+            speed,
+        }]
+    };
     let text = |points: &[Taught]| from_points(A, points, &settings).unwrap_err();
     let error = text(&taught(None, None));
     assert_eq!(

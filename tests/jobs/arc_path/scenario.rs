@@ -63,11 +63,13 @@ fn every_key_is_read() {
         Taught {
             to: [4.0, 5.0, 6.5],
             via: None,
+            spline: false,
             speed: None,
         },
         Taught {
             to: [10.0, 11.0, 12.0],
             via: Some([7.0, 8.0, 9.0]),
+            spline: false,
             speed: Some(3.0),
         },
     ];
@@ -104,7 +106,7 @@ fn keys_of_the_wrong_shape_are_refused_with_their_line() {
     );
     assert_eq!(
         refusal("[[piece]]\nto_mm = [1, 2, 3]\nspeed = 3\n"),
-        "s.toml:4: speed: unknown field `speed`; allowed: one of `to_mm`, `via_mm`, \
+        "s.toml:4: speed: unknown field `speed`; allowed: one of `to_mm`, `via_mm`, `spline`, \
          `speed_mm_per_s`"
     );
     let set = ["start_mm=[1,2]".to_owned()];

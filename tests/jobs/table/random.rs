@@ -24,7 +24,7 @@ fn any_path() -> impl Strategy<Value = Drawing> {
                 },
             };
             at = match course {
-                Course::Line => std::array::from_fn(|k| at[k] + by[k]),
+                Course::Line | Course::Spline { .. } => std::array::from_fn(|k| at[k] + by[k]),
                 Course::Arc { centre, .. } => {
                     let (x, y) = (at[0] - centre[0], at[1] - centre[1]);
                     let (sin, cos) = by[0].sin_cos();

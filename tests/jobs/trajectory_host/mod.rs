@@ -1,9 +1,11 @@
 //! The host side of the trajectory controller: paths, profiles, records, settings.
 
+mod axis_limits;
 mod planner;
 mod records;
 mod segments;
 mod settings;
+mod splines;
 
 use motion_rtl::jobs::trajectory_controller::speed_limits::Span;
 use proptest::prelude::*;

@@ -207,7 +207,7 @@ fn chords_of_a_curve_run_at_feed() {
         let settings = Settings {
             jerk_time_ms,
             corner_mm_per_s: 1.0,
-            acceleration_mm_per_s2: 1000.0,
+            acceleration_mm_per_s2: Some(1000.0),
             ..Settings::default()
         };
         let motion = settings.motion(&widths).unwrap();
@@ -279,7 +279,7 @@ fn a_slower_curve_is_slowed_down_for_no_more_than_it_needs() {
     let settings = |jerk_time_ms| Settings {
         jerk_time_ms,
         corner_mm_per_s: 0.3,
-        acceleration_mm_per_s2: 1000.0,
+        acceleration_mm_per_s2: Some(1000.0),
         ..Settings::default()
     };
     let pieces = chords(4000, 0.05, 80.0);

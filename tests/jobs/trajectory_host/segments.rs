@@ -4,6 +4,7 @@ use super::config;
 use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::jobs::trajectory_controller::segments::{Path, Segment};
 use motion_rtl::path::circle::Circle;
+use motion_rtl::path::helix::Helix;
 use motion_rtl::path::pieces::{Course, Piece};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -24,23 +25,37 @@ fn line(to: Vector) -> Piece {
 }
 
 /// The point that the words say, in guard units, by numbers that are not rounded.
-fn read(words: &[u64; 16], offset: u64) -> Vector {
+pub fn read(words: &[u64; 16], offset: u64) -> Vector {
     let signed = |word: u64, bits: u32| (word << (64 - bits)) as i64 >> (64 - bits);
-    let (arc, shift) = (words[0] & 1 == 1, words[0] >> 1);
-    let (a, b) = match arc {
-        false => (offset as f64, 0.0),
-        true => {
+    let (arc, spatial, shift) = (words[0] & 1, words[0] >> 7, words[0] >> 1 & 63);
+    let (a, b, c) = match (arc, spatial) {
+        (0, 0) => (offset as f64, 0.0, 0.0),
+        (0, _) => {
+            let part = offset as f64 / (shift as f64).exp2();
+            assert!(part < 1.0, "{offset} of {shift} bits");
+            (
+                offset as f64,
+                offset as f64 * part,
+                offset as f64 * part * part,
+            )
+        }
+        _ => {
             // 2^(M + n − 4) / turn, n = H − shift.
             let exponent = 44 + 44 - shift as i32 - 4;
             let turns = offset as f64 * words[1] as f64 / f64::from(exponent).exp2();
             let radius = words[2] as f64 / 256.0 * 1.646_760_258_121_065_6;
             let (sin, cos) = (TAU * turns).sin_cos();
-            (radius * cos, radius * sin)
+            (
+                radius * cos,
+                radius * sin,
+                if spatial == 1 { offset as f64 } else { 0.0 },
+            )
         }
     };
-    let coefficient = |word: usize| signed(words[word], 42) as f64 / 2f64.powi(40);
-    [0, 1, 2]
-        .map(|k| signed(words[3 + k], 47) as f64 + a * coefficient(6 + k) + b * coefficient(9 + k))
+    let part = |word: usize| signed(words[word], 42) as f64 / 2f64.powi(40);
+    [0, 1, 2].map(|k| {
+        signed(words[3 + k], 47) as f64 + a * part(6 + k) + b * part(9 + k) + c * part(13 + k)
+    })
 }
 
 /// The point of a piece at a part of its length, in guard units.
@@ -48,6 +63,7 @@ fn exact(from: Vector, piece: &Piece, part: f64) -> Vector {
     let point = match &piece.course {
         Course::Line => [0, 1, 2].map(|k| from[k] + (piece.to[k] - from[k]) * part),
         Course::Arc(circle) => circle.point(circle.angle * part),
+        Course::Helix(_) | Course::Spline(_) => unreachable!("none is made here"),
     };
     point.map(|mm| mm * UNIT)
 }
@@ -97,10 +113,10 @@ proptest! {
             let words = stretch.segment.words(&Widths::FULL);
             prop_assert!(words.iter().all(|word| word >> 55 == 0) && words[1] >> 44 == 0);
             let size = match &piece.course {
-                Course::Line => own,
+                Course::Line | Course::Helix(_) | Course::Spline(_) => own,
                 Course::Arc(circle) => {
                     // But for turns of more than 2^41, whose angles have no bit to spare.
-                    prop_assert!(words[1] >> 43 == 1 || words[0] >> 1 == 0, "{:x}", words[1]);
+                    prop_assert!(words[1] >> 43 == 1 || words[0] >> 1 & 63 == 0, "{:x}", words[1]);
                     circle.radius * UNIT
                 }
             };
@@ -123,6 +139,51 @@ proptest! {
         let end = path.point(f64::INFINITY);
         let last = pieces[pieces.len() - 1].to.map(|mm| mm * UNIT);
         prop_assert!(off(end, last) < 4.0 + length as f64 * 1e-11);
+    }
+}
+
+proptest! {
+    #![proptest_config(config(200))]
+
+    #[test]
+    fn a_helix_has_the_words_of_its_arc_and_its_rise(
+        (radius, rise) in (-3.0..3.0f64, -3.0..3.0f64),
+        (angle, first, signs) in (0.01..TAU, 0.0..TAU, any::<[bool; 2]>()),
+        parts in prop::array::uniform5(0.0..1.0f64),
+    ) {
+        let [radius, rise] = [radius, rise].map(|exponent| 10f64.powf(exponent));
+        let [turn, up] = signs.map(|sign| if sign { 1.0 } else { -1.0 });
+        let at = |part: f64| {
+            let (sin, cos) = (first + turn * angle * part).sin_cos();
+            [5.0 + radius * cos, radius * sin - 3.0, 7.0 + up * rise * part]
+        };
+        let helix = Helix::around([5.0, -3.0, 0.0], at(0.0), at(1.0), [0.0, 0.0, turn]).unwrap();
+        let piece = Piece { course: Course::Helix(helix), ..line(at(1.0)) };
+        let path = Path::of(at(0.0), &[piece], COUNTS_PER_MM, &Widths::FULL).unwrap();
+        let stretch = &path.stretches[0];
+        let length = (radius * angle).hypot(rise);
+        prop_assert!((stretch.length as f64 - length * UNIT).abs() <= 0.5 + length * UNIT * 1e-9);
+        let steep = rise / angle;
+        let curved = (radius * radius + steep * steep) / radius;
+        prop_assert!((stretch.radius.unwrap() / curved - 1.0).abs() < 1e-6);
+        let words = stretch.segment.words(&Widths::FULL);
+        let near = 3.0 + length.max(radius) * UNIT * 1e-9;
+        for part in [0.0, 1.0].into_iter().chain(parts) {
+            let offset = (stretch.length as f64 * part).round();
+            let exact = at(offset / stretch.length as f64).map(|mm| mm * UNIT);
+            let point = read(&words, offset as u64);
+            prop_assert!(off(point, exact) < near, "{:?} {:?} {}", point, exact, near);
+            prop_assert!(off(stretch.segment.point(offset), exact) < near);
+            let found = helix.nearest(point.map(|units| units / UNIT)).map(|mm| mm * UNIT);
+            prop_assert!(off(found, exact) < near);
+        }
+        let whole = path.length as f64;
+        for (end, part) in [(0.0, 0.0), (whole, 1.0)] {
+            let step = whole * 1e-5;
+            let [back, on] = [end - step * part, end + step * (1.0 - part)].map(|at| path.point(at));
+            let way = [0, 1, 2].map(|k| (on[k] - back[k]) / step);
+            prop_assert!(off(way, stretch.directions[part as usize]) < 1e-3 + 4.0 / step);
+        }
     }
 }
 

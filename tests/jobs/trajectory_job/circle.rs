@@ -105,8 +105,8 @@ fn in_short_periods_as_the_continuous_forms_say() {
         clock_hz: 10_000 * LEAST_PERIOD_TICKS,
         period_ms: 0.1,
         // For 4·K1 <= K2 in words too.
-        k2_per_s: 201.0,
-        acceleration_mm_per_s2: 10_000.0,
+        k2_per_s: 201.0.into(),
+        acceleration_mm_per_s2: Some(10_000.0),
         ..settings()
     };
     // More torque than is needed: with less the inertia's gain has no word.

@@ -1,10 +1,12 @@
 //! Paths on the trajectory controller, with motors and loads.
 
 mod circle;
+mod disturbance;
 mod measure;
 mod paths;
 mod refusals;
 mod servo;
+mod unequal;
 
 use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::jobs::trajectory_controller::job::{Played, Program, controller, play};

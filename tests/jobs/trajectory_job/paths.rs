@@ -28,7 +28,7 @@ const ROUNDING: f64 = 160.0;
 fn check(run: &Run, correction: Correction) {
     let Run { program, played } = run;
     let whole = lengths(&program.records, &Widths::FULL);
-    let gains = [program.gains.k1, program.gains.k2].map(|word| word as f64 / 32_768.0);
+    let gains = [program.tangential.k1, program.tangential.k2].map(|word| word as f64 / 32_768.0);
     let mut tangential = Model::default();
     let mut responses = [Model::default(); 3];
     let mut models = [Model::default(); 3];

@@ -1,7 +1,9 @@
 //! What is refused, and why.
 
 use super::*;
+use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
 use motion_rtl::jobs::trajectory_controller::job::ProgramError;
+use motion_rtl::jobs::trajectory_controller::load_torque::{AxisName, LoadTorque};
 use motion_rtl::settings::Place;
 
 fn program(
@@ -83,6 +85,91 @@ fn an_axis_that_does_not_fit_is_named() {
         ..settings()
     };
     assert_eq!(program(&pieces, &none, &good).unwrap().servo[0].integral, 0);
+}
+
+#[test]
+fn torques_from_outside_and_parts_of_the_inertia_are_checked() {
+    let pieces = [line([1.0, 0.0, 0.0], 10.0)];
+    let good = [TwoMassParameters::default(); 2];
+    let torque = LoadTorque {
+        axis: AxisName::X,
+        torque_nm: 1.0,
+        from_s: 0.5,
+        to_s: None,
+    };
+    type Change = fn(&mut LoadTorque);
+    let changes: [(Change, &str); 7] = [
+        (|t| t.axis = AxisName::Z, "axis: is z; allowed: one of x, y"),
+        (
+            |t| t.torque_nm = f64::NAN,
+            "torque_nm: is NaN; allowed: -1000000000 to 1000000000",
+        ),
+        (
+            |t| t.torque_nm = -1.1e9,
+            "torque_nm: is -1100000000; allowed: -1000000000 to 1000000000",
+        ),
+        (
+            |t| t.from_s = -0.1,
+            "from_s: is -0.1; allowed: 0 to 1000000",
+        ),
+        (
+            |t| t.to_s = Some(0.5),
+            "to_s: is 0.5; allowed: above from_s, 0.5, to 1000000",
+        ),
+        (
+            |t| t.to_s = Some(f64::NAN),
+            "to_s: is NaN; allowed: above from_s, 0.5, to 1000000",
+        ),
+        (
+            |t| t.to_s = Some(1.1e6),
+            "to_s: is 1100000; allowed: above from_s, 0.5, to 1000000",
+        ),
+    ];
+    for (change, text) in changes {
+        let mut bad = torque;
+        change(&mut bad);
+        let settings = Settings {
+            load_torque: vec![torque, bad],
+            ..settings()
+        };
+        let error = program(&pieces, &settings, &good).unwrap_err();
+        assert_eq!(error.to_string(), format!("load_torque 1: {text}"));
+    }
+    let told = |inertia_factor: EachAxis| {
+        let settings = Settings {
+            inertia_factor,
+            ..settings()
+        };
+        program(&pieces, &settings, &good)
+    };
+    for (factor, text) in [
+        (EachAxis::All(-0.1), "is -0.1; allowed: 0 to 100"),
+        (
+            EachAxis::Each(vec![1.0, 101.0]),
+            "is 101 for y; allowed: 0 to 100",
+        ),
+        (
+            EachAxis::Each(vec![1.0; 3]),
+            "is a list of 3; allowed: a number for all axes, or a list of 2",
+        ),
+        (
+            EachAxis::Each(vec![]),
+            "is a list of 0; allowed: a number for all axes, or a list of 2",
+        ),
+    ] {
+        let error = told(factor).unwrap_err();
+        assert_eq!(error.to_string(), format!("inertia_factor: {text}"));
+    }
+    let words = told(EachAxis::Each(vec![0.5, 0.0])).unwrap().servo;
+    let whole = program(&pieces, &settings(), &good).unwrap().servo;
+    assert_eq!(
+        (words[0].inertia, words[1].inertia),
+        (whole[0].inertia.div_ceil(2), 0)
+    );
+    assert_eq!(
+        (words[0].speed, words[1].integral),
+        (whole[0].speed, whole[1].integral)
+    );
 }
 
 #[test]

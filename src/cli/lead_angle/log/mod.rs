@@ -85,7 +85,7 @@ fn simulate(
     log: &PositionLog,
     options: &Options,
 ) -> Result<(Replayed, Files), Failure> {
-    let circuit = positioner(settings, settings.lead_from());
+    let circuit = positioner(settings);
     let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
     let ticks = ticks(log, settings.clock_hz);
     let scenario = (&job.loaded, job.stem.as_str());
@@ -106,7 +106,7 @@ fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summa
         target: signal.target,
         tick: signal.tick,
         seconds: signal.tick as f64 / settings.clock_hz as f64,
-        lead_ms: signal.code as f64 * settings.ck_ms(),
+        lead_ms: signal.lead_ms,
         position: signal.position,
         position_after: signal.position_after,
         error_counts: signal.position_after.map(|at| at - signal.target as f64),

@@ -20,7 +20,7 @@ pub fn draw(job: &Job, log: &PositionLog, settings: &Settings, replayed: &Replay
     let mut marks = Vec::new();
     for signal in &replayed.signals {
         let at = signal.tick as f64 / settings.clock_hz as f64;
-        let later = at + signal.code as f64 * settings.ck_ms() / 1e3;
+        let later = at + signal.lead_ms / 1e3;
         let (from, target) = (signal.position as f64, signal.target as f64);
         marks.extend([(at, from), (later, target), (f64::NAN, target)]);
     }

@@ -43,7 +43,7 @@ fn lead_times_are_codes() {
 #[test]
 fn what_is_out_of_range_is_named_with_what_is_allowed() {
     type Break = fn(&mut Settings);
-    let cases: [(Break, &str); 30] = [
+    let cases: [(Break, &str); 33] = [
         (
             |s| s.clock_hz = 0,
             "clock_hz: is 0; allowed: 1 to 10000000000",
@@ -51,11 +51,23 @@ fn what_is_out_of_range_is_named_with_what_is_allowed() {
         (|s| s.ck_ticks = 3, "ck_ticks: is 3; allowed: 4 to 16777215"),
         (
             |s| s.steps.truncate(1),
-            "step: is 1 steps; allowed: 2 to 16 steps",
+            "step: is 1 step; allowed: 2 to 16, or targets = \"relative\", or positionings = 1",
         ),
         (
             |s| s.steps = s.steps.repeat(9),
-            "step: is 18 steps; allowed: 2 to 16 steps",
+            "step: is 18 steps; allowed: 1 to 16 steps",
+        ),
+        (
+            |s| s.steps.clear(),
+            "step: is 0 steps; allowed: 1 to 16 steps",
+        ),
+        (
+            |s| s.targets = Targets::Relative,
+            "step 1: target: is 0; allowed: a way other than 0",
+        ),
+        (
+            |s| (s.steps[1].target, s.switch_counts) = (-5, Some(15_000)),
+            "switch_counts: is 15000; allowed: 0 to 14999",
         ),
         (
             |s| s.steps[1].target = 2_097_153,
@@ -168,6 +180,40 @@ fn what_is_out_of_range_is_named_with_what_is_allowed() {
         let error = settings.validate().expect_err(message);
         assert_eq!(error.to_string(), message);
     }
+}
+
+/// One step is a job where it has somewhere to go.
+#[test]
+fn a_single_step_is_a_job_where_it_has_a_way() {
+    let mut settings = Settings::default();
+    settings.steps.truncate(1);
+    settings.targets = Targets::Relative;
+    assert_eq!(settings.validate(), Ok(()));
+    settings.targets = Targets::Absolute;
+    settings.positionings = 1;
+    assert_eq!(settings.validate(), Ok(()));
+}
+
+#[test]
+fn targets_count_from_the_start_or_from_the_one_before() {
+    let mut settings = Settings::default();
+    for (step, target) in [(0, 300), (1, -50)] {
+        settings.steps[step].target = target;
+    }
+    let all = |settings: &Settings, what: fn(&Settings, usize) -> i64| -> [i64; 5] {
+        std::array::from_fn(|number| what(settings, number))
+    };
+    assert_eq!(all(&settings, Settings::target), [300, -50, 300, -50, 300]);
+    assert_eq!(all(&settings, Settings::way), [300, -350, 350, -350, 350]);
+    settings.switches_counts = vec![20, 7];
+    assert_eq!(all(&settings, Settings::switch), [280, -43, 280, -43, 280]);
+    let farthest = |settings: &Settings| [0, 1].map(|step| settings.farthest_switch(step));
+    assert_eq!(farthest(&settings), [299, 349]);
+    settings.targets = Targets::Relative;
+    assert_eq!(all(&settings, Settings::target), [300, 250, 550, 500, 800]);
+    assert_eq!(all(&settings, Settings::way), [300, -50, 300, -50, 300]);
+    assert_eq!(all(&settings, Settings::switch), [280, 257, 530, 507, 780]);
+    assert_eq!(farthest(&settings), [299, 49]);
 }
 
 /// The scenario that ships.

@@ -45,6 +45,34 @@ fn stiction_of_the_motor_holds_and_lets_go() {
 }
 
 #[test]
+fn stiction_of_the_load_holds_a_torque_from_outside() {
+    let parameters = TwoMassParameters {
+        load_friction_nm: 2.0,
+        load_stiction_nm: 3.0,
+        ..PARAMETERS
+    };
+    for tick_s in TICKS_S {
+        for sign in [1.0, -1.0] {
+            let mut axis = axis(&parameters, tick_s);
+            for (torque, starts) in [(3.0, false), (-2.999, false), (3.001, true)] {
+                axis.set_load_torque_nm(sign * torque);
+                run(&mut axis, 0.0, 3e-3);
+                assert_eq!(sign * axis.state[3] > 0.0, starts, "{torque}");
+            }
+            // The state has it: a plant that is put back goes on as it did.
+            let (state, before) = (axis.state(), axis.state);
+            run(&mut axis, 0.0, 2e-3);
+            let after = axis.state;
+            axis.set_load_torque_nm(0.0);
+            axis.set_state(state);
+            assert_eq!(axis.state, before);
+            run(&mut axis, 0.0, 2e-3);
+            assert_eq!(axis.state, after);
+        }
+    }
+}
+
+#[test]
 fn stiction_of_the_load_holds_until_the_shaft_has_wound_up() {
     let parameters = TwoMassParameters {
         load_friction_nm: 2.0,

@@ -52,6 +52,30 @@ fn a_step_of_the_torque_is_that_of_the_closed_form() {
 }
 
 #[test]
+fn a_torque_on_the_load_is_that_of_a_motor_on_the_other_side() {
+    let turned = TwoMassParameters {
+        motor_inertia_kg_m2: PARAMETERS.load_inertia_kg_m2,
+        load_inertia_kg_m2: PARAMETERS.motor_inertia_kg_m2,
+        damping_nm_s_per_rad: 0.03,
+        ..PARAMETERS
+    };
+    let parameters = TwoMassParameters {
+        damping_nm_s_per_rad: 0.03,
+        ..PARAMETERS
+    };
+    for tick_s in TICKS_S {
+        let mut axis = axis(&parameters, tick_s);
+        axis.set_load_torque_nm(-3.0);
+        for tick in 1..=ticks(0.02, tick_s) {
+            axis.drive(0.0);
+            let [load, twist] = closed_form(&turned, 0.0, -3.0, tick as f64 * tick_s);
+            near(axis.state[1], load, 1e-10);
+            near(axis.twist_rad(), -twist, 1e-11);
+        }
+    }
+}
+
+#[test]
 fn a_stiff_shaft_makes_it_one_inertia() {
     let parameters = TwoMassParameters {
         stiffness_nm_per_rad: 1e6,

@@ -33,7 +33,7 @@ fn torques() -> Vec<f64> {
 
 /// The equations as the note has them, in steps of Runge and Kutta. At rest or where a step turns
 /// the speed round, friction holds what it can hold.
-fn small_steps(p: &TwoMassParameters, state: &mut [f64; 4], torque: f64, step: f64) {
+fn small_steps(p: &TwoMassParameters, state: &mut [f64; 4], torques: [f64; 2], step: f64) {
     let shaft = |x: &[f64; 4]| {
         let (twist, half) = (x[0] - x[1], 0.5 * p.backlash_rad);
         let damped = p.damping_nm_s_per_rad * (x[2] - x[3]);
@@ -51,7 +51,7 @@ fn small_steps(p: &TwoMassParameters, state: &mut [f64; 4], torque: f64, step: f
     let viscous = [p.motor_viscous_nm_s_per_rad, p.load_viscous_nm_s_per_rad];
     let friction = [p.motor_friction_nm, p.load_friction_nm];
     let stiction = [p.motor_stiction_nm, p.load_stiction_nm];
-    let on = |x: &[f64; 4]| [torque - shaft(x), shaft(x)];
+    let on = |x: &[f64; 4]| [torques[0] - shaft(x), torques[1] + shaft(x)];
     // The sign of each motion, 0 where it is held.
     let at_start = on(state);
     let sign: [f64; 2] = std::array::from_fn(|body| {
@@ -109,19 +109,24 @@ fn it_is_what_small_steps_come_to() {
         backlash_rad: 0.0,
         ..ALL
     };
-    for (parameters, step, within) in [
-        (linear, 2e-6, 1e-9),
-        (gap, 1e-7, 3e-6),
-        (dry, 1e-7, 3e-6),
-        (ALL, 1e-7, 3e-6),
+    for (parameters, step, within, outside) in [
+        (linear, 2e-6, 1e-9, 0.0),
+        (linear, 2e-6, 1e-9, 0.7),
+        (gap, 1e-7, 3e-6, 0.0),
+        (dry, 1e-7, 3e-6, 0.0),
+        (ALL, 1e-7, 3e-6, 0.0),
+        (ALL, 1e-7, 3e-6, 0.7),
     ] {
         let mut axis = axis(&parameters, 1e-3);
         let mut state = [0.0; 4];
         let mut greatest = 0.0f64;
-        for torque in torques() {
+        for (ms, torque) in torques().into_iter().enumerate() {
+            // From outside in half of the time, and then the other way.
+            let load = outside * [0.0, 1.0, 0.0, -1.0][ms / 10 % 4];
+            axis.set_load_torque_nm(load);
             axis.drive(torque);
             for _ in 0..ticks(1e-3, step) {
-                small_steps(&parameters, &mut state, torque, step);
+                small_steps(&parameters, &mut state, [torque, load], step);
             }
             greatest = greatest.max(state[0].abs());
             near(axis.state[0], state[0], within);

@@ -1,7 +1,8 @@
 //! Arcs out of the X-Y plane, several turns, and splines.
 
-use motion_rtl::input::gcode::read;
-use motion_rtl::input::{Course, Drawing};
+use motion_rtl::input::gcode::{read, read_with};
+use motion_rtl::input::{Course, Drawing, Options};
+use motion_rtl::plan::{MotionLimits, Plan};
 
 use crate::input::common::{accept, moves, near, refuse, warnings};
 
@@ -82,12 +83,92 @@ fn splines_go_through_their_curves() {
     for (text, fault) in [
         ("G5 X8 I0 J4 F60", "t:1: G5: without its control points"),
         ("G5 X8 P0 Q4 F60", "t:1: G5: without its control points"),
+        (
+            "G5 X8 I1 P0 Q4 F60",
+            "t:1: G5: without its control points; allowed: I, J, P and Q; behind another G5 P and Q",
+        ),
+        ("G5 X8 I0 J4 P1 F60", "t:1: G5: without its control points"),
+        (
+            "G5 X8 I0 J4 P0 Q4 F60\nX16 J1 P0 Q4",
+            "t:2: G5: without its control points",
+        ),
+        (
+            "G5 X8 I0 J4 P0 Q4 F60\nG1 X9\nG5 X16 P0 Q4",
+            "t:3: G5: without its control points",
+        ),
         ("G5.1 X8 F60", "t:1: G5.1: without its control point"),
+        (
+            "G5.1 X8 I0 J0 F60",
+            "t:1: G5.1: without its control point; allowed: I and J, not both 0",
+        ),
+        (
+            "G18 G5 X8 I0 J4 P0 Q4",
+            "t:1: G5: with Z, or outside of G17",
+        ),
         ("G5 X8 Z1 I0 J4 P0 Q4", "t:1: G5: with Z, or outside of G17"),
     ] {
         let refused = refuse(read, text);
         assert!(refused.starts_with(fault), "{refused}");
     }
+}
+
+#[test]
+fn splines_are_moves_where_they_are_asked_for() {
+    let options = Options {
+        splines: true,
+        ..Options::default()
+    };
+    let read = |text: &str| read_with("t", text.as_bytes(), &options);
+    let drawing = read("G20 G91 G1 X1 F60\nG5 X2 I0 J1 P0 Q1\nX2 P0 Q-1\nG5.1 X2 Y1 I1").unwrap();
+    assert!(drawing.warnings.is_empty(), "{:?}", drawing.warnings);
+    let courses: Vec<Course> = drawing.moves.iter().map(|step| step.course).collect();
+    let inches = |x: f64, y: f64| [x * 25.4, y * 25.4, 0.0];
+    let expected = [
+        [inches(1.0, 1.0), inches(3.0, 1.0)],
+        [inches(3.0, -1.0), inches(5.0, -1.0)],
+        // Two thirds of the way to the one control point.
+        [
+            inches(5.0 + 2.0 / 3.0, 0.0),
+            inches(6.0 + 1.0 / 3.0, 1.0 / 3.0),
+        ],
+    ];
+    assert_eq!(courses.len(), 4);
+    for (course, expected) in courses[1..].iter().zip(expected) {
+        let Course::Spline { controls } = course else {
+            panic!("{course:?}");
+        };
+        assert!(
+            controls.iter().zip(expected).all(|(a, b)| near(*a, b)),
+            "{controls:?}"
+        );
+    }
+    // A time is that of the spline: 60 mm/min over what it is long.
+    let timed = read("G93 G5 X8 I0 J0 P0 Q0 F1").unwrap();
+    assert_eq!(timed.moves[0].feed_mm_per_min, Some(8.0));
+    // A curve that goes nowhere is none; one that comes back is.
+    let still = read("G1 X1 F60\nG5 X1 I0 J0 P0 Q0").unwrap();
+    assert_eq!((still.moves.len(), still.zero_length), (1, 1));
+    assert_eq!(read("G5 X0 I9 J0 P0 Q9 F60").unwrap().moves.len(), 1);
+    let far = read("G5 X0 I2000000 J0 P0 Q9 F60").unwrap_err().to_string();
+    assert!(
+        far.starts_with("t:1: G5: a control point's X would be 2000000 mm"),
+        "{far}"
+    );
+    // One of a quarter's circle of 10 mm, which is many chords.
+    let quarter = "G5 X-10 Y10 I0 J5.5228475 P5.5228475 Q0 F600";
+    let chords = read_with("t", quarter.as_bytes(), &Options::default()).unwrap();
+    assert_eq!(
+        [read(quarter).unwrap().moves.len(), chords.moves.len()],
+        [1, 59]
+    );
+    // NURBS are chords whatever is asked for, and the planner of other circuits takes no splines.
+    let nurbs = read(LOOP[0]).unwrap();
+    assert!(nurbs.moves.iter().all(|step| step.course == Course::Line));
+    let plan = Plan::new(&drawing, &MotionLimits::default());
+    assert_eq!(
+        plan.unwrap_err().to_string(),
+        "line 2: a spline: allowed are lines and arcs, as without Options::splines"
+    );
 }
 
 /// A closed curve of order 3 over five control points, as LinuxCNC's manual has it.

@@ -5,10 +5,10 @@
 //!  start ──▶│ cordic_state             ├──▶ along, across
 //!  radius ─▶│   ◀▶ shifters of along   ├──▶ done, busy
 //!  angle ──▶│        and across        │
+//!  halt ───▶│                          │
 //!           └──────────────────────────┘
 //! ```
 
-use super::widths::PointWidths;
 use super::{CordicState, Shifter, cordic_state, shifter};
 use crate::hdl::prelude::*;
 
@@ -17,14 +17,16 @@ use crate::hdl::prelude::*;
 /// `done` is high H + 1 ticks after `start`, with as many iterations as the angle has bits.
 #[derive(Debug, Clone)]
 pub struct Cordic {
-    /// Its widths.
-    pub widths: PointWidths,
+    /// R: width of a coordinate in bits.
+    pub radius: usize,
+    /// H: width of an angle, in units of 2^−H turn.
+    pub angle: usize,
 }
 
 impl Cordic {
     /// Ticks from `start` to `done`.
     pub const fn latency(&self) -> u64 {
-        self.widths.angle as u64 + 1
+        self.angle as u64 + 1
     }
 }
 
@@ -33,26 +35,28 @@ signals! { for Cordic as c;
     pub struct In {
         /// Begins, unless one is under way.
         pub start: Bit,
+        /// Gives up what is under way; a start that comes with it is not taken.
+        pub halt: Bit,
         /// The radius divided by [`GAIN`](cordic_state::GAIN); not negative, with room for the gain.
-        pub radius: I(c.widths.radius),
+        pub radius: I(c.radius),
         /// The angle in units of 2^−H turn.
-        pub angle: U(c.widths.angle),
+        pub angle: U(c.angle),
     }
     /// The blocks.
     pub struct Parts {
         /// Vector and angle.
-        pub turning: Part<CordicState>(CordicState { widths: c.widths }),
+        pub turning: Part<CordicState>(CordicState { radius: c.radius, angle: c.angle }),
         /// `along` by 2^−iteration.
-        pub shift_along: Part<Shifter>(Shifter { width: c.widths.radius }),
+        pub shift_along: Part<Shifter>(Shifter { width: c.radius }),
         /// `across` by 2^−iteration.
-        pub shift_across: Part<Shifter>(Shifter { width: c.widths.radius }),
+        pub shift_across: Part<Shifter>(Shifter { width: c.radius }),
     }
     /// Ports out.
     pub struct Net {
         /// radius · cos angle, from `done` on.
-        pub along: I(c.widths.radius) as Analog,
+        pub along: I(c.radius) as Analog,
         /// radius · sin angle, from `done` on.
-        pub across: I(c.widths.radius) as Analog,
+        pub across: I(c.radius) as Analog,
         /// The point stands in this tick.
         pub done: Bit,
         /// A start is not taken.
@@ -76,6 +80,7 @@ impl Circuit for Cordic {
         let small = |part: Part<Shifter>, word| part.settle(shifter::In { word, by }).w.shifted;
         let turning = p.turning.settle(cordic_state::In {
             start: i.start,
+            halt: i.halt,
             radius: i.radius,
             angle: i.angle,
             small_along: small(p.shift_along, along),

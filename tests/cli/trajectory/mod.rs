@@ -1,5 +1,8 @@
 //! `run` of the trajectory controller: figures against closed forms, files, windows.
 
+mod axes;
+mod curves;
+
 use super::scenarios::{CIRCLE, POCKET, runs_exactly};
 use super::support::{Bench, keys, list, near, number, whole};
 use serde_json::{Value, json};
@@ -60,9 +63,11 @@ fn the_circle_is_what_closed_forms_say() {
             "counts_per_mm",
             "exact",
             "files",
+            "inertia_factor",
             "input",
             "k1_per_s",
             "k2_per_s",
+            "load_torque",
             "loading_ticks",
             "path",
             "period_ms",
@@ -376,6 +381,8 @@ fn every_key_of_a_scenario_is_taken() {
          jerk_time_ms = 10\ncorner_mm_per_s = 0\nk1_per_s = 40\nk2_per_s = 90\n\
          allow_overshoot = true\nrounding = \"floor\"\ncorrection = \"none\"\n\
          position_gain_per_s = 20\nspeed_hz = 15\nintegral_ms = 0\nvcd_ticks = 100\n\
+         inertia_factor = [1, 0.9, 1]\n\
+         [[load_torque]]\naxis = \"y\"\ntorque_nm = 0.1\nfrom_s = 0.1\nto_s = 0.2\n\
          [[axis]]\nmax_torque_nm = 5\nmotor_inertia_kg_m2 = 1e-3\nload_inertia_kg_m2 = 1e-3\n\
          stiffness_nm_per_rad = 300\ncounts_per_rev = 5000\nmm_per_rev = 10\n\
          damping_nm_s_per_rad = 0.02\n";
@@ -422,6 +429,14 @@ fn every_key_of_a_scenario_is_taken() {
         "position_gain_per_s=10",
         "speed_hz=10",
         "integral_ms=100",
+        "axis_acceleration_mm_per_s2=300",
+        "axis_acceleration_mm_per_s2=[1e5,300,1e5]",
+        "k1_per_s=[40,38,40]",
+        "k2_per_s=[90,95,90]",
+        "inertia_factor=1",
+        "load_torque=[]",
+        "load_torque=[{axis=\"y\",torque_nm=0.1,from_s=0.1,to_s=0.19}]",
+        "load_torque=[{axis=\"y\",torque_nm=0.1,to_s=0.2}]",
         "rounding=nearest",
     ] {
         let changed = bench.json(&["run", "all.toml", "--no-vcd", "--set", set]);
@@ -481,20 +496,6 @@ fn a_drawing_by_itself() {
 pub const MACHINE: &str = "max_torque_nm = 10\nmotor_inertia_kg_m2 = 1e-3\n\
      load_inertia_kg_m2 = 2e-3\nstiffness_nm_per_rad = 200\ncounts_per_rev = 10_000\n\
      mm_per_rev = 10\n";
-
-#[test]
-fn a_torque_that_is_not_enough_is_said() {
-    let weak = MACHINE.replace("max_torque_nm = 10", "max_torque_nm = 1");
-    let text = format!("{LINE}[machine]\n{weak}");
-    let done = with(&text).run(&["run", "s.toml", "--no-vcd"]);
-    let warning = "warning: vector: in ";
-    let line = done.stdout.lines().find(|line| line.starts_with(warning));
-    let line = line.unwrap_or_else(|| panic!("{}", done.stdout));
-    assert!(
-        line.ends_with(" periods x asks for more than 1 Nm"),
-        "{line}"
-    );
-}
 
 /// What the save file begins with is all there: a path that is none would be left out. That the file
 /// is what the run writes, `the_circle_is_what_closed_forms_say` sees.

@@ -4,6 +4,7 @@
 //! ```text
 //!                           ┌──────────────┐
 //!  start, radius, angle ───▶│              ├──▶ along, across, done, busy
+//!  halt ───────────────────▶│              │
 //!  small_along ────────────▶│ cordic_state ├──▶ iteration ──▶ shifters
 //!  small_across ───────────▶│              │◀── shifters
 //!                           └──────────────┘
@@ -13,7 +14,6 @@
 //! turn of zero. Each turn lengthens the vector by the same factor, whatever its sign, so the radius
 //! that is given is divided by their product, [`GAIN`], beforehand.
 
-use super::widths::PointWidths;
 use crate::hdl::prelude::*;
 use std::f64::consts::TAU;
 
@@ -25,14 +25,16 @@ pub const GAIN: f64 = 1.646_760_258_121_065_6;
 /// There are as many iterations as the angle has bits: what is left then is below one of its units.
 #[derive(Debug, Clone)]
 pub struct CordicState {
-    /// Its widths.
-    pub widths: PointWidths,
+    /// R: width of a coordinate in bits.
+    pub radius: usize,
+    /// H: width of an angle, in units of 2^−H turn.
+    pub angle: usize,
 }
 
 impl CordicState {
     /// arctan 2^−n in units of 2^−H turn.
     fn angles(&self) -> Image {
-        let width = self.widths.angle;
+        let width = self.angle;
         let units = (width as f64).exp2() / TAU;
         Image::from_fn(6, width, |n| {
             ((-(n as f64)).exp2().atan() * units).round() as u64
@@ -45,14 +47,16 @@ signals! { for CordicState as c;
     pub struct In {
         /// Begins, unless one is under way.
         pub start: Bit,
+        /// Gives up what is under way; a start that comes with it is not taken.
+        pub halt: Bit,
         /// The radius divided by [`GAIN`]; not negative, with room for the gain.
-        pub radius: I(c.widths.radius),
+        pub radius: I(c.radius),
         /// The angle in units of 2^−H turn.
-        pub angle: U(c.widths.angle),
+        pub angle: U(c.angle),
         /// `along` by 2^−iteration.
-        pub small_along: I(c.widths.radius),
+        pub small_along: I(c.radius),
         /// `across` by 2^−iteration.
-        pub small_across: I(c.widths.radius),
+        pub small_across: I(c.radius),
     }
     /// Flip-flops.
     pub struct Reg {
@@ -61,11 +65,11 @@ signals! { for CordicState as c;
         /// The iteration.
         pub iteration: U(6) = 0,
         /// radius · cos angle, from `done` on.
-        pub along: I(c.widths.radius) as Analog = 0,
+        pub along: I(c.radius) as Analog = 0,
         /// radius · sin angle, from `done` on.
-        pub across: I(c.widths.radius) as Analog = 0,
+        pub across: I(c.radius) as Analog = 0,
         /// The angle that is left.
-        left: I(c.widths.angle) as Analog = 0,
+        left: I(c.angle) as Analog = 0,
         /// The point stands in this tick.
         pub done: Bit = 0,
     }
@@ -76,21 +80,21 @@ signals! { for CordicState as c;
         /// The iteration is the last.
         last: Bit,
         /// The angle is nearer to the next quarter: the eighths are rounded.
-        raised: U(c.widths.angle),
+        raised: U(c.angle),
         /// The nearest quarter is the first or third: the vector is upright.
         upright: Bit,
         /// It is the first or second: `along` is negative, or `across` in the first.
         half: Bit,
         /// The nearest quarter.
-        quarter: U(c.widths.angle),
+        quarter: U(c.angle),
         /// The vector's coordinate that is not 0 there.
-        beginning: I(c.widths.radius),
+        beginning: I(c.radius),
         /// The angle without its quarters.
-        rest: I(c.widths.angle),
+        rest: I(c.angle),
         /// What is left is below zero: the vector is turned back.
         back: Bit,
         /// arctan 2^−iteration.
-        turn: I(c.widths.angle),
+        turn: I(c.angle),
     }
 }
 
@@ -100,12 +104,12 @@ impl Circuit for CordicState {
     records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {
-        let halved = self.widths.angle >= 3;
+        let halved = self.angle >= 3;
         (!halved).then(|| "an angle has eighths of a turn".into())
     }
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
-        let width = self.widths.angle;
+        let width = self.angle;
         let angle = |value: u64| U::new(value, width);
         let (half_turn, quarter_turn) = (width - 1, width - 2);
         let raised = i.angle + (1u64 << (width - 3));
@@ -113,14 +117,14 @@ impl Circuit for CordicState {
         let low = upright.mux(angle(1 << quarter_turn), 0);
         let high = half.mux(angle(1 << half_turn), 0);
         let quarter = low + high;
-        let take = i.start & !q.busy;
+        let take = i.start & !q.busy & !i.halt;
         let last = q.iteration.equals(width as u64 - 1);
         let beginning = half.mux(-i.radius, i.radius);
         let rest = (i.angle - quarter).signed();
         let back = q.left.is_negative();
         let turn = self.angles().rom(q.iteration).signed();
 
-        let goes_on = q.busy & !last;
+        let goes_on = q.busy & !last & !i.halt;
         let begin_along = upright.mux(0, beginning);
         let begin_across = upright.mux(beginning, 0);
         let turned_along = back.mux(q.along + i.small_across, q.along - i.small_across);
@@ -132,7 +136,7 @@ impl Circuit for CordicState {
             along: take.mux(begin_along, q.busy.mux(turned_along, q.along)),
             across: take.mux(begin_across, q.busy.mux(turned_across, q.across)),
             left: take.mux(rest, q.busy.mux(turned, q.left)),
-            done: q.busy & last,
+            done: q.busy & last & !i.halt,
         };
         let net = Net {
             take,

@@ -1,0 +1,84 @@
+//! Step of the angle by the conventional method: Δθi = θi − θi−1.
+//!
+//! ```text
+//!          ┌────────────┐
+//!  step ──▶│            ├──▶ difference
+//!  halt ──▶│ angle_step ├──▶ turn
+//!  angle ─▶│            │
+//!          └────────────┘
+//! ```
+//!
+//! The differences of rounded angles add up to the angle itself, so their rounding does not.
+
+use crate::hdl::prelude::*;
+
+/// Step of the angle.
+///
+/// The difference stands in the tick after `step`, with `turn`.
+#[derive(Debug, Clone)]
+pub struct AngleStep {
+    /// H: width of an angle, in units of 2^−H turn.
+    pub width: usize,
+}
+
+signals! { for AngleStep as c;
+    /// Ports in.
+    pub struct In {
+        /// On to the next angle, which stands from the next tick on.
+        pub step: Bit,
+        /// Gives up; a step that comes with it is not taken.
+        pub halt: Bit,
+        /// θ.
+        pub angle: I(c.width) as Analog,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// θi−1.
+        last: I(c.width) = 0,
+        /// The difference stands in this tick.
+        pub turn: Bit = 0,
+    }
+    /// Net.
+    pub struct Net {
+        /// Δθi.
+        pub difference: U(c.width),
+    }
+}
+
+impl Circuit for AngleStep {
+    const NAME: &'static str = "angle_step";
+    const ABOUT: &'static str = "what an angle has grown by since the sample before";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let difference = (i.angle - q.last).unsigned();
+        let next = Reg {
+            last: i.step.mux(i.angle, q.last),
+            turn: i.step & !i.halt,
+        };
+        (Net { difference }, next)
+    }
+}
+
+impl Specified for AngleStep {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new()
+            .step("a step keeps the angle it leaves", |now, next| {
+                let expected = if now.i.step { now.i.angle } else { now.q.last };
+                require(next.q.last == expected, ["last"], || {
+                    format!("not {expected}")
+                })
+            })
+            .step("a turn behind every step that is taken", |now, next| {
+                let expected = now.i.step && !now.i.halt;
+                require(next.q.turn == expected, ["turn"], || {
+                    format!("not {expected}")
+                })
+            })
+            .always("the angle kept and the difference make the angle", |now| {
+                let sum = now.q.last + now.w.difference as i64;
+                let whole = (sum - now.i.angle) % (1 << self.width) == 0;
+                require(whole, ["difference"], || format!("{sum} instead"))
+            })
+    }
+}

@@ -1,0 +1,118 @@
+//! Element of the matrix \[2\]: a product of the axis times vers Δθ and a component times sin Δθ, or
+//! on the diagonal one times cos Δθ, both at once, a bit of the words a tick.
+//!
+//! ```text
+//!                          ┌────────────────┐
+//!  copy, fraction, top ───▶│                │
+//!  versine_bit, turn_bit ─▶│ matrix_element ├──▶ entry
+//!  product, turn ─────────▶│                │
+//!                          └────────────────┘
+//! ```
+//!
+//! As in a [`RotationRow`](super::RotationRow) the sum is halved behind a bit of the fraction, and
+//! what falls off last rounds it.
+
+use crate::hdl::prelude::*;
+
+/// Sign of an element's second term.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Sign {
+    /// Added.
+    #[default]
+    Plus,
+    /// Subtracted.
+    Minus,
+}
+
+/// Element of the matrix.
+///
+/// The entry stands while the bit behind the last is there, and until the next `copy`.
+#[derive(Debug, Clone)]
+pub struct MatrixElement {
+    /// C: width of a coefficient.
+    pub coefficient: usize,
+    /// Of the term with `turn`.
+    pub sign: Sign,
+}
+
+impl MatrixElement {
+    /// Width of the sum: two coefficients, doubled.
+    pub const fn sum(&self) -> usize {
+        self.coefficient + 2
+    }
+}
+
+signals! { for MatrixElement as c;
+    /// Ports in.
+    pub struct In {
+        /// A matrix begins.
+        pub copy: Bit,
+        /// The bit is one of the fraction.
+        pub fraction: Bit,
+        /// The bit is the sign, of weight −2.
+        pub top: Bit,
+        /// The bit of vers Δθ.
+        pub versine_bit: Bit,
+        /// That of sin Δθ, on the diagonal of cos Δθ.
+        pub turn_bit: Bit,
+        /// What vers Δθ is multiplied by: a product of the axis.
+        pub product: I(c.coefficient),
+        /// What the other is multiplied by: a component of the axis, on the diagonal 1.
+        pub turn: I(c.coefficient),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// The products so far, by the weight of the bit to come.
+        sum: I(c.sum()) = 0,
+        /// The bit below the sum: a half.
+        half: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// The product where vers Δθ has the bit, else 0.
+        term_product: I(c.sum()),
+        /// What the other is multiplied by where it has the bit, else 0.
+        term_turn: I(c.sum()),
+        /// Both terms.
+        addend: I(c.sum()),
+        /// The sum with them.
+        total: I(c.sum()),
+        /// The sum with what rounds it.
+        raised: I(c.sum()),
+        /// The element, to the nearest.
+        pub entry: U(c.coefficient) as Hex,
+    }
+}
+
+impl Circuit for MatrixElement {
+    const NAME: &'static str = "matrix_element";
+    const ABOUT: &'static str = "one element of the matrix of a rotation, a bit a tick";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let term = |bit: Bit, word: I| bit.mux(word.resize(self.sum()), 0);
+        let term_product = term(i.versine_bit, i.product);
+        let term_turn = term(i.turn_bit, i.turn);
+        let addend = match self.sign {
+            Sign::Plus => term_product + term_turn,
+            Sign::Minus => term_product - term_turn,
+        };
+        let total = q.sum + i.top.mux(-addend.shift_left(1), addend);
+        let raised = q.sum + q.half.word().resize(self.sum()).signed();
+        let entry = raised.unsigned().resize(self.coefficient);
+        let next = Reg {
+            // Without bits left the total is the sum.
+            sum: i.copy.mux(0, i.fraction.mux(total.shift_right(1), total)),
+            half: i.fraction.mux(total.unsigned().bit(0), q.half),
+        };
+        let net = Net {
+            term_product,
+            term_turn,
+            addend,
+            total,
+            raised,
+            entry,
+        };
+        (net, next)
+    }
+}

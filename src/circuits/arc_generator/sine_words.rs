@@ -1,0 +1,103 @@
+//! Words of sine and cosine: what CORDIC gives, rounded to coefficients, and vers = 1 − cos, all
+//! three handed on a bit a tick.
+//!
+//! ```text
+//!           ┌────────────┐
+//!  copy ───▶│            ├──▶ sine_bit
+//!  along ──▶│ sine_words ├──▶ cosine_bit
+//!  across ─▶│            ├──▶ versine_bit
+//!           └────────────┘
+//! ```
+
+use crate::hdl::prelude::*;
+
+/// Bits that CORDIC has below a coefficient's last.
+pub const FINE: usize = 6;
+
+/// Words of sine and cosine.
+///
+/// The lowest bits stand in the tick after `copy`, the next a tick later.
+#[derive(Debug, Clone)]
+pub struct SineWords {
+    /// C: width of a coefficient, of which all bits but two are fraction.
+    pub coefficient: usize,
+}
+
+impl SineWords {
+    /// Width of what CORDIC gives.
+    pub const fn radius(&self) -> usize {
+        self.coefficient + FINE
+    }
+}
+
+signals! { for SineWords as c;
+    /// Ports in.
+    pub struct In {
+        /// The words are taken.
+        pub copy: Bit,
+        /// cos Δθ.
+        pub along: I(c.radius()),
+        /// sin Δθ.
+        pub across: I(c.radius()),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Bits of the sine that are yet to come.
+        sine: U(c.coefficient) as Hex = 0,
+        /// Bits of the cosine.
+        cosine: U(c.coefficient) as Hex = 0,
+        /// Bits of vers Δθ.
+        versine: U(c.coefficient) as Hex = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// sin Δθ to the nearest coefficient.
+        nearest_sine: I(c.coefficient),
+        /// cos Δθ to the nearest.
+        nearest_cosine: I(c.coefficient),
+        /// vers Δθ = 1 − cos Δθ.
+        rest: I(c.coefficient),
+        /// The bit of the sine that the sums are at.
+        pub sine_bit: Bit,
+        /// That of the cosine.
+        pub cosine_bit: Bit,
+        /// That of vers.
+        pub versine_bit: Bit,
+    }
+}
+
+impl Circuit for SineWords {
+    const NAME: &'static str = "sine_words";
+    const ABOUT: &'static str = "sine, cosine and versine as coefficients, a bit a tick";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        let wrong = self.coefficient < 3;
+        wrong.then(|| "a coefficient has two bits before the point and one behind".into())
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let nearest = |word: I| {
+            let raised = word + (1i64 << (FINE - 1));
+            raised.shift_right(FINE).resize(self.coefficient)
+        };
+        let (nearest_sine, nearest_cosine) = (nearest(i.across), nearest(i.along));
+        let one = I::new(1 << (self.coefficient - 2), self.coefficient);
+        let rest = one - nearest_cosine;
+        let bits = |word: I, bits: U| i.copy.mux(word.unsigned(), bits.shift_right(1));
+        let next = Reg {
+            sine: bits(nearest_sine, q.sine),
+            cosine: bits(nearest_cosine, q.cosine),
+            versine: bits(rest, q.versine),
+        };
+        let net = Net {
+            nearest_sine,
+            nearest_cosine,
+            rest,
+            sine_bit: q.sine.bit(0),
+            cosine_bit: q.cosine.bit(0),
+            versine_bit: q.versine.bit(0),
+        };
+        (net, next)
+    }
+}

@@ -1,0 +1,149 @@
+//! Row of a rotation whose matrix is another one in every sample: as a
+//! [`RotationRow`](super::RotationRow), but that the coefficients come from the matrix.
+//!
+//! ```text
+//!                         ┌────────────┐
+//!  load, word, data ─────▶│            │
+//!  copy, fraction, top ──▶│            │
+//!  commit ───────────────▶│ vector_row ├──▶ offset
+//!  by_x, by_y, by_z ─────▶│            │
+//!  x, y, z ──────────────▶│            │
+//!                         └────────────┘
+//! ```
+
+use super::{Rounding, Widths};
+use crate::hdl::prelude::*;
+
+/// Word of a record that is GA's x; y and z follow.
+pub const VECTOR_WORD: u64 = 16;
+
+/// Row of a rotation by a matrix that changes.
+#[derive(Debug, Clone)]
+pub struct VectorRow {
+    /// Widths of points, coefficients and records.
+    pub widths: Widths,
+    /// 0, 1, 2 for x, y, z: it decides which word of a record the row takes.
+    pub coordinate: u64,
+    /// How its result is rounded.
+    pub rounding: Rounding,
+}
+
+impl VectorRow {
+    /// Width of the sum: three words of the vector, doubled, and what was there.
+    pub const fn sum(&self) -> usize {
+        self.widths.point + 3
+    }
+}
+
+signals! { for VectorRow as c;
+    /// Ports in.
+    pub struct In {
+        /// `data` is word `word` of a record.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(5),
+        /// Its data.
+        pub data: U(c.widths.data) as Hex,
+        /// A step begins: the coefficients are copied.
+        pub copy: Bit,
+        /// The bit is one of the fraction.
+        pub fraction: Bit,
+        /// The bit is the sign, of weight −2.
+        pub top: Bit,
+        /// The sum is complete.
+        pub commit: Bit,
+        /// Coefficient of x.
+        pub by_x: U(c.widths.coefficient) as Hex,
+        /// Coefficient of y.
+        pub by_y: U(c.widths.coefficient) as Hex,
+        /// Coefficient of z.
+        pub by_z: U(c.widths.coefficient) as Hex,
+        /// X of the vector.
+        pub x: I(c.widths.point),
+        /// Y of the vector.
+        pub y: I(c.widths.point),
+        /// Z of the vector.
+        pub z: I(c.widths.point),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// This row's coordinate of the vector from the centre to the point.
+        pub offset: I(c.widths.point) as Analog = 0,
+        /// Bits of the coefficient of x that are yet to come.
+        bits_x: U(c.widths.coefficient) as Hex = 0,
+        /// Bits of that of y.
+        bits_y: U(c.widths.coefficient) as Hex = 0,
+        /// Bits of that of z.
+        bits_z: U(c.widths.coefficient) as Hex = 0,
+        /// The products so far, by the weight of the bit to come.
+        sum: I(c.sum()) = 0,
+        /// The bit below the sum: a half.
+        half: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// X where its coefficient has the bit, else 0.
+        term_x: I(c.sum()),
+        /// Y likewise.
+        term_y: I(c.sum()),
+        /// Z likewise.
+        term_z: I(c.sum()),
+        /// The three terms added.
+        addend: I(c.sum()),
+        /// The sum with it.
+        total: I(c.sum()),
+        /// The sum with what rounds it.
+        raised: I(c.sum()),
+        /// The coordinate of the new point.
+        rounded: I(c.widths.point),
+    }
+}
+
+impl Circuit for VectorRow {
+    const NAME: &'static str = "vector_row";
+    const ABOUT: &'static str = "one coordinate of a changing matrix times a vector, a bit a tick";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let point = self.widths.point;
+        let term = |bits: U, word: I| bits.bit(0).mux(word.resize(self.sum()), 0);
+        let (term_x, term_y) = (term(q.bits_x, i.x), term(q.bits_y, i.y));
+        let term_z = term(q.bits_z, i.z);
+        let addend = term_x + term_y + term_z;
+        let total = q.sum + i.top.mux(-addend.shift_left(1), addend);
+        let raised = match self.rounding {
+            Rounding::Nearest => q.sum + q.half.word().resize(self.sum()).signed(),
+            Rounding::Floor => q.sum,
+        };
+        let rounded = raised.resize(point);
+
+        let word = U::parameter("offset_word", VECTOR_WORD + self.coordinate, 5);
+        let own = i.load & i.word.equals(word);
+        let given = i.data.resize(point).signed();
+        let bits = |by: U, bits: U| i.copy.mux(by, bits.shift_right(1));
+        let next = Reg {
+            offset: own.mux(given, i.commit.mux(rounded, q.offset)),
+            bits_x: bits(i.by_x, q.bits_x),
+            bits_y: bits(i.by_y, q.bits_y),
+            bits_z: bits(i.by_z, q.bits_z),
+            // Without bits left the total is the sum.
+            sum: i.copy.mux(0, i.fraction.mux(total.shift_right(1), total)),
+            half: i.fraction.mux(total.unsigned().bit(0), q.half),
+        };
+        let net = Net {
+            term_x,
+            term_y,
+            term_z,
+            addend,
+            total,
+            raised,
+            rounded,
+        };
+        (net, next)
+    }
+
+    fn objection(&self) -> Option<String> {
+        let short = self.widths.data < self.widths.point;
+        short.then(|| "a word of a record holds a coordinate".into())
+    }
+}

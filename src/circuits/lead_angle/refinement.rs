@@ -1,0 +1,201 @@
+//! Second order of the correction 28: has |Δtd| divided a second time.
+//!
+//! ```text
+//!                                  ┌────────────┐
+//!  start, negative ───────────────▶│            ├──▶ divide, first_factor, second_factor
+//!  multiplicand, multiplier, … ───▶│ refinement ├──▶ divide_by, addend
+//!  divider_done, quotient ────────▶│            ├──▶ done
+//!                                  └────────────┘
+//! ```
+//!
+//! Of a body that comes at a constant speed the error d2 is worth Δtd = Δt·d2/d1, with the Δt that
+//! would have been right. The first order takes Δt1 for it. Here that is the first division, and the
+//! second takes what came of it: Δtd = (Δt1 + Δt1·d2/d1)·d2/d1.
+//!
+//! Departure: the text names a quadratic function and gives none. Where |d2| is not below |d1| the
+//! series that this begins does not converge, so the first division stands: the first order.
+
+use crate::hdl::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// What the correction 28 makes of error and overrun.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Function {
+    /// Δtd = Δt1·d2/d1.
+    #[default]
+    FirstOrder,
+    /// Δtd = (Δt1 + Δt1·d2/d1)·d2/d1 where |d2| < |d1|, or else the first order.
+    SecondOrder,
+}
+
+/// Names of the states.
+const STATES: &[&str] = &["idle", "first", "second"];
+const IDLE: u64 = 0;
+const FIRST: u64 = 1;
+const SECOND: u64 = 2;
+
+/// Refinement of a quotient by a second division.
+///
+/// A division begins in the tick of `start`, the second in that of `divider_done`; `done` is high in
+/// the tick after the last one's `divider_done`.
+#[derive(Debug, Clone)]
+pub struct Refinement {
+    /// Width of a time.
+    pub time: usize,
+    /// Width of a position.
+    pub position: usize,
+}
+
+signals! { for Refinement as c;
+    /// Ports in.
+    pub struct In {
+        /// A correction begins, unless one is under way.
+        pub start: Bit,
+        /// |d2|; taken with `start`.
+        pub multiplicand: U(c.position),
+        /// Δt1; stands from `start` to `done`.
+        pub multiplier: U(c.time),
+        /// |d1|; taken with `start`.
+        pub divisor: U(c.position),
+        /// Δtd is negative; from the tick after `start` on.
+        pub negative: Bit,
+        /// The divider has its result.
+        pub divider_done: Bit,
+        /// The divider's result, which is at most Δt1 where |d2| is below |d1|.
+        pub quotient: U(c.time),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Which division is under way.
+        state: U(2) as States(STATES) = 0,
+        /// |d2| of the correction.
+        error_amount: U(c.position) = 0,
+        /// |d1| of the correction.
+        overrun_amount: U(c.position) = 0,
+        /// |Δtd| stands at the divider; one tick.
+        pub done: Bit = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// A start is taken.
+        take: Bit,
+        /// |d2| is below |d1|.
+        converges: Bit,
+        /// The first division is over, and the second begins.
+        refine: Bit,
+        /// The last division is over.
+        over: Bit,
+        /// Δt1 and Δtd of the first order.
+        first_order: U(c.time + 1),
+        /// The divider is to begin.
+        pub divide: Bit,
+        /// First factor: |d2|.
+        pub first_factor: U(c.position),
+        /// Second factor: Δt1, or what the first order makes of it.
+        pub second_factor: U(c.time + 1),
+        /// What is divided by: |d1|.
+        pub divide_by: U(c.position),
+        /// Half of |d1|: the quotient is rounded to the nearest.
+        pub addend: U(c.position),
+    }
+}
+
+impl Circuit for Refinement {
+    const NAME: &'static str = "refinement";
+    const ABOUT: &'static str = "has a correction divided a second time, for the second order";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let (first, second) = (q.state.bit(0), q.state.bit(1));
+        let take = i.start & !first & !second;
+        let converges = q.error_amount.below(q.overrun_amount);
+        let refine = first & i.divider_done & converges;
+        let over = (first | second) & i.divider_done & !refine;
+        let time = i.multiplier.resize(self.time + 1);
+        let by = i.quotient.resize(self.time + 1);
+        let first_order = i.negative.mux(time - by, time + by);
+        let divide_by = refine.mux(q.overrun_amount, i.divisor);
+        let net = Net {
+            take,
+            converges,
+            refine,
+            over,
+            first_order,
+            divide: take | refine,
+            first_factor: refine.mux(q.error_amount, i.multiplicand),
+            second_factor: refine.mux(first_order, time),
+            divide_by,
+            addend: divide_by.shift_right(1),
+        };
+        let state = |state| U::new(state, 2);
+        let after = refine.mux(state(SECOND), over.mux(state(IDLE), q.state));
+        let edge = Reg {
+            state: take.mux(state(FIRST), after),
+            error_amount: take.mux(i.multiplicand, q.error_amount),
+            overrun_amount: take.mux(i.divisor, q.overrun_amount),
+            done: over,
+        };
+        (net, edge)
+    }
+}
+
+impl Specified for Refinement {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let range = 2i64 << self.time;
+        let words = |w: &Net<Value>| (w.first_factor, w.second_factor, w.divide_by);
+        Invariants::<Self>::new()
+            .always(
+                "a division begins with a start, or behind the first",
+                move |now| {
+                    let (i, q, w) = (now.i, now.q, now.w);
+                    let sign = if i.negative { -1 } else { 1 };
+                    let first_order = i.multiplier as i64 + sign * i.quotient as i64;
+                    let expected = match (q.state, i.start, i.divider_done) {
+                        (IDLE, true, _) => Some((i.multiplicand, i.multiplier, i.divisor)),
+                        (FIRST, _, true) if q.error_amount < q.overrun_amount => Some((
+                            q.error_amount,
+                            first_order.rem_euclid(range) as u64,
+                            q.overrun_amount,
+                        )),
+                        _ => None,
+                    };
+                    let right = w.divide == expected.is_some()
+                        && expected.is_none_or(|expected| words(w) == expected)
+                        && w.addend == w.divide_by / 2;
+                    require(right, ["divide", "second_factor"], || {
+                        format!("{:?} where {expected:?} is expected", words(w))
+                    })
+                },
+            )
+            .step(
+                "a second follows where the error is below the overrun",
+                |now, next| {
+                    let (i, q) = (now.i, now.q);
+                    let refined = q.state == FIRST && q.error_amount < q.overrun_amount;
+                    let state = match (q.state, i.divider_done) {
+                        (IDLE, _) => u64::from(i.start) * FIRST,
+                        (state, false) => state,
+                        (_, true) if refined => SECOND,
+                        (_, true) => IDLE,
+                    };
+                    let done = q.state != IDLE && state == IDLE;
+                    let found = (next.q.state, next.q.done);
+                    require(found == (state, done), ["state", "done"], || {
+                        format!("{found:?} where {state} and {done} are expected")
+                    })
+                },
+            )
+            .step("both amounts are those of the start", |now, next| {
+                let (i, q) = (now.i, now.q);
+                let expected = match q.state == IDLE && i.start {
+                    true => (i.multiplicand, i.divisor),
+                    false => (q.error_amount, q.overrun_amount),
+                };
+                let held = (next.q.error_amount, next.q.overrun_amount);
+                require(held == expected, ["error_amount", "overrun_amount"], || {
+                    format!("{held:?} where {expected:?} is expected")
+                })
+            })
+    }
+}

@@ -1,0 +1,199 @@
+//! The arcs of a path on the conventional circuit, and what both circuits come to.
+
+use super::Job;
+use super::figures::Figures;
+use super::verdict::bounds;
+use crate::cli::Failure;
+use motion_rtl::circuits::arc_generator::{Conventional, Widths};
+use motion_rtl::hdl::{self, RunError};
+use motion_rtl::input::Point;
+use motion_rtl::jobs::arc_generator::beside::{RECORDS, play, records};
+use motion_rtl::jobs::arc_generator::bounds::conventional_error;
+use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
+use motion_rtl::jobs::arc_generator::job::{Played, arc_generator};
+use motion_rtl::jobs::arc_generator::prepared::Shape;
+use motion_rtl::path::vector::distance;
+use serde::Serialize;
+
+/// What the conventional circuit made of the arcs; nothing where there are none, or one is not run.
+#[derive(Debug, Default)]
+pub struct Beside {
+    /// Each arc from rest to rest.
+    pub arcs: Vec<Arc>,
+    /// Their samples, each with its start.
+    pub samples: u64,
+    /// What came out.
+    pub played: Played,
+    /// The first piece whose arc is not run, since it does not fit.
+    pub left: Option<usize>,
+}
+
+/// An arc from rest to rest.
+#[derive(Debug)]
+pub struct Arc {
+    /// Its segment.
+    pub segment: usize,
+    /// Its piece.
+    pub piece: usize,
+    /// The commands, in mm.
+    pub points: Vec<Point>,
+    /// Largest distance of a command from its exact point, in mm.
+    pub error: f64,
+    /// What it may not exceed.
+    pub bound: f64,
+}
+
+impl Beside {
+    /// Runs every arc of a path.
+    pub fn run(job: &Job) -> Result<Self, Failure> {
+        let per_mm = job.settings.counts_per_mm;
+        let (mut methods, mut all) = (Vec::new(), Vec::new());
+        for (index, segment) in job.prepared.segments.iter().enumerate() {
+            let Shape::Arc { circle, .. } = segment.shape else {
+                continue;
+            };
+            let wanted = job.prepared.pieces[segment.piece].wanted;
+            let method = Method::new(&circle, wanted, &job.prepared.timing);
+            let Some(records) = records(&method, per_mm, &Widths::FULL) else {
+                return Ok(Beside {
+                    left: Some(segment.piece),
+                    ..Beside::default()
+                });
+            };
+            all.extend(records);
+            methods.push((index, segment.piece, circle.radius, method));
+        }
+        debug_assert_eq!(all.len(), RECORDS * methods.len());
+        let circuit = Conventional::new(job.settings.rounding);
+        let played = play(&circuit, &all, job.sample_ticks)?;
+        let samples = |method: &Method| 1 + 2 * method.ramp + method.samples;
+        let samples = methods.iter().map(|(.., method)| samples(method)).sum();
+        let mut commands = played.commands.iter();
+        let arcs = methods.into_iter().map(|(segment, piece, radius, method)| {
+            let pairs = method.samples().zip(commands.by_ref());
+            let (mut points, mut error) = (Vec::new(), 0f64);
+            for ((exact, _), command) in pairs {
+                let point = job.mm(command.counts);
+                error = error.max(distance(point, exact));
+                points.push(point);
+            }
+            let steps = 2 * method.ramp + method.samples;
+            let rounding = job.settings.rounding;
+            let bound = conventional_error(radius * per_mm, steps, &Widths::FULL, rounding);
+            Arc {
+                segment,
+                piece,
+                points,
+                error,
+                bound: bound / per_mm,
+            }
+        });
+        Ok(Beside {
+            arcs: arcs.collect(),
+            samples,
+            played,
+            left: None,
+        })
+    }
+
+    /// What is wrong with it; empty where nothing is.
+    pub fn complaints(&self) -> impl Iterator<Item = String> {
+        let (sampled, wanted) = (self.played.commands.len() as u64, self.samples);
+        let short = (sampled != wanted).then(|| {
+            format!("{sampled} samples by the conventional method where the arcs have {wanted}")
+        });
+        let astray = self.arcs.iter().filter(|arc| {
+            // Written so that NaN fails.
+            let within = arc.error <= arc.bound;
+            !within
+        });
+        let astray = astray.map(|arc| {
+            let (error, bound) = (arc.error * 1e3, arc.bound * 1e3);
+            let piece = arc.piece;
+            format!(
+                "piece {piece} by the conventional method: a sample is {error:.3} um off its exact \
+                 point, its bound is {bound:.3} um"
+            )
+        });
+        short.into_iter().chain(astray)
+    }
+
+    /// Of an arc: its points.
+    pub fn points(&self, segment: usize) -> &[Point] {
+        let arc = self.arcs.iter().find(|arc| arc.segment == segment);
+        arc.map_or(&[], |arc| &arc.points)
+    }
+}
+
+/// A circuit.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    /// Its name.
+    pub circuit: &'static str,
+    /// Adders, subtractors and comparators.
+    pub adders: u64,
+    /// Bits of them.
+    pub adder_bits: u64,
+    /// Bits of registers.
+    pub flip_flops: u64,
+    /// Ticks from a sampling time to the next point: on a line or blend.
+    pub ticks_straight: Option<u64>,
+    /// On an arc.
+    pub ticks_arc: Option<u64>,
+    /// To the first point of the next segment.
+    pub ticks_change: Option<u64>,
+    /// Most of these: the shortest sampling time.
+    pub ticks_most: u64,
+    /// No point was late.
+    pub in_time: bool,
+    /// Largest distance of a command from its exact point.
+    pub error_max_um: f64,
+    /// What it may not exceed.
+    pub error_bound_um: f64,
+}
+
+impl Row {
+    fn of(model: &hdl::Model, played: &Played, [error, bound]: [f64; 2]) -> Self {
+        let cost = model.cost();
+        let needed = played.needed;
+        let there = |ticks: u64| (ticks > 0).then_some(ticks);
+        Row {
+            circuit: model.name(),
+            adders: cost.adders,
+            adder_bits: cost.adder_bits,
+            flip_flops: cost.register_bits,
+            ticks_straight: there(needed.straight),
+            ticks_arc: there(needed.arc),
+            ticks_change: there(needed.change),
+            ticks_most: needed.most(),
+            in_time: !played.late,
+            error_max_um: error * 1e3,
+            error_bound_um: bound * 1e3,
+        }
+    }
+}
+
+/// Both circuits; nothing where the path has no arc.
+pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, RunError> {
+    let beside = &figures.beside;
+    if beside.arcs.is_empty() {
+        return Ok(Vec::new());
+    }
+    let rounding = job.settings.rounding;
+    let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let own = figures.measured.as_ref().map_or(0.0, |m| m.largest_error);
+    let own = [own, most(&mut bounds(job, figures).into_iter())];
+    let arcs = &beside.arcs;
+    let other = [
+        most(&mut arcs.iter().map(|arc| arc.error)),
+        most(&mut arcs.iter().map(|arc| arc.bound)),
+    ];
+    Ok(vec![
+        Row::of(&hdl::model(&arc_generator(rounding))?, played, own),
+        Row::of(
+            &hdl::model(&Conventional::new(rounding))?,
+            &beside.played,
+            other,
+        ),
+    ])
+}

@@ -1,0 +1,121 @@
+//! The arcs of a path on the conventional circuit, each from rest to rest, beside the arc generator.
+
+use super::conventional::Conventional as Method;
+use super::job::{Bench, Played, See};
+use super::record::{blend_differences, put_differences, quantise, signed};
+use crate::circuits::arc_generator::axis_terms::AXIS_WORD;
+use crate::circuits::arc_generator::vector_row::VECTOR_WORD;
+use crate::circuits::arc_generator::{Conventional, Widths};
+use crate::circuits::blocks::record_memory::ARC;
+use crate::hdl::{RunError, Simulator};
+use crate::path::record::{Record, WORDS, coordinate_word};
+use crate::path::vector::scale;
+use std::f64::consts::TAU;
+
+/// Records of an arc: where it begins, ramp, constant speed, ramp.
+pub const RECORDS: usize = 4;
+
+/// The records of an arc; `None` where a coordinate or the radius is no word, or its samples are too
+/// many.
+///
+/// Each has the vector at which it begins, so an error does not go on to the next.
+#[must_use]
+pub fn records(run: &Method, counts_per_mm: f64, widths: &Widths) -> Option<[Record; RECORDS]> {
+    let circle = &run.circle;
+    // The vector is the difference of rounded points.
+    let counts = |mm: f64| mm.abs() * counts_per_mm + 1.0;
+    let farthest = circle.extremes().into_iter().flatten().chain(circle.centre);
+    let fits = |mm: f64| widths.holds(counts(mm));
+    let runs = run.samples <= widths.most_samples() && run.ramp <= widths.most_blend_samples();
+    if !(runs && fits(circle.radius) && farthest.into_iter().all(fits)) {
+        return None;
+    }
+    let angle = |radians: f64| quantise(radians / TAU, widths.coefficient);
+    let (ramp, all) = (angle(run.ramp_angle), angle(circle.angle));
+    let power = i128::from(run.ramp).pow(4);
+    let way = i128::from(all) - 2 * i128::from(ramp);
+    let record = |samples, from, modulus, differences| {
+        record(
+            run,
+            counts_per_mm,
+            widths,
+            (samples, from),
+            (modulus, differences),
+        )
+    };
+    let mut records = [
+        record(0, 0, 1, [0; 4]),
+        record(
+            run.ramp,
+            0,
+            power,
+            blend_differences([0, 0, ramp], run.ramp),
+        ),
+        record(run.samples, ramp, i128::from(run.samples), [way, 0, 0, 0]),
+        record(
+            run.ramp,
+            all - ramp,
+            power,
+            blend_differences([all - ramp, all, all], run.ramp),
+        ),
+    ];
+    // It ends at rest.
+    records[RECORDS - 1].words[0] |= 4;
+    Some(records)
+}
+
+fn record(
+    run: &Method,
+    counts_per_mm: f64,
+    widths: &Widths,
+    (samples, from): (u64, i64),
+    (modulus, differences): (i128, [i128; 4]),
+) -> Record {
+    let (point, coefficient) = (widths.point, widths.coefficient);
+    let units = |mm| scale(mm, counts_per_mm).map(|counts| quantise(counts, widths.guard()));
+    let turned = from as f64 * TAU / (coefficient as f64).exp2();
+    let (centre, begin) = (units(run.circle.centre), units(run.circle.point(turned)));
+    let [x, y, z] = run.circle.axis;
+    let axis = [x, y, z, x * x, y * y, z * z, x * y, x * z, y * z];
+    let mut words = [0; WORDS];
+    words[0] = ARC | samples << 3;
+    words[1] = modulus as u64;
+    words[2] = signed(from, coefficient);
+    for k in 0..3 {
+        words[5 + k] = signed(centre[k], point);
+        words[VECTOR_WORD as usize + k] = signed(begin[k] - centre[k], point);
+    }
+    for (word, term) in words[AXIS_WORD as usize..].iter_mut().zip(axis) {
+        let term = quantise(term, widths.coefficient_fraction());
+        *word = signed(term, coefficient);
+    }
+    let engine = &mut words[coordinate_word(0)..coordinate_word(1)];
+    put_differences(engine, differences, modulus, coefficient);
+    Record { words }
+}
+
+/// Plays the records of arcs on `circuit`, a sample every `sample_ticks` ticks or as soon as there is
+/// one.
+///
+/// # Errors
+/// The circuit is none.
+pub fn play(
+    circuit: &Conventional,
+    records: &[Record],
+    sample_ticks: u32,
+) -> Result<Played, RunError> {
+    let mut bench = Bench::new(records, sample_ticks);
+    let (mut simulator, see) = Simulator::watching(circuit, false, |watch| {
+        See::of(watch, &watch.p.sequencer.q, &watch.w)
+    })?;
+    while !bench.over() {
+        let i = bench.ports();
+        let ((), _) = simulator.look(&i, (), |now| bench.take(now, &see))?;
+        let most = match bench.stands() {
+            true => simulator.unseen(&()),
+            false => 1,
+        };
+        simulator.go_on(most);
+    }
+    Ok(bench.played)
+}

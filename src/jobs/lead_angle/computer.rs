@@ -1,0 +1,105 @@
+//! The control computer of a compensator: writes the steps, lets them run, and sees to it that each
+//! finds its next target.
+
+use super::job::{Ports, WIDTHS};
+use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings};
+use crate::circuits::lead_angle::Compensator;
+use crate::hdl::zero;
+
+/// The control computer: writes a step a tick, then lets them run. As soon as a step has taken its
+/// target it is written the one for when it comes next, where that is another.
+#[derive(Debug)]
+pub(super) struct ControlComputer<'a> {
+    settings: &'a Settings,
+    /// Positionings that have taken their target.
+    begun: usize,
+    /// A step was armed in the tick before.
+    arming: bool,
+}
+
+impl<'a> ControlComputer<'a> {
+    pub(super) fn new(settings: &'a Settings) -> Self {
+        ControlComputer {
+            settings,
+            begun: 0,
+            arming: false,
+        }
+    }
+
+    /// What it gives `circuit` in every tick, with all else low.
+    pub(super) fn standing(&self, circuit: &Compensator) -> Ports {
+        let settings = self.settings;
+        let cks = |ms: f64| u64::from(settings.cks(ms));
+        let standstill = match settings.completion {
+            Completion::Standstill => cks(settings.standstill_ms),
+            // No standstill is so long.
+            Completion::FixedTime => (1 << WIDTHS.cks) - 1,
+        };
+        // The times are in the ROM.
+        Ports {
+            learn: settings.learn,
+            common: settings.common_time,
+            last_step: settings.steps.len().saturating_sub(1) as u64,
+            ck_period: u64::from(settings.ck_ticks),
+            standstill,
+            time_out: cks(settings.time_out_ms),
+            rest: cks(settings.rest_ms),
+            seed: settings.code(settings.seed_ms).unwrap_or(0),
+            lead_parameter: self.parameter(settings.speed_lead_ms),
+            gate: cks(settings.speed_gate_ms),
+            ..zero(circuit)
+        }
+    }
+
+    /// A lead time of the conventional compensator as its parameter: in gates, in 1/256.
+    fn parameter(&self, ms: f64) -> u64 {
+        let gates = 256.0 * ms / self.settings.speed_gate_ms;
+        (gates.round() as u64).min((1 << 14) - 1)
+    }
+
+    /// Sets the parameter of the step that runs, where each has its own.
+    pub(super) fn choose_parameter(&self, i: &mut Ports, step: u64) {
+        let step = usize::try_from(step).unwrap_or(usize::MAX);
+        if let Some(ms) = self.settings.speed_leads_ms.get(step) {
+            i.lead_parameter = self.parameter(*ms);
+        }
+    }
+
+    /// What it gives in `tick`, in which a step is armed or not; steps run as soon as all are
+    /// written.
+    pub(super) fn tick(&mut self, i: &mut Ports, tick: u64, arm: bool, run: bool) {
+        let steps = self.settings.steps.len();
+        let place = usize::try_from(tick).unwrap_or(usize::MAX);
+        let taken = arm && !self.arming;
+        self.arming = arm;
+        let write = match place < steps {
+            true => Some(place),
+            false if taken => {
+                let (now, next) = (self.begun, self.begun + steps);
+                self.begun += 1;
+                let other = self.settings.switch(now) != self.settings.switch(next);
+                other.then_some(next)
+            }
+            false => None,
+        };
+        self.write(i, write);
+        i.run = place >= steps && run;
+    }
+
+    /// Writes the step of a positioning, with the target that it has then.
+    fn write(&self, i: &mut Ports, positioning: Option<usize>) {
+        let steps = &self.settings.steps;
+        let step = positioning.map(|number| number % steps.len());
+        let speed = step.map_or(0, |step| steps[step].speed_counts_per_s);
+        i.write_target = step.is_some();
+        i.write_step = step.map_or(0, |step| step as u64);
+        i.step_target = positioning.map_or(0, |number| word(self.settings.switch(number)));
+        i.step_speed = u64::from(speed / SPEED_UNIT_COUNTS_PER_S);
+    }
+}
+
+/// A position as the word that stands for it: positions are a ring.
+pub(super) fn word(position: i64) -> i64 {
+    let half = 1 << (WIDTHS.position - 1);
+    (position + half).rem_euclid(2 * half) - half
+}

@@ -1,0 +1,127 @@
+//! A spline as segments: cubics of the length, short enough to be the spline.
+//!
+//! A cubic curve has a parameter that is not its length. Between two of its points that are near
+//! enough the cubic *of the length* with the same ends and the same directions there is the same
+//! curve but for a fourth power of the length between them: at a radius r by l⁴/384r³. So a curve is
+//! halved until no part is off by more than [`DEVIATION_COUNTS`], and none runs faster or slower by
+//! more than [`SPEED`], at places that are known from the curve's length by quadrature. Neighbours
+//! meet with one direction; curvature meets but for (l/r)²/12 of it.
+
+use super::segments::{Segment, Stretch};
+use crate::input::Point;
+use crate::path::cubic::Cubic;
+use crate::path::vector::{add, distance, dot, norm, scale, sub, unit};
+
+/// How far a segment may be off its spline, in counts, where the length along it is the same.
+pub const DEVIATION_COUNTS: f64 = 0.01;
+
+/// Cosine of the most that a segment turns.
+const TURN: f64 = 0.9;
+
+/// How far the speed on a segment may be off, as a part; the ends' rounding comes to it.
+pub const SPEED: f64 = 1e-3;
+
+/// The largest coefficient: a word's is below 2.
+const LARGEST: f64 = 1.9;
+
+/// The segments of a curve, with so many guard units a millimetre and a count, each with its own
+/// place in `stretch` but for where it begins.
+pub(super) fn stretches(cubic: &Cubic, unit: f64, count: f64, stretch: Stretch) -> Vec<Stretch> {
+    let mut made = Vec::new();
+    let mut parts = vec![[0.0, 1.0]];
+    while let Some([from, to]) = parts.pop() {
+        match part(cubic, [from, to], unit, count * DEVIATION_COUNTS) {
+            Part::Halves => {
+                let middle = f64::midpoint(from, to);
+                parts.extend([[middle, to], [from, middle]]);
+            }
+            Part::Nothing => {}
+            Part::Whole(segment, length, directions) => made.push(Stretch {
+                segment,
+                length,
+                directions,
+                radius: segment.least_radius(length as f64).map(|r| r / unit),
+                ..stretch
+            }),
+        }
+    }
+    made
+}
+
+/// What becomes of a part of a curve.
+enum Part {
+    /// It is shorter than half a guard unit.
+    Nothing,
+    /// A segment, its length, and its directions at both ends.
+    Whole(Segment, u64, [Point; 2]),
+    /// It is halved.
+    Halves,
+}
+
+fn part(cubic: &Cubic, [from, to]: [f64; 2], unit_per_mm: f64, deviation: f64) -> Part {
+    let at = |t: f64| scale(cubic.point(t), unit_per_mm);
+    let ends = [from, to].map(|t| at(t).map(f64::round));
+    let lengths = cubic.lengths(from, to).map(|mm| mm * unit_per_mm);
+    let length = lengths[3].round();
+    if length < 1.0 {
+        return Part::Nothing;
+    }
+    let way = scale(sub(ends[1], ends[0]), 1.0 / length);
+    let directions @ [first, last] = [cubic.direction(from, false), cubic.direction(to, true)];
+    if lengths[3] <= deviation {
+        // Shorter than what it may be off: a corner of the curve, or next to one.
+        let straight = Segment::line(ends[0], way);
+        let directions = match norm(way) > 0.0 {
+            true => [unit(way); 2],
+            false => directions,
+        };
+        return Part::Whole(straight, length as u64, directions);
+    }
+    let bits = (length as u64).ilog2() + 1;
+    let longest = f64::from(bits).exp2() / length;
+    let segment = Segment {
+        along: first,
+        across: scale(sub(scale(way, 3.0), add(scale(first, 2.0), last)), longest),
+        third: scale(sub(add(first, last), scale(way, 2.0)), longest * longest),
+        powers: Some(bits),
+        ..Segment::line(ends[0], way)
+    };
+    let near = |quarter: usize| {
+        let t = from + (to - from) * (quarter + 1) as f64 / 4.0;
+        let offset = lengths[quarter];
+        let speed = norm(segment.derivatives(bits, offset)[0]);
+        distance(segment.point(offset), at(t)) <= deviation / 2.0
+            && (speed - 1.0).abs() <= SPEED + 2.0 / length
+    };
+    let held = |of: Point| of.iter().all(|one| one.abs() < LARGEST);
+    let holds = held(segment.across) && held(segment.third);
+    match holds && dot(first, last) >= TURN && (0..3).all(near) {
+        true => Part::Whole(segment, length as u64, directions),
+        false => Part::Halves,
+    }
+}
+
+impl Segment {
+    /// First and second derivative by the length, at a length on a spline of so many bits.
+    pub(super) fn derivatives(&self, bits: u32, offset: f64) -> [Point; 2] {
+        let longest = f64::from(bits).exp2();
+        let part = offset / longest;
+        let sum = |along: f64, across: f64, third: f64| {
+            let flat = add(scale(self.along, along), scale(self.across, across));
+            add(flat, scale(self.third, third))
+        };
+        [
+            sum(1.0, 2.0 * part, 3.0 * part * part),
+            sum(0.0, 2.0 / longest, 6.0 * part / longest),
+        ]
+    }
+
+    /// The least radius of curvature of a spline of this length, in guard units: the second
+    /// derivative goes straight from that at one end to that at the other. None where there is none.
+    fn least_radius(&self, length: f64) -> Option<f64> {
+        let bits = self.powers?;
+        let most = [0.0, length].map(|at| norm(self.derivatives(bits, at)[1]));
+        let most = most[0].max(most[1]);
+        (most > 0.0).then_some(1.0 / most)
+    }
+}
