@@ -56,6 +56,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = Source::read(&arguments.input)?;
     match &source.loaded.scenario {
+        Scenario::PulseInterpolator(scenario) if !scenario.pattern.is_empty() => {
+            let scenario = scenario.clone();
+            pulse::patterns::run(arguments, source, &scenario)
+        }
         Scenario::PulseInterpolator(_) => pulse::run(arguments, &pulse::Job::prepare(source)?),
         Scenario::LinearInterpolator(scenario) => {
             let settings = scenario.settings();

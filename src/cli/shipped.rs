@@ -2,6 +2,8 @@
 //! none is named.
 
 use motion_rtl::input::{Drawing, Fault, Options, read_text_with};
+use motion_rtl::jobs::pulse_interpolator::Table;
+use motion_rtl::jobs::pulse_interpolator::table::read;
 use motion_rtl::scenario::Loaded;
 use std::path::Path;
 
@@ -14,6 +16,8 @@ pub struct Shipped {
     pub about: &'static str,
     text: &'static str,
     input: Option<Input>,
+    /// Tables of the pulse interpolator.
+    tables: &'static [Input],
 }
 
 /// An input by its name in the crate.
@@ -24,12 +28,13 @@ struct Input {
 }
 
 macro_rules! shipped {
-    ($file:literal, $about:literal $(, input: $input:literal)?) => {
+    ($file:literal, $about:literal $(, input: $input:literal)? $(, tables: [$($table:literal),*])?) => {
         Shipped {
             file: $file,
             about: $about,
             text: include_str!(concat!("../../", $file)),
             input: input!($($input)?),
+            tables: &[$($(embedded!($table)),*)?],
         }
     };
 }
@@ -39,15 +44,21 @@ macro_rules! input {
         None
     };
     ($file:literal) => {
-        Some(Input {
+        Some(embedded!($file))
+    };
+}
+
+macro_rules! embedded {
+    ($file:literal) => {
+        Input {
             file: $file,
             text: include_str!(concat!("../../", $file)),
-        })
+        }
     };
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 13] = [
+pub const SHIPPED: [Shipped; 14] = [
     shipped!(
         "waves/machine.toml",
         "a bracket in G-code on steppers, servos and a pen lift, by all five circuits; runs by default",
@@ -57,6 +68,11 @@ pub const SHIPPED: [Shipped; 13] = [
         "waves/bracket.toml",
         "the bracket on the pulse interpolator: lines at T2, arcs at T1",
         input: "waves/bracket.ngc"
+    ),
+    shipped!(
+        "waves/patterns.toml",
+        "patterns in the memory, chosen by command and never rewritten, on the pulse interpolator",
+        tables: ["waves/ring.csv", "waves/stroke.csv"]
     ),
     shipped!(
         "waves/rosette.toml",
@@ -120,7 +136,17 @@ pub fn find(path: &Path) -> Option<&'static Shipped> {
 impl Shipped {
     /// The scenario with overrides.
     pub fn load(&self, sets: &[String]) -> Result<Loaded, Fault> {
-        Loaded::parse(self.file, self.text, sets)
+        let loaded = Loaded::parse(self.file, self.text, sets)?;
+        Ok(loaded.with_tables_beside(Path::new(self.file)))
+    }
+
+    /// One of its tables.
+    pub fn table(&self, path: &Path, clock_hz: u64) -> Result<Table, Fault> {
+        let named = |table: &&Input| Path::new(table.file) == path;
+        match self.tables.iter().find(named) {
+            Some(table) => read::read(table.file, table.text, clock_hz),
+            None => read::read_path(path, clock_hz),
+        }
     }
 
     /// Its input; none where it is complete without.

@@ -5,6 +5,8 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressFinish};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
 use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
+use motion_rtl::jobs::pulse_interpolator::Table;
+use motion_rtl::jobs::pulse_interpolator::table::read;
 use motion_rtl::plan::{FEED_RANGE, PlanError};
 use motion_rtl::scenario::{Loaded, Runnable};
 use std::path::{Path, PathBuf};
@@ -111,6 +113,16 @@ impl Source {
                 position_log::read_path(path, columns).map(Some)
             }
             Origin::Crate(_) | Origin::Nowhere => Ok(None),
+        }
+    }
+
+    /// Reads a table of the pulse interpolator that the scenario names.
+    pub fn table(&self, path: &Path, clock_hz: u64) -> Result<Table, Fault> {
+        match &self.origin {
+            Origin::Crate(shipped) if !self.loaded.overrides("pattern") => {
+                shipped.table(path, clock_hz)
+            }
+            _ => read::read_path(path, clock_hz),
         }
     }
 

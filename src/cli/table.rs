@@ -6,7 +6,8 @@ use super::{Failure, print, print_json};
 use clap::Args;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::files;
-use motion_rtl::jobs::pulse_interpolator::{Ratio, Report, Scaled, Table};
+use motion_rtl::jobs::pulse_interpolator::table::read::columns;
+use motion_rtl::jobs::pulse_interpolator::{AxisScaling, Ratio, Report, Scaled, Table};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -34,17 +35,30 @@ struct Output<'a> {
     patterns: usize,
     #[serde(flatten)]
     report: &'a Report,
-    scaling: Option<Vec<Scaling>>,
+    scaling: Option<Vec<AxisDeviation>>,
     warnings: Vec<String>,
     files: Vec<String>,
 }
 
 /// What scaling the data does to an axis.
 #[derive(Debug, Serialize)]
-struct Scaling {
-    largest_deviation_pulses_per_unit: f64,
-    drift_steps: f64,
-    rounded_units: usize,
+pub struct AxisDeviation {
+    /// Largest difference from the ideal in one unit time, in pulses.
+    pub largest_deviation_pulses_per_unit: f64,
+    /// Position at the end less the ideal one, in steps.
+    pub drift_steps: f64,
+    /// Unit times whose half-period was rounded.
+    pub rounded_units: usize,
+}
+
+impl From<&AxisScaling> for AxisDeviation {
+    fn from(axis: &AxisScaling) -> Self {
+        AxisDeviation {
+            largest_deviation_pulses_per_unit: axis.largest_deviation,
+            drift_steps: axis.drift,
+            rounded_units: axis.rounded_units,
+        }
+    }
 }
 
 /// Compiles.
@@ -71,14 +85,9 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
         })?;
         files.push(written.display().to_string());
     }
-    let scaling = scaled.as_ref().map(|scaled| {
-        let axis = |axis: &motion_rtl::jobs::pulse_interpolator::AxisScaling| Scaling {
-            largest_deviation_pulses_per_unit: axis.largest_deviation,
-            drift_steps: axis.drift,
-            rounded_units: axis.rounded_units,
-        };
-        scaled.axes.iter().map(axis).collect()
-    });
+    let scaling = scaled
+        .as_ref()
+        .map(|scaled| scaled.axes.iter().map(Into::into).collect());
     let output = Output {
         input: &job.drawing.file,
         clock_hz: job.settings.clock_hz,
@@ -116,31 +125,31 @@ fn spare_inputs(out: &Path, arguments: &Arguments, job: &Job) -> Result<(), Fail
 }
 
 fn scale(table: &Table, text: &str) -> Result<Scaled, Failure> {
+    let ratio = ratio(text).map_err(|allowed| Failure::Argument {
+        field: "--scale",
+        problem: format!("is {text}"),
+        allowed: allowed.into(),
+    })?;
+    table.scaled(ratio).map_err(|error| Failure::Argument {
+        field: "--scale",
+        problem: error.to_string(),
+        allowed: "a smaller ratio".into(),
+    })
+}
+
+/// A ratio as it is written, or what is allowed.
+pub fn ratio(text: &str) -> Result<Ratio, &'static str> {
     let (num, den) = text.split_once('/').unwrap_or((text, "1"));
     let number = |text: &str| text.trim().parse::<u32>().ok().filter(|number| *number > 0);
-    let (Some(num), Some(den)) = (number(num), number(den)) else {
-        return Err(Failure::Argument {
-            field: "--scale",
-            problem: format!("is {text}"),
-            allowed: "NUM/DEN, two whole numbers from 1 to 4294967295".into(),
-        });
-    };
-    table
-        .scaled(Ratio { num, den })
-        .map_err(|error| Failure::Argument {
-            field: "--scale",
-            problem: error.to_string(),
-            allowed: "a smaller ratio".into(),
-        })
+    match (number(num), number(den)) {
+        (Some(num), Some(den)) => Ok(Ratio { num, den }),
+        _ => Err("NUM/DEN, two whole numbers from 1 to 4294967295"),
+    }
 }
 
 fn csv(table: &Table) -> String {
-    let mut text = String::from("unit,period_ticks");
+    let mut text = columns(table.axes()).join(",") + "\n";
     // Writing to a string does not fail.
-    for name in &AXIS_NAMES[..table.axes()] {
-        let _ = write!(text, ",{name}_half_period_ticks,{name}_down");
-    }
-    text.push('\n');
     for (unit, (period, words)) in table.iter().enumerate() {
         let _ = write!(text, "{unit},{period}");
         for word in words {

@@ -45,7 +45,22 @@ impl Loaded {
         {
             *input = directory.join(&*input);
         }
-        Ok(loaded)
+        Ok(loaded.with_tables_beside(path))
+    }
+
+    /// The tables that it names, and no override, are in the directory of `path`.
+    #[must_use]
+    pub fn with_tables_beside(mut self, path: &Path) -> Self {
+        let given = self.overrides("pattern");
+        if let (Scenario::PulseInterpolator(scenario), Some(directory)) =
+            (&mut self.scenario, path.parent())
+            && !given
+        {
+            for pattern in &mut scenario.pattern {
+                pattern.table = directory.join(&pattern.table);
+            }
+        }
+        self
     }
 
     /// Reads a scenario from text that is called `file` in faults.

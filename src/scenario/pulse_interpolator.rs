@@ -1,6 +1,7 @@
 //! The keys of the pulse interpolator.
 
 use super::{Program, Runnable};
+use crate::circuits::pulse_interpolator::Variant;
 use crate::input::Drawing;
 use crate::jobs::pulse_interpolator::{Settings, StepTiming};
 use crate::plan::MotionLimits;
@@ -15,6 +16,14 @@ pub struct Scenario {
     pub circuit: Runnable,
     /// The drawing or part program; in a file relative to that file.
     pub input: Option<PathBuf>,
+    /// Patterns that stand in the memory, in place of an input.
+    #[serde(default)]
+    pub pattern: Vec<PatternKeys>,
+    /// The names of patterns in the order in which they are played; without it each once.
+    pub play: Option<Vec<String>>,
+    /// Whether the pattern is played without a control computer.
+    #[serde(default)]
+    pub standalone: bool,
     /// Where the zeros of a part program are.
     #[serde(default)]
     pub program: Program,
@@ -81,15 +90,32 @@ impl Scenario {
             },
             line_unit_ticks: self.line_unit_ticks,
             arc_unit_ticks: self.arc_unit_ticks.unwrap_or(self.line_unit_ticks),
-            timing: StepTiming {
-                min_high: self.step_high_ticks,
-                min_low: self.step_low_ticks,
-                dir_setup: self.dir_setup_ticks,
-                dir_hold: self.dir_hold_ticks,
-            },
+            timing: self.timing(),
             ..Settings::default()
         }
     }
+
+    /// What the motor drivers ask for.
+    pub fn timing(&self) -> StepTiming {
+        StepTiming {
+            min_high: self.step_high_ticks,
+            min_low: self.step_low_ticks,
+            dir_setup: self.dir_setup_ticks,
+            dir_hold: self.dir_hold_ticks,
+        }
+    }
+}
+
+/// A table `[[pattern]]`.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PatternKeys {
+    /// What it is called in `play`.
+    pub name: String,
+    /// Its words in CSV; in a file relative to that file.
+    pub table: PathBuf,
+    /// What its half-periods are multiplied by, as 3/2.
+    pub scale: Option<String>,
 }
 
 /// The variant by its name.
@@ -101,6 +127,26 @@ pub enum VariantName {
     Safe,
     /// RST clears the flip-flop alone, as the text has it.
     Literal,
+}
+
+impl VariantName {
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            VariantName::Safe => "safe",
+            VariantName::Literal => "literal",
+        }
+    }
+}
+
+impl From<VariantName> for Variant {
+    fn from(name: VariantName) -> Self {
+        match name {
+            VariantName::Safe => Variant::Safe,
+            VariantName::Literal => Variant::Literal,
+        }
+    }
 }
 
 /// What a key is worth that is not given: what the compiler's settings are by default.

@@ -25,6 +25,7 @@ mod machine;
 mod memory;
 mod mutate;
 mod notes;
+mod patterns;
 mod plan;
 mod readme;
 mod refusals;

@@ -26,7 +26,7 @@ fn copy() -> Bench {
     for entry in fs::read_dir(Path::new(CRATE).join("waves")).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap();
-        if [".toml", ".ngc", ".hpgl"]
+        if [".toml", ".ngc", ".hpgl", ".csv"]
             .iter()
             .any(|end| name.ends_with(end))
         {
@@ -106,6 +106,8 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
             "waves/corner.toml" => shown,
             _ => 150_000,
         };
+    } else if summary["patterns"].is_array() {
+        assert_eq!(summary["exact"], true, "{scenario}");
     } else {
         assert_eq!(summary["exact"], true, "{scenario}");
         assert_eq!(whole(&summary, "/unattainable_units"), 0, "{scenario}");
@@ -140,7 +142,9 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
 
 #[test]
 fn what_is_built_in_is_what_the_files_say() {
-    for scenario in ["bracket", "rosette", "plotter", "weld", "flange"] {
+    for scenario in [
+        "bracket", "patterns", "rosette", "plotter", "weld", "flange",
+    ] {
         let scenario = format!("waves/{scenario}.toml");
         let run = ["run", &scenario, "--no-vcd", "--json"];
         let (built_in, files) = (Bench::new(), copy());
@@ -238,7 +242,8 @@ vcd_ticks = 100
 #[test]
 fn bad_scenarios_are_refused_with_their_line() {
     const NO_TOML: &str = "lines of key = value, in TOML";
-    const KEYS: &str = "one of `circuit`, `input`, `program`, `variant`, `clock_hz`, `steps_per_mm`, \
+    const KEYS: &str = "one of `circuit`, `input`, `pattern`, `play`, `standalone`, `program`, \
+        `variant`, `clock_hz`, `steps_per_mm`, \
          `feed_mm_per_min`, `rapid_mm_per_min`, `corner_mm_per_min`, `acceleration_mm_per_s2`, \
          `line_unit_ticks`, `arc_unit_ticks`, `step_high_ticks`, `step_low_ticks`, \
          `dir_setup_ticks`, `dir_hold_ticks`, `vcd_ticks`";

@@ -212,7 +212,7 @@ fn bad_ratios_are_refused() {
             "--scale",
             "2",
         ],
-        "--scale: unit 1, X: scaled half-period 131070: allowed are 1 to 65535; allowed: a \
+        "--scale: unit 1, x: scaled half-period 131070: allowed are 1 to 65535; allowed: a \
          smaller ratio",
     );
 }

@@ -2,7 +2,6 @@
 
 use crate::cli::Failure;
 use crate::cli::source::{Source, compiling, drawing_fault, plan_fault};
-use motion_rtl::circuits::pulse_interpolator::Variant;
 use motion_rtl::input::{DRAWINGS, Drawing, Fault};
 use motion_rtl::jobs::pulse_interpolator::{Report, Settings, Table, TableError, compile};
 use motion_rtl::scenario::pulse_interpolator::VariantName;
@@ -18,7 +17,7 @@ pub struct Job {
     /// The input.
     pub drawing: Drawing,
     /// What RST clears.
-    pub variant: Variant,
+    pub variant: VariantName,
     /// The most ticks that go into the VCD unless a window is asked for.
     pub vcd_ticks: u64,
     /// Its settings.
@@ -52,11 +51,25 @@ impl Job {
                 source.loaded.fault("circuit", problem, allowed)
             }
         })?;
+        for (key, given) in [
+            ("pattern", !scenario.pattern.is_empty()),
+            ("play", scenario.play.is_some()),
+            ("standalone", scenario.standalone),
+        ] {
+            if given {
+                let problem = match key {
+                    "pattern" => "a memory of patterns is not compiled",
+                    _ => "without [[pattern]]",
+                };
+                let allowed = "the command run, with [[pattern]] and no input";
+                let fault = source
+                    .loaded
+                    .fault(key, problem.to_owned(), allowed.to_owned());
+                return Err(fault.into());
+            }
+        }
         let drawing = source.drawing()?;
-        let variant = match scenario.variant {
-            VariantName::Safe => Variant::Safe,
-            VariantName::Literal => Variant::Literal,
-        };
+        let variant = scenario.variant;
         let vcd_ticks = scenario.vcd_ticks;
         let settings = scenario.settings(&drawing);
         let spinner = compiling();

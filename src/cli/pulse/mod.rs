@@ -1,6 +1,7 @@
 //! `run` of the pulse interpolator: its job, waves, summary and picture.
 
 mod job;
+pub mod patterns;
 mod picture;
 mod summary;
 mod text;
@@ -14,7 +15,12 @@ use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
-use motion_rtl::jobs::pulse_interpolator::job::{Played, fast_forward, group, play};
+use motion_rtl::circuits::pulse_interpolator::Group;
+use motion_rtl::jobs::pulse_interpolator::job::{
+    Computer, Played, fast_forward_by, group, play_by,
+};
+use motion_rtl::jobs::pulse_interpolator::{ControlComputer, Table};
+use motion_rtl::scenario::Loaded;
 use motion_rtl::trace::Options;
 use picture::{Following, draw};
 use summary::Summary;
@@ -41,15 +47,17 @@ const OVERVIEW: [&str; 13] = [
 
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    if arguments.segments {
-        return Err(Failure::Argument {
-            field: "--segments",
-            problem: "the pulse interpolator has no segments".into(),
-            allowed: "a scenario of another circuit".into(),
-        });
-    }
+    has_no_segments(arguments)?;
     let options = options(arguments, job.vcd_ticks)?;
-    let (played, mut files) = simulate(arguments, job, &options)?;
+    let group = group(&job.table, job.variant.into());
+    let mut computer = ControlComputer::new(&group, &job.table);
+    let (played, mut files) = simulate(
+        arguments,
+        (&job.loaded, &job.stem),
+        (&group, &job.table),
+        &options,
+        &mut |pending| computer.drive(pending),
+    )?;
     let following =
         Following::new(job, &played).map_err(|error| Failure::Check(error.to_string()))?;
     let summary = Summary::new(job, &played, &following.largest);
@@ -57,16 +65,28 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     conclude(arguments, &options, files, summary)
 }
 
-/// Plays the job on the pulse interpolator, with its waves.
+/// Refuses what asks for segments.
+fn has_no_segments(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.segments {
+        return Err(Failure::Argument {
+            field: "--segments",
+            problem: "the pulse interpolator has no segments".into(),
+            allowed: "a scenario of another circuit".into(),
+        });
+    }
+    Ok(())
+}
+
+/// Has a computer play a table on the pulse interpolator, with its waves.
 fn simulate(
     arguments: &Arguments,
-    job: &Job,
+    scenario: (&Loaded, &str),
+    (group, table): (&Group, &Table),
     options: &Options,
+    computer: &mut Computer<'_>,
 ) -> Result<(Played, Files), Failure> {
-    let group = group(&job.table, job.variant);
-    let ticks = job.table.total_ticks();
-    let scenario = (&job.loaded, job.stem.as_str());
-    let mut traces = Traces::begin((&group, &group), arguments, scenario, options, ticks)?;
+    let ticks = table.total_ticks();
+    let mut traces = Traces::begin((group, group), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
     // Where nobody has to see every tick, idle ones are gone over.
     let played = match traces.is_empty() {
@@ -76,18 +96,18 @@ fn simulate(
                 traces.stimulus.as_mut(),
                 traces.noted.as_mut(),
             );
-            play(&group, &job.table, (files, &mut progress))
+            play_by(group, table, computer, (files, &mut progress))
         }
-        true => fast_forward(&group, &job.table, &mut progress),
+        true => fast_forward_by(group, table, computer, &mut progress),
     }?;
     drop(progress);
-    let unit = u64::from(job.table.patterns().first().map_or(1, |first| first.period));
+    let unit = u64::from(table.patterns().first().map_or(1, |first| first.period));
     let focus = Focus {
         action: played.first_step.unwrap_or(played.begun),
         before: unit,
         shown: UNITS_SHOWN * unit,
         overview: &OVERVIEW,
     };
-    let files = traces.finish(&group, &focus, played.ticks)?;
+    let files = traces.finish(group, &focus, played.ticks)?;
     Ok((played, files))
 }

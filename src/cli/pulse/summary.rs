@@ -3,7 +3,7 @@
 use super::Job;
 use super::verdict::complaints;
 use crate::cli::report::Outcome;
-use motion_rtl::circuits::pulse_interpolator::{AXIS_NAMES, Variant};
+use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::step_dir::TimingMinima;
 use motion_rtl::jobs::pulse_interpolator::{FollowingError, Remedy, StepTiming};
@@ -185,10 +185,7 @@ impl Summary {
                     played.ticks,
                 )
             },
-            variant: match job.variant {
-                Variant::Safe => "safe",
-                Variant::Literal => "literal",
-            },
+            variant: job.variant.name(),
             axes,
             table: TableSummary::new(job),
             idle_units: played.idle_units,

@@ -4,6 +4,11 @@ use super::summary::{Minima, Summary, TableSummary};
 use crate::cli::report::{Outcome, Report};
 use std::fmt::Write;
 
+/// A shortest time; `-` where there was none.
+pub fn least(ticks: Option<u64>) -> String {
+    ticks.map_or("-".to_owned(), |ticks| ticks.to_string())
+}
+
 impl Report for Summary {
     fn outcome(&mut self) -> &mut Outcome {
         &mut self.outcome
@@ -25,7 +30,6 @@ impl Report for Summary {
         )?;
         for (name, axis) in &self.axes {
             let error = axis.following_error_max;
-            let least = |ticks: Option<u64>| ticks.map_or("-".to_owned(), |t| t.to_string());
             let Minima {
                 high,
                 low,

@@ -4,14 +4,14 @@ use super::Job;
 use super::summary::Minima;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::circuits::pulse_interpolator::counts::pulses;
-use motion_rtl::jobs::pulse_interpolator::Word;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
+use motion_rtl::jobs::pulse_interpolator::{Table, Word};
 
 /// What is wrong with a run, axis by axis; empty where nothing is.
 pub fn complaints(job: &Job, played: &Played) -> Vec<String> {
     let mut complaints = Vec::new();
     for (axis, name) in AXIS_NAMES.iter().enumerate().take(job.table.axes()) {
-        complaints.extend(miscount(job, played, axis).map(|text| format!("{name}: {text}")));
+        complaints.extend(miscount(&job.table, played, axis).map(|text| format!("{name}: {text}")));
         let (demanded, ended) = (
             job.report.axes[axis].steps_demanded,
             played.axes[axis].position(),
@@ -29,12 +29,11 @@ pub fn complaints(job: &Job, played: &Played) -> Vec<String> {
 }
 
 /// The first unit time with another count than its word makes.
-fn miscount(job: &Job, played: &Played, axis: usize) -> Option<String> {
+pub fn miscount(table: &Table, played: &Played, axis: usize) -> Option<String> {
     let (mut before, mut tick) = (0, played.begun);
-    let units = job
-        .table
+    let units = table
         .iter()
-        .zip(played.positions.chunks_exact(job.table.axes()));
+        .zip(played.positions.chunks_exact(table.axes()));
     for (unit, ((period, words), positions)) in units.enumerate() {
         let counted = i64::from(positions[axis]) - before;
         let due = count(words[axis], period);
@@ -57,7 +56,7 @@ fn miscount(job: &Job, played: &Played, axis: usize) -> Option<String> {
 }
 
 /// The steps that a word makes in `period` ticks.
-fn count(word: Word, period: u32) -> i64 {
+pub fn count(word: Word, period: u32) -> i64 {
     let steps = i64::from(pulses(word.half_period(), period));
     if word.negative() { -steps } else { steps }
 }

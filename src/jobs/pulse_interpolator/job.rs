@@ -3,8 +3,9 @@
 
 use super::step_dir::{Driver, TimingMinima};
 use super::{ControlComputer, StepTiming, Table};
+use crate::circuits::pulse_interpolator::group::In;
 use crate::circuits::pulse_interpolator::{Group, Variant, Widths};
-use crate::hdl::{At, Observer, RunError, Sample, Simulator, State, zero};
+use crate::hdl::{At, Observer, RunError, Sample, Simulator, State, Value, zero};
 use crate::settings::{JobError, SettingError, within};
 use std::ops::ControlFlow;
 
@@ -114,6 +115,10 @@ impl<O> Bench<O> {
     }
 }
 
+/// What gives a group its ports in, where a command waits at its port or not; none where all stay
+/// low until one is taken.
+pub type Computer<'c> = dyn FnMut(bool) -> Option<In<Value>> + 'c;
+
 /// Plays `table` on a group, seen by `observer` too.
 ///
 /// # Errors
@@ -123,10 +128,29 @@ pub fn play(
     table: &Table,
     observer: impl Observer<Group>,
 ) -> Result<Played, JobError> {
-    played(group, table, observer, |simulator, computer, bench| {
+    let mut computer = ControlComputer::new(group, table);
+    play_by(
+        group,
+        table,
+        &mut |pending| computer.drive(pending),
+        observer,
+    )
+}
+
+/// The same with another computer, that has the group play what stands in `table`.
+///
+/// # Errors
+/// As [`play`].
+pub fn play_by(
+    group: &Group,
+    table: &Table,
+    computer: &mut Computer<'_>,
+    observer: impl Observer<Group>,
+) -> Result<Played, JobError> {
+    played(group, table, observer, |simulator, bench| {
         let (pending, quiet) = (bench.see.pending, zero(group));
         let drive = |_, q: &State<'_, Group>| {
-            let given = computer.drive(q.get(pending));
+            let given = computer(q.get(pending));
             given.unwrap_or_else(|| quiet.clone())
         };
         simulator.run(u64::MAX, drive, bench)
@@ -143,13 +167,36 @@ pub fn fast_forward(
     table: &Table,
     observer: impl Observer<Group>,
 ) -> Result<Played, JobError> {
-    played(group, table, observer, |simulator, computer, bench| {
+    let mut computer = ControlComputer::new(group, table);
+    fast_forward_by(
+        group,
+        table,
+        &mut |pending| computer.drive(pending),
+        observer,
+    )
+}
+
+/// The same with another computer, as [`play_by`].
+///
+/// # Errors
+/// As [`play`].
+pub fn fast_forward_by(
+    group: &Group,
+    table: &Table,
+    computer: &mut Computer<'_>,
+    observer: impl Observer<Group>,
+) -> Result<Played, JobError> {
+    // With T = 1 RST stands, and a unit time ends without an edge to stop at.
+    if table.patterns().iter().any(|pattern| pattern.period == 1) {
+        return play_by(group, table, computer, observer);
+    }
+    played(group, table, observer, |simulator, bench| {
         let (pending, quiet) = (bench.see.pending, zero(group));
         bench.pieces = true;
         while !bench.over {
             // All that the computer looks at is whether a command waits: no counter.
             let drive = |simulator: &mut Simulator<Group>| {
-                let given = computer.drive(simulator.state(|q| q.get(pending)));
+                let given = computer(simulator.state(|q| q.get(pending)));
                 simulator.apply(given.as_ref().unwrap_or(&quiet));
                 if given.is_some() { 1 } else { u64::MAX }
             };
@@ -178,11 +225,7 @@ fn played<O: Observer<Group>>(
     group: &Group,
     table: &Table,
     observer: O,
-    run: impl FnOnce(
-        &mut Simulator<Group>,
-        &mut ControlComputer<'_>,
-        &mut Bench<O>,
-    ) -> Result<(), RunError>,
+    run: impl FnOnce(&mut Simulator<Group>, &mut Bench<O>) -> Result<(), RunError>,
 ) -> Result<Played, JobError> {
     fits(group, table)?;
     let all = observer.needs_all();
@@ -193,7 +236,6 @@ fn played<O: Observer<Group>>(
         unit_rst: watch.at(watch.w.unit_rst),
         busy: watch.at(watch.w.busy),
     })?;
-    let mut computer = ControlComputer::new(group, table);
     let mut bench = Bench {
         see,
         observer,
@@ -207,7 +249,7 @@ fn played<O: Observer<Group>>(
         idle_units: 0,
         last_tick: 0,
     };
-    run(&mut simulator, &mut computer, &mut bench)?;
+    run(&mut simulator, &mut bench)?;
     let axes = bench.drivers.iter().map(|driver| {
         let (pulses, position) = (driver.pulses() as i64, driver.position());
         PlayedAxis {

@@ -4,9 +4,11 @@
 pub mod control_computer;
 pub mod job;
 pub mod step_dir;
+pub mod stored;
 pub mod table;
 
 pub use control_computer::ControlComputer;
+pub use stored::{Stored, StoredError};
 pub use table::{
     AxisReport, AxisScaling, CountTable, FollowingError, PulseLimits, Ratio, Remedy, Report,
     Scaled, Settings, StepTiming, Table, TableError, UnitErrors, Word, compile, follow,

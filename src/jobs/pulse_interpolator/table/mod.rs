@@ -10,6 +10,7 @@ mod count_table;
 mod demand;
 mod error;
 mod following;
+pub mod read;
 mod remedy;
 mod report;
 mod scale;

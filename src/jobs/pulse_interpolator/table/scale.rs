@@ -1,9 +1,8 @@
 //! Scaling a drawing by multiplying the data in the memory (paragraph 0031).
 
-use super::demand::AXES;
 use super::error::TableError;
 use super::words::{Table, Word};
-use crate::circuits::pulse_interpolator::counts::pulses;
+use crate::circuits::pulse_interpolator::{AXIS_NAMES, counts::pulses};
 use crate::settings::SettingError;
 
 /// A ratio of two whole numbers above 0.
@@ -112,7 +111,7 @@ impl Table {
             .filter(|&n| n <= most)
             .ok_or(TableError::ScaledHalfPeriod {
                 unit,
-                axis: AXES[k],
+                axis: AXIS_NAMES[k],
                 half_period,
                 most,
             })
@@ -224,7 +223,7 @@ mod tests {
             .to_string();
         assert_eq!(
             error,
-            "unit 0, X: scaled half-period 80000: allowed are 1 to 65535"
+            "unit 0, x: scaled half-period 80000: allowed are 1 to 65535"
         );
         let most = Ratio {
             num: u32::MAX,

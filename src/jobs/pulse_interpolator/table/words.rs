@@ -92,6 +92,23 @@ impl Table {
         Ok(())
     }
 
+    /// One without units, for the same axes.
+    pub(in crate::jobs::pulse_interpolator) fn empty(&self) -> Self {
+        Self::new(self.clock_hz, self.axes, self.half_period_bits)
+    }
+
+    /// The units of another follow.
+    pub(in crate::jobs::pulse_interpolator) fn append(
+        &mut self,
+        other: &Self,
+    ) -> Result<(), TableError> {
+        for (period, words) in other.iter() {
+            self.open_unit(period)?;
+            self.words.extend(words);
+        }
+        Ok(())
+    }
+
     pub(super) fn push(&mut self, word: Word) {
         self.words.push(word);
     }

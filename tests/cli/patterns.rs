@@ -1,0 +1,283 @@
+//! Patterns that stand in the memory: tables in CSV, played by command or alone.
+
+use super::support::{Bench, list, whole};
+use serde_json::json;
+use std::fmt::Write as _;
+
+/// A scenario of one table.
+const ONE: &str =
+    "circuit = \"pulse_interpolator\"\n[[pattern]]\nname = \"a\"\ntable = \"t.csv\"\n";
+
+const HEADER: &str = "unit,period_ticks,x_half_period_ticks,x_down\n";
+
+/// So many unit times of 100 ticks with five pulses up.
+fn rows(units: usize) -> String {
+    (0..units).fold(HEADER.to_owned(), |mut text, unit| {
+        let _ = writeln!(text, "{unit},100,10,0");
+        text
+    })
+}
+
+#[test]
+fn stored_patterns_are_chosen_by_command_and_never_rewritten() {
+    let bench = Bench::new();
+    let run = ["run", "waves/patterns.toml", "--no-vcd"];
+    let summary = bench.json(&run);
+    assert_eq!(summary["exact"], true);
+    assert_eq!(
+        (whole(&summary, "/commands"), whole(&summary, "/idle_units")),
+        (4, 0)
+    );
+    assert_eq!(summary["memory_words"], json!([585, 4096]));
+    let places: Vec<_> = list(&summary, "patterns")
+        .iter()
+        .map(|p| p["addresses"].clone())
+        .collect();
+    assert_eq!(
+        places,
+        [json!([0, 257]), json!([258, 326]), json!([327, 584])]
+    );
+    // A ring closes, and does no more when its data are multiplied: what that is said to do is what
+    // the drivers counted.
+    let [ring, stroke, small] = list(&summary, "patterns") else {
+        panic!("{summary}");
+    };
+    assert_eq!(
+        (&ring["closed"], &ring["end_steps"]),
+        (&json!(true), &json!([0, 0]))
+    );
+    assert_eq!(
+        (&stroke["closed"], &stroke["end_steps"]),
+        (&json!(false), &json!([480, 200]))
+    );
+    assert_eq!(
+        (&small["closed"], &small["end_steps"]),
+        (&json!(true), &json!([2, -1]))
+    );
+    let drift = |axis: usize| &small["scaling"][axis]["drift_steps"];
+    assert_eq!((drift(0), drift(1)), (&json!(2.0), &json!(-1.0)));
+    assert_eq!(ring["scaling"], json!(null));
+    let ends = ["x", "y"].map(|axis| whole(&summary, &format!("/axes/{axis}/end_position")));
+    assert_eq!(ends, [482, 199]);
+    // The silent unit time at power-on, and all unit times without a gap.
+    assert_eq!(whole(&summary, "/units"), 3 * 258 + 69);
+    let ticks = 500 + 3 * 129_000 + 55_200;
+    assert!(
+        (ticks..=ticks + 1).contains(&whole(&summary, "/ticks")),
+        "{summary}"
+    );
+    let text = bench.succeed(&run);
+    for line in [
+        "585 of 4096 words of the memory, none rewritten; 4 commands",
+        "small_ring: data times 3/2",
+        "  x: the closed path ends +2.000 steps off, at most 0.333 pulses in a unit time",
+    ] {
+        assert!(text.lines().any(|found| found == line), "{line}\n{text}");
+    }
+}
+
+#[test]
+fn a_table_is_played_as_the_drawing_that_it_was_made_from() {
+    let bench = Bench::with("l.ngc", "G1 X10 F1200\nG3 X10 Y10 I0 J5\nG1 X0\n");
+    bench.write("s.toml", ONE);
+    let set = ["--set", "arc_unit_ticks=700"];
+    bench.succeed(&[&["table", "l.ngc", "--out", "t.csv"], &set[..]].concat());
+    let drawn = bench.json(&[&["run", "l.ngc", "--no-vcd"], &set[..]].concat());
+    let stored = bench.json(&["run", "s.toml", "--no-vcd"]);
+    for field in ["units", "idle_units", "exact"] {
+        assert_eq!(drawn[field], stored[field], "{field}");
+    }
+    // Words that are written first take longer than the silent unit time at power-on.
+    assert_eq!(whole(&drawn, "/ticks"), whole(&stored, "/ticks") + 1000);
+    assert_eq!(whole(&stored, "/commands"), 3);
+    assert_eq!(
+        stored["patterns"][0]["unit_ticks"],
+        json!([1000, 700, 1000])
+    );
+    for axis in ["x", "y"] {
+        for field in [
+            "pulses_up",
+            "pulses_down",
+            "end_position",
+            "timing_min_ticks",
+        ] {
+            let at = |summary: &serde_json::Value| summary["axes"][axis][field].clone();
+            assert_eq!(at(&drawn), at(&stored), "{axis}: {field}");
+        }
+    }
+    // With waves, tick by tick, it is the same.
+    let waves = bench.json(&["run", "s.toml"]);
+    assert_eq!(waves["axes"], stored["axes"]);
+}
+
+#[test]
+fn a_group_plays_by_itself_what_it_plays_by_command() {
+    let bench = Bench::with("s.toml", ONE);
+    bench.write("t.csv", rows(3));
+    let led = bench.json(&["run", "s.toml", "--no-vcd"]);
+    let run = ["run", "s.toml", "--no-vcd", "--set", "standalone=true"];
+    let alone = bench.json(&run);
+    assert_eq!(
+        (whole(&led, "/commands"), whole(&alone, "/commands")),
+        (1, 0)
+    );
+    assert_eq!(
+        (&led["axes"], &led["ticks"]),
+        (&alone["axes"], &alone["ticks"])
+    );
+    assert_eq!(whole(&alone, "/axes/x/end_position"), 15);
+    assert!(
+        bench
+            .succeed(&run)
+            .contains("none rewritten; no control computer\n")
+    );
+    bench.refuse(
+        &[&run[..], &["--set", "play=[\"a\", \"a\"]"]].concat(),
+        "--set: standalone: it would take 2 commands; allowed: one pattern of one T, played once",
+    );
+    bench.write("t.csv", rows(1) + "1,200,10,0\n");
+    bench.refuse(
+        &run,
+        "--set: standalone: it would take 2 commands; allowed: one pattern of one T, played once",
+    );
+}
+
+#[test]
+fn eight_axes_fill_the_memory_to_its_last_word() {
+    let mut text = String::from("unit,period_ticks");
+    for axis in ["x", "y", "z", "a", "b", "c", "u", "v"] {
+        let _ = write!(text, ",{axis}_half_period_ticks,{axis}_down");
+    }
+    for unit in 0..4096 {
+        let _ = write!(text, "\n{unit},24");
+        for axis in 0..8 {
+            let _ = write!(text, ",{},{}", 5 - axis % 4, axis % 2);
+        }
+    }
+    let bench = Bench::with("s.toml", ONE);
+    bench.write("t.csv", &text);
+    let set = ["--set", "dir_setup_ticks=2"];
+    let summary = bench.json(&[&["run", "s.toml", "--no-vcd"], &set[..]].concat());
+    assert_eq!(summary["memory_words"], json!([4096, 4096]));
+    // n = 5, 4, 3, 2 in T = 24: they toggle 4, 5, 7, 11 times.
+    for (axis, pulses) in [
+        ("x", 2),
+        ("y", -3),
+        ("z", 4),
+        ("a", -6),
+        ("u", 4),
+        ("v", -6),
+    ] {
+        let end = whole(&summary, &format!("/axes/{axis}/end_position"));
+        assert_eq!(end, 4096 * pulses, "{axis}");
+    }
+    bench.write("t.csv", rows(4097));
+    bench.refuse(
+        &["run", "s.toml"],
+        "s.toml:4: pattern 0: table: has 4097 unit times; allowed: 4096 of the 4096 words of the memory",
+    );
+}
+
+#[test]
+fn bad_patterns_are_refused() {
+    let bench = Bench::with("t.csv", rows(2));
+    bench.write(
+        "two.csv",
+        rows(1)
+            .replace("x_down\n", "x_down,y_half_period_ticks,y_down\n")
+            .replace(",0\n", ",0,0,0\n"),
+    );
+    bench.write("bad.csv", rows(1) + "1,100,70000,0\n");
+    let two = format!("{ONE}[[pattern]]\nname = \"b\"\n");
+    let cases = [
+        (
+            format!("{two}table = \"two.csv\"\n"),
+            "s.toml:7: pattern 1: table: has 2 axes; allowed: 1, as the first",
+        ),
+        (
+            format!("{two}table = \"bad.csv\"\n"),
+            "bad.csv:3: x_half_period_ticks: is 70000; allowed: 0 to 65535",
+        ),
+        (
+            format!("{two}table = \"t.csv\"\nscale = \"0\"\n"),
+            "s.toml:8: pattern 1: scale: is 0; allowed: NUM/DEN, two whole numbers from 1 to 4294967295",
+        ),
+        (
+            format!("{two}table = \"t.csv\"\n").replace("\"b\"", "\"a\""),
+            "s.toml:6: pattern 1: name: is a once more; allowed: a name for each",
+        ),
+        (
+            ONE.replace("\"a\"", "\"\""),
+            "s.toml:3: pattern 0: name: is empty; allowed: a name",
+        ),
+        (
+            format!("play = [\"a\", \"c\"]\n{ONE}"),
+            "s.toml:1: play: c is no pattern; allowed: a",
+        ),
+        (
+            format!("play = []\n{ONE}"),
+            "s.toml:1: play: is empty; allowed: the name of a pattern",
+        ),
+        (
+            format!("input = \"l.ngc\"\n{ONE}"),
+            "s.toml:1: input: given beside [[pattern]]; allowed: one of both",
+        ),
+        (
+            "circuit = \"pulse_interpolator\"\nplay = [\"a\"]\n".into(),
+            "s.toml:2: play: without [[pattern]]; allowed: the command run, with [[pattern]] and no input",
+        ),
+        (
+            "circuit = \"pulse_interpolator\"\nstandalone = true\n".into(),
+            "s.toml:2: standalone: without [[pattern]]; allowed: the command run, with [[pattern]] and no input",
+        ),
+    ];
+    for (text, expected) in &cases {
+        bench.write("s.toml", text);
+        bench.refuse(&["run", "s.toml"], expected);
+    }
+    // One that does not end beyond T has to fit its word, also scaled.
+    bench.write("t.csv", HEADER.to_owned() + "0,100000,40000,0\n");
+    bench.write("s.toml", format!("{ONE}scale = \"2\"\n"));
+    bench.refuse(
+        &["run", "s.toml"],
+        "s.toml:5: pattern 0: scale: unit 0, x: scaled half-period 80000: allowed are 1 to 65535; \
+         allowed: a smaller ratio",
+    );
+    bench.write("t.csv", rows(2));
+    // Half-periods beyond T are none, and no fault.
+    bench.write(
+        "s.toml",
+        format!("{two}table = \"t.csv\"\nscale = \"1000\"\n"),
+    );
+    bench.succeed(&["run", "s.toml", "--no-vcd"]);
+    bench.write("s.toml", ONE.replace("name = \"a\"\n", ""));
+    bench.refuse_with(&["run", "s.toml"], |stderr| {
+        assert!(stderr.contains("name"), "{stderr}")
+    });
+    bench.write("s.toml", ONE.replace("t.csv", "none.csv"));
+    bench.refuse_with(&["run", "s.toml"], |stderr| {
+        assert!(stderr.starts_with("error: none.csv: file: "), "{stderr}");
+    });
+    bench.write("s.toml", ONE);
+    bench.refuse_with(&["table", "s.toml"], |stderr| {
+        assert!(
+            stderr.contains("a memory of patterns is not compiled"),
+            "{stderr}"
+        );
+    });
+}
+
+#[test]
+fn data_that_break_the_limits_of_the_driver_are_complained_of() {
+    let bench = Bench::with("s.toml", ONE);
+    bench.write("t.csv", rows(2).replace(",10,0", ",4,0"));
+    assert_eq!(bench.run(&["run", "s.toml", "--no-vcd"]).code, 0);
+    let done = bench.run(&["run", "s.toml", "--no-vcd", "--set", "step_low_ticks=5"]);
+    assert_eq!(done.code, 1);
+    assert!(
+        done.stderr
+            .contains("x: step low time of 4 ticks where the driver asks for 5"),
+        "{}",
+        done.stderr
+    );
+}
