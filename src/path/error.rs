@@ -1,5 +1,6 @@
 //! Why a path cannot be generated.
 
+use super::arm::Pose;
 use super::circle::CircleError;
 use crate::plan::digits::{round_down, round_up};
 use std::fmt;
@@ -120,6 +121,14 @@ pub enum Reason {
         /// The width that its address would need.
         needed: usize,
     },
+    /// The arm cannot be in a pose that the piece needs, or is too near to one.
+    #[error("{time_s} s from the start {pose}")]
+    Pose {
+        /// When, in seconds.
+        time_s: f64,
+        /// The pose.
+        pose: Pose,
+    },
     /// The path leaves the plane of two axes.
     #[error("leaves the plane of x and y by {off} mm")]
     Plane {
@@ -164,6 +173,7 @@ impl Reason {
             | Reason::Circle(_)
             | Reason::Gap { .. }
             | Reason::Plane { .. }
+            | Reason::Pose { .. }
             | Reason::Reach { .. } => "to_mm",
         }
     }
@@ -181,6 +191,7 @@ impl Reason {
             | Reason::Samples { .. } => "F",
             Reason::Circle(CircleError::Helix { .. }) | Reason::Plane { .. } => "Z",
             Reason::Spline => "G5",
+            Reason::Pose { .. } => "arm",
             Reason::Circle(_) | Reason::Gap { .. } => "arc",
             Reason::Reach { what, .. } => what,
             Reason::Coordinate { axis, .. } | Reason::Via { axis, .. } => axis,
@@ -224,6 +235,7 @@ impl Reason {
             Reason::Samples { most, .. } => {
                 format!("at most {most} samples: faster, shorter, or sampled less often")
             }
+            Reason::Pose { pose, .. } => pose.allowed(),
             Reason::Plane { .. } => "the height of the start, or three axes".into(),
             Reason::Segments { most, .. } => format!("at most {most}"),
             Reason::Reach { most, width, .. } => {

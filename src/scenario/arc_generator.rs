@@ -5,6 +5,7 @@ use super::{Program, Runnable};
 use crate::circuits::arc_generator::Rounding;
 use crate::input::Point;
 use crate::jobs::arc_generator::settings::{Settings, ShortPieces};
+use crate::path::arm::{Arm, Elbow};
 use crate::path::pieces::Taught;
 use crate::settings::{Place, SettingError};
 use serde::{Deserialize, Deserializer};
@@ -54,6 +55,8 @@ pub struct Scenario {
     /// What becomes of a piece that is too short or too tight for its speed.
     #[serde(default)]
     pub short_pieces: ShortPieces,
+    /// The arm whose hand the commands are of.
+    pub arm: Option<ArmKeys>,
     /// The most ticks that go into the VCD unless a window is asked for.
     #[serde(default = "default::vcd_ticks")]
     pub vcd_ticks: u64,
@@ -74,6 +77,41 @@ pub struct PieceKeys {
     pub spline: bool,
     /// Its speed, where it has its own.
     pub speed_mm_per_s: Option<f64>,
+}
+
+/// The table `[arm]`.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArmKeys {
+    /// Where its shoulder is.
+    #[serde(default, deserialize_with = "exactly")]
+    pub shoulder_mm: Point,
+    /// From shoulder to elbow.
+    pub upper_mm: f64,
+    /// From elbow to hand.
+    pub fore_mm: f64,
+    /// On which side its elbow is.
+    #[serde(default)]
+    pub elbow: Elbow,
+    /// How near to a singular pose it may not be.
+    #[serde(default = "default::singular_deg")]
+    pub singular_deg: f64,
+    /// Counts of a turn of a joint.
+    #[serde(default = "default::counts_per_rev")]
+    pub counts_per_rev: u32,
+}
+
+impl From<ArmKeys> for Arm {
+    fn from(keys: ArmKeys) -> Self {
+        Arm {
+            shoulder_mm: keys.shoulder_mm,
+            upper_mm: keys.upper_mm,
+            fore_mm: keys.fore_mm,
+            elbow: keys.elbow,
+            singular_deg: keys.singular_deg,
+            counts_per_rev: keys.counts_per_rev,
+        }
+    }
 }
 
 fn some_point<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Point>, D::Error> {
@@ -155,6 +193,12 @@ mod default {
     }
     pub(super) fn corner_deg() -> f64 {
         settings().corner_deg
+    }
+    pub(super) fn singular_deg() -> f64 {
+        1.0
+    }
+    pub(super) fn counts_per_rev() -> u32 {
+        1 << 20
     }
     pub(super) fn vcd_ticks() -> u64 {
         super::super::VCD_TICKS

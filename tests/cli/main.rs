@@ -2,6 +2,7 @@
 //! say.
 
 mod arc;
+mod arc_arm;
 mod arc_refusals;
 mod check_parts;
 mod checks;

@@ -5,11 +5,14 @@ use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
 use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::input::{Drawing, Point};
+use motion_rtl::jobs::arc_generator::joints::{Followed, follow};
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::prepared::Prepared;
 use motion_rtl::jobs::arc_generator::record::records;
+use motion_rtl::jobs::arc_generator::reference::commands;
 use motion_rtl::jobs::arc_generator::settings::Settings;
-use motion_rtl::path::error::PathError;
+use motion_rtl::path::arm::Arm;
+use motion_rtl::path::error::{PathError, Reason};
 use motion_rtl::path::pieces::Speeds;
 use motion_rtl::path::record::Record;
 use motion_rtl::scenario::Loaded;
@@ -30,6 +33,8 @@ pub struct Job {
     pub prepared: Prepared,
     /// The same as words.
     pub records: Vec<Record>,
+    /// The arm whose hand the commands are of, and what its joints do.
+    pub arm: Option<(Arm, Followed)>,
     /// The scenario it came from.
     pub loaded: Loaded,
 }
@@ -42,6 +47,8 @@ impl Job {
         let widths = Widths::FULL;
         let timing = settings.timing(&widths).map_err(refuse)?;
         let sample_ticks = settings.sample_ticks(&widths).map_err(refuse)?;
+        let arm = scenario.arm.map(Arm::from);
+        arm.map_or(Ok(()), |arm| arm.validate()).map_err(refuse)?;
         let taught = scenario.taught().map_err(refuse)?;
         let keys = SpeedKeys {
             speeds: Speeds::from(&settings),
@@ -58,6 +65,26 @@ impl Job {
             settings.rounding,
         );
         let records = records.map_err(refuse)?;
+        let followed = arm.map(|arm| {
+            let commands = commands(&records, &widths, settings.rounding);
+            let mm = |counts: [i64; 3]| counts.map(|c| c as f64 / settings.counts_per_mm);
+            let points: Vec<Point> = commands.into_iter().map(mm).collect();
+            let followed = follow(&arm, &points, timing.sample_s);
+            let pose = |(sample, pose)| {
+                let time_s = sample as f64 * timing.sample_s;
+                let place = prepared.place(sample as u64);
+                let piece = place.map_or(0, |place| prepared.segments[place.segment].piece);
+                let line = prepared.pieces.get(piece).and_then(|piece| piece.line);
+                let reason = Reason::Pose { time_s, pose };
+                refuse(PathError {
+                    piece,
+                    line,
+                    reason,
+                })
+            };
+            followed.map(|followed| (arm, followed)).map_err(pose)
+        });
+        let arm = followed.transpose()?;
         let Source { stem, loaded, .. } = source;
         Ok(Job {
             stem,
@@ -66,6 +93,7 @@ impl Job {
             sample_ticks,
             prepared,
             records,
+            arm,
             loaded,
         })
     }

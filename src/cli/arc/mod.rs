@@ -1,5 +1,6 @@
 //! `run` of the arc generator: its path, waves, summary and picture.
 
+mod arm;
 mod beside;
 mod figures;
 mod job;
@@ -20,7 +21,9 @@ use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
 use beside::Beside;
 use figures::Figures;
-use motion_rtl::jobs::arc_generator::job::{Played, arc_generator, play};
+use motion_rtl::hdl::{RunError, model, model_beside};
+use motion_rtl::jobs::arc_generator::job::{Played, arc_generator, play_arm};
+use motion_rtl::jobs::arc_generator::joints::Joints;
 use motion_rtl::trace::Options;
 use picture::draw;
 use summary::Summary;
@@ -29,7 +32,7 @@ use summary::Summary;
 const SAMPLES_SHOWN: u64 = 12;
 
 /// What the save file shows on top.
-const OVERVIEW: [&str; 14] = [
+const OVERVIEW: [&str; 17] = [
     "sampled",
     "kind",
     "sequencer.state",
@@ -44,6 +47,9 @@ const OVERVIEW: [&str; 14] = [
     "x",
     "y",
     "z",
+    "arm.base",
+    "arm.shoulder",
+    "arm.elbow",
 ];
 
 /// Runs a path.
@@ -64,7 +70,13 @@ fn simulate(
 ) -> Result<(Played, Files), Failure> {
     let circuit = arc_generator(job.settings.rounding);
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    let mut traces = Traces::begin((&circuit, &circuit), arguments, scenario, options, ticks)?;
+    let joints = job.arm.as_ref().map_or(&[][..], |(_, arm)| &arm.counts);
+    let shown = match joints.is_empty() {
+        true => model(&circuit),
+        false => model_beside(&circuit, &Joints),
+    };
+    let shown = shown.map_err(RunError::from)?;
+    let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
     let files = (
         traces.waves.as_mut(),
@@ -72,9 +84,9 @@ fn simulate(
         traces.noted.as_mut(),
     );
     let observers = (files, &mut progress);
-    let played = play(&circuit, &job.records, job.sample_ticks, observers)?;
+    let played = play_arm(&circuit, &job.records, job.sample_ticks, joints, observers)?;
     drop(progress);
-    let shown = SAMPLES_SHOWN * u64::from(job.sample_ticks);
+    let ticks_shown = SAMPLES_SHOWN * u64::from(job.sample_ticks);
     // Where the first segment ends and the second begins.
     let change = job
         .prepared
@@ -86,10 +98,10 @@ fn simulate(
             .commands
             .get(change)
             .map_or(0, |command| command.tick),
-        before: shown / 2,
-        shown,
+        before: ticks_shown / 2,
+        shown: ticks_shown,
         overview: &OVERVIEW,
     };
-    let files = traces.finish(&circuit, &focus, played.ticks)?;
+    let files = traces.finish(&shown, &focus, played.ticks)?;
     Ok((played, files))
 }

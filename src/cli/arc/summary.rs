@@ -1,6 +1,7 @@
 //! What a run came to.
 
 use super::Job;
+use super::arm::{self, ArmRows};
 use super::beside;
 use super::figures::Figures;
 use super::operations;
@@ -50,6 +51,9 @@ pub struct Summary {
     pub operations: Vec<operations::Row>,
     /// The circuit, and that of the conventional method.
     pub circuits: Vec<beside::Row>,
+    /// The joints of the arm, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arm: Option<ArmRows>,
 }
 
 impl Summary {
@@ -92,6 +96,7 @@ impl Summary {
             blends: rows::blends(job, figures),
             operations: operations::rows(job),
             circuits: beside::rows(job, played, figures)?,
+            arm: arm::rows(job),
         })
     }
 }

@@ -46,7 +46,11 @@ impl Report for Summary {
         self.lines(text, all)?;
         self.blends(text, all)?;
         self.operations(text)?;
-        self.circuits(text)
+        self.circuits(text)?;
+        match &self.arm {
+            Some(arm) => arm.write(text),
+            None => Ok(()),
+        }
     }
 }
 

@@ -1,10 +1,12 @@
 //! A path on the arc generator: the control computer that feeds it, and the commands that come out.
 
+use super::joints::{JointSignals, Joints};
 use crate::circuits::arc_generator::{ArcGenerator, Rounding, generator};
 use crate::circuits::blocks::record_memory::ARC;
 use crate::circuits::blocks::record_sequencer::{self, FETCH, READY};
 use crate::hdl::{At, Circuit, Observer, Place, RunError, Sample, Simulator, Value, Watcher};
 use crate::input::COORDINATES;
+use crate::path::arm::JOINTS;
 use crate::path::record::Record;
 use crate::path::record_writer::RecordWriter;
 
@@ -195,16 +197,41 @@ pub fn play(
     circuit: &ArcGenerator,
     records: &[Record],
     sample_ticks: u32,
+    observer: impl Observer<ArcGenerator>,
+) -> Result<Played, RunError> {
+    play_arm(circuit, records, sample_ticks, &[], observer)
+}
+
+/// The same with the joints of an arm beside the circuit, in counts: those of each command, from the
+/// tick after it on. Without any nothing stands beside it.
+///
+/// # Errors
+/// What `observer` objects to.
+pub fn play_arm(
+    circuit: &ArcGenerator,
+    records: &[Record],
+    sample_ticks: u32,
+    joints: &[[i64; JOINTS]],
     mut observer: impl Observer<ArcGenerator>,
 ) -> Result<Played, RunError> {
     let mut bench = Bench::new(records, sample_ticks);
     let all = observer.needs_all();
-    let (mut simulator, see) = Simulator::watching(circuit, all, |watch| {
-        See::of(watch, &watch.p.sequencer.q, &watch.w)
-    })?;
+    let look = |watch: &Watcher<'_, ArcGenerator>| See::of(watch, &watch.p.sequencer.q, &watch.w);
+    let (mut simulator, see) = match joints.is_empty() {
+        true => Simulator::watching(circuit, all, look)?,
+        false => Simulator::watching_beside(circuit, &Joints, all, look)?,
+    };
+    let mut shown = None;
     let mut stopped = false;
     while !bench.over() && !stopped {
         let i = bench.ports();
+        let made = bench.played.commands.len().saturating_sub(1);
+        if shown != Some(made)
+            && let Some(joints) = joints.get(made)
+        {
+            simulator.show::<Joints>(&JointSignals::of(*joints));
+            shown = Some(made);
+        }
         let ((), flow) = simulator.look(&i, &mut observer, |now| bench.take(now, &see))?;
         stopped = flow.is_break();
         let most = match bench.stands() && !stopped {

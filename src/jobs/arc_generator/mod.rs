@@ -3,12 +3,14 @@
 //! [`prepare`](mod@prepare) ([pieces](crate::path::pieces) as segments), [`record`] (segments as
 //! words), [`bounds`] (how far the rotation may be off), [`mod@reference`] (the same samples by
 //! division), [`conventional`] (what the patent compares itself with), [`job`] (a path on the
-//! circuit), [`beside`] (its arcs on the conventional circuit), [`measure`] (what came out).
+//! circuit), [`beside`] (its arcs on the conventional circuit), [`measure`] (what came out),
+//! [`joints`] (the commands as those of an arm's joints).
 
 pub mod beside;
 pub mod bounds;
 pub mod conventional;
 pub mod job;
+pub mod joints;
 pub mod measure;
 pub mod prepare;
 pub mod prepared;

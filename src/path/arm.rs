@@ -1,0 +1,296 @@
+//! An articulated arm of three joints, and the angles of its joints where its hand is at a point.
+//!
+//! ```text
+//!                elbow
+//!       upper  ●───────╮ fore
+//!            ╱          ╲
+//!  shoulder ●            ▼ hand        from above: base turns the plane of both
+//!           ┃ base
+//! ```
+//!
+//! `base` is the turn about the vertical through the shoulder, 0 along x; `shoulder` the elevation of
+//! the upper arm; `elbow` the angle of the forearm beyond it, below 0 where the elbow is up. The hand
+//! is where base, shoulder and elbow put it:
+//!
+//! ```text
+//! r = upper·cos(shoulder) + fore·cos(shoulder + elbow)
+//! x = r·cos(base)    y = r·sin(base)    z = upper·sin(shoulder) + fore·sin(shoulder + elbow)
+//! ```
+//!
+//! Its pose is singular where r·sin(elbow) = 0: a joint would have to turn infinitely fast.
+
+use super::vector::{add, sub};
+use crate::input::Point;
+use crate::plan::digits::{round_down, round_up};
+use crate::settings::{Place, SettingError, within};
+use serde::Deserialize;
+use std::f64::consts::{PI, TAU};
+use std::ops::RangeInclusive;
+
+/// Joints of an arm.
+pub const JOINTS: usize = 3;
+
+/// Their names, from the ground up.
+pub const JOINT_NAMES: [&str; JOINTS] = ["base", "shoulder", "elbow"];
+
+/// Lengths of upper arm and forearm that are accepted, in mm.
+const LENGTH_RANGE_MM: RangeInclusive<f64> = 1e-3..=1e6;
+/// How near to a singular pose may be told to be too near.
+const SINGULAR_RANGE_DEG: RangeInclusive<f64> = 0.01..=45.0;
+/// Counts of a turn that are accepted.
+const COUNTS_RANGE: RangeInclusive<u32> = 1..=1 << 28;
+
+/// On which side of the line from shoulder to hand the elbow is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Elbow {
+    /// Above it.
+    #[default]
+    Up,
+    /// Below it.
+    Down,
+}
+
+/// An arm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arm {
+    /// Where its shoulder is, in mm.
+    pub shoulder_mm: Point,
+    /// From shoulder to elbow, in mm.
+    pub upper_mm: f64,
+    /// From elbow to hand, in mm.
+    pub fore_mm: f64,
+    /// Where its elbow is.
+    pub elbow: Elbow,
+    /// A pose is refused where the elbow is nearer than this to straight or folded, or the hand as
+    /// near to the vertical through the shoulder as the stretched arm leant by so much.
+    pub singular_deg: f64,
+    /// Counts of a turn of a joint.
+    pub counts_per_rev: u32,
+}
+
+/// A pose that the arm cannot take, or only just.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum Pose {
+    /// The elbow would be straight, or the arm too short.
+    #[error(
+        "the hand is {distance:.3} mm from the shoulder, where the elbow is straight or beyond"
+    )]
+    Straight {
+        /// From shoulder to hand, in mm.
+        distance: f64,
+        /// The longest that is no singular pose.
+        most: f64,
+    },
+    /// The forearm would lie on the upper arm, or could not.
+    #[error("the hand is {distance:.3} mm from the shoulder, where the elbow is folded or beyond")]
+    Folded {
+        /// From shoulder to hand, in mm.
+        distance: f64,
+        /// The shortest that is no singular pose.
+        least: f64,
+    },
+    /// The hand is above or below the shoulder, where the base may have any angle.
+    #[error("the hand is {radius:.3} mm from the vertical through the shoulder")]
+    Vertical {
+        /// How far, in mm.
+        radius: f64,
+        /// The nearest that is no singular pose.
+        least: f64,
+    },
+}
+
+impl Pose {
+    /// What would be right.
+    #[must_use]
+    pub fn allowed(&self) -> String {
+        match self {
+            Pose::Straight { most, .. } => format!("at most {} mm", round_down(*most)),
+            Pose::Folded { least, .. } | Pose::Vertical { least, .. } => {
+                format!("at least {} mm", round_up(*least))
+            }
+        }
+    }
+}
+
+impl Arm {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// Names the first field at fault, its value and what is allowed.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        self.checked()
+            .map_err(|error| error.at(Place::Table("arm")))
+    }
+
+    fn checked(&self) -> Result<(), SettingError> {
+        let far = *LENGTH_RANGE_MM.end();
+        for value in self.shoulder_mm {
+            within("shoulder_mm", value, &(-far..=far))?;
+        }
+        within("upper_mm", self.upper_mm, &LENGTH_RANGE_MM)?;
+        within("fore_mm", self.fore_mm, &LENGTH_RANGE_MM)?;
+        within("singular_deg", self.singular_deg, &SINGULAR_RANGE_DEG)?;
+        within("counts_per_rev", self.counts_per_rev, &COUNTS_RANGE)
+    }
+
+    /// The angles of its joints where the hand is at `point`, in radians; base from −π to π.
+    ///
+    /// # Errors
+    /// The pose is singular, or nearer to one than is told, or out of reach.
+    pub fn joints(&self, point: Point) -> Result<[f64; JOINTS], Pose> {
+        let [x, y, z] = sub(point, self.shoulder_mm);
+        let (upper, fore) = (self.upper_mm, self.fore_mm);
+        let (radius, margin) = (x.hypot(y), self.singular_deg.to_radians());
+        let distance = radius.hypot(z);
+        let (squares, product) = (upper * upper + fore * fore, 2.0 * upper * fore);
+        let most = (squares + product * margin.cos()).sqrt();
+        let shortest = (squares - product * margin.cos()).sqrt();
+        if distance > most {
+            return Err(Pose::Straight { distance, most });
+        }
+        if distance < shortest {
+            let least = shortest;
+            return Err(Pose::Folded { distance, least });
+        }
+        let least = (upper + fore) * margin.sin();
+        if radius < least {
+            return Err(Pose::Vertical { radius, least });
+        }
+        let bend = ((distance * distance - squares) / product)
+            .clamp(-1.0, 1.0)
+            .acos();
+        let elbow = match self.elbow {
+            Elbow::Up => -bend,
+            Elbow::Down => bend,
+        };
+        let lean = (fore * elbow.sin()).atan2(upper + fore * elbow.cos());
+        Ok([y.atan2(x), z.atan2(radius) - lean, elbow])
+    }
+
+    /// Where the hand is.
+    #[must_use]
+    pub fn hand(&self, [base, shoulder, elbow]: [f64; JOINTS]) -> Point {
+        let (upper, fore) = (self.upper_mm, self.fore_mm);
+        let along = upper * shoulder.cos() + fore * (shoulder + elbow).cos();
+        let up = upper * shoulder.sin() + fore * (shoulder + elbow).sin();
+        let hand = [along * base.cos(), along * base.sin(), up];
+        add(self.shoulder_mm, hand)
+    }
+
+    /// The angles of its joints along a path, in radians: the base goes on where it has turned half
+    /// a turn.
+    ///
+    /// # Errors
+    /// The first point in whose pose it cannot be, with its number.
+    pub fn follow(&self, path: &[Point]) -> Result<Vec<[f64; JOINTS]>, (usize, Pose)> {
+        let mut last = 0.0;
+        let points = path.iter().enumerate().map(|(number, point)| {
+            let [base, shoulder, elbow] = self.joints(*point).map_err(|pose| (number, pose))?;
+            let base = match number {
+                0 => base,
+                _ => last + (base - last + PI).rem_euclid(TAU) - PI,
+            };
+            last = base;
+            Ok([base, shoulder, elbow])
+        });
+        points.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::vector::distance;
+    use super::*;
+    use proptest::prelude::*;
+
+    const ARM: Arm = Arm {
+        shoulder_mm: [10.0, -20.0, 350.0],
+        upper_mm: 300.0,
+        fore_mm: 350.0,
+        elbow: Elbow::Up,
+        singular_deg: 1.0,
+        counts_per_rev: 1 << 20,
+    };
+
+    fn at(offset: Point) -> Point {
+        add(ARM.shoulder_mm, offset)
+    }
+
+    #[test]
+    fn a_right_angle_is_as_by_hand() {
+        // Upper arm upright, forearm level.
+        let joints = ARM.joints(at([350.0, 0.0, 300.0])).unwrap();
+        let expected = [0.0, PI / 2.0, -PI / 2.0];
+        for (joint, expected) in joints.iter().zip(expected) {
+            assert!((joint - expected).abs() < 1e-12, "{joints:?}");
+        }
+        // The other elbow: upper arm level, forearm upright, turned to y.
+        let down = Arm {
+            elbow: Elbow::Down,
+            ..ARM
+        };
+        let joints = down.joints(at([0.0, 300.0, 350.0])).unwrap();
+        let expected = [PI / 2.0, 0.0, PI / 2.0];
+        for (joint, expected) in joints.iter().zip(expected) {
+            assert!((joint - expected).abs() < 1e-12, "{joints:?}");
+        }
+    }
+
+    #[test]
+    fn singular_poses_are_refused_at_their_bounds() {
+        let along = |x| ARM.joints(at([x, 0.0, 0.0]));
+        // An elbow of 1°: by the law of cosines.
+        let cosine = 1f64.to_radians().cos();
+        let most = (300f64.powi(2) + 350f64.powi(2) + 2.0 * 300.0 * 350.0 * cosine).sqrt();
+        let least = (300f64.powi(2) + 350f64.powi(2) - 2.0 * 300.0 * 350.0 * cosine).sqrt();
+        assert!(along(most - 1e-9).is_ok() && along(least + 1e-9).is_ok());
+        assert!(matches!(along(most + 1e-9), Err(Pose::Straight { .. })));
+        assert!(matches!(along(least - 1e-9), Err(Pose::Folded { .. })));
+        assert!(matches!(
+            along(651.0),
+            Err(Pose::Straight {
+                distance: 651.0,
+                ..
+            })
+        ));
+        assert!(matches!(along(1.0), Err(Pose::Folded { .. })));
+        // Leant by 1°.
+        let radius = 650.0 * 1f64.to_radians().sin();
+        let above = |x| ARM.joints(at([0.0, x, -400.0]));
+        assert!(above(radius + 1e-9).is_ok());
+        assert!(matches!(above(radius - 1e-9), Err(Pose::Vertical { .. })));
+    }
+
+    #[test]
+    fn the_base_goes_on_over_half_a_turn() {
+        let circle = |degrees: i32| {
+            let angle = f64::from(degrees).to_radians();
+            at([400.0 * angle.cos(), 400.0 * angle.sin(), 50.0])
+        };
+        for sign in [1, -1] {
+            let path: Vec<_> = (0..=800).map(|k| circle(170 + sign * k)).collect();
+            let joints = ARM.follow(&path).unwrap();
+            for (k, joint) in (0..).zip(&joints) {
+                let expected = f64::from(170 + sign * k).to_radians();
+                assert!((joint[0] - expected).abs() < 1e-9, "{k}: {joint:?}");
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_hand_is_where_its_joints_put_it(
+            [x, y, z] in prop::array::uniform3(-660.0..660.0f64),
+            up: bool,
+        ) {
+            let arm = Arm { elbow: if up { Elbow::Up } else { Elbow::Down }, ..ARM };
+            let point = at([x, y, z]);
+            if let Ok(joints) = arm.joints(point) {
+                prop_assert!(distance(arm.hand(joints), point) < 1e-9);
+                prop_assert_eq!(joints[2] < 0.0, up);
+                prop_assert!(joints[2].abs() >= 1f64.to_radians() - 1e-9);
+            }
+        }
+    }
+}
