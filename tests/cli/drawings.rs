@@ -1,6 +1,6 @@
 //! Drawings and part programs whose steps are known by hand, through `run`.
 
-use super::support::{Bench, LINE, SHORT, keys, whole};
+use super::support::{Bench, LINE, SHORT, keys, list, whole};
 use serde_json::{Value, json};
 
 /// The summary of a run without waves.
@@ -101,6 +101,7 @@ fn every_field_has_its_type_and_value() {
         "appended_units",
         "axes",
         "circuit",
+        "circuits",
         "clock_hz",
         "complaints",
         "exact",
@@ -277,4 +278,99 @@ fn zeros_of_a_part_program_come_from_the_scenario() {
         "l.hpgl: program: a drawing in HPGL has no zeros and reference points of its own; \
          allowed: them with G-code only",
     );
+}
+
+/// A line, half a circle and a line, with a unit time for arcs of their own.
+const SHAPE: &str = "G1 X10 F1200\nG3 X10 Y10 I0 J5\nG1 X0\n";
+
+#[test]
+fn the_conventional_device_runs_the_same_program() {
+    let bench = Bench::with("l.ngc", SHAPE);
+    let set = ["--set", "arc_unit_ticks=700"];
+    let summary = bench.json(&[&["run", "l.ngc", "--no-vcd"], &set[..]].concat());
+    bench.succeed(&[&["table", "l.ngc", "--out", "t.csv"], &set[..]].concat());
+    assert_eq!(summary["complaints"], json!([]));
+    let [own, other] = list(&summary, "circuits") else {
+        panic!("{summary}");
+    };
+    assert_eq!(
+        (&own["circuit"], &other["circuit"]),
+        (
+            &json!("pulse_interpolator"),
+            &json!("conventional_pulse_interpolator")
+        )
+    );
+    assert_eq!(
+        (whole(own, "/late_units"), whole(other, "/late_units")),
+        (0, 0)
+    );
+    assert_eq!(
+        (&own["timing_kept"], &other["timing_kept"]),
+        (&json!(true), &json!(true))
+    );
+    // Two divisions of 27 ticks on each of two axes, and 3.
+    assert_eq!(whole(other, "/unit_ticks_least"), 111);
+    // Words of two axes have to be written while one is played, at best.
+    assert!((2..111).contains(&whole(own, "/unit_ticks_least")), "{own}");
+    assert_eq!(
+        whole(own, "/units") - whole(other, "/units"),
+        whole(&summary, "/appended_units")
+    );
+    // Pulse k of Y rises at (2k + 1)·n, and is due at (2k + 1)·T/2Y: the last is farthest off.
+    let jitter =
+        |n: f64, count: f64, period: f64| (2.0 * count - 1.0) * (n - period / (2.0 * count)).abs();
+    let text = bench.read("t.csv");
+    let largest = text.lines().skip(1).flat_map(|line| {
+        let fields: Vec<u64> = line
+            .split(',')
+            .map(|field| field.parse().unwrap())
+            .collect();
+        [fields[2], fields[4]].map(|n| (n, fields[1]))
+    });
+    let largest = largest.filter(|(n, _)| *n > 0).map(|(n, period)| {
+        let count = ((period - 1) / n).div_ceil(2);
+        jitter(n as f64, count as f64, period as f64)
+    });
+    let largest = largest.fold(0.0, f64::max);
+    let found = own["jitter_ticks_max"].as_f64().unwrap();
+    assert!((found - largest).abs() < 1e-9, "{found}, {largest}");
+    // Every demand is rounded, and is met where the driver has the time.
+    let error = |row: &Value| row["end_error_steps_max"].as_f64().unwrap();
+    assert!(error(other) > 0.49 && error(other) <= 0.5, "{other}");
+    assert!(error(own) >= error(other), "{own}");
+    let [adders, other_adders] = [own, other].map(|row| whole(row, "/adders"));
+    assert!(
+        0 < adders && adders < other_adders,
+        "{adders}, {other_adders}"
+    );
+    assert_eq!(
+        (whole(own, "/memory_bits"), whole(other, "/memory_bits")),
+        (2 * 17 * 4096, 0)
+    );
+}
+
+#[test]
+fn a_unit_time_that_is_too_short_for_the_conventional_device_has_every_unit_late() {
+    let bench = Bench::with("l.ngc", SHAPE);
+    let at = |period: &str| {
+        let set = format!("line_unit_ticks={period}");
+        bench.json(&["run", "l.ngc", "--no-vcd", "--set", &set])
+    };
+    for (period, late) in [("111", false), ("110", true)] {
+        let summary = at(period);
+        assert_eq!(summary["complaints"], json!([]));
+        let [own, other] = list(&summary, "circuits") else {
+            panic!("{summary}");
+        };
+        assert_eq!(whole(own, "/late_units"), 0, "{period}");
+        // Patterns of 2048 units: while one is played, two words for each and a command are written.
+        assert_eq!(whole(own, "/unit_ticks_least"), 3, "{period}");
+        let expected = if late { whole(other, "/units") - 1 } else { 0 };
+        assert_eq!(whole(other, "/late_units"), expected, "{period}");
+    }
+    let text = bench.succeed(&["run", "l.ngc", "--no-vcd"]);
+    let rows = text
+        .lines()
+        .filter(|line| line.contains("pulse_interpolator  "));
+    assert_eq!(rows.count(), 4, "{text}");
 }

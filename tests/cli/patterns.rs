@@ -268,6 +268,21 @@ fn bad_patterns_are_refused() {
 }
 
 #[test]
+fn unit_times_of_a_tick_are_played_to_their_end() {
+    let bench = Bench::with("s.toml", ONE);
+    bench.write("t.csv", rows(2).replace(",100,10,0", ",1,0,0"));
+    for run in [&["run", "s.toml"][..], &["run", "s.toml", "--no-vcd"]] {
+        let summary = bench.json(run);
+        assert_eq!(
+            (whole(&summary, "/units"), whole(&summary, "/idle_units")),
+            (2, 0)
+        );
+        // The command comes, waits, is played for two ticks, and a tick for the last edge.
+        assert_eq!(whole(&summary, "/ticks"), 5);
+    }
+}
+
+#[test]
 fn data_that_break_the_limits_of_the_driver_are_complained_of() {
     let bench = Bench::with("s.toml", ONE);
     bench.write("t.csv", rows(2).replace(",10,0", ",4,0"));

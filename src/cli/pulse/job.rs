@@ -90,6 +90,13 @@ impl Job {
     }
 }
 
+impl Job {
+    /// Unit times of the path, without those appended.
+    pub fn path_units(&self) -> usize {
+        self.report.units - self.report.appended_units
+    }
+}
+
 /// What the compiler objects to, with the file and line it stands in.
 pub fn table_fault(
     loaded: &Loaded,

@@ -1,5 +1,6 @@
 //! `run` of the pulse interpolator: its job, waves, summary and picture.
 
+mod beside;
 mod job;
 pub mod patterns;
 mod picture;
@@ -60,7 +61,8 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     )?;
     let following =
         Following::new(job, &played).map_err(|error| Failure::Check(error.to_string()))?;
-    let summary = Summary::new(job, &played, &following.largest);
+    let (circuits, astray) = beside::compare(job, &played)?;
+    let summary = Summary::new(job, &played, &following.largest, (circuits, astray));
     files.write("svg", &draw(job, &played, &following))?;
     conclude(arguments, &options, files, summary)
 }

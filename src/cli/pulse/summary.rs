@@ -1,6 +1,7 @@
 //! What a run or a compilation came to.
 
 use super::Job;
+use super::beside::Row;
 use super::verdict::complaints;
 use crate::cli::report::Outcome;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
@@ -28,6 +29,8 @@ pub struct Summary {
     pub table: TableSummary,
     /// Unit times without pulses between two patterns of the memory.
     pub idle_units: u64,
+    /// The device, and the conventional one at the same program.
+    pub circuits: Vec<Row>,
 }
 
 /// The table of a run.
@@ -151,7 +154,12 @@ pub fn warnings(job: &Job) -> Vec<String> {
 
 impl Summary {
     /// The summary of a job that was played.
-    pub fn new(job: &Job, played: &Played, errors: &[FollowingError]) -> Self {
+    pub fn new(
+        job: &Job,
+        played: &Played,
+        errors: &[FollowingError],
+        (circuits, astray): (Vec<Row>, Vec<String>),
+    ) -> Self {
         let axes: BTreeMap<_, _> = job
             .report
             .axes
@@ -172,9 +180,11 @@ impl Summary {
                 (name, summary)
             })
             .collect();
-        let complaints = complaints(job, played);
+        let mut complaints = complaints(job, played);
+        let exact = complaints.is_empty();
+        complaints.extend(astray);
         Summary {
-            exact: complaints.is_empty(),
+            exact,
             outcome: Outcome {
                 complaints,
                 warnings: warnings(job),
@@ -189,6 +199,7 @@ impl Summary {
             axes,
             table: TableSummary::new(job),
             idle_units: played.idle_units,
+            circuits,
         }
     }
 }

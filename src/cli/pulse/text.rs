@@ -2,6 +2,7 @@
 
 use super::summary::{Minima, Summary, TableSummary};
 use crate::cli::report::{Outcome, Report};
+use crate::cli::rows::{fixed, table};
 use std::fmt::Write;
 
 /// A shortest time; `-` where there was none.
@@ -61,7 +62,54 @@ impl Report for Summary {
                 "{idle} unit times without pulses between two patterns"
             )?;
         }
-        Ok(())
+        self.circuits(text)
+    }
+}
+
+impl Summary {
+    fn circuits(&self, text: &mut String) -> std::fmt::Result {
+        let name = |circuit: &str| format!("{circuit:<31}");
+        let heads = [
+            ("at this program                ", 0),
+            ("unit times", 0),
+            ("late", 4),
+            ("least T", 0),
+            ("jitter ticks", 0),
+            ("error steps", 0),
+            ("driver's times", 0),
+        ];
+        let cells = self.circuits.iter().map(|row| {
+            let kept = if row.timing_kept { "kept" } else { "not kept" };
+            [
+                name(row.circuit),
+                row.units.to_string(),
+                row.late_units.to_string(),
+                row.unit_ticks_least.to_string(),
+                fixed(row.jitter_ticks_max, 3),
+                fixed(row.end_error_steps_max, 3),
+                kept.to_owned(),
+            ]
+        });
+        text.push('\n');
+        table(text, heads, cells)?;
+        text.push('\n');
+        let heads = [
+            ("a circuit has                  ", 0),
+            ("adders", 0),
+            ("their bits", 0),
+            ("flip-flops", 0),
+            ("memory bits", 0),
+        ];
+        let cells = self.circuits.iter().map(|row| {
+            [
+                name(row.circuit),
+                row.adders.to_string(),
+                row.adder_bits.to_string(),
+                row.flip_flops.to_string(),
+                row.memory_bits.to_string(),
+            ]
+        });
+        table(text, heads, cells)
     }
 }
 

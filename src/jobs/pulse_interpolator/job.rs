@@ -1,6 +1,7 @@
 //! A drawing through the whole interpolator: planned, compiled to a table, played by the control
 //! computer, and counted at the motor drivers.
 
+use super::spread::Spread;
 use super::step_dir::{Driver, TimingMinima};
 use super::{ControlComputer, StepTiming, Table};
 use crate::circuits::pulse_interpolator::group::In;
@@ -10,7 +11,7 @@ use crate::settings::{JobError, SettingError, within};
 use std::ops::ControlFlow;
 
 /// What was seen at the drivers of a group that played a table.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Played {
     /// Ticks of the run, from power-on until the last pulse is over.
     pub ticks: u64,
@@ -28,7 +29,7 @@ pub struct Played {
 }
 
 /// One axis of [`Played`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlayedAxis {
     /// Steps up.
     pub pulses_up: u64,
@@ -36,6 +37,8 @@ pub struct PlayedAxis {
     pub pulses_down: u64,
     /// The shortest times on the step and direction lines.
     pub minima: TimingMinima,
+    /// Largest distance of a pulse from where an even motion through its unit time has it, in ticks.
+    pub jitter: f64,
 }
 
 impl PlayedAxis {
@@ -63,6 +66,9 @@ struct Bench<O> {
     /// The table is played, or the observer has stopped.
     over: bool,
     drivers: Vec<Driver>,
+    spreads: Vec<Spread>,
+    /// The first tick of the unit time under way.
+    unit_begun: u64,
     positions: Vec<i32>,
     units: usize,
     begun: Option<u64>,
@@ -81,14 +87,18 @@ impl<O: Observer<Group>> Observer<Group> for Bench<O> {
         let (rst, busy) = (now.get(see.unit_rst), now.get(see.busy));
         let taken = rst && self.pieces && now.get(see.pending);
         for (axis, driver) in self.drivers.iter_mut().enumerate() {
+            let before = driver.pulses();
             // The drivers ask for nothing here, so they have nothing to complain of.
             let _ = driver.sample(now.tick, now.get(see.step[axis]), now.get(see.dir[axis]));
+            if driver.pulses() > before {
+                self.spreads[axis].rise(now.tick);
+            }
         }
         if self.first_step.is_none() && see.step.iter().any(|step| now.get(*step)) {
             self.first_step = Some(now.tick);
         }
         if rst {
-            self.unit_ends(busy);
+            self.unit_ends(busy, now.tick + 1);
         }
         if self.begun.is_none() && busy {
             self.begun = Some(now.tick);
@@ -105,11 +115,15 @@ impl<O: Observer<Group>> Observer<Group> for Bench<O> {
 }
 
 impl<O> Bench<O> {
-    fn unit_ends(&mut self, busy: bool) {
+    fn unit_ends(&mut self, busy: bool, end: u64) {
+        for spread in &mut self.spreads {
+            spread.unit_ends(self.unit_begun, end);
+        }
+        self.unit_begun = end;
         if busy {
             let positions = self.drivers.iter().map(|driver| driver.position() as i32);
             self.positions.extend(positions);
-        } else if self.begun.is_some() {
+        } else if self.begun.is_some() && self.positions.len() < self.units * self.drivers.len() {
             self.idle_units += 1;
         }
     }
@@ -242,6 +256,8 @@ fn played<O: Observer<Group>>(
         pieces: false,
         over: false,
         drivers: vec![Driver::new(StepTiming::default()); group.axes],
+        spreads: vec![Spread::default(); group.axes],
+        unit_begun: 0,
         positions: Vec::with_capacity(table.units() * group.axes),
         units: table.units(),
         begun: None,
@@ -250,12 +266,14 @@ fn played<O: Observer<Group>>(
         last_tick: 0,
     };
     run(&mut simulator, &mut bench)?;
-    let axes = bench.drivers.iter().map(|driver| {
+    let axes = bench.drivers.iter().zip(&bench.spreads);
+    let axes = axes.map(|(driver, spread)| {
         let (pulses, position) = (driver.pulses() as i64, driver.position());
         PlayedAxis {
             pulses_up: ((pulses + position) / 2) as u64,
             pulses_down: ((pulses - position) / 2) as u64,
             minima: driver.minima(),
+            jitter: spread.jitter(),
         }
     });
     Ok(Played {

@@ -1,8 +1,10 @@
 //! A drawing on the pulse interpolator: compiled to a table, played by a control computer, counted by
 //! drivers.
 
+pub mod beside;
 pub mod control_computer;
 pub mod job;
+pub mod spread;
 pub mod step_dir;
 pub mod stored;
 pub mod table;
@@ -11,5 +13,6 @@ pub use control_computer::ControlComputer;
 pub use stored::{Stored, StoredError};
 pub use table::{
     AxisReport, AxisScaling, CountTable, FollowingError, PulseLimits, Ratio, Remedy, Report,
-    Scaled, Settings, StepTiming, Table, TableError, UnitErrors, Word, compile, follow,
+    Scaled, Settings, StepTiming, Table, TableError, UnitDemand, UnitErrors, Word, compile,
+    demanded, follow,
 };

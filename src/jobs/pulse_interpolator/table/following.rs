@@ -24,6 +24,18 @@ pub struct UnitErrors {
     pub errors: [f64; COORDINATES],
 }
 
+/// Where a path demands the axes at the end of a unit time, in steps from where they begin; 0 for the
+/// axes not driven.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnitDemand {
+    /// T in ticks.
+    pub period: u32,
+    /// Exactly.
+    pub exact: [f64; COORDINATES],
+    /// To the nearest step.
+    pub rounded: [i64; COORDINATES],
+}
+
 /// Demand and position over a run, unit after unit.
 struct Follower<'p, 'd> {
     demands: Demands<'p, 'd>,
@@ -166,6 +178,39 @@ pub fn follow(
         each(&follower.unit(period, words, positions)?);
     }
     Ok(follower.largest)
+}
+
+/// Where `drawing` demands the axes at the end of the first `units` unit times of `table`.
+///
+/// # Errors
+///
+/// As [`follow`].
+pub fn demanded(
+    drawing: &Drawing,
+    settings: &Settings,
+    table: &Table,
+    units: usize,
+) -> Result<Vec<UnitDemand>, TableError> {
+    let plan = Plan::new(drawing, &settings.motion)?;
+    let mut demands = Demands::new(&plan, settings);
+    let start = demands.at(0)?;
+    let mut ticks = 0;
+    let each = table.iter().take(units).map(|(period, _)| {
+        ticks += u64::from(period);
+        let demand = demands.at(ticks)?;
+        let mut unit = UnitDemand {
+            period,
+            exact: [0.0; COORDINATES],
+            rounded: [0; COORDINATES],
+        };
+        for axis in 0..table.axes() {
+            let begun = start.rounded(axis);
+            unit.exact[axis] = (demand.steps[axis] - Steps::from_num(begun)).to_num();
+            unit.rounded[axis] = demand.rounded(axis) - begun;
+        }
+        Ok(unit)
+    });
+    each.collect()
 }
 
 /// The largest following errors of the steps that `table` stands for.

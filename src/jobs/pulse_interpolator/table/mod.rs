@@ -20,7 +20,7 @@ mod words;
 pub use compile::compile;
 pub use count_table::{CountTable, Offer, PulseLimits, choose_half_period};
 pub use error::TableError;
-pub use following::{UnitErrors, follow};
+pub use following::{UnitDemand, UnitErrors, demanded, follow};
 pub use report::{AxisReport, FollowingError, Remedy, Report};
 pub use scale::{AxisScaling, Ratio, Scaled};
 pub use settings::{Settings, StepTiming, WIDTH_RANGE};

@@ -97,6 +97,15 @@ impl Table {
         Self::new(self.clock_hz, self.axes, self.half_period_bits)
     }
 
+    /// The same words, all of them with a unit time of `period` ticks; patterns stay apart.
+    pub(in crate::jobs::pulse_interpolator) fn at_period(&self, period: u32) -> Self {
+        let patterns = self.patterns.iter();
+        Self {
+            patterns: patterns.map(|part| Pattern { period, ..*part }).collect(),
+            ..self.clone()
+        }
+    }
+
     /// The units of another follow.
     pub(in crate::jobs::pulse_interpolator) fn append(
         &mut self,

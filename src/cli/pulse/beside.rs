@@ -1,0 +1,111 @@
+//! The same program on the conventional device of Fig. 5, and what both devices come to.
+
+use super::Job;
+use super::summary::Minima;
+use crate::cli::Failure;
+use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
+use motion_rtl::hdl::{self, RunError};
+use motion_rtl::jobs::pulse_interpolator::beside::{device, least_period, orders, play};
+use motion_rtl::jobs::pulse_interpolator::job::{Played, group};
+use motion_rtl::jobs::pulse_interpolator::{UnitDemand, demanded};
+use serde::Serialize;
+
+/// A device.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    /// Its circuit.
+    pub circuit: &'static str,
+    /// Unit times with a word or a move.
+    pub units: usize,
+    /// Unit times without pulses among them, because the next one was not there yet.
+    pub late_units: u64,
+    /// The shortest T in ticks in which the next unit time is there.
+    pub unit_ticks_least: u64,
+    /// Largest distance of a pulse from where an even motion through its unit time has it.
+    pub jitter_ticks_max: f64,
+    /// Largest distance from the exact demand at the end of a unit time.
+    pub end_error_steps_max: f64,
+    /// Whether the driver's shortest times were kept.
+    pub timing_kept: bool,
+    /// Adders, subtractors and comparators.
+    pub adders: u64,
+    /// Bits of them.
+    pub adder_bits: u64,
+    /// Bits of registers.
+    pub flip_flops: u64,
+    /// Bits of memories.
+    pub memory_bits: u64,
+}
+
+impl Row {
+    fn costing(self, model: &hdl::Model) -> Self {
+        let cost = model.cost();
+        Row {
+            circuit: model.name(),
+            adders: cost.adders,
+            adder_bits: cost.adder_bits,
+            flip_flops: cost.register_bits,
+            memory_bits: cost.memory_bits,
+            ..self
+        }
+    }
+}
+
+/// Largest distance of positions from the demand, each at the end of its unit time; behind the path
+/// the demand is its end.
+fn end_error(demands: &[UnitDemand], positions: &[i32], axes: usize) -> f64 {
+    let demands = demands.iter().chain(demands.last().into_iter().cycle());
+    let units = demands.zip(positions.chunks_exact(axes));
+    let errors = units.flat_map(|(demand, at)| {
+        let pairs = demand.exact.iter().zip(at);
+        pairs.map(|(exact, at)| (exact - f64::from(*at)).abs())
+    });
+    errors.fold(0.0, f64::max)
+}
+
+/// Both devices, and what is wrong with the run of the conventional one; empty where nothing is.
+pub fn compare(job: &Job, played: &Played) -> Result<(Vec<Row>, Vec<String>), Failure> {
+    let (table, timing) = (&job.table, &job.settings.timing);
+    let axes = table.axes();
+    let demands = demanded(&job.drawing, &job.settings, table, job.path_units())
+        .map_err(|error| Failure::Check(error.to_string()))?;
+    let orders = orders(&demands, timing);
+    let circuit = device(axes, &orders);
+    let beside = play(&circuit, &orders)?;
+    let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let kept = |minima: Minima| minima.too_short(timing).next().is_none();
+    let row = Row {
+        circuit: "",
+        units: played.positions.len() / axes,
+        late_units: played.idle_units,
+        unit_ticks_least: least_period(table, job.variant.into())?.into(),
+        jitter_ticks_max: most(&mut played.axes.iter().map(|axis| axis.jitter)),
+        end_error_steps_max: end_error(&demands, &played.positions, axes),
+        timing_kept: played.axes.iter().all(|axis| kept(axis.minima.into())),
+        adders: 0,
+        adder_bits: 0,
+        flip_flops: 0,
+        memory_bits: 0,
+    };
+    let other = Row {
+        units: orders.len(),
+        late_units: beside.late_units,
+        unit_ticks_least: beside.needed,
+        jitter_ticks_max: most(&mut beside.jitter.iter().copied()),
+        end_error_steps_max: end_error(&demands, &beside.positions, axes),
+        timing_kept: beside.minima.iter().all(|minima| kept((*minima).into())),
+        ..row
+    };
+    let own = hdl::model(&group(table, job.variant.into())).map_err(RunError::from)?;
+    let model = hdl::model(&circuit).map_err(RunError::from)?;
+    let rows = vec![row.costing(&own), other.costing(&model)];
+    let ends = beside.positions.iter().rev().take(axes).rev();
+    let astray = ends.zip(&job.report.axes).zip(AXIS_NAMES);
+    let astray = astray.filter_map(|((end, report), name)| {
+        let wanted = report.steps_demanded;
+        (i64::from(*end) != wanted).then(|| {
+            format!("{name}: {end} steps by the conventional device where {wanted} are demanded")
+        })
+    });
+    Ok((rows, astray.collect()))
+}

@@ -1,0 +1,287 @@
+//! The program of a table on the conventional device of Fig. 5, beside the interpolator.
+//!
+//! Its computer 7 gives a move for every unit time, since the demand of each is another: how far the
+//! path goes in it, rounded. A unit time has as many steps as the driver's shortest pulse lets it
+//! have; what is above comes with the next.
+
+use super::job::{fast_forward, group};
+use super::spread::Spread;
+use super::step_dir::{Driver, TimingMinima};
+use super::table::{StepTiming, Table, UnitDemand};
+use crate::circuits::pulse_interpolator::motor_controller::{ConventionalWidths, Move};
+use crate::circuits::pulse_interpolator::{Conventional, Variant, conventional};
+use crate::hdl::{At, RunError, Sample, Simulator, Value};
+use crate::input::COORDINATES;
+use crate::settings::JobError;
+
+/// A move of one unit time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Order {
+    /// Steps of each axis, X first; 0 for those not driven.
+    pub delta: [i64; COORDINATES],
+    /// T in ticks.
+    pub period: u32,
+}
+
+/// The moves that bring the axes where a path demands them at the end of every unit time, for a
+/// driver that wants `timing`.
+#[must_use]
+pub fn orders(demands: &[UnitDemand], timing: &StepTiming) -> Vec<Order> {
+    let greatest = (1 << ConventionalWidths::default().distance) - 1;
+    let pulse = 2 * i64::from(timing.min_high.max(timing.min_low).max(1));
+    let Some(last) = demands.last() else {
+        return Vec::new();
+    };
+    let mut given = [0; COORDINATES];
+    let mut orders = Vec::with_capacity(demands.len());
+    let mut demands = demands.iter();
+    loop {
+        let demand = match demands.next() {
+            Some(demand) => demand,
+            None if given == last.rounded => return orders,
+            None => last,
+        };
+        let most = (i64::from(demand.period) / pulse).clamp(1, greatest);
+        let mut delta = [0; COORDINATES];
+        for ((delta, given), to) in delta.iter_mut().zip(&mut given).zip(demand.rounded) {
+            *delta = (to - *given).clamp(-most, most);
+            *given += *delta;
+        }
+        let period = demand.period;
+        orders.push(Order { delta, period });
+    }
+}
+
+/// The conventional device for so many axes; T of the first move is in force at power-on.
+#[must_use]
+pub fn device(axes: usize, orders: &[Order]) -> Conventional {
+    Conventional {
+        axes,
+        widths: ConventionalWidths::default(),
+        period: orders.first().map_or(1, |first| first.period.into()),
+    }
+}
+
+/// What was seen at the drivers of the conventional device.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Beside {
+    /// Ticks of the run.
+    pub ticks: u64,
+    /// Unit times without pulses, because the next of a move was not prepared.
+    pub late_units: u64,
+    /// Most ticks from an RST until the next unit time is prepared: the shortest T in which it is.
+    pub needed: u64,
+    /// Positions at the end of every unit time of a move in steps from where the axes began, X first,
+    /// unit after unit.
+    pub positions: Vec<i32>,
+    /// Of each axis, largest distance of a pulse from where an even motion through its unit time has
+    /// it, in ticks.
+    pub jitter: Vec<f64>,
+    /// Of each axis, the shortest times on the step and direction lines.
+    pub minima: Vec<TimingMinima>,
+}
+
+/// What is looked at.
+struct See {
+    step: Vec<At<bool>>,
+    dir: Vec<At<bool>>,
+    unit_rst: At<bool>,
+    busy: At<bool>,
+    late: At<bool>,
+    ready: At<bool>,
+    prepared: At<bool>,
+}
+
+/// The computer 7, and drivers on all axes.
+struct Bench<'o> {
+    orders: &'o [Order],
+    given: usize,
+    /// A move may be given with the tick to come.
+    ready: bool,
+    axes: Vec<(Driver, Spread)>,
+    /// The first tick of the unit time under way.
+    begun: u64,
+    /// The RST since which the next unit time is computed.
+    since: Option<u64>,
+    seen: Beside,
+}
+
+impl Bench<'_> {
+    fn over(&self) -> bool {
+        self.seen.positions.len() == self.orders.len() * self.axes.len()
+    }
+
+    /// The ports in of the tick to come, and whether they are such for this tick only.
+    fn ports(&mut self) -> (conventional::In<Value>, bool) {
+        let order = self.orders.get(self.given).filter(|_| self.ready);
+        self.given += usize::from(order.is_some());
+        self.ready = false;
+        let order = order.map_or_else(
+            || Move {
+                command: false,
+                delta: vec![0; self.axes.len()],
+                units: 0,
+                period: 0,
+            },
+            |order| Move {
+                command: true,
+                delta: order.delta[..self.axes.len()].to_vec(),
+                units: 1,
+                period: order.period.into(),
+            },
+        );
+        let given = order.command;
+        (conventional::In { order }, given)
+    }
+
+    /// Takes down a tick, in which a move is given or not.
+    fn take(&mut self, now: &Sample<'_, Conventional>, see: &See, given: bool) {
+        let tick = now.tick;
+        for (axis, (driver, spread)) in self.axes.iter_mut().enumerate() {
+            let before = driver.pulses();
+            // The drivers ask for nothing here, so they have nothing to complain of.
+            let _ = driver.sample(tick, now.get(see.step[axis]), now.get(see.dir[axis]));
+            if driver.pulses() > before {
+                spread.rise(tick);
+            }
+        }
+        let (rst, prepared) = (now.get(see.unit_rst), now.get(see.prepared));
+        if prepared && let Some(since) = self.since.take() {
+            self.seen.needed = self.seen.needed.max(tick - since);
+        }
+        self.ready = now.get(see.ready) && !given;
+        self.seen.ticks = tick + 1;
+        if !rst {
+            return;
+        }
+        // The one that runs at power-on has no pulses, nor has any until the first is prepared.
+        let began = !self.seen.positions.is_empty() || now.get(see.busy);
+        self.seen.late_units += u64::from(began && now.get(see.late));
+        if now.get(see.busy) {
+            let positions = self.axes.iter().map(|(driver, _)| driver.position() as i32);
+            self.seen.positions.extend(positions);
+        }
+        for (_, spread) in &mut self.axes {
+            spread.unit_ends(self.begun, tick + 1);
+        }
+        self.begun = tick + 1;
+        if prepared {
+            self.since = Some(tick);
+        }
+    }
+}
+
+/// Plays moves on the conventional device.
+///
+/// # Errors
+/// The circuit is none.
+pub fn play(circuit: &Conventional, orders: &[Order]) -> Result<Beside, RunError> {
+    let (mut simulator, see) = Simulator::watching(circuit, false, |watch| See {
+        step: watch.each(&watch.w.step),
+        dir: watch.each(&watch.w.dir),
+        unit_rst: watch.at(watch.w.unit_rst),
+        busy: watch.at(watch.w.busy),
+        late: watch.at(watch.w.late),
+        ready: watch.at(watch.w.ready),
+        prepared: watch.at(watch.p.controller.w.prepared),
+    })?;
+    let mut bench = Bench {
+        orders,
+        given: 0,
+        ready: true,
+        axes: vec![(Driver::new(StepTiming::default()), Spread::default()); circuit.axes],
+        begun: 0,
+        since: None,
+        seen: Beside::default(),
+    };
+    while !bench.over() {
+        let (i, given) = bench.ports();
+        let ((), _) = simulator.look(&i, (), |now| bench.take(now, &see, given))?;
+        let more = bench.ready && bench.given < orders.len();
+        simulator.go_on(if given || more { 1 } else { u64::MAX });
+    }
+    let (drivers, spreads): (Vec<_>, Vec<_>) = bench.axes.into_iter().unzip();
+    Ok(Beside {
+        jitter: spreads.iter().map(Spread::jitter).collect(),
+        minima: drivers.iter().map(Driver::minima).collect(),
+        ..bench.seen
+    })
+}
+
+/// The shortest unit time in which the interpolator has the words of `table` in time, where its
+/// control computer writes them meanwhile: found by playing it at 1, 2, … ticks.
+///
+/// # Errors
+/// As [`fast_forward`].
+pub fn least_period(table: &Table, variant: Variant) -> Result<u32, JobError> {
+    let mut period = 1;
+    loop {
+        let table = table.at_period(period);
+        if fast_forward(&group(&table, variant), &table, ())?.idle_units == 0 {
+            return Ok(period);
+        }
+        period += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn demands(period: u32, ends: &[[i64; COORDINATES]]) -> Vec<UnitDemand> {
+        let demand = |&rounded: &[i64; COORDINATES]| UnitDemand {
+            period,
+            exact: rounded.map(|steps| steps as f64),
+            rounded,
+        };
+        ends.iter().map(demand).collect()
+    }
+
+    fn run(axes: usize, orders: &[Order]) -> Beside {
+        play(&device(axes, orders), orders).unwrap()
+    }
+
+    #[test]
+    fn what_does_not_fit_into_a_unit_time_comes_with_the_next() {
+        let timing = StepTiming {
+            min_high: 2,
+            min_low: 5,
+            ..StepTiming::default()
+        };
+        let deltas = |ends: &[[i64; COORDINATES]]| {
+            let found = orders(&demands(129, ends), &timing);
+            found.iter().map(|order| order.delta).collect::<Vec<_>>()
+        };
+        assert_eq!(
+            deltas(&[[3, -12, 0], [20, -30, 0], [20, -31, 0]]),
+            [[3, -12, 0], [12, -12, 0], [5, -7, 0]]
+        );
+        assert!(deltas(&[]).is_empty());
+        // The path is over, and the axis is not there yet.
+        let found = orders(&demands(129, &[[0, 25, 0]]), &timing);
+        let seen = run(2, &found);
+        assert_eq!(seen.positions, [0, 12, 0, 24, 0, 25]);
+        assert_eq!((seen.late_units, seen.minima[1].high), (0, Some(5)));
+        // n = 5 where half a pulse is due every 5 3/8 ticks: the last is early by 23 times the rest.
+        assert_eq!(seen.jitter, [0.0, 23.0 * 3.0 / 8.0]);
+    }
+
+    #[test]
+    fn the_ticks_that_are_needed_are_those_below_which_it_comes_late() {
+        for axes in 1..=COORDINATES {
+            let ends = [1, 2, 3, 4].map(|unit| [unit; COORDINATES]);
+            let at = |period| {
+                let orders = orders(&demands(period, &ends), &StepTiming::default());
+                run(axes, &orders)
+            };
+            let seen = at(2000);
+            assert_eq!((seen.needed, seen.late_units), (3 + 54 * axes as u64, 0));
+            let least = at(seen.needed as u32);
+            assert_eq!((least.needed, least.late_units), (seen.needed, 0));
+            let short = at(seen.needed as u32 - 1);
+            assert_eq!((short.needed, short.late_units), (seen.needed, 3));
+            assert_eq!(short.positions, least.positions);
+            assert_eq!(short.positions.len(), 4 * axes);
+        }
+    }
+}
