@@ -131,10 +131,22 @@ impl<C: Circuit> Simulator<C> {
     pub fn look<T>(
         &mut self,
         i: &C::In<Value>,
-        mut observer: impl Observer<C>,
+        observer: impl Observer<C>,
         show: impl FnOnce(&Sample<'_, C>) -> T,
     ) -> Result<(T, ControlFlow<()>), RunError> {
         self.apply(i);
+        self.look_as_set(observer, show)
+    }
+
+    /// [Looks](Self::look) with the ports in as they are [set](Self::set).
+    ///
+    /// # Errors
+    /// What `observer` objects to.
+    pub fn look_as_set<T>(
+        &mut self,
+        mut observer: impl Observer<C>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> Result<(T, ControlFlow<()>), RunError> {
         let (shown, flow) = self.now(|now| {
             let shown = show(now);
             let flow = match observer.looks(now.tick) {

@@ -58,17 +58,20 @@ impl<'a> ControlComputer<'a> {
         (gates.round() as u64).min((1 << 14) - 1)
     }
 
-    /// Sets the parameter of the step that runs, where each has its own.
-    pub(super) fn choose_parameter(&self, i: &mut Ports, step: u64) {
+    /// Sets the parameter of the step that runs, where each has its own; whether it stands as it was.
+    pub(super) fn choose_parameter(&self, i: &mut Ports, step: u64) -> bool {
         let step = usize::try_from(step).unwrap_or(usize::MAX);
-        if let Some(ms) = self.settings.speed_leads_ms.get(step) {
-            i.lead_parameter = self.parameter(*ms);
-        }
+        let Some(ms) = self.settings.speed_leads_ms.get(step) else {
+            return true;
+        };
+        let before = i.lead_parameter;
+        i.lead_parameter = self.parameter(*ms);
+        i.lead_parameter == before
     }
 
     /// What it gives in `tick`, in which a step is armed or not; steps run as soon as all are
-    /// written.
-    pub(super) fn tick(&mut self, i: &mut Ports, tick: u64, arm: bool, run: bool) {
+    /// written. Whether all of it stands as it was.
+    pub(super) fn tick(&mut self, i: &mut Ports, tick: u64, arm: bool, run: bool) -> bool {
         let steps = self.settings.steps.len();
         let place = usize::try_from(tick).unwrap_or(usize::MAX);
         let taken = arm && !self.arming;
@@ -83,8 +86,10 @@ impl<'a> ControlComputer<'a> {
             }
             false => None,
         };
+        let before = (i.write_target, i.run);
         self.write(i, write);
         i.run = place >= steps && run;
+        before == (false, i.run) && !i.write_target
     }
 
     /// Writes the step of a positioning, with the target that it has then.

@@ -279,6 +279,7 @@ pub fn play(
     let mut i = computer.standing(circuit);
     let mut operation = Operation::new(settings.operation_delay(false));
     let mut loaded = false;
+    let mut stands = false;
     let (mut simulator, see) =
         Simulator::watching_beside(circuit, &Body, observer.needs_all(), See::of)?;
     loop {
@@ -292,18 +293,28 @@ pub fn play(
         let [drive, reverse, control, arm] = simulator.state(|q| signals.map(|at| q.get(at)));
         let speed = speed * u64::from(SPEED_UNIT_COUNTS_PER_S);
         let (a, b) = body.step(drive, reverse, speed as f64, control && !i.passing);
-        i.effect = operation.step(control && i.passing);
-        bench.operate(i.effect, &body);
-        computer.tick(&mut i, bench.played.ticks, arm, bench.run());
-        computer.choose_parameter(&mut i, step);
-        i.a = a;
-        i.b = b;
-        i.halt = bench.past && drive;
+        let effect = operation.step(control && i.passing);
+        bench.operate(effect, &body);
+        stands &= computer.tick(&mut i, bench.played.ticks, arm, bench.run());
+        stands &= computer.choose_parameter(&mut i, step);
+        let halt = bench.past && drive;
+        if stands {
+            // What changes from tick to tick.
+            simulator.set(|i| i.a, a);
+            simulator.set(|i| i.b, b);
+            simulator.set(|i| i.effect, effect);
+            simulator.set(|i| i.halt, halt);
+        } else {
+            (i.a, i.b, i.effect, i.halt) = (a, b, effect, halt);
+            simulator.apply(&i);
+            stands = true;
+        }
         if observer.looks(bench.played.ticks) {
             simulator.show::<Body>(&BodySignals::of(&body));
         }
         let take = |now: &Sample<'_, _>| bench.take(now, &see, &body);
-        let (goes_on, flow) = simulator.step_watched(&i, &mut observer, take)?;
+        let (goes_on, flow) = simulator.look_as_set(&mut observer, take)?;
+        simulator.go_on(1);
         if !goes_on || flow.is_break() {
             return Ok(bench.played);
         }

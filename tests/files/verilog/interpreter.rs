@@ -196,7 +196,10 @@ impl<'d> Instance<'d> {
     pub fn names(&self, around: &str) -> Vec<String> {
         let mut names = Vec::new();
         let module = self.module;
-        let own = module.signals.iter().filter(|signal| signal.owner.is_none());
+        let own = module
+            .signals
+            .iter()
+            .filter(|signal| signal.owner.is_none());
         names.extend(own.map(|signal| format!("{around}_{}", signal.name)));
         for (name, label, words) in self.shown_memories() {
             names.extend((0..words.len()).map(|index| format!("{around}_{name}_{label}{index}")));
@@ -223,8 +226,7 @@ impl<'d> Instance<'d> {
     /// Name, label of a word and words of each memory that is signals, which a ROM is not.
     fn shown_memories(&self) -> impl Iterator<Item = (&str, &str, &[u64])> {
         let memories = self.module.memories.iter().zip(&self.memories);
-        let shown =
-            memories.filter(|(memory, _)| !memory.inner && !memory.name.starts_with("rom"));
+        let shown = memories.filter(|(memory, _)| !memory.inner && !memory.name.starts_with("rom"));
         shown.map(|(memory, words)| {
             let label = match memory.port {
                 Port::Shift { .. } => "stage",
