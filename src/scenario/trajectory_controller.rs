@@ -81,6 +81,12 @@ pub struct Scenario {
     /// What is added to the path's point in the run whose waves are written.
     #[serde(default)]
     pub correction: Correction,
+    /// Gain of the error along the path, where errors are fed back.
+    #[serde(default = "default::tangential_gain")]
+    pub tangential_gain: f64,
+    /// Gain of the error across it.
+    #[serde(default = "default::normal_gain")]
+    pub normal_gain: f64,
     /// Gain of the position controls.
     #[serde(default = "default::position_gain_per_s")]
     pub position_gain_per_s: f64,
@@ -128,6 +134,8 @@ impl Scenario {
             allow_overshoot: self.allow_overshoot,
             rounding: self.rounding,
             correction: self.correction,
+            tangential_gain: self.tangential_gain,
+            normal_gain: self.normal_gain,
             position_gain_per_s: self.position_gain_per_s,
             speed_hz: self.speed_hz,
             integral_ms: self.integral_ms,
@@ -206,6 +214,12 @@ mod default {
     }
     pub(super) fn k2_per_s() -> super::EachAxis {
         settings().k2_per_s
+    }
+    pub(super) fn tangential_gain() -> f64 {
+        settings().tangential_gain
+    }
+    pub(super) fn normal_gain() -> f64 {
+        settings().normal_gain
     }
     pub(super) fn position_gain_per_s() -> f64 {
         settings().position_gain_per_s

@@ -346,6 +346,12 @@ fn bad_input_is_refused_with_its_line() {
             "s.toml:8: pen_down_counts: is 0; allowed: a position other than 0, where the pen is up",
         ),
         (
+            "correction = \"feedback\"",
+            SHORT,
+            "s.toml:8: correction: is \"feedback\"; allowed: \"vector\", \"none\" or \"steady\": the \
+             machine's commands come from elsewhere",
+        ),
+        (
             "lift_lead_ms = 25.01",
             SHORT,
             "s.toml:8: lift_lead_ms: is 25.01; allowed: 25 or 25.2",

@@ -64,7 +64,15 @@ fn bad_settings_are_refused_with_their_line() {
         ),
         (
             "correction = \"both\"\n",
-            "s.toml:6: correction: unknown variant `both`; allowed: one of `vector`, `none`, `steady`",
+            "s.toml:6: correction: unknown variant `both`; allowed: one of `vector`, `none`, `steady`, `feedback`",
+        ),
+        (
+            "normal_gain = 256\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: normal_gain: is 256; allowed: 0 to 255.99609375",
+        ),
+        (
+            "tangential_gain = -0.1\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: tangential_gain: is -0.1; allowed: 0 to 255.99609375",
         ),
         (
             "acceleration_mm_per_s2 = nan\n[[piece]]\nto_mm = [10, 0, 0]\n",

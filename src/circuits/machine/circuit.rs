@@ -17,6 +17,7 @@ use crate::circuits::lead_angle::{Compensator, LeadFrom, Memory, compensator};
 use crate::circuits::linear_interpolator::LinearInterpolator;
 use crate::circuits::linear_interpolator::command_source::{self, Orders};
 use crate::circuits::pulse_interpolator::{Group, group};
+use crate::circuits::trajectory_controller::error_feedback::FeedbackGains;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::{self, TrajectoryController, controller};
 use crate::hdl::prelude::*;
@@ -233,6 +234,10 @@ impl Circuit for Machine {
             last: of.last,
             path_end: of.path_end,
             period: enables.w.sample_led,
+            feedback_gains: FeedbackGains {
+                tangential_gain: U::new(0, widths.gain),
+                normal_gain: U::new(0, widths.gain),
+            },
             axis_gain_1: vec![of.model_gains.gain_1; self.trajectory_controller.axes],
             axis_gain_2: vec![of.model_gains.gain_2; self.trajectory_controller.axes],
             model_gains: of.model_gains,

@@ -34,7 +34,7 @@ signals! { for ControlledAxis as c;
         pub command: I(c.servo.widths.position),
         /// The reference point stands, and the responses.
         pub correct: Bit,
-        /// Pr: the reference point.
+        /// Pr: the reference point; with the feedback what is fed back.
         pub target: I(c.servo.widths.position),
         /// Encoder, channel A.
         pub a: Bit,

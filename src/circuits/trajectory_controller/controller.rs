@@ -8,15 +8,16 @@
 //!                                               └─▶ tangential response 50 ─ qs ─▶ reference point 2 ─ Pr ──┘
 //! ```
 
+use super::error_feedback::FeedbackGains;
 use super::model_state::ModelGains;
 use super::path_point::AXIS_NAMES;
 use super::point_sequencer::{RADIUS, STEADY_RADIUS};
 use super::servo_arithmetic::ServoGains;
 use super::vector_correction::Correction;
 use super::{
-    ControlledAxis, LengthClamp, PathLength, PathPoint, PeriodJoin, ReferenceModel, Rounding,
-    Servo, Widths, controlled_axis, length_clamp, path_length, path_point, period_join,
-    reference_model,
+    ControlledAxis, ErrorFeedback, LengthClamp, PathLength, PathPoint, PeriodJoin, ReferenceModel,
+    Rounding, Servo, Widths, controlled_axis, error_feedback, length_clamp, path_length,
+    path_point, period_join, reference_model,
 };
 use crate::circuits::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_column,
@@ -55,7 +56,8 @@ pub struct TrajectoryController {
 
 impl TrajectoryController {
     /// A controller whose commands are corrected so, and whose models round so. Its corrections wait
-    /// for the longest way, over the point of the command and the servo response to it.
+    /// for the longest way, over the point of the command and the servo response to it; what is fed
+    /// back takes some of that time.
     #[must_use]
     pub const fn new(
         widths: Widths,
@@ -70,14 +72,29 @@ impl TrajectoryController {
             rounding,
             wait: 0,
         };
-        let wait = controller.point(RADIUS).latency() + controller.model().latency();
+        let answered = controller.point(RADIUS).latency() + controller.model().latency();
+        let wait = answered - controller.correction_latency();
         TrajectoryController { wait, ..controller }
     }
 
     /// Ticks from the beginning of a period to its torques.
     #[must_use]
     pub const fn latency(&self) -> u64 {
-        2 + self.wait + 3 + self.axis().servo.latency()
+        2 + self.wait + 3 + self.correction_latency() + self.axis().servo.latency()
+    }
+
+    /// Ticks that the correction takes besides.
+    const fn correction_latency(&self) -> u64 {
+        match self.correction {
+            Correction::Feedback => self.feedback().latency(),
+            Correction::Vector | Correction::None | Correction::Steady => 0,
+        }
+    }
+
+    /// Ticks before the motors are compared with their models at which the feedback looks at them.
+    #[must_use]
+    pub const fn feedback_lead(&self) -> u64 {
+        self.feedback().latency() + 1 + self.model().latency()
     }
 
     /// Shortest interpolation period in ticks: the next one begins when the torques stand. A longer
@@ -102,10 +119,31 @@ impl TrajectoryController {
         }
     }
 
+    const fn clamp(&self, back: u64) -> LengthClamp {
+        let width = self.widths.point;
+        LengthClamp { width, back }
+    }
+
+    /// By how much the reference point is behind the length that it is told: a count where two points
+    /// of the path are its direction.
+    const fn back(&self) -> u64 {
+        match self.correction {
+            Correction::Feedback => 1 << self.widths.guard(),
+            Correction::Vector | Correction::None | Correction::Steady => 0,
+        }
+    }
+
+    const fn feedback(&self) -> ErrorFeedback {
+        ErrorFeedback {
+            widths: self.widths.feedback(),
+            axes: self.axes,
+        }
+    }
+
     const fn reference_point(&self) -> PathPoint {
         self.point(match self.correction {
             Correction::Steady => STEADY_RADIUS,
-            Correction::Vector | Correction::None => RADIUS,
+            Correction::Vector | Correction::None | Correction::Feedback => RADIUS,
         })
     }
 
@@ -158,6 +196,8 @@ signals! { for TrajectoryController as c;
         pub period: U(c.widths.period),
         /// K1 and K2 of the tangential response.
         pub model_gains: ModelGains(&c.widths.model()) as Flat,
+        /// Of the error feedback.
+        pub feedback_gains: FeedbackGains(&c.widths.feedback()) as Flat,
         /// K1 of each axis, of its response and its servo control's model, likewise.
         pub axis_gain_1: [U(c.widths.gain); c.axes] as Elements(of_axes!("gain_1")),
         /// K2, likewise.
@@ -205,17 +245,20 @@ signals! { for TrajectoryController as c;
         /// qc.
         pub progress: Part<PathLength>(PathLength { width: c.widths.point }),
         /// qc on the path.
-        pub clamp_command: Part<LengthClamp>(LengthClamp { width: c.widths.point }),
+        pub clamp_command: Part<LengthClamp>(c.clamp(0)),
         /// Tangential servo response 50.
         pub tangential: Part<ReferenceModel>(c.model()),
-        /// qs on the path.
-        pub clamp_response: Part<LengthClamp>(LengthClamp { width: c.widths.point }),
+        /// qs on the path; with the feedback a count less than qc.
+        pub clamp_response: Part<LengthClamp>(c.clamp(c.back())),
         /// Axis distribution 3.
         pub distribution: Part<PathPoint>(c.point(RADIUS)),
         /// Reference point 2.
         pub reference_point: Part<PathPoint>(c.reference_point()),
         /// All points of a period.
         pub gather: Part<PeriodJoin>(PeriodJoin { wait: c.wait }),
+        /// What is fed back, where something is.
+        pub feedback: [Part<ErrorFeedback>(c.feedback());
+            usize::from(c.correction == Correction::Feedback)] as Elements(&["feedback"]),
         /// The axes.
         pub axes: [Part<ControlledAxis>(c.axis()); c.axes] as Elements(&AXIS_NAMES),
     }
@@ -301,7 +344,10 @@ impl Circuit for TrajectoryController {
             target: length,
             gains: i.model_gains,
         });
-        let response = p.clamp_response.settle(on_path(tangential.w.position));
+        let response = p.clamp_response.settle(on_path(match self.correction {
+            Correction::Feedback => command.w.clamped.signed(),
+            _ => tangential.w.position,
+        }));
         let point = |start, length| path_point::In {
             start,
             length,
@@ -317,15 +363,24 @@ impl Circuit for TrajectoryController {
         // The prior art knows where the command is, not where the response is.
         let reference_point = p.reference_point.settle(match self.correction {
             Correction::Steady => point(fresh, command.w.clamped),
+            Correction::Feedback => point(fresh, response.w.clamped),
             Correction::Vector | Correction::None => point(tangential.w.fresh, response.w.clamped),
         });
         let (placed, referred) = (distribution.w.points, reference_point.w.points);
+        let command = |axis: usize| i.given.mux(i.given_command[axis], placed[axis]);
+        let corrects = match p.feedback.first() {
+            Some(feedback) => feedback.q.done,
+            None => p.gather.q.correct,
+        };
         let axes = settle_each(p.axes, |axis| controlled_axis::In {
             step: p.gather.q.step,
             preset: p.gather.q.preset,
-            command: i.given.mux(i.given_command[axis], placed[axis]),
-            correct: p.gather.q.correct,
-            target: referred[axis],
+            command: command(axis),
+            correct: corrects,
+            target: match p.feedback.first() {
+                Some(feedback) => feedback.q.sum[axis].resize(self.widths.point),
+                None => referred[axis],
+            },
             a: i.a[axis],
             b: i.b[axis],
             model_gains: ModelGains {
@@ -340,12 +395,24 @@ impl Circuit for TrajectoryController {
                 limit: i.limit[axis],
             },
         });
+        settle_each(p.feedback, |_| error_feedback::In {
+            start: p.gather.q.correct,
+            command: (0..self.axes).map(command).collect(),
+            path: placed.clone(),
+            behind: referred.clone(),
+            position: axes.iter().map(|axis| axis.w.position).collect(),
+            gains: i.feedback_gains.clone(),
+        });
         let gather = p.gather.settle(period_join::In {
             begins: fresh,
             held: progress.q.held,
             placed: distribution.w.done,
             referred: reference_point.w.done,
-            answered: axes[0].w.answered,
+            answered: match self.correction {
+                // What is fed back is of the motors, not of what they would answer.
+                Correction::Feedback => distribution.w.done,
+                _ => axes[0].w.answered,
+            },
             driven: axes[0].w.driven,
             clear: i.restart,
         });

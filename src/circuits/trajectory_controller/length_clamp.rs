@@ -9,7 +9,8 @@
 //!
 //! Departure: the text has no answer where the tangential response overshoots the path's end, as it
 //! does with K2 < 4·K1. There is no path behind it: the reference point stays on the end. The
-//! command's length goes through the same, whatever the profile says.
+//! command's length goes through the same, whatever the profile says. What is taken off a length before
+//! it is held gives the point behind another.
 
 use crate::hdl::prelude::*;
 
@@ -18,6 +19,8 @@ use crate::hdl::prelude::*;
 pub struct LengthClamp {
     /// Width of a length in bits.
     pub width: usize,
+    /// What is taken off the length.
+    pub back: u64,
 }
 
 signals! { for LengthClamp as c;
@@ -30,9 +33,11 @@ signals! { for LengthClamp as c;
     }
     /// Nets.
     pub struct Net {
-        /// The length is behind the end.
+        /// The length without what is taken off.
+        less: I(c.width + usize::from(c.back > 0)),
+        /// It is behind the end.
         beyond: Bit,
-        /// The length, 0 at least and the end at most.
+        /// The same, 0 at least and the end at most.
         pub clamped: U(c.width),
     }
 }
@@ -43,10 +48,24 @@ impl Circuit for LengthClamp {
     records!(In, Nothing, Net);
 
     fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
-        let beyond = i.path_end.below(i.length);
-        let on = beyond.mux(i.path_end.unsigned(), i.length.unsigned());
-        let clamped = i.length.is_negative().mux(0, on);
-        (Net { beyond, clamped }, Nothing)
+        let less = match self.back {
+            0 => i.length,
+            back => i.length.minus(I::new(back as i64, self.width)),
+        };
+        let beyond = i.path_end.below_any(less);
+        let on = beyond.mux(i.path_end, less.resize(self.width));
+        let clamped = less.is_negative().mux(0, on.unsigned());
+        let net = Net {
+            less,
+            beyond,
+            clamped,
+        };
+        (net, Nothing)
+    }
+
+    fn objection(&self) -> Option<String> {
+        let narrow = self.back >> (self.width - 1) > 0;
+        narrow.then(|| format!("{} is no length of {} bits", self.back, self.width))
     }
 }
 
@@ -54,7 +73,8 @@ impl Specified for LengthClamp {
     fn invariants(&self) -> Invariants<'_, Self> {
         Invariants::<Self>::new().always("it is on the path, and the length where that is", |now| {
             let end = now.i.path_end;
-            let expected = now.i.length.clamp(0, end.max(0)) as u64;
+            let less = now.i.length - self.back as i64;
+            let expected = less.clamp(0, end.max(0)) as u64;
             let right = end < 0 || now.w.clamped == expected;
             require(right, ["clamped"], || format!("not {expected}"))
         })

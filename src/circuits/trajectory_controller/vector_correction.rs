@@ -25,6 +25,8 @@ pub enum Correction {
     /// The prior art (¶0004): along the normal, by what is right at constant speed. E = Pr − Pc, with
     /// Pr on a path whose arcs are so much wider.
     Steady,
+    /// The prior art (¶0005): the motors' errors along and across the path, each times its gain.
+    Feedback,
 }
 
 impl Correction {
@@ -35,6 +37,7 @@ impl Correction {
             Correction::Vector => "vector",
             Correction::None => "none",
             Correction::Steady => "steady",
+            Correction::Feedback => "feedback",
         }
     }
 }
@@ -53,7 +56,7 @@ signals! { for VectorCorrection as c;
     pub struct In {
         /// All three points stand.
         pub correct: Bit,
-        /// Pr: the reference point.
+        /// Pr: the reference point; with the feedback what is fed back.
         pub target: I(c.width),
         /// Ps: the servo response.
         pub response: I(c.width),
@@ -86,6 +89,7 @@ impl Circuit for VectorCorrection {
             Correction::Vector => i.target - i.response,
             Correction::None => I::new(0, self.width),
             Correction::Steady => i.target - i.command,
+            Correction::Feedback => i.target,
         };
         let next = Reg {
             correction: i.correct.mux(vector, q.correction),
@@ -110,6 +114,7 @@ impl Specified for VectorCorrection {
                         [vector, i.command + vector]
                     }
                     (true, Correction::Steady) => [i.target - i.command, i.target],
+                    (true, Correction::Feedback) => [i.target, i.target + i.command],
                 };
                 let seen = [next.q.correction, next.q.corrected];
                 let same = (0..2).all(|k| (seen[k] - expected[k]).rem_euclid(end) == 0);

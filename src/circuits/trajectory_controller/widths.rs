@@ -1,6 +1,7 @@
 //! Widths of the trajectory controller's words.
 
 use super::arc_angle::EXTRA;
+use super::error_feedback::FeedbackWidths;
 use super::model_state::ModelWidths;
 use super::servo_arithmetic::{FINE, LEFT, ServoWidths};
 use crate::circuits::arc_generator::Widths as RecordWidths;
@@ -113,6 +114,16 @@ impl Widths {
     #[must_use]
     pub const fn model(&self) -> ModelWidths {
         ModelWidths {
+            position: self.point,
+            gain: self.gain,
+        }
+    }
+
+    /// Those of the error feedback.
+    #[must_use]
+    pub const fn feedback(&self) -> FeedbackWidths {
+        FeedbackWidths {
+            count: self.position,
             position: self.point,
             gain: self.gain,
         }

@@ -51,7 +51,12 @@ const OVERVIEW: [&str; 16] = [
 ];
 
 /// In the order in which they are shown.
-const CORRECTIONS: [Correction; 3] = [Correction::None, Correction::Steady, Correction::Vector];
+const CORRECTIONS: [Correction; 4] = [
+    Correction::None,
+    Correction::Steady,
+    Correction::Feedback,
+    Correction::Vector,
+];
 
 /// Runs a path.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {

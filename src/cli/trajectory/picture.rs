@@ -30,6 +30,7 @@ fn curve(correction: Correction, points: Points) -> Curve {
     let (colour, width) = match correction {
         Correction::None => ("#e69f00", 2.6),
         Correction::Steady => ("#009e73", 1.4),
+        Correction::Feedback => ("#cc79a7", 1.1),
         Correction::Vector => ("#0072b2", 0.9),
     };
     Curve::new(correction.name(), points)

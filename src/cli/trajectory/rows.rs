@@ -112,7 +112,7 @@ pub struct SegmentRow {
     pub speed_mm_per_s: f64,
     /// Largest distance of the loads from the path next to it, by each correction; without a period
     /// there none.
-    pub contour_um: [Option<f64>; 3],
+    pub contour_um: [Option<f64>; 4],
 }
 
 /// By each correction.
@@ -203,7 +203,7 @@ pub fn segments(job: &Job, runs: &Runs) -> Vec<SegmentRow> {
 }
 
 /// Largest contour error of the loads next to each segment, in um, by each correction.
-fn errors_of_segments(job: &Job, runs: &Runs) -> [Vec<Option<f64>>; 3] {
+fn errors_of_segments(job: &Job, runs: &Runs) -> [Vec<Option<f64>>; 4] {
     let (path, unit) = (&job.program.path, job.program.motion.units_per_mm);
     std::array::from_fn(|k| {
         let mut largest = vec![None; path.stretches.len()];

@@ -3,8 +3,9 @@
 use super::Job;
 use super::rows::{self, CorrectionRow, SegmentRow};
 use super::runs::Runs;
-use super::verdict::complaints;
+use super::verdict::{NOT_SETTLED, compared, complaints};
 use crate::cli::report::Outcome;
+use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
 use motion_rtl::jobs::trajectory_controller::load_torque::LoadTorque;
@@ -33,6 +34,8 @@ pub struct Summary {
     pub k1_per_s: EachAxis,
     /// K2.
     pub k2_per_s: EachAxis,
+    /// Gains of the feedback, along the path and across it.
+    pub feedback_gains: [f64; 2],
     /// What the feed-forward of each axis is told of its inertia, as a part of it.
     pub inertia_factor: EachAxis,
     /// Torques on the loads from outside.
@@ -125,6 +128,7 @@ impl Summary {
             period_ms: settings.period_ms,
             k1_per_s: settings.k1_per_s.clone(),
             k2_per_s: settings.k2_per_s.clone(),
+            feedback_gains: program.feedback.parts(&Widths::FULL),
             inertia_factor: settings.inertia_factor.clone(),
             load_torque: settings.load_torque.clone(),
             counts_per_mm: settings.counts_per_mm,
@@ -176,6 +180,9 @@ fn warnings(job: &Job, runs: &Runs) -> Vec<String> {
         many => warnings.push(format!("{many} pieces left out that have no length")),
     }
     for run in &runs.runs {
+        if compared(run, runs) && !run.settled {
+            warnings.push(format!("feedback: {NOT_SETTLED}, with these gains"));
+        }
         for (axis, &periods) in run.measured.saturated.iter().enumerate() {
             if periods > 0 {
                 warnings.push(format!(

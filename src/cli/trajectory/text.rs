@@ -38,6 +38,11 @@ impl Report for Summary {
             self.k2_per_s,
             1e3 / self.counts_per_mm
         )?;
+        let [tangential, normal] = self.feedback_gains;
+        writeln!(
+            text,
+            "the feedback has {tangential} of the error along the path, {normal} of that across it"
+        )?;
         self.disturbances(text)?;
         self.path(text)?;
         self.errors(text)?;
@@ -200,10 +205,11 @@ impl Summary {
             ("entry", 8),
             ("load um: none", 0),
             ("steady", 8),
+            ("feedback", 8),
             ("vector", 8),
         ];
         let cells = rows.into_iter().map(|row| {
-            let [none, steady, vector] =
+            let [none, steady, feedback, vector] =
                 row.contour_um.map(|um| or_dash(um.map(|um| fixed(um, 3))));
             [
                 row.segment.to_string(),
@@ -216,6 +222,7 @@ impl Summary {
                 fixed(row.entry_mm_per_s, 3),
                 none,
                 steady,
+                feedback,
                 vector,
             ]
         });

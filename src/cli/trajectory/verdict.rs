@@ -4,22 +4,30 @@ use super::Job;
 use super::runs::{Run, Runs};
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 
+/// What is said of a run that did not come to rest.
+pub const NOT_SETTLED: &str = "models and motors did not settle at the end";
+
 /// What is wrong with the runs; empty where nothing is.
 pub fn complaints(job: &Job, runs: &Runs) -> Vec<String> {
     let each = runs.runs.iter().flat_map(|run| {
-        let own = of_run(job, run).into_iter();
+        let own = of_run(job, run, compared(run, runs)).into_iter();
         own.map(|text| format!("{}: {text}", run.correction.name()))
     });
     each.collect()
 }
 
-fn of_run(job: &Job, run: &Run) -> Vec<String> {
+/// Whether a run is there for its gains to be seen: a loop that they make unstable is no fault.
+pub fn compared(run: &Run, runs: &Runs) -> bool {
+    run.correction == Correction::Feedback && runs.traced != Correction::Feedback
+}
+
+fn of_run(job: &Job, run: &Run, compared: bool) -> Vec<String> {
     let count_mm = 1.0 / job.settings.counts_per_mm;
     let flags = [
         (run.late, "a period began before the last was over"),
         (run.starved, "the path ended in motion"),
-        (run.lost, "an encoder was too fast"),
-        (!run.settled, "models and motors did not settle at the end"),
+        (run.lost && !compared, "an encoder was too fast"),
+        (!run.settled && !compared, NOT_SETTLED),
     ];
     let flags = flags.into_iter().filter(|(wrong, _)| *wrong);
     let mut all: Vec<_> = flags.map(|(_, text)| text.to_owned()).collect();
@@ -44,9 +52,15 @@ fn of_run(job: &Job, run: &Run) -> Vec<String> {
         0.5 * count_mm,
     );
     // On a widened arc the path ends beside its end.
-    if run.correction != Correction::Steady {
-        // Half a count of each axis.
-        let (model, bound) = (run.measured.model.final_mm, 3f64.sqrt() / 2.0 * count_mm);
+    if run.correction != Correction::Steady && !compared {
+        // Half a count of each axis; what is fed back moves it by less than the count that its motor is
+        // off, and by the less the smaller the gain.
+        let fed = match run.correction {
+            Correction::Feedback => job.settings.tangential_gain.max(job.settings.normal_gain),
+            _ => 0.0,
+        };
+        let bound = 3f64.sqrt() * (0.5 + fed / (1.0 + fed)) * count_mm;
+        let model = run.measured.model.final_mm;
         keep("the models beside the path's end", model, bound);
     }
     all
@@ -130,9 +144,12 @@ mod tests {
             "an encoder was too fast",
             "models and motors did not settle at the end",
         ];
-        let each = ["none", "steady", "vector"];
+        let each = ["none", "steady", "feedback", "vector"];
         let texts = each.map(|name| texts.map(|text| format!("{name}: {text}")));
-        assert_eq!(judged(&job, &flags), texts.concat());
+        // What its gains do is no fault of a run that is compared.
+        let own = texts.iter().enumerate();
+        let own = own.flat_map(|(k, texts)| texts[..if k == 2 { 2 } else { 4 }].to_vec());
+        assert_eq!(judged(&job, &flags), own.collect::<Vec<_>>());
 
         // A count beside the path, on the way and at its end.
         let last = good.periods.len() - 1;

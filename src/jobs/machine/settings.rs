@@ -162,6 +162,12 @@ impl Settings {
             let allowed = "a position other than 0, where the pen is up";
             return Err(SettingError::value("pen_down_counts", 0, allowed));
         }
+        if self.correction == Correction::Feedback {
+            let problem = "is \"feedback\"";
+            let allowed =
+                "\"vector\", \"none\" or \"steady\": the machine's commands come from elsewhere";
+            return Err(SettingError::new("correction", problem, allowed));
+        }
         let in_table = |name| move |error: SettingError| error.at(Place::Table(name));
         self.axis.validate().map_err(in_table("machine"))?;
         self.lift.validate().map_err(in_table("lift"))

@@ -3,17 +3,20 @@
 //! A circle of the radius r, run at ω = v/r, is e^(jωt). The response of a model to it is G = G(jω)
 //! times as large, so that it runs r(1 − |G|) inside. The corrected command is 1 + e^(−jωτ) − G times
 //! as large, τ being the lag of the tangential response. In the widened circle it is 1 + c·ω².
+//! With the feedback it is u: across the path Re u = 1 + N(1 − Re Xu), along it Im u = −T·Im Xu, X
+//! being the motor as it is seen.
 //!
 //! | | continuous | sampled, z = e^(jωΔt) |
 //! |---|---|---|
 //! | G | K1·K2 / (s² + K2·s + K1·K2) | z·K1·K2 / ((z − 1)² + K2·(z − 1) + K1·K2) |
 //! | τ | 1/K1 | (1/K1 − 1)·Δt |
+//! | X | G | G(1 − d(1 − 1/z)), seen d periods before the model's step is over |
 
-use super::job::{Played, Program};
+use super::job::{Played, Program, controller};
 use super::measure::Errors;
 use super::segments::Segment;
 use super::settings::Correction;
-use crate::circuits::trajectory_controller::Widths;
+use crate::circuits::trajectory_controller::{Rounding, Widths};
 use crate::input::COORDINATES;
 use std::ops::Range;
 
@@ -44,6 +47,8 @@ pub struct Variants {
     pub vector: f64,
     /// On the widened circle: r(1 − (1 + c·ω²)|G|).
     pub steady: f64,
+    /// With the motors' errors fed back: r(1 − |G·u|).
+    pub feedback: f64,
 }
 
 impl Variants {
@@ -54,14 +59,22 @@ impl Variants {
             Correction::None => self.none,
             Correction::Vector => self.vector,
             Correction::Steady => self.steady,
+            Correction::Feedback => self.feedback,
         }
     }
 }
 
 impl ClosedForms {
-    /// Of a circle, by gains in 1/s, the period in s and c in s².
+    /// Of a circle, by gains in 1/s, the period in s, c in s², and what is fed back.
     #[must_use]
-    pub fn of(radius_mm: f64, speed_mm_per_s: f64, gains: [f64; 2], period: f64, c: f64) -> Self {
+    pub fn of(
+        radius_mm: f64,
+        speed_mm_per_s: f64,
+        gains: [f64; 2],
+        period: f64,
+        c: f64,
+        fed: Fed,
+    ) -> Self {
         let omega = speed_mm_per_s / radius_mm;
         let [k1, k2] = gains;
         let widened = 1.0 + c * omega * omega;
@@ -76,21 +89,56 @@ impl ClosedForms {
             [square[0] + k2 * step[0] + k1 * k2, square[1] + k2 * step[1]],
         );
         let sampled = times(z, sampled);
-        let forms = |response: Complex, lag: f64| {
+        let back = [1.0 - z[0], z[1]].map(|part| fed.lead * part);
+        let seen = times(sampled, [1.0 - back[0], -back[1]]);
+        let forms = |response: Complex, lag: f64, seen: Complex| {
             let sum = [1.0 + lag.cos() - response[0], -lag.sin() - response[1]];
             let inside = |times: f64| radius_mm * (1.0 - times);
             Variants {
                 none: inside(size(response)),
                 vector: inside(size(times(response, sum))),
                 steady: inside(widened * size(response)),
+                feedback: inside(size(times(response, fed.command(seen)))),
             }
         };
         ClosedForms {
             radius_mm,
             speed_mm_per_s,
-            continuous: forms(continuous, omega / gains[0]),
-            sampled: forms(sampled, turn * (1.0 / k1 - 1.0)),
+            continuous: forms(continuous, omega / gains[0], continuous),
+            sampled: forms(sampled, turn * (1.0 / k1 - 1.0), seen),
         }
+    }
+}
+
+/// What is fed back.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fed {
+    /// T.
+    pub tangential: f64,
+    /// N.
+    pub normal: f64,
+    /// How long before the motors are compared with their models they are looked at, in periods.
+    pub lead: f64,
+}
+
+impl Fed {
+    /// That of a program.
+    #[must_use]
+    pub fn of(program: &Program) -> Self {
+        let [tangential, normal] = program.feedback.parts(&Widths::FULL);
+        let circuit = controller(COORDINATES, Correction::Feedback, Rounding::Nearest);
+        Fed {
+            tangential,
+            normal,
+            lead: circuit.feedback_lead() as f64 / f64::from(program.period_ticks),
+        }
+    }
+
+    /// u, where the motors are X = `seen` times the corrected command.
+    fn command(self, [re, im]: Complex) -> Complex {
+        let (t, n) = (self.tangential, self.normal);
+        let whole = (1.0 + n * re) * (1.0 + t * re) + n * t * im * im;
+        [(1.0 + t * re) / whole, -t * im / whole].map(|part| (1.0 + n) * part)
     }
 }
 
@@ -140,7 +188,8 @@ impl Steady {
                     let mm = 1.0 / motion.units_per_mm;
                     let gains = [k1, k2].map(|gain| gain / motion.period);
                     let c = program.tangential.radial_s2(&Widths::FULL, motion.period);
-                    let forms = ClosedForms::of(radius * mm, piece.v * mm, gains, motion.period, c);
+                    let (speed, fed) = (piece.v * mm, Fed::of(program));
+                    let forms = ClosedForms::of(radius * mm, speed, gains, motion.period, c, fed);
                     longest = Some(Steady { periods, forms });
                 }
             }

@@ -5,6 +5,7 @@ use super::program::Program;
 use super::servo_gains::ServoGains;
 use crate::circuits::trajectory_controller::TrajectoryController;
 use crate::circuits::trajectory_controller::controller::In;
+use crate::circuits::trajectory_controller::error_feedback::FeedbackGains;
 use crate::circuits::trajectory_controller::model_state::ModelGains;
 use crate::hdl::{Value, zero};
 use crate::input::COORDINATES;
@@ -48,6 +49,10 @@ impl<'a> Host<'a> {
             model_gains: ModelGains {
                 gain_1: program.tangential.k1,
                 gain_2: program.tangential.k2,
+            },
+            feedback_gains: FeedbackGains {
+                tangential_gain: program.feedback.tangential,
+                normal_gain: program.feedback.normal,
             },
             axis_gain_1: program.gains.iter().map(|gains| gains.k1).collect(),
             axis_gain_2: program.gains.iter().map(|gains| gains.k2).collect(),

@@ -7,7 +7,7 @@ use super::profile::Profile;
 use super::profile_record::records;
 use super::segments::Path;
 use super::servo_gains::ServoGains;
-use super::settings::{Gains, Motion, Settings};
+use super::settings::{FeedbackGains, Gains, Motion, Settings};
 use super::speed_limits::spans;
 use crate::circuits::trajectory_controller::Widths;
 use crate::input::{COORDINATES, Point, ZERO_MM};
@@ -37,6 +37,8 @@ pub struct Program {
     pub gains: Vec<Gains>,
     /// Those of the tangential response: of the slowest axis, as no other is to be waited for by it.
     pub tangential: Gains,
+    /// Of the error feedback.
+    pub feedback: FeedbackGains,
     /// Of the axes, of which there are as many as there are machine parameters; the others are 0.
     pub servo: [ServoGains; COORDINATES],
     /// Torques on the loads from outside.
@@ -80,6 +82,7 @@ impl Program {
         if let Some(told) = &settings.axis_acceleration_mm_per_s2 {
             told.check("axis_acceleration_mm_per_s2", machine.len())?;
         }
+        let feedback = settings.feedback_gains(widths)?;
         let slowest = gains.iter().min_by_key(|gains| (gains.k1, gains.k2));
         let tangential = slowest.copied().unwrap_or(gains[0]);
         settings
@@ -126,6 +129,7 @@ impl Program {
             motion,
             gains,
             tangential,
+            feedback,
             servo,
             load_steps,
             origin,

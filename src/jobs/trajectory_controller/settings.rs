@@ -63,6 +63,10 @@ pub struct Settings {
     pub rounding: Rounding,
     /// What is added to the path's point.
     pub correction: Correction,
+    /// Of the error along the path, where errors are fed back.
+    pub tangential_gain: f64,
+    /// Of the error across it.
+    pub normal_gain: f64,
     /// Gain of the position controls in 1/s.
     pub position_gain_per_s: f64,
     /// Bandwidth of the speed controls in Hz: their gain is 2πf times the inertia.
@@ -98,6 +102,8 @@ impl Default for Settings {
             allow_overshoot: false,
             rounding: Rounding::default(),
             correction: Correction::default(),
+            tangential_gain: 1.0,
+            normal_gain: 1.0,
             position_gain_per_s: 30.0,
             speed_hz: 17.0,
             integral_ms: 40.0,
@@ -151,6 +157,24 @@ impl Gains {
     }
 }
 
+/// The gains of the error feedback as words: parts of 2^(K/2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FeedbackGains {
+    /// Of the tangential error.
+    pub tangential: u64,
+    /// Of the normal error.
+    pub normal: u64,
+}
+
+impl FeedbackGains {
+    /// Both as numbers.
+    #[must_use]
+    pub fn parts(&self, widths: &Widths) -> [f64; 2] {
+        let one = (widths.feedback().gain_fraction() as f64).exp2();
+        [self.tangential, self.normal].map(|word| word as f64 / one)
+    }
+}
+
 impl From<&Settings> for Speeds {
     fn from(settings: &Settings) -> Self {
         Speeds {
@@ -167,6 +191,7 @@ impl Settings {
     /// Names the first field at fault, its value and what is allowed.
     pub fn validate(&self, widths: &Widths) -> Result<(), SettingError> {
         self.motion(widths)?;
+        self.feedback_gains(widths)?;
         let told = [&self.k1_per_s, &self.k2_per_s].map(EachAxis::told);
         let axes = told.into_iter().flatten().next().unwrap_or(1);
         let axes = axes.min(COORDINATES);
@@ -269,6 +294,23 @@ impl Settings {
                 .map_err(|error| told.fault(axis, error))?;
         }
         Ok(allowed)
+    }
+
+    /// The gains of the error feedback, to the nearest word.
+    ///
+    /// # Errors
+    /// One that is no word.
+    pub fn feedback_gains(&self, widths: &Widths) -> Result<FeedbackGains, SettingError> {
+        let one = (widths.feedback().gain_fraction() as f64).exp2();
+        let range = 0.0..=((1u64 << widths.gain) - 1) as f64 / one;
+        let word = |field, gain: f64| {
+            within(field, gain, &range)?;
+            Ok((gain * one).round() as u64)
+        };
+        Ok(FeedbackGains {
+            tangential: word("tangential_gain", self.tangential_gain)?,
+            normal: word("normal_gain", self.normal_gain)?,
+        })
     }
 
     /// The gains of the models of so many axes.

@@ -1,19 +1,25 @@
-use super::make::{ROUNDINGS, at_most, one_of, only, width};
+use super::make::{ROUNDINGS, at_most, one_of, only, second, width};
 use crate::circuits::trajectory_controller::model_state::ModelWidths;
 use crate::circuits::trajectory_controller::point_sequencer::RADIUS;
 use crate::circuits::trajectory_controller::servo_arithmetic::ServoWidths;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::widths::PointWidths;
 use crate::circuits::trajectory_controller::{
-    ArcAngle, AxisRow, ControlledAxis, LengthClamp, LengthPowers, ModelState, PathLength,
-    PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, Scaler, SegmentSearch,
-    SegmentStore, Servo, ServoArithmetic, TrajectoryController, VectorCorrection, Widths,
+    ArcAngle, AxisRow, ControlledAxis, ErrorFeedback, LengthClamp, LengthPowers, ModelState,
+    PathLength, PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, Scaler,
+    SegmentSearch, SegmentStore, Servo, ServoArithmetic, TrajectoryController, VectorCorrection,
+    Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
 
 /// The corrections by their numbers.
-const CORRECTIONS: &[Correction] = &[Correction::Vector, Correction::None, Correction::Steady];
+const CORRECTIONS: &[Correction] = &[
+    Correction::Vector,
+    Correction::None,
+    Correction::Steady,
+    Correction::Feedback,
+];
 
 /// The circuit's own widths, for paths of up to 256 segments.
 const FULL: Widths = Widths {
@@ -232,10 +238,17 @@ pub(super) const CIRCUITS: &[Entry] = &[
     ),
     entry!(
         LengthClamp, "CN104204977 2, ends",
-        full: || LengthClamp { width: FULL.point },
+        full: || LengthClamp { width: FULL.point, back: 0 },
         widths: [width],
-        from: "width", |given| alone(given, |width| LengthClamp { width }),
-        with: nothing,
+        from: "width, what is taken off", |given| {
+            let (width, back) = (width(given)?, second(given, 0, width(given)? - 1)?);
+            Some(LengthClamp { width, back })
+        },
+        with: |clamp, given| {
+            at_most(given, 1)?;
+            let back = given.first().copied().unwrap_or(clamp.back);
+            Some(LengthClamp { back, ..clamp })
+        },
         proved: 4,
     ),
     entry!(
@@ -250,7 +263,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         VectorCorrection, "CN104204977 4",
         full: || VectorCorrection { width: FULL.point, correction: Correction::Vector },
         widths: [width],
-        from: "width, 1 for no correction, 2 for the steady one", |given| {
+        from: "width, 1 for no correction, 2 for the steady one, 3 for the feedback", |given| {
             let (width, correction) = (width(given)?, one_of(given, CORRECTIONS)?);
             Some(VectorCorrection { width, correction })
         },
@@ -259,6 +272,17 @@ pub(super) const CIRCUITS: &[Entry] = &[
             Some(VectorCorrection { correction, ..corrector })
         },
         proved: 3,
+    ),
+    entry!(
+        ErrorFeedback, "CN104204977 prior art: errors along and across the path",
+        full: || ErrorFeedback { widths: FULL.feedback(), axes: 2 },
+        widths: [axes, count = widths.count, position = widths.position, gain = widths.gain],
+        from: "width of counts and gains (two axes, two guard bits)",
+        |given| alone(given, |width| {
+            ErrorFeedback { widths: widths(width).feedback(), axes: 2 }
+        }),
+        with: nothing,
+        proved: none,
     ),
     entry!(
         PeriodJoin, "CN104204977 Fig. 1, order",
@@ -317,7 +341,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             gain = servo.widths.gain,
             torque = servo.widths.torque,
         ],
-        from: "width of counts, gains and torques, 1 for no correction, 2 for the steady one; two guard bits",
+        from: "width of counts, gains and torques, 1 for no correction, 2 for the steady one, 3 for the feedback; two guard bits",
         |given| Some(axis(servos(width(given)?), one_of(given, CORRECTIONS)?)),
         with: |axis, given| {
             let correction = only(given, CORRECTIONS)?;
@@ -345,7 +369,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             torque = widths.torque,
             period = widths.period,
         ],
-        from: "width of counts, gains and torques, 1 for no correction, 2 for the steady one (two axes, two segments; no wait)",
+        from: "width of counts, gains and torques, 1 for no correction, 2 for the steady one, 3 for the feedback (two axes, two segments; no wait)",
         |given| Some(TrajectoryController {
             widths: widths(width(given)?),
             axes: 2,

@@ -1,6 +1,7 @@
 //! A trajectory controller of any widths without motors: a path and a profile in, points out.
 
 use motion_rtl::circuits::trajectory_controller::controller::In;
+use motion_rtl::circuits::trajectory_controller::error_feedback::FeedbackGains;
 use motion_rtl::circuits::trajectory_controller::model_state::ModelGains;
 use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use motion_rtl::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
@@ -23,6 +24,12 @@ pub struct Period {
     /// The segments that were found for them.
     pub segments: [usize; 2],
 }
+
+/// T and N, where errors are fed back: 1.5 and 2.5.
+pub const FED: FeedbackGains<Value> = FeedbackGains {
+    tangential_gain: 384,
+    normal_gain: 640,
+};
 
 /// A path as the words of its segments, with the length of each.
 pub type Path = Vec<(u64, [u64; 16])>;
@@ -86,6 +93,7 @@ impl Bench {
                 gain_1: gains[0],
                 gain_2: gains[1],
             },
+            feedback_gains: FED,
             axis_gain_1: vec![gains[0]; self.axes],
             axis_gain_2: vec![gains[1]; self.axes],
             ..zero(&self.controller(Correction::Vector))

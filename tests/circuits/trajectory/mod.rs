@@ -3,6 +3,7 @@
 mod bench;
 mod controller;
 mod cordic;
+mod feedback;
 mod model;
 mod point;
 mod powers;

@@ -1,10 +1,12 @@
 //! The whole at small widths, in three axes, and at the edges of its timing.
 
-use super::bench::{PLANE, Path, Period, Record, SMALL, SPACE};
+use super::bench::{FED, PLANE, Path, Period, Record, SMALL, SPACE};
+use super::feedback::expected;
 use super::point::Segment;
 use motion_rtl::circuits::blocks::cordic_state;
 use motion_rtl::circuits::trajectory_controller::controller::In;
 use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
+use motion_rtl::circuits::trajectory_controller::{ErrorFeedback, Widths, error_feedback};
 use motion_rtl::hdl::Simulator;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -227,6 +229,72 @@ fn all_models_are_the_same_to_the_bit() {
         let last = seen.last().expect("periods").answered;
         assert!((last - 40_000_000).abs() <= 50, "{last}");
     }
+}
+
+/// What is fed back is made of the command, where the motors stand, and the way of the count before
+/// the command, on a line, over a corner and on an arc.
+#[test]
+fn what_is_fed_back_is_by_the_direction_at_the_command() {
+    let (radius, count) = (30_000_000.0, 65_536);
+    let line = segment(20_000_000, [0.0, -radius], [1.0, 0.0], None);
+    let up = segment(20_000_000, [20_000_000.0, -radius], [0.0, 1.0], None);
+    let arc = segment(
+        60_000_000,
+        [20_000_000.0, radius],
+        [0.0, -1.0],
+        Some(radius),
+    );
+    let path = words(&[line, up, arc]);
+    let lengths = [
+        1, 40_000, 20_000_000, 20_030_000, 20_070_000, 55_000_000, 99_000_000,
+    ];
+    let profile = steps(&lengths);
+    let seen = PLANE.run(&path, &profile, GAINS, Correction::Feedback, (PERIOD, 9));
+    let widths = Widths::FULL.feedback();
+    let feedback = ErrorFeedback { widths, axes: 2 };
+    for period in &seen {
+        let behind = (period.length - count).max(0);
+        assert_eq!(
+            period.looked_up,
+            [period.length, behind].map(|length| length as u64)
+        );
+        let way = [0, 1].map(|k| (period.command[k] - period.reference[k]) as f64);
+        let turned = match period.length {
+            20_000_000 => Some(0.0),
+            20_070_000 => Some(TAU / 4.0),
+            length @ 40_000_000.. => Some((length as f64 - 40_000_000.0 - 32_768.0) / radius),
+            _ => None,
+        };
+        // A count long, but shorter at the path's start and over the corner.
+        let near = match turned {
+            None => way[0].hypot(way[1]) < 60_000.0,
+            Some(turned) => {
+                let exact = [turned.cos(), turned.sin()].map(|part| count as f64 * part);
+                (0..2).all(|k| (way[k] - exact[k]).abs() < 1.5)
+            }
+        };
+        assert!(near, "{way:?}: {period:?}");
+        let fed = expected(
+            &feedback,
+            &error_feedback::In {
+                start: true,
+                command: period.command.clone(),
+                path: period.command.clone(),
+                behind: period.reference.clone(),
+                // The motors stand at power-on.
+                position: vec![0; 2],
+                gains: FED,
+            },
+        );
+        for (k, fed) in fed.into_iter().enumerate() {
+            assert_eq!(i128::from(period.correction[k]), fed, "{period:?}");
+            assert_eq!(
+                period.corrected[k],
+                period.command[k] + period.correction[k]
+            );
+        }
+    }
+    assert_eq!(seen.last().map(|period| period.length), Some(99_000_000));
 }
 
 /// The steady correction is that of the wider arc at the command's length; on a line there is none.

@@ -62,6 +62,7 @@ fn the_circle_is_what_closed_forms_say() {
             "corrections",
             "counts_per_mm",
             "exact",
+            "feedback_gains",
             "files",
             "inertia_factor",
             "input",
@@ -191,6 +192,13 @@ fn a_straight_path_needs_no_correction() {
     near(number(&summary, "/path/length_mm"), 10.0, 1e-6);
     for row in list(&summary, "corrections") {
         assert_eq!(row["circle"], Value::Null);
+        if row["correction"] == "feedback" {
+            // Half as late, and beyond the end by what a K1 of twice as much makes of it.
+            near(number(row, "/load/following_max_mm"), 0.5, 0.01);
+            near(number(row, "/model/contour_max_um"), 15.4, 0.5);
+            near(number(row, "/model/at_mm"), 10.0, 1e-3);
+            continue;
+        }
         // Rounding alone: half a count is 0.5 um.
         assert!(number(row, "/model/contour_max_um") < 0.01, "{row}");
         // Equal motors see equal ways but for their counts.
@@ -221,7 +229,7 @@ fn a_straight_path_needs_no_correction() {
 fn the_correction_of_the_waves_is_chosen() {
     let quarter = "[[piece]]\nvia_mm = [3, 1, 0]\nto_mm = [4, 4, 0]\n";
     let only = "trajectory_controller.x.corrector.correction";
-    for correction in ["none", "steady", "vector"] {
+    for correction in ["none", "steady", "feedback", "vector"] {
         let bench = with(&format!("correction = \"{correction}\"\n{quarter}"));
         let run = bench.json(&["run", "s.toml", "--only", only, "--out", "o"]);
         assert_eq!(run["correction"], correction);
@@ -380,6 +388,7 @@ fn every_key_of_a_scenario_is_taken() {
          rapid_mm_per_s = 40\nacceleration_mm_per_s2 = 500\nnormal_acceleration_mm_per_s2 = 500\n\
          jerk_time_ms = 10\ncorner_mm_per_s = 0\nk1_per_s = 40\nk2_per_s = 90\n\
          allow_overshoot = true\nrounding = \"floor\"\ncorrection = \"none\"\n\
+         tangential_gain = 0.0625\nnormal_gain = 0.125\n\
          position_gain_per_s = 20\nspeed_hz = 15\nintegral_ms = 0\nvcd_ticks = 100\n\
          inertia_factor = [1, 0.9, 1]\n\
          [[load_torque]]\naxis = \"y\"\ntorque_nm = 0.1\nfrom_s = 0.1\nto_s = 0.2\n\
@@ -395,6 +404,7 @@ fn every_key_of_a_scenario_is_taken() {
     assert_eq!(summary["complaints"], json!([]));
     assert_eq!(summary["rounding"], "floor");
     assert_eq!(summary["correction"], "none");
+    assert_eq!(summary["feedback_gains"], json!([0.0625, 0.125]));
     assert_eq!(whole(&summary, "/axes"), 3);
     assert_eq!(whole(&summary, "/clock_hz"), 250_000);
     assert_eq!(whole(&summary, "/period_ticks"), 500);
@@ -426,6 +436,8 @@ fn every_key_of_a_scenario_is_taken() {
         "acceleration_mm_per_s2=400",
         "k1_per_s=30",
         "k2_per_s=100",
+        "tangential_gain=0.25",
+        "normal_gain=0",
         "position_gain_per_s=10",
         "speed_hz=10",
         "integral_ms=100",

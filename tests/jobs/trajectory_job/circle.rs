@@ -34,6 +34,7 @@ pub fn closed(correction: Correction, turn: f64, k1: f64, k2: f64) -> [f64; 2] {
                     Correction::None => command,
                     Correction::Vector => command + point(s, axis) - response,
                     Correction::Steady => widened * command,
+                    Correction::Feedback => unreachable!("it has a recursion of its own"),
                 },
             );
         }

@@ -2,6 +2,7 @@
 
 mod circle;
 mod disturbance;
+mod feedback;
 mod measure;
 mod paths;
 mod refusals;

@@ -53,8 +53,8 @@ fn check(run: &Run, correction: Correction) {
             let corrected = match correction {
                 Correction::None => command,
                 Correction::Vector => command + (reference[axis] - origin[axis] - response),
-                // The widened path is looked at elsewhere.
-                Correction::Steady => period.corrected[axis] as f64,
+                // The widened path and the motors are looked at elsewhere.
+                Correction::Steady | Correction::Feedback => period.corrected[axis] as f64,
             };
             let model = models[axis].step(corrected, gains);
             let seen = [
