@@ -48,6 +48,7 @@ fn the_seam_is_what_closed_forms_say() {
         keys(&summary),
         [
             "arcs",
+            "arm",
             "blend_samples",
             "blends",
             "circuit",

@@ -127,6 +127,7 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
     let expected = match summary["circuit"].as_str().unwrap() {
         "pulse_interpolator" => 1 + 4 * summary["axes"].as_object().unwrap().len(),
         "linear_interpolator" => 11,
+        "arc_generator" if summary["arm"].is_object() => 17,
         "lead_angle" | "arc_generator" => 14,
         "trajectory_controller" => 16,
         "machine" => 28,

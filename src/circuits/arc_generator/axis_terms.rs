@@ -51,19 +51,24 @@ signals! { for AxisTerms as c;
         /// ky·kz.
         pub yz: I(c.coefficient) = 0,
     }
+    /// Nets.
+    pub struct Net {
+        /// The data as a coefficient.
+        given: I(c.coefficient),
+    }
 }
 
 impl Circuit for AxisTerms {
     const NAME: &'static str = "axis_terms";
     const ABOUT: &'static str = "components of an axis and their products, from a record";
-    records!(In, Reg, Nothing);
+    records!(In, Reg, Net);
 
     fn objection(&self) -> Option<String> {
         let short = self.data < self.coefficient;
         short.then(|| "a word of a record holds a coefficient".into())
     }
 
-    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
         let given = i.data.resize(self.coefficient).signed();
         let kept = |place: u64, held: I| {
             let own = i.load & i.word.equals(AXIS_WORD + place);
@@ -80,6 +85,6 @@ impl Circuit for AxisTerms {
             xz: kept(7, q.xz),
             yz: kept(8, q.yz),
         };
-        (Nothing, next)
+        (Net { given }, next)
     }
 }

@@ -51,6 +51,10 @@ signals! { for SineWords as c;
     }
     /// Nets.
     pub struct Net {
+        /// sin Δθ and half a coefficient, without the bits below one.
+        whole_sine: I(c.radius()),
+        /// cos Δθ likewise.
+        whole_cosine: I(c.radius()),
         /// sin Δθ to the nearest coefficient.
         nearest_sine: I(c.coefficient),
         /// cos Δθ to the nearest.
@@ -77,11 +81,10 @@ impl Circuit for SineWords {
     }
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
-        let nearest = |word: I| {
-            let raised = word + (1i64 << (FINE - 1));
-            raised.shift_right(FINE).resize(self.coefficient)
-        };
-        let (nearest_sine, nearest_cosine) = (nearest(i.across), nearest(i.along));
+        let whole = |word: I| (word + (1i64 << (FINE - 1))).shift_right(FINE);
+        let (whole_sine, whole_cosine) = (whole(i.across), whole(i.along));
+        let nearest_sine = whole_sine.resize(self.coefficient);
+        let nearest_cosine = whole_cosine.resize(self.coefficient);
         let one = I::new(1 << (self.coefficient - 2), self.coefficient);
         let rest = one - nearest_cosine;
         let bits = |word: I, bits: U| i.copy.mux(word.unsigned(), bits.shift_right(1));
@@ -91,6 +94,8 @@ impl Circuit for SineWords {
             versine: bits(rest, q.versine),
         };
         let net = Net {
+            whole_sine,
+            whole_cosine,
             nearest_sine,
             nearest_cosine,
             rest,

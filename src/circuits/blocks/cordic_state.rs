@@ -79,6 +79,8 @@ signals! { for CordicState as c;
         take: Bit,
         /// The iteration is the last.
         last: Bit,
+        /// A turn goes on after this tick.
+        goes_on: Bit,
         /// The angle is nearer to the next quarter: the eighths are rounded.
         raised: U(c.angle),
         /// The nearest quarter is the first or third: the vector is upright.
@@ -141,6 +143,7 @@ impl Circuit for CordicState {
         let net = Net {
             take,
             last,
+            goes_on,
             raised,
             upright,
             half,

@@ -35,6 +35,8 @@ signals! { for LeadProducts as c;
     }
     /// Nets.
     pub struct Net {
+        /// N as a signed word.
+        factor: I(6),
         /// (N + 1)·Dx.
         present_product: I(c.position) as Analog,
         /// N·Dx(−Δt/N).
@@ -62,6 +64,7 @@ impl Circuit for LeadProducts {
             ),
         };
         let net = Net {
+            factor: ratio,
             present_product,
             old_product,
             predicted: present_product - old_product,

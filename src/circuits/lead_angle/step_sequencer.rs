@@ -112,6 +112,8 @@ signals! { for StepSequencer as c;
         rested: Bit,
         /// The state of the next tick.
         after: U(3) as States(STATES),
+        /// It is another than idle.
+        works: Bit,
         /// The step of the next tick.
         next_step: U(c.step),
     }
@@ -142,18 +144,19 @@ impl Circuit for StepSequencer {
         let to = |state: u64| after.equals(state);
         let resting = is(REST) & !rested;
         let counted = i.ck.mux(q.count + 1, q.count);
+        let works = !to(IDLE);
         let edge = Reg {
             state: after,
             count: resting.mux(counted, 0),
             step: next_step,
             load: to(LOAD),
             arm: to(ARM),
-            drive: to(MOVE) | (i.passing & q.drive & !to(IDLE)),
+            drive: to(MOVE) | (i.passing & q.drive & works),
             reverse: q.arm.mux(way.is_negative(), q.reverse),
             halting: halts,
             braking: to(BRAKE),
             missed: (q.missed | halts | stopped) & !q.load,
-            busy: !to(IDLE),
+            busy: works,
         };
         let net = Net {
             way,
@@ -162,6 +165,7 @@ impl Circuit for StepSequencer {
             stopped,
             rested,
             after,
+            works,
             next_step,
         };
         (net, edge)

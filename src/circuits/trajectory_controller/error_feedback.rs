@@ -76,6 +76,11 @@ impl FeedbackWidths {
         if gain > direction { gain } else { direction }
     }
 
+    /// An error, normal or tangential.
+    const fn error(&self) -> usize {
+        self.position + 2
+    }
+
     /// A sum: three times of three errors, or of a normal and a tangential one, above what a factor
     /// has of whole bits.
     const fn sum(&self) -> usize {
@@ -146,17 +151,17 @@ signals! { for ErrorFeedback as c;
         /// Pairs of bits that are done.
         pair: U(c.widths.pair()) = 0,
         /// e: command minus motor.
-        error: [I(c.widths.position); c.axes] as Elements(of_axes!("error")),
+        error: [I(c.widths.error()); c.axes] as Elements(of_axes!("error")),
         /// t: direction of the path, turned on by a pair a tick until it is as it was.
         direction: [U(c.widths.direction()); c.axes] as Elements(of_axes!("direction")),
         /// The projection so far, by the weight of the pair to come.
         projection: I(c.widths.sum()) = 0,
         /// s: the tangential error, as a way along the path.
-        along: I(c.widths.position + 1) as Analog = 0,
+        along: I(c.widths.error()) as Analog = 0,
         /// The tangential error, then what is fed back, so far, likewise; it stands from `done` on.
         pub sum: [I(c.widths.sum()); c.axes] as Elements(of_axes!("sum")),
         /// The tangential error of each axis.
-        tangential: [I(c.widths.position + 1); c.axes] as Elements(of_axes!("tangential")),
+        tangential: [I(c.widths.error()); c.axes] as Elements(of_axes!("tangential")),
         /// Bits of T that are yet to come.
         tangential_bits: U(2 * c.widths.gain_pairs()) as Hex = 0,
         /// Bits of N that are yet to come.
@@ -172,12 +177,34 @@ signals! { for ErrorFeedback as c;
         last_of_direction: Bit,
         /// The last pair of bits of a gain.
         last_of_gain: Bit,
+        /// The error as a start takes it.
+        off: [I(c.widths.position); c.axes] as Elements(of_axes!("off")),
+        /// The normal error of each axis.
+        normal: [I(c.widths.error()); c.axes] as Elements(of_axes!("normal")),
+        /// What is multiplied: the error, the way along the path, the normal error.
+        word: [I(c.widths.error()); c.axes] as Elements(of_axes!("word")),
+        /// The same as wide as a sum.
+        wide: [I(c.widths.sum()); c.axes] as Elements(of_axes!("wide")),
+        /// Bits of its factor.
+        bits: [U(2); c.axes] as Elements(of_axes!("bits")),
+        /// It by the weight of the lower of them.
+        low: [I(c.widths.sum()); c.axes] as Elements(of_axes!("low")),
+        /// By that of the upper, which may be a sign.
+        high: [I(c.widths.sum()); c.axes] as Elements(of_axes!("high")),
+        /// What the pair adds.
+        term: [I(c.widths.sum()); c.axes] as Elements(of_axes!("term")),
+        /// The tangential error by the weight of the lower bit of its gain.
+        raised: [I(c.widths.sum()); c.axes] as Elements(of_axes!("raised")),
+        /// What the lower bit of that gain adds.
+        own_low: [I(c.widths.sum()); c.axes] as Elements(of_axes!("own_low")),
+        /// What the upper adds.
+        own_high: [I(c.widths.sum()); c.axes] as Elements(of_axes!("own_high")),
+        /// A product of each axis begins after this tick.
+        begins: Bit,
         /// The projection with what the pair adds.
         projected: I(c.widths.sum()),
         /// The sums of the axes with what their pairs add.
         total: [I(c.widths.sum()); c.axes] as Elements(of_axes!("total")),
-        /// The normal error of each axis.
-        normal: [I(c.widths.position + 2); c.axes] as Elements(of_axes!("normal")),
         /// A start is not taken.
         pub busy: Bit,
     }
@@ -207,39 +234,46 @@ impl Circuit for ErrorFeedback {
     }
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
-        let (widths, wide) = (self.widths, self.widths.sum());
+        let (widths, sum) = (self.widths, self.widths.sum());
         let is = |state: u64| q.state.equals(state);
         let (projects, splits, scales) = (is(PROJECT), is(SPLIT), is(SCALE));
         let take = i.start & is(IDLE);
         let last = |pairs: usize| q.pair.equals(pairs as u64 - 1);
         let last_of_direction = (projects | splits) & last(widths.direction_pairs());
         let last_of_gain = scales & last(widths.gain_pairs());
-        let zero = || I::new(0, wide);
-        // By a pair of bits, the upper of which may be a sign.
-        let times = |pair: U, sign: Bit, word: I| {
-            let twice = word.shift_left(1);
-            let lower = pair.bit(0).mux(word, 0);
-            lower + pair.bit(1).mux(sign.mux(-twice, twice), 0)
-        };
-        let raised = |word: I, by: usize| word.resize(wide).shift_left(by);
-        let above = widths.direction() - widths.guard();
-        let terms = (q.direction.iter().zip(&q.error))
-            .map(|(&bits, &error)| times(bits, last_of_direction, raised(error, above)));
-        let projected = terms.fold(q.projection, |sum, term| sum + term);
-        let along = raised(q.along, above);
-        let normal: Vec<I> = (q.error.iter().zip(&q.tangential))
-            .map(|(error, &tangential)| error.resize(widths.position + 1).minus(tangential))
+        let each = |of: &dyn Fn(usize) -> I| (0..self.axes).map(of).collect::<Vec<I>>();
+        let by_direction = widths.direction() - widths.guard();
+        let by_gain = 2 * widths.gain_pairs() - widths.gain_fraction();
+        let off = each(&|axis| {
+            let position = i.position[axis].resize(widths.position);
+            i.command[axis] - position.shift_left(widths.guard())
+        });
+        let normal = each(&|axis| q.error[axis] - q.tangential[axis]);
+        let word = each(&|axis| projects.mux(q.error[axis], splits.mux(q.along, normal[axis])));
+        let wide = each(&|axis| word[axis].resize(sum));
+        let bits: Vec<U> = (q.direction.iter())
+            .map(|direction| scales.mux(q.normal_bits.slice(0, 2), direction.slice(0, 2)))
             .collect();
-        let above = 2 * widths.gain_pairs() - widths.gain_fraction();
-        let total: Vec<I> = (0..self.axes)
-            .map(|axis| {
-                let part = times(q.direction[axis], last_of_direction, along);
-                let low = Bit::low();
-                let both = times(q.normal_bits, low, raised(normal[axis], above))
-                    + times(q.tangential_bits, low, raised(q.tangential[axis], above));
-                q.sum[axis] + splits.mux(part, scales.mux(both, zero()))
-            })
-            .collect();
+        let low = each(&|axis| {
+            let word = wide[axis];
+            scales.mux(word.shift_left(by_gain), word.shift_left(by_direction))
+        });
+        let high = each(&|axis| {
+            let twice = low[axis].shift_left(1);
+            last_of_direction.mux(-twice, twice)
+        });
+        let term = each(&|axis| {
+            let bits = bits[axis];
+            bits.bit(0).mux(low[axis], 0) + bits.bit(1).mux(high[axis], 0)
+        });
+        let raised = each(&|axis| q.tangential[axis].resize(sum).shift_left(by_gain));
+        let own_low = each(&|axis| q.tangential_bits.bit(0).mux(raised[axis], 0));
+        let own_high = each(&|axis| q.tangential_bits.bit(1).mux(raised[axis].shift_left(1), 0));
+        let projected = term.iter().fold(q.projection, |sum, term| sum + *term);
+        let total = each(&|axis| {
+            let own = own_low[axis] + own_high[axis];
+            q.sum[axis] + term[axis] + scales.mux(own, 0)
+        });
 
         let goes_on = !is(IDLE) & !last_of_direction & !last_of_gain;
         let state = take.mux(PROJECT, q.state);
@@ -249,32 +283,26 @@ impl Circuit for ErrorFeedback {
         let gain =
             |bits: U, gain: U| begins_scale.mux(gain.resize(bits.width()), bits.shift_right(2));
         let quarter = |word: I| word.shift_right(2);
-        let short = widths.position + 1;
+        let begins = begins_split | begins_scale;
         let direction = |axis: usize| {
             let (bits, width) = (q.direction[axis], widths.direction());
             let turned = bits.slice(0, 2).join(bits.slice(2, width - 2));
             let way = (i.path[axis] - i.behind[axis]).resize(width).unsigned();
             take.mux(way, (projects | splits).mux(turned, bits))
         };
-        let error = |axis: usize| {
-            let position = i.position[axis].resize(widths.position);
-            let off = i.command[axis] - position.shift_left(widths.guard());
-            take.mux(off, q.error[axis])
-        };
-        let each = |of: &dyn Fn(usize) -> I| (0..self.axes).map(of).collect::<Vec<I>>();
+        let error = |axis: usize| take.mux(off[axis].resize(widths.error()), q.error[axis]);
         let next = Reg {
             state: last_of_gain.mux(IDLE, state),
             pair: goes_on.mux(q.pair + 1, 0),
             error: each(&error),
             direction: (0..self.axes).map(direction).collect(),
             projection: take.mux(0, projects.mux(quarter(projected), q.projection)),
-            along: begins_split.mux(quarter(projected).resize(short), q.along),
+            along: begins_split.mux(quarter(projected).resize(widths.error()), q.along),
             sum: each(&|axis| {
-                let begins = begins_split | begins_scale;
                 begins.mux(0, (splits | scales).mux(quarter(total[axis]), q.sum[axis]))
             }),
             tangential: each(&|axis| {
-                let own = quarter(total[axis]).resize(short);
+                let own = quarter(total[axis]).resize(widths.error());
                 begins_scale.mux(own, q.tangential[axis])
             }),
             tangential_bits: gain(q.tangential_bits, i.gains.tangential_gain),
@@ -285,9 +313,20 @@ impl Circuit for ErrorFeedback {
             take,
             last_of_direction,
             last_of_gain,
+            off,
+            normal,
+            word,
+            wide,
+            bits,
+            low,
+            high,
+            term,
+            raised,
+            own_low,
+            own_high,
+            begins,
             projected,
             total,
-            normal,
             busy: !is(IDLE),
         };
         (net, next)

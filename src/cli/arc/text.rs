@@ -46,11 +46,10 @@ impl Report for Summary {
         self.lines(text, all)?;
         self.blends(text, all)?;
         self.operations(text)?;
-        self.circuits(text)?;
-        match &self.arm {
-            Some(arm) => arm.write(text),
-            None => Ok(()),
+        if let Some(arm) = &self.arm {
+            arm.write(text)?;
         }
+        self.circuits(text)
     }
 }
 
