@@ -153,8 +153,9 @@ fn poses_that_are_singular_are_refused_with_their_piece() {
         });
     }
     // In a part program the block is at fault.
-    let bench = with(&format!("input = \"l.ngc\"\n{ARM}"));
-    bench.write("l.ngc", "G0 X400 Z300\nG1 X600 F1200\nG1 X700\n");
+    let arm = ARM.replace("[0, 0, 350]", "[-100, 0, 350]");
+    let bench = with(&format!("input = \"l.ngc\"\n{arm}"));
+    bench.write("l.ngc", "G0 X400 Z300\nG1 X540 F1200\nG1 X700\n");
     bench.refuse_with(&["run", "s.toml", "--out", "new"], |text| {
         assert!(text.contains("l.ngc:3: arm: "), "{text}");
         assert!(

@@ -30,11 +30,12 @@ pub fn expected(circuit: &ErrorFeedback, i: &In<Value>) -> Vec<i128> {
     let error: Vec<i128> = error.collect();
     let way = |k: usize| cut(i128::from(i.path[k] - i.behind[k]), (guard + 3) / 2 * 2);
     let along: i128 = axes.clone().map(|k| error[k] * way(k)).sum();
-    let along = cut(along >> guard, position + 1);
+    let along = cut(along >> guard, position + 2);
     let [n, t] = [i.gains.normal_gain, i.gains.tangential_gain].map(i128::from);
     let of_axis = |k: usize| {
-        let tangential = cut((along * way(k)) >> guard, position + 1);
-        (n * (error[k] - tangential) + t * tangential) >> (gain / 2)
+        let tangential = cut((along * way(k)) >> guard, position + 2);
+        let normal = cut(error[k] - tangential, position + 2);
+        (n * normal + t * tangential) >> (gain / 2)
     };
     axes.map(of_axis).collect()
 }
