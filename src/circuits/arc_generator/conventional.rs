@@ -168,7 +168,7 @@ signals! { for Conventional as c;
         /// θ: ramp, constant speed, ramp.
         pub engine: Part<DifferenceEngine>(c.engine()),
         /// Δθ.
-        pub step: Part<AngleStep>(AngleStep { width: c.widths.coefficient }),
+        pub angle_step: Part<AngleStep>(AngleStep { width: c.widths.coefficient }),
         /// Its sine and cosine.
         pub cordic: Part<Cordic>(c.cordic()),
         /// The same as coefficients.
@@ -225,7 +225,7 @@ impl Circuit for Conventional {
             modulus: p.sequencer.q.modulus,
             step: rotate,
         });
-        let step = p.step.settle(angle_step::In {
+        let step = p.angle_step.settle(angle_step::In {
             step: rotate,
             halt: i.halt,
             angle: engine.w.nearest,
