@@ -207,7 +207,11 @@ impl<'f> Emitter<'f> {
         if let Some((epoch, Some(word))) = self.known.get(slot as usize)
             && *epoch == self.epoch
         {
-            return *word;
+            // One slot has a constant for all widths.
+            return match self.constants.contains_key(&slot) {
+                true => Word { width, ..*word },
+                false => *word,
+            };
         }
         let word = match self.constants.get(&slot) {
             Some(&number) => Word {
