@@ -131,7 +131,7 @@ fn joints_follow_their_command_by_a_tick() {
 fn poses_that_are_singular_are_refused_with_their_piece() {
     let line = "[[piece]]\nto_mm = [400, 0, 300]\n";
     let cases = [
-        // Through the vertical of the shoulder, 50 mm below it.
+        // Through the vertical of the shoulder, 350 mm below it.
         (
             "start_mm = [-400, 0, 0]\n[[piece]]\nto_mm = [400, 0, 0]\n".to_owned(),
             "s.toml:9: piece 0: to_mm: 19.54 s from the start the hand is 11.200 mm from the vertical through the shoulder; allowed: at least 11.3441 mm",

@@ -14,7 +14,7 @@
 //! halved; the bit that falls off last is the half by which the result is rounded. So nothing is
 //! lost before the rounding, and no word is wider than the sum.
 
-use super::{Rounding, Widths};
+use super::{Rounding, VectorRow, Widths};
 use crate::hdl::prelude::*;
 
 /// Row of a rotation, for vectors of points and for coefficients.
@@ -29,10 +29,15 @@ pub struct RotationRow {
 }
 
 impl RotationRow {
-    /// Width of the sum: three words of the vector, doubled, and what was there.
+    /// Width of the sum.
     pub const fn sum(&self) -> usize {
-        self.widths.point + 3
+        sum(&self.widths)
     }
+}
+
+/// Width of a row's sum: three words of the vector, doubled, and what was there.
+pub(super) const fn sum(widths: &Widths) -> usize {
+    widths.point + 3
 }
 
 signals! { for RotationRow as c;
@@ -80,7 +85,10 @@ signals! { for RotationRow as c;
         /// The bit below the sum: a half.
         half: Bit = 0,
     }
-    /// Nets.
+}
+
+signals! { for (RotationRow, VectorRow) as c;
+    /// Nets, also those of a [row of a matrix that changes](super::vector_row).
     pub struct Net {
         /// X where its coefficient has the bit, else 0.
         term_x: I(c.sum()),
@@ -95,7 +103,48 @@ signals! { for RotationRow as c;
         /// The sum with what rounds it.
         raised: I(c.sum()),
         /// The coordinate of the new point.
-        rounded: I(c.widths.point),
+        pub(super) rounded: I(c.widths.point),
+    }
+}
+
+/// Three products under way, the next bits of the coefficients lowest.
+pub(super) struct Products {
+    pub(super) bits: [U; 3],
+    pub(super) vector: [I; 3],
+    /// The products so far, by the weight of the bit to come.
+    pub(super) sum: I,
+    /// The bit below the sum.
+    pub(super) half: Bit,
+}
+
+impl Products {
+    /// What the bits add, and what the sum comes to; `top` where they are signs.
+    pub(super) fn nets(&self, widths: &Widths, rounding: Rounding, top: Bit) -> Net {
+        let width = sum(widths);
+        let term = |k: usize| self.bits[k].bit(0).mux(self.vector[k].resize(width), 0);
+        let [term_x, term_y, term_z] = [0, 1, 2].map(term);
+        let addend = term_x + term_y + term_z;
+        let raised = match rounding {
+            Rounding::Nearest => self.sum + self.half.word().resize(width).signed(),
+            Rounding::Floor => self.sum,
+        };
+        Net {
+            term_x,
+            term_y,
+            term_z,
+            addend,
+            total: self.sum + top.mux(-addend.shift_left(1), addend),
+            raised,
+            rounded: raised.resize(widths.point),
+        }
+    }
+
+    /// Sum and half after the edge.
+    pub(super) fn after(&self, net: &Net, copy: Bit, fraction: Bit) -> (I, Bit) {
+        // Without bits left the total is the sum.
+        let sum = fraction.mux(net.total.shift_right(1), net.total);
+        let half = fraction.mux(net.total.unsigned().bit(0), self.half);
+        (copy.mux(0, sum), half)
     }
 }
 
@@ -106,23 +155,20 @@ impl Circuit for RotationRow {
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
         let (point, coefficient) = (self.widths.point, self.widths.coefficient);
-        let term = |bits: U, word: I| bits.bit(0).mux(word.resize(self.sum()), 0);
-        let (term_x, term_y) = (term(q.bits_x, i.x), term(q.bits_y, i.y));
-        let term_z = term(q.bits_z, i.z);
-        let addend = term_x + term_y + term_z;
-        let total = q.sum + i.top.mux(-addend.shift_left(1), addend);
-        let half = q.half.word().resize(self.sum());
-        let raised = match self.rounding {
-            Rounding::Nearest => q.sum + half.signed(),
-            Rounding::Floor => q.sum,
+        let products = Products {
+            bits: [q.bits_x, q.bits_y, q.bits_z],
+            vector: [i.x, i.y, i.z],
+            sum: q.sum,
+            half: q.half,
         };
-        let rounded = raised.resize(point);
+        let net = products.nets(&self.widths, self.rounding, i.top);
+        let (sum, half) = products.after(&net, i.copy, i.fraction);
 
         let is = |name, word| i.load & i.word.equals(U::parameter(name, word, 5));
         let first = 8 + 8 * self.coordinate;
         let by = i.data.resize(coefficient);
         let given = i.data.resize(point).signed();
-        let kept = i.commit.mux(rounded, q.offset);
+        let kept = i.commit.mux(net.rounded, q.offset);
         let next = Reg {
             offset: is("offset_word", 2 + self.coordinate).mux(given, kept),
             by_x: is("x_word", first).mux(by, q.by_x),
@@ -131,18 +177,8 @@ impl Circuit for RotationRow {
             bits_x: i.copy.mux(q.by_x, q.bits_x.shift_right(1)),
             bits_y: i.copy.mux(q.by_y, q.bits_y.shift_right(1)),
             bits_z: i.copy.mux(q.by_z, q.bits_z.shift_right(1)),
-            // Without bits left the total is the sum.
-            sum: i.copy.mux(0, i.fraction.mux(total.shift_right(1), total)),
-            half: i.fraction.mux(total.unsigned().bit(0), q.half),
-        };
-        let net = Net {
-            term_x,
-            term_y,
-            term_z,
-            addend,
-            total,
-            raised,
-            rounded,
+            sum,
+            half,
         };
         (net, next)
     }

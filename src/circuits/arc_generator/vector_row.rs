@@ -11,6 +11,7 @@
 //!                         └────────────┘
 //! ```
 
+use super::rotation_row::{Net, Products, sum};
 use super::{Rounding, Widths};
 use crate::hdl::prelude::*;
 
@@ -29,9 +30,9 @@ pub struct VectorRow {
 }
 
 impl VectorRow {
-    /// Width of the sum: three words of the vector, doubled, and what was there.
+    /// Width of the sum.
     pub const fn sum(&self) -> usize {
-        self.widths.point + 3
+        sum(&self.widths)
     }
 }
 
@@ -80,23 +81,6 @@ signals! { for VectorRow as c;
         /// The bit below the sum: a half.
         half: Bit = 0,
     }
-    /// Nets.
-    pub struct Net {
-        /// X where its coefficient has the bit, else 0.
-        term_x: I(c.sum()),
-        /// Y likewise.
-        term_y: I(c.sum()),
-        /// Z likewise.
-        term_z: I(c.sum()),
-        /// The three terms added.
-        addend: I(c.sum()),
-        /// The sum with it.
-        total: I(c.sum()),
-        /// The sum with what rounds it.
-        raised: I(c.sum()),
-        /// The coordinate of the new point.
-        rounded: I(c.widths.point),
-    }
 }
 
 impl Circuit for VectorRow {
@@ -105,39 +89,26 @@ impl Circuit for VectorRow {
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
-        let point = self.widths.point;
-        let term = |bits: U, word: I| bits.bit(0).mux(word.resize(self.sum()), 0);
-        let (term_x, term_y) = (term(q.bits_x, i.x), term(q.bits_y, i.y));
-        let term_z = term(q.bits_z, i.z);
-        let addend = term_x + term_y + term_z;
-        let total = q.sum + i.top.mux(-addend.shift_left(1), addend);
-        let raised = match self.rounding {
-            Rounding::Nearest => q.sum + q.half.word().resize(self.sum()).signed(),
-            Rounding::Floor => q.sum,
+        let products = Products {
+            bits: [q.bits_x, q.bits_y, q.bits_z],
+            vector: [i.x, i.y, i.z],
+            sum: q.sum,
+            half: q.half,
         };
-        let rounded = raised.resize(point);
+        let net = products.nets(&self.widths, self.rounding, i.top);
+        let (sum, half) = products.after(&net, i.copy, i.fraction);
 
         let word = U::parameter("offset_word", VECTOR_WORD + self.coordinate, 5);
         let own = i.load & i.word.equals(word);
-        let given = i.data.resize(point).signed();
+        let given = i.data.resize(self.widths.point).signed();
         let bits = |by: U, bits: U| i.copy.mux(by, bits.shift_right(1));
         let next = Reg {
-            offset: own.mux(given, i.commit.mux(rounded, q.offset)),
+            offset: own.mux(given, i.commit.mux(net.rounded, q.offset)),
             bits_x: bits(i.by_x, q.bits_x),
             bits_y: bits(i.by_y, q.bits_y),
             bits_z: bits(i.by_z, q.bits_z),
-            // Without bits left the total is the sum.
-            sum: i.copy.mux(0, i.fraction.mux(total.shift_right(1), total)),
-            half: i.fraction.mux(total.unsigned().bit(0), q.half),
-        };
-        let net = Net {
-            term_x,
-            term_y,
-            term_z,
-            addend,
-            total,
-            raised,
-            rounded,
+            sum,
+            half,
         };
         (net, next)
     }

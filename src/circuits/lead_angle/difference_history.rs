@@ -12,7 +12,9 @@
 //! [shift register](super::position_history).
 
 use super::codes::tap_width;
-use super::position_history::{In, Net as Taking, Pair, nets, objection, pair_after, stored};
+use super::position_history::{
+    In, Net as Taking, Pair, moved_on, nets, objection, pair_after, ratio_follows, stored,
+};
 use crate::hdl::prelude::*;
 
 /// Position history whose tap takes a difference.
@@ -116,15 +118,8 @@ impl Specified for DifferenceHistory {
             .step(
                 "at CK every sample becomes a CK older, between CKs nothing moves",
                 move |now, next| {
-                    let mut expected = now.q.stages.to_vec();
-                    if now.i.ck {
-                        expected.insert(0, stored(now.i.position, position));
-                        expected.truncate(stages);
-                    }
-                    let after = &next.q.stages;
-                    require(after[..] == expected[..], ["stages"], || {
-                        format!("{after:?} where {expected:?} is expected")
-                    })
+                    let taken = stored(now.i.position, position);
+                    moved_on(now.i.ck, &now.q.stages, taken, &next.q.stages)
                 },
             )
             .step(
@@ -143,8 +138,7 @@ impl Specified for DifferenceHistory {
             )
     }
 
-    /// The ratio is only handed on: it may depend on the position.
     fn applies(&self, i: &In<Value>) -> bool {
-        i.ratio == i.position.rem_euclid(2) as u64 * 15
+        ratio_follows(i)
     }
 }

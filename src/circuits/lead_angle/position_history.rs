@@ -17,6 +17,7 @@
 
 use super::codes::tap_width;
 use super::{DifferenceHistory, RamHistory};
+use crate::check::Verdict;
 use crate::hdl::prelude::*;
 
 /// Position history as a shift register.
@@ -110,6 +111,23 @@ pub(super) fn objection(stages: usize) -> Option<String> {
     (stages == 0).then(|| "a history of no samples".into())
 }
 
+/// At CK every sample becomes a CK older, between CKs nothing moves.
+pub(super) fn moved_on(ck: bool, stages: &[u64], position: u64, after: &[u64]) -> Verdict {
+    let mut expected = stages.to_vec();
+    if ck {
+        expected.insert(0, position);
+        expected.pop();
+    }
+    require(after == expected, ["stages"], || {
+        format!("{after:?} where {expected:?} is expected")
+    })
+}
+
+/// The ratio is only handed on: in a proof it may depend on the position.
+pub(super) fn ratio_follows(i: &In<Value>) -> bool {
+    i.ratio == i.position.rem_euclid(2) as u64 * 15
+}
+
 /// A position as it stands in a memory.
 pub(super) fn stored(position: i64, width: usize) -> u64 {
     position as u64 & u64::MAX >> (64 - width)
@@ -142,15 +160,8 @@ impl Specified for PositionHistory {
             .step(
                 "at CK every sample becomes a CK older, between CKs nothing moves",
                 move |now, next| {
-                    let mut expected = now.q.stages.to_vec();
-                    if now.i.ck {
-                        expected.insert(0, stored(now.i.position, position));
-                        expected.truncate(stages);
-                    }
-                    let after = &next.q.stages;
-                    require(after[..] == expected[..], ["stages"], || {
-                        format!("{after:?} where {expected:?} is expected")
-                    })
+                    let taken = stored(now.i.position, position);
+                    moved_on(now.i.ck, &now.q.stages, taken, &next.q.stages)
                 },
             )
             .step(
@@ -199,8 +210,7 @@ impl Specified for PositionHistory {
             })
     }
 
-    /// The ratio is only handed on: it may depend on the position.
     fn applies(&self, i: &In<Value>) -> bool {
-        i.ratio == i.position.rem_euclid(2) as u64 * 15
+        ratio_follows(i)
     }
 }

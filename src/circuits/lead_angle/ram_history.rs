@@ -11,7 +11,7 @@
 //! are those of the [shift register](super::position_history).
 
 use super::codes::tap_width;
-use super::position_history::{In, Net, Pair, nets, objection, pair_after, stored};
+use super::position_history::{In, Net, Pair, nets, objection, pair_after, ratio_follows, stored};
 use crate::hdl::prelude::*;
 
 /// Position history in a RAM, which has a word for every tap that there can be.
@@ -97,8 +97,7 @@ impl Specified for RamHistory {
             )
     }
 
-    /// The ratio is only handed on: it may depend on the position.
     fn applies(&self, i: &In<Value>) -> bool {
-        i.ratio == i.position.rem_euclid(2) as u64 * 15
+        ratio_follows(i)
     }
 }

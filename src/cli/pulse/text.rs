@@ -2,12 +2,19 @@
 
 use super::summary::{Minima, Summary, TableSummary};
 use crate::cli::report::{Outcome, Report};
-use crate::cli::rows::{fixed, table};
+use crate::cli::rows::{fixed, or_dash, table};
 use std::fmt::Write;
 
-/// A shortest time; `-` where there was none.
-pub fn least(ticks: Option<u64>) -> String {
-    ticks.map_or("-".to_owned(), |ticks| ticks.to_string())
+/// Columns of the shortest times.
+pub fn timing(minima: &Minima) -> String {
+    let Minima {
+        high,
+        low,
+        setup,
+        hold,
+    } = minima;
+    let columns = [high, low, setup, hold].map(|ticks| format!("{:>5}", or_dash(*ticks)));
+    columns.join(" ")
 }
 
 impl Report for Summary {
@@ -31,15 +38,9 @@ impl Report for Summary {
         )?;
         for (name, axis) in &self.axes {
             let error = axis.following_error_max;
-            let Minima {
-                high,
-                low,
-                setup,
-                hold,
-            } = axis.timing_min_ticks;
             writeln!(
                 text,
-                "{name:<4}  {:>14}  {:>14}  {:>6}  {:>6}  {:>12}  {:>15} {:>12}  {:>5} {:>5} {:>5} {:>5}",
+                "{name:<4}  {:>14}  {:>14}  {:>6}  {:>6}  {:>12}  {:>15} {:>12}  {}",
                 axis.steps_demanded,
                 axis.pulses_emitted,
                 axis.pulses_up,
@@ -47,10 +48,7 @@ impl Report for Summary {
                 axis.end_position,
                 format!("{:.3} steps", error.steps),
                 format!("({}, {})", error.unit, error.line),
-                least(high),
-                least(low),
-                least(setup),
-                least(hold),
+                timing(&axis.timing_min_ticks),
             )?;
         }
         text.push('\n');

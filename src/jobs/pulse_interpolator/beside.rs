@@ -5,8 +5,8 @@
 //! have; what is above comes with the next.
 
 use super::job::{fast_forward, group};
-use super::spread::Spread;
-use super::step_dir::{Driver, TimingMinima};
+use super::spread::Paced;
+use super::step_dir::TimingMinima;
 use super::table::{StepTiming, Table, UnitDemand};
 use crate::circuits::pulse_interpolator::motor_controller::{ConventionalWidths, Move};
 use crate::circuits::pulse_interpolator::{Conventional, Variant, conventional};
@@ -98,7 +98,7 @@ struct Bench<'o> {
     given: usize,
     /// A move may be given with the tick to come.
     ready: bool,
-    axes: Vec<(Driver, Spread)>,
+    axes: Vec<Paced>,
     /// The first tick of the unit time under way.
     begun: u64,
     /// The RST since which the next unit time is computed.
@@ -137,13 +137,8 @@ impl Bench<'_> {
     /// Takes down a tick, in which a move is given or not.
     fn take(&mut self, now: &Sample<'_, Conventional>, see: &See, given: bool) {
         let tick = now.tick;
-        for (axis, (driver, spread)) in self.axes.iter_mut().enumerate() {
-            let before = driver.pulses();
-            // The drivers ask for nothing here, so they have nothing to complain of.
-            let _ = driver.sample(tick, now.get(see.step[axis]), now.get(see.dir[axis]));
-            if driver.pulses() > before {
-                spread.rise(tick);
-            }
+        for (axis, paced) in self.axes.iter_mut().enumerate() {
+            paced.sample(tick, now.get(see.step[axis]), now.get(see.dir[axis]));
         }
         let (rst, prepared) = (now.get(see.unit_rst), now.get(see.prepared));
         if prepared && let Some(since) = self.since.take() {
@@ -158,11 +153,11 @@ impl Bench<'_> {
         let began = !self.seen.positions.is_empty() || now.get(see.busy);
         self.seen.late_units += u64::from(began && now.get(see.late));
         if now.get(see.busy) {
-            let positions = self.axes.iter().map(|(driver, _)| driver.position() as i32);
+            let positions = self.axes.iter().map(|axis| axis.driver.position() as i32);
             self.seen.positions.extend(positions);
         }
-        for (_, spread) in &mut self.axes {
-            spread.unit_ends(self.begun, tick + 1);
+        for axis in &mut self.axes {
+            axis.spread.unit_ends(self.begun, tick + 1);
         }
         self.begun = tick + 1;
         if prepared {
@@ -189,7 +184,7 @@ pub fn play(circuit: &Conventional, orders: &[Order]) -> Result<Beside, RunError
         orders,
         given: 0,
         ready: true,
-        axes: vec![(Driver::new(StepTiming::default()), Spread::default()); circuit.axes],
+        axes: vec![Paced::default(); circuit.axes],
         begun: 0,
         since: None,
         seen: Beside::default(),
@@ -200,10 +195,10 @@ pub fn play(circuit: &Conventional, orders: &[Order]) -> Result<Beside, RunError
         let more = bench.ready && bench.given < orders.len();
         simulator.go_on(if given || more { 1 } else { u64::MAX });
     }
-    let (drivers, spreads): (Vec<_>, Vec<_>) = bench.axes.into_iter().unzip();
+    let axes = &bench.axes;
     Ok(Beside {
-        jitter: spreads.iter().map(Spread::jitter).collect(),
-        minima: drivers.iter().map(Driver::minima).collect(),
+        jitter: axes.iter().map(|axis| axis.spread.jitter()).collect(),
+        minima: axes.iter().map(|axis| axis.driver.minima()).collect(),
         ..bench.seen
     })
 }

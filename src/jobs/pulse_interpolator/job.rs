@@ -1,9 +1,9 @@
 //! A drawing through the whole interpolator: planned, compiled to a table, played by the control
 //! computer, and counted at the motor drivers.
 
-use super::spread::Spread;
-use super::step_dir::{Driver, TimingMinima};
-use super::{ControlComputer, StepTiming, Table};
+use super::spread::Paced;
+use super::step_dir::TimingMinima;
+use super::{ControlComputer, Table};
 use crate::circuits::pulse_interpolator::group::In;
 use crate::circuits::pulse_interpolator::{Group, Variant, Widths};
 use crate::hdl::{At, Observer, RunError, Sample, Simulator, State, Value, zero};
@@ -65,8 +65,7 @@ struct Bench<O> {
     pieces: bool,
     /// The table is played, or the observer has stopped.
     over: bool,
-    drivers: Vec<Driver>,
-    spreads: Vec<Spread>,
+    axes: Vec<Paced>,
     /// The first tick of the unit time under way.
     unit_begun: u64,
     positions: Vec<i32>,
@@ -86,13 +85,8 @@ impl<O: Observer<Group>> Observer<Group> for Bench<O> {
         let see = &self.see;
         let (rst, busy) = (now.get(see.unit_rst), now.get(see.busy));
         let taken = rst && self.pieces && now.get(see.pending);
-        for (axis, driver) in self.drivers.iter_mut().enumerate() {
-            let before = driver.pulses();
-            // The drivers ask for nothing here, so they have nothing to complain of.
-            let _ = driver.sample(now.tick, now.get(see.step[axis]), now.get(see.dir[axis]));
-            if driver.pulses() > before {
-                self.spreads[axis].rise(now.tick);
-            }
+        for (axis, paced) in self.axes.iter_mut().enumerate() {
+            paced.sample(now.tick, now.get(see.step[axis]), now.get(see.dir[axis]));
         }
         if self.first_step.is_none() && see.step.iter().any(|step| now.get(*step)) {
             self.first_step = Some(now.tick);
@@ -104,7 +98,7 @@ impl<O: Observer<Group>> Observer<Group> for Bench<O> {
             self.begun = Some(now.tick);
         }
         self.last_tick = now.tick;
-        self.over = self.positions.len() == self.units * self.drivers.len() && !busy;
+        self.over = self.positions.len() == self.units * self.axes.len() && !busy;
         self.over |= self.observer.sample(now)?.is_break();
         Ok(if self.over || taken {
             ControlFlow::Break(())
@@ -116,14 +110,14 @@ impl<O: Observer<Group>> Observer<Group> for Bench<O> {
 
 impl<O> Bench<O> {
     fn unit_ends(&mut self, busy: bool, end: u64) {
-        for spread in &mut self.spreads {
-            spread.unit_ends(self.unit_begun, end);
+        for axis in &mut self.axes {
+            axis.spread.unit_ends(self.unit_begun, end);
         }
         self.unit_begun = end;
         if busy {
-            let positions = self.drivers.iter().map(|driver| driver.position() as i32);
+            let positions = self.axes.iter().map(|axis| axis.driver.position() as i32);
             self.positions.extend(positions);
-        } else if self.begun.is_some() && self.positions.len() < self.units * self.drivers.len() {
+        } else if self.begun.is_some() && self.positions.len() < self.units * self.axes.len() {
             self.idle_units += 1;
         }
     }
@@ -255,8 +249,7 @@ fn played<O: Observer<Group>>(
         observer,
         pieces: false,
         over: false,
-        drivers: vec![Driver::new(StepTiming::default()); group.axes],
-        spreads: vec![Spread::default(); group.axes],
+        axes: vec![Paced::default(); group.axes],
         unit_begun: 0,
         positions: Vec::with_capacity(table.units() * group.axes),
         units: table.units(),
@@ -266,8 +259,7 @@ fn played<O: Observer<Group>>(
         last_tick: 0,
     };
     run(&mut simulator, &mut bench)?;
-    let axes = bench.drivers.iter().zip(&bench.spreads);
-    let axes = axes.map(|(driver, spread)| {
+    let axes = bench.axes.iter().map(|Paced { driver, spread }| {
         let (pulses, position) = (driver.pulses() as i64, driver.position());
         PlayedAxis {
             pulses_up: ((pulses + position) / 2) as u64,

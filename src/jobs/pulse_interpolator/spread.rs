@@ -1,5 +1,38 @@
 //! How evenly the pulses of a unit time are spread over it.
 
+use super::StepTiming;
+use super::step_dir::Driver;
+
+/// An axis as it is seen: its motor driver, which asks for nothing, and how evenly its pulses come.
+#[derive(Debug, Clone)]
+pub struct Paced {
+    /// The driver.
+    pub driver: Driver,
+    /// Its pulses against an even motion.
+    pub spread: Spread,
+}
+
+impl Default for Paced {
+    fn default() -> Self {
+        Paced {
+            driver: Driver::new(StepTiming::default()),
+            spread: Spread::default(),
+        }
+    }
+}
+
+impl Paced {
+    /// Sees the lines in a tick.
+    pub fn sample(&mut self, tick: u64, step: bool, dir: bool) {
+        let before = self.driver.pulses();
+        // The driver asks for nothing, so it has nothing to complain of.
+        let _ = self.driver.sample(tick, step, dir);
+        if self.driver.pulses() > before {
+            self.spread.rise(tick);
+        }
+    }
+}
+
 /// The pulses of an axis against those of an even motion: of Y pulses in a unit time of T ticks,
 /// pulse k, counted from 0, is due (2k + 1)·T/2Y ticks into it.
 #[derive(Debug, Clone, Default)]

@@ -1,0 +1,211 @@
+//! `run` of patterns that stand in the memory: played by command, or without a control computer.
+
+mod summary;
+
+use super::{has_no_segments, simulate};
+use crate::cli::Failure;
+use crate::cli::report::conclude;
+use crate::cli::run::{Arguments, options};
+use crate::cli::source::Source;
+use crate::cli::table::ratio;
+use motion_rtl::circuits::pulse_interpolator::{AXIS_NAMES, Widths};
+use motion_rtl::input::Fault;
+use motion_rtl::jobs::pulse_interpolator::job::Played;
+use motion_rtl::jobs::pulse_interpolator::table::MAX_UNITS;
+use motion_rtl::jobs::pulse_interpolator::{AxisScaling, StepTiming, Stored, StoredError, Table};
+use motion_rtl::picture::{Curve, Panel, Picture, Points};
+use motion_rtl::scenario::Loaded;
+use motion_rtl::scenario::pulse_interpolator::{PatternKeys, Scenario};
+use summary::Summary;
+
+/// Patterns ready to be played.
+struct Job {
+    loaded: Loaded,
+    stem: String,
+    scenario: Scenario,
+    timing: StepTiming,
+    patterns: Vec<Pattern>,
+    stored: Stored,
+}
+
+/// A pattern of the memory.
+struct Pattern {
+    keys: PatternKeys,
+    /// As it was given.
+    given: Table,
+    /// As it is played.
+    table: Table,
+    /// What scaling did to each axis.
+    scaling: Option<Vec<AxisScaling>>,
+}
+
+impl Job {
+    fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
+        let loaded = &source.loaded;
+        if scenario.input.is_some() {
+            let problem = "given beside [[pattern]]".to_owned();
+            return Err(loaded.fault("input", problem, "one of both".into()).into());
+        }
+        let mut patterns = Vec::new();
+        for (index, keys) in scenario.pattern.iter().enumerate() {
+            let refuse = |key, problem: String, allowed: &str| {
+                loaded.table_fault(("pattern", index), key, problem, allowed.to_owned())
+            };
+            if keys.name.is_empty() {
+                return Err(refuse("name", "is empty".into(), "a name").into());
+            }
+            if scenario.pattern[..index]
+                .iter()
+                .any(|other| other.name == keys.name)
+            {
+                let problem = format!("is {} once more", keys.name);
+                return Err(refuse("name", problem, "a name for each").into());
+            }
+            let given = source.table(&keys.table, scenario.clock_hz)?;
+            let scaled =
+                match &keys.scale {
+                    None => None,
+                    Some(text) => {
+                        let ratio = ratio(text)
+                            .map_err(|allowed| refuse("scale", format!("is {text}"), allowed))?;
+                        let scaled = given.scaled(ratio);
+                        Some(scaled.map_err(|error| {
+                            refuse("scale", error.to_string(), "a smaller ratio")
+                        })?)
+                    }
+                };
+            let (table, scaling) = match scaled {
+                None => (given.clone(), None),
+                Some(scaled) => (scaled.table, Some(scaled.axes)),
+            };
+            patterns.push(Pattern {
+                keys: keys.clone(),
+                given,
+                table,
+                scaling,
+            });
+        }
+        let order = order(loaded, scenario)?;
+        let tables: Vec<_> = patterns.iter().map(|pattern| &pattern.table).collect();
+        let stored = Stored::new(
+            &tables,
+            &order,
+            scenario.variant.into(),
+            scenario.standalone,
+        )
+        .map_err(|error| stored_fault(loaded, error))?;
+        let Source { loaded, stem, .. } = source;
+        Ok(Job {
+            loaded,
+            stem,
+            timing: scenario.timing(),
+            scenario: scenario.clone(),
+            patterns,
+            stored,
+        })
+    }
+}
+
+/// The patterns that are played, by their numbers.
+fn order(loaded: &Loaded, scenario: &Scenario) -> Result<Vec<usize>, Fault> {
+    let names = || scenario.pattern.iter().map(|pattern| pattern.name.as_str());
+    let Some(play) = &scenario.play else {
+        return Ok((0..scenario.pattern.len()).collect());
+    };
+    let find = |name: &String| {
+        names().position(|other| other == name).ok_or_else(|| {
+            let allowed = names().collect::<Vec<_>>().join(", ");
+            loaded.fault("play", format!("{name} is no pattern"), allowed)
+        })
+    };
+    play.iter().map(find).collect()
+}
+
+/// What the memory or the group objects to.
+fn stored_fault(loaded: &Loaded, error: StoredError) -> Fault {
+    let table = |pattern, problem, allowed| {
+        loaded.table_fault(("pattern", pattern), "table", problem, allowed)
+    };
+    match error {
+        StoredError::Axes {
+            pattern,
+            axes,
+            first,
+        } => table(
+            pattern,
+            format!("has {axes} axes"),
+            format!("{first}, as the first"),
+        ),
+        StoredError::Full {
+            pattern,
+            units,
+            room,
+        } => {
+            let words = 1 << Widths::default().address;
+            let allowed = format!("{room} of the {words} words of the memory");
+            table(pattern, format!("has {units} unit times"), allowed)
+        }
+        StoredError::Alone { commands } => {
+            let problem = format!("it would take {commands} commands");
+            let allowed = "one pattern of one T, played once".to_owned();
+            loaded.fault("standalone", problem, allowed)
+        }
+        StoredError::Nothing => {
+            loaded.fault("play", "is empty".into(), "the name of a pattern".into())
+        }
+        StoredError::TooLong => {
+            let allowed = format!("{MAX_UNITS} unit times in all");
+            loaded.fault("play", "takes too long".into(), allowed)
+        }
+    }
+}
+
+/// Plays patterns.
+pub fn run(arguments: &Arguments, source: Source, scenario: &Scenario) -> Result<(), Failure> {
+    has_no_segments(arguments)?;
+    let job = Job::prepare(source, scenario)?;
+    let options = options(arguments, scenario.vcd_ticks)?;
+    let stored = &job.stored;
+    let (played, mut files) = simulate(
+        arguments,
+        (&job.loaded, &job.stem),
+        (&stored.group, &stored.played),
+        &options,
+        &mut stored.computer(),
+    )?;
+    files.write("svg", &draw(&job, &played))?;
+    conclude(arguments, &options, files, Summary::new(&job, &played))
+}
+
+/// The positions at the end of every unit time: Y over X, and each axis over time.
+fn draw(job: &Job, played: &Played) -> String {
+    let axes = job.stored.group.axes;
+    let mut path = Points::expecting(played.positions.len() / axes);
+    let mut curves = vec![Points::expecting(played.positions.len() / axes); axes];
+    let mut ticks = 0;
+    let units = job
+        .stored
+        .played
+        .iter()
+        .zip(played.positions.chunks_exact(axes));
+    for ((period, _), at) in units {
+        ticks += u64::from(period);
+        let seconds = ticks as f64 / job.scenario.clock_hz as f64;
+        for (curve, position) in curves.iter_mut().zip(at) {
+            curve.push((seconds, f64::from(*position)));
+        }
+        if let [x, y, ..] = at {
+            path.push((f64::from(*x), f64::from(*y)));
+        }
+    }
+    let mut picture = Picture::new(format!("{}: pulse interpolator, patterns", job.stem));
+    if axes > 1 {
+        let panel = Panel::new("path", "x in steps", "y in steps").equal_scales();
+        picture = picture.panel(panel.curve(Curve::thinned("as pulsed", path).colour("#0072b2")));
+    }
+    let mut panel = Panel::new("positions", "time in s", "steps");
+    for (name, curve) in AXIS_NAMES.iter().zip(curves) {
+        panel = panel.curve(Curve::thinned(*name, curve));
+    }
+    picture.panel(panel).render()
+}

@@ -1,0 +1,217 @@
+//! What came of patterns that were played.
+
+use super::Job;
+use crate::cli::pulse::summary::Minima;
+use crate::cli::pulse::text::timing;
+use crate::cli::pulse::verdict::{count, miscount};
+use crate::cli::report::{Outcome, Report};
+use crate::cli::table::AxisDeviation;
+use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
+use motion_rtl::jobs::pulse_interpolator::Table;
+use motion_rtl::jobs::pulse_interpolator::job::Played;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// What came of patterns that were played.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    #[serde(flatten)]
+    outcome: Outcome,
+    /// What RST cleared.
+    variant: &'static str,
+    /// Whether every unit time has the pulses that its word makes, and every axis kept the driver's
+    /// timing.
+    exact: bool,
+    /// Whether there is no control computer.
+    standalone: bool,
+    /// Commands that it gave.
+    commands: usize,
+    /// Words of an axis that patterns take in the memory, and how many there are.
+    memory_words: [u64; 2],
+    patterns: Vec<PatternSummary>,
+    axes: BTreeMap<&'static str, AxisSummary>,
+    /// Unit times played.
+    units: usize,
+    /// Unit times without pulses between two patterns.
+    idle_units: u64,
+}
+
+/// A pattern of the memory.
+#[derive(Debug, Serialize)]
+struct PatternSummary {
+    name: String,
+    table: String,
+    /// Its first and its last address.
+    addresses: [u64; 2],
+    /// Its unit times T, in the order in which they come.
+    unit_ticks: Vec<u32>,
+    /// Whether it ends where it begins, as it was given.
+    closed: bool,
+    /// Steps from where it begins to where it ends, as it is played, of each axis.
+    end_steps: Vec<i64>,
+    /// The ratio that its data were multiplied by.
+    scale: Option<String>,
+    /// What that did to each axis: where the path was closed, `drift_steps` is how far it is open.
+    scaling: Option<Vec<AxisDeviation>>,
+}
+
+/// An axis, as its motor driver saw it.
+#[derive(Debug, Serialize)]
+struct AxisSummary {
+    pulses_up: u64,
+    pulses_down: u64,
+    end_position: i64,
+    timing_min_ticks: Minima,
+}
+
+/// Steps of each axis over a table, by the count law.
+fn steps(table: &Table) -> Vec<i64> {
+    let mut steps = vec![0; table.axes()];
+    for (period, words) in table.iter() {
+        for (sum, word) in steps.iter_mut().zip(words) {
+            *sum += count(*word, period);
+        }
+    }
+    steps
+}
+
+impl Summary {
+    pub fn new(job: &Job, played: &Played) -> Self {
+        let stored = &job.stored;
+        let mut complaints = Vec::new();
+        let mut axes = BTreeMap::new();
+        for (axis, (name, seen)) in AXIS_NAMES.into_iter().zip(&played.axes).enumerate() {
+            let minima = Minima::from(seen.minima);
+            let miscounted = miscount(&stored.played, played, axis);
+            let short = minima.too_short(&job.timing);
+            let all = miscounted.into_iter().chain(short);
+            complaints.extend(all.map(|text| format!("{name}: {text}")));
+            let summary = AxisSummary {
+                pulses_up: seen.pulses_up,
+                pulses_down: seen.pulses_down,
+                end_position: seen.position(),
+                timing_min_ticks: minima,
+            };
+            axes.insert(name, summary);
+        }
+        let patterns = job.patterns.iter().zip(&stored.places);
+        let patterns = patterns.map(|(pattern, place)| PatternSummary {
+            name: pattern.keys.name.clone(),
+            table: pattern.keys.table.display().to_string(),
+            addresses: *place,
+            unit_ticks: pattern
+                .given
+                .patterns()
+                .iter()
+                .map(|part| part.period)
+                .collect(),
+            closed: steps(&pattern.given).iter().all(|steps| *steps == 0),
+            end_steps: steps(&pattern.table),
+            scale: pattern.keys.scale.clone(),
+            scaling: pattern
+                .scaling
+                .as_ref()
+                .map(|axes| axes.iter().map(Into::into).collect()),
+        });
+        Summary {
+            exact: complaints.is_empty(),
+            variant: job.scenario.variant.name(),
+            standalone: job.scenario.standalone,
+            commands: stored.commands.len(),
+            memory_words: [
+                stored.places.last().map_or(0, |[_, last]| last + 1),
+                1 << stored.group.widths.address,
+            ],
+            patterns: patterns.collect(),
+            axes,
+            units: stored.played.units(),
+            idle_units: played.idle_units,
+            outcome: Outcome {
+                complaints,
+                ..Outcome::new(
+                    "pulse_interpolator",
+                    &job.stem,
+                    job.scenario.clock_hz,
+                    played.ticks,
+                )
+            },
+        }
+    }
+}
+
+impl Report for Summary {
+    fn outcome(&mut self) -> &mut Outcome {
+        &mut self.outcome
+    }
+
+    fn write(&self, text: &mut String, _: bool) -> std::fmt::Result {
+        let (subject, length) = (self.outcome.subject(), self.outcome.length());
+        writeln!(text, "{subject} ({}): {length}", self.variant)?;
+        let [taken, room] = self.memory_words;
+        let by = match (self.standalone, self.commands) {
+            (true, _) => "no control computer".to_owned(),
+            (false, 1) => "1 command".to_owned(),
+            (false, commands) => format!("{commands} commands"),
+        };
+        writeln!(
+            text,
+            "{taken} of {room} words of the memory, none rewritten; {by}\n"
+        )?;
+        writeln!(text, "pattern       addresses      T (ticks)  end (steps)")?;
+        for pattern in &self.patterns {
+            let [first, last] = pattern.addresses;
+            let list =
+                |numbers: &mut dyn Iterator<Item = String>| numbers.collect::<Vec<_>>().join(", ");
+            let periods = list(&mut pattern.unit_ticks.iter().map(u32::to_string));
+            let ends = list(&mut pattern.end_steps.iter().map(i64::to_string));
+            writeln!(
+                text,
+                "{:<12}  {:>9}  {periods:>13}  {ends}",
+                pattern.name,
+                format!("{first}-{last}")
+            )?;
+        }
+        for pattern in &self.patterns {
+            let scaled = pattern.scale.iter().zip(&pattern.scaling);
+            for (ratio, axes) in scaled {
+                let name = &pattern.name;
+                writeln!(text, "{name}: data times {ratio}")?;
+                for (axis, name) in axes.iter().zip(AXIS_NAMES) {
+                    let end = match pattern.closed {
+                        true => "the closed path ends",
+                        false => "the end is",
+                    };
+                    writeln!(
+                        text,
+                        "  {name}: {end} {:+.3} steps off, at most {:.3} pulses in a unit time",
+                        axis.drift_steps, axis.largest_deviation_pulses_per_unit
+                    )?;
+                }
+            }
+        }
+        writeln!(
+            text,
+            "\naxis      up    down  end position   high   low setup  hold (min ticks)"
+        )?;
+        for (name, axis) in &self.axes {
+            writeln!(
+                text,
+                "{name:<4}  {:>6}  {:>6}  {:>12}  {}",
+                axis.pulses_up,
+                axis.pulses_down,
+                axis.end_position,
+                timing(&axis.timing_min_ticks),
+            )?;
+        }
+        writeln!(text, "\n{} unit times", self.units)?;
+        if self.idle_units > 0 {
+            let idle = self.idle_units;
+            writeln!(
+                text,
+                "{idle} unit times without pulses between two patterns"
+            )?;
+        }
+        Ok(())
+    }
+}
