@@ -37,6 +37,7 @@ pub mod encoder;
 mod operation;
 pub mod parameters;
 pub mod servo;
+pub mod step_motor;
 pub mod two_mass;
 pub mod waves;
 
@@ -47,6 +48,7 @@ pub use encoder::Encoder;
 pub use operation::Operation;
 pub use parameters::ServoParameters;
 pub use servo::{Motor, ServoDriver};
+pub use step_motor::{StepMotor, StepMotorParameters};
 pub use two_mass::{TwoMassAxis, TwoMassParameters};
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::exactly::exactly;
 use super::{Program, Runnable};
 use crate::circuits::arc_generator::Rounding;
 use crate::input::Point;
+use crate::jobs::arc_generator::mechanism::Mechanism;
 use crate::jobs::arc_generator::settings::{Settings, ShortPieces};
 use crate::path::arm::{Arm, Elbow};
 use crate::path::pieces::Taught;
@@ -57,6 +58,8 @@ pub struct Scenario {
     pub short_pieces: ShortPieces,
     /// The arm whose hand the commands are of.
     pub arm: Option<ArmKeys>,
+    /// An elastic mechanism under the commands.
+    pub mechanism: Option<MechanismKeys>,
     /// The most ticks that go into the VCD unless a window is asked for.
     #[serde(default = "default::vcd_ticks")]
     pub vcd_ticks: u64,
@@ -110,6 +113,26 @@ impl From<ArmKeys> for Arm {
             elbow: keys.elbow,
             singular_deg: keys.singular_deg,
             counts_per_rev: keys.counts_per_rev,
+        }
+    }
+}
+
+/// The table `[mechanism]`.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MechanismKeys {
+    /// Its natural frequency.
+    pub frequency_hz: f64,
+    /// Its damping, as a share of the critical one.
+    #[serde(default)]
+    pub damping: f64,
+}
+
+impl From<MechanismKeys> for Mechanism {
+    fn from(keys: MechanismKeys) -> Self {
+        Mechanism {
+            frequency_hz: keys.frequency_hz,
+            damping: keys.damping,
         }
     }
 }

@@ -3,8 +3,11 @@
 use super::{Program, Runnable};
 use crate::circuits::pulse_interpolator::Variant;
 use crate::input::Drawing;
+use crate::jobs::pulse_interpolator::motors::Motors;
 use crate::jobs::pulse_interpolator::{Settings, StepTiming};
 use crate::plan::MotionLimits;
+use crate::plant::StepMotorParameters;
+use crate::settings::{Place, SettingError};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -65,6 +68,8 @@ pub struct Scenario {
     /// Shortest time from a step to a change of direction, in ticks.
     #[serde(default = "default::hold")]
     pub dir_hold_ticks: u32,
+    /// Step motors on the drivers, alike on all axes.
+    pub motor: Option<MotorKeys>,
     /// The most ticks that go into the VCD unless a window is asked for.
     #[serde(default = "default::vcd_ticks")]
     pub vcd_ticks: u64,
@@ -95,6 +100,16 @@ impl Scenario {
         }
     }
 
+    /// The motors on so many axes, if there are some.
+    ///
+    /// # Errors
+    /// A figure of theirs is out of range.
+    pub fn motors(&self, axes: usize) -> Result<Option<Motors>, SettingError> {
+        let motors = |keys: MotorKeys| Motors::new(&keys.into(), axes, self.clock_hz);
+        let motors = self.motor.map(motors).transpose();
+        motors.map_err(|error| error.at(Place::Table("motor")))
+    }
+
     /// What the motor drivers ask for.
     pub fn timing(&self) -> StepTiming {
         StepTiming {
@@ -102,6 +117,41 @@ impl Scenario {
             min_low: self.step_low_ticks,
             dir_setup: self.dir_setup_ticks,
             dir_hold: self.dir_hold_ticks,
+        }
+    }
+}
+
+/// The table `[motor]`.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotorKeys {
+    /// Greatest torque at standstill.
+    pub holding_torque_nm: f64,
+    /// Inertia of rotor and load.
+    pub inertia_kg_m2: f64,
+    /// Torque that grows with the speed.
+    #[serde(default)]
+    pub damping_nm_s: f64,
+    /// Coulomb friction.
+    #[serde(default)]
+    pub friction_nm: f64,
+    /// Full steps a turn.
+    #[serde(default = "default::full_steps_per_rev")]
+    pub full_steps_per_rev: u32,
+    /// Steps of the driver in a full step.
+    #[serde(default = "default::microsteps")]
+    pub microsteps: u32,
+}
+
+impl From<MotorKeys> for StepMotorParameters {
+    fn from(keys: MotorKeys) -> Self {
+        StepMotorParameters {
+            holding_torque_nm: keys.holding_torque_nm,
+            inertia_kg_m2: keys.inertia_kg_m2,
+            damping_nm_s: keys.damping_nm_s,
+            friction_nm: keys.friction_nm,
+            full_steps_per_rev: keys.full_steps_per_rev,
+            microsteps: keys.microsteps,
         }
     }
 }
@@ -152,6 +202,7 @@ impl From<VariantName> for Variant {
 /// What a key is worth that is not given: what the compiler's settings are by default.
 mod default {
     use crate::jobs::pulse_interpolator::Settings;
+    use crate::plant::StepMotorParameters;
 
     pub(super) fn clock_hz() -> u64 {
         Settings::default().clock_hz
@@ -182,6 +233,12 @@ mod default {
     }
     pub(super) fn hold() -> u32 {
         Settings::default().timing.dir_hold
+    }
+    pub(super) fn full_steps_per_rev() -> u32 {
+        StepMotorParameters::default().full_steps_per_rev
+    }
+    pub(super) fn microsteps() -> u32 {
+        StepMotorParameters::default().microsteps
     }
     pub(super) fn vcd_ticks() -> u64 {
         super::super::VCD_TICKS

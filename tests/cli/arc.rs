@@ -65,17 +65,22 @@ fn the_seam_is_what_closed_forms_say() {
             "input",
             "lines",
             "operations",
+            "point_bits",
+            "record_bits",
             "rounding",
             "sample_ticks",
             "sample_ticks_needed",
             "samples",
             "seconds",
+            "speed_changes",
             "ticks",
             "vcd_window",
             "warnings"
         ]
     );
     assert_eq!(summary["circuit"], "arc_generator");
+    assert_eq!(whole(&summary, "/record_bits"), 3 * 32 * 42);
+    assert_eq!(whole(&summary, "/point_bits"), 1271 * 3 * 24);
     assert_eq!(summary["input"], "weld");
     assert_eq!(summary["rounding"], "nearest");
     assert_eq!(summary["exact"], true);

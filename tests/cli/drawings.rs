@@ -110,6 +110,7 @@ fn every_field_has_its_type_and_value() {
         "input",
         "remedy",
         "seconds",
+        "step_rates",
         "ticks",
         "unattainable_units",
         "units",

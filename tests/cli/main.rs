@@ -3,6 +3,7 @@
 
 mod arc;
 mod arc_arm;
+mod arc_mechanism;
 mod arc_refusals;
 mod check_parts;
 mod checks;
@@ -35,6 +36,7 @@ mod scenarios;
 mod settings;
 #[cfg(unix)]
 mod signals;
+mod step_motors;
 mod streams;
 mod support;
 mod tables;

@@ -125,7 +125,11 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
     let shown = |line: &&str| line.contains('.') && !line.ends_with("_name");
     let rows = overview.lines().filter(shown).count();
     let expected = match summary["circuit"].as_str().unwrap() {
-        "pulse_interpolator" => 1 + 4 * summary["axes"].as_object().unwrap().len(),
+        "pulse_interpolator" => {
+            let axes = summary["axes"].as_object().unwrap().len();
+            let motors = summary["step_rates"]["x"]["motor"].is_object();
+            1 + axes * if motors { 6 } else { 4 }
+        }
         "linear_interpolator" => 11,
         "arc_generator" if summary["arm"].is_object() => 17,
         "lead_angle" | "arc_generator" => 14,
@@ -230,6 +234,14 @@ step_low_ticks = 3
 dir_setup_ticks = 4
 dir_hold_ticks = 4
 vcd_ticks = 100
+
+[motor]
+holding_torque_nm = 2
+inertia_kg_m2 = 1e-5
+damping_nm_s = 1e-3
+friction_nm = 0.01
+full_steps_per_rev = 400
+microsteps = 16
 "#;
     let bench = Bench::with("all.toml", scenario);
     bench.write("l.ngc", "G1 X2 Y1\nG2 X3 Y2 I1 Z1\n");
@@ -247,7 +259,7 @@ fn bad_scenarios_are_refused_with_their_line() {
         `variant`, `clock_hz`, `steps_per_mm`, \
          `feed_mm_per_min`, `rapid_mm_per_min`, `corner_mm_per_min`, `acceleration_mm_per_s2`, \
          `line_unit_ticks`, `arc_unit_ticks`, `step_high_ticks`, `step_low_ticks`, \
-         `dir_setup_ticks`, `dir_hold_ticks`, `vcd_ticks`";
+         `dir_setup_ticks`, `dir_hold_ticks`, `motor`, `vcd_ticks`";
     let missing = "s.toml: circuit: missing; allowed: a value for it: it has no default";
     let drawing = "the path of an HPGL drawing or a G-code program";
     // What follows the first line, which names the circuit.

@@ -7,8 +7,9 @@ use motion_rtl::hdl::Declarations;
 use std::fs;
 use std::path::Path;
 
-/// Runs a shipped scenario, and its Verilog with the same inputs.
-fn hold(scenario: &str, simulator: Simulator) {
+/// Runs a shipped scenario, and its Verilog with the same inputs, in Icarus: Verilator compiles a
+/// wave of each of the memory's thousands of words, and looks at them all in every tick.
+fn hold(scenario: &str) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -30,7 +31,7 @@ fn hold(scenario: &str, simulator: Simulator) {
     assert_eq!(modules.len(), 9, "{modules:?}");
     let stimulus = fs::read_to_string(path.join(format!("{name}.stimulus"))).unwrap();
     let ticks = stimulus.lines().count() as u64;
-    let report = simulator.hold(path, name, &modules);
+    let report = Simulator::Icarus.hold(path, name, &modules);
     let group = Group::new(2, Widths::default(), Variant::Safe, 1);
     complete(&report, ticks, Declarations::of(&group).leaves.len());
 }
@@ -38,11 +39,11 @@ fn hold(scenario: &str, simulator: Simulator) {
 #[test]
 #[ignore = "needs Icarus Verilog"]
 fn the_bracket_is_the_same_in_icarus() {
-    hold("bracket", Simulator::Icarus);
+    hold("bracket");
 }
 
 #[test]
-#[ignore = "needs Verilator"]
-fn the_rosette_is_the_same_in_verilator() {
-    hold("rosette", Simulator::Verilator);
+#[ignore = "needs Icarus Verilog"]
+fn the_rosette_is_the_same_in_icarus() {
+    hold("rosette");
 }

@@ -7,11 +7,13 @@ use crate::cli::Failure;
 use motion_rtl::circuits::arc_generator::{Conventional, Widths};
 use motion_rtl::hdl::{self, RunError};
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::beside::{RECORDS, play, records};
+use motion_rtl::jobs::arc_generator::beside::{play, records};
 use motion_rtl::jobs::arc_generator::bounds::conventional_error;
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
 use motion_rtl::jobs::arc_generator::job::{Played, arc_generator};
+use motion_rtl::jobs::arc_generator::prepare::Timing;
 use motion_rtl::jobs::arc_generator::prepared::Shape;
+use motion_rtl::path::circle::Circle;
 use motion_rtl::path::vector::distance;
 use serde::Serialize;
 
@@ -44,8 +46,8 @@ pub struct Arc {
 }
 
 impl Beside {
-    /// Runs every arc of a path.
-    pub fn run(job: &Job) -> Result<Self, Failure> {
+    /// Runs every arc of a path, as `method` has an arc of this speed.
+    pub fn run(job: &Job, method: fn(&Circle, f64, &Timing) -> Method) -> Result<Self, Failure> {
         let per_mm = job.settings.counts_per_mm;
         let (mut methods, mut all) = (Vec::new(), Vec::new());
         for (index, segment) in job.prepared.segments.iter().enumerate() {
@@ -53,7 +55,7 @@ impl Beside {
                 continue;
             };
             let wanted = job.prepared.pieces[segment.piece].wanted;
-            let method = Method::new(&circle, wanted, &job.prepared.timing);
+            let method = method(&circle, wanted, &job.prepared.timing);
             let Some(records) = records(&method, per_mm, &Widths::FULL) else {
                 return Ok(Beside {
                     left: Some(segment.piece),
@@ -63,7 +65,6 @@ impl Beside {
             all.extend(records);
             methods.push((index, segment.piece, circle.radius, method));
         }
-        debug_assert_eq!(all.len(), RECORDS * methods.len());
         let circuit = Conventional::new(job.settings.rounding);
         let played = play(&circuit, &all, job.sample_ticks)?;
         let samples = |method: &Method| 1 + 2 * method.ramp + method.samples;
@@ -97,22 +98,21 @@ impl Beside {
     }
 
     /// What is wrong with it; empty where nothing is.
-    pub fn complaints(&self) -> impl Iterator<Item = String> {
+    pub fn complaints(&self, how: &str) -> impl Iterator<Item = String> {
         let (sampled, wanted) = (self.played.commands.len() as u64, self.samples);
-        let short = (sampled != wanted).then(|| {
-            format!("{sampled} samples by the conventional method where the arcs have {wanted}")
-        });
+        let short = (sampled != wanted)
+            .then(|| format!("{sampled} samples {how} where the arcs have {wanted}"));
         let astray = self.arcs.iter().filter(|arc| {
             // Written so that NaN fails.
             let within = arc.error <= arc.bound;
             !within
         });
-        let astray = astray.map(|arc| {
+        let astray = astray.map(move |arc| {
             let (error, bound) = (arc.error * 1e3, arc.bound * 1e3);
             let piece = arc.piece;
             format!(
-                "piece {piece} by the conventional method: a sample is {error:.3} um off its exact \
-                 point, its bound is {bound:.3} um"
+                "piece {piece} {how}: a sample is {error:.3} um off its exact point, its bound is \
+                 {bound:.3} um"
             )
         });
         short.into_iter().chain(astray)

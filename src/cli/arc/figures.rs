@@ -19,6 +19,8 @@ pub struct Figures {
     pub arcs: Vec<ArcFigures>,
     /// The arcs by the conventional method.
     pub beside: Beside,
+    /// The same without ramps.
+    pub even: Beside,
 }
 
 /// The figures of an arc.
@@ -41,7 +43,7 @@ pub struct ArcFigures {
 
 impl Figures {
     /// Of what was played.
-    pub fn of(job: &Job, played: &Played, beside: Beside) -> Self {
+    pub fn of(job: &Job, played: &Played, [beside, even]: [Beside; 2]) -> Self {
         let counts: Vec<_> = played
             .commands
             .iter()
@@ -58,6 +60,7 @@ impl Figures {
             measured,
             arcs,
             beside,
+            even,
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::cli::source::Source;
 use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::input::{Drawing, Point};
 use motion_rtl::jobs::arc_generator::joints::{Followed, follow};
+use motion_rtl::jobs::arc_generator::mechanism::Mechanism;
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::prepared::Prepared;
 use motion_rtl::jobs::arc_generator::record::records;
@@ -35,6 +36,8 @@ pub struct Job {
     pub records: Vec<Record>,
     /// The arm whose hand the commands are of, and what its joints do.
     pub arm: Option<(Arm, Followed)>,
+    /// An elastic mechanism under the commands.
+    pub mechanism: Option<Mechanism>,
     /// The scenario it came from.
     pub loaded: Loaded,
 }
@@ -49,6 +52,10 @@ impl Job {
         let sample_ticks = settings.sample_ticks(&widths).map_err(refuse)?;
         let arm = scenario.arm.map(Arm::from);
         arm.map_or(Ok(()), |arm| arm.validate()).map_err(refuse)?;
+        let mechanism = scenario.mechanism.map(Mechanism::from);
+        mechanism
+            .map_or(Ok(()), |mechanism| mechanism.validate())
+            .map_err(refuse)?;
         let taught = scenario.taught().map_err(refuse)?;
         let keys = SpeedKeys {
             speeds: Speeds::from(&settings),
@@ -94,6 +101,7 @@ impl Job {
             prepared,
             records,
             arm,
+            mechanism,
             loaded,
         })
     }

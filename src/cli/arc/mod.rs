@@ -4,6 +4,7 @@ mod arm;
 mod beside;
 mod figures;
 mod job;
+mod mechanism;
 mod operations;
 mod picture;
 mod rows;
@@ -22,6 +23,7 @@ use super::traces::{Focus, Traces};
 use beside::Beside;
 use figures::Figures;
 use motion_rtl::hdl::{RunError, model, model_beside};
+use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
 use motion_rtl::jobs::arc_generator::job::{Played, arc_generator, play_arm};
 use motion_rtl::jobs::arc_generator::joints::Joints;
 use motion_rtl::trace::Options;
@@ -56,7 +58,14 @@ const OVERVIEW: [&str; 17] = [
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (played, mut files) = simulate(arguments, job, &options)?;
-    let figures = Figures::of(job, &played, Beside::run(job)?);
+    let figures = Figures::of(
+        job,
+        &played,
+        [
+            Beside::run(job, Method::new)?,
+            Beside::run(job, Method::even)?,
+        ],
+    );
     files.write("svg", &draw(job, &figures))?;
     let summary = Summary::new(job, &played, &figures)?;
     conclude(arguments, &options, files, summary)

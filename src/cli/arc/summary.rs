@@ -4,13 +4,16 @@ use super::Job;
 use super::arm::{self, ArmRows};
 use super::beside;
 use super::figures::Figures;
+use super::mechanism;
 use super::operations;
 use super::rows::{self, ArcRow, BlendRow, LineRow};
 use super::verdict::{bounds, complaints};
 use crate::cli::report::Outcome;
+use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::hdl::RunError;
 use motion_rtl::jobs::arc_generator::job::Played;
 use motion_rtl::jobs::arc_generator::settings::LEAST_SAMPLE_TICKS;
+use motion_rtl::path::record::WORDS;
 use serde::Serialize;
 
 /// The summary of a run.
@@ -47,10 +50,17 @@ pub struct Summary {
     pub lines: Vec<LineRow>,
     /// Every blend.
     pub blends: Vec<BlendRow>,
+    /// Bits of the path's records.
+    pub record_bits: u64,
+    /// Bits of all of its commands, had they been stored beforehand.
+    pub point_bits: u64,
     /// What a sample costs.
     pub operations: Vec<operations::Row>,
     /// The circuit, and that of the conventional method.
     pub circuits: Vec<beside::Row>,
+    /// Changes of speed, and what they make of the mechanism, beside those of the conventional
+    /// method.
+    pub speed_changes: Vec<mechanism::Row>,
     /// The joints of the arm, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arm: Option<ArmRows>,
@@ -65,6 +75,8 @@ impl Summary {
         let last = played.commands.last();
         let end = job.prepared.pieces.last();
         let mm = |mm: f64| mm * 1e3;
+        let widths = Widths::FULL;
+        let bits = |rows: usize, words: usize, width: usize| (rows * words * width) as u64;
         let input = match &job.drawing {
             Some(drawing) => &drawing.file,
             None => &job.stem,
@@ -94,8 +106,11 @@ impl Summary {
             arcs,
             lines: rows::lines(job),
             blends: rows::blends(job, figures),
+            record_bits: bits(job.records.len(), WORDS, widths.data),
+            point_bits: bits(played.commands.len(), 3, widths.position),
             operations: operations::rows(job),
             circuits: beside::rows(job, played, figures)?,
+            speed_changes: mechanism::rows(job, figures),
             arm: arm::rows(job),
         })
     }

@@ -1,5 +1,6 @@
 //! The summary for people.
 
+use super::mechanism;
 use super::rows::{ArcRow, BlendRow, LineRow};
 use super::summary::Summary;
 use crate::cli::report::{Outcome, Report};
@@ -34,13 +35,15 @@ impl Report for Summary {
         writeln!(
             text,
             "ends at {x}, {y}, {z} counts{}\ncommands are at most {:.3} um off their exact points, \
-             the bound is {:.3} um\n",
+             the bound is {:.3} um\nthe path is {} bits of records; all of its points would be {}\n",
             match self.exact {
                 true => ", where the path does",
                 false => "",
             },
             self.error_max_um,
-            self.error_bound_um
+            self.error_bound_um,
+            self.record_bits,
+            self.point_bits
         )?;
         self.arcs(text, all)?;
         self.lines(text, all)?;
@@ -49,6 +52,7 @@ impl Report for Summary {
         if let Some(arm) = &self.arm {
             arm.write(text)?;
         }
+        mechanism::write(&self.speed_changes, text)?;
         self.circuits(text)
     }
 }

@@ -34,7 +34,11 @@ pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]
         }
     }
     all.extend(astray(job, figures));
-    all.extend(figures.beside.complaints());
+    let both = [
+        (&figures.beside, "by the conventional method"),
+        (&figures.even, "by the conventional method without ramps"),
+    ];
+    all.extend(both.iter().flat_map(|(beside, how)| beside.complaints(how)));
     all
 }
 
@@ -86,7 +90,6 @@ fn straight(job: &Job) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::arc::beside::Beside;
     use crate::cli::arc::rows::arcs;
     use crate::cli::source::{Input, Source};
     use motion_rtl::jobs::arc_generator::job::Command;
@@ -115,7 +118,7 @@ mod tests {
     }
 
     fn judged(job: &Job, played: &Played) -> Vec<String> {
-        let figures = Figures::of(job, played, Beside::default());
+        let figures = Figures::of(job, played, Default::default());
         complaints(job, played, &figures, &arcs(job, &figures))
     }
 

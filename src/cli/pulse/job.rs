@@ -3,6 +3,7 @@
 use crate::cli::Failure;
 use crate::cli::source::{Source, compiling, drawing_fault, plan_fault};
 use motion_rtl::input::{DRAWINGS, Drawing, Fault};
+use motion_rtl::jobs::pulse_interpolator::motors::Motors;
 use motion_rtl::jobs::pulse_interpolator::{Report, Settings, Table, TableError, compile};
 use motion_rtl::scenario::pulse_interpolator::VariantName;
 use motion_rtl::scenario::{Loaded, Scenario};
@@ -26,6 +27,8 @@ pub struct Job {
     pub table: Table,
     /// What came of the compilation.
     pub report: Report,
+    /// The motors on its axes, if there are some.
+    pub motors: Option<Motors>,
 }
 
 impl Job {
@@ -76,6 +79,9 @@ impl Job {
         let (table, report) = compile(&drawing, &settings)
             .map_err(|error| table_fault(&source.loaded, &drawing, &settings, error))?;
         drop(spinner);
+        let motors = scenario
+            .motors(table.axes())
+            .map_err(|error| source.loaded.refuse(error))?;
         let Source { loaded, stem, .. } = source;
         Ok(Job {
             loaded,
@@ -86,6 +92,7 @@ impl Job {
             settings,
             table,
             report,
+            motors,
         })
     }
 }

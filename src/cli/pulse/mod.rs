@@ -4,6 +4,7 @@ mod beside;
 mod job;
 pub mod patterns;
 mod picture;
+mod rates;
 mod summary;
 mod text;
 mod verdict;
@@ -17,9 +18,11 @@ use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
 use motion_rtl::circuits::pulse_interpolator::Group;
+use motion_rtl::hdl::{RunError, Without, model, model_beside};
 use motion_rtl::jobs::pulse_interpolator::job::{
-    Computer, Played, fast_forward_by, group, play_by,
+    Computer, Played, fast_forward_by, group, play_by, play_motors,
 };
+use motion_rtl::jobs::pulse_interpolator::motors::{Motors, StepMotors};
 use motion_rtl::jobs::pulse_interpolator::{ControlComputer, Table};
 use motion_rtl::scenario::Loaded;
 use motion_rtl::trace::Options;
@@ -30,20 +33,26 @@ use summary::Summary;
 const UNITS_SHOWN: u64 = 6;
 
 /// What the save file shows on top; an axis that the job has not is left out.
-const OVERVIEW: [&str; 13] = [
+const OVERVIEW: [&str; 19] = [
     "unit_rst",
     "x.memory.half_period",
     "x.generator.count",
     "step_x",
     "dir_x",
+    "plant.x.position",
+    "plant.x.ahead",
     "y.memory.half_period",
     "y.generator.count",
     "step_y",
     "dir_y",
+    "plant.y.position",
+    "plant.y.ahead",
     "z.memory.half_period",
     "z.generator.count",
     "step_z",
     "dir_z",
+    "plant.z.position",
+    "plant.z.ahead",
 ];
 
 /// Runs a job.
@@ -57,7 +66,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         (&job.loaded, &job.stem),
         (&group, &job.table),
         &options,
-        &mut |pending| computer.drive(pending),
+        (&mut |pending| computer.drive(pending), job.motors.clone()),
     )?;
     let following =
         Following::new(job, &played).map_err(|error| Failure::Check(error.to_string()))?;
@@ -85,22 +94,28 @@ fn simulate(
     scenario: (&Loaded, &str),
     (group, table): (&Group, &Table),
     options: &Options,
-    computer: &mut Computer<'_>,
+    (computer, motors): (&mut Computer<'_>, Option<Motors>),
 ) -> Result<(Played, Files), Failure> {
     let ticks = table.total_ticks();
-    let mut traces = Traces::begin((group, group), arguments, scenario, options, ticks)?;
+    let shown = match &motors {
+        None => model(group),
+        Some(_) => model_beside(group, &StepMotors { axes: group.axes }),
+    };
+    let shown = shown.map_err(RunError::from)?;
+    let mut traces = Traces::begin((&shown, group), arguments, scenario, options, ticks)?;
     let mut progress = Progress::new(ticks);
     // Where nobody has to see every tick, idle ones are gone over.
-    let played = match traces.is_empty() {
-        false => {
-            let files = (
-                traces.waves.as_mut(),
-                traces.stimulus.as_mut(),
-                traces.noted.as_mut(),
-            );
-            play_by(group, table, computer, (files, &mut progress))
+    let played = match (traces.is_empty(), motors) {
+        (true, None) => fast_forward_by(group, table, computer, &mut progress),
+        (_, motors) => {
+            let stimulus = traces.stimulus.as_mut().map(Without);
+            let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
+            let observers = (files, &mut progress);
+            match motors {
+                None => play_by(group, table, computer, observers),
+                Some(motors) => play_motors(group, table, computer, motors, observers),
+            }
         }
-        true => fast_forward_by(group, table, computer, &mut progress),
     }?;
     drop(progress);
     let unit = u64::from(table.patterns().first().map_or(1, |first| first.period));
@@ -110,6 +125,6 @@ fn simulate(
         shown: UNITS_SHOWN * unit,
         overview: &OVERVIEW,
     };
-    let files = traces.finish(group, &focus, played.ticks)?;
+    let files = traces.finish(&shown, &focus, played.ticks)?;
     Ok((played, files))
 }

@@ -2,6 +2,7 @@
 
 use super::Job;
 use super::beside::Row;
+use super::rates::{self, Rows};
 use super::verdict::complaints;
 use crate::cli::report::Outcome;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
@@ -24,6 +25,8 @@ pub struct Summary {
     pub exact: bool,
     /// Each axis by its name.
     pub axes: BTreeMap<&'static str, AxisSummary>,
+    /// Step rates of each axis, and its motor.
+    pub step_rates: Rows,
     /// The table.
     #[serde(flatten)]
     pub table: TableSummary,
@@ -182,6 +185,8 @@ impl Summary {
             .collect();
         let mut complaints = complaints(job, played);
         let exact = complaints.is_empty();
+        let step_rates = rates::rows(&job.table, played);
+        complaints.extend(rates::complaints(&step_rates));
         complaints.extend(astray);
         Summary {
             exact,
@@ -197,6 +202,7 @@ impl Summary {
             },
             variant: job.variant.name(),
             axes,
+            step_rates,
             table: TableSummary::new(job),
             idle_units: played.idle_units,
             circuits,

@@ -1,5 +1,6 @@
 //! The summary for people.
 
+use super::rates;
 use super::summary::{Minima, Summary, TableSummary};
 use crate::cli::report::{Outcome, Report};
 use crate::cli::rows::{fixed, or_dash, table};
@@ -51,6 +52,8 @@ impl Report for Summary {
                 timing(&axis.timing_min_ticks),
             )?;
         }
+        text.push('\n');
+        rates::write(&self.step_rates, text)?;
         text.push('\n');
         text.push_str(&self.table.text());
         if self.idle_units > 0 {

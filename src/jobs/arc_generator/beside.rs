@@ -12,15 +12,12 @@ use crate::path::record::{Record, WORDS, coordinate_word};
 use crate::path::vector::scale;
 use std::f64::consts::TAU;
 
-/// Records of an arc: where it begins, ramp, constant speed, ramp.
-pub const RECORDS: usize = 4;
-
-/// The records of an arc; `None` where a coordinate or the radius is no word, or its samples are too
-/// many.
+/// The records of an arc: where it begins, ramp, constant speed, ramp, or without ramps two. `None`
+/// where a coordinate or the radius is no word, or its samples are too many.
 ///
 /// Each has the vector at which it begins, so an error does not go on to the next.
 #[must_use]
-pub fn records(run: &Method, counts_per_mm: f64, widths: &Widths) -> Option<[Record; RECORDS]> {
+pub fn records(run: &Method, counts_per_mm: f64, widths: &Widths) -> Option<Vec<Record>> {
     let circle = &run.circle;
     // The vector is the difference of rounded points.
     let counts = |mm: f64| mm.abs() * counts_per_mm + 1.0;
@@ -43,24 +40,22 @@ pub fn records(run: &Method, counts_per_mm: f64, widths: &Widths) -> Option<[Rec
             (modulus, differences),
         )
     };
-    let mut records = [
-        record(0, 0, 1, [0; 4]),
-        record(
-            run.ramp,
-            0,
-            power,
-            blend_differences([0, 0, ramp], run.ramp),
-        ),
-        record(run.samples, ramp, i128::from(run.samples), [way, 0, 0, 0]),
-        record(
-            run.ramp,
-            all - ramp,
-            power,
-            blend_differences([all - ramp, all, all], run.ramp),
-        ),
-    ];
+    let begin = record(0, 0, 1, [0; 4]);
+    let even = record(run.samples, ramp, i128::from(run.samples), [way, 0, 0, 0]);
+    let blend = |from, corners| record(run.ramp, from, power, blend_differences(corners, run.ramp));
+    let mut records = match run.ramp {
+        0 => vec![begin, even],
+        _ => vec![
+            begin,
+            blend(0, [0, 0, ramp]),
+            even,
+            blend(all - ramp, [all - ramp, all, all]),
+        ],
+    };
     // It ends at rest.
-    records[RECORDS - 1].words[0] |= 4;
+    if let Some(last) = records.last_mut() {
+        last.words[0] |= 4;
+    }
     Some(records)
 }
 

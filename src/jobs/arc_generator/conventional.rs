@@ -104,6 +104,24 @@ impl Conventional {
         }
     }
 
+    /// The same without ramps: an angle of one size in every sample, so that the speed jumps at start
+    /// and stop.
+    #[must_use]
+    pub fn even(circle: &Circle, wanted: f64, timing: &Timing) -> Self {
+        let samples = (circle.length() / (wanted * timing.sample_s))
+            .ceil()
+            .max(1.0);
+        let speed = circle.length() / (timing.sample_s * samples);
+        Conventional {
+            circle: *circle,
+            speed,
+            ramp: 0,
+            samples: samples as u64,
+            ramp_angle: 0.0,
+            step: circle.angle / samples,
+        }
+    }
+
     /// Every sample from the start on, with what it costs; the start costs nothing.
     pub fn samples(&self) -> impl Iterator<Item = (Point, Operations)> {
         let (mut vector, mut angle) = (sub(self.circle.start, self.circle.centre), 0.0);

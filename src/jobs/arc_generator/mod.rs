@@ -4,7 +4,8 @@
 //! words), [`bounds`] (how far the rotation may be off), [`mod@reference`] (the same samples by
 //! division), [`conventional`] (what the patent compares itself with), [`job`] (a path on the
 //! circuit), [`beside`] (its arcs on the conventional circuit), [`measure`] (what came out),
-//! [`joints`] (the commands as those of an arm's joints).
+//! [`joints`] (the commands as those of an arm's joints), [`mechanism`] (what they make of an elastic
+//! one).
 
 pub mod beside;
 pub mod bounds;
@@ -12,6 +13,7 @@ pub mod conventional;
 pub mod job;
 pub mod joints;
 pub mod measure;
+pub mod mechanism;
 pub mod prepare;
 pub mod prepared;
 pub mod record;

@@ -1,12 +1,13 @@
 //! A drawing through the whole interpolator: planned, compiled to a table, played by the control
 //! computer, and counted at the motor drivers.
 
+use super::motors::{MotorReport, Motors, StepMotors};
 use super::spread::Paced;
 use super::step_dir::TimingMinima;
 use super::{ControlComputer, Table};
 use crate::circuits::pulse_interpolator::group::In;
 use crate::circuits::pulse_interpolator::{Group, Variant, Widths};
-use crate::hdl::{At, Observer, RunError, Sample, Simulator, State, Value, zero};
+use crate::hdl::{At, Observer, RunError, Sample, Simulator, State, Value, Watcher, zero};
 use crate::settings::{JobError, SettingError, within};
 use std::ops::ControlFlow;
 
@@ -26,6 +27,8 @@ pub struct Played {
     /// Positions at the end of every unit time of the table in steps from where the axes began,
     /// X first, unit after unit.
     pub positions: Vec<i32>,
+    /// What became of the motors, if there were some.
+    pub motors: Vec<MotorReport>,
 }
 
 /// One axis of [`Played`].
@@ -109,6 +112,12 @@ impl<O: Observer<Group>> Observer<Group> for Bench<O> {
 }
 
 impl<O> Bench<O> {
+    /// The unit time of the table that is under way.
+    fn unit(&self) -> usize {
+        let ended = self.positions.len() / self.axes.len();
+        ended.min(self.units.saturating_sub(1))
+    }
+
     fn unit_ends(&mut self, busy: bool, end: u64) {
         for axis in &mut self.axes {
             axis.spread.unit_ends(self.unit_begun, end);
@@ -155,14 +164,50 @@ pub fn play_by(
     computer: &mut Computer<'_>,
     observer: impl Observer<Group>,
 ) -> Result<Played, JobError> {
-    played(group, table, observer, |simulator, bench| {
+    played(group, table, (observer, None), |simulator, bench| {
         let (pending, quiet) = (bench.see.pending, zero(group));
         let drive = |_, q: &State<'_, Group>| {
             let given = computer(q.get(pending));
             given.unwrap_or_else(|| quiet.clone())
         };
-        simulator.run(u64::MAX, drive, bench)
+        simulator.run(u64::MAX, drive, bench)?;
+        Ok(Vec::new())
     })
+}
+
+/// The same with step motors on the drivers, which stand in the waves beside the group
+/// ([`StepMotors`]).
+///
+/// # Errors
+/// As [`play`].
+pub fn play_motors(
+    group: &Group,
+    table: &Table,
+    computer: &mut Computer<'_>,
+    mut motors: Motors,
+    observer: impl Observer<Group>,
+) -> Result<Played, JobError> {
+    let beside = StepMotors { axes: group.axes };
+    played(
+        group,
+        table,
+        (observer, Some(beside)),
+        |simulator, bench| {
+            let (pending, quiet) = (bench.see.pending, zero(group));
+            while !bench.over {
+                let given = computer(simulator.state(|q| q.get(pending)));
+                if bench.observer.looks(simulator.tick()) {
+                    simulator.show::<StepMotors>(&motors.signals());
+                }
+                let i = given.as_ref().unwrap_or(&quiet);
+                // What the bench says of going on is in it.
+                let ((), _) = simulator.step_watched(i, &mut *bench, |_| ())?;
+                let positions = bench.axes.iter().map(|axis| axis.driver.position());
+                motors.step(bench.unit(), positions);
+            }
+            Ok(motors.report())
+        },
+    )
 }
 
 /// Does what [`play`] does, but goes over idle ticks: for an `observer` that need not see
@@ -198,7 +243,7 @@ pub fn fast_forward_by(
     if table.patterns().iter().any(|pattern| pattern.period == 1) {
         return play_by(group, table, computer, observer);
     }
-    played(group, table, observer, |simulator, bench| {
+    played(group, table, (observer, None), |simulator, bench| {
         let (pending, quiet) = (bench.see.pending, zero(group));
         bench.pieces = true;
         while !bench.over {
@@ -210,7 +255,7 @@ pub fn fast_forward_by(
             };
             simulator.fast_forward(u64::MAX, drive, &mut *bench)?;
         }
-        Ok(())
+        Ok(Vec::new())
     })
 }
 
@@ -228,22 +273,31 @@ fn fits(group: &Group, table: &Table) -> Result<(), SettingError> {
     )
 }
 
-/// What the drivers see of a group that is run to the end of `table`.
+impl See {
+    fn of(watch: &Watcher<'_, Group>) -> Self {
+        See {
+            pending: watch.at(watch.p.port.q.pending),
+            step: watch.each(&watch.w.step),
+            dir: watch.each(&watch.w.dir),
+            unit_rst: watch.at(watch.w.unit_rst),
+            busy: watch.at(watch.w.busy),
+        }
+    }
+}
+
+/// What the drivers see of a group that is run to the end of `table`, and what `run` says of motors.
 fn played<O: Observer<Group>>(
     group: &Group,
     table: &Table,
-    observer: O,
-    run: impl FnOnce(&mut Simulator<Group>, &mut Bench<O>) -> Result<(), RunError>,
+    (observer, beside): (O, Option<StepMotors>),
+    run: impl FnOnce(&mut Simulator<Group>, &mut Bench<O>) -> Result<Vec<MotorReport>, RunError>,
 ) -> Result<Played, JobError> {
     fits(group, table)?;
     let all = observer.needs_all();
-    let (mut simulator, see) = Simulator::watching(group, all, |watch| See {
-        pending: watch.at(watch.p.port.q.pending),
-        step: watch.each(&watch.w.step),
-        dir: watch.each(&watch.w.dir),
-        unit_rst: watch.at(watch.w.unit_rst),
-        busy: watch.at(watch.w.busy),
-    })?;
+    let (mut simulator, see) = match beside {
+        None => Simulator::watching(group, all, See::of),
+        Some(motors) => Simulator::watching_beside(group, &motors, all, See::of),
+    }?;
     let mut bench = Bench {
         see,
         observer,
@@ -258,7 +312,7 @@ fn played<O: Observer<Group>>(
         idle_units: 0,
         last_tick: 0,
     };
-    run(&mut simulator, &mut bench)?;
+    let motors = run(&mut simulator, &mut bench)?;
     let axes = bench.axes.iter().map(|Paced { driver, spread }| {
         let (pulses, position) = (driver.pulses() as i64, driver.position());
         PlayedAxis {
@@ -275,6 +329,7 @@ fn played<O: Observer<Group>>(
         idle_units: bench.idle_units,
         axes: axes.collect(),
         positions: bench.positions,
+        motors,
     })
 }
 

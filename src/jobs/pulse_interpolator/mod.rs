@@ -4,6 +4,8 @@
 pub mod beside;
 pub mod control_computer;
 pub mod job;
+pub mod motors;
+pub mod rates;
 pub mod spread;
 pub mod step_dir;
 pub mod stored;

@@ -11,7 +11,7 @@ use motion_rtl::circuits::arc_generator::{
 };
 use motion_rtl::circuits::blocks::cordic_state::GAIN;
 use motion_rtl::hdl::{Simulator, zero};
-use motion_rtl::jobs::arc_generator::beside::{RECORDS, play, records};
+use motion_rtl::jobs::arc_generator::beside::{play, records};
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
 use motion_rtl::jobs::arc_generator::job::Needed;
 use motion_rtl::jobs::arc_generator::prepare::Timing;
@@ -350,10 +350,7 @@ fn a_halt_leaves_nothing_behind() {
 #[test]
 fn what_does_not_fit_has_no_records() {
     let fits = method([0.0, 0.0, 1.0], 8000.0, 3.0, 1e6);
-    assert_eq!(
-        records(&fits, 1e3, &FULL).map(|all| all.len()),
-        Some(RECORDS)
-    );
+    assert_eq!(records(&fits, 1e3, &FULL).map(|all| all.len()), Some(4));
     // 2^23 counts are 8388.6 mm.
     let wide = method([0.0, 0.0, 1.0], 8400.0, 3.0, 1e6);
     assert_eq!(records(&wide, 1e3, &FULL), None);

@@ -11,6 +11,7 @@ use crate::cli::table::ratio;
 use motion_rtl::circuits::pulse_interpolator::{AXIS_NAMES, Widths};
 use motion_rtl::input::Fault;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
+use motion_rtl::jobs::pulse_interpolator::motors::Motors;
 use motion_rtl::jobs::pulse_interpolator::table::MAX_UNITS;
 use motion_rtl::jobs::pulse_interpolator::{AxisScaling, StepTiming, Stored, StoredError, Table};
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
@@ -26,6 +27,7 @@ struct Job {
     timing: StepTiming,
     patterns: Vec<Pattern>,
     stored: Stored,
+    motors: Option<Motors>,
 }
 
 /// A pattern of the memory.
@@ -94,6 +96,8 @@ impl Job {
             scenario.standalone,
         )
         .map_err(|error| stored_fault(loaded, error))?;
+        let motors = scenario.motors(stored.group.axes);
+        let motors = motors.map_err(|error| loaded.refuse(error))?;
         let Source { loaded, stem, .. } = source;
         Ok(Job {
             loaded,
@@ -102,6 +106,7 @@ impl Job {
             scenario: scenario.clone(),
             patterns,
             stored,
+            motors,
         })
     }
 }
@@ -171,7 +176,7 @@ pub fn run(arguments: &Arguments, source: Source, scenario: &Scenario) -> Result
         (&job.loaded, &job.stem),
         (&stored.group, &stored.played),
         &options,
-        &mut stored.computer(),
+        (&mut stored.computer(), job.motors.clone()),
     )?;
     files.write("svg", &draw(&job, &played))?;
     conclude(arguments, &options, files, Summary::new(&job, &played))

@@ -1,6 +1,7 @@
 //! What came of patterns that were played.
 
 use super::Job;
+use crate::cli::pulse::rates::{self, Rows};
 use crate::cli::pulse::summary::Minima;
 use crate::cli::pulse::text::timing;
 use crate::cli::pulse::verdict::{count, miscount};
@@ -31,6 +32,8 @@ pub struct Summary {
     memory_words: [u64; 2],
     patterns: Vec<PatternSummary>,
     axes: BTreeMap<&'static str, AxisSummary>,
+    /// Step rates of each axis, and its motor.
+    step_rates: Rows,
     /// Unit times played.
     units: usize,
     /// Unit times without pulses between two patterns.
@@ -114,8 +117,11 @@ impl Summary {
                 .as_ref()
                 .map(|axes| axes.iter().map(Into::into).collect()),
         });
+        let exact = complaints.is_empty();
+        let step_rates = rates::rows(&stored.played, played);
+        complaints.extend(rates::complaints(&step_rates));
         Summary {
-            exact: complaints.is_empty(),
+            exact,
             variant: job.scenario.variant.name(),
             standalone: job.scenario.standalone,
             commands: stored.commands.len(),
@@ -125,6 +131,7 @@ impl Summary {
             ],
             patterns: patterns.collect(),
             axes,
+            step_rates,
             units: stored.played.units(),
             idle_units: played.idle_units,
             outcome: Outcome {
@@ -204,6 +211,8 @@ impl Report for Summary {
                 timing(&axis.timing_min_ticks),
             )?;
         }
+        text.push('\n');
+        rates::write(&self.step_rates, text)?;
         writeln!(text, "\n{} unit times", self.units)?;
         if self.idle_units > 0 {
             let idle = self.idle_units;

@@ -1,0 +1,140 @@
+//! Step motors on the drivers of a group, in the waves beside it.
+
+use crate::circuits::pulse_interpolator::AXIS_NAMES;
+use crate::hdl::{Beside, Value, View, signals};
+use crate::plant::{StepMotor, StepMotorParameters};
+use crate::settings::SettingError;
+use fixed::types::I56F8;
+
+signals! { for StepMotors as _c;
+    /// A step motor as it really is.
+    pub struct StepMotorSignals {
+        /// Position in 1/256 of a step of the driver.
+        pub position: I(48) as Analog,
+        /// Speed in steps of the driver a second.
+        pub speed: I(32) as Analog,
+        /// How far its field is ahead of it, in 1/256 of a full step.
+        pub ahead: I(48) as Analog,
+    }
+}
+
+signals! { for StepMotors as c;
+    /// The motors of all axes.
+    pub struct StepMotorsSignals {
+        /// X first.
+        pub axes: [StepMotorSignals(c); c.axes] as Elements(&AXIS_NAMES),
+    }
+}
+
+/// Step motors beside the circuit whose drivers they are on.
+#[derive(Debug, Clone, Copy)]
+pub struct StepMotors {
+    /// How many.
+    pub axes: usize,
+}
+
+impl Beside for StepMotors {
+    const SCOPE: &'static str = "plant";
+    type Signals<V: View> = StepMotorsSignals<V>;
+}
+
+/// What became of a motor.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MotorReport {
+    /// Largest distance between rotor and field, in full steps.
+    pub off_full_steps: f64,
+    /// The first unit time of the table in which it was so large.
+    pub off_unit: usize,
+    /// The first in which the rotor was nearer to another tooth than to its own.
+    pub lost_unit: Option<usize>,
+    /// Steps of the driver that are lost for good: the motor is behind by these where it comes to
+    /// rest.
+    pub lost_steps: i64,
+}
+
+/// A motor that is followed.
+#[derive(Debug, Clone)]
+struct Followed {
+    motor: StepMotor,
+    commanded: i64,
+    report: MotorReport,
+}
+
+/// The motors of all axes.
+#[derive(Debug, Clone)]
+pub struct Motors {
+    axes: Vec<Followed>,
+    /// Ticks in which a motor comes to rest.
+    rest: u64,
+}
+
+/// Free swings in which a motor comes to rest, as far as it does.
+const SWINGS: f64 = 200.0;
+
+impl Motors {
+    /// Motors alike on so many axes.
+    ///
+    /// # Errors
+    /// [`SettingError`] names the parameter that is out of range.
+    pub fn new(
+        parameters: &StepMotorParameters,
+        axes: usize,
+        clock_hz: u64,
+    ) -> Result<Self, SettingError> {
+        let motor = StepMotor::new(parameters, 1.0 / clock_hz as f64)?;
+        let swing_s = std::f64::consts::TAU / parameters.natural_rad_per_s();
+        let followed = Followed {
+            motor,
+            commanded: 0,
+            report: MotorReport::default(),
+        };
+        Ok(Motors {
+            axes: vec![followed; axes],
+            rest: (SWINGS * swing_s * clock_hz as f64) as u64,
+        })
+    }
+
+    /// As they stand.
+    pub fn signals(&self) -> StepMotorsSignals<Value> {
+        let fine = |amount: f64| I56F8::saturating_from_num(amount).to_bits();
+        let signals = |axis: &Followed| StepMotorSignals {
+            position: fine(axis.motor.position_steps()),
+            speed: axis.motor.speed_steps_per_s().round() as i64,
+            ahead: fine(axis.motor.off_full_steps(axis.commanded)),
+        };
+        StepMotorsSignals {
+            axes: self.axes.iter().map(signals).collect(),
+        }
+    }
+
+    /// A tick of unit time `unit`, with the drivers at `positions`.
+    pub fn step(&mut self, unit: usize, positions: impl Iterator<Item = i64>) {
+        for (axis, commanded) in self.axes.iter_mut().zip(positions) {
+            axis.commanded = commanded;
+            axis.motor.step(commanded);
+            let off = axis.motor.off_full_steps(commanded).abs();
+            let report = &mut axis.report;
+            if off > report.off_full_steps {
+                (report.off_full_steps, report.off_unit) = (off, unit);
+            }
+            if report.lost_unit.is_none() && axis.motor.lost_steps(commanded) != 0 {
+                report.lost_unit = Some(unit);
+            }
+        }
+    }
+
+    /// What became of each, once they have come to rest.
+    pub fn report(mut self) -> Vec<MotorReport> {
+        let rest = self.rest;
+        let ended = self.axes.iter_mut().map(|axis| {
+            for _ in 0..rest {
+                axis.motor.step(axis.commanded);
+            }
+            MotorReport {
+                lost_steps: axis.motor.lost_steps(axis.commanded),
+                ..axis.report
+            }
+        });
+        ended.collect()
+    }
+}

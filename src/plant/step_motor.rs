@@ -1,0 +1,352 @@
+//! A hybrid step motor on its driver: the magnet of a rotor in a field that turns step by step.
+//!
+//! ```text
+//! J·dω/dt = T·sin(p·(φ − θ)) − D·ω − friction        p = full steps a turn / 4
+//! ```
+//!
+//! φ is where the driver's position has the field, in whole steps or microsteps; the currents are
+//! there at once. A rotor that is more than two full steps off is nearer to the next tooth: it has
+//! lost four.
+
+use super::Plant;
+use super::parameters::{POSITIVE, check_tick};
+use crate::settings::{SettingError, within};
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// Full steps from one tooth of the rotor to the next.
+const TOOTH: f64 = 4.0;
+/// Radians of its free swing that the rotor is followed in at most at a time.
+const SWING: f64 = 0.02;
+
+/// Step motor, driver and load of one axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepMotorParameters {
+    /// Greatest torque at standstill, in N·m.
+    pub holding_torque_nm: f64,
+    /// Inertia of rotor and load, in kg·m².
+    pub inertia_kg_m2: f64,
+    /// Torque that grows with the speed, in N·m a rad/s.
+    pub damping_nm_s: f64,
+    /// Coulomb friction, in N·m; 0 for none.
+    pub friction_nm: f64,
+    /// Full steps a turn: 200 are of 1.8°.
+    pub full_steps_per_rev: u32,
+    /// Steps of the driver in a full step.
+    pub microsteps: u32,
+}
+
+impl Default for StepMotorParameters {
+    /// A motor of 57 mm with its load, in full steps.
+    fn default() -> Self {
+        StepMotorParameters {
+            holding_torque_nm: 1.0,
+            inertia_kg_m2: 5e-5,
+            damping_nm_s: 5e-3,
+            friction_nm: 0.03,
+            full_steps_per_rev: 200,
+            microsteps: 1,
+        }
+    }
+}
+
+impl StepMotorParameters {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// [`SettingError`] names the first that is outside its range or not a number.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        let least = 0.0..=*POSITIVE.end();
+        within("holding_torque_nm", self.holding_torque_nm, &POSITIVE)?;
+        within("inertia_kg_m2", self.inertia_kg_m2, &POSITIVE)?;
+        within("damping_nm_s", self.damping_nm_s, &least)?;
+        within("friction_nm", self.friction_nm, &least)?;
+        within("full_steps_per_rev", self.full_steps_per_rev, &(4..=10_000))?;
+        within("microsteps", self.microsteps, &(1..=1024))
+    }
+
+    /// Full steps of a radian.
+    fn full_steps_per_rad(&self) -> f64 {
+        f64::from(self.full_steps_per_rev) / TAU
+    }
+
+    /// ω0 = √(p·T/J): of small swings about a tooth, in rad/s.
+    #[must_use]
+    pub fn natural_rad_per_s(&self) -> f64 {
+        let teeth = f64::from(self.full_steps_per_rev) / TOOTH;
+        (teeth * self.holding_torque_nm / self.inertia_kg_m2).sqrt()
+    }
+}
+
+/// A step motor, stepped once a reference tick.
+#[derive(Debug, Clone)]
+pub struct StepMotor {
+    /// Steps of the driver in a full step.
+    microsteps: f64,
+    /// T/J, in full steps/s².
+    pull: f64,
+    /// D/J.
+    damping: f64,
+    /// Friction/J, in full steps/s².
+    friction: f64,
+    /// The parts that a tick is followed in, and how long one is.
+    parts: u32,
+    part_s: f64,
+    rotor: Rotor,
+}
+
+/// Position in full steps, speed in full steps a second.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Rotor {
+    position: f64,
+    speed: f64,
+}
+
+impl StepMotor {
+    /// A motor at rest at position 0, on a reference tick of `tick_s` seconds.
+    ///
+    /// # Errors
+    /// [`SettingError`] names the parameter, or `tick_s`, that is out of range.
+    pub fn new(parameters: &StepMotorParameters, tick_s: f64) -> Result<Self, SettingError> {
+        parameters.validate()?;
+        check_tick(tick_s)?;
+        let per_inertia = parameters.full_steps_per_rad() / parameters.inertia_kg_m2;
+        let swing =
+            parameters.natural_rad_per_s() + parameters.damping_nm_s / parameters.inertia_kg_m2;
+        let parts = (swing * tick_s / SWING).ceil().max(1.0);
+        Ok(StepMotor {
+            microsteps: f64::from(parameters.microsteps),
+            pull: parameters.holding_torque_nm * per_inertia,
+            damping: parameters.damping_nm_s / parameters.inertia_kg_m2,
+            friction: parameters.friction_nm * per_inertia,
+            parts: parts as u32,
+            part_s: tick_s / parts,
+            rotor: Rotor::default(),
+        })
+    }
+
+    /// One tick, with the driver at `commanded`, in its steps.
+    pub fn step(&mut self, commanded: i64) {
+        let field = commanded as f64 / self.microsteps;
+        let Rotor { position, speed } = &mut self.rotor;
+        for _ in 0..self.parts {
+            let pull = self.pull * (FRAC_PI_2 * (field - *position)).sin();
+            let free = *speed + (pull - self.damping * *speed) * self.part_s;
+            // Friction takes what stops it, at most.
+            let taken = (self.friction * self.part_s).min(free.abs());
+            *speed = free - taken.copysign(free);
+            *position += *speed * self.part_s;
+        }
+    }
+
+    /// Position in steps of the driver.
+    #[must_use]
+    pub fn position_steps(&self) -> f64 {
+        self.rotor.position * self.microsteps
+    }
+
+    /// Speed in steps of the driver a second.
+    #[must_use]
+    pub fn speed_steps_per_s(&self) -> f64 {
+        self.rotor.speed * self.microsteps
+    }
+
+    /// How far the field is ahead of the rotor, in full steps.
+    #[must_use]
+    pub fn off_full_steps(&self, commanded: i64) -> f64 {
+        commanded as f64 / self.microsteps - self.rotor.position
+    }
+
+    /// By how many steps of the driver the nearest tooth is behind the one it began at: a multiple of
+    /// four full steps.
+    #[must_use]
+    pub fn lost_steps(&self, commanded: i64) -> i64 {
+        let teeth = (self.off_full_steps(commanded) / TOOTH).round();
+        (teeth * TOOTH * self.microsteps) as i64
+    }
+}
+
+impl Plant for StepMotor {
+    type State = Rotor;
+
+    fn state(&self) -> Rotor {
+        self.rotor
+    }
+
+    fn set_state(&mut self, rotor: Rotor) {
+        self.rotor = rotor;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TICK_S: f64 = 1e-5;
+
+    fn ideal() -> StepMotorParameters {
+        StepMotorParameters {
+            damping_nm_s: 0.0,
+            friction_nm: 0.0,
+            ..StepMotorParameters::default()
+        }
+    }
+
+    fn motor(parameters: &StepMotorParameters) -> StepMotor {
+        StepMotor::new(parameters, TICK_S).unwrap()
+    }
+
+    #[test]
+    fn a_small_swing_has_the_natural_frequency() {
+        for inertia_kg_m2 in [5e-5, 2e-4] {
+            let parameters = StepMotorParameters {
+                inertia_kg_m2,
+                microsteps: 64,
+                ..ideal()
+            };
+            let mut motor = motor(&parameters);
+            // One microstep: it swings from 0 to 2 and is at 1 in every half of its period.
+            let period = TAU / parameters.natural_rad_per_s();
+            let (mut crossings, mut before, mut last) = (0u32, 0.0, 0);
+            for tick in 1..=100_000u32 {
+                motor.step(1);
+                let now = motor.position_steps();
+                assert!(now > -1e-2 && now < 2.01, "{now}");
+                if (before < 1.0) != (now < 1.0) {
+                    (crossings, last) = (crossings + 1, tick);
+                }
+                before = now;
+            }
+            // The first is after a quarter.
+            let measured = f64::from(last) * TICK_S / (f64::from(crossings) / 2.0 - 0.25);
+            assert!(
+                (measured / period - 1.0).abs() < 2e-3,
+                "{measured} {period}"
+            );
+        }
+    }
+
+    /// A field that starts at once, at so many full steps a second.
+    fn started(parameters: &StepMotorParameters, rate: f64) -> i64 {
+        let mut motor = motor(parameters);
+        let per_tick = rate * f64::from(parameters.microsteps) * TICK_S;
+        let command = |tick: u32| (f64::from(tick) * per_tick) as i64;
+        for tick in 0..20_000 {
+            motor.step(command(tick));
+        }
+        let lost = motor.lost_steps(command(20_000));
+        assert_eq!(lost % (4 * i64::from(parameters.microsteps)), 0);
+        lost
+    }
+
+    #[test]
+    fn it_starts_up_to_the_rate_at_which_a_pendulum_does_not_turn_over() {
+        let parameters = StepMotorParameters {
+            microsteps: 256,
+            ..ideal()
+        };
+        // Seen from the field the rotor is a pendulum that is pushed: electrically by 2ω0 at most.
+        let most = 2.0 * parameters.natural_rad_per_s() / FRAC_PI_2;
+        assert_eq!(started(&parameters, 0.98 * most), 0);
+        assert!(started(&parameters, 1.02 * most) > 0);
+        assert_eq!(started(&parameters, -0.98 * most), 0);
+        assert!(started(&parameters, -1.02 * most) < 0);
+    }
+
+    #[test]
+    fn in_motion_it_lags_by_what_friction_and_damping_take() {
+        let parameters = StepMotorParameters {
+            microsteps: 256,
+            friction_nm: 0.3,
+            damping_nm_s: 5e-3,
+            ..ideal()
+        };
+        let mut motor = motor(&parameters);
+        let rate = 400.0;
+        let command = |tick: u32| (f64::from(tick) * TICK_S * rate * 256.0) as i64;
+        for tick in 0..100_000 {
+            motor.step(command(tick));
+        }
+        let taken = 0.3 + 5e-3 * rate / parameters.full_steps_per_rad();
+        let lag = taken.asin() / FRAC_PI_2;
+        let off = motor.off_full_steps(command(100_000));
+        assert!((off - lag).abs() < 0.01, "{off} {lag}");
+        assert!((motor.speed_steps_per_s() / 256.0 - rate).abs() < 2.0);
+        // It stops where friction holds it, behind its field by no more.
+        for _ in 0..100_000 {
+            motor.step(command(100_000));
+        }
+        let rest = motor.off_full_steps(command(100_000)).abs();
+        assert!(rest <= 0.3f64.asin() / FRAC_PI_2, "{rest}");
+        assert_eq!(motor.speed_steps_per_s().to_bits(), 0);
+    }
+
+    #[test]
+    fn a_step_that_it_does_not_follow_is_lost_by_the_tooth() {
+        let mut motor = motor(&StepMotorParameters::default());
+        for (commanded, lost) in [(1, 0), (-1, 0), (3, 4), (5, 4), (-3, -4)] {
+            motor.set_state(Rotor::default());
+            assert_eq!(motor.lost_steps(commanded), lost, "{commanded}");
+            for _ in 0..100_000 {
+                motor.step(commanded);
+            }
+            // Friction holds it up to 0.02 steps off.
+            let at = motor.position_steps() - (commanded - lost) as f64;
+            assert!(at.abs() < 0.03, "{commanded}: {at}");
+            assert_eq!(motor.lost_steps(commanded), lost, "{commanded}");
+        }
+    }
+
+    #[test]
+    fn figures_out_of_range_are_refused() {
+        let good = StepMotorParameters::default();
+        assert!(StepMotor::new(&good, TICK_S).is_ok());
+        let bad = [
+            (
+                "holding_torque_nm",
+                StepMotorParameters {
+                    holding_torque_nm: 0.0,
+                    ..good
+                },
+            ),
+            (
+                "inertia_kg_m2",
+                StepMotorParameters {
+                    inertia_kg_m2: f64::NAN,
+                    ..good
+                },
+            ),
+            (
+                "damping_nm_s",
+                StepMotorParameters {
+                    damping_nm_s: -1.0,
+                    ..good
+                },
+            ),
+            (
+                "friction_nm",
+                StepMotorParameters {
+                    friction_nm: -1.0,
+                    ..good
+                },
+            ),
+            (
+                "full_steps_per_rev",
+                StepMotorParameters {
+                    full_steps_per_rev: 3,
+                    ..good
+                },
+            ),
+            (
+                "microsteps",
+                StepMotorParameters {
+                    microsteps: 0,
+                    ..good
+                },
+            ),
+        ];
+        for (field, parameters) in bad {
+            let error = StepMotor::new(&parameters, TICK_S).unwrap_err().to_string();
+            assert!(error.contains(field), "{error}");
+        }
+    }
+}
