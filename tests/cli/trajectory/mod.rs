@@ -2,6 +2,7 @@
 
 mod axes;
 mod curves;
+mod plant;
 
 use super::scenarios::{CIRCLE, POCKET, runs_exactly};
 use super::support::{Bench, keys, list, near, number, whole};
@@ -520,6 +521,6 @@ fn the_overview_is_whole() {
     let rows = overview
         .lines()
         .filter(|line| line.contains("trajectory_controller."));
-    // Sixteen, and two states by name.
-    assert_eq!(rows.count(), 18, "{overview}");
+    // Twenty, and two states by name.
+    assert_eq!(rows.count(), 22, "{overview}");
 }
