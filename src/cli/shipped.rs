@@ -58,7 +58,7 @@ macro_rules! embedded {
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 14] = [
+pub const SHIPPED: [Shipped; 15] = [
     shipped!(
         "waves/machine.toml",
         "a bracket in G-code on steppers, servos and a pen lift, by all five circuits; runs by default",
@@ -113,6 +113,11 @@ pub const SHIPPED: [Shipped; 14] = [
         "waves/cam.toml",
         "a cam of 3600 short chords in G-code, run at feed, on the trajectory controller",
         input: "waves/cam.ngc"
+    ),
+    shipped!(
+        "waves/face.toml",
+        "a face in space of short chords in G-code, run at feed, on the trajectory controller",
+        input: "waves/face.ngc"
     ),
     shipped!(
         "waves/saddle.toml",

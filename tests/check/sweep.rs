@@ -1,5 +1,6 @@
 //! Sweeps: what they find, and that it is the same whatever runs them.
 
+mod feedback;
 mod line;
 mod words;
 

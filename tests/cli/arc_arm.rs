@@ -1,10 +1,8 @@
 //! The arc generator's commands as those of an arm's joints: figures, waves, refusals.
 
 use super::arc::{SEAM, with};
-use super::support::{Bench, list, near, number, whole};
-use std::collections::HashMap;
+use super::support::{Bench, list, near, number, whole, words};
 use std::f64::consts::TAU;
-use vcd::{Command, Parser, ScopeItem, Value};
 
 /// Shoulder 350 mm above the origin.
 const ARM: &str = "[arm]\nshoulder_mm = [0, 0, 350]\nupper_mm = 300\nfore_mm = 350\n";
@@ -43,43 +41,6 @@ fn around_the_shoulder_the_base_alone_turns() {
         1e-3,
     );
     assert_eq!(whole(&summary, "/arm/counts_per_rev"), 1 << 20);
-}
-
-/// The words of some signals in every tick, by their paths.
-fn words(dump: &str, wanted: &[&str]) -> Vec<Vec<i64>> {
-    let mut parser = Parser::new(dump.as_bytes());
-    let header = parser.parse_header().unwrap();
-    let mut codes = HashMap::new();
-    let clock = header.find_var(&["arc_generator", "clk"]).unwrap().code;
-    for (place, path) in wanted.iter().enumerate() {
-        let (scope, name) = path.rsplit_once('.').unwrap();
-        let scope: Vec<&str> = scope.split('.').collect();
-        let scope = header.find_scope(&scope).unwrap();
-        let var = scope.items.iter().find_map(|item| match item {
-            ScopeItem::Var(var) if var.reference == name => Some(var),
-            _ => None,
-        });
-        let var = var.unwrap();
-        codes.insert(var.code, (place, 64 - var.size as usize));
-    }
-    let (mut now, mut ticks) = (vec![0; wanted.len()], Vec::new());
-    for command in parser {
-        match command.unwrap() {
-            Command::ChangeVector(code, vector) => {
-                let word = vector
-                    .iter()
-                    .fold(0u64, |word, bit| word << 1 | u64::from(bit == Value::V1));
-                // Zeros in front are left out.
-                if let Some(&(place, unused)) = codes.get(&code) {
-                    now[place] = (word << unused) as i64 >> unused;
-                }
-            }
-            // When the clock falls, everything of the tick has been said.
-            Command::ChangeScalar(code, Value::V0) if code == clock => ticks.push(now.clone()),
-            _ => {}
-        }
-    }
-    ticks
 }
 
 #[test]

@@ -133,7 +133,7 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
         "linear_interpolator" => 11,
         "arc_generator" if summary["arm"].is_object() => 17,
         "lead_angle" | "arc_generator" => 14,
-        "trajectory_controller" => 16,
+        "trajectory_controller" => 20,
         "machine" => 28,
         other => panic!("{other}"),
     };

@@ -2,9 +2,11 @@
 
 use assert_cmd::Command;
 use serde_json::Value;
+use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
+use vcd::{Command as Change, Parser, ScopeItem, Value as Level};
 
 /// The program under test.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_motion-rtl");
@@ -185,4 +187,47 @@ pub fn near(value: f64, expected: f64, tolerance: f64) {
         (value - expected).abs() <= tolerance,
         "{value}, not {expected} within {tolerance}"
     );
+}
+
+/// The words of some signals in every tick of a VCD, by their paths; of one bit 0 and 1.
+pub fn words(dump: &str, wanted: &[&str]) -> Vec<Vec<i64>> {
+    let mut parser = Parser::new(dump.as_bytes());
+    let header = parser.parse_header().unwrap();
+    let mut codes = HashMap::new();
+    let (top, _) = wanted[0].split_once('.').unwrap();
+    let clock = header.find_var(&[top, "clk"]).unwrap().code;
+    for (place, path) in wanted.iter().enumerate() {
+        let (scope, name) = path.rsplit_once('.').unwrap();
+        let scope: Vec<&str> = scope.split('.').collect();
+        let scope = header.find_scope(&scope).unwrap();
+        let var = scope.items.iter().find_map(|item| match item {
+            ScopeItem::Var(var) if var.reference == name => Some(var),
+            _ => None,
+        });
+        let var = var.unwrap();
+        codes.insert(var.code, (place, 64 - var.size as usize));
+    }
+    let (mut now, mut ticks) = (vec![0; wanted.len()], Vec::new());
+    for command in parser {
+        match command.unwrap() {
+            Change::ChangeVector(code, vector) => {
+                let word = vector
+                    .iter()
+                    .fold(0u64, |word, bit| word << 1 | u64::from(bit == Level::V1));
+                // Zeros in front are left out.
+                if let Some(&(place, unused)) = codes.get(&code) {
+                    now[place] = (word << unused) as i64 >> unused;
+                }
+            }
+            Change::ChangeScalar(code, value) if code != clock => {
+                if let Some(&(place, _)) = codes.get(&code) {
+                    now[place] = i64::from(value == Level::V1);
+                }
+            }
+            // When the clock falls, everything of the tick has been said.
+            Change::ChangeScalar(_, Level::V0) => ticks.push(now.clone()),
+            _ => {}
+        }
+    }
+    ticks
 }

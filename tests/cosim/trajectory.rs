@@ -3,7 +3,7 @@
 
 use super::tools::{Simulator, complete, write};
 use motion_rtl::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
-use motion_rtl::hdl::Declarations;
+use motion_rtl::hdl::{Declarations, Without};
 use motion_rtl::input::Point;
 use motion_rtl::jobs::trajectory_controller::job::{Program, play};
 use motion_rtl::jobs::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
@@ -66,7 +66,8 @@ fn hold(axes: usize, correction: Correction, rounding: Rounding, simulator: Simu
     let (clock, options) = (Clock::default(), Options::default());
     let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &options).unwrap();
     let mut stimulus = StimulusFile::new(create("stimulus"), &circuit);
-    let played = play(&circuit, &program, plants, (&mut vcd, &mut stimulus)).unwrap();
+    let observers = (Without(&mut vcd), Without(&mut stimulus));
+    let played = play(&circuit, &program, plants, observers).unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
     assert!(!played.late && !played.starved && !played.lost && played.settled);

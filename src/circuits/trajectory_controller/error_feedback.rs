@@ -47,7 +47,7 @@ impl FeedbackWidths {
     }
 
     /// Coordinate of a direction, signed.
-    const fn direction(&self) -> usize {
+    pub(super) const fn direction(&self) -> usize {
         2 * self.direction_pairs()
     }
 
@@ -83,7 +83,7 @@ impl FeedbackWidths {
 
     /// A sum: three times of three errors, or of a normal and a tangential one, above what a factor
     /// has of whole bits.
-    const fn sum(&self) -> usize {
+    pub(super) const fn sum(&self) -> usize {
         self.position + self.whole() + 5
     }
 }

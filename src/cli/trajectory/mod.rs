@@ -16,9 +16,11 @@ use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
 use super::{Failure, threads};
 use motion_rtl::circuits::trajectory_controller::TrajectoryController;
+use motion_rtl::hdl::{Model, RunError, Without, model_beside};
 use motion_rtl::jobs::trajectory_controller::job::{Played, controller, play};
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::plant::TwoMassAxis;
+use motion_rtl::plant::waves::Machine;
 use motion_rtl::settings::JobError;
 use motion_rtl::trace::Options;
 use picture::draw;
@@ -30,8 +32,8 @@ use summary::Summary;
 const PERIODS_SHOWN: u64 = 4;
 const IN_MOTION: usize = 200;
 
-/// What the save file begins with: from the length along the path to the torques.
-const OVERVIEW: [&str; 16] = [
+/// What the save file begins with: from the length along the path to the loads.
+const OVERVIEW: [&str; 20] = [
     "sampled",
     "fresh",
     "progress.length",
@@ -42,12 +44,16 @@ const OVERVIEW: [&str; 16] = [
     "x.servo.arithmetic.state",
     "torque_x",
     "position_x",
+    "plant.x.load_position",
+    "plant.x.twist",
     "y.command",
     "y.corrector.correction",
     "y.servo.model.integrators.position",
     "y.servo.arithmetic.state",
     "torque_y",
     "position_y",
+    "plant.y.load_position",
+    "plant.y.twist",
 ];
 
 /// In the order in which they are shown.
@@ -71,9 +77,10 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Files), Failure> {
     let traced = job.settings.correction;
     let circuit = controller(job.axes(), traced, job.settings.rounding);
+    let model = model_beside(&circuit, &Machine { axes: job.axes() }).map_err(RunError::from)?;
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     // Before the others run, as what it refuses would wait for them.
-    let traces = Traces::begin((&circuit, &circuit), arguments, scenario, options, ticks)?;
+    let traces = Traces::begin((&model, &circuit), arguments, scenario, options, ticks)?;
     thread::scope(|scope| {
         let mut others = Vec::new();
         for correction in CORRECTIONS {
@@ -81,7 +88,7 @@ fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Fil
             let started = (correction != traced).then(|| threads::beside(scope, untraced));
             others.push(started.transpose()?);
         }
-        let own = simulate(&circuit, job, traces);
+        let own = simulate((&circuit, &model), job, traces);
         let others: Vec<_> = others
             .into_iter()
             .map(|other| other.map(threads::joined))
@@ -116,17 +123,14 @@ fn untraced(job: &Job, correction: Correction) -> Result<Played, Failure> {
 
 /// Plays the path with its waves.
 fn simulate(
-    circuit: &TrajectoryController,
+    (circuit, model): (&TrajectoryController, &Model),
     job: &Job,
     mut traces: Traces<'_>,
 ) -> Result<(Played, Files), Failure> {
     let plants = plants(job)?;
     let mut progress = Progress::new(job.ticks_at_least());
-    let files = (
-        traces.waves.as_mut(),
-        traces.stimulus.as_mut(),
-        traces.noted.as_mut(),
-    );
+    let stimulus = traces.stimulus.as_mut().map(Without);
+    let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
     let played = play(circuit, &job.program, plants, (files, &mut progress))?;
     drop(progress);
     let shown = PERIODS_SHOWN * u64::from(job.program.period_ticks);
@@ -139,6 +143,6 @@ fn simulate(
         shown,
         overview: &OVERVIEW,
     };
-    let files = traces.finish(circuit, &focus, played.ticks)?;
+    let files = traces.finish(model, &focus, played.ticks)?;
     Ok((played, files))
 }

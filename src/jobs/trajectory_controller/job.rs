@@ -8,6 +8,7 @@ use super::settings::Correction;
 use crate::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
 use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
 use crate::input::COORDINATES;
+use crate::plant::waves::{Machine, MachineSignals};
 use crate::plant::{Ahead, Plant, TwoMassAxis};
 use crate::settings::{JobError, SettingError};
 use std::array::from_fn;
@@ -238,8 +239,9 @@ pub(crate) fn patience(program: &Program) -> usize {
     (20.0 * slowest + 1.0 / program.motion.period) as usize
 }
 
-/// Plays a program on `circuit`, with `plants` on its axes, seen by `observer` too, until the path is
-/// over and models and motors have settled, for a bounded time.
+/// Plays a program on `circuit`, with `plants` on its axes, which stand in the waves beside it
+/// ([`Machine`]); seen by `observer` too, until the path is over and models and motors have settled,
+/// for a bounded time.
 ///
 /// The path is written to the circuit before it begins, a word a tick, and the profile's records as
 /// they find room. The plants are stepped once a tick, with the torques of the tick before.
@@ -268,7 +270,8 @@ pub fn play(
         axes,
         ..Played::default()
     };
-    let (mut simulator, see) = Simulator::watching(circuit, observer.needs_all(), See::of)?;
+    let (all, beside) = (observer.needs_all(), Machine { axes });
+    let (mut simulator, see) = Simulator::watching_beside(circuit, &beside, all, See::of)?;
     let mut compared = None;
     let (mut rests, mut calm, patience) = (0, 0, patience(program));
     let unit = (Widths::FULL.guard() as f64).exp2();
@@ -287,6 +290,9 @@ pub fn play(
             motors.plants.now.start = Some(0);
         }
         let plants = &motors.plants.axes;
+        if observer.looks(simulator.tick()) {
+            simulator.show::<Machine>(&MachineSignals::of(plants));
+        }
         let (mut quiet, mut ended) = (true, false);
         let take = |now: &Sample<'_, _>| {
             host.records.free = now.get(see.ready) && !pushed;

@@ -2,6 +2,7 @@
 
 mod axes;
 mod curves;
+mod plant;
 
 use super::scenarios::{CIRCLE, POCKET, runs_exactly};
 use super::support::{Bench, keys, list, near, number, whole};
@@ -305,6 +306,48 @@ fn the_cam_is_its_formula_and_is_run_at_feed() {
     assert_eq!(rms("steady"), rms("none"));
 }
 
+/// A spiral of chords on a saddle, which no radius is known of.
+#[test]
+fn a_face_in_space_is_corrected_chord_by_chord() {
+    let summary = Bench::new().json(&["run", "waves/face.toml", "--no-vcd"]);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(whole(&summary, "/axes"), 3);
+    let segments = list(&summary, "segments");
+    let chords = &segments[3..segments.len() - 3];
+    // 14 mm to 6 mm, 2 mm a turn, a hair nearer with each chord.
+    let (mut radius, mut angle, mut from) = (14.0, 0.0f64, [14.0, 0.0, 4.9]);
+    for chord in chords {
+        assert_eq!(chord["kind"], "line");
+        assert!(radius > 6.0);
+        let slope = radius / 20.0 * (2.0 * angle).sin();
+        let step = 0.1 / slope.hypot(1.0) / radius;
+        angle += step;
+        radius -= 2.0 * step / TAU;
+        let [x, y] = [radius * angle.cos(), radius * angle.sin()];
+        let to = [x, y, (x * x - y * y) / 40.0];
+        let way = [0, 1, 2].map(|k| to[k] - from[k]);
+        let length = way.iter().fold(0.0, |sum: f64, way| sum.hypot(*way));
+        near(number(chord, "/length_mm"), length, 1e-5);
+        from = to;
+    }
+    assert!(radius <= 6.0);
+    // At feed but at its ends.
+    for chord in &chords[200..chords.len() - 200] {
+        near(number(chord, "/entry_mm_per_s"), 80.0, 1e-6);
+        near(number(chord, "/speed_mm_per_s"), 80.0, 1e-6);
+        // v²/r of K1 and K2 on some radius of curvature between 6 and 14 mm, whatever the plane.
+        let um = |k: usize| number(chord, &format!("/contour_um/{k}"));
+        assert!(
+            um(0) > 20.0 && um(3) < 15.0 && um(3) < um(0) / 2.0,
+            "{chord}"
+        );
+        assert_eq!(um(0), um(1));
+    }
+    let rms = |correction: &str| number(of(&summary, correction), "/load/contour_rms_um");
+    assert!(rms("vector") < rms("none") / 4.0);
+    assert_eq!(rms("steady"), rms("none"));
+}
+
 #[test]
 fn the_worst_segments_are_shown_or_all() {
     let piece = |k: u32| format!("[[piece]]\nto_mm = [{}, {}, 0]\n", k / 2, k.div_ceil(2));
@@ -520,6 +563,6 @@ fn the_overview_is_whole() {
     let rows = overview
         .lines()
         .filter(|line| line.contains("trajectory_controller."));
-    // Sixteen, and two states by name.
-    assert_eq!(rows.count(), 18, "{overview}");
+    // Twenty, and two states by name.
+    assert_eq!(rows.count(), 22, "{overview}");
 }

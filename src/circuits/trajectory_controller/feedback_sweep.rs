@@ -1,0 +1,145 @@
+//! The error feedback's arithmetic as a law that can be swept: what is fed back of any error, along
+//! any direction that is no longer than 1 in either axis.
+//!
+//! ```text
+//!                   ┌────────────────┐
+//!  error, way ─────▶│                ├──▶ sum
+//!  gains ──────────▶│ feedback sweep ├──▶ done, early
+//!                   └────────────────┘
+//! ```
+//!
+//! Errors and ways are told, and made of words that wrap: the motor stands at a place that goes with
+//! the way, and the path begins at the command. The start stands up to the last tick: only its first
+//! is taken.
+
+use super::{ErrorFeedback, error_feedback};
+use crate::check::Law;
+use crate::hdl::prelude::*;
+
+const SUM: &[&str] = &["sum_x", "sum_y", "sum_z"];
+
+/// The law of what is fed back from power-on.
+#[derive(Debug, Clone)]
+pub struct FeedbackSweep {
+    /// The error feedback.
+    pub feedback: ErrorFeedback,
+}
+
+impl FeedbackSweep {
+    /// That of an error feedback.
+    #[must_use]
+    pub const fn new(feedback: ErrorFeedback) -> Self {
+        FeedbackSweep { feedback }
+    }
+}
+
+signals! { for FeedbackSweep as c;
+    /// An axis of a case.
+    pub struct AxisCase {
+        /// Command minus motor.
+        pub error: I(c.feedback.widths.position),
+        /// The way of a count of the path.
+        pub way: I(c.feedback.widths.direction()),
+    }
+    /// A case.
+    pub struct In {
+        /// The axes.
+        pub axes: [AxisCase(c); c.feedback.axes] as Elements(&["x", "y", "z"]),
+        /// T.
+        pub tangential_gain: U(c.feedback.widths.gain),
+        /// N.
+        pub normal_gain: U(c.feedback.widths.gain),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Ticks since the case began.
+        ticks: U(log2(c.ticks() as usize)),
+        /// `done` was high in a tick before the last.
+        was_done: Bit,
+    }
+    /// The circuit inside.
+    pub struct Parts {
+        /// The error feedback.
+        pub feedback: Part<ErrorFeedback>(c.feedback.clone()),
+    }
+    /// What is seen of it.
+    pub struct Net {
+        /// What is fed back.
+        pub sum: [I(c.feedback.widths.sum()); c.feedback.axes] as Elements(SUM),
+        /// `done` in the last tick.
+        pub done: Bit,
+        /// `done` in any other.
+        pub early: Bit,
+    }
+}
+
+impl Circuit for FeedbackSweep {
+    const NAME: &'static str = "feedback_sweep";
+    const ABOUT: &'static str = "what is fed back from power-on";
+    records!(In, Reg, Net, Parts);
+
+    fn tick(&self, i: In, q: Reg, p: Parts) -> (Net, Reg<Edge>) {
+        let each = |of: &dyn Fn(&AxisCase) -> I| i.axes.iter().map(of).collect::<Vec<I>>();
+        let widths = self.feedback.widths;
+        let guard = widths.position - widths.count;
+        let motor = |axis: &AxisCase| axis.way.resize(widths.count);
+        let command = |axis: &AxisCase| {
+            let motor = motor(axis).resize(widths.position);
+            axis.error + motor.shift_left(guard)
+        };
+        let feedback = p.feedback.settle(error_feedback::In {
+            start: q.ticks.below(self.feedback.latency()),
+            command: each(&command),
+            path: each(&|axis| command(axis) + axis.way.resize(widths.position)),
+            behind: each(&command),
+            position: each(&motor),
+            gains: error_feedback::FeedbackGains {
+                tangential_gain: i.tangential_gain,
+                normal_gain: i.normal_gain,
+            },
+        });
+        let done = feedback.q.done;
+        let net = Net {
+            sum: feedback.q.sum.clone(),
+            done,
+            early: q.was_done,
+        };
+        let next = Reg {
+            ticks: q.ticks + 1,
+            was_done: q.was_done | done,
+        };
+        (net, next)
+    }
+}
+
+impl Law for FeedbackSweep {
+    fn law(&self) -> &str {
+        "both parts of the error, each times its gain, are fed back"
+    }
+
+    fn ticks(&self) -> u64 {
+        self.feedback.latency() + 1
+    }
+
+    fn expected(&self, case: &In<Value>) -> Option<Net<Value>> {
+        let widths = self.feedback.widths;
+        let count = 1i64 << (widths.position - widths.count);
+        let gain = 1i64 << widths.gain_fraction();
+        // A count of the path is no longer than one.
+        if case.axes.iter().any(|axis| axis.way.abs() > count) {
+            return None;
+        }
+        let [tangential, normal] = [case.tangential_gain, case.normal_gain].map(|word| word as i64);
+        let along: i64 = case.axes.iter().map(|axis| axis.error * axis.way).sum();
+        let along = along.div_euclid(count);
+        let fed = case.axes.iter().map(|axis| {
+            let own = (along * axis.way).div_euclid(count);
+            (normal * (axis.error - own) + tangential * own).div_euclid(gain)
+        });
+        Some(Net {
+            sum: fed.collect(),
+            done: true,
+            early: false,
+        })
+    }
+}
