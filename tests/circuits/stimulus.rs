@@ -285,8 +285,8 @@ const FAR: &[(&str, u32)] = &[
     ("lead_arithmetic.factor", 4),
     ("speed_lead.factor", 14),
     // Times in CKs.
-    ("speed_lead.count", 9),
-    ("speed_lead.next_count", 9),
+    ("speed_detector.count", 9),
+    ("speed_detector.next_count", 9),
     ("completion_detector.still", 6),
     ("completion_detector.elapsed", 6),
     ("completion_detector.next_still", 6),

@@ -82,9 +82,11 @@ fn other_variants_are_the_same_in_icarus() {
 #[test]
 #[ignore = "needs Icarus Verilog"]
 fn the_conventional_compensator_is_the_same_in_icarus() {
-    let by_speed = Settings {
-        lead: LeadBy::Speed,
-        ..settings(2)
-    };
-    hold(&by_speed, Simulator::Icarus);
+    for lead in [LeadBy::Speed, LeadBy::Table] {
+        let conventional = Settings {
+            lead,
+            ..settings(2)
+        };
+        hold(&conventional, Simulator::Icarus);
+    }
 }

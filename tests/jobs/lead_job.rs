@@ -352,6 +352,37 @@ fn operations_on_a_log_are_learned() {
     );
 }
 
+/// Leads by speed from one memory, for all steps: right until the load changes, and off by what the
+/// way to stop has changed from then on. Nothing of it was tried before.
+#[test]
+fn a_memory_of_leads_serves_all_steps_until_the_load_changes() {
+    let settings = Settings {
+        lead: LeadBy::Table,
+        learn: false,
+        ..turntable()
+    };
+    let by_table = with_lead(&settings);
+    let mut without = turntable();
+    without.learn = false;
+    for step in &mut without.steps {
+        step.lead_ms = 0.0;
+    }
+    let none = with_lead(&without);
+    for step in 0..settings.steps.len() {
+        let [before, after] = phases(&settings, &by_table, step);
+        let [none_before, none_after] = phases(&settings, &none, step);
+        // Half a CK of way, and what the brake has faded.
+        assert!(before.iter().all(|one| off(one) <= 30.0), "{before:?}");
+        assert!(off(before[0]) <= 6.0, "{before:?}");
+        let changed = none_after[0].error - none_before[5].error;
+        let error = after[0].error - before[5].error;
+        assert!(
+            changed > 80 && (error - changed).abs() <= 12,
+            "{error}, {changed}"
+        );
+    }
+}
+
 /// Switches a distance before their targets, on the way there from either side.
 #[test]
 fn a_displaced_switch_is_a_distance_before_its_target() {

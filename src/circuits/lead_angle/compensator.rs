@@ -13,16 +13,17 @@
 //! ```
 //!
 //! Where the lead comes from is a choice: from the time Δt with the history as a shift register
-//! or as a RAM, or from the speed as in Fig. 7. `brake` is the control signal; it holds from the
+//! or as a RAM, or from the speed as in Fig. 7, by a parameter or a memory. `brake` is the control signal; it holds from the
 //! crossing through the rest up to the next step. With `passing` the body goes on, and `operate` is
 //! the control signal in place of `brake`: of an operation that is complete with its `effect`.
 
 use super::lead_source::{LeadFrom, LeadPart, LeadSource};
 use super::{
     Comparator, Comparing, CompletionDetector, Correction, Function, LeadPlacement, Memory,
-    Placement, RatioLogic, Sign, SpeedLead, StepSequencer, TargetSetter, TimeData, TimeLead,
-    TouchProbe, codes, comparator, completion_detector, correction, placement, ratio_logic,
-    speed_lead, step_sequencer, target_setter, time_data, time_lead, touch_probe,
+    Placement, RatioLogic, Sign, SpeedLead, StepSequencer, TableLead, TargetSetter, TimeData,
+    TimeLead, TouchProbe, codes, comparator, completion_detector, correction, placement,
+    ratio_logic, speed_lead, step_sequencer, table_lead, target_setter, time_data, time_lead,
+    touch_probe,
 };
 use crate::circuits::blocks::{
     EnableCounter, QuadratureCounter, enable_counter, quadrature_counter,
@@ -99,13 +100,18 @@ pub struct Compensator {
 impl Compensator {
     fn lead_source(&self) -> LeadSource {
         let Widths {
-            stages, position, ..
+            stages,
+            position,
+            cks: gate,
+            ..
         } = self.widths;
-        match self.lead_from {
-            LeadFrom::Time(memory) => LeadSource::Time(TimeLead::new(stages, position, memory)),
-            LeadFrom::Speed => LeadSource::Speed(SpeedLead {
+        match &self.lead_from {
+            LeadFrom::Time(memory) => LeadSource::Time(TimeLead::new(stages, position, *memory)),
+            LeadFrom::Speed => LeadSource::Speed(SpeedLead { position, gate }),
+            LeadFrom::Table(table) => LeadSource::Table(TableLead {
                 position,
-                gate: self.widths.cks,
+                gate,
+                table: table.clone(),
             }),
         }
     }
@@ -259,7 +265,7 @@ impl Circuit for Compensator {
         match self.lead_from {
             LeadFrom::Time(Memory::ShiftRegister) => Self::NAME,
             LeadFrom::Time(Memory::Ram) => "ram_compensator",
-            LeadFrom::Speed => "conventional_compensator",
+            LeadFrom::Speed | LeadFrom::Table(_) => "conventional_compensator",
         }
     }
 
@@ -268,6 +274,7 @@ impl Circuit for Compensator {
             LeadFrom::Time(Memory::ShiftRegister) => Self::ABOUT,
             LeadFrom::Time(Memory::Ram) => "lead-angle compensator with its history in a RAM",
             LeadFrom::Speed => "compensator whose lead is measured speed times a parameter",
+            LeadFrom::Table(_) => "compensator whose lead is read from a memory by the speed",
         }
     }
 
@@ -312,8 +319,18 @@ impl Circuit for Compensator {
                     lead_parameter: i.lead_parameter,
                     gate: i.gate,
                 });
-                let q = speed_lead.q;
-                (q.present, speed_lead.w.lead, q.fresh, q.enough)
+                let w = speed_lead.w;
+                (w.present, w.lead, w.fresh, w.enough)
+            }
+            LeadPart::Table(part) => {
+                let table_lead = part.settle(table_lead::In {
+                    ck,
+                    restart,
+                    position,
+                    gate: i.gate,
+                });
+                let w = table_lead.w;
+                (w.present, w.lead, w.fresh, w.enough)
             }
         };
         let placement = p.placement.settle(placement::In {

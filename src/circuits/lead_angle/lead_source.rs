@@ -1,15 +1,17 @@
 //! What a compensator can take its lead from.
 
-use super::{Memory, SpeedLead, TimeLead};
+use super::{LeadTable, Memory, SpeedLead, TableLead, TimeLead};
 use crate::hdl::prelude::*;
 
 /// Where a compensator's lead comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum LeadFrom {
     /// The time Δt, with what keeps the history.
     Time(Memory),
-    /// The speed, as in Fig. 7.
+    /// The speed times a parameter, as in Fig. 7.
     Speed,
+    /// The speed by a memory of leads, as in Fig. 7 too.
+    Table(LeadTable),
 }
 
 choice! {
@@ -17,7 +19,9 @@ choice! {
     pub enum LeadSource as LeadPart {
         /// The lead of a time.
         Time(TimeLead),
-        /// The conventional lead.
+        /// The conventional lead, a product.
         Speed(SpeedLead),
+        /// The conventional lead from a memory.
+        Table(TableLead),
     }
 }

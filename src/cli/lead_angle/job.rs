@@ -4,7 +4,7 @@ use crate::cli::Failure;
 use crate::cli::source::Source;
 use motion_rtl::input::Fault;
 use motion_rtl::input::position_log::{Columns, PositionLog, Sample};
-use motion_rtl::jobs::lead_angle::replay::settings_for;
+use motion_rtl::jobs::lead_angle::replay::{settings_for, validate};
 use motion_rtl::jobs::lead_angle::settings::{Settings, TARGET_RANGE_COUNTS};
 use motion_rtl::scenario::Loaded;
 use motion_rtl::settings::within;
@@ -84,14 +84,12 @@ fn refuse_columns(loaded: &Loaded, columns: &Columns) -> Result<(), Fault> {
 /// Checks a log, and the settings that it is replayed with.
 fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<(), Fault> {
     let first = log.samples.first().map_or(0, |sample| sample.counts);
-    settings_for(log, settings)
-        .validate()
-        .map_err(|mut error| {
-            if error.field == "target" {
-                error.problem += &format!(" from the log's first count, {first}");
-            }
-            loaded.refuse(error)
-        })?;
+    validate(&settings_for(log, settings)).map_err(|mut error| {
+        if error.field == "target" {
+            error.problem += &format!(" from the log's first count, {first}");
+        }
+        loaded.refuse(error)
+    })?;
     let fault = |line, problem: String, allowed: String| {
         Fault::new(&log.file, line, &log.counts.name, problem, allowed)
     };

@@ -126,7 +126,7 @@ fn focus(settings: &Settings, action: u64) -> Focus {
         shown,
         overview: match settings.lead {
             LeadBy::Time => &OVERVIEW,
-            LeadBy::Speed => &OVERVIEW_BY_SPEED,
+            LeadBy::Speed | LeadBy::Table => &OVERVIEW_BY_SPEED,
         },
     }
 }

@@ -7,9 +7,9 @@ use super::systems::{LEARNING, LITERAL, System};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::picture::{Curve, Panel, Picture};
 
-const COLOURS: [&str; 9] = [
-    "#8c8c8c", "#8c564b", "#cc79a7", "#009e73", "#0072b2", "#d55e00", "#e69f00", "#56b4e9",
-    "#9467bd",
+const COLOURS: [&str; 10] = [
+    "#8c8c8c", "#8c564b", "#cc79a7", "#009e73", "#b5a900", "#0072b2", "#d55e00", "#e69f00",
+    "#56b4e9", "#9467bd",
 ];
 const TIMED_OUT: &str = "#000000";
 const MARK: &str = "#b0b0b0";
@@ -30,7 +30,7 @@ pub fn draw(job: &Job, played: &[(System, Played)]) -> String {
         (LITERAL, "lead time, literal sign"),
     ] {
         if let Some(run) = of(played, name) {
-            let lead_ms = |one: &Positioning| one.code as f64 * settings.ck_ms();
+            let lead_ms = |one: &Positioning| settings.lead_ms(one.code);
             let panel = Panel::new(title, AXIS, "ms");
             let panel = by_step(panel, job, run, lead_ms);
             let most = run.positionings.iter().map(lead_ms).fold(0.0, f64::max);

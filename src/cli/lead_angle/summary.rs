@@ -251,7 +251,7 @@ fn rows(settings: &Settings, played: &[(System, Played)], learner: &Played) -> V
             error_counts: of_all(played, number, |one| one.error),
             timed_out: of_all(played, number, |one| one.timed_out),
             end_speed_counts_per_s: of_all(played, number, |one| one.end_speed_counts_per_s),
-            lead_ms: one.code as f64 * settings.ck_ms(),
+            lead_ms: settings.lead_ms(one.code),
             code_travel_counts: code_travel(settings, one),
         })
         .collect()
@@ -298,7 +298,7 @@ fn step_summary(
         positionings: numbers.len(),
         last_error_counts: of_all(played, last, |one| one.error),
         last_timed_out: of_all(played, last, |one| one.timed_out),
-        lead_ms: all[last].code as f64 * settings.ck_ms(),
+        lead_ms: settings.lead_ms(all[last].code),
         code_travel_counts: code_travel(settings, &all[last]),
         settled_after: settled_after(settings, learner, &numbers),
         settled_by_order: ByOrder {

@@ -1,6 +1,6 @@
 //! What a run is compared with: the same steps without a lead, with switches that stand a distance
-//! before their targets, by speed with one parameter and with one for each step that is tuned to the
-//! nominal load, with a fixed lead, with a lead that is learned, learned to second order, and learned
+//! before their targets, by speed with one parameter, with one for each step that is tuned to the
+//! nominal load, and with a memory of the leads that this load asks for, with a fixed lead, with a lead that is learned, learned to second order, and learned
 //! with the text's sign; where the scenario has positionings complete by a fixed time, learned at
 //! standstills too.
 
@@ -23,6 +23,8 @@ const SWITCH: &str = "displaced switch";
 pub const BY_SPEED: &str = "by speed";
 /// Name of the system by speed whose parameters are tuned.
 const TUNED: &str = "tuned";
+/// Name of the system by speed whose leads are in a memory.
+const BY_TABLE: &str = "by table";
 /// Name of the system that keeps its lead times.
 const FIXED: &str = "fixed lead";
 
@@ -64,6 +66,10 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         lead: LeadBy::Speed,
         ..fixed.clone()
     };
+    let by_table = Settings {
+        lead: LeadBy::Table,
+        ..fixed.clone()
+    };
     let mut none = fixed.clone();
     for step in &mut none.steps {
         step.lead_ms = 0.0;
@@ -71,6 +77,7 @@ pub fn systems(settings: &Settings) -> Vec<System> {
     let (sign, function) = (settings.sign, settings.function);
     let own = match (settings.lead, settings.learn) {
         (LeadBy::Speed, _) => BY_SPEED,
+        (LeadBy::Table, _) => BY_TABLE,
         (LeadBy::Time, false) => FIXED,
         (LeadBy::Time, true) => learner(sign, function),
     };
@@ -85,6 +92,7 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         system(SWITCH, none),
         system(BY_SPEED, by_speed.clone()),
         system(TUNED, by_speed),
+        system(BY_TABLE, by_table),
         system(FIXED, fixed),
         system(LEARNING, learning(Sign::Converging, first)),
         system(SECOND_ORDER, learning(Sign::Converging, second)),

@@ -39,7 +39,7 @@ impl Report for Summary {
                 Action::Operate => "effect".to_owned(),
             },
             match (self.lead, self.learn) {
-                (LeadBy::Speed, _) => "lead by speed".to_owned(),
+                (LeadBy::Speed | LeadBy::Table, _) => format!("lead by {}", name(self.lead)),
                 (LeadBy::Time, true) => format!(
                     "learning to {}, sign {}",
                     name(self.function).replace('_', " "),

@@ -2,5 +2,6 @@
 
 mod computer;
 pub mod job;
+mod lead_table;
 pub mod replay;
 pub mod settings;

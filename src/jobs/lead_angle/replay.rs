@@ -8,7 +8,7 @@ use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
 use crate::input::position_log::PositionLog;
 use crate::plant::waves::{Body, BodySignals};
 use crate::plant::{Encoder, Operation};
-use crate::settings::JobError;
+use crate::settings::{JobError, SettingError};
 
 /// A control signal that the log gave rise to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,6 +83,18 @@ pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
     settings.standstill_ms = ck_ms;
     settings.rest_ms = ck_ms;
     settings
+}
+
+/// Checks settings that a log is replayed with: of its body no stop is known, and so no lead by it.
+///
+/// # Errors
+/// Names the first field at fault, its value and what is allowed.
+pub fn validate(settings: &Settings) -> Result<(), SettingError> {
+    if settings.lead == LeadBy::Table {
+        let allowed = "time or speed with a log, of whose body no stop is known";
+        return Err(SettingError::value("lead", "table", allowed));
+    }
+    settings.validate()
 }
 
 /// Counts of the first sample.
@@ -160,14 +172,14 @@ impl Sums {
 /// too.
 ///
 /// # Errors
-/// What `observer` objects to.
+/// A setting that [`validate`] refuses, or what `observer` objects to.
 pub fn replay(
     circuit: &Compensator,
     settings: &Settings,
     log: &PositionLog,
     mut observer: impl Observer<Compensator>,
 ) -> Result<Replayed, JobError> {
-    settings.validate()?;
+    validate(settings)?;
     let origin = origin(log);
     let tick_s = 1.0 / settings.clock_hz as f64;
     let ticks = (log.seconds() / tick_s).floor() as u64;
@@ -199,8 +211,8 @@ pub fn replay(
         let take = |now: &Sample<'_, _>| {
             let fire = now.get(see.fire);
             let lead_ms = match settings.lead {
-                LeadBy::Time => now.get(see.time) as f64 * settings.ck_ms(),
-                LeadBy::Speed => settings.speed_lead_ms,
+                LeadBy::Time => settings.lead_ms(now.get(see.time)),
+                LeadBy::Speed | LeadBy::Table => settings.speed_lead_ms,
             };
             let predicts = now.get(see.fresh) && now.get(see.enough) && lead_ms > 0.0;
             let known = if predicts || fire {

@@ -1,6 +1,7 @@
 //! What the lead-angle compensator is run with: clock and CK, steps, learning, body and load.
 
 use super::job::WIDTHS;
+use super::lead_table::lead_table;
 use crate::circuits::lead_angle::codes::{LARGEST, STAGES, code, neighbours};
 pub use crate::circuits::lead_angle::{Comparing, Function, Placement, Sign};
 use crate::circuits::lead_angle::{LeadFrom, Memory};
@@ -42,8 +43,10 @@ pub enum LeadBy {
     /// The way of the last Δt.
     #[default]
     Time,
-    /// The measured speed, as in Fig. 7.
+    /// The measured speed times a parameter, as in Fig. 7.
     Speed,
+    /// The measured speed by a memory of the leads that the machine's numbers ask for, as in Fig. 7.
+    Table,
 }
 
 /// What the control signal is for.
@@ -138,7 +141,7 @@ pub struct Settings {
     pub speed_gate_ms: f64,
     /// What it multiplies the speed with (a).
     pub speed_lead_ms: f64,
-    /// The same for each step, read by its number from a memory; empty where it is the same for all.
+    /// The same for each step, which the control computer sets; empty where it is the same for all.
     pub speed_leads_ms: Vec<f64>,
     /// How far before its target each switch of the simplest conventional system stands, in counts;
     /// without it, as far as the first stop of its step wants.
@@ -210,6 +213,7 @@ impl Settings {
     pub fn lead_from(&self) -> LeadFrom {
         match (self.lead, self.history) {
             (LeadBy::Speed, _) => LeadFrom::Speed,
+            (LeadBy::Table, _) => LeadFrom::Table(lead_table(self)),
             (LeadBy::Time, History::ShiftRegister) => LeadFrom::Time(Memory::ShiftRegister),
             (LeadBy::Time, History::Ram) => LeadFrom::Time(Memory::Ram),
         }
@@ -271,6 +275,12 @@ impl Settings {
         // A time written in milliseconds has its rounding.
         let meant = (cks - time as f64).abs() < 1e-6;
         (meant && (time == 0 || code(STAGES, time).is_some())).then_some(time)
+    }
+
+    /// A code as a lead time in milliseconds, without the digits that floating point adds.
+    #[must_use]
+    pub fn lead_ms(&self, code: u64) -> f64 {
+        (code as f64 * self.ck_ms() * 1e9).round() / 1e9
     }
 
     /// The fastest speed of a step in counts a second: an encoder is counted at one count per tick.
@@ -378,10 +388,8 @@ impl Settings {
         if self.code(ms).is_some() {
             return Ok(());
         }
-        let ck = self.ck_ms();
-        // Digits that floating point adds are of no use here.
-        let shown = |code: u64| (code as f64 * ck * 1e9).round() / 1e9;
-        let allowed = match neighbours(STAGES, ms / ck) {
+        let shown = |code: u64| self.lead_ms(code);
+        let allowed = match neighbours(STAGES, ms / self.ck_ms()) {
             (below, Some(above)) if ms > 0.0 => format!("{} or {}", shown(below), shown(above)),
             (below, None) if ms > 0.0 => format!("at most {}", shown(below)),
             _ => format!("0 for none, {} to {}", shown(1), shown(LARGEST)),

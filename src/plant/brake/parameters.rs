@@ -61,6 +61,21 @@ impl BodyParameters {
     pub fn counts_per_rad(&self) -> f64 {
         self.counts_per_rev / std::f64::consts::TAU
     }
+
+    /// Way from the brake's control signal to rest, at this speed without a load and with a new
+    /// brake, in counts: v·td + v²/2a where the bearings have no friction.
+    pub fn stopping_way_counts(&self, speed_counts_per_s: f64) -> f64 {
+        let per_nm = self.counts_per_rad() / self.inertia_kg_m2;
+        let coasting = self.friction_nm * per_nm;
+        let braking = (self.friction_nm + self.brake_torque_nm) * per_nm;
+        let dead = self.brake_dead_time_s;
+        let bite = speed_counts_per_s - coasting * dead;
+        if bite <= 0.0 && coasting > 0.0 {
+            // It stands before the brake bites.
+            return speed_counts_per_s * speed_counts_per_s / (2.0 * coasting);
+        }
+        (speed_counts_per_s + bite) / 2.0 * dead + bite * bite / (2.0 * braking)
+    }
 }
 
 /// What the body carries, as factors of what it is without.

@@ -81,6 +81,29 @@ fn the_drive_ramps_to_its_speed_and_holds_it() {
     }
 }
 
+/// At its speed, slower, and so slow that the bearings stop it before the brake bites.
+#[test]
+fn the_stopping_way_is_what_a_new_brake_takes() {
+    for speed in [SPEED, 5_000.0, 500.0, 0.0] {
+        let mut body = body();
+        for _ in 0..ticks(0.2) {
+            body.step(true, false, speed, false);
+        }
+        let way = stop(&mut body);
+        assert_near(way, PARAMETERS.stopping_way_counts(speed));
+        assert_eq!(way == 0.0, speed == 0.0);
+    }
+    let coasts = 500.0 * 500.0 / (2.0 * 50_000.0);
+    assert_near(PARAMETERS.stopping_way_counts(500.0), coasts);
+    let smooth = BodyParameters {
+        friction_nm: 0.0,
+        ..PARAMETERS
+    };
+    let (dead, braking) = (PARAMETERS.brake_dead_time_s, 950_000.0);
+    let way = SPEED * dead + SPEED * SPEED / (2.0 * braking);
+    assert_near(smooth.stopping_way_counts(SPEED), way);
+}
+
 #[test]
 fn it_stops_after_dead_time_and_braking() {
     for sign in [1.0, -1.0] {

@@ -2,9 +2,9 @@ use super::make::{at_most, choice, one_of, only, width, words};
 use crate::circuits::lead_angle::{
     Comparator, Comparing, Compensator, CompletionDetector, Correction, CorrectionArithmetic,
     DifferenceHistory, DividedTime, Division, Form, Function, Lead, LeadFrom, LeadPlacement,
-    LeadProducts, Memory, Placement, PositionHistory, RamHistory, RatioLogic, Refinement, Sign,
-    SpeedLead, StepSequencer, StopError, TargetSetter, TimeData, TimeLead, TouchProbe, Variant,
-    Widths,
+    LeadProducts, LeadTable, Memory, Placement, PositionHistory, RamHistory, RatioLogic,
+    Refinement, Sign, SpeedDetector, SpeedLead, StepSequencer, StopError, TableLead, TargetSetter,
+    TimeData, TimeLead, TouchProbe, Variant, Widths,
 };
 use crate::hdl::Image;
 use crate::registry::Entry;
@@ -79,7 +79,7 @@ fn compensator(lead_from: LeadFrom, widths: Widths) -> Compensator {
     }
 }
 
-/// A compensator with positions, speeds, times and CK of the width that is given, and what follows.
+/// A compensator with positions, speeds, times and CK of the width that is given.
 fn small(lead_from: LeadFrom, given: &[u64]) -> Option<Compensator> {
     let width = width(given)?;
     let widths = Widths {
@@ -90,7 +90,74 @@ fn small(lead_from: LeadFrom, given: &[u64]) -> Option<Compensator> {
         cks: width,
         ck_period: width,
     };
-    chosen(compensator(lead_from, widths), &given[1..])
+    Some(compensator(lead_from, widths))
+}
+
+/// The numbers of [`chosen`], and before the times 0 for a product as the lead, or 1 for a memory
+/// that leads by two gates.
+fn conventional(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
+    let position = circuit.widths.position;
+    let lead_from = match choice(given, 3, ONES)? {
+        true => LeadFrom::Table(table(position, |speed| 2 * speed)?),
+        false => LeadFrom::Speed,
+    };
+    let (before, behind) = given.split_at(given.len().min(3));
+    let numbers = [before, behind.get(1..).unwrap_or(&[])].concat();
+    let circuit = Compensator {
+        lead_from,
+        ..circuit
+    };
+    chosen(circuit, &numbers)
+}
+
+/// A memory of leads for positions of so many bits: of 8 words at 8 bits, of 256 at 24.
+fn table(position: usize, lead: impl Fn(i64) -> i64) -> Option<LeadTable> {
+    let (address, fraction) = match position {
+        0 | 1 => return None,
+        2 | 3 => (1, 1),
+        4..8 => (2, 1),
+        8..16 => (3, 2),
+        _ => (8, 5),
+    };
+    Some(LeadTable::new(address, position, fraction, lead))
+}
+
+/// A lead from a memory, of positions and gates of the width that is given, and the words from a
+/// speed of 0 up: a lead and what it grows by to the next; without them two gates, and more than
+/// that the faster it is.
+fn table_lead(given: &[u64]) -> Option<TableLead> {
+    let width = width(given)?;
+    let circuit = TableLead {
+        position: width,
+        gate: width,
+        table: table(width, |speed| 2 * speed + speed * speed.abs() / 4)?,
+    };
+    filled(circuit, &given[1..])
+}
+
+/// The words of a memory of leads.
+fn filled(circuit: TableLead, given: &[u64]) -> Option<TableLead> {
+    if given.is_empty() {
+        return Some(circuit);
+    }
+    let TableLead {
+        position,
+        table: LeadTable {
+            leads, fraction, ..
+        },
+        ..
+    } = &circuit;
+    let given = words(given, 0, 2 * leads.words(), *position)?;
+    let every_second = |from: usize| {
+        let words = given.iter().copied().skip(from).step_by(2);
+        Image::of(leads.address(), *position, words)
+    };
+    let table = LeadTable {
+        leads: every_second(0),
+        increments: every_second(1),
+        fraction: *fraction,
+    };
+    Some(TableLead { table, ..circuit })
 }
 
 /// Times of steps, as wide as is given, and those of the ROM.
@@ -218,12 +285,35 @@ pub(super) const CIRCUITS: &[Entry] = &[
         named: "ram_time_lead", "the lead of a time, from a RAM of samples",
     ),
     entry!(
+        SpeedDetector, "JPH0646367B2 2 of Fig. 7",
+        full: || SpeedDetector { position: 24, gate: 16 },
+        widths: [position, gate],
+        from: "width", |given| {
+            alone(given, |width| SpeedDetector { position: width, gate: width })
+        },
+        with: nothing,
+        proved: 2,
+    ),
+    entry!(
         SpeedLead, "JPH0646367B2 1 + 2 of Fig. 7",
         full: || SpeedLead { position: 24, gate: 16 },
         widths: [position, gate],
         from: "width", |given| alone(given, |width| SpeedLead { position: width, gate: width }),
         with: nothing,
         proved: 2,
+    ),
+    entry!(
+        TableLead, "JPH0646367B2 1 + 2 of Fig. 7, from a memory",
+        full: || TableLead {
+            position: 24,
+            gate: 16,
+            table: LeadTable::new(8, 24, 5, |speed| 2 * speed + speed * speed.abs() / 64),
+        },
+        widths: [position, gate],
+        from: "width (2 words for 3, 4 for 4, 8 for 8), then each word's lead and what it grows by",
+            table_lead,
+        with: filled,
+        proved: 3,
     ),
     entry!(
         LeadPlacement, "JPH0646367B2 17, 20",
@@ -361,7 +451,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
                placement, comparing and learning as 0, 1 and so on, times of the ROM",
-            |given| small(SHIFT, given),
+            |given| chosen(small(SHIFT, given)?, &given[1..]),
         with: chosen,
         proved: none,
     ),
@@ -374,7 +464,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
                placement, comparing and learning as 0, 1 and so on, times of the ROM",
-            |given| small(RAM, given),
+            |given| chosen(small(RAM, given)?, &given[1..]),
         with: chosen,
         proved: none,
         named: "ram_compensator", "lead-angle compensator with its history in a RAM",
@@ -387,9 +477,10 @@ pub(super) const CIRCUITS: &[Entry] = &[
             speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
         ],
         from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
-               learning as 0, 1 and so on, times of the ROM",
-            |given| small(LeadFrom::Speed, given),
-        with: chosen,
+               learning as 0, 1 and so on, 0 for a product as the lead or 1 for a memory of it, \
+               times of the ROM",
+            |given| conventional(small(LeadFrom::Speed, given)?, &given[1..]),
+        with: conventional,
         proved: none,
         named: "conventional_compensator",
             "compensator whose lead is measured speed times a parameter",

@@ -4,6 +4,7 @@ mod comparing;
 mod history;
 mod learning;
 mod prediction;
+mod table;
 mod variants;
 mod whole;
 

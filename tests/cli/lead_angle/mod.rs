@@ -183,7 +183,7 @@ fn the_second_order_is_a_system_beside_the_first_and_can_be_the_own_one() {
         assert_eq!(summary["lead_times_of"], own);
         let systems = list(summary, "systems");
         let of = |name: &str| &systems[system(summary, name)]["own"];
-        assert_eq!((of(own) == true, systems.len()), (true, 8));
+        assert_eq!((of(own) == true, systems.len()), (true, 9));
         let owns = systems.iter().filter(|system| system["own"] == true);
         assert_eq!(owns.count(), 1);
     }
@@ -191,7 +191,7 @@ fn the_second_order_is_a_system_beside_the_first_and_can_be_the_own_one() {
     // literal sign, is of the scenario's order.
     let errors = |summary: &Value| {
         let rows = list(summary, "positionings").iter();
-        let errors = rows.map(|row| list(row, "error_counts")[..7].to_vec());
+        let errors = rows.map(|row| list(row, "error_counts")[..8].to_vec());
         errors.collect::<Vec<_>>()
     };
     assert_eq!(errors(&first), errors(&second));
@@ -271,28 +271,29 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
         displaced switch           549     231.1       0          0
         by speed                   555     239.5       0          0
         tuned                      549     231.1       0          0
+        by table                   545     229.5       0          0
         fixed lead                 955     464.6       0          0
         learning                   569     299.4       0          0  in the waves
         second order               545     285.7       0          0
         literal sign              1429     678.8       0          0
 
         positionings 0 to 3: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  displaced switch  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
-           0      3000   20000       366                 0      -134         0          66        12             2           120   17.7 ms       2.0          never        never, 1
-           1         0   40000      1010                 4        10         0         410       160            66           652   21.2 ms       8.0          never    never, never
+        step    target   speed   no lead  displaced switch  by speed     tuned  by table  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
+           0      3000   20000       366                 0      -134         0         0          66        12             2           120   17.7 ms       2.0          never        never, 1
+           1         0   40000      1010                 4        10         0         0         410       160            66           652   21.2 ms       8.0          never    never, never
 
         positionings 4 to 5, with the other load: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  displaced switch  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
-           0      3000   20000       504               138         4       138         204       138           138           338   18.3 ms       2.0          never    never, never
-           1         0   40000      1555               549       555       549         955       569           545          1429   24.6 ms       8.0          never    never, never
+        step    target   speed   no lead  displaced switch  by speed     tuned  by table  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
+           0      3000   20000       504               138         4       138       138         204       138           138           338   18.3 ms       2.0          never    never, never
+           1         0   40000      1555               549       555       549       545         955       569           545          1429   24.6 ms       8.0          never    never, never
 
-        positioning  step   no lead  displaced switch  by speed     tuned  fixed lead  learning  second order  literal sign      lead  one code
-                  0     0       366                 0      -134         0          66        66            66            66   15.0 ms       2.0
-                  1     1      1006                 0         6         0         406       406           406           406   15.0 ms       4.0
-                  2     0       366                 0      -134         0          66        12             2           120   17.7 ms       2.0
-                  3     1      1010                 4        10         0         410       160            66           652   21.2 ms       8.0
-                  4     0       504               138         4       138         204       138           138           338   18.3 ms       2.0
-                  5     1      1555               549       555       549         955       569           545          1429   24.6 ms       8.0
+        positioning  step   no lead  displaced switch  by speed     tuned  by table  fixed lead  learning  second order  literal sign      lead  one code
+                  0     0       366                 0      -134         0         0          66        66            66            66   15.0 ms       2.0
+                  1     1      1006                 0         6         0         0         406       406           406           406   15.0 ms       4.0
+                  2     0       366                 0      -134         0         0          66        12             2           120   17.7 ms       2.0
+                  3     1      1010                 4        10         0         0         410       160            66           652   21.2 ms       8.0
+                  4     0       504               138         4       138       138         204       138           138           338   18.3 ms       2.0
+                  5     1      1555               549       555       549       545         955       569           545          1429   24.6 ms       8.0
 
         wrote waves/s.svg
     "#]].assert_eq(&text);
@@ -328,31 +329,32 @@ fn displaced_switches_stand_as_far_off_as_the_first_stops_went() {
     }
 }
 
-/// Fig. 7 in the waves, with what it measures on top.
+/// Fig. 7 in the waves, with what it measures on top: by its parameter, and by its memory.
 #[test]
 fn the_conventional_system_can_be_in_the_waves() {
     let bench = small();
-    let run = ["run", "s.toml", "--to", "3000", "--set", "lead=speed"];
-    let summary = bench.json(&run);
-    assert_eq!(summary["lead"], "speed");
-    let own = &summary["systems"][system(&summary, "by speed")];
-    assert_eq!(own["own"], true);
-    assert_eq!(system(&summary, "by speed"), 2);
     let other = small().json(&["run", "s.toml", "--no-vcd"]);
-    assert_eq!(summary["positionings"], other["positionings"]);
-    let save = bench.read("waves/s.gtkw");
-    let overview = save.split("-overview\n").nth(1).unwrap();
-    let overview = overview.split("-ports in\n").next().unwrap();
-    assert!(
-        overview.contains("conventional_compensator.lead_source.speed["),
-        "{overview}"
-    );
-    assert_eq!(overview.matches("conventional_compensator.").count(), 11);
-    let text = bench.succeed(&run);
-    assert!(
-        text.contains("complete by standstill, lead by speed\n"),
-        "{text}"
-    );
+    for (lead, name) in [("speed", "by speed"), ("table", "by table")] {
+        let set = format!("lead={lead}");
+        let run = ["run", "s.toml", "--to", "3000", "--set", &set];
+        let summary = bench.json(&run);
+        assert_eq!(summary["lead"], lead);
+        let systems = list(&summary, "systems").iter();
+        let own: Vec<_> = systems.filter(|system| system["own"] == true).collect();
+        assert_eq!((own.len(), &own[0]["name"]), (1, &json!(name)));
+        assert_eq!(summary["positionings"], other["positionings"]);
+        let save = bench.read("waves/s.gtkw");
+        let overview = save.split("-overview\n").nth(1).unwrap();
+        let overview = overview.split("-ports in\n").next().unwrap();
+        assert!(
+            overview.contains("conventional_compensator.lead_source.speed["),
+            "{overview}"
+        );
+        assert_eq!(overview.matches("conventional_compensator.").count(), 11);
+        let text = bench.succeed(&run);
+        let said = format!("complete by standstill, lead by {lead}\n");
+        assert!(text.contains(&said), "{text}");
+    }
 }
 
 #[test]
@@ -394,7 +396,9 @@ fn what_is_measured_on_the_way_to_speed_is_of_a_moment_ago() {
         errors.collect::<Vec<_>>()
     };
     assert_eq!(last(0, "tuned"), [1, 5, 2, 46]);
+    assert_eq!(last(0, "by table"), [10, 5, 14, 18]);
     assert_eq!(last(0, "learning"), [1, 1, 8, 0]);
     assert_eq!(last(1, "tuned"), [91, 170, 539, 765]);
+    assert_eq!(last(1, "by table"), [91, 176, 560, 827]);
     assert_eq!(last(1, "learning"), [3, 3, 3, 6]);
 }

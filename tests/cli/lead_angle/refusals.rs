@@ -54,7 +54,12 @@ fn settings_are_checked_and_named_with_their_line() {
     );
     assert_eq!(
         refused("lead = \"way\"\n"),
-        "error: s.toml:2: lead: unknown variant `way`; allowed: `time` or `speed`\n"
+        "error: s.toml:2: lead: unknown variant `way`; allowed: one of `time`, `speed`, `table`\n"
+    );
+    assert_eq!(
+        refused("lead = \"table\"\ninput = \"slow.csv\"\n"),
+        "error: s.toml:2: lead: is table; allowed: time or speed with a log, of whose body no stop is \
+         known\n"
     );
     assert_eq!(
         refused("action = \"cam\"\n"),

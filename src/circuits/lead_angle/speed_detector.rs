@@ -1,0 +1,147 @@
+//! Speed detector 2 of Fig. 7: the way of a gate.
+//!
+//! ```text
+//!                          ┌────────────────┐
+//!  ck, position, restart ─▶│                ├──▶ present, speed, way, over
+//!  gate ──────────────────▶│ speed detector ├──▶ fresh, enough
+//!                          └────────────────┘
+//! ```
+//!
+//! The speed is the way of a gate of so many CKs, and stands until the next gate is over: on
+//! average it is a whole gate old.
+
+use crate::hdl::prelude::*;
+
+/// Speed detector. A position that stands in the tick of CK is at `present` in the tick after it.
+#[derive(Debug, Clone)]
+pub struct SpeedDetector {
+    /// Width of a position.
+    pub position: usize,
+    /// Width of a gate in CKs.
+    pub gate: usize,
+}
+
+signals! { for SpeedDetector as c;
+    /// Ports in.
+    pub struct In {
+        /// CK: a sample is taken.
+        pub ck: Bit,
+        /// What was sampled so far counts no more.
+        pub restart: Bit,
+        /// The position.
+        pub position: I(c.position),
+        /// CKs of a gate; 0 counts as 1.
+        pub gate: U(c.gate),
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// Dx: the present sample.
+        pub present: I(c.position) as Analog,
+        /// The sample is new in this tick.
+        pub fresh: Bit,
+        /// A whole gate was measured since the last restart.
+        pub enough: Bit,
+        /// CKs of the gate that are over.
+        count: U(c.gate),
+        /// A sample began the gate.
+        begun: Bit,
+        /// The sample that the gate began with.
+        gate_position: I(c.position),
+        /// ν: counts of the last gate.
+        pub speed: I(c.position) as Analog,
+    }
+    /// Nets.
+    pub struct Net {
+        /// CKs of the gate with this one.
+        next_count: U(c.gate),
+        /// The gate ends with this sample.
+        pub over: Bit,
+        /// Way of the gate that ends: ν from the next tick on.
+        pub way: I(c.position),
+        /// A gate begins with this sample.
+        begins: Bit,
+    }
+}
+
+impl Circuit for SpeedDetector {
+    const NAME: &'static str = "speed_detector";
+    const ABOUT: &'static str = "measures the speed as the way of a gate";
+    records!(In, Reg, Net);
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let next_count = q.count + 1;
+        let over = i.ck & q.begun & !next_count.below(i.gate);
+        let way = i.position - q.gate_position;
+        let begins = over | (i.ck & !q.begun);
+        let counted = i.ck.mux(next_count, q.count);
+        let edge = Reg {
+            present: i.ck.mux(i.position, q.present),
+            fresh: i.ck & !i.restart,
+            enough: (q.enough | over) & !i.restart,
+            count: (begins | i.restart).mux(0, counted),
+            begun: (q.begun | i.ck) & !i.restart,
+            gate_position: begins.mux(i.position, q.gate_position),
+            speed: over.mux(way, q.speed),
+        };
+        let net = Net {
+            next_count,
+            over,
+            way,
+            begins,
+        };
+        (net, edge)
+    }
+}
+
+impl Specified for SpeedDetector {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let range = 1i128 << self.position;
+        Invariants::<Self>::new()
+            .step(
+                "a gate ends with its last CK and gives its way",
+                move |now, next| {
+                    let (q, i, next) = (now.q, now.i, &next.q);
+                    let ends = i.ck && q.begun && q.count + 1 >= i.gate.max(1);
+                    let way = i.position - q.gate_position;
+                    let right = match ends {
+                        true => i128::from(way - next.speed) % range == 0,
+                        false => next.speed == q.speed,
+                    };
+                    let enough = (q.enough || ends) && !i.restart;
+                    require(right && next.enough == enough, ["speed", "enough"], || {
+                        format!("a way of {way}")
+                    })
+                },
+            )
+            .step(
+                "a gate begins where the one before ends, or with the first sample",
+                |now, next| {
+                    let (q, i, next) = (now.q, now.i, &next.q);
+                    let ends = i.ck && q.begun && q.count + 1 >= i.gate.max(1);
+                    let first = i.ck && !q.begun;
+                    let position = if ends || first {
+                        i.position
+                    } else {
+                        q.gate_position
+                    };
+                    let count = match ends || first || i.restart {
+                        true => 0,
+                        false => q.count + u64::from(i.ck),
+                    };
+                    let begun = (q.begun || i.ck) && !i.restart;
+                    let right = next.gate_position == position
+                        && next.count == count
+                        && next.begun == begun;
+                    require(right, ["gate_position", "count", "begun"], || {
+                        format!("{} of {}", next.count, i.gate)
+                    })
+                },
+            )
+            .step("the sample is fresh after CK", |now, next| {
+                let (ck, restart) = (now.i.ck, now.i.restart);
+                let present = if ck { now.i.position } else { now.q.present };
+                let right = next.q.present == present && next.q.fresh == (ck && !restart);
+                require(right, ["present", "fresh"], || "another".into())
+            })
+    }
+}

@@ -1,0 +1,234 @@
+//! The conventional lead of Fig. 7 with its calculation 1 as a memory: the lead of each speed, read by
+//! the speed.
+//!
+//! ```text
+//!                          ┌────────────┐
+//!  ck, position, restart ─▶│            ├──▶ present, speed, lead
+//!  gate ──────────────────▶│ table lead ├──▶ fresh, enough
+//!                          └────────────┘
+//! ```
+//!
+//! The upper bits of ν are the address, sign and all, so either direction has leads of its own. The
+//! lower ones go to the next word's lead in a straight line. The memory is addressed by the way that
+//! becomes ν at the same edge: θa stands in the tick in which ν does.
+//!
+//! Departures: the text has a lead for each speed; here they are 2^`fraction` counts apart. A speed
+//! beyond the memory has the lead of the last that it covers.
+
+use super::{SpeedDetector, speed_detector};
+use crate::hdl::prelude::*;
+
+/// Leads by speed, as they stand in a memory: f(ν) at every 2^`fraction` counts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeadTable {
+    /// Leads in counts, from a speed of 0 up; the upper half is of negative speeds, as two's
+    /// complement has them.
+    pub leads: Image,
+    /// By how much the next word's lead is greater.
+    pub increments: Image,
+    /// Bits of a speed below the address.
+    pub fraction: usize,
+}
+
+impl LeadTable {
+    /// 2^`address` words for positions of `position` bits; `lead` is f(ν), ν in counts of a gate.
+    #[must_use]
+    pub fn new(
+        address: usize,
+        position: usize,
+        fraction: usize,
+        lead: impl Fn(i64) -> i64,
+    ) -> Self {
+        let speed = |word: usize| {
+            let word = word as i64;
+            (if word < 1 << (address - 1) {
+                word
+            } else {
+                word - (1 << address)
+            }) << fraction
+        };
+        let grows = |speed: i64| lead(speed + (1 << fraction)) - lead(speed);
+        LeadTable {
+            leads: Image::from_fn(address, position, |word| lead(speed(word)) as u64),
+            increments: Image::from_fn(address, position, |word| grows(speed(word)) as u64),
+            fraction,
+        }
+    }
+
+    /// Bits of a speed that the memory covers.
+    fn bits(&self) -> usize {
+        self.leads.address() + self.fraction
+    }
+}
+
+/// Lead from a memory. A position that stands in the tick of CK is at `present` in the tick after it.
+#[derive(Debug, Clone)]
+pub struct TableLead {
+    /// Width of a position.
+    pub position: usize,
+    /// Width of a gate in CKs.
+    pub gate: usize,
+    /// What the memory holds.
+    pub table: LeadTable,
+}
+
+impl TableLead {
+    /// A memory with words as wide as a position.
+    fn rom(&self, words: &Image) -> Image {
+        Image::of(self.table.leads.address(), self.position, words.iter())
+    }
+
+    /// The first word, as a lead.
+    fn at_rest(&self) -> u64 {
+        self.rom(&self.table.leads).iter().next().unwrap_or(0)
+    }
+
+    /// The same of the increments.
+    fn increment_at_rest(&self) -> u64 {
+        self.rom(&self.table.increments).iter().next().unwrap_or(0)
+    }
+}
+
+signals! { for TableLead as c;
+    /// Ports in.
+    pub struct In {
+        /// CK: a sample is taken.
+        pub ck: Bit,
+        /// What was sampled so far counts no more.
+        pub restart: Bit,
+        /// The position.
+        pub position: I(c.position),
+        /// CKs of a gate; 0 counts as 1.
+        pub gate: U(c.gate),
+    }
+    /// Output registers of the memory.
+    pub struct Reg {
+        /// The lead of the last word's speed at or below ν.
+        base: I(c.position) as Analog = c.at_rest(),
+        /// What it grows by up to the next word's speed.
+        increment: I(c.position) = c.increment_at_rest(),
+        /// How far ν is on the way to it, in 1/2^`fraction`.
+        part: U(c.table.fraction) = 0,
+    }
+    /// The circuit inside.
+    pub struct Parts {
+        /// 2.
+        pub detector: Part<SpeedDetector>(SpeedDetector { position: c.position, gate: c.gate }),
+    }
+    /// Nets.
+    pub struct Net {
+        /// Dx: the present sample.
+        pub present: I(c.position) as Analog,
+        /// The sample is new in this tick.
+        pub fresh: Bit,
+        /// A whole gate was measured since the last restart.
+        pub enough: Bit,
+        /// ν: counts of the last gate.
+        pub speed: I(c.position) as Analog,
+        /// The memory covers the way of the gate that ends.
+        covered: Bit,
+        /// That way, or the last that it covers.
+        held: I(c.table.bits()),
+        /// The word that is read.
+        address: U(c.table.leads.address()),
+        /// Growth times part.
+        product: I(c.position + c.table.fraction + 1),
+        /// 1: θa.
+        pub lead: I(c.position) as Analog,
+    }
+}
+
+impl Circuit for TableLead {
+    const NAME: &'static str = "table_lead";
+    const ABOUT: &'static str = "conventional lead: read from a memory by the measured speed";
+    records!(In, Reg, Net, Parts);
+
+    fn objection(&self) -> Option<String> {
+        let LeadTable {
+            leads,
+            increments,
+            fraction,
+        } = &self.table;
+        if leads.address() != increments.address() || leads.address() == 0 {
+            return Some("leads and increments have the same address of 1 bit or more".into());
+        }
+        if *fraction == 0 || self.table.bits() > self.position {
+            return Some(format!(
+                "address and fraction, of 1 bit or more, have {} bits together, a position {}",
+                self.table.bits(),
+                self.position
+            ));
+        }
+        let product = self.position + fraction + 1;
+        (product > 64).then(|| format!("a product has at most 64 bits, and this one {product}"))
+    }
+
+    fn tick(&self, i: In, q: Reg, p: Parts) -> (Net, Reg<Edge>) {
+        let LeadTable {
+            leads,
+            increments,
+            fraction,
+        } = &self.table;
+        let (bits, fraction) = (self.table.bits(), *fraction);
+        let detector = p.detector.settle(speed_detector::In {
+            ck: i.ck,
+            restart: i.restart,
+            position: i.position,
+            gate: i.gate,
+        });
+        let (over, way) = (detector.w.over, detector.w.way);
+        let cut = way.resize(bits);
+        let covered = cut.resize(self.position).equals(way);
+        let greatest = (1 << (bits - 1)) - 1;
+        let end = way.is_negative().mux(I::new(-greatest - 1, bits), greatest);
+        let held = covered.mux(cut, end);
+        let address = held.unsigned().slice(fraction, leads.address());
+        let read = |words: &Image| self.rom(words).rom(address).signed();
+        let part = q.part.resize(fraction + 1).signed();
+        let product = q.increment.times(part, self.position + fraction + 1);
+        let edge = Reg {
+            base: over.mux(read(leads), q.base),
+            increment: over.mux(read(increments), q.increment),
+            part: over.mux(held.unsigned().slice(0, fraction), q.part),
+        };
+        let net = Net {
+            present: detector.q.present,
+            fresh: detector.q.fresh,
+            enough: detector.q.enough,
+            speed: detector.q.speed,
+            covered,
+            held,
+            address,
+            product,
+            lead: q.base + product.shift_right(fraction).resize(self.position),
+        };
+        (net, edge)
+    }
+}
+
+impl Specified for TableLead {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let LeadTable {
+            leads,
+            increments,
+            fraction,
+        } = &self.table;
+        let unused = 64 - self.position;
+        let signed = |word: u64| i128::from((word << unused) as i64 >> unused);
+        let words = |image: &Image| image.iter().map(signed).collect::<Vec<_>>();
+        let (leads, increments) = (words(leads), words(increments));
+        let (range, spacing) = (1i128 << self.position, 1i128 << fraction);
+        Invariants::<Self>::new().always(
+            "the lead is on the line between the words around the speed, rounded down",
+            move |now| {
+                let half = leads.len() as i128 / 2 * spacing;
+                let speed = i128::from(now.p.detector.q.speed).clamp(-half, half - 1);
+                let word = speed.div_euclid(spacing).rem_euclid(leads.len() as i128) as usize;
+                let grown = (increments[word] * speed.rem_euclid(spacing)).div_euclid(spacing);
+                let lead = i128::from(now.w.lead);
+                let right = (leads[word] + grown - lead).rem_euclid(range) == 0;
+                require(right, ["lead"], || format!("{lead} at {speed}"))
+            },
+        )
+    }
+}

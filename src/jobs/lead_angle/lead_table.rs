@@ -1,0 +1,33 @@
+//! The leads of Fig. 7 by speed, as the machine's delays and its braking ask for them.
+
+use super::job::WIDTHS;
+use super::settings::{Action, Settings, TARGET_RANGE_COUNTS};
+use crate::circuits::lead_angle::LeadTable;
+
+/// Bits of the memory's address: half of its words are of either direction.
+const ADDRESS: usize = 8;
+/// Ticks from the encoder's pin to the control signal, the wait for a CK apart.
+const LATENCY_TICKS: f64 = 5.0;
+
+/// θa for every speed that the steps come to, at the nominal load: the way that the body goes from the
+/// pins of its encoder on, with half a CK of waiting, to its stop or to the operation's effect.
+pub(super) fn lead_table(settings: &Settings) -> LeadTable {
+    let ck_s = settings.ck_ms() / 1e3;
+    let gate_s = f64::from(settings.cks(settings.speed_gate_ms)) * ck_s;
+    let latency_s = LATENCY_TICKS / settings.clock_hz as f64 + 0.5 * ck_s;
+    let steps = settings.steps.iter().map(|step| step.speed_counts_per_s);
+    let fastest = f64::from(steps.max().unwrap_or(0)) * gate_s + 1.0;
+    let widest = WIDTHS.position - ADDRESS;
+    let covers = |fraction: &usize| fastest < (1u64 << (ADDRESS - 1 + fraction)) as f64;
+    let fraction = (1..widest).find(covers).unwrap_or(widest);
+    LeadTable::new(ADDRESS, WIDTHS.position, fraction, |way| {
+        let speed = way.abs() as f64 / gate_s;
+        let from_signal = match settings.action {
+            Action::Stop => settings.body.stopping_way_counts(speed),
+            Action::Operate => speed * settings.operation_delay_s,
+        };
+        let lead = (from_signal + speed * latency_s).round() as i64;
+        // No longer than the farthest way to a target.
+        lead.min(*TARGET_RANGE_COUNTS.end()) * way.signum()
+    })
+}
