@@ -1,10 +1,8 @@
 //! Step motors on the drivers of the pulse interpolator: rates, steps that are lost, waves.
 
-use super::support::{Bench, near, number, whole};
+use super::support::{Bench, near, number, whole, words};
 use serde_json::json;
-use std::collections::HashMap;
 use std::fmt::Write as _;
-use vcd::{Command, Parser, Value};
 
 const HEAD: &str = "circuit = \"pulse_interpolator\"\nclock_hz = 100_000\n";
 const PATTERN: &str = "[[pattern]]\nname = \"a\"\ntable = \"t.csv\"\n";
@@ -82,51 +80,29 @@ fn the_waves_have_the_motor_that_the_summary_speaks_of() {
     let plain = bench.json(&["run", "s.toml", "--no-vcd", "--out", "p"]);
     assert_eq!(summary["step_rates"], plain["step_rates"]);
 
-    let dump = bench.read("o/s.vcd");
-    let mut parser = Parser::new(dump.as_bytes());
-    let header = parser.parse_header().unwrap();
-    let code = |path: &[&str]| {
-        header
-            .find_var(path)
-            .unwrap_or_else(|| panic!("{path:?}"))
-            .code
-    };
-    let top = "pulse_interpolator";
-    let wanted = HashMap::from([
-        (code(&[top, "plant", "x", "position"]), 0),
-        (code(&[top, "plant", "x", "ahead"]), 1),
-    ]);
-    let [step, dir, clock] = ["step_x", "dir_x", "clk"].map(|name| code(&[top, name]));
-    let (mut words, mut down, mut high) = ([0i64; 2], false, false);
-    // The driver's position, as the motor has it of the tick before.
-    let (mut position, mut before, mut most) = (0i64, 0i64, 0i64);
-    for command in parser {
-        match command.unwrap() {
-            Command::ChangeVector(code, vector) => {
-                if let Some(&place) = wanted.get(&code) {
-                    let word = vector
-                        .iter()
-                        .fold(0u64, |word, bit| word << 1 | u64::from(bit == Value::V1));
-                    words[place] = (word << 16) as i64 >> 16;
-                }
-            }
-            Command::ChangeScalar(code, value) if code == dir => down = value == Value::V1,
-            Command::ChangeScalar(code, value) if code == step => high = value == Value::V1,
-            Command::ChangeScalar(code, Value::V0) if code == clock => {
-                // Both are cut to 1/256.
-                let off = 256 * before - words[0] - words[1];
-                assert!(off.abs() <= 1, "{words:?} {before}");
-                most = most.max(words[1].abs());
-                before = position;
-            }
-            _ => {}
+    let names = ["step_x", "dir_x", "plant.x.position", "plant.x.ahead"];
+    let names = names.map(|name| format!("pulse_interpolator.{name}"));
+    let ticks = words(
+        &bench.read("o/s.vcd"),
+        &names.each_ref().map(String::as_str),
+    );
+    // In a tick the motor is where the ticks before have left it: under the driver's position of the
+    // last.
+    let (mut position, mut high, mut most) = (0, 0, 0);
+    for tick in &ticks {
+        let [step, down, motor, ahead] = tick[..] else {
+            panic!("{tick:?}");
+        };
+        // Both are cut to 1/256.
+        let off = 256 * position - motor - ahead;
+        assert!(off.abs() <= 1, "{tick:?} {position}");
+        most = most.max(ahead.abs());
+        if step > high {
+            position += 1 - 2 * down;
         }
-        // A rising step counts once, with the direction of its tick.
-        if high {
-            position += if down { -1 } else { 1 };
-            high = false;
-        }
+        high = step;
     }
+    assert_eq!(ticks.len() as i64, whole(&summary, "/ticks"));
     let off = number(&summary, "/step_rates/x/motor/off_full_steps");
     near(most as f64 / 256.0, off, 1.0 / 128.0);
     assert_eq!(position, whole(&summary, "/axes/x/end_position"));
