@@ -1,9 +1,10 @@
 //! Look-ahead: the speed at every junction and the trapezoid of every move.
 
-use super::geometry::{self, Curve, norm};
+use super::geometry::{self, Curve};
 use super::sampler::Sampler;
 use super::{MotionLimits, PlanError};
 use crate::input::{Drawing, Move, Point};
+use crate::path::vector::distance;
 
 /// Directions that differ by no more than this (in radians) are taken for the same: a tangent
 /// computed from rounded coordinates must not stop a machine whose corner speed is 0.
@@ -157,7 +158,7 @@ fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> Vec<Segment> {
         let peak = nominal_speed(step, limits).min(curve.fastest(limits.acceleration_mm_per_s2));
         let [first, last] = curve.directions();
         let entry = before.map_or(0.0, |(peak_before, direction)| {
-            junction(direction, first, corner)
+            junction(distance(direction, first), corner)
                 .min(peak)
                 .min(peak_before)
         });
@@ -175,9 +176,8 @@ fn limit_speeds(drawing: &Drawing, limits: &MotionLimits) -> Vec<Segment> {
     segments
 }
 
-/// The speed at which the velocity changes by `corner` between two directions.
-pub(crate) fn junction(before: Point, after: Point, corner: f64) -> f64 {
-    let turn = norm(std::array::from_fn(|k| after[k] - before[k]));
+/// The speed at which the velocity changes by `corner` between two directions that are so far apart.
+pub(crate) fn junction(turn: f64, corner: f64) -> f64 {
     match turn <= TANGENT {
         true => f64::INFINITY,
         false => corner / turn,

@@ -121,8 +121,8 @@ signals! { for Machine as _c;
 signals! { for Machine as c;
     /// The axes of a machine with elastic loads.
     pub struct MachineSignals {
-        /// X, Y and, of three axes, Z.
-        pub axes: [TwoMassSignals(c); c.axes] as Elements(&["x", "y", "z"]),
+        /// X, Y and, of three and four axes, Z and W.
+        pub axes: [TwoMassSignals(c); c.axes] as Elements(&["x", "y", "z", "w"]),
     }
 }
 

@@ -118,6 +118,32 @@ fn a_seed_names_its_bytes() {
     assert_ne!(files("3"), files("4"));
 }
 
+/// A fourth axis has words of its own in a segment, whose numbers take a bit more.
+#[test]
+fn the_trajectory_controller_has_up_to_four_axes() {
+    for (axes, address) in [
+        ("axes=3", "[11:0] path_address"),
+        ("axes=4", "[12:0] path_address"),
+    ] {
+        let bench = Bench::new();
+        bench.succeed(&verilog(
+            "trajectory_controller",
+            &["--width", axes, "--out", "v"],
+        ));
+        let text = bench.read("v/trajectory_controller.v");
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let text = words.join(" ");
+        assert!(text.contains(address), "{axes}");
+        for name in ["torque_w", "given_command_w", "gain_1_w", "a_w"] {
+            assert_eq!(text.contains(name), axes == "axes=4", "{axes}: {name}");
+        }
+    }
+    let five = ["--width", "axes=5", "--out", "v"];
+    Bench::new().refuse_with(&verilog("trajectory_controller", &five), |text| {
+        assert!(text.contains("1 to 4 axes have names, not 5"), "{text}");
+    });
+}
+
 #[test]
 fn circuits_that_are_not_there_are_refused() {
     let bench = Bench::new();

@@ -6,6 +6,7 @@ use motion_rtl::circuits::trajectory_controller::{Rounding, TrajectoryController
 use motion_rtl::hdl::{Declarations, Without};
 use motion_rtl::input::Point;
 use motion_rtl::jobs::trajectory_controller::job::{Program, play};
+use motion_rtl::jobs::trajectory_controller::segments::FourthAxis;
 use motion_rtl::jobs::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
 use motion_rtl::path::pieces::{Speeds, Taught, from_points};
 use motion_rtl::plant::{TwoMassAxis, TwoMassParameters};
@@ -31,7 +32,8 @@ const WIDTHS: Widths = Widths {
 /// Plays the path in the shortest periods, and drives the Verilog with the same inputs.
 fn hold(axes: usize, correction: Correction, rounding: Rounding, simulator: Simulator) {
     let settings = Settings {
-        clock_hz: 1000 * LEAST_PERIOD_TICKS,
+        // Four axes take four ticks more, for their words.
+        clock_hz: 1000 * (LEAST_PERIOD_TICKS + if axes == 4 { 4 } else { 0 }),
         feed_mm_per_s: Some(30.0),
         jerk_time_ms: 4.0,
         corner_mm_per_s: 5.0,
@@ -39,7 +41,7 @@ fn hold(axes: usize, correction: Correction, rounding: Rounding, simulator: Simu
         correction,
         ..Settings::default()
     };
-    let taught = pieces(if axes == 3 { 0.4 } else { 0.0 }).map(|(to, via)| Taught {
+    let taught = pieces(if axes >= 3 { 0.4 } else { 0.0 }).map(|(to, via)| Taught {
         to,
         via,
         spline: false,
@@ -52,7 +54,13 @@ fn hold(axes: usize, correction: Correction, rounding: Rounding, simulator: Simu
         ..TwoMassParameters::default()
     };
     let machine = vec![axis; axes];
-    let program = Program::of(start, &pieces, &settings, &machine, &WIDTHS).unwrap();
+    let fourth = (axes == 4).then(|| FourthAxis {
+        from_mm: 0.0,
+        to_mm: vec![0.3, 0.1, 0.1],
+    });
+    let fourth = fourth.as_ref();
+    let program = Program::with_fourth(start, &pieces, fourth, &settings, &machine, &WIDTHS);
+    let program = program.unwrap();
     assert_eq!(program.path.stretches.len(), 3);
     let tick_s = 1.0 / settings.clock_hz as f64;
     let plants = vec![TwoMassAxis::new(&axis, tick_s).unwrap(); axes];
@@ -92,6 +100,17 @@ fn a_corrected_path_in_space_is_the_same_in_verilator() {
         Correction::Vector,
         Rounding::Nearest,
         Simulator::Verilator,
+    );
+}
+
+#[test]
+#[ignore = "needs Icarus Verilog"]
+fn a_path_of_four_axes_is_the_same_in_icarus() {
+    hold(
+        4,
+        Correction::Feedback,
+        Rounding::Nearest,
+        Simulator::Icarus,
     );
 }
 

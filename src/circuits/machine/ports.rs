@@ -74,8 +74,8 @@ signals! { for TrajectoryController as c;
         pub begin_length: U(c.widths.point),
         /// Writes a word of a segment.
         pub write_path: Bit,
-        /// The segment, and in the lower four bits the number of its word.
-        pub path_address: U(c.widths.address()) as Hex,
+        /// The segment, and in the lowest bits the number of its word.
+        pub path_address: U(c.widths.point().address()) as Hex,
         /// Its data.
         pub path_data: U(c.widths.data) as Hex,
         /// The path's last segment.

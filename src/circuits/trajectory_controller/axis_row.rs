@@ -23,8 +23,18 @@ use crate::hdl::prelude::*;
 pub struct AxisRow {
     /// Its widths.
     pub widths: PointWidths,
-    /// 0, 1, 2 for x, y, z: it decides which words of a segment the row takes.
+    /// 0, 1, 2, 3 for x, y, z, w: it decides which words of a segment the row takes.
     pub coordinate: u64,
+}
+
+impl AxisRow {
+    /// The words of a segment that are base, along, across and third.
+    const fn words(&self) -> [u64; 4] {
+        match self.coordinate {
+            3 => [16, 17, 18, 19],
+            axis => [3 + axis, 6 + axis, 9 + axis, 13 + axis],
+        }
+    }
 }
 
 signals! { for AxisRow as c;
@@ -33,7 +43,7 @@ signals! { for AxisRow as c;
         /// `data` is word `word` of a segment.
         pub load: Bit,
         /// Number of the word.
-        pub word: U(4),
+        pub word: U(c.widths.word),
         /// Its data.
         pub data: U(c.widths.data) as Hex,
         /// The coefficients are copied.
@@ -108,13 +118,14 @@ impl Circuit for AxisRow {
         let raised = q.sum + (1i64 << (fine - 1));
         let nearest = raised.shift_right(fine).resize(point);
 
-        let is = |name, word| i.load & i.word.equals(U::parameter(name, word, 4));
+        let [base_word, along_word, across_word, third_word] = self.words();
+        let is = |name, word| i.load & i.word.equals(U::parameter(name, word, self.widths.word));
         let (base, by) = (i.data.resize(point).signed(), i.data.resize(coefficient));
         let next = Reg {
-            base: is("base_word", 3 + self.coordinate).mux(base, q.base),
-            by_along: is("along_word", 6 + self.coordinate).mux(by, q.by_along),
-            by_across: is("across_word", 9 + self.coordinate).mux(by, q.by_across),
-            by_third: is("third_word", 13 + self.coordinate).mux(by, q.by_third),
+            base: is("base_word", base_word).mux(base, q.base),
+            by_along: is("along_word", along_word).mux(by, q.by_along),
+            by_across: is("across_word", across_word).mux(by, q.by_across),
+            by_third: is("third_word", third_word).mux(by, q.by_third),
             bits_along: i.copy.mux(q.by_along, q.bits_along.shift_right(1)),
             bits_across: i.copy.mux(q.by_across, q.bits_across.shift_right(1)),
             bits_third: i.copy.mux(q.by_third, q.bits_third.shift_right(1)),
@@ -136,6 +147,10 @@ impl Circuit for AxisRow {
 
     fn objection(&self) -> Option<String> {
         let holds = self.widths.radius > self.widths.point;
-        (!holds).then(|| "a radius has bits below the guard unit".into())
+        if !holds {
+            return Some("a radius has bits below the guard unit".into());
+        }
+        let placed = self.coordinate < 3 || (self.coordinate == 3 && self.widths.word == 5);
+        (!placed).then(|| "a segment has words for x, y, z, and in 5 bits for w".into())
     }
 }

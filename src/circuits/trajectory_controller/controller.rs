@@ -35,6 +35,7 @@ macro_rules! of_axes {
             concat!($name, "_x"),
             concat!($name, "_y"),
             concat!($name, "_z"),
+            concat!($name, "_w"),
         ]
     };
 }
@@ -44,7 +45,7 @@ macro_rules! of_axes {
 pub struct TrajectoryController {
     /// Its widths, by name.
     pub widths: Widths,
-    /// How many axes, up to 3.
+    /// How many axes, up to 4.
     pub axes: usize,
     /// What is added to the commands.
     pub correction: Correction,
@@ -113,7 +114,7 @@ impl TrajectoryController {
 
     const fn point(&self, radius_word: u64) -> PathPoint {
         PathPoint {
-            widths: self.widths.point(),
+            widths: self.widths.point().of_axes(self.axes),
             axes: self.axes,
             radius_word,
         }
@@ -184,8 +185,8 @@ signals! { for TrajectoryController as c;
         pub begin_length: U(c.widths.point),
         /// Writes a word of a segment.
         pub write_path: Bit,
-        /// The segment, and in the lower four bits the number of its word.
-        pub path_address: U(c.widths.address()) as Hex,
+        /// The segment, and in the lowest bits the number of its word.
+        pub path_address: U(c.point(RADIUS).widths.address()) as Hex,
         /// Its data.
         pub path_data: U(c.widths.data) as Hex,
         /// The path's last segment.
@@ -293,8 +294,8 @@ impl Circuit for TrajectoryController {
     records!(In, Nothing, Net, Parts);
 
     fn objection(&self) -> Option<String> {
-        let named = (1..=3).contains(&self.axes);
-        (!named).then(|| format!("1 to 3 axes have names, not {}", self.axes))
+        let named = (1..=4).contains(&self.axes);
+        (!named).then(|| format!("1 to 4 axes have names, not {}", self.axes))
     }
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {

@@ -81,8 +81,8 @@ impl FeedbackWidths {
         self.position + 2
     }
 
-    /// A sum: three times of three errors, or of a normal and a tangential one, above what a factor
-    /// has of whole bits.
+    /// A sum: four times four errors, or a normal and a tangential one, above what a factor has of
+    /// whole bits.
     pub(super) const fn sum(&self) -> usize {
         self.position + self.whole() + 5
     }
@@ -105,7 +105,7 @@ signals! { for FeedbackWidths as c;
 pub struct ErrorFeedback {
     /// Its widths.
     pub widths: FeedbackWidths,
-    /// How many axes, 1 to 3.
+    /// How many axes, 1 to 4.
     pub axes: usize,
 }
 
@@ -124,6 +124,7 @@ macro_rules! of_axes {
             concat!($name, "_x"),
             concat!($name, "_y"),
             concat!($name, "_z"),
+            concat!($name, "_w"),
         ]
     };
 }
@@ -222,11 +223,11 @@ impl Circuit for ErrorFeedback {
             gain,
         } = self.widths;
         let fits = position > count && self.widths.direction() <= 32 && (2..=32).contains(&gain);
-        let named = (1..=3).contains(&self.axes);
+        let named = (1..=4).contains(&self.axes);
         let right = fits && named && self.widths.sum() <= 64;
         (!right).then(|| {
             format!(
-                "1 to 3 axes, not {}; 1 to 30 guard bits behind counts of {count} in positions of \
+                "1 to 4 axes, not {}; 1 to 30 guard bits behind counts of {count} in positions of \
                  {position}, and gains of 2 to 32 bits, not {gain}, whose sums have 64 at most",
                 self.axes
             )

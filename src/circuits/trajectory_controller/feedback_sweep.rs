@@ -12,11 +12,12 @@
 //! the way, and the path begins at the command. The start stands up to the last tick: only its first
 //! is taken.
 
+use super::path_point::AXIS_NAMES;
 use super::{ErrorFeedback, error_feedback};
 use crate::check::Law;
 use crate::hdl::prelude::*;
 
-const SUM: &[&str] = &["sum_x", "sum_y", "sum_z"];
+const SUM: &[&str] = &["sum_x", "sum_y", "sum_z", "sum_w"];
 
 /// The law of what is fed back from power-on.
 #[derive(Debug, Clone)]
@@ -44,7 +45,7 @@ signals! { for FeedbackSweep as c;
     /// A case.
     pub struct In {
         /// The axes.
-        pub axes: [AxisCase(c); c.feedback.axes] as Elements(&["x", "y", "z"]),
+        pub axes: [AxisCase(c); c.feedback.axes] as Elements(&AXIS_NAMES),
         /// T.
         pub tangential_gain: U(c.feedback.widths.gain),
         /// N.

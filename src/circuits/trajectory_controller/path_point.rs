@@ -5,7 +5,7 @@
 //!  start, length ─────▶│ search ▶ store ▶ sequencer   ├──▶ points, segment
 //!  last ──────────────▶│   ▶ arc_angle ▶ cordic       ├──▶ done, busy
 //!  write, write_… ────▶│   ▶ length_powers            │
-//!                      │   ▶ rows of x, y, z          │
+//!                      │   ▶ rows of x, y, z, w       │
 //!                      └──────────────────────────────┘
 //! ```
 //!
@@ -22,15 +22,18 @@ use crate::circuits::blocks::{CoefficientControl, Cordic, coefficient_control, c
 use crate::hdl::prelude::*;
 
 /// Names of the axes.
-pub const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
-const POINT: &[&str] = &["point_x", "point_y", "point_z"];
+pub const AXIS_NAMES: [&str; 4] = ["x", "y", "z", "w"];
+/// The most axes.
+pub const AXES: usize = AXIS_NAMES.len();
+
+const POINT: &[&str] = &["point_x", "point_y", "point_z", "point_w"];
 
 /// Path point.
 #[derive(Debug, Clone)]
 pub struct PathPoint {
     /// Its widths, by name.
     pub widths: PointWidths,
-    /// The number of axes, 1 to 3.
+    /// The number of axes, 1 to 4: the fourth has words of its own in a segment.
     pub axes: usize,
     /// Word of a segment that is the radius of its arc.
     pub radius_word: u64,
@@ -40,7 +43,7 @@ impl PathPoint {
     /// Ticks from `start` to `done` on a line: search, segment, projection, and a register after
     /// each.
     pub const fn line_latency(&self) -> u64 {
-        let widths = self.widths;
+        let widths = self.inner();
         let (search, store) = (SegmentSearch { widths }, SegmentStore { widths });
         search.latency() + store.latency() + self.control().latency() + 4
     }
@@ -53,6 +56,11 @@ impl PathPoint {
         let arc = measure + self.cordic().latency() + 2;
         let spline = LengthPowers { widths }.latency() + 1;
         self.line_latency() + if arc > spline { arc } else { spline }
+    }
+
+    /// The widths of its blocks.
+    const fn inner(&self) -> PointWidths {
+        self.widths.of_axes(self.axes)
     }
 
     const fn cordic(&self) -> Cordic {
@@ -86,8 +94,8 @@ signals! { for PathPoint as c;
         pub begin_length: U(c.widths.point),
         /// Writes a word of a segment.
         pub write: Bit,
-        /// The segment, and in the lower four bits the number of its word.
-        pub write_address: U(c.widths.address()) as Hex,
+        /// The segment, and in the lowest bits the number of its word.
+        pub write_address: U(c.inner().address()) as Hex,
         /// Its data.
         pub write_data: U(c.widths.data) as Hex,
     }
@@ -96,10 +104,10 @@ signals! { for PathPoint as c;
         /// Which segment.
         pub search: Part<SegmentSearch>(SegmentSearch { widths: c.widths }),
         /// The segments.
-        pub store: Part<SegmentStore>(SegmentStore { widths: c.widths }),
+        pub store: Part<SegmentStore>(SegmentStore { widths: c.inner() }),
         /// One after the other.
         pub sequencer: Part<PointSequencer>(PointSequencer {
-            widths: c.widths,
+            widths: c.inner(),
             radius_word: c.radius_word,
         }),
         /// Length to angle.
@@ -111,7 +119,7 @@ signals! { for PathPoint as c;
         /// Which bit the axes are at.
         pub control: Part<CoefficientControl>(c.control()),
         /// The axes.
-        pub axes: [Part<AxisRow>(AxisRow { widths: c.widths, coordinate: k as u64 }); k in c.axes]
+        pub axes: [Part<AxisRow>(AxisRow { widths: c.inner(), coordinate: k as u64 }); k in c.axes]
             as Elements(&AXIS_NAMES),
     }
     /// Ports out.
@@ -209,7 +217,7 @@ impl Circuit for PathPoint {
     }
 
     fn objection(&self) -> Option<String> {
-        let placed = (1..=3).contains(&self.axes);
-        (!placed).then(|| "a segment has words for three axes".into())
+        let placed = (1..=4).contains(&self.axes);
+        (!placed).then(|| "a segment has words for four axes".into())
     }
 }

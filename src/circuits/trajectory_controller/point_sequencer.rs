@@ -62,7 +62,7 @@ signals! { for PointSequencer as c;
         /// `data` is word `word` of the segment.
         pub load: Bit,
         /// Number of the word.
-        pub word: U(4),
+        pub word: U(c.widths.word),
         /// Its data.
         pub data: U(c.widths.data) as Hex,
         /// The length behind the segment's beginning.

@@ -7,21 +7,18 @@
 //!                           └───────────────┘
 //! ```
 //!
-//! A segment is 16 words. They are written before the path begins; while it runs any of them is
+//! A segment is 16 words, or 20 where there is a fourth axis. They are written before the path begins; while it runs any of them is
 //! fetched, as often as a length belongs to it.
 
 use super::widths::PointWidths;
 use crate::hdl::prelude::*;
 
-/// Words of a segment.
+/// Words of a segment for three axes.
 pub const WORDS: usize = 16;
-
-/// The number of its last word.
-const LAST: u64 = WORDS as u64 - 1;
 
 /// Store of 2^A segments.
 ///
-/// `load` is high from the second tick after `fetch` on, for 16 ticks; `loaded` in the tick after
+/// `load` is high from the second tick after `fetch` on, for as many ticks as there are words; `loaded` in the tick after
 /// them.
 #[derive(Debug, Clone)]
 pub struct SegmentStore {
@@ -32,7 +29,12 @@ pub struct SegmentStore {
 impl SegmentStore {
     /// Ticks from `fetch` to `loaded`.
     pub const fn latency(&self) -> u64 {
-        WORDS as u64 + 2
+        self.widths.words() as u64 + 2
+    }
+
+    /// The number of a segment's last word.
+    const fn last(&self) -> u64 {
+        self.widths.words() as u64 - 1
     }
 }
 
@@ -41,7 +43,7 @@ signals! { for SegmentStore as c;
     pub struct In {
         /// Writes a word.
         pub write: Bit,
-        /// The segment, and in the lower four bits the number of its word.
+        /// The segment, and in the lowest bits the number of its word.
         pub write_address: U(c.widths.address()) as Hex,
         /// Its data.
         pub write_data: U(c.widths.data) as Hex,
@@ -57,11 +59,11 @@ signals! { for SegmentStore as c;
         /// A segment is on its way: its words are read.
         reading: Bit = 0,
         /// The word that is read.
-        read_word: U(4) = 0,
+        read_word: U(c.widths.word) = 0,
         /// A word of a segment stands at `word` and `data`.
         pub load: Bit = 0,
         /// Its number.
-        pub word: U(4) = 0,
+        pub word: U(c.widths.word) = 0,
         /// The word.
         pub data: U(c.widths.data) as Hex = 0,
         /// The last word was there in the tick before.
@@ -83,7 +85,7 @@ impl Circuit for SegmentStore {
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
         let read_address = i.segment.join(q.read_word);
-        let last = q.reading & q.read_word.equals(LAST);
+        let last = q.reading & q.read_word.equals(self.last());
         let next = Reg {
             data: q.segments.read_when(q.reading, read_address, q.data),
             segments: q.segments.write(i.write, i.write_address, i.write_data),
@@ -91,7 +93,7 @@ impl Circuit for SegmentStore {
             read_word: q.reading.mux(q.read_word + 1, 0),
             load: q.reading,
             word: q.reading.mux(q.read_word, q.word),
-            loaded: q.load & q.word.equals(LAST),
+            loaded: q.load & q.word.equals(self.last()),
         };
         (Net { read_address, last }, next)
     }

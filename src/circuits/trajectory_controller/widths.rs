@@ -3,6 +3,7 @@
 use super::arc_angle::EXTRA;
 use super::error_feedback::FeedbackWidths;
 use super::model_state::ModelWidths;
+use super::segment_store::WORDS;
 use super::servo_arithmetic::{FINE, LEFT, ServoWidths};
 use crate::circuits::arc_generator::Widths as RecordWidths;
 
@@ -76,12 +77,6 @@ impl Widths {
         1 << self.segment
     }
 
-    /// Address of a word of the path's segments.
-    #[must_use]
-    pub const fn address(&self) -> usize {
-        self.point().address()
-    }
-
     /// Those of the profile's records, in the words of the arc generator, whose format they have.
     #[must_use]
     pub const fn record(&self) -> RecordWidths {
@@ -107,6 +102,7 @@ impl Widths {
             angle: self.angle,
             data: self.data,
             segment: self.segment,
+            word: 4,
         }
     }
 
@@ -159,9 +155,24 @@ pub struct PointWidths {
     pub data: usize,
     /// A: number of a segment.
     pub segment: usize,
+    /// Number of a word of a segment: 4, or 5 where it has words for a fourth axis.
+    pub word: usize,
 }
 
 impl PointWidths {
+    /// Those of so many axes.
+    #[must_use]
+    pub const fn of_axes(self, axes: usize) -> Self {
+        let word = if axes > 3 { 5 } else { 4 };
+        PointWidths { word, ..self }
+    }
+
+    /// Words of a segment.
+    #[must_use]
+    pub const fn words(&self) -> usize {
+        if self.word > 4 { WORDS + 4 } else { WORDS }
+    }
+
     /// Bits of a radius below the guard unit.
     #[must_use]
     pub const fn fine(&self) -> usize {
@@ -183,6 +194,6 @@ impl PointWidths {
     /// Address of a word of a segment.
     #[must_use]
     pub const fn address(&self) -> usize {
-        self.segment + 4
+        self.segment + self.word
     }
 }

@@ -1,6 +1,7 @@
 //! What a path came to by each correction.
 
 use super::Job;
+use motion_rtl::circuits::trajectory_controller::path_point::AXES;
 use motion_rtl::input::Point;
 use motion_rtl::jobs::trajectory_controller::closed::{ClosedForms, Steady};
 use motion_rtl::jobs::trajectory_controller::job::Played;
@@ -85,7 +86,7 @@ impl Run {
             load_mm: steady.mean_mm(&measured.load),
         });
         // Commands are from where the path begins.
-        let off = |command: [i64; 3], length: f64| {
+        let off = |command: [i64; AXES], length: f64| {
             let exact = program.path.point(length);
             let at: Point =
                 std::array::from_fn(|axis| program.origin[axis] as f64 + command[axis] as f64);

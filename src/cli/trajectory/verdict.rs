@@ -72,6 +72,7 @@ mod tests {
     use crate::cli::source::{Input, Source};
     use crate::cli::trajectory::CORRECTIONS;
     use motion_rtl::circuits::trajectory_controller::Widths;
+    use motion_rtl::circuits::trajectory_controller::path_point::AXES;
     use motion_rtl::jobs::trajectory_controller::job::{Period, Played};
     use motion_rtl::jobs::trajectory_controller::profile_record::lengths;
     use motion_rtl::scenario::Scenario;
@@ -93,7 +94,7 @@ mod tests {
         let lengths = lengths(&job.program.records, &Widths::FULL);
         let periods = lengths.into_iter().zip(0..).map(|(length, tick)| {
             let exact = job.program.path.point(length as f64);
-            let at = exact.map(|units| units.round() as i64);
+            let at = std::array::from_fn(|k| exact.get(k).map_or(0, |units| units.round() as i64));
             Period {
                 tick,
                 length,
@@ -105,8 +106,8 @@ mod tests {
                 model: at,
                 motor: at.map(|units| units / COUNT),
                 load: at.map(|units| units as f64 / COUNT as f64),
-                torque: [0; 3],
-                saturated: [false; 3],
+                torque: [0; AXES],
+                saturated: [false; AXES],
             }
         });
         let played = Played {

@@ -309,7 +309,7 @@ impl<'a> Host<'a> {
         i.begin_segment = path.segment;
         i.begin_length = path.begin;
         i.write_path = path.write;
-        i.path_address = path.segment << 4 | path.word;
+        i.path_address = path.address;
         i.path_data = path.data;
     }
 

@@ -2,7 +2,6 @@
 //! commands.
 
 use crate::circuits::arc_generator::Widths as RecordWidths;
-use crate::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use crate::input::{COORDINATES, Point};
 use crate::path::circle::Circle;
 use crate::path::error::Reason;
@@ -19,10 +18,11 @@ pub(super) fn fits(
         let mut coordinates = names.into_iter().zip(point);
         coordinates.try_for_each(|(what, mm)| hold(what, mm * counts_per_mm, widths))
     };
-    check(AXIS_NAMES, from)?;
-    check(AXIS_NAMES, piece.to)?;
+    const NAMES: [&str; COORDINATES] = ["x", "y", "z"];
+    check(NAMES, from)?;
+    check(NAMES, piece.to)?;
     let extremes = piece.course.extremes(piece.to);
-    (0..2).try_for_each(|end| check(AXIS_NAMES, extremes.map(|extreme| extreme[end])))?;
+    (0..2).try_for_each(|end| check(NAMES, extremes.map(|extreme| extreme[end])))?;
     let Some(circle) = turned(&piece.course) else {
         return Ok(());
     };

@@ -7,8 +7,8 @@ use crate::circuits::trajectory_controller::TrajectoryController;
 use crate::circuits::trajectory_controller::controller::In;
 use crate::circuits::trajectory_controller::error_feedback::FeedbackGains;
 use crate::circuits::trajectory_controller::model_state::ModelGains;
+use crate::circuits::trajectory_controller::path_point::AXES;
 use crate::hdl::{Value, zero};
-use crate::input::COORDINATES;
 use crate::path::record_writer::RecordWriter;
 
 /// Records of the profile that wait before the path begins, where there are so many.
@@ -72,7 +72,7 @@ impl<'a> Host<'a> {
     }
 
     /// What it gives in this tick, with the encoders' channels.
-    pub(super) fn drive(&mut self, i: &mut In<Value>, channels: [(bool, bool); COORDINATES]) {
+    pub(super) fn drive(&mut self, i: &mut In<Value>, channels: [(bool, bool); AXES]) {
         let waiting = self.program.records.len().min(HEAD_START);
         let start = !self.started && self.path.is_done() && self.records.written() == waiting;
         self.started |= start;
@@ -87,7 +87,7 @@ impl<'a> Host<'a> {
         i.begin_segment = path.segment;
         i.begin_length = path.begin;
         i.write_path = path.write;
-        i.path_address = path.segment << 4 | path.word;
+        i.path_address = path.address;
         i.path_data = path.data;
         self.quiet = self.started && !start && !record.write && self.path.is_done() && !path.write;
         for ((a, b), given) in i.a.iter_mut().zip(&mut i.b).zip(channels) {

@@ -5,9 +5,9 @@ use super::host::Host;
 use super::load_torque::LoadStep;
 pub use super::program::{Program, ProgramError};
 use super::settings::Correction;
+use crate::circuits::trajectory_controller::path_point::AXES;
 use crate::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
 use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
-use crate::input::COORDINATES;
 use crate::plant::waves::{Machine, MachineSignals};
 use crate::plant::{Ahead, Plant, TwoMassAxis};
 use crate::settings::{JobError, SettingError};
@@ -39,23 +39,23 @@ pub struct Period {
     /// q_s.
     pub answered: i64,
     /// P_c.
-    pub command: [i64; COORDINATES],
+    pub command: [i64; AXES],
     /// P_r.
-    pub reference: [i64; COORDINATES],
+    pub reference: [i64; AXES],
     /// P_s.
-    pub response: [i64; COORDINATES],
+    pub response: [i64; AXES],
     /// P_d.
-    pub corrected: [i64; COORDINATES],
+    pub corrected: [i64; AXES],
     /// Of the servo's own model.
-    pub model: [i64; COORDINATES],
+    pub model: [i64; AXES],
     /// Of the motor, in encoder counts.
-    pub motor: [i64; COORDINATES],
+    pub motor: [i64; AXES],
     /// Of the load, in encoder counts.
-    pub load: [f64; COORDINATES],
+    pub load: [f64; AXES],
     /// Torque from this period on, in words of the amplifier.
-    pub torque: [i64; COORDINATES],
+    pub torque: [i64; AXES],
     /// It is limited.
-    pub saturated: [bool; COORDINATES],
+    pub saturated: [bool; AXES],
 }
 
 /// What came out of a path.
@@ -143,7 +143,7 @@ impl See {
     }
 
     /// What is at a place of every axis; of one that there is not, what nothing is.
-    fn each<T: Default>(&self, mut of: impl FnMut(&SeeAxis) -> T) -> [T; COORDINATES] {
+    fn each<T: Default>(&self, mut of: impl FnMut(&SeeAxis) -> T) -> [T; AXES] {
         from_fn(|k| self.axes.get(k).map(&mut of).unwrap_or_default())
     }
 
@@ -165,9 +165,9 @@ impl See {
             corrected: words(|axis| axis.corrected),
             model: words(|axis| axis.model),
             motor: words(|axis| axis.motor),
-            load: [0.0; COORDINATES],
-            torque: [0; COORDINATES],
-            saturated: [false; COORDINATES],
+            load: [0.0; AXES],
+            torque: [0; AXES],
+            saturated: [false; AXES],
         })
     }
 }
@@ -204,9 +204,9 @@ impl Motors<'_> {
     }
 
     /// Steps them under these torques; gives the channels of their encoders.
-    fn step(&mut self, torques: [i64; COORDINATES]) -> [(bool, bool); COORDINATES] {
+    fn step(&mut self, torques: [i64; AXES]) -> [(bool, bool); AXES] {
         self.load();
-        let mut channels = [(false, false); COORDINATES];
+        let mut channels = [(false, false); AXES];
         let motors = self.axes.iter_mut().zip(torques);
         for ((motor, torque), channels) in motors.zip(&mut channels) {
             *channels = motor.step(torque);
@@ -216,7 +216,7 @@ impl Motors<'_> {
 }
 
 impl Plant for Motors<'_> {
-    type State = ([Option<<TwoMassAxis as Plant>::State>; COORDINATES], Since);
+    type State = ([Option<<TwoMassAxis as Plant>::State>; AXES], Since);
 
     fn state(&self) -> Self::State {
         let state = |axis| self.axes.get(axis).map(Plant::state);

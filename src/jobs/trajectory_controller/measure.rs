@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 /// Guard units of a count.
 const COUNT: f64 = (1u64 << Widths::FULL.guard()) as f64;
 
-/// A period of a run, in mm.
+/// A period of a run, in mm; of a fourth axis nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
     /// Time from the path's start, in s.
@@ -199,8 +199,11 @@ impl Segment {
         let way = sub(point, self.base.map(|units| units as f64));
         let [along, across] = [dot(way, self.along), dot(way, self.across)];
         let Some(arc) = self.arc else {
-            // A way of length 1 in a unit of length, but for the length's rounding.
+            // A way of length 1 in a unit of length, but for the length's rounding and a fourth axis.
             let size = norm(self.along);
+            if size == 0.0 {
+                return vec![from];
+            }
             return vec![(along / (size * size)).clamp(from, to)];
         };
         if self.third != [0.0; COORDINATES] {

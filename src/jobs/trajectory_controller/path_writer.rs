@@ -2,9 +2,13 @@
 
 use super::program::Program;
 use crate::circuits::trajectory_controller::{Widths, segment_store};
+use crate::input::COORDINATES;
 
 /// Words of a segment that are looked at, and of one with a third coordinate.
 const SEGMENT_WORDS: [usize; 2] = [13, segment_store::WORDS];
+
+/// With a fourth axis all are.
+const MOST_WORDS: usize = segment_store::WORDS + 4;
 
 /// A path that is written segment after segment.
 #[derive(Debug)]
@@ -13,7 +17,9 @@ pub(crate) struct PathWriter<'a> {
     /// The segment and the word of it that are written next, and the segment's words.
     segment: usize,
     word: usize,
-    words: [u64; segment_store::WORDS],
+    words: [u64; MOST_WORDS],
+    /// How many of them are written.
+    count: usize,
 }
 
 /// What stands at the controller's ports in a tick.
@@ -27,8 +33,8 @@ pub(crate) struct PathWord {
     pub(crate) segment: u64,
     /// The length at which it begins.
     pub(crate) begin: u64,
-    /// Number of the word.
-    pub(crate) word: u64,
+    /// The segment, and below it the number of the word.
+    pub(crate) address: u64,
     /// Its data.
     pub(crate) data: u64,
 }
@@ -40,7 +46,8 @@ impl<'a> PathWriter<'a> {
             program,
             segment: 0,
             word: 0,
-            words: [0; segment_store::WORDS],
+            words: [0; MOST_WORDS],
+            count: 0,
         };
         writer.prepare();
         writer
@@ -57,28 +64,39 @@ impl<'a> PathWriter<'a> {
             return;
         };
         let mut segment = stretch.segment;
-        for (base, origin) in segment.base.iter_mut().zip(self.program.origin) {
+        let origin = self.program.origin;
+        for (base, origin) in segment.base.iter_mut().zip(origin) {
             *base -= origin;
         }
-        self.words = segment.words(&Widths::FULL);
+        let words = segment.words(&Widths::FULL);
+        self.words[..words.len()].copy_from_slice(&words);
+        let spatial = words[0] >> 7 & 1;
+        self.count = SEGMENT_WORDS[spatial as usize];
+        if let Some(fourth) = &mut segment.fourth {
+            fourth.base -= origin[COORDINATES];
+        }
+        if let Some(fourth) = segment.fourth_words(&Widths::FULL) {
+            self.words[words.len()..].copy_from_slice(&fourth);
+            self.count = MOST_WORDS;
+        }
     }
 
     /// The word of this tick.
     pub(crate) fn write(&mut self) -> PathWord {
         let (segment, word) = (self.segment, self.word);
+        let widths = Widths::FULL.point().of_axes(self.program.gains.len());
         let writing = self.program.path.stretches.get(segment);
         let given = PathWord {
             write: writing.is_some(),
             write_begin: writing.is_some() && word == 0,
             segment: segment as u64,
             begin: writing.map_or(0, |stretch| stretch.begin),
-            word: word as u64,
+            address: (segment << widths.word | word) as u64,
             data: self.words[word],
         };
         if given.write {
             self.word += 1;
-            let spatial = self.words[0] >> 7 & 1;
-            if self.word == SEGMENT_WORDS[spatial as usize] {
+            if self.word == self.count {
                 self.word = 0;
                 self.segment += 1;
                 self.prepare();

@@ -1,15 +1,17 @@
 //! What a run is made of: the path, its profile in time, and the words of both and of the servos.
 
 use super::axis_limits;
+use super::job::controller;
 use super::load_torque::{LoadStep, load_steps};
 use super::planner::plan;
 use super::profile::Profile;
 use super::profile_record::records;
-use super::segments::Path;
+use super::segments::{FourthAxis, Path};
 use super::servo_gains::ServoGains;
-use super::settings::{FeedbackGains, Gains, Motion, Settings};
+use super::settings::{Correction, FeedbackGains, Gains, Motion, Settings};
 use super::speed_limits::spans;
-use crate::circuits::trajectory_controller::Widths;
+use crate::circuits::trajectory_controller::path_point::AXES;
+use crate::circuits::trajectory_controller::{Rounding, Widths};
 use crate::input::{COORDINATES, Point, ZERO_MM};
 use crate::path::error::{PathError, Reason};
 use crate::path::pieces::Piece;
@@ -40,11 +42,11 @@ pub struct Program {
     /// Of the error feedback.
     pub feedback: FeedbackGains,
     /// Of the axes, of which there are as many as there are machine parameters; the others are 0.
-    pub servo: [ServoGains; COORDINATES],
+    pub servo: [ServoGains; AXES],
     /// Torques on the loads from outside.
     pub load_steps: Vec<LoadStep>,
     /// Where the path begins, in guard units: the motors stand at 0 there.
-    pub origin: [i64; COORDINATES],
+    pub origin: [i64; AXES],
 }
 
 /// The most periods of a path: so many, the records of its profile fit into memory.
@@ -74,13 +76,41 @@ impl Program {
         machine: &[TwoMassParameters],
         widths: &Widths,
     ) -> Result<Self, ProgramError> {
+        Self::with_fourth(start, pieces, None, settings, machine, widths)
+    }
+
+    /// The same for four axes, where there is a fourth. The limits of axes' accelerations are those
+    /// of X, Y and Z; W has that of the path.
+    ///
+    /// # Errors
+    /// As [`Program::of`]; and a period that is too short for a fourth axis.
+    pub fn with_fourth(
+        start: Point,
+        pieces: &[Piece],
+        fourth: Option<&FourthAxis>,
+        settings: &Settings,
+        machine: &[TwoMassParameters],
+        widths: &Widths,
+    ) -> Result<Self, ProgramError> {
         let mut motion = settings.motion(widths)?;
-        if !(2..=COORDINATES).contains(&machine.len()) {
-            return Err(SettingError::value("axes", machine.len(), "2 or 3").into());
+        let (axes, allowed) = match fourth {
+            None => (2..=COORDINATES, "2 or 3"),
+            Some(_) => (AXES..=AXES, "4"),
+        };
+        if !axes.contains(&machine.len()) {
+            return Err(SettingError::value("axes", machine.len(), allowed).into());
+        }
+        let period_ticks = settings.period_ticks(widths)?;
+        let least = controller(machine.len(), Correction::Vector, Rounding::Nearest).least_period();
+        if u64::from(period_ticks) < least {
+            let problem = format!("is {}: {period_ticks} ticks", settings.period_ms);
+            let allowed = format!("{least} ticks or more for {} axes", machine.len());
+            return Err(SettingError::new("period_ms", problem, allowed).into());
         }
         let gains = settings.gains(widths, machine.len())?;
         if let Some(told) = &settings.axis_acceleration_mm_per_s2 {
-            told.check("axis_acceleration_mm_per_s2", machine.len())?;
+            let limited = machine.len().min(COORDINATES);
+            told.check("axis_acceleration_mm_per_s2", limited)?;
         }
         let feedback = settings.feedback_gains(widths)?;
         let slowest = gains.iter().min_by_key(|gains| (gains.k1, gains.k2));
@@ -89,7 +119,7 @@ impl Program {
             .inertia_factor
             .check("inertia_factor", machine.len())?;
         let load_steps = load_steps(&settings.load_torque, machine.len(), settings.clock_hz)?;
-        let mut servo = [ServoGains::default(); COORDINATES];
+        let mut servo = [ServoGains::default(); AXES];
         for (axis, parameters) in machine.iter().enumerate() {
             servo[axis] = ServoGains::of(settings, axis, parameters, widths)?;
             let (own, path) = (parameters.counts_per_mm(), settings.counts_per_mm);
@@ -106,7 +136,8 @@ impl Program {
         if machine.len() < COORDINATES {
             flat(start, pieces)?;
         }
-        let mut path = Path::of(start, pieces, settings.counts_per_mm, widths)?;
+        let per_mm = settings.counts_per_mm;
+        let mut path = Path::with_fourth(start, pieces, fourth, per_mm, widths)?;
         let along = axis_limits::along(&path, &motion.axis_acceleration);
         let most = along * motion.units_per_mm;
         motion.slope.acceleration = motion.slope.acceleration.min(most);
@@ -120,12 +151,17 @@ impl Program {
             let allowed = format!("{MOST_PERIODS}: a faster or shorter path, or longer periods");
             return Err(SettingError::new("period_ms", problem, allowed).into());
         }
-        let origin = path.point(0.0).map(|units| units.round() as i64);
+        let mut origin = [0; AXES];
+        for (origin, units) in origin.iter_mut().zip(path.point(0.0)) {
+            *origin = units.round() as i64;
+        }
+        let first = path.stretches[0].segment.fourth;
+        origin[COORDINATES] = first.map_or(0, |fourth| fourth.base);
         Ok(Program {
             records: records(&profile, motion.period, widths),
             path,
             profile,
-            period_ticks: settings.period_ticks(widths)?,
+            period_ticks,
             motion,
             gains,
             tangential,

@@ -11,7 +11,8 @@
 //! | 12 | 0 | as word 2, the radius widened for constant speed | 0 |
 //! | 13, 14, 15 | not looked at | not looked at | that of its cube, times 2^2n |
 //!
-//! A spline's length has n bits. A helix has the words of an arc with bit 7 of word 0 set, and in
+//! A fourth axis has four words more, base and coefficients as those of x: 16 and, of a line, 17, of
+//! an arc 19, which then has bit 7 of word 0 set as a helix has. A spline's length has n bits. A helix has the words of an arc with bit 7 of word 0 set, and in
 //! words 13 to 15 its rise over its length. Lengths are whole guard units of 2^-G count. A piece's
 //! own length is rounded, and what the rounding takes is spread over the piece: a line's
 //! coefficients are its way divided by the rounded length, an arc's angle at the rounded length is
@@ -50,6 +51,26 @@ pub struct Segment {
     pub arc: Option<Arc>,
     /// n of a spline: its length is below 2^n, and not below 2^(n − 1).
     pub powers: Option<u32>,
+    /// What it has of a fourth axis.
+    pub fourth: Option<Fourth>,
+}
+
+/// A fourth coordinate, which goes linearly with the length. All in guard units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fourth {
+    /// Where it begins.
+    pub base: i64,
+    /// Its way in a guard unit of the length.
+    pub along: f64,
+}
+
+/// W of the pieces of a path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FourthAxis {
+    /// Where it begins, in mm.
+    pub from_mm: f64,
+    /// Where it is at the end of each piece.
+    pub to_mm: Vec<f64>,
 }
 
 /// An arc, in guard units.
@@ -74,6 +95,7 @@ impl Segment {
             third: [0.0; COORDINATES],
             arc: None,
             powers: None,
+            fourth: None,
         }
     }
 
@@ -93,7 +115,8 @@ impl Segment {
             words[2] = radius(arc.radius);
             words[12] = radius(arc.widened);
         }
-        words[0] |= u64::from(self.third != [0.0; COORDINATES]) << 7;
+        let spatial = self.third != [0.0; COORDINATES] || self.fourth.is_some();
+        words[0] |= u64::from(spatial && self.arc.is_some()) << 7;
         if let Some(bits) = self.powers {
             words[0] = 1 << 7 | u64::from(bits) << 1;
         }
@@ -105,6 +128,53 @@ impl Segment {
             words[13 + axis] = word((self.third[axis] * unit).round() as i64);
         }
         words
+    }
+
+    /// The words of a fourth axis, which follow these. An arc has it as a helix its rise.
+    #[must_use]
+    pub fn fourth_words(&self, widths: &Widths) -> Option<[u64; 4]> {
+        let Fourth { base, along } = self.fourth?;
+        let unit = two_to(widths.coefficient - 2);
+        let word = |value: i64| value as u64 & ((1 << widths.data) - 1);
+        let along = word((along * unit).round() as i64);
+        let [of_line, of_arc] = match self.arc {
+            None => [along, 0],
+            Some(_) => [0, along],
+        };
+        Some([word(base), of_line, 0, of_arc])
+    }
+
+    /// W at a length behind its beginning, unrounded.
+    #[must_use]
+    pub fn fourth_point(&self, offset: f64) -> Option<f64> {
+        let Fourth { base, along } = self.fourth?;
+        Some(base as f64 + along * offset)
+    }
+
+    /// It with W beside it, of `length` guard units, and its length then. Its points are the same,
+    /// by a longer length.
+    fn with_fourth(self, length: u64, base: i64, way: f64) -> (Self, u64) {
+        let longer = (length as f64).hypot(way).round();
+        let part = length as f64 / longer;
+        let arc = self.arc.map(|arc| Arc {
+            turn: arc.turn / part,
+            ..arc
+        });
+        let along = match arc {
+            None => scale(self.along, part),
+            Some(_) => self.along,
+        };
+        let segment = Segment {
+            along,
+            arc,
+            third: scale(self.third, part),
+            fourth: Some(Fourth {
+                base,
+                along: way / longer,
+            }),
+            ..self
+        };
+        (segment, longer as u64)
     }
 
     /// What it is called.
@@ -163,7 +233,7 @@ pub struct Stretch {
     pub begin: u64,
     /// Its length in guard units, 1 or more.
     pub length: u64,
-    /// Direction of motion at its start and at its end.
+    /// Direction of motion at its start and at its end: of length 1 together with a fourth axis.
     pub directions: [Point; 2],
     /// The speed that is wanted, in mm/s.
     pub speed: f64,
@@ -199,6 +269,22 @@ impl Path {
         counts_per_mm: f64,
         widths: &Widths,
     ) -> Result<Self, PathError> {
+        Self::with_fourth(start, pieces, None, counts_per_mm, widths)
+    }
+
+    /// The same with a fourth axis, which goes linearly with the length within each piece. Its way is
+    /// part of the length, and of the speed, as those of the others are.
+    ///
+    /// # Errors
+    /// As [`Path::of`]; W is no number or does not fit, or moves along a spline.
+    pub fn with_fourth(
+        start: Point,
+        pieces: &[Piece],
+        fourth: Option<&FourthAxis>,
+        counts_per_mm: f64,
+        widths: &Widths,
+    ) -> Result<Self, PathError> {
+        let mut w = fourth.map(|fourth| fourth.from_mm);
         let mut stretches: Vec<Stretch> = Vec::with_capacity(pieces.len());
         let (mut from, mut length, mut zero_length) = (start, 0, 0);
         for (index, piece) in pieces.iter().enumerate() {
@@ -212,7 +298,24 @@ impl Path {
             margin(start, piece, counts_per_mm, &widths.record()).map_err(refuse)?;
             let begin = std::mem::replace(&mut from, piece.to);
             let unit = counts_per_mm * two_to(widths.guard());
-            let made = made(begin, piece, index, [unit, two_to(widths.guard())]);
+            let mut made = made(begin, piece, index, [unit, two_to(widths.guard())]);
+            if let (Some(axis), Some(from)) = (fourth, &mut w) {
+                let to = axis.to_mm.get(index).copied().unwrap_or(*from);
+                let places = [*from, to, to - axis.from_mm];
+                for (place, room) in places.into_iter().zip([1.0, 1.0, 2.0]) {
+                    if !place.is_finite() {
+                        let coordinate = Reason::Coordinate {
+                            axis: "w",
+                            value: place,
+                        };
+                        return Err(refuse(coordinate));
+                    }
+                    hold("w", room * place * counts_per_mm, &widths.record()).map_err(refuse)?;
+                }
+                let ends = [*from, to].map(|mm| (mm * unit).round());
+                made = beside(made, begin, piece, index, ends, unit).map_err(refuse)?;
+                *from = to;
+            }
             zero_length += usize::from(made.is_empty());
             for one in made {
                 stretches.push(Stretch {
@@ -256,8 +359,10 @@ impl Path {
     pub fn widen(&mut self, spans: &[Span], c: f64) {
         for (stretch, span) in self.stretches.iter_mut().zip(spans) {
             if let Some(arc) = &mut stretch.segment.arc {
-                // Of the speed of a helix a part goes up.
-                let flat = 1.0 - dot(stretch.segment.third, stretch.segment.third);
+                // Of the speed of a helix a part goes up, and one to a fourth axis.
+                let beside = stretch.segment.fourth.map_or(0.0, |fourth| fourth.along);
+                let third = stretch.segment.third;
+                let flat = 1.0 - dot(third, third) - beside * beside;
                 let by = c * span.speed * span.speed * flat / arc.radius;
                 arc.widened = arc.radius + by.clamp(-arc.radius / 2.0, arc.radius);
             }
@@ -330,6 +435,51 @@ fn made(from: Point, piece: &Piece, index: usize, [unit, count]: [f64; 2]) -> Ve
         _ if length < 1.0 => Vec::new(),
         _ => vec![stretch],
     }
+}
+
+/// The segments of a piece with W from one place to another, in guard units.
+fn beside(
+    made: Vec<Stretch>,
+    from: Point,
+    piece: &Piece,
+    index: usize,
+    [begin, end]: [f64; 2],
+    unit: f64,
+) -> Result<Vec<Stretch>, Reason> {
+    let (way, base) = (end - begin, begin as i64);
+    let still = |stretch: Stretch| Stretch {
+        segment: Segment {
+            fourth: Some(Fourth { base, along: 0.0 }),
+            ..stretch.segment
+        },
+        ..stretch
+    };
+    if way == 0.0 {
+        return Ok(made.into_iter().map(still).collect());
+    }
+    if matches!(piece.course, Course::Spline(_)) {
+        return Err(Reason::Spline);
+    }
+    // W alone, where the others stand.
+    let alone = || Stretch {
+        segment: Segment::line(from.map(|mm| (mm * unit).round()), [0.0; COORDINATES]),
+        begin: 0,
+        length: 0,
+        directions: [[0.0; COORDINATES]; 2],
+        speed: piece.speed,
+        radius: None,
+        piece: index,
+        line: piece.line,
+    };
+    let of = made.into_iter().next().unwrap_or_else(alone);
+    let (segment, length) = of.segment.with_fourth(of.length, base, way);
+    let part = of.length as f64 / length as f64;
+    Ok(vec![Stretch {
+        segment,
+        length,
+        directions: of.directions.map(|direction| scale(direction, part)),
+        ..of
+    }])
 }
 
 fn two_to(exponent: usize) -> f64 {

@@ -3,6 +3,7 @@
 use super::axis_limits;
 use super::segments::Path;
 use super::settings::Motion;
+use crate::path::vector::distance;
 use crate::plan::junction;
 
 /// A segment for the planner. Units of length and time are the caller's.
@@ -30,8 +31,12 @@ pub fn spans(path: &Path, motion: &Motion) -> Vec<Span> {
             (motion.normal_acceleration.min(across) * radius).sqrt()
         });
         let [first, last] = stretch.directions;
-        let entry = before.map_or(0.0, |before| junction(before, first, motion.corner_speed));
-        before = Some(last);
+        let along = stretch.segment.fourth.map_or(0.0, |fourth| fourth.along);
+        let entry = before.map_or(0.0, |(before, beside)| {
+            let turn = distance(before, first).hypot(along - beside);
+            junction(turn, motion.corner_speed)
+        });
+        before = Some((last, along));
         Span {
             length: stretch.length,
             speed: unit * stretch.speed.min(around.unwrap_or(f64::INFINITY)),

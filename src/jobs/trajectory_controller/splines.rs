@@ -37,7 +37,7 @@ pub(super) fn stretches(cubic: &Cubic, unit: f64, count: f64, stretch: Stretch) 
             }
             Part::Nothing => {}
             Part::Whole(segment, length, directions) => made.push(Stretch {
-                segment,
+                segment: *segment,
                 length,
                 directions,
                 radius: segment.least_radius(length as f64).map(|r| r / unit),
@@ -53,7 +53,7 @@ enum Part {
     /// It is shorter than half a guard unit.
     Nothing,
     /// A segment, its length, and its directions at both ends.
-    Whole(Segment, u64, [Point; 2]),
+    Whole(Box<Segment>, u64, [Point; 2]),
     /// It is halved.
     Halves,
 }
@@ -75,7 +75,7 @@ fn part(cubic: &Cubic, [from, to]: [f64; 2], unit_per_mm: f64, deviation: f64) -
             true => [unit(way); 2],
             false => directions,
         };
-        return Part::Whole(straight, length as u64, directions);
+        return Part::Whole(Box::new(straight), length as u64, directions);
     }
     let bits = (length as u64).ilog2() + 1;
     let longest = f64::from(bits).exp2() / length;
@@ -96,7 +96,7 @@ fn part(cubic: &Cubic, [from, to]: [f64; 2], unit_per_mm: f64, deviation: f64) -
     let held = |of: Point| of.iter().all(|one| one.abs() < LARGEST);
     let holds = held(segment.across) && held(segment.third);
     match holds && dot(first, last) >= TURN && (0..3).all(near) {
-        true => Part::Whole(segment, length as u64, directions),
+        true => Part::Whole(Box::new(segment), length as u64, directions),
         false => Part::Halves,
     }
 }

@@ -37,6 +37,7 @@ fn points(width: usize) -> PointWidths {
         angle: width,
         data: width + 2,
         segment: 1,
+        word: 4,
     }
 }
 

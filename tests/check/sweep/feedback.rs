@@ -63,7 +63,7 @@ fn the_feedback_is_both_parts_by_their_gains_and_a_mutant_confuses_them() {
         let swept = sweep(&feedback(count)).run().unwrap();
         // Nine ways of a count at most, an axis.
         let axis = 9u64 << bits;
-        let cases = axis * axis << (2 * count);
+        let cases = (axis * axis) << (2 * count);
         assert_eq!(swept.held(), Some(cases), "{swept:?}");
     }
     let mutant = Mutant(feedback(2));

@@ -101,8 +101,8 @@ fn every_case_of_an_axis() {
 }
 
 #[test]
-fn random_errors_and_directions_of_two_and_three_axes() {
-    for axes in [2, 3] {
+fn random_errors_and_directions_of_two_to_four_axes() {
+    for axes in [2, 3, 4] {
         let widths = Widths::FULL.feedback();
         let circuit = ErrorFeedback { widths, axes };
         assert_eq!(circuit.latency(), 27);

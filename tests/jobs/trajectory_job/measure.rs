@@ -75,20 +75,20 @@ fn beside(program: &Program, off_mm: [f64; 3], behind_mm: f64) -> Played {
         let way = off(here, next);
         let normal = [(next[1] - here[1]) / way, (here[0] - next[0]) / way];
         let place = |axis: usize, mm: f64| path.point(at)[axis] + normal[axis] * mm * MM;
-        let each = |mm: f64| [place(0, mm), place(1, mm), 0.0];
+        let each = |mm: f64| [place(0, mm), place(1, mm), 0.0, 0.0];
         Period {
             tick: 1000 + k as u64,
             length: length as i64,
             answered: at as i64,
-            command: [command[0] as i64, command[1] as i64, 0],
-            reference: [0; 3],
-            response: [0; 3],
-            corrected: [0; 3],
+            command: [command[0] as i64, command[1] as i64, 0, 0],
+            reference: [0; 4],
+            response: [0; 4],
+            corrected: [0; 4],
             model: each(off_mm[0]).map(|units| units as i64),
             motor: each(off_mm[1]).map(|units| (units / COUNT).round() as i64),
             load: each(off_mm[2]).map(|units| units / COUNT),
-            torque: [k as i64 - 300, 7, 0],
-            saturated: [k % 3 == 0, false, false],
+            torque: [k as i64 - 300, 7, 0, 0],
+            saturated: [k % 3 == 0, false, false, false],
         }
     });
     Played {

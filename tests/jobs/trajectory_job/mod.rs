@@ -3,6 +3,7 @@
 mod circle;
 mod disturbance;
 mod feedback;
+mod four;
 mod measure;
 mod paths;
 mod refusals;

@@ -240,9 +240,9 @@ fn the_gains_are_those_of_the_axis() {
     let pieces = [line([1.0, 0.0, 0.0], 10.0)];
     let good = [TwoMassParameters::default(); 2];
     let program = program(&pieces, &settings(), &good).unwrap();
-    let [x, y, none] = program.servo;
+    let [x, y, others @ ..] = program.servo;
     assert_eq!(x, y);
-    assert_eq!(none, Default::default());
+    assert_eq!(others, [Default::default(); 2]);
     // 30/s in a millisecond; 3·10^-3 kg·m²; 10 N·m are 32,767.
     assert_eq!(x.position, (0.03 * f64::from(1 << 23)).round() as u64);
     assert_eq!(x.limit, 32_767);
