@@ -30,6 +30,7 @@
 //!
 //! `rtl_notes/plant.md` has the equations and what is idealised.
 
+mod absolute;
 mod ahead;
 pub mod axis;
 pub mod brake;
@@ -41,6 +42,7 @@ pub mod step_motor;
 pub mod two_mass;
 pub mod waves;
 
+pub use absolute::AbsoluteEncoder;
 pub use ahead::{Ahead, Plant};
 pub use axis::ServoAxis;
 pub use brake::{BodyParameters, BrakedBody, Load};

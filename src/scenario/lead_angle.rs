@@ -3,8 +3,8 @@
 use super::Runnable;
 use crate::input::position_log::Columns;
 use crate::jobs::lead_angle::settings::{
-    Action, Comparing, Completion, Function, History, LeadBy, Placement, Settings, Sign, Step,
-    Targets,
+    Action, Comparing, Completion, Detector, Function, History, LeadBy, Placement, Settings, Sign,
+    Step, Targets,
 };
 use crate::plant::{BodyParameters, Load};
 use serde::Deserialize;
@@ -45,6 +45,12 @@ pub struct Scenario {
     /// The factor of that time from the load change on.
     #[serde(default = "default::load_factor")]
     pub load_delay_factor: f64,
+    /// What the position comes from.
+    #[serde(default)]
+    pub detector: Detector,
+    /// How much faster than CK an absolute encoder's sampling clock is.
+    #[serde(default)]
+    pub sampling_clock_ppm: f64,
     /// Where the lead comes from.
     #[serde(default)]
     pub lead: LeadBy,
@@ -162,6 +168,8 @@ impl Scenario {
             action: self.action,
             operation_delay_s: self.operation_delay_s,
             load_delay_factor: self.load_delay_factor,
+            detector: self.detector,
+            sampling_clock_ppm: self.sampling_clock_ppm,
             lead: self.lead,
             placement: self.placement,
             comparing: self.comparing,

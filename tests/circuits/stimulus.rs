@@ -287,6 +287,16 @@ const FAR: &[(&str, u32)] = &[
     // Times in CKs.
     ("speed_detector.count", 9),
     ("speed_detector.next_count", 9),
+    ("speed_lead.detector.count", 9),
+    ("speed_lead.detector.next_count", 9),
+    ("table_lead.detector.count", 9),
+    ("table_lead.detector.next_count", 9),
+    // Bits that the words of its memory have not.
+    ("table_lead.base", 0),
+    ("table_lead.increment", 0),
+    ("table_lead.product", 0),
+    // At most half of the code is before a turn.
+    ("absolute_detector.first", 16),
     ("completion_detector.still", 6),
     ("completion_detector.elapsed", 6),
     ("completion_detector.next_still", 6),
@@ -408,6 +418,11 @@ const NEVER: &[(&str, u32)] = &[
     ("refinement.addend", 7),
     ("lead_arithmetic.factor", 4),
     ("speed_lead.factor", 14),
+    // As above.
+    ("table_lead.base", 0),
+    ("table_lead.increment", 0),
+    ("table_lead.product", 0),
+    ("absolute_detector.first", 6),
     ("completion_detector.still", 5),
     ("completion_detector.elapsed", 5),
     ("completion_detector.next_still", 5),

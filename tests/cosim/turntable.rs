@@ -5,7 +5,7 @@ use super::tools::{Simulator, complete, write};
 use motion_rtl::hdl::{Circuit, Declarations, Without};
 use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
 use motion_rtl::jobs::lead_angle::settings::{
-    Comparing, History, LeadBy, Placement, Settings, Step,
+    Comparing, Detector, History, LeadBy, Placement, Settings, Step,
 };
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
@@ -77,6 +77,16 @@ fn other_variants_are_the_same_in_icarus() {
         ..settings(2)
     };
     hold(&equal, Simulator::Icarus);
+}
+
+#[test]
+#[ignore = "needs Icarus Verilog"]
+fn an_absolute_encoder_is_the_same_in_icarus() {
+    let absolute = Settings {
+        detector: Detector::Absolute,
+        ..settings(2)
+    };
+    hold(&absolute, Simulator::Icarus);
 }
 
 #[test]

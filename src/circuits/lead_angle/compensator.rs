@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!                                     ┌─────────────┐
-//!  a, b, clear ──────────────────────▶│             ├──▶ drive, reverse, speed, brake
+//!  a, b or strobe, code, turn; clear ▶│             ├──▶ drive, reverse, speed, brake
 //!  run, halt, learn, common ─────────▶│             ├──▶ position, predicted, target, lead_time
 //!  write_target, write_time, … ──────▶│ compensator ├──▶ fire, complete, timed_out
 //!  ck_period, standstill, time_out ──▶│             ├──▶ error, overrun, learned
@@ -12,18 +12,20 @@
 //!                                     └─────────────┘
 //! ```
 //!
-//! Where the lead comes from is a choice: from the time Δt with the history as a shift register
-//! or as a RAM, or from the speed as in Fig. 7, by a parameter or a memory. `brake` is the control signal; it holds from the
-//! crossing through the rest up to the next step. With `passing` the body goes on, and `operate` is
-//! the control signal in place of `brake`: of an operation that is complete with its `effect`.
+//! Where the position comes from is a choice: an incremental encoder, or an absolute one whose clock is
+//! CK. So is the lead: of the time Δt with the history as a shift register or as a RAM, or of the speed
+//! as in Fig. 7, by a parameter or a memory. `brake` is the control signal; it holds from the crossing
+//! through the rest up to the next step. With `passing` the body goes on, and `operate` is the control
+//! signal in place of `brake`: of an operation that is complete with its `effect`.
 
+use super::detector::{DetectorPart, DetectorSource};
 use super::lead_source::{LeadFrom, LeadPart, LeadSource};
 use super::{
-    Comparator, Comparing, CompletionDetector, Correction, Function, LeadPlacement, Memory,
-    Placement, RatioLogic, Sign, SpeedLead, StepSequencer, TableLead, TargetSetter, TimeData,
-    TimeLead, TouchProbe, codes, comparator, completion_detector, correction, placement,
-    ratio_logic, speed_lead, step_sequencer, table_lead, target_setter, time_data, time_lead,
-    touch_probe,
+    AbsoluteDetector, Comparator, Comparing, CompletionDetector, Correction, Detector, Function,
+    LeadPlacement, Memory, Placement, RatioLogic, Sign, SpeedLead, StepSequencer, TableLead,
+    TargetSetter, TimeData, TimeLead, TouchProbe, absolute_detector, codes, comparator,
+    completion_detector, correction, placement, ratio_logic, speed_lead, step_sequencer,
+    table_lead, target_setter, time_data, time_lead, touch_probe,
 };
 use crate::circuits::blocks::{
     EnableCounter, QuadratureCounter, enable_counter, quadrature_counter,
@@ -45,6 +47,8 @@ pub struct Widths {
     pub cks: usize,
     /// Width of the CK's period in ticks.
     pub ck_period: usize,
+    /// Width of an absolute encoder's word.
+    pub code: usize,
 }
 
 impl Widths {
@@ -65,6 +69,7 @@ impl Default for Widths {
             speed: 16,
             cks: 16,
             ck_period: 24,
+            code: 17,
         }
     }
 }
@@ -80,6 +85,8 @@ pub struct Variant {
     pub sign: Sign,
     /// What is made of error and overrun.
     pub function: Function,
+    /// What the position comes from.
+    pub detector: Detector,
 }
 
 /// Compensator.
@@ -98,6 +105,16 @@ pub struct Compensator {
 }
 
 impl Compensator {
+    fn detector(&self) -> DetectorSource {
+        let Widths { position, code, .. } = self.widths;
+        match self.variant.detector {
+            Detector::Incremental => {
+                DetectorSource::Incremental(QuadratureCounter { width: position })
+            }
+            Detector::Absolute => DetectorSource::Absolute(AbsoluteDetector { code, position }),
+        }
+    }
+
     fn lead_source(&self) -> LeadSource {
         let Widths {
             stages,
@@ -120,11 +137,18 @@ impl Compensator {
 signals! { for Compensator as c;
     /// Ports in: encoder, control computer, settings.
     pub struct In {
-        /// Encoder, channel A.
+        /// Incremental encoder, channel A.
         pub a: Bit,
-        /// Encoder, channel B.
+        /// Incremental encoder, channel B.
         pub b: Bit,
-        /// Between two steps: the position becomes 0, the history begins anew, the flags go.
+        /// Absolute encoder, its sampling clock.
+        pub strobe: Bit,
+        /// Absolute encoder, its Gray word.
+        pub code: U(c.widths.code) as Hex,
+        /// Absolute encoder: counts of a turn; 0 for all of its words.
+        pub turn: U(c.widths.code),
+        /// Between two steps: the position becomes 0, or that of the absolute encoder's next word; the
+        /// history begins anew, the flags go.
         pub clear: Bit,
         /// Steps run one after the other; when it goes low the running one is the last.
         pub run: Bit,
@@ -140,7 +164,7 @@ signals! { for Compensator as c;
         pub common: Bit,
         /// The step after which step 0 comes.
         pub last_step: U(c.widths.step),
-        /// Ticks of CK; 0 counts as 1.
+        /// Ticks of CK; 0 counts as 1. An absolute encoder has a CK of its own.
         pub ck_period: U(c.widths.ck_period),
         /// CKs without a change that are a standstill.
         pub standstill: U(c.widths.cks),
@@ -172,7 +196,7 @@ signals! { for Compensator as c;
         /// CK.
         pub ck_counter: Part<EnableCounter>(EnableCounter { width: c.widths.ck_period }),
         /// 10.
-        pub detector: Part<QuadratureCounter>(QuadratureCounter { width: c.widths.position }),
+        pub detector: DetectorPart(&c.detector()),
         /// What makes the lead.
         pub lead_source: LeadPart(&c.lead_source()),
         /// 18.
@@ -282,13 +306,28 @@ impl Circuit for Compensator {
         let ck_counter = p.ck_counter.settle(enable_counter::In {
             period: i.ck_period,
         });
-        let ck = ck_counter.w.enable;
-        let detector = p.detector.settle(quadrature_counter::In {
-            a: i.a,
-            b: i.b,
-            clear: i.clear,
-        });
-        let (restart, position) = (i.clear, detector.q.position);
+        let (ck, position, lost) = match p.detector {
+            DetectorPart::Incremental(part) => {
+                let detector = part.settle(quadrature_counter::In {
+                    a: i.a,
+                    b: i.b,
+                    clear: i.clear,
+                });
+                let q = detector.q;
+                (ck_counter.w.enable, q.position, q.lost)
+            }
+            DetectorPart::Absolute(part) => {
+                let detector = part.settle(absolute_detector::In {
+                    strobe: i.strobe,
+                    code: i.code,
+                    turn: i.turn,
+                    clear: i.clear,
+                });
+                let q = detector.q;
+                (q.sample, q.position, q.lost)
+            }
+        };
+        let restart = i.clear;
         let target = p.target_setter.q.target;
         let lead_time = p.time_data.q.lead_time;
         let sequence = &p.sequencer.q;
@@ -423,7 +462,7 @@ impl Circuit for Compensator {
             learned: correction.w.learned,
             learned_time: correction.w.learned_time,
             refused: time_data.q.refused,
-            lost: detector.q.lost,
+            lost,
         };
         (net, Nothing)
     }

@@ -18,12 +18,14 @@
 //! still go is predicted from the way that it went in the last Δt/N, and Δt is learned from how it
 //! stopped. `rtl_notes/lead_angle.md` is the note of this circuit.
 
+pub mod absolute_detector;
 pub mod codes;
 pub mod comparator;
 pub mod compensator;
 pub mod completion_detector;
 pub mod correction;
 pub mod correction_arithmetic;
+pub mod detector;
 pub mod difference_history;
 pub mod divided_time;
 pub mod lead;
@@ -44,11 +46,13 @@ pub mod time_data;
 pub mod time_lead;
 pub mod touch_probe;
 
+pub use absolute_detector::AbsoluteDetector;
 pub use comparator::{Comparator, Comparing};
 pub use compensator::{Compensator, Variant, Widths};
 pub use completion_detector::CompletionDetector;
 pub use correction::Correction;
 pub use correction_arithmetic::CorrectionArithmetic;
+pub use detector::Detector;
 pub use difference_history::DifferenceHistory;
 pub use divided_time::{DividedTime, Division};
 pub use lead::Lead;

@@ -255,6 +255,9 @@ impl Circuit for Machine {
         let lift = p.lead_angle.settle(compensator::In {
             a: of.a,
             b: of.b,
+            strobe: low,
+            code: U::new(0, self.lead_angle.widths.code),
+            turn: U::new(0, self.lead_angle.widths.code),
             clear: low,
             run: of.run,
             halt,

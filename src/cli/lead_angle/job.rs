@@ -5,7 +5,7 @@ use crate::cli::source::Source;
 use motion_rtl::input::Fault;
 use motion_rtl::input::position_log::{Columns, PositionLog, Sample};
 use motion_rtl::jobs::lead_angle::replay::{settings_for, validate};
-use motion_rtl::jobs::lead_angle::settings::{Settings, TARGET_RANGE_COUNTS};
+use motion_rtl::jobs::lead_angle::settings::{Detector, Settings, TARGET_RANGE_COUNTS};
 use motion_rtl::scenario::Loaded;
 use motion_rtl::settings::within;
 use std::ops::RangeInclusive;
@@ -115,9 +115,16 @@ fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<
     }
     // An encoder is counted at one count per tick.
     let (speed, line) = log.fastest();
-    if speed > settings.clock_hz as f64 {
+    let fastest = match settings.detector {
+        Detector::Incremental => settings.clock_hz as f64,
+        Detector::Absolute => settings.body.counts_per_rev / 4e-3 / settings.ck_ms(),
+    };
+    if speed > fastest {
         let problem = format!("{speed:.0} counts/s since the sample before");
-        let allowed = format!("up to {}, one count per tick", settings.clock_hz);
+        let allowed = match settings.detector {
+            Detector::Incremental => format!("up to {fastest}, one count per tick"),
+            Detector::Absolute => format!("up to {fastest:.0}, a quarter of a turn per CK"),
+        };
         return Err(fault(line, problem, allowed));
     }
     Ok(())

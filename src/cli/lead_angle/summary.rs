@@ -6,7 +6,8 @@ use crate::cli::report::Outcome;
 use motion_rtl::circuits::lead_angle::codes::{STAGES, code};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
-    Action, Comparing, Completion, Function, History, LeadBy, Placement, Settings, Sign, Targets,
+    Action, Comparing, Completion, Detector, Function, History, LeadBy, Placement, Settings, Sign,
+    Targets,
 };
 use serde::Serialize;
 use std::ops::Range;
@@ -24,6 +25,8 @@ pub struct Summary {
     pub history: History,
     /// What the control signal is for.
     pub action: Action,
+    /// What the position comes from.
+    pub detector: Detector,
     /// Where the lead comes from.
     pub lead: LeadBy,
     /// What targets count from.
@@ -185,6 +188,7 @@ impl Summary {
             },
             history: settings.history,
             action: settings.action,
+            detector: settings.detector,
             lead: settings.lead,
             targets: settings.targets,
             placement: settings.placement,

@@ -2,10 +2,12 @@
 //! before their targets, by speed with one parameter, with one for each step that is tuned to the
 //! nominal load, and with a memory of the leads that this load asks for, with a fixed lead, with a lead that is learned, learned to second order, and learned
 //! with the text's sign; where the scenario has positionings complete by a fixed time, learned at
-//! standstills too.
+//! standstills too; where it has an absolute encoder, its own system with an incremental one.
 
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
-use motion_rtl::jobs::lead_angle::settings::{Completion, Function, LeadBy, Settings, Sign};
+use motion_rtl::jobs::lead_angle::settings::{
+    Completion, Detector, Function, LeadBy, Settings, Sign,
+};
 
 /// Name of the system that learns with the sign that converges, to first order.
 pub const LEARNING: &str = "learning";
@@ -15,6 +17,8 @@ pub const SECOND_ORDER: &str = "second order";
 pub const LITERAL: &str = "literal sign";
 /// Name of the system that learns where the body has stopped, though the scenario has a fixed time.
 const STANDSTILL: &str = "at standstill";
+/// Name of the system that is the scenario's own but for an incremental encoder.
+const INCREMENTAL: &str = "incremental";
 /// Name of the system without a lead.
 pub const NONE: &str = "no lead";
 /// Name of the system whose signals come at a distance from the targets.
@@ -103,6 +107,16 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         stopped.completion = Completion::Standstill;
         stopped.time_out_ms = stopped.time_out_ms.max(Settings::default().time_out_ms);
         all.push(system(STANDSTILL, stopped));
+    }
+    let own = all.iter().find(|system| system.own);
+    if let Some(own) = own.filter(|_| settings.detector == Detector::Absolute) {
+        let mut counted = own.settings.clone();
+        counted.detector = Detector::Incremental;
+        counted.sampling_clock_ppm = 0.0;
+        // An absolute encoder may be faster than a count per tick.
+        if counted.validate().is_ok() {
+            all.push(system(INCREMENTAL, counted));
+        }
     }
     all
 }

@@ -2,7 +2,7 @@
 
 use super::summary::{ByOrder, Phase, Summary, SystemSummary, error_name};
 use crate::cli::report::{Outcome, Report};
-use motion_rtl::jobs::lead_angle::settings::{Action, LeadBy};
+use motion_rtl::jobs::lead_angle::settings::{Action, Detector, LeadBy};
 use std::fmt::Write;
 
 /// Characters of a column of stop errors at least.
@@ -30,7 +30,11 @@ impl Report for Summary {
         )?;
         writeln!(
             text,
-            "history {}, lead on {}, comparing {}, complete by {}, {}\n",
+            "{}history {}, lead on {}, comparing {}, complete by {}, {}\n",
+            match self.detector {
+                Detector::Incremental => "",
+                Detector::Absolute => "absolute encoder, ",
+            },
             name(self.history),
             name(self.placement),
             name(self.comparing),

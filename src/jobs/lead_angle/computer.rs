@@ -2,7 +2,7 @@
 //! finds its next target.
 
 use super::job::{Ports, WIDTHS};
-use super::settings::{Action, Completion, SPEED_UNIT_COUNTS_PER_S, Settings};
+use super::settings::{Action, Completion, Detector, SPEED_UNIT_COUNTS_PER_S, Settings};
 use crate::circuits::lead_angle::Compensator;
 use crate::hdl::zero;
 
@@ -42,6 +42,7 @@ impl<'a> ControlComputer<'a> {
             common: settings.common_time,
             last_step: settings.steps.len().saturating_sub(1) as u64,
             ck_period: u64::from(settings.ck_ticks),
+            turn: self.turn(),
             standstill,
             time_out: cks(settings.time_out_ms),
             rest: cks(settings.rest_ms),
@@ -49,6 +50,14 @@ impl<'a> ControlComputer<'a> {
             lead_parameter: self.parameter(settings.speed_lead_ms),
             gate: cks(settings.speed_gate_ms),
             ..zero(circuit)
+        }
+    }
+
+    /// Counts of an absolute encoder's turn, as the port has them.
+    fn turn(&self) -> u64 {
+        match self.settings.detector {
+            Detector::Incremental => 0,
+            Detector::Absolute => self.settings.body.counts_per_rev as u64 % (1 << WIDTHS.code),
         }
     }
 

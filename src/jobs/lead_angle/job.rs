@@ -18,6 +18,7 @@ pub(super) const WIDTHS: Widths = Widths {
     speed: 16,
     cks: 16,
     ck_period: 24,
+    code: 17,
 };
 
 /// How far past its target a body is stopped by hand, in seconds of its way.
@@ -40,6 +41,7 @@ pub fn positioner(settings: &Settings) -> Compensator {
             comparing: settings.comparing,
             sign: settings.sign,
             function: settings.function,
+            detector: settings.detector,
         },
         rom: Image::of(WIDTHS.step, WIDTHS.time(), codes),
     }
@@ -278,6 +280,7 @@ pub fn play(
     let mut computer = ControlComputer::new(settings);
     let mut i = computer.standing(circuit);
     let mut operation = Operation::new(settings.operation_delay(false));
+    let mut absolute = settings.absolute_encoder();
     let mut loaded = false;
     let mut stands = false;
     let (mut simulator, see) =
@@ -293,6 +296,10 @@ pub fn play(
         let [drive, reverse, control, arm] = simulator.state(|q| signals.map(|at| q.get(at)));
         let speed = speed * u64::from(SPEED_UNIT_COUNTS_PER_S);
         let (a, b) = body.step(drive, reverse, speed as f64, control && !i.passing);
+        let (strobe, code) = match &mut absolute {
+            Some(encoder) => encoder.step(body.position_counts()),
+            None => (false, 0),
+        };
         let effect = operation.step(control && i.passing);
         bench.operate(effect, &body);
         stands &= computer.tick(&mut i, bench.played.ticks, arm, bench.run());
@@ -302,10 +309,15 @@ pub fn play(
             // What changes from tick to tick.
             simulator.set(|i| i.a, a);
             simulator.set(|i| i.b, b);
+            if absolute.is_some() {
+                simulator.set(|i| i.strobe, strobe);
+                simulator.set(|i| i.code, code);
+            }
             simulator.set(|i| i.effect, effect);
             simulator.set(|i| i.halt, halt);
         } else {
             (i.a, i.b, i.effect, i.halt) = (a, b, effect, halt);
+            (i.strobe, i.code) = (strobe, code);
             simulator.apply(&i);
             stands = true;
         }

@@ -1,20 +1,25 @@
 //! The leads of Fig. 7 by speed, as the machine's delays and its braking ask for them.
 
 use super::job::WIDTHS;
-use super::settings::{Action, Settings, TARGET_RANGE_COUNTS};
+use super::settings::{Action, Detector, Settings, TARGET_RANGE_COUNTS};
 use crate::circuits::lead_angle::LeadTable;
 
 /// Bits of the memory's address: half of its words are of either direction.
 const ADDRESS: usize = 8;
-/// Ticks from the encoder's pin to the control signal, the wait for a CK apart.
-const LATENCY_TICKS: f64 = 5.0;
+/// Ticks from an encoder's pins to the control signal, the wait for a CK apart.
+fn latency_ticks(detector: Detector) -> f64 {
+    match detector {
+        Detector::Incremental => 5.0,
+        Detector::Absolute => 6.0,
+    }
+}
 
 /// θa for every speed that the steps come to, at the nominal load: the way that the body goes from the
 /// pins of its encoder on, with half a CK of waiting, to its stop or to the operation's effect.
 pub(super) fn lead_table(settings: &Settings) -> LeadTable {
     let ck_s = settings.ck_ms() / 1e3;
     let gate_s = f64::from(settings.cks(settings.speed_gate_ms)) * ck_s;
-    let latency_s = LATENCY_TICKS / settings.clock_hz as f64 + 0.5 * ck_s;
+    let latency_s = latency_ticks(settings.detector) / settings.clock_hz as f64 + 0.5 * ck_s;
     let steps = settings.steps.iter().map(|step| step.speed_counts_per_s);
     let fastest = f64::from(steps.max().unwrap_or(0)) * gate_s + 1.0;
     let widest = WIDTHS.position - ADDRESS;

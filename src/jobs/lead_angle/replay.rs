@@ -188,6 +188,7 @@ pub fn replay(
     sums.parts = vec![[f64::NAN; 2]; PARTS];
     let mut computer = ControlComputer::new(settings);
     let mut i = computer.standing(circuit);
+    let mut absolute = settings.absolute_encoder();
     let mut operation = Operation::new(settings.operation_delay(false));
     let (mut before, mut effect) = (0.0, false);
     let (mut simulator, see) =
@@ -200,6 +201,9 @@ pub fn replay(
         computer.tick(&mut i, tick, arm, true);
         i.a = a;
         i.b = b;
+        if let Some(encoder) = &mut absolute {
+            (i.strobe, i.code) = encoder.step(position);
+        }
         i.effect = operation.step(control && i.passing);
         let takes_effect = i.effect && !effect;
         effect = i.effect;

@@ -3,9 +3,9 @@
 use super::job::WIDTHS;
 use super::lead_table::lead_table;
 use crate::circuits::lead_angle::codes::{LARGEST, STAGES, code, neighbours};
-pub use crate::circuits::lead_angle::{Comparing, Function, Placement, Sign};
+pub use crate::circuits::lead_angle::{Comparing, Detector, Function, Placement, Sign};
 use crate::circuits::lead_angle::{LeadFrom, Memory};
-use crate::plant::{BodyParameters, Load};
+use crate::plant::{AbsoluteEncoder, BodyParameters, Load};
 use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -48,6 +48,11 @@ pub enum LeadBy {
     /// The measured speed by a memory of the leads that the machine's numbers ask for, as in Fig. 7.
     Table,
 }
+
+/// Counts of a turn that an absolute encoder can have, by twos: as many as it has words at most.
+pub const TURN_RANGE_COUNTS: RangeInclusive<u32> = 4..=1 << WIDTHS.code;
+/// How far its sampling clock may be off, in parts per million.
+pub const SAMPLING_RANGE_PPM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 
 /// What the control signal is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -111,6 +116,11 @@ pub struct Settings {
     pub operation_delay_s: f64,
     /// The factor of that time from the load change on.
     pub load_delay_factor: f64,
+    /// What the position comes from (10).
+    pub detector: Detector,
+    /// How much faster than a CK of `ck_ticks` an absolute encoder's sampling clock is, in parts per
+    /// million.
+    pub sampling_clock_ppm: f64,
     /// Where the lead comes from.
     pub lead: LeadBy,
     /// Where the lead is placed.
@@ -175,6 +185,8 @@ impl Default for Settings {
             action: Action::default(),
             operation_delay_s: 0.02,
             load_delay_factor: 1.0,
+            detector: Detector::default(),
+            sampling_clock_ppm: 0.0,
             lead: LeadBy::default(),
             placement: Placement::default(),
             comparing: Comparing::default(),
@@ -283,11 +295,56 @@ impl Settings {
         (code as f64 * self.ck_ms() * 1e9).round() / 1e9
     }
 
-    /// The fastest speed of a step in counts a second: an encoder is counted at one count per tick.
+    /// The fastest speed of a step in counts a second: an incremental encoder is counted at one count
+    /// per tick, an absolute one may go a quarter of a turn in a CK.
     #[must_use]
     pub fn fastest_counts_per_s(&self) -> u32 {
         let word = ((1 << WIDTHS.speed) - 1) * SPEED_UNIT_COUNTS_PER_S;
-        u64::from(word).min(self.clock_hz) as u32
+        let followed = match self.detector {
+            Detector::Incremental => self.clock_hz,
+            Detector::Absolute => (self.body.counts_per_rev / 4e-3 / self.sampling_ms()) as u64,
+        };
+        u64::from(word).min(followed) as u32
+    }
+
+    /// The period of an absolute encoder's sampling clock, which is CK then.
+    fn sampling_ms(&self) -> f64 {
+        self.ck_ms() / (1.0 + self.sampling_clock_ppm / 1e6)
+    }
+
+    /// The absolute encoder of these settings, if it is one.
+    pub(super) fn absolute_encoder(&self) -> Option<AbsoluteEncoder> {
+        let period_ticks = self.sampling_ms() / 1e3 * self.clock_hz as f64;
+        let counts = self.body.counts_per_rev as u32;
+        let absolute = self.detector == Detector::Absolute;
+        absolute.then(|| AbsoluteEncoder::new(counts, WIDTHS.code, period_ticks))
+    }
+
+    /// An absolute encoder's turn is a whole number of counts, and an even one, so that its code has a
+    /// neighbour over the seam.
+    fn validate_detector(&self) -> Result<(), SettingError> {
+        within(
+            "sampling_clock_ppm",
+            self.sampling_clock_ppm,
+            &SAMPLING_RANGE_PPM,
+        )?;
+        if self.detector == Detector::Incremental {
+            return match self.sampling_clock_ppm == 0.0 {
+                true => Ok(()),
+                false => {
+                    let allowed = "0 with detector = \"incremental\", whose CK is ck_ticks";
+                    let value = self.sampling_clock_ppm;
+                    Err(SettingError::value("sampling_clock_ppm", value, allowed))
+                }
+            };
+        }
+        let (counts, (least, most)) = (self.body.counts_per_rev, TURN_RANGE_COUNTS.into_inner());
+        let range = f64::from(least)..=f64::from(most);
+        if range.contains(&counts) && counts % 2.0 == 0.0 {
+            return Ok(());
+        }
+        let allowed = format!("an even number from {least} to {most} with detector = \"absolute\"");
+        Err(SettingError::value("counts_per_rev", counts, allowed))
     }
 
     /// Checks every field.
@@ -309,6 +366,7 @@ impl Settings {
             let allowed = "2 to 16, or targets = \"relative\", or positionings = 1";
             return Err(SettingError::value("step", "1 step", allowed));
         }
+        self.validate_detector()?;
         for index in 0..count {
             self.validate_step(index)
                 .map_err(|error| error.at(Place::Row("step", index)))?;

@@ -1,10 +1,10 @@
 use super::make::{at_most, choice, one_of, only, width, words};
 use crate::circuits::lead_angle::{
-    Comparator, Comparing, Compensator, CompletionDetector, Correction, CorrectionArithmetic,
-    DifferenceHistory, DividedTime, Division, Form, Function, Lead, LeadFrom, LeadPlacement,
-    LeadProducts, LeadTable, Memory, Placement, PositionHistory, RamHistory, RatioLogic,
-    Refinement, Sign, SpeedDetector, SpeedLead, StepSequencer, StopError, TableLead, TargetSetter,
-    TimeData, TimeLead, TouchProbe, Variant, Widths,
+    AbsoluteDetector, Comparator, Comparing, Compensator, CompletionDetector, Correction,
+    CorrectionArithmetic, Detector, DifferenceHistory, DividedTime, Division, Form, Function, Lead,
+    LeadFrom, LeadPlacement, LeadProducts, LeadTable, Memory, Placement, PositionHistory,
+    RamHistory, RatioLogic, Refinement, Sign, SpeedDetector, SpeedLead, StepSequencer, StopError,
+    TableLead, TargetSetter, TimeData, TimeLead, TouchProbe, Variant, Widths,
 };
 use crate::hdl::Image;
 use crate::registry::Entry;
@@ -25,6 +25,7 @@ const COMPARINGS: &[Comparing] = &[Comparing::Crossing, Comparing::Equal];
 const ONES: &[bool] = &[false, true];
 const DIVISIONS: &[Division] = &[Division::Logic, Division::Beforehand, Division::One];
 const FORMS: &[Form] = &[Form::Difference, Form::Products, Form::EarlyDifference];
+const DETECTORS: &[Detector] = &[Detector::Incremental, Detector::Absolute];
 const SIGNS: &[Sign] = &[Sign::Converging, Sign::Literal];
 
 /// Either sign, then either sign to second order.
@@ -35,7 +36,7 @@ const LEARNINGS: &[(Sign, Function)] = &[
     (Sign::Literal, Function::SecondOrder),
 ];
 
-/// The numbers of placement, comparing and learning, then the times of the ROM, one in each word
+/// The numbers of placement, comparing, learning and detector, then the times of the ROM, one in each word
 /// from step 0 up.
 fn chosen(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
     let (sign, function) = choice(given, 2, LEARNINGS)?;
@@ -44,8 +45,9 @@ fn chosen(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
         comparing: choice(given, 1, COMPARINGS)?,
         sign,
         function,
+        detector: choice(given, 3, DETECTORS)?,
     };
-    let rom = rom(circuit.rom.address(), circuit.rom.width(), given, 3)?;
+    let rom = rom(circuit.rom.address(), circuit.rom.width(), given, 4)?;
     Some(Compensator {
         variant,
         rom,
@@ -89,6 +91,7 @@ fn small(lead_from: LeadFrom, given: &[u64]) -> Option<Compensator> {
         speed: width,
         cks: width,
         ck_period: width,
+        code: (width - 1).max(1),
     };
     Some(compensator(lead_from, widths))
 }
@@ -97,11 +100,11 @@ fn small(lead_from: LeadFrom, given: &[u64]) -> Option<Compensator> {
 /// that leads by two gates.
 fn conventional(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
     let position = circuit.widths.position;
-    let lead_from = match choice(given, 3, ONES)? {
+    let lead_from = match choice(given, 4, ONES)? {
         true => LeadFrom::Table(table(position, |speed| 2 * speed)?),
         false => LeadFrom::Speed,
     };
-    let (before, behind) = given.split_at(given.len().min(3));
+    let (before, behind) = given.split_at(given.len().min(4));
     let numbers = [before, behind.get(1..).unwrap_or(&[])].concat();
     let circuit = Compensator {
         lead_from,
@@ -193,6 +196,16 @@ const RAM: LeadFrom = LeadFrom::Time(Memory::Ram);
 
 /// The circuits of JPH0646367B2.
 pub(super) const CIRCUITS: &[Entry] = &[
+    entry!(
+        AbsoluteDetector, "JPH0646367B2 10, an absolute encoder of a turn",
+        full: || AbsoluteDetector { code: 17, position: 24 },
+        widths: [code, position],
+        from: "width of the position, a word being one bit narrower", |given| {
+            alone(given, |position| AbsoluteDetector { code: position.saturating_sub(1), position })
+        },
+        with: nothing,
+        proved: 3,
+    ),
     entry!(
         RatioLogic, "JPH0646367B2 13",
         full: || RatioLogic { stages: 199 },
@@ -448,9 +461,11 @@ pub(super) const CIRCUITS: &[Entry] = &[
         widths: [
             stages = widths.stages, position = widths.position, step = widths.step,
             speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
+            code = widths.code,
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
-               placement, comparing and learning as 0, 1 and so on, times of the ROM",
+               placement, comparing and learning as 0, 1 and so on, 0 for an incremental or 1 for an \
+               absolute encoder, times of the ROM",
             |given| chosen(small(SHIFT, given)?, &given[1..]),
         with: chosen,
         proved: none,
@@ -461,9 +476,11 @@ pub(super) const CIRCUITS: &[Entry] = &[
         widths: [
             stages = widths.stages, position = widths.position, step = widths.step,
             speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
+            code = widths.code,
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
-               placement, comparing and learning as 0, 1 and so on, times of the ROM",
+               placement, comparing and learning as 0, 1 and so on, 0 for an incremental or 1 for an \
+               absolute encoder, times of the ROM",
             |given| chosen(small(RAM, given)?, &given[1..]),
         with: chosen,
         proved: none,
@@ -475,9 +492,10 @@ pub(super) const CIRCUITS: &[Entry] = &[
         widths: [
             stages = widths.stages, position = widths.position, step = widths.step,
             speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
+            code = widths.code,
         ],
         from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
-               learning as 0, 1 and so on, 0 for a product as the lead or 1 for a memory of it, \
+               learning as 0, 1 and so on, 0 for an incremental or 1 for an absolute encoder, 0 for a product as the lead or 1 for a memory of it, \
                times of the ROM",
             |given| conventional(small(LeadFrom::Speed, given)?, &given[1..]),
         with: conventional,

@@ -1,5 +1,6 @@
 //! The lead-angle compensator: history, prediction, comparison and learning against programs.
 
+mod absolute;
 mod comparing;
 mod history;
 mod learning;

@@ -31,6 +31,7 @@ fn small(memory: Memory, placement: Placement) -> Compensator {
         speed: 8,
         cks: 8,
         ck_period: 8,
+        code: 7,
     };
     Compensator {
         widths,

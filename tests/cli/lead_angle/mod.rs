@@ -1,6 +1,7 @@
 //! `run` of the lead-angle compensator: its systems and its summary.
 
 mod completion;
+mod detector;
 mod files;
 mod log;
 mod operation;
@@ -215,6 +216,7 @@ fn the_summary_has_these_keys() {
         "comparing",
         "complaints",
         "completion",
+        "detector",
         "files",
         "function",
         "history",
