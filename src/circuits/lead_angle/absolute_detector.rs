@@ -33,6 +33,16 @@ pub struct AbsoluteDetector {
     pub position: usize,
 }
 
+/// Of two bits, of four, and so on.
+const PARITIES: &[&str] = &["parity_2", "parity_4", "parity_8", "parity_16", "parity_32"];
+
+impl AbsoluteDetector {
+    /// Doublings from a bit to a parity of more than half of them.
+    fn parities(&self) -> usize {
+        log2(self.code) - 1
+    }
+}
+
 signals! { for AbsoluteDetector as c;
     /// Ports in.
     pub struct In {
@@ -69,22 +79,34 @@ signals! { for AbsoluteDetector as c;
     pub struct Net {
         /// A word is taken.
         take: Bit,
-        /// Its number in the code.
+        /// Parities of 2, 4, … bits of it from each one up.
+        parity: [U(c.code); c.parities()] as Elements(PARITIES),
+        /// Its number in the code: the parity of all of them.
         number: U(c.code),
         /// Counts of a turn, with room for all of them.
         counts: U(c.code + 1),
+        /// Words of the code that the turn has not.
+        unused: U(c.code + 1),
         /// The number of the turn's first word.
         first: U(c.code),
         /// Its place in the turn.
         place: U(c.code + 1),
         /// The turn has no such place.
         outside: Bit,
+        /// Place, turn and half a turn, with room for a sign.
+        placed: I(c.code + 2),
+        /// T.
+        whole: I(c.code + 2),
+        /// T/2.
+        half: I(c.code + 2),
         /// Places gone since the last sample, in either direction.
         gone: I(c.code + 2),
         /// The same by the shorter way round.
         way: I(c.code + 2),
         /// The way is longer than a quarter of a turn.
         far: Bit,
+        /// What a sample adds to the position.
+        step: I(c.position),
     }
 }
 
@@ -102,41 +124,47 @@ impl Circuit for AbsoluteDetector {
         let n = self.code;
         let take = q.sync_strobe.bit(2) & !q.sync_strobe.bit(3);
         // A bit is the parity of those from it up.
-        let mut number = q.sync_code;
-        let mut shift = 1;
-        while shift < n {
-            number = number ^ number.shift_right(shift);
-            shift *= 2;
+        let doubled = |word: U, k: usize| word ^ word.shift_right(1 << k);
+        let mut parity = Vec::new();
+        for k in 0..self.parities() {
+            parity.push(doubled(*parity.last().unwrap_or(&q.sync_code), k));
         }
+        let last = *parity.last().unwrap_or(&q.sync_code);
+        let number = doubled(last, self.parities());
         let counts = i.turn.is_zero().word().join(i.turn);
-        let first = (U::new(1 << n, n + 1) - counts).slice(1, n);
+        let unused = U::new(1 << n, n + 1) - counts;
+        let first = unused.slice(1, n);
         // Below the first it is a great number.
         let place = number.resize(n + 1) - first.resize(n + 1);
         let outside = !place.below(counts);
         let signed = |word: U| word.resize(n + 2).signed();
-        let gone = signed(place) - signed(q.last);
+        let placed = signed(place);
+        let gone = placed - signed(q.last);
         let (whole, half) = (signed(counts), signed(counts.shift_right(1)));
         let up = half.below(gone);
         let down = gone.below(-half);
         let way = up.mux(gone - whole, down.mux(gone + whole, gone));
         let far = counts.shift_right(2).below_any(way.magnitude());
         let taken = take & !outside;
-        let from = q.known.mux(
-            way.resize(self.position),
-            signed(place).resize(self.position),
-        );
+        let step = q.known.mux(way, placed).resize(self.position);
         let before = q.known.mux(q.position, 0);
         let sampled = q.sync_strobe.resize(3).join(i.strobe.word());
         let net = Net {
             take,
+            parity,
             number,
             counts,
+            unused,
             first,
             place,
             outside,
+            placed,
+            whole,
+            half,
             gone,
             way,
             far,
+            step,
         };
         let next = Reg {
             sync_strobe: sampled,
@@ -145,7 +173,7 @@ impl Circuit for AbsoluteDetector {
             known: (q.known | taken) & !i.clear,
             last: taken.mux(place.resize(n), q.last),
             sample: take,
-            position: taken.mux(before + from, q.position),
+            position: taken.mux(before + step, q.position),
             lost: (q.lost | (take & (outside | (q.known & far)))) & !i.clear,
         };
         (net, next)

@@ -129,9 +129,13 @@ signals! { for TableLead as c;
         covered: Bit,
         /// That way, or the last that it covers.
         held: I(c.table.bits()),
+        /// Its bits.
+        word: U(c.table.bits()),
         /// The word that is read.
         address: U(c.table.leads.address()),
-        /// Growth times part.
+        /// `part`, with room for a sign.
+        share: I(c.table.fraction + 1),
+        /// Growth times that.
         product: I(c.position + c.table.fraction + 1),
         /// 1: θa.
         pub lead: I(c.position) as Analog,
@@ -182,14 +186,15 @@ impl Circuit for TableLead {
         let greatest = (1 << (bits - 1)) - 1;
         let end = way.is_negative().mux(I::new(-greatest - 1, bits), greatest);
         let held = covered.mux(cut, end);
-        let address = held.unsigned().slice(fraction, leads.address());
+        let word = held.unsigned();
+        let address = word.slice(fraction, leads.address());
         let read = |words: &Image| self.rom(words).rom(address).signed();
-        let part = q.part.resize(fraction + 1).signed();
-        let product = q.increment.times(part, self.position + fraction + 1);
+        let share = q.part.resize(fraction + 1).signed();
+        let product = q.increment.times(share, self.position + fraction + 1);
         let edge = Reg {
             base: over.mux(read(leads), q.base),
             increment: over.mux(read(increments), q.increment),
-            part: over.mux(held.unsigned().slice(0, fraction), q.part),
+            part: over.mux(word.slice(0, fraction), q.part),
         };
         let net = Net {
             present: detector.q.present,
@@ -198,7 +203,9 @@ impl Circuit for TableLead {
             speed: detector.q.speed,
             covered,
             held,
+            word,
             address,
+            share,
             product,
             lead: q.base + product.shift_right(fraction).resize(self.position),
         };
