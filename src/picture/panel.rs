@@ -260,7 +260,7 @@ impl Panel {
         // Many names stand closer.
         let names: f64 = self.curves.iter().map(width).sum();
         let room = (left + across - at - names) / self.curves.len().max(1) as f64;
-        let room = room.clamp(22.0, 44.0);
+        let room = room.clamp(16.0, 44.0);
         let (sample_width, gap) = (room * 24.0 / 44.0, room * 20.0 / 44.0);
         for (curve, colour) in self.curves.iter().zip(self.colours()) {
             let mut sample = Line::new()
