@@ -8,7 +8,6 @@
 //! there at once. A rotor that is more than two full steps off is nearer to the next tooth: it has
 //! lost four.
 
-use super::Plant;
 use super::parameters::{POSITIVE, check_tick};
 use crate::settings::{SettingError, within};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -17,6 +16,10 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 const TOOTH: f64 = 4.0;
 /// Radians of its free swing that the rotor is followed in at most at a time.
 const SWING: f64 = 0.02;
+/// The most parts that a tick is cut into for that.
+const MOST_PARTS: f64 = 1000.0;
+/// Free swings in which a rotor comes to rest, as far as it does.
+const SWINGS: f64 = 200.0;
 
 /// Step motor, driver and load of one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,8 +73,7 @@ impl StepMotorParameters {
     }
 
     /// ω0 = √(p·T/J): of small swings about a tooth, in rad/s.
-    #[must_use]
-    pub fn natural_rad_per_s(&self) -> f64 {
+    fn natural_rad_per_s(&self) -> f64 {
         let teeth = f64::from(self.full_steps_per_rev) / TOOTH;
         (teeth * self.holding_torque_nm / self.inertia_kg_m2).sqrt()
     }
@@ -91,13 +93,11 @@ pub struct StepMotor {
     /// The parts that a tick is followed in, and how long one is.
     parts: u32,
     part_s: f64,
-    rotor: Rotor,
-}
-
-/// Position in full steps, speed in full steps a second.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Rotor {
+    /// How long one may be.
+    longest_s: f64,
+    /// In full steps.
     position: f64,
+    /// In full steps a second.
     speed: f64,
 }
 
@@ -105,55 +105,74 @@ impl StepMotor {
     /// A motor at rest at position 0, on a reference tick of `tick_s` seconds.
     ///
     /// # Errors
-    /// [`SettingError`] names the parameter, or `tick_s`, that is out of range.
+    /// [`SettingError`] names the parameter, or `tick_s`, that is out of range; the inertia, if in a
+    /// tick the rotor swings or slows by more than can be followed.
     pub fn new(parameters: &StepMotorParameters, tick_s: f64) -> Result<Self, SettingError> {
         parameters.validate()?;
         check_tick(tick_s)?;
-        let per_inertia = parameters.full_steps_per_rad() / parameters.inertia_kg_m2;
-        let swing =
-            parameters.natural_rad_per_s() + parameters.damping_nm_s / parameters.inertia_kg_m2;
-        let parts = (swing * tick_s / SWING).ceil().max(1.0);
+        let inertia = parameters.inertia_kg_m2;
+        let per_inertia = parameters.full_steps_per_rad() / inertia;
+        let damping = parameters.damping_nm_s / inertia;
+        let longest_s = SWING / (parameters.natural_rad_per_s() + damping);
+        let parts = (tick_s / longest_s).ceil();
+        if parts > MOST_PARTS {
+            let allowed = "more, or less torque and damping, or a faster clock: in a tick the rotor \
+                           swings and slows by up to 20 rad";
+            return Err(SettingError::value("inertia_kg_m2", inertia, allowed));
+        }
         Ok(StepMotor {
             microsteps: f64::from(parameters.microsteps),
             pull: parameters.holding_torque_nm * per_inertia,
-            damping: parameters.damping_nm_s / parameters.inertia_kg_m2,
+            damping,
             friction: parameters.friction_nm * per_inertia,
             parts: parts as u32,
             part_s: tick_s / parts,
-            rotor: Rotor::default(),
+            longest_s,
+            position: 0.0,
+            speed: 0.0,
         })
     }
 
     /// One tick, with the driver at `commanded`, in its steps.
     pub fn step(&mut self, commanded: i64) {
+        self.go_on(commanded, self.parts, self.part_s);
+    }
+
+    /// Goes on until it is at rest, with the driver at `commanded`: for 200 of its swings at most.
+    pub fn settle(&mut self, commanded: i64) {
+        let parts = (SWINGS * TAU / SWING) as u32;
+        self.go_on(commanded, parts, self.longest_s);
+    }
+
+    /// Goes on by so many parts of so many seconds.
+    fn go_on(&mut self, commanded: i64, parts: u32, seconds: f64) {
         let field = commanded as f64 / self.microsteps;
-        let Rotor { position, speed } = &mut self.rotor;
-        for _ in 0..self.parts {
-            let pull = self.pull * (FRAC_PI_2 * (field - *position)).sin();
-            let free = *speed + (pull - self.damping * *speed) * self.part_s;
+        for _ in 0..parts {
+            let pull = self.pull * (FRAC_PI_2 * (field - self.position)).sin();
+            let free = self.speed + (pull - self.damping * self.speed) * seconds;
             // Friction takes what stops it, at most.
-            let taken = (self.friction * self.part_s).min(free.abs());
-            *speed = free - taken.copysign(free);
-            *position += *speed * self.part_s;
+            let taken = (self.friction * seconds).min(free.abs());
+            self.speed = free - taken.copysign(free);
+            self.position += self.speed * seconds;
         }
     }
 
     /// Position in steps of the driver.
     #[must_use]
     pub fn position_steps(&self) -> f64 {
-        self.rotor.position * self.microsteps
+        self.position * self.microsteps
     }
 
     /// Speed in steps of the driver a second.
     #[must_use]
     pub fn speed_steps_per_s(&self) -> f64 {
-        self.rotor.speed * self.microsteps
+        self.speed * self.microsteps
     }
 
     /// How far the field is ahead of the rotor, in full steps.
     #[must_use]
     pub fn off_full_steps(&self, commanded: i64) -> f64 {
-        commanded as f64 / self.microsteps - self.rotor.position
+        commanded as f64 / self.microsteps - self.position
     }
 
     /// By how many steps of the driver the nearest tooth is behind the one it began at: a multiple of
@@ -162,18 +181,6 @@ impl StepMotor {
     pub fn lost_steps(&self, commanded: i64) -> i64 {
         let teeth = (self.off_full_steps(commanded) / TOOTH).round();
         (teeth * TOOTH * self.microsteps) as i64
-    }
-}
-
-impl Plant for StepMotor {
-    type State = Rotor;
-
-    fn state(&self) -> Rotor {
-        self.rotor
-    }
-
-    fn set_state(&mut self, rotor: Rotor) {
-        self.rotor = rotor;
     }
 }
 
@@ -282,13 +289,16 @@ mod tests {
 
     #[test]
     fn a_step_that_it_does_not_follow_is_lost_by_the_tooth() {
-        let mut motor = motor(&StepMotorParameters::default());
         for (commanded, lost) in [(1, 0), (-1, 0), (3, 4), (5, 4), (-3, -4)] {
-            motor.set_state(Rotor::default());
+            let mut motor = motor(&StepMotorParameters::default());
             assert_eq!(motor.lost_steps(commanded), lost, "{commanded}");
+            let mut settled = motor.clone();
+            settled.settle(commanded);
             for _ in 0..100_000 {
                 motor.step(commanded);
             }
+            let apart = settled.position_steps() - motor.position_steps();
+            assert!(apart.abs() < 0.02, "{commanded}: {apart}");
             // Friction holds it up to 0.02 steps off.
             let at = motor.position_steps() - (commanded - lost) as f64;
             assert!(at.abs() < 0.03, "{commanded}: {at}");
@@ -348,5 +358,17 @@ mod tests {
             let error = StepMotor::new(&parameters, TICK_S).unwrap_err().to_string();
             assert!(error.contains(field), "{error}");
         }
+        // ω0 is 1000 rad/s: 20 rad are 20 ms of it, or 10 ms of one that is twice as quick.
+        assert!(StepMotor::new(&ideal(), 0.0199).is_ok());
+        let quick = StepMotorParameters {
+            inertia_kg_m2: ideal().inertia_kg_m2 / 4.0,
+            ..ideal()
+        };
+        assert!(StepMotor::new(&quick, 0.0099).is_ok());
+        let error = StepMotor::new(&quick, 0.0101).unwrap_err().to_string();
+        assert!(
+            error.contains("inertia_kg_m2: is 0.0000125; allowed: more"),
+            "{error}"
+        );
     }
 }

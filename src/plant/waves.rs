@@ -161,6 +161,6 @@ impl TwoMassSignals<Value> {
 }
 
 /// A position in 1/256 of a count.
-fn fine(counts: f64) -> i64 {
+pub(crate) fn fine(counts: f64) -> i64 {
     I56F8::saturating_from_num(counts).to_bits()
 }

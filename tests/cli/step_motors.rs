@@ -164,6 +164,10 @@ fn bad_motors_are_refused() {
             "full_steps_per_rev=3",
             "motor.full_steps_per_rev: is 3; allowed: 4 to 10000",
         ),
+        (
+            "inertia_kg_m2=1e-9",
+            "motor.inertia_kg_m2: is 0.000000001; allowed: more, or less torque and damping",
+        ),
         ("microsteps=0", "motor.microsteps: is 0; allowed: 1 to 1024"),
         (
             "rotor=1",

@@ -10,7 +10,7 @@
 
 use super::error_feedback::FeedbackGains;
 use super::model_state::ModelGains;
-use super::path_point::AXIS_NAMES;
+use super::path_point::{AXIS_NAMES, of_axes};
 use super::point_sequencer::{RADIUS, STEADY_RADIUS};
 use super::servo_arithmetic::ServoGains;
 use super::vector_correction::Correction;
@@ -28,18 +28,6 @@ use crate::hdl::prelude::*;
 /// Width of the number of a profile record: so many bits number those that wait.
 const RECORDS: usize = 4;
 
-/// Names of a signal of each axis.
-macro_rules! of_axes {
-    ($name:literal) => {
-        &[
-            concat!($name, "_x"),
-            concat!($name, "_y"),
-            concat!($name, "_z"),
-            concat!($name, "_w"),
-        ]
-    };
-}
-
 /// Trajectory controller.
 #[derive(Debug, Clone)]
 pub struct TrajectoryController {
@@ -51,8 +39,8 @@ pub struct TrajectoryController {
     pub correction: Correction,
     /// How the models round.
     pub rounding: Rounding,
-    /// Ticks that a period's correction waits for.
-    pub wait: u64,
+    /// Each period's correction waits for the longest way.
+    pub waits: bool,
 }
 
 impl TrajectoryController {
@@ -66,22 +54,30 @@ impl TrajectoryController {
         correction: Correction,
         rounding: Rounding,
     ) -> Self {
-        let controller = TrajectoryController {
+        TrajectoryController {
             widths,
             axes,
             correction,
             rounding,
-            wait: 0,
-        };
-        let answered = controller.point(RADIUS).latency() + controller.model().latency();
-        let wait = answered - controller.correction_latency();
-        TrajectoryController { wait, ..controller }
+            waits: true,
+        }
+    }
+
+    /// Ticks that a period's correction waits.
+    const fn wait(&self) -> u64 {
+        match self.waits {
+            true => {
+                let answered = self.point(RADIUS).latency() + self.model().latency();
+                answered - self.correction_latency()
+            }
+            false => 0,
+        }
     }
 
     /// Ticks from the beginning of a period to its torques.
     #[must_use]
     pub const fn latency(&self) -> u64 {
-        2 + self.wait + 3 + self.correction_latency() + self.axis().servo.latency()
+        2 + self.wait() + 3 + self.correction_latency() + self.axis().servo.latency()
     }
 
     /// Ticks that the correction takes besides.
@@ -256,7 +252,7 @@ signals! { for TrajectoryController as c;
         /// Reference point 2.
         pub reference_point: Part<PathPoint>(c.reference_point()),
         /// All points of a period.
-        pub gather: Part<PeriodJoin>(PeriodJoin { wait: c.wait }),
+        pub gather: Part<PeriodJoin>(PeriodJoin { wait: c.wait() }),
         /// What is fed back, where something is.
         pub feedback: [Part<ErrorFeedback>(c.feedback());
             usize::from(c.correction == Correction::Feedback)] as Elements(&["feedback"]),

@@ -15,6 +15,7 @@
 //! error e − s·t, and the feedback N·(e − s·t) + T·s·t. Two bits of a factor a tick, of all axes at
 //! once, each of the three products rounded down.
 
+use super::path_point::of_axes;
 use crate::hdl::prelude::*;
 
 /// Names of the states.
@@ -115,18 +116,6 @@ impl ErrorFeedback {
     pub const fn latency(&self) -> u64 {
         (2 * self.widths.direction_pairs() + self.widths.gain_pairs()) as u64 + 1
     }
-}
-
-/// Names of a signal of each axis.
-macro_rules! of_axes {
-    ($name:literal) => {
-        &[
-            concat!($name, "_x"),
-            concat!($name, "_y"),
-            concat!($name, "_z"),
-            concat!($name, "_w"),
-        ]
-    };
 }
 
 signals! { for ErrorFeedback as c;

@@ -12,12 +12,10 @@
 //! the way, and the path begins at the command. The start stands up to the last tick: only its first
 //! is taken.
 
-use super::path_point::AXIS_NAMES;
+use super::path_point::{AXIS_NAMES, of_axes};
 use super::{ErrorFeedback, error_feedback};
 use crate::check::Law;
 use crate::hdl::prelude::*;
-
-const SUM: &[&str] = &["sum_x", "sum_y", "sum_z", "sum_w"];
 
 /// The law of what is fed back from power-on.
 #[derive(Debug, Clone)]
@@ -66,7 +64,7 @@ signals! { for FeedbackSweep as c;
     /// What is seen of it.
     pub struct Net {
         /// What is fed back.
-        pub sum: [I(c.feedback.widths.sum()); c.feedback.axes] as Elements(SUM),
+        pub sum: [I(c.feedback.widths.sum()); c.feedback.axes] as Elements(of_axes!("sum")),
         /// `done` in the last tick.
         pub done: Bit,
         /// `done` in any other.

@@ -26,7 +26,18 @@ pub const AXIS_NAMES: [&str; 4] = ["x", "y", "z", "w"];
 /// The most axes.
 pub const AXES: usize = AXIS_NAMES.len();
 
-const POINT: &[&str] = &["point_x", "point_y", "point_z", "point_w"];
+/// Names of a signal of each of them.
+macro_rules! of_axes {
+    ($name:literal) => {
+        &[
+            concat!($name, "_x"),
+            concat!($name, "_y"),
+            concat!($name, "_z"),
+            concat!($name, "_w"),
+        ]
+    };
+}
+pub(super) use of_axes;
 
 /// Path point.
 #[derive(Debug, Clone)]
@@ -125,7 +136,7 @@ signals! { for PathPoint as c;
     /// Ports out.
     pub struct Net {
         /// The point.
-        pub points: [I(c.widths.point); c.axes] as Elements(POINT),
+        pub points: [I(c.widths.point); c.axes] as Elements(of_axes!("point")),
         /// The segment that it is on.
         pub segment: U(c.widths.segment),
         /// The point stands in this tick.

@@ -7,8 +7,8 @@
 //!                           └───────────────┘
 //! ```
 //!
-//! A segment is 16 words, or 20 where there is a fourth axis. They are written before the path begins; while it runs any of them is
-//! fetched, as often as a length belongs to it.
+//! A segment is 16 words, or 20 where there is a fourth axis. They are written before the path
+//! begins; while it runs any of them is fetched, as often as a length belongs to it.
 
 use super::widths::PointWidths;
 use crate::hdl::prelude::*;
@@ -18,8 +18,8 @@ pub const WORDS: usize = 16;
 
 /// Store of 2^A segments.
 ///
-/// `load` is high from the second tick after `fetch` on, for as many ticks as there are words; `loaded` in the tick after
-/// them.
+/// `load` is high from the second tick after `fetch` on, for as many ticks as there are words;
+/// `loaded` in the tick after them.
 #[derive(Debug, Clone)]
 pub struct SegmentStore {
     /// Its widths.

@@ -119,10 +119,13 @@ impl Summary {
 /// What was skipped or assumed on the way to the segments.
 fn warnings(job: &Job, figures: &Figures) -> Vec<String> {
     let own = job.drawing.iter().flat_map(|drawing| &drawing.warnings);
-    let left = figures.beside.left.map(|piece| {
-        format!(
-            "the conventional method is not run: the whole arc of piece {piece} is no path in words"
-        )
+    let both = [(&figures.beside, ""), (&figures.even, " without ramps")];
+    let left = both.into_iter().filter_map(|(beside, how)| {
+        let piece = beside.left?;
+        Some(format!(
+            "the conventional method{how} is not run: the whole arc of piece {piece} is no path in \
+             words"
+        ))
     });
     own.map(ToString::to_string).chain(left).collect()
 }

@@ -113,12 +113,8 @@ fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<
             )
         });
     }
-    // An encoder is counted at one count per tick.
     let (speed, line) = log.fastest();
-    let fastest = match settings.detector {
-        Detector::Incremental => settings.clock_hz as f64,
-        Detector::Absolute => settings.body.counts_per_rev / 4e-3 / settings.ck_ms(),
-    };
+    let fastest = settings.followed_counts_per_s();
     if speed > fastest {
         let problem = format!("{speed:.0} counts/s since the sample before");
         let allowed = match settings.detector {

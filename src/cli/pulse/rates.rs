@@ -70,7 +70,8 @@ pub fn complaints(rows: &Rows) -> impl Iterator<Item = String> {
         Some(match motor.lost_steps {
             0 => format!("{name}: the motor slips in unit time {unit}, and back again"),
             steps => {
-                format!("{name}: the motor loses {steps} steps, the first in unit time {unit}")
+                let lost = steps.unsigned_abs();
+                format!("{name}: the motor loses {lost} steps, the first in unit time {unit}")
             }
         })
     })

@@ -295,16 +295,21 @@ impl Settings {
         (code as f64 * self.ck_ms() * 1e9).round() / 1e9
     }
 
-    /// The fastest speed of a step in counts a second: an incremental encoder is counted at one count
-    /// per tick, an absolute one may go a quarter of a turn in a CK.
+    /// The fastest speed of a step in counts a second.
     #[must_use]
     pub fn fastest_counts_per_s(&self) -> u32 {
         let word = ((1 << WIDTHS.speed) - 1) * SPEED_UNIT_COUNTS_PER_S;
-        let followed = match self.detector {
-            Detector::Incremental => self.clock_hz,
-            Detector::Absolute => (self.body.counts_per_rev / 4e-3 / self.sampling_ms()) as u64,
-        };
-        u64::from(word).min(followed) as u32
+        u64::from(word).min(self.followed_counts_per_s() as u64) as u32
+    }
+
+    /// The fastest speed that the detector follows, in counts a second: an incremental encoder is
+    /// counted at one count per tick, an absolute one may go a quarter of a turn in a CK.
+    #[must_use]
+    pub fn followed_counts_per_s(&self) -> f64 {
+        match self.detector {
+            Detector::Incremental => self.clock_hz as f64,
+            Detector::Absolute => self.body.counts_per_rev / 4e-3 / self.sampling_ms(),
+        }
     }
 
     /// The period of an absolute encoder's sampling clock, which is CK then.

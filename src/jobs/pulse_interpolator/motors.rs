@@ -2,9 +2,9 @@
 
 use crate::circuits::pulse_interpolator::AXIS_NAMES;
 use crate::hdl::{Beside, Value, View, signals};
+use crate::plant::waves::fine;
 use crate::plant::{StepMotor, StepMotorParameters};
 use crate::settings::SettingError;
-use fixed::types::I56F8;
 
 signals! { for StepMotors as _c;
     /// A step motor as it really is.
@@ -64,12 +64,7 @@ struct Followed {
 #[derive(Debug, Clone)]
 pub struct Motors {
     axes: Vec<Followed>,
-    /// Ticks in which a motor comes to rest.
-    rest: u64,
 }
-
-/// Free swings in which a motor comes to rest, as far as it does.
-const SWINGS: f64 = 200.0;
 
 impl Motors {
     /// Motors alike on so many axes.
@@ -82,7 +77,6 @@ impl Motors {
         clock_hz: u64,
     ) -> Result<Self, SettingError> {
         let motor = StepMotor::new(parameters, 1.0 / clock_hz as f64)?;
-        let swing_s = std::f64::consts::TAU / parameters.natural_rad_per_s();
         let followed = Followed {
             motor,
             commanded: 0,
@@ -90,13 +84,11 @@ impl Motors {
         };
         Ok(Motors {
             axes: vec![followed; axes],
-            rest: (SWINGS * swing_s * clock_hz as f64) as u64,
         })
     }
 
     /// As they stand.
     pub fn signals(&self) -> StepMotorsSignals<Value> {
-        let fine = |amount: f64| I56F8::saturating_from_num(amount).to_bits();
         let signals = |axis: &Followed| StepMotorSignals {
             position: fine(axis.motor.position_steps()),
             speed: axis.motor.speed_steps_per_s().round() as i64,
@@ -125,11 +117,8 @@ impl Motors {
 
     /// What became of each, once they have come to rest.
     pub fn report(mut self) -> Vec<MotorReport> {
-        let rest = self.rest;
         let ended = self.axes.iter_mut().map(|axis| {
-            for _ in 0..rest {
-                axis.motor.step(axis.commanded);
-            }
+            axis.motor.settle(axis.commanded);
             MotorReport {
                 lost_steps: axis.motor.lost_steps(axis.commanded),
                 ..axis.report

@@ -1,6 +1,7 @@
 //! What a control computer gives to the segment stores: the path, a word a tick.
 
 use super::program::Program;
+use crate::circuits::trajectory_controller::path_point::AXES;
 use crate::circuits::trajectory_controller::{Widths, segment_store};
 use crate::input::COORDINATES;
 
@@ -8,7 +9,7 @@ use crate::input::COORDINATES;
 const SEGMENT_WORDS: [usize; 2] = [13, segment_store::WORDS];
 
 /// With a fourth axis all are.
-const MOST_WORDS: usize = segment_store::WORDS + 4;
+const MOST_WORDS: usize = Widths::FULL.point().of_axes(AXES).words();
 
 /// A path that is written segment after segment.
 #[derive(Debug)]

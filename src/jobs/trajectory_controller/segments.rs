@@ -12,8 +12,9 @@
 //! | 13, 14, 15 | not looked at | not looked at | that of its cube, times 2^2n |
 //!
 //! A fourth axis has four words more, base and coefficients as those of x: 16 and, of a line, 17, of
-//! an arc 19, which then has bit 7 of word 0 set as a helix has. A spline's length has n bits. A helix has the words of an arc with bit 7 of word 0 set, and in
-//! words 13 to 15 its rise over its length. Lengths are whole guard units of 2^-G count. A piece's
+//! an arc 19, which then has bit 7 of word 0 set as a helix has. A spline's length has n bits. A helix
+//! has the words of an arc with bit 7 of word 0 set, and in words 13 to 15 its rise over its length.
+//! Lengths are whole guard units of 2^-G count. A piece's
 //! own length is rounded, and what the rounding takes is spread over the piece: a line's
 //! coefficients are its way divided by the rounded length, an arc's angle at the rounded length is
 //! the arc's own. So each ends where the piece ends. The speed is off by as little: half a guard

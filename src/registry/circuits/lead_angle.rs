@@ -36,8 +36,8 @@ const LEARNINGS: &[(Sign, Function)] = &[
     (Sign::Literal, Function::SecondOrder),
 ];
 
-/// The numbers of placement, comparing, learning and detector, then the times of the ROM, one in each word
-/// from step 0 up.
+/// The numbers of placement, comparing, learning and detector, then the times of the ROM, one in each
+/// word from step 0 up.
 fn chosen(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
     let (sign, function) = choice(given, 2, LEARNINGS)?;
     let variant = Variant {
@@ -495,8 +495,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
             code = widths.code,
         ],
         from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
-               learning as 0, 1 and so on, 0 for an incremental or 1 for an absolute encoder, 0 for a product as the lead or 1 for a memory of it, \
-               times of the ROM",
+               learning as 0, 1 and so on, 0 for an incremental or 1 for an absolute encoder, 0 for a \
+               product as the lead or 1 for a memory of it, times of the ROM",
             |given| conventional(small(LeadFrom::Speed, given)?, &given[1..]),
         with: conventional,
         proved: none,

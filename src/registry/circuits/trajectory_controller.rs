@@ -376,7 +376,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             axes: 2,
             correction: one_of(given, CORRECTIONS)?,
             rounding: Rounding::Nearest,
-            wait: 0,
+            waits: false,
         }),
         with: |controller, given| {
             let correction = only(given, CORRECTIONS)?;

@@ -1,6 +1,9 @@
 //! The lead-angle compensator on a body with a brake: whole runs of the scenario that ships, and
 //! position logs.
 
+mod detector;
+mod logs;
+
 use motion_rtl::circuits::lead_angle::codes::{LARGEST, STAGES, code};
 use motion_rtl::input::position_log::{Columns, PositionLog, read};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning, play, positioner};
@@ -330,28 +333,6 @@ fn an_operation_without_effect_teaches_nothing() {
     }
 }
 
-/// A log goes on in any case, so operations are learned from on it.
-#[test]
-fn operations_on_a_log_are_learned() {
-    let log = log(|seconds| 500 + (20_000.0 * seconds) as i64, 400);
-    let mut settings = one_step(4000, 20_000, 1);
-    settings.action = Action::Operate;
-    settings.operation_delay_s = 0.03;
-    let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
-    let errors: Vec<f64> = replayed
-        .signals
-        .iter()
-        .filter_map(|signal| Some(signal.effect_position? - signal.target as f64))
-        .collect();
-    assert_eq!(errors.len(), 9, "{:?}", replayed.signals);
-    assert!((errors[0] - 200.0).abs() <= 6.0, "{errors:?}");
-    assert!(
-        errors[4..].iter().all(|error| error.abs() <= 4.0),
-        "{errors:?}"
-    );
-}
-
 /// Leads by speed from one memory, for all steps: right until the load changes, and off by what the
 /// way to stop has changed from then on. Nothing of it was tried before.
 #[test]
@@ -383,65 +364,6 @@ fn a_memory_of_leads_serves_all_steps_until_the_load_changes() {
     }
 }
 
-/// An absolute encoder, whose clock is CK, beside a counter: both learn to within a code, and over the
-/// seams of the turn as elsewhere.
-#[test]
-fn an_absolute_encoder_is_as_good_as_a_counter() {
-    let absolute = Settings {
-        detector: Detector::Absolute,
-        ..turntable()
-    };
-    let [absolute_played, counted] = [&absolute, &turntable()].map(with_lead);
-    for step in 0..absolute.steps.len() {
-        let [before, after] = phases(&absolute, &absolute_played, step);
-        for one in [before[5], after[5]] {
-            assert!(off(one) <= code_travel(&absolute, one), "{one:?}");
-        }
-    }
-    // The first stops are those of the same lead times.
-    let pairs = absolute_played
-        .positionings
-        .iter()
-        .zip(&counted.positionings);
-    for (one, other) in pairs.take(4) {
-        let per_ck = other.speed_counts_per_s.abs() * absolute.ck_ms() / 1e3;
-        assert!(
-            ((one.error - other.error) as f64).abs() <= 3.0 * per_ck,
-            "{one:?} {other:?}"
-        );
-    }
-    // Half a turn a step, on and on: 20 seams.
-    let mut turning = one_step(45_000, 90_000, 40);
-    turning.detector = Detector::Absolute;
-    let played = with_lead(&turning);
-    assert_eq!(played.positionings[39].target, 40 * 45_000);
-    for one in &played.positionings[6..] {
-        assert!(off(one) <= code_travel(&turning, one), "{one:?}");
-    }
-}
-
-/// A clock that is off is off in all lead times: what is kept is wrong by as much, what is learned is
-/// not.
-#[test]
-fn a_sampling_clock_that_is_off_is_learned() {
-    let fixed = |ppm: f64| {
-        let mut settings = one_step(45_000, 90_000, 2);
-        settings.steps[0].lead_ms = 40.0;
-        settings.learn = false;
-        settings.detector = Detector::Absolute;
-        settings.sampling_clock_ppm = ppm;
-        with_lead(&settings).positionings[1].error
-    };
-    // 1 % of 40 ms at 90,000 counts/s.
-    let off_by = fixed(10_000.0) - fixed(0.0);
-    assert!((off_by - 36).abs() <= 12, "{off_by}");
-    let mut learned = one_step(45_000, 90_000, 8);
-    learned.detector = Detector::Absolute;
-    learned.sampling_clock_ppm = -10_000.0;
-    let played = with_lead(&learned);
-    assert!(off(&played.positionings[7]) <= code_travel(&learned, &played.positionings[7]));
-}
-
 /// Switches a distance before their targets, on the way there from either side.
 #[test]
 fn a_displaced_switch_is_a_distance_before_its_target() {
@@ -463,106 +385,5 @@ fn a_displaced_switch_is_a_distance_before_its_target() {
             (moved - distance).abs() <= per_ck + 2.0,
             "{without:?} {with:?}"
         );
-    }
-}
-
-/// A log of positions, a sample every 5 ms.
-fn log(position: impl Fn(f64) -> i64, samples: u32) -> PositionLog {
-    let mut text = "time, counts\n".to_owned();
-    for sample in 0..samples {
-        let seconds = f64::from(sample) * 5e-3;
-        let _ = writeln!(text, "{}, {}", 1000 + sample * 5, position(seconds));
-    }
-    read("log.csv", text.as_bytes(), &Columns::default()).expect("a log")
-}
-
-/// At constant speed every prediction is within its bound, and each signal comes when the body is
-/// its lead away from the target.
-#[test]
-fn a_log_at_constant_speed_is_predicted_within_the_bound() {
-    let log = log(|seconds| 500 + (8000.0 * seconds) as i64, 400);
-    let step = |target, lead_ms| Step {
-        target,
-        speed_counts_per_s: 10_000,
-        lead_ms,
-    };
-    let settings = Settings {
-        steps: vec![step(3000, 30.0), step(9000, 120.0), step(15_000, 5.0)],
-        time_out_ms: 200.0,
-        ..Settings::default()
-    };
-    let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
-    let signals = &replayed.signals;
-    assert_eq!(signals.len(), 3, "{signals:?}");
-    for (signal, ratio) in signals.iter().zip([2.0, 10.0, 1.0]) {
-        let after = signal.position_after.expect("the log goes on");
-        // The prediction's bound, and the way of a CK.
-        let bound = ratio + 1.0 + 0.8 + 2.0;
-        let error = (after - signal.target as f64).abs();
-        assert!(error <= bound, "{signal:?}");
-    }
-    let predictions = replayed.predictions;
-    assert!(predictions.count > 10_000);
-    assert!(predictions.largest < 12.0, "{predictions:?}");
-    assert!(
-        predictions.rms_without > 30.0 * predictions.rms,
-        "{predictions:?}"
-    );
-    assert!(!replayed.lost);
-}
-
-/// One target a turn, from the log's first sample on, and a lead by the speed.
-#[test]
-fn a_log_that_turns_on_gives_a_signal_a_turn() {
-    let log = log(|seconds| 500 + (20_000.0 * seconds) as i64, 200);
-    let mut settings = one_step(4000, 20_000, 1);
-    settings.lead = LeadBy::Speed;
-    settings.speed_lead_ms = 10.0;
-    let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
-    let targets: Vec<_> = replayed
-        .signals
-        .iter()
-        .map(|signal| signal.target)
-        .collect();
-    assert_eq!(targets, [4500, 8500, 12_500, 16_500, 20_500]);
-    for signal in &replayed.signals {
-        assert_eq!(signal.lead_ms, 10.0);
-        let away = signal.target - signal.position;
-        assert!((away - 200).abs() <= 4, "{signal:?}");
-        // The log is over before the last target.
-        let after = signal.position_after;
-        assert_eq!(after.is_none(), signal.target == 20_500);
-        assert!(after.is_none_or(|after| (after - signal.target as f64).abs() <= 4.0));
-    }
-}
-
-/// A log that begins elsewhere than at 0, and goes down.
-#[test]
-fn a_log_is_taken_from_its_first_sample_on() {
-    let log = log(|seconds| -7000 - (20_000.0 * seconds) as i64, 200);
-    let step = |target| Step {
-        target,
-        speed_counts_per_s: 10_000,
-        lead_ms: 10.0,
-    };
-    let settings = Settings {
-        steps: vec![step(-10_000), step(-20_000)],
-        history: History::Ram,
-        time_out_ms: 50.0,
-        ..Settings::default()
-    };
-    let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
-    let targets: Vec<_> = replayed
-        .signals
-        .iter()
-        .map(|signal| signal.target)
-        .collect();
-    assert_eq!(targets, [-10_000, -20_000]);
-    for signal in &replayed.signals {
-        let away = signal.position - signal.target;
-        assert!((away - 200).abs() <= 5, "{signal:?}");
     }
 }

@@ -1,0 +1,62 @@
+//! Absolute encoders as the position detector.
+
+use super::*;
+
+/// An absolute encoder, whose clock is CK, beside a counter: both learn to within a code, and over the
+/// seams of the turn as elsewhere.
+#[test]
+fn an_absolute_encoder_is_as_good_as_a_counter() {
+    let absolute = Settings {
+        detector: Detector::Absolute,
+        ..turntable()
+    };
+    let [absolute_played, counted] = [&absolute, &turntable()].map(with_lead);
+    for step in 0..absolute.steps.len() {
+        let [before, after] = phases(&absolute, &absolute_played, step);
+        for one in [before[5], after[5]] {
+            assert!(off(one) <= code_travel(&absolute, one), "{one:?}");
+        }
+    }
+    // The first stops are those of the same lead times.
+    let pairs = absolute_played
+        .positionings
+        .iter()
+        .zip(&counted.positionings);
+    for (one, other) in pairs.take(4) {
+        let per_ck = other.speed_counts_per_s.abs() * absolute.ck_ms() / 1e3;
+        assert!(
+            ((one.error - other.error) as f64).abs() <= 3.0 * per_ck,
+            "{one:?} {other:?}"
+        );
+    }
+    // Half a turn a step, on and on: 20 seams.
+    let mut turning = one_step(45_000, 90_000, 40);
+    turning.detector = Detector::Absolute;
+    let played = with_lead(&turning);
+    assert_eq!(played.positionings[39].target, 40 * 45_000);
+    for one in &played.positionings[6..] {
+        assert!(off(one) <= code_travel(&turning, one), "{one:?}");
+    }
+}
+
+/// A clock that is off is off in all lead times: what is kept is wrong by as much, what is learned is
+/// not.
+#[test]
+fn a_sampling_clock_that_is_off_is_learned() {
+    let fixed = |ppm: f64| {
+        let mut settings = one_step(45_000, 90_000, 2);
+        settings.steps[0].lead_ms = 40.0;
+        settings.learn = false;
+        settings.detector = Detector::Absolute;
+        settings.sampling_clock_ppm = ppm;
+        with_lead(&settings).positionings[1].error
+    };
+    // 1 % of 40 ms at 90,000 counts/s.
+    let off_by = fixed(10_000.0) - fixed(0.0);
+    assert!((off_by - 36).abs() <= 12, "{off_by}");
+    let mut learned = one_step(45_000, 90_000, 8);
+    learned.detector = Detector::Absolute;
+    learned.sampling_clock_ppm = -10_000.0;
+    let played = with_lead(&learned);
+    assert!(off(&played.positionings[7]) <= code_travel(&learned, &played.positionings[7]));
+}
