@@ -79,6 +79,7 @@ impl Number for bool {
     fn of(word: u64, _: u32) -> bool {
         word != 0
     }
+    #[inline]
     fn word(self) -> u64 {
         self.into()
     }
@@ -89,6 +90,7 @@ impl Number for u64 {
     fn of(word: u64, _: u32) -> u64 {
         word
     }
+    #[inline]
     fn word(self) -> u64 {
         self
     }
@@ -99,6 +101,7 @@ impl Number for i64 {
     fn of(word: u64, spare: u32) -> i64 {
         (word << spare) as i64 >> spare
     }
+    #[inline]
     fn word(self) -> u64 {
         self as u64
     }

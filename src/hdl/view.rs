@@ -203,28 +203,36 @@ macro_rules! numbers {
         type Ram = Arc<[u64]>;
         type Shift = Arc<[u64]>;
 
+        #[inline]
         fn bit(token: u64) -> bool {
             token != 0
         }
+        #[inline]
         fn u(token: u64, _: usize) -> u64 {
             token
         }
+        #[inline]
         fn i(token: u64, width: usize) -> i64 {
             let spare = 64 - width as u32;
             (token << spare) as i64 >> spare
         }
+        #[inline]
         fn ram(cells: Cells) -> Arc<[u64]> {
             cells.contents
         }
+        #[inline]
         fn shift(cells: Cells) -> Arc<[u64]> {
             cells.contents
         }
+        #[inline]
         fn of_bit(bit: bool) -> u64 {
             bit.into()
         }
+        #[inline]
         fn of_u(word: u64) -> u64 {
             word
         }
+        #[inline]
         fn of_i(word: i64) -> u64 {
             word as u64
         }

@@ -43,8 +43,9 @@ fn every_unit_obeys_the_count_law_and_is_low_at_its_borders() {
 #[test]
 fn a_unit_does_not_depend_on_the_unit_before() {
     for period in 1..=24u64 {
-        for first in 0..26u64 {
-            for second in 0..26u64 {
+        // Longer ones are alike: there is no pulse.
+        for first in 0..period + 2 {
+            for second in 0..period + 2 {
                 let group = player(widths(5, 5, 1), Safe, &[first, second], period, false);
                 let wave = steps(&group, 3 * period);
                 let units = after_start(&wave, period);

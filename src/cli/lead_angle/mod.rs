@@ -14,12 +14,14 @@ use super::Failure;
 use super::files::Files;
 use super::report::conclude;
 use super::run::{Arguments, Progress, options};
+use super::threads;
 use super::traces::{Focus, Traces};
 use motion_rtl::hdl::{RunError, model_beside};
 use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
 use motion_rtl::jobs::lead_angle::settings::{History, LeadBy, Settings};
 use motion_rtl::plant::waves::Body;
 use motion_rtl::trace::Options;
+use rayon::prelude::*;
 use summary::Summary;
 use systems::{NONE, System, systems};
 
@@ -65,21 +67,23 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     if let Some(log) = &job.log {
         return log::run(arguments, job, log, &options);
     }
-    let systems = systems(&job.settings);
+    threads::start()?;
+    let mut systems = systems(&job.settings);
     let shown = systems.iter().find(|system| system.own);
     let shown = shown.map_or(&job.settings, |system| &system.settings);
     let (own, mut files) = simulate(arguments, job, shown, &options)?;
-    let mut played: Vec<(System, Played)> = Vec::new();
-    for mut system in systems {
-        if let Some(none) = summary::of(&played, NONE) {
-            system.set_up(none);
-        }
-        let run = match system.own {
-            true => own.clone(),
-            false => alone(&system)?,
+    let none = systems.iter().find(|system| system.name == NONE);
+    let none = none.map(alone).transpose()?.unwrap_or_default();
+    systems.iter_mut().for_each(|system| system.set_up(&none));
+    let played = systems.into_par_iter().map(|system| {
+        let played = match system.name {
+            NONE => none.clone(),
+            _ if system.own => own.clone(),
+            _ => alone(&system)?,
         };
-        played.push((system, run));
-    }
+        Ok((system, played))
+    });
+    let played = played.collect::<Result<Vec<_>, Failure>>()?;
     files.write("svg", &picture::draw(job, &played))?;
     let summary = Summary::new(job, &played);
     conclude(arguments, &options, files, summary)

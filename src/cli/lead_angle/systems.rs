@@ -1,8 +1,9 @@
 //! What a run is compared with: the same steps without a lead, with switches that stand a distance
 //! before their targets, by speed with one parameter, with one for each step that is tuned to the
 //! nominal load, and with a memory of the leads that this load asks for, with a fixed lead, with a
-//! lead that is learned, learned to second order, and learned with the text's sign; where the scenario has positionings complete by a fixed time, learned at
-//! standstills too; where it has an absolute encoder, its own system with an incremental one.
+//! lead that is learned, learned to second order, and learned with the text's sign; where the
+//! scenario has positionings complete by a fixed time, learned at standstills too; where it has an
+//! absolute encoder, its own system with an incremental one.
 
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{

@@ -291,9 +291,13 @@ pub fn play(
             operation.set_delay(settings.operation_delay(true));
             loaded = true;
         }
-        let [speed, step] = simulator.state(|q| [see.speed, see.step].map(|at| q.get(at)));
-        let signals = [see.drive, see.reverse, see.control, see.arm];
-        let [drive, reverse, control, arm] = simulator.state(|q| signals.map(|at| q.get(at)));
+        let ([drive, reverse], [control, arm], [speed, step]) = simulator.state(|q| {
+            (
+                [q.get(see.drive), q.get(see.reverse)],
+                [q.get(see.control), q.get(see.arm)],
+                [q.get(see.speed), q.get(see.step)],
+            )
+        });
         let speed = speed * u64::from(SPEED_UNIT_COUNTS_PER_S);
         let (a, b) = body.step(drive, reverse, speed as f64, control && !i.passing);
         let (strobe, code) = match &mut absolute {
@@ -305,19 +309,10 @@ pub fn play(
         stands &= computer.tick(&mut i, bench.played.ticks, arm, bench.run());
         stands &= computer.choose_parameter(&mut i, step);
         let halt = bench.past && drive;
-        if stands {
-            // What changes from tick to tick.
-            simulator.set(|i| i.a, a);
-            simulator.set(|i| i.b, b);
-            if absolute.is_some() {
-                simulator.set(|i| i.strobe, strobe);
-                simulator.set(|i| i.code, code);
-            }
-            simulator.set(|i| i.effect, effect);
-            simulator.set(|i| i.halt, halt);
-        } else {
-            (i.a, i.b, i.effect, i.halt) = (a, b, effect, halt);
-            (i.strobe, i.code) = (strobe, code);
+        let before = (i.a, i.b, i.strobe, i.code, i.effect, i.halt);
+        (i.a, i.b, i.effect, i.halt) = (a, b, effect, halt);
+        (i.strobe, i.code) = (strobe, code);
+        if !stands || before != (a, b, strobe, code, effect, halt) {
             simulator.apply(&i);
             stands = true;
         }
@@ -326,7 +321,7 @@ pub fn play(
         }
         let take = |now: &Sample<'_, _>| bench.take(now, &see, &body);
         let (goes_on, flow) = simulator.look_as_set(&mut observer, take)?;
-        simulator.go_on(1);
+        simulator.step();
         if !goes_on || flow.is_break() {
             return Ok(bench.played);
         }

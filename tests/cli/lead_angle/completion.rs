@@ -44,14 +44,13 @@ fn a_positioning_that_ends_by_its_time_is_no_stop_and_is_said_to_be_none() {
         "{warning}"
     );
 
-    let text = Bench::new().succeed(&arguments);
+    let bench = Bench::new();
+    let text = bench.succeed(&arguments);
     assert!(
         text.contains("learning                   760     232.3       0         12  in the waves")
     );
     assert!(text.contains("  -7*  "), "{text}");
     assert!(text.contains("* its time was over"), "{text}");
-    let bench = Bench::new();
-    bench.succeed(&arguments);
     assert!(
         bench
             .read("waves/turntable.svg")
@@ -69,7 +68,8 @@ fn a_fixed_time_completes_every_positioning_and_learning_at_standstill_stands_be
             "--set",
             "completion=fixed_time",
         ];
-        let sets = ["--set", time_out, "--set", "load_change_after=48"];
+        let sets = [time_out, "positionings=24", "load_change_after=24"];
+        let sets: Vec<_> = sets.iter().flat_map(|set| ["--set", set]).collect();
         Bench::new().json(&[&run[..], &sets].concat())
     };
     // Long enough: the same is learned as at standstill.
@@ -82,11 +82,11 @@ fn a_fixed_time_completes_every_positioning_and_learning_at_standstill_stands_be
     }
     // Too short: it learns to be at the target in passing.
     let summary = run("time_out_ms=40");
-    assert_eq!(turning(&summary, "learning").1, 36);
+    assert_eq!(turning(&summary, "learning").1, 18);
     assert_eq!(turning(&summary, "at standstill").1, 0);
     let phase = &list(&summary, "phases")[0];
     let fastest = &list(phase, "steps")[2];
-    assert_eq!(fastest["lead_ms"], 33.6);
+    assert_eq!(fastest["lead_ms"], 33.4);
     assert!(
         fastest["last_error_counts"][fixed].as_i64().unwrap().abs() < 20,
         "{fastest}"

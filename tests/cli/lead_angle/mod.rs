@@ -10,6 +10,7 @@ mod refusals;
 use super::support::{Bench, DRAWINGS, keys, list, number, whole};
 use expect_test::expect;
 use serde_json::{Value, json};
+use std::sync::LazyLock;
 
 const STEPS: &str = "[[step]]\ntarget = 9000\nspeed_counts_per_s = 20000\n\
                      [[step]]\ntarget = 0\nspeed_counts_per_s = 40000\nlead_ms = 39.9\n";
@@ -47,6 +48,10 @@ speed_counts_per_s = 10
 lead_ms = 40
 ";
 
+/// The turntable's summary.
+static TURNTABLE: LazyLock<Value> =
+    LazyLock::new(|| Bench::new().json(&["run", "waves/turntable.toml", "--no-vcd"]));
+
 /// A bench with the short job in it.
 fn small() -> Bench {
     Bench::with("s.toml", SMALL)
@@ -73,20 +78,19 @@ fn system(summary: &Value, name: &str) -> usize {
 
 #[test]
 fn the_turntable_shows_what_the_circuit_is_for() {
-    let run = ["run", "waves/turntable.toml", "--no-vcd"];
-    let summary = Bench::new().json(&run);
+    let summary = &*TURNTABLE;
     assert_eq!(summary["complaints"], json!([]));
     assert_eq!(summary["warnings"], json!([]));
-    assert_eq!(list(&summary, "positionings").len(), 48);
-    let learning = system(&summary, "learning");
-    let phases = list(&summary, "phases");
+    assert_eq!(list(summary, "positionings").len(), 48);
+    let learning = system(summary, "learning");
+    let phases = list(summary, "phases");
     assert_eq!(phases.len(), 2);
     let mut orders = Vec::new();
     for (phase, loaded) in phases.iter().zip([false, true]) {
         assert_eq!(phase["loaded"], loaded);
         assert_eq!(list(phase, "steps").len(), 4);
         for step in list(phase, "steps") {
-            let rows = list(&summary, "positionings").iter();
+            let rows = list(summary, "positionings").iter();
             let rows = rows.filter(|row| row["loaded"] == loaded && row["step"] == step["step"]);
             let within = |row: &Value| {
                 let error = row["error_counts"][learning].as_f64().unwrap();
@@ -118,13 +122,13 @@ fn the_turntable_shows_what_the_circuit_is_for() {
     );
     // The last of each step, by a limit that does not come from the summary: a code at 90000
     // counts/s is 5 CKs of 0.1 ms, 45 counts.
-    for row in &list(&summary, "positionings")[44..] {
+    for row in &list(summary, "positionings")[44..] {
         let error = |system: usize| row["error_counts"][system].as_i64().unwrap().abs();
         assert!(error(learning) <= 45, "{row}");
     }
     let rms = |name: &str| {
         number(
-            &summary["systems"][system(&summary, name)],
+            &summary["systems"][system(summary, name)],
             "/error_rms_counts",
         )
     };
@@ -132,7 +136,7 @@ fn the_turntable_shows_what_the_circuit_is_for() {
         assert!(rms(other) > 2.5 * rms("learning"), "{other}");
     }
     for name in ["no lead", "literal sign"] {
-        let largest = &summary["systems"][system(&summary, name)]["error_max_counts"];
+        let largest = &summary["systems"][system(summary, name)]["error_max_counts"];
         assert!(largest.as_u64().unwrap() > 5000, "{name}");
     }
     assert_eq!(summary["systems"][learning]["own"], true);
@@ -148,13 +152,14 @@ fn the_literal_sign_drives_the_lead_times_to_their_ends() {
         "--set",
         "sign=literal",
     ];
-    let summary = Bench::new().json(&run);
+    let fewer = ["--set", "positionings=32", "--set", "load_change_after=16"];
+    let summary = Bench::new().json(&[&run[..], &fewer].concat());
     assert_eq!(summary["lead_times_of"], "literal sign");
     assert_eq!(
         summary["systems"][system(&summary, "literal sign")]["own"],
         true
     );
-    let last = &list(&summary, "positionings")[44..];
+    let last = &list(&summary, "positionings")[28..];
     let leads: Vec<f64> = last.iter().map(|row| number(row, "/lead_ms")).collect();
     // The shortest code, and the longest where the first lead was too long.
     assert_eq!(leads, [199.0, 0.1, 0.1, 0.1]);
@@ -308,10 +313,9 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
 /// The simplest conventional system: as good as its distances are, up to the load change.
 #[test]
 fn displaced_switches_stand_as_far_off_as_the_first_stops_went() {
-    let run = ["run", "waves/turntable.toml", "--no-vcd"];
-    let summary = Bench::new().json(&run);
-    let [none, switch] = ["no lead", "displaced switch"].map(|name| system(&summary, name));
-    let phases = list(&summary, "phases");
+    let summary = &*TURNTABLE;
+    let [none, switch] = ["no lead", "displaced switch"].map(|name| system(summary, name));
+    let phases = list(summary, "phases");
     let error = |step: &Value, system: usize| step["last_error_counts"][system].as_i64().unwrap();
     for (before, after) in list(&phases[0], "steps")
         .iter()
@@ -323,7 +327,17 @@ fn displaced_switches_stand_as_far_off_as_the_first_stops_went() {
         assert!(more > 80 && (more - off).abs() <= 10, "{after}: {more}");
     }
     // One distance for all is right for one speed.
-    let summary = Bench::new().json(&[&run[..], &["--set", "switch_counts=1200"]].concat());
+    let summary = Bench::new().json(&[
+        "run",
+        "waves/turntable.toml",
+        "--no-vcd",
+        "--set",
+        "switch_counts=1200",
+        "--set",
+        "positionings=16",
+        "--set",
+        "load_change_after=8",
+    ]);
     for row in list(&summary, "positionings") {
         let [none, switch] = [none, switch].map(|system| row["error_counts"][system].as_i64());
         let moved = none.unwrap() - switch.unwrap();

@@ -12,7 +12,14 @@ fn an_operation_in_passing_has_its_effect_at_the_target() {
         "--set",
         "action=operate",
     ];
-    let run = [&run[..], &["--set", "load_delay_factor=1.5"]].concat();
+    let sets = [
+        "load_delay_factor=1.5",
+        "positionings=32",
+        "load_change_after=16",
+    ];
+    let sets: Vec<_> = sets.iter().flat_map(|set| ["--set", set]).collect();
+    let run = [&run[..], &sets].concat();
+    let fewer = ["--set", "positionings=8", "--set", "load_change_after=4"];
     let bench = Bench::new();
     let summary = bench.json(&run);
     assert_eq!(summary["action"], "operate");
@@ -31,16 +38,16 @@ fn an_operation_in_passing_has_its_effect_at_the_target() {
             assert!(
                 step["settled_after"]
                     .as_u64()
-                    .is_some_and(|after| after <= 5),
+                    .is_some_and(|after| after <= 3),
                 "{step}"
             );
         }
     }
-    let text = bench.succeed(&run);
+    let text = bench.succeed(&[&run[..], &fewer].concat());
     for part in [
         "complete by effect, learning to first order, sign converging\n",
         "effect error, counts   largest       rms  missed  timed out\n",
-        "positionings 0 to 23: effect error of the last of each step; lead of learning\n",
+        "positionings 0 to 3: effect error of the last of each step; lead of learning\n",
     ] {
         assert!(text.contains(part), "{text}");
     }
@@ -49,10 +56,10 @@ fn an_operation_in_passing_has_its_effect_at_the_target() {
             .read("waves/turntable.svg")
             .contains("effect error of learning")
     );
-    let late = bench.json(&[&run[..], &["--set", "time_out_ms=10"]].concat());
+    let late = bench.json(&[&run[..], &fewer, &["--set", "time_out_ms=10"]].concat());
     let warning = late["warnings"][0].as_str().unwrap();
     assert!(
-        warning.starts_with("48 of 48 operations had no effect"),
+        warning.starts_with("8 of 8 operations had no effect"),
         "{warning}"
     );
 }
