@@ -99,6 +99,11 @@ impl Declaration {
         }
         path + &self.name
     }
+
+    /// Scopes and name, outermost first.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.scopes.iter().chain([&self.name]).map(String::as_str)
+    }
 }
 
 /// A memory of a walk; its words are leaves.

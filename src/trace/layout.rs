@@ -193,9 +193,8 @@ pub(super) fn select(
     for wanted in only {
         let mut any = false;
         for (leaf, selected) in leaves.iter().zip(&mut selected) {
-            let path = leaf.path();
-            let rest = path.strip_prefix(wanted.as_str());
-            if rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.')) {
+            let mut names = leaf.names();
+            if wanted.split('.').all(|name| names.next() == Some(name)) {
                 *selected = true;
                 any = true;
             }
@@ -235,12 +234,7 @@ fn check(top: &str, leaves: &[Declaration]) -> Result<(), LayoutError> {
         return Err(LayoutError::Name(top.to_owned()));
     }
     for leaf in leaves {
-        if !leaf
-            .scopes
-            .iter()
-            .chain([&leaf.name])
-            .all(|name| is_plain(name))
-        {
+        if !leaf.names().all(is_plain) {
             return Err(LayoutError::Name(leaf.path()));
         }
         if let Format::States(states) = leaf.field.format {

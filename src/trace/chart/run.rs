@@ -207,14 +207,20 @@ fn resolve<'a>(
     leaves: &'a [Declaration],
     what: &'static str,
 ) -> Result<Vec<Resolved<'a>>, ChartError> {
-    let below = |leaf: &Declaration| match leaf.path().split_once('.') {
-        Some((_, below)) => below.to_owned(),
-        None => leaf.path(),
-    };
+    // Without the circuit's own scope.
+    fn below(leaf: &Declaration) -> impl Iterator<Item = &str> {
+        leaf.names().skip(leaf.scopes.len().min(1))
+    }
     let mut resolved = Vec::new();
     for row in rows {
-        let Some(leaf) = leaves.iter().find(|leaf| below(leaf) == row.name) else {
-            let names: Vec<String> = leaves.iter().map(below).collect();
+        let Some(leaf) = leaves
+            .iter()
+            .find(|leaf| below(leaf).eq(row.name.split('.')))
+        else {
+            let names = leaves.iter().map(below);
+            let names: Vec<_> = names
+                .map(|names| names.collect::<Vec<_>>().join("."))
+                .collect();
             let problem = Problem::Unknown {
                 what,
                 name: row.name.clone(),
