@@ -6,8 +6,8 @@ use crate::hdl::netlist::{
     Assertion, Child, Memory, Module, Node, Operator, Parameter, Port, Register, Setting, Signal,
 };
 use crate::hdl::{Kind, Role, Shape};
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::mem;
 use std::panic::Location;
 
@@ -36,7 +36,7 @@ pub(super) struct Builder {
     pub nodes: Vec<(Node, Shape)>,
     /// Where each was made.
     pub sites: Vec<Site>,
-    pub known: HashMap<(Node, Shape), Id>,
+    pub known: FxHashMap<(Node, Shape), Id>,
     pub signals: Vec<Signal>,
     /// Parameters and their values.
     pub parameters: Vec<(Parameter, u64)>,
@@ -115,7 +115,7 @@ pub(super) fn mistakes() -> usize {
 
 /// All that is wrong, in the order in which it was found, each once.
 pub(super) fn wrong(mut mistakes: Vec<Mistake>) -> Result<(), Wrong> {
-    let mut seen = std::collections::HashSet::new();
+    let mut seen = FxHashSet::default();
     mistakes.retain(|mistake| seen.insert(mistake.clone()));
     match mistakes.is_empty() {
         true => Ok(()),

@@ -8,7 +8,8 @@ use cranelift_codegen::ir::{
     Block, BlockArg, BlockCall, Function, InsertBuilder, InstBuilder, JumpTableData, MemFlagsData,
     Value, types,
 };
-use std::collections::{BTreeMap, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
 /// A word in the making.
 #[derive(Clone, Copy)]
@@ -32,7 +33,7 @@ pub(super) struct Emitter<'f> {
     /// The blocks that are woken, as bits of the words of `dirty`.
     cold: Vec<u64>,
     base: Value,
-    constants: HashMap<Slot, u64>,
+    constants: FxHashMap<Slot, u64>,
     /// What a slot holds for the block under way, where its number is `epoch`.
     known: Vec<(u32, Option<Word>)>,
     epoch: u32,

@@ -2,7 +2,7 @@
 
 use crate::engine::layout::Slot;
 use crate::engine::plan::{Code, Plan};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use std::ops::Range;
 
 /// Blocks one after the other: all of them are hot, or none is.
@@ -54,8 +54,8 @@ pub(super) fn is_hot(hot: &[bool], place: usize) -> bool {
 /// still read a register or a memory that it makes.
 fn before(plan: &Plan, phase: Range<usize>) -> Vec<Vec<usize>> {
     let mut before = vec![Vec::new(); phase.len()];
-    let mut drivers: HashMap<Slot, usize> = HashMap::new();
-    let mut readers: HashMap<Slot, Vec<usize>> = HashMap::new();
+    let mut drivers: FxHashMap<Slot, usize> = FxHashMap::default();
+    let mut readers: FxHashMap<Slot, Vec<usize>> = FxHashMap::default();
     for place in phase.clone() {
         let block = &plan.blocks[place];
         for &slot in &block.reads {

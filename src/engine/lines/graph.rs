@@ -3,7 +3,7 @@
 use super::tree::{Item, Root, tree};
 use crate::engine::layout::Slot;
 use crate::engine::plan::{Block, Code, Plan, Step};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// What a node is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -155,8 +155,8 @@ struct Making<'p> {
     /// The registers that each node, each net, is made of.
     nodes: Vec<Set>,
     nets: Vec<Set>,
-    registers: HashMap<Slot, u32>,
-    numbers: HashMap<Slot, u32>,
+    registers: FxHashMap<Slot, u32>,
+    numbers: FxHashMap<Slot, u32>,
 }
 
 impl<'p> Making<'p> {
@@ -175,11 +175,11 @@ impl<'p> Making<'p> {
             registers: registers
                 .map(|(number, register)| (register.slot, number as u32))
                 .collect(),
-            numbers: HashMap::new(),
+            numbers: FxHashMap::default(),
         }
     }
 
-    fn at(&self, slot: Slot, known: &HashMap<Slot, From>) -> From {
+    fn at(&self, slot: Slot, known: &FxHashMap<Slot, From>) -> From {
         if let Some(&from) = known.get(&slot) {
             from
         } else if let Some(&net) = self.numbers.get(&slot) {
@@ -267,8 +267,8 @@ impl<'p> Making<'p> {
     }
 
     /// The nodes of a block, by where they stand while it runs.
-    fn block(&mut self, block: &Block) -> HashMap<Slot, From> {
-        let mut known = HashMap::new();
+    fn block(&mut self, block: &Block) -> FxHashMap<Slot, From> {
+        let mut known = FxHashMap::default();
         for step in &block.steps {
             let from = self.step(step, &known);
             known.insert(step.to, from);
@@ -276,7 +276,7 @@ impl<'p> Making<'p> {
         known
     }
 
-    fn step(&mut self, step: &Step, known: &HashMap<Slot, From>) -> From {
+    fn step(&mut self, step: &Step, known: &FxHashMap<Slot, From>) -> From {
         let Step { code, width, .. } = *step;
         let a = self.at(step.a, known);
         if code == Code::Extend && self.width(a) == Some(width) {

@@ -6,8 +6,7 @@ use crate::engine::flat::mask;
 use crate::engine::layout::Slot;
 use crate::engine::plan::Code;
 use crate::engine::value::signed;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
+use rustc_hash::FxHashMap;
 
 /// A node as a course has it.
 #[derive(Debug, Clone, Copy)]
@@ -30,11 +29,11 @@ pub(super) struct Notes<'r> {
     /// Slots of which the words are taken anew each time, rather than guarded.
     loose: &'r [bool],
     course: Course,
-    guarded: Map<Slot, ()>,
-    loaded: Map<Slot, Word>,
-    numbers: Map<u64, Word>,
+    guarded: FxHashMap<Slot, ()>,
+    loaded: FxHashMap<Slot, Word>,
+    numbers: FxHashMap<u64, Word>,
     /// Words that are another one plus a number, in so many bits.
-    pub sums: Map<Word, (Sum, u8)>,
+    pub sums: FxHashMap<Word, (Sum, u8)>,
 }
 
 impl<'r> Notes<'r> {
@@ -43,10 +42,10 @@ impl<'r> Notes<'r> {
             slab,
             loose,
             course: Course::default(),
-            guarded: Map::default(),
-            loaded: Map::default(),
-            numbers: Map::default(),
-            sums: Map::default(),
+            guarded: FxHashMap::default(),
+            loaded: FxHashMap::default(),
+            numbers: FxHashMap::default(),
+            sums: FxHashMap::default(),
         }
     }
 
@@ -410,28 +409,3 @@ pub(super) fn number(value: u64) -> Traced {
     let what = What::Number;
     Traced { line, what }
 }
-
-/// Numbers of nodes and slots need no better one.
-#[derive(Default)]
-pub(super) struct Mixed(u64);
-
-impl Hasher for Mixed {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
-    }
-
-    fn write_u32(&mut self, word: u32) {
-        self.write_u64(word.into());
-    }
-
-    fn write_u64(&mut self, word: u64) {
-        let product = u128::from(self.0 ^ word) * 0x9e37_79b9_7f4a_7c15;
-        self.0 = product as u64 ^ (product >> 64) as u64;
-    }
-}
-
-pub(super) type Map<K, V> = HashMap<K, V, BuildHasherDefault<Mixed>>;

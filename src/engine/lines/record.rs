@@ -2,18 +2,19 @@
 
 use super::course::{Course, Sum};
 use super::graph::{From, Node, bits};
-use super::notes::{Map, Notes, Traced, What, number};
+use super::notes::{Notes, Traced, What, number};
 use super::pair::Line;
 use super::tree::Item;
 use super::walk::Pairs;
 use crate::engine::flat::mask;
 use crate::engine::plan::Code;
+use rustc_hash::FxHashMap;
 
 /// Goes through nodes as [`Pairs`] does.
 pub(super) struct Recorder<'r, 'w> {
     pairs: &'r mut Pairs<'w>,
     notes: Notes<'r>,
-    known: Map<u32, Traced>,
+    known: FxHashMap<u32, Traced>,
 }
 
 impl<'r, 'w> Recorder<'r, 'w> {
@@ -21,7 +22,7 @@ impl<'r, 'w> Recorder<'r, 'w> {
         Recorder {
             notes: Notes::new(pairs.slab, loose),
             pairs,
-            known: Map::default(),
+            known: FxHashMap::default(),
         }
     }
 

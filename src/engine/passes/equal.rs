@@ -1,9 +1,9 @@
 use crate::engine::flat::{Flat, Op};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Nodes that compute the same are one: that of the instance which comes first.
 pub fn equal(flat: &Flat) -> Flat {
-    let mut known = HashMap::new();
+    let mut known = FxHashMap::default();
     flat.rebuild(|nodes, node| {
         let op = match node.op {
             Op::Add(a, b) => Op::Add(a.min(b), a.max(b)),

@@ -4,7 +4,8 @@ use super::planning::Planning;
 use super::{Block, Code, Step, Write};
 use crate::engine::flat::{Id, Op, Port};
 use crate::engine::layout::{Layout, Slot};
-use std::collections::{BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 impl Planning<'_> {
     pub fn block(&mut self, place: usize, nodes: &[Id], scratch: &mut Vec<Slot>) -> Block {
@@ -15,7 +16,7 @@ impl Planning<'_> {
             ..Block::default()
         };
         let mut making = Making {
-            known: HashMap::new(),
+            known: FxHashMap::default(),
             used: 0,
             scratch,
             reads: BTreeSet::new(),
@@ -172,7 +173,7 @@ impl Planning<'_> {
 
 /// A block under way.
 struct Making<'s> {
-    known: HashMap<Id, Slot>,
+    known: FxHashMap<Id, Slot>,
     /// Places for what nobody else reads, which all blocks use.
     used: usize,
     scratch: &'s mut Vec<Slot>,

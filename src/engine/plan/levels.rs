@@ -1,7 +1,8 @@
 //! Which nodes stand for themselves, in which level each is computed, and in which order blocks run.
 
 use crate::engine::flat::{Flat, Id, Op, Port};
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Whether a node is computed again by whoever reads it.
 fn is_cheap(op: Op) -> bool {
@@ -137,20 +138,25 @@ pub(super) fn order(flat: &Flat, levels: &Levels, reads: &EdgeReads) -> Vec<(u32
         .into_iter()
         .partition(|(level, _)| *level == levels.end);
     // Of the edges that one first of whose registers the fewest others still read.
-    let mut read: HashMap<(u32, u32), usize> = HashMap::new();
+    let mut read: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for (reader, registers) in reads {
         for register in registers {
             let writer = flat.registers[*register as usize].instance;
             *read.entry((*reader, writer)).or_default() += 1;
         }
     }
-    while let Some(best) = (0..edges.len()).min_by_key(|&place| {
-        let writer = edges[place].1;
-        let others = edges.iter().filter(|(_, other)| *other != writer);
-        let counts = others.filter_map(|(_, reader)| read.get(&(*reader, writer)));
-        counts.sum::<usize>()
-    }) {
-        order.push(edges.remove(best));
+    let writers: BTreeSet<u32> = edges.iter().map(|(_, writer)| *writer).collect();
+    read.retain(|(reader, writer), _| reader != writer && writers.contains(reader));
+    let mut waits: FxHashMap<u32, usize> = FxHashMap::default();
+    for ((_, writer), count) in &read {
+        *waits.entry(*writer).or_default() += count;
+    }
+    while let Some(best) = (0..edges.len()).min_by_key(|&place| waits.get(&edges[place].1)) {
+        let edge = edges.remove(best);
+        for ((_, writer), count) in read.range((edge.1, 0)..=(edge.1, u32::MAX)) {
+            waits.entry(*writer).and_modify(|waits| *waits -= count);
+        }
+        order.push(edge);
     }
     order
 }
@@ -160,7 +166,7 @@ pub(super) type EdgeReads = BTreeMap<u32, BTreeSet<u32>>;
 
 pub(super) fn edge_reads(flat: &Flat, levels: &Levels) -> EdgeReads {
     let mut reads = EdgeReads::new();
-    let mut seen = HashSet::new();
+    let mut seen = FxHashSet::default();
     let mut see = |owner: u32, from: Id| {
         let registers = reads.entry(owner).or_default();
         let mut stack = vec![from];

@@ -4,7 +4,8 @@ use super::levels::{EdgeReads, Levels, through};
 use super::{Plan, PlannedRegister, bit, wants};
 use crate::engine::flat::{Flat, Id, Place};
 use crate::engine::layout::{Layout, Slot};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub(super) struct Planning<'f> {
     pub flat: &'f Flat,
@@ -12,11 +13,11 @@ pub(super) struct Planning<'f> {
     pub order: &'f [(u32, u32)],
     pub wanted: &'f [bool],
     /// The block of each level and instance.
-    pub place: HashMap<(u32, u32), usize>,
+    pub place: FxHashMap<(u32, u32), usize>,
     pub settling: usize,
     pub layout: Layout,
     /// Where nodes stand that others read.
-    pub nets: HashMap<Id, Slot>,
+    pub nets: FxHashMap<Id, Slot>,
     pub constants: BTreeMap<u64, Slot>,
     pub registers: Vec<PlannedRegister>,
 }
@@ -53,7 +54,7 @@ impl<'f> Planning<'f> {
                 .collect(),
             settling,
             layout,
-            nets: HashMap::new(),
+            nets: FxHashMap::default(),
             constants: BTreeMap::new(),
             registers,
         }

@@ -1,6 +1,6 @@
 //! Gates of single wires, made of the nodes of a netlist.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use std::ops::Not;
 
 /// A gate's wire, or its inverse.
@@ -76,7 +76,7 @@ impl Gate {
 pub struct Gates {
     /// They; the first is [`Gate::Low`].
     pub gates: Vec<Gate>,
-    known: HashMap<Gate, usize>,
+    known: FxHashMap<Gate, usize>,
 }
 
 impl Gates {
@@ -84,7 +84,7 @@ impl Gates {
     pub fn new() -> Self {
         Gates {
             gates: vec![Gate::Low],
-            known: HashMap::new(),
+            known: FxHashMap::default(),
         }
     }
 
