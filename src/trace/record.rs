@@ -134,6 +134,11 @@ impl Record {
         })
     }
 
+    /// The places in the walk that it keeps.
+    pub(super) fn places(&self) -> &[usize] {
+        &self.places
+    }
+
     /// Keeps a tick, if it is one of the chosen.
     pub(super) fn tick(&mut self, tick: u64, view: View<'_>) -> io::Result<()> {
         if !self.options.contains(&tick) {

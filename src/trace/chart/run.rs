@@ -77,7 +77,7 @@ impl Chart {
             };
             return Err(problem.at(self.line).into());
         }
-        let declarations = circuit.declarations();
+        let declarations = circuit.outline();
         let leaves = &declarations.leaves;
         let ports = &leaves[..declarations.inputs()];
         let inputs = resolve(&self.inputs, ports, "port in")?;
@@ -128,9 +128,9 @@ impl Chart {
             ..Options::default()
         };
         let failed = |problem: String| Problem::Run(problem).at(self.line);
-        let leaves = circuit.declarations().leaves.clone();
+        let leaves = circuit.outline().leaves.clone();
         let mut record = Record::new(leaves, &options).map_err(|e| failed(e.to_string()))?;
-        let mut engine = circuit.engine(Watch::All);
+        let mut engine = circuit.engine(Watch::Leaves(record.places()));
         for tick in 0..self.ticks {
             for (port, line) in lines.iter().enumerate() {
                 let value = line.and_then(|line| line.values.get(tick).copied());
