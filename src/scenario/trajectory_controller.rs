@@ -60,6 +60,8 @@ pub struct Scenario {
     /// Largest acceleration across it, on arcs.
     #[serde(default = "default::normal_acceleration_mm_per_s2")]
     pub normal_acceleration_mm_per_s2: f64,
+    /// Contour error that the feed is limited to.
+    pub contour_tolerance_mm: Option<f64>,
     /// Time in which the acceleration along the path comes and goes; 0 for a trapezoid of speed.
     #[serde(default = "default::jerk_time_ms")]
     pub jerk_time_ms: f64,
@@ -127,6 +129,7 @@ impl Scenario {
             acceleration_time_ms: self.acceleration_time_ms,
             axis_acceleration_mm_per_s2: self.axis_acceleration_mm_per_s2.clone(),
             normal_acceleration_mm_per_s2: self.normal_acceleration_mm_per_s2,
+            contour_tolerance_mm: self.contour_tolerance_mm,
             jerk_time_ms: self.jerk_time_ms,
             corner_mm_per_s: self.corner_mm_per_s,
             k1_per_s: self.k1_per_s.clone(),

@@ -79,6 +79,10 @@ fn bad_settings_are_refused_with_their_line() {
             "s.toml:6: acceleration_mm_per_s2: is NaN; allowed: ",
         ),
         (
+            "contour_tolerance_mm = 0\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: contour_tolerance_mm: is 0; allowed: 0.000001 to 1000",
+        ),
+        (
             "jerk_time_ms = -1\n[[piece]]\nto_mm = [10, 0, 0]\n",
             "s.toml:6: jerk_time_ms: is -1; allowed: 0 to ",
         ),

@@ -25,6 +25,8 @@ pub struct Job {
     pub settings: Settings,
     /// The path and the words.
     pub program: Program,
+    /// The same path at full feed, where a contour tolerance limits it.
+    pub full_feed: Option<Program>,
     /// Motor and load of each axis.
     pub machines: Vec<TwoMassParameters>,
     /// The pieces that are rapid moves.
@@ -55,11 +57,19 @@ impl Job {
         let in_z = pieces.iter().any(|piece| piece.to[2] != start[2]);
         let axes = scenario.axes(in_z).map_err(refuse)?;
         let machines = scenario.machines(axes).map_err(refuse)?;
-        let program = Program::of(start, &pieces, &settings, &machines, &Widths::FULL);
-        let program = program.map_err(|error| match error {
-            ProgramError::Path(error) => refuse_path(error),
-            ProgramError::Setting(error) => refuse(error),
-        })?;
+        let plan = |settings: &Settings| {
+            let program = Program::of(start, &pieces, settings, &machines, &Widths::FULL);
+            program.map_err(|error| match error {
+                ProgramError::Path(error) => refuse_path(error),
+                ProgramError::Setting(error) => refuse(error),
+            })
+        };
+        let program = plan(&settings)?;
+        let full_feed = settings.contour_tolerance_mm.map(|_| Settings {
+            contour_tolerance_mm: None,
+            ..settings.clone()
+        });
+        let full_feed = full_feed.as_ref().map(plan).transpose()?;
         let moves = drawing.iter().flat_map(|drawing| &drawing.moves);
         let rapid = moves.map(|step| step.rapid).collect();
         let Source { stem, loaded, .. } = source;
@@ -68,6 +78,7 @@ impl Job {
             drawing,
             settings,
             program,
+            full_feed,
             machines,
             rapid,
             loaded,

@@ -34,6 +34,8 @@ pub struct Summary {
     pub k1_per_s: EachAxis,
     /// K2.
     pub k2_per_s: EachAxis,
+    /// Contour error that the feed is limited to.
+    pub contour_tolerance_mm: Option<f64>,
     /// Gains of the feedback, along the path and across it.
     pub feedback_gains: [f64; 2],
     /// What the feed-forward of each axis is told of its inertia, as a part of it.
@@ -128,6 +130,7 @@ impl Summary {
             period_ms: settings.period_ms,
             k1_per_s: settings.k1_per_s.clone(),
             k2_per_s: settings.k2_per_s.clone(),
+            contour_tolerance_mm: settings.contour_tolerance_mm,
             feedback_gains: program.feedback.parts(&Widths::FULL),
             inertia_factor: settings.inertia_factor.clone(),
             load_torque: settings.load_torque.clone(),
@@ -187,7 +190,7 @@ fn warnings(job: &Job, runs: &Runs) -> Vec<String> {
             if periods > 0 {
                 warnings.push(format!(
                     "{}: in {periods} periods {} asks for more than {} Nm",
-                    run.correction.name(),
+                    run.name(),
                     AXIS_NAMES[axis],
                     job.machines[axis].max_torque_nm
                 ));

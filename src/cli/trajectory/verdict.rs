@@ -11,7 +11,7 @@ pub const NOT_SETTLED: &str = "models and motors did not settle at the end";
 pub fn complaints(job: &Job, runs: &Runs) -> Vec<String> {
     let each = runs.runs.iter().flat_map(|run| {
         let own = of_run(job, run, compared(run, runs)).into_iter();
-        own.map(|text| format!("{}: {text}", run.correction.name()))
+        own.map(|text| format!("{}: {text}", run.name()))
     });
     each.collect()
 }
@@ -120,7 +120,7 @@ mod tests {
     }
 
     fn judged(job: &Job, played: &Played) -> Vec<String> {
-        let run = |correction| Run::of(job, correction, played);
+        let run = |correction| Run::of(&job.program, correction, played);
         let runs = Runs {
             runs: CORRECTIONS.into_iter().filter_map(run).collect(),
             traced: Correction::Vector,

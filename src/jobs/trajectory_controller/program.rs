@@ -112,6 +112,7 @@ impl Program {
             let limited = machine.len().min(COORDINATES);
             told.check("axis_acceleration_mm_per_s2", limited)?;
         }
+        motion.contour_acceleration = settings.contour_acceleration(widths, &gains)?;
         let feedback = settings.feedback_gains(widths)?;
         let slowest = gains.iter().min_by_key(|gains| (gains.k1, gains.k2));
         let tangential = slowest.copied().unwrap_or(gains[0]);
