@@ -61,8 +61,8 @@ pub fn draw(job: &Job, runs: &Runs) -> String {
 fn path(job: &Job, runs: &Runs) -> Panel {
     let factor = magnification(largest(job, runs), size(job));
     let view = match job.axes() {
-        3 => "path from above",
-        _ => "path",
+        2 => "path",
+        _ => "path from above",
     };
     let title = match factor {
         1.0 => view.to_owned(),
@@ -182,7 +182,7 @@ fn speed(job: &Job, runs: &Runs) -> Panel {
     // Positions are taken when the lookups are done: on arcs later in the period than on lines.
     let loads = deviations.windows(2).zip(run.taken.windows(2));
     let loads = loads.map(|(pair, taken)| {
-        let way = distance(pair[1].actual, pair[0].actual);
+        let way = distance(pair[1].actual, pair[0].actual).hypot(pair[1].w_mm - pair[0].w_mm);
         let time = (taken[1] - taken[0]) as f64 / job.settings.clock_hz as f64;
         (f64::midpoint(pair[0].time_s, pair[1].time_s), way / time)
     });

@@ -1,13 +1,12 @@
 //! What a path came to by each correction.
 
 use motion_rtl::circuits::trajectory_controller::path_point::AXES;
-use motion_rtl::input::Point;
 use motion_rtl::jobs::trajectory_controller::closed::{ClosedForms, Steady};
 use motion_rtl::jobs::trajectory_controller::job::Played;
-use motion_rtl::jobs::trajectory_controller::measure::Measured;
+use motion_rtl::jobs::trajectory_controller::measure::{Measured, apart};
 use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
-use motion_rtl::path::vector::distance;
+use std::array::from_fn;
 
 /// What the run at full feed is called.
 const FULL_FEED: &str = "vector, full feed";
@@ -93,10 +92,8 @@ impl Run {
         });
         // Commands are from where the path begins.
         let off = |command: [i64; AXES], length: f64| {
-            let exact = program.path.point(length);
-            let at: Point =
-                std::array::from_fn(|axis| program.origin[axis] as f64 + command[axis] as f64);
-            distance(at, exact) / program.motion.units_per_mm
+            let at = from_fn(|axis| program.origin[axis] as f64 + command[axis] as f64);
+            apart(at, program.path.place(length)) / program.motion.units_per_mm
         };
         let commands = played.periods.iter();
         let errors = commands.map(|period| off(period.command, period.length as f64));

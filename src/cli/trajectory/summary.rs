@@ -9,7 +9,6 @@ use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
 use motion_rtl::jobs::trajectory_controller::load_torque::LoadTorque;
-use motion_rtl::jobs::trajectory_controller::settings::LEAST_PERIOD_TICKS;
 use serde::Serialize;
 
 /// The summary of a run.
@@ -126,7 +125,7 @@ impl Summary {
             rounding: settings.rounding.name(),
             axes: job.axes(),
             period_ticks: program.period_ticks,
-            period_ticks_needed: LEAST_PERIOD_TICKS,
+            period_ticks_needed: job.period_ticks_needed(),
             period_ms: settings.period_ms,
             k1_per_s: settings.k1_per_s.clone(),
             k2_per_s: settings.k2_per_s.clone(),

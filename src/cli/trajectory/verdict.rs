@@ -59,7 +59,8 @@ fn of_run(job: &Job, run: &Run, compared: bool) -> Vec<String> {
             Correction::Feedback => job.settings.tangential_gain.max(job.settings.normal_gain),
             _ => 0.0,
         };
-        let bound = 3f64.sqrt() * (0.5 + fed / (1.0 + fed)) * count_mm;
+        let axes = job.axes().max(3) as f64;
+        let bound = axes.sqrt() * (0.5 + fed / (1.0 + fed)) * count_mm;
         let model = run.measured.model.final_mm;
         keep("the models beside the path's end", model, bound);
     }

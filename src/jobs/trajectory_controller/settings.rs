@@ -4,9 +4,10 @@ use super::each_axis::EachAxis;
 use super::job::controller;
 use super::load_torque::LoadTorque;
 use super::ramp::Slope;
+use crate::circuits::trajectory_controller::path_point::AXES;
 pub use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::{Rounding, Widths};
-use crate::input::{COORDINATES, Point};
+use crate::input::COORDINATES;
 use crate::jobs::arc_generator::settings::SPEED_RANGE_MM_PER_S;
 use crate::path::pieces::Speeds;
 use crate::plan::ACCELERATION_RANGE;
@@ -135,7 +136,7 @@ pub struct Motion {
     /// may be; infinite where nothing is told.
     pub contour_acceleration: f64,
     /// Largest acceleration of each axis, in mm/s².
-    pub axis_acceleration: Point,
+    pub axis_acceleration: [f64; AXES],
     /// Largest step of the velocity, in mm/s.
     pub corner_speed: f64,
 }
@@ -204,7 +205,7 @@ impl Settings {
         self.feedback_gains(widths)?;
         let told = [&self.k1_per_s, &self.k2_per_s].map(EachAxis::told);
         let axes = told.into_iter().flatten().next().unwrap_or(1);
-        let axes = axes.min(COORDINATES);
+        let axes = axes.min(AXES);
         let gains = self.gains(widths, axes)?;
         self.contour_acceleration(widths, &gains).map(drop)
     }
@@ -321,12 +322,12 @@ impl Settings {
     }
 
     /// Largest acceleration of each axis, in mm/s².
-    fn axis_accelerations(&self) -> Result<Point, SettingError> {
-        let mut allowed = [f64::INFINITY; COORDINATES];
+    fn axis_accelerations(&self) -> Result<[f64; AXES], SettingError> {
+        let mut allowed = [f64::INFINITY; AXES];
         let Some(told) = &self.axis_acceleration_mm_per_s2 else {
             return Ok(allowed);
         };
-        let axes = told.told().unwrap_or(COORDINATES).min(COORDINATES);
+        let axes = told.told().unwrap_or(AXES).min(AXES);
         for (axis, allowed) in allowed[..axes].iter_mut().enumerate() {
             *allowed = told.of(axis);
             within("axis_acceleration_mm_per_s2", *allowed, &ACCELERATION_RANGE)

@@ -3,6 +3,7 @@
 mod axes;
 mod chords;
 mod curves;
+mod fourth;
 mod plant;
 mod tolerance;
 
