@@ -14,6 +14,7 @@ mod program;
 pub mod pulse_interpolator;
 pub mod trajectory_controller;
 
+pub use exactly::Place;
 pub use loaded::Loaded;
 pub use program::Program;
 

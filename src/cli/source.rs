@@ -8,7 +8,7 @@ use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
 use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::table::read;
 use motion_rtl::plan::{FEED_RANGE, PlanError};
-use motion_rtl::scenario::{Loaded, Runnable};
+use motion_rtl::scenario::{Loaded, Runnable, Scenario};
 use std::path::{Path, PathBuf};
 
 /// What to run.
@@ -37,12 +37,17 @@ impl Input {
     /// How a drawing or a part program is read.
     fn options(&self, loaded: &Loaded) -> Result<Options, Fault> {
         let zeros = loaded.scenario.program().zeros();
+        let fourth = match &loaded.scenario {
+            Scenario::TrajectoryController(scenario) => scenario.has_fourth(),
+            _ => false,
+        };
         Ok(Options {
             lenient: self.lenient,
             strict: self.strict,
             most_lines: self.most_lines.unwrap_or(Options::MOST_LINES),
             zeros: zeros.map_err(|error| loaded.refuse(error))?,
             splines: loaded.scenario.circuit() == Runnable::TrajectoryController,
+            fourth,
         })
     }
 }

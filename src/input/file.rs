@@ -87,6 +87,8 @@ pub struct Options {
     pub zeros: Zeros,
     /// G-code: G5 and G5.1 are moves on splines; else, and as NURBS always, chords.
     pub splines: bool,
+    /// G-code: W is an axis, which goes linearly with the length of each move.
+    pub fourth: bool,
 }
 
 impl Options {
@@ -111,6 +113,7 @@ impl Default for Options {
             most_lines: Self::MOST_LINES,
             zeros: Zeros::default(),
             splines: false,
+            fourth: false,
         }
     }
 }

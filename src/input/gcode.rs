@@ -7,6 +7,9 @@
 //! probing (G38.2 to G38.5, which goes to its end as if nothing was touched), drilling (G73, G81 to
 //! G86 and G89 with G98 and G99, L or K times), and G28 and G30 by way of their axis words. G80 with
 //! another motion in its line yields to it.
+//! With [`Options::fourth`] W is an axis beside the three, in millimetres or inches, from the machine's
+//! zero: with G0 to G3 and G38 it goes linearly with the length. No offset and no reference point is
+//! of it.
 //! Arcs in G18 and G19, NURBS, and without [`Options::splines`] splines, become chords within 0.001
 //! mm, which a warning says.
 //!
@@ -43,7 +46,7 @@
 //! With one warning a kind: M0, M1, M3 to M9, S, T, O numbers, G4, G61 and G64. So are, unless
 //! [`Options::strict`] refuses them: other M words whose meaning is known and that neither move nor
 //! change offsets or scales (heaters, fans, displays, switches, settings of printers), with what
-//! else is in their line; E, H and D; A, B, C, U, V and W at 0; `$` lines; the `/` of optional
+//! else is in their line; E, H and D; A, B, C, U, V and, where it is no axis, W at 0; `$` lines; the `/` of optional
 //! lines, which are run; G61.1, P, Q and R of G64, G43, G96, G97, G10 for tools, G10 and G11 of
 //! printers, G29, G34.
 //!

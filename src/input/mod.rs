@@ -80,6 +80,8 @@ pub struct Drawing {
     pub start: Point,
     /// The moves, in order. Never empty, and none of zero length.
     pub moves: Vec<Move>,
+    /// W at the end of each move, in millimetres; it begins at 0. Empty without [`Options::fourth`].
+    pub fourth: Vec<f64>,
     /// How many moves of the input had zero length. They take no time and are not in `moves`.
     pub zero_length: usize,
     /// What was skipped or assumed, in order.

@@ -9,6 +9,8 @@ pub(super) struct Track<'a> {
     file: &'a str,
     here: Point,
     moves: Vec<Move>,
+    /// W at the end of each move, where there is one.
+    fourth: Vec<f64>,
     zero_length: usize,
     notes: HashMap<String, Note>,
 }
@@ -28,6 +30,7 @@ impl<'a> Track<'a> {
             file,
             here: [0.0; 3],
             moves: Vec::new(),
+            fourth: Vec::new(),
             zero_length: 0,
             notes: HashMap::new(),
         }
@@ -38,6 +41,19 @@ impl<'a> Track<'a> {
         self.here
     }
 
+    /// Records a move with W at its end, as [`Track::push`] does.
+    ///
+    /// # Errors
+    ///
+    /// As [`Track::push`], W too.
+    pub(super) fn push_with(&mut self, field: &str, next: Move, w: f64) -> Result<(), Fault> {
+        self.check_reach(field, next.line, "W", w)?;
+        let turns = (w - self.fourth.last().copied().unwrap_or(0.0)).abs() >= ZERO_MM;
+        self.record(field, next, turns)?;
+        self.fourth.resize(self.moves.len(), w);
+        Ok(())
+    }
+
     /// Records a move, or counts it where it has zero length. Tiny moves do not get lost: the
     /// next one starts from the last recorded end.
     ///
@@ -45,6 +61,11 @@ impl<'a> Track<'a> {
     ///
     /// Where the end or the centre is out of reach; `field` is the instruction to blame.
     pub(super) fn push(&mut self, field: &str, next: Move) -> Result<(), Fault> {
+        self.record(field, next, false)
+    }
+
+    /// Records a move that may be of another axis.
+    fn record(&mut self, field: &str, next: Move, beside: bool) -> Result<(), Fault> {
         for (axis, value) in ["X", "Y", "Z"].into_iter().zip(next.to) {
             self.check_reach(field, next.line, axis, value)?;
         }
@@ -71,7 +92,7 @@ impl<'a> Track<'a> {
             Course::Arc { .. } => false,
             Course::Spline { controls } => controls.iter().all(|at| self.is_at(*at)),
         };
-        if still && self.is_at(next.to) {
+        if still && !beside && self.is_at(next.to) {
             self.zero_length += 1;
         } else {
             self.here = next.to;
@@ -149,6 +170,7 @@ impl<'a> Track<'a> {
             file: self.file.to_owned(),
             start: [0.0; 3],
             moves: self.moves,
+            fourth: self.fourth,
             zero_length: self.zero_length,
             warnings,
         })

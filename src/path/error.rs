@@ -65,6 +65,9 @@ pub enum Reason {
     /// The circuit makes lines and arcs only.
     #[error("is a spline")]
     Spline,
+    /// A fourth axis moves along a spline, which has no word for it.
+    #[error("is a spline along which W moves")]
+    Climb,
     /// The arc or spline does not begin or end where the path does.
     #[error("the curve is {gap} mm off the path's points")]
     Gap {
@@ -157,7 +160,7 @@ impl Reason {
     pub fn field(&self) -> &'static str {
         match self {
             Reason::Empty | Reason::Segments { .. } => "piece",
-            Reason::Spline => "spline",
+            Reason::Spline | Reason::Climb => "spline",
             Reason::NoSpeed
             | Reason::Speed { .. }
             | Reason::Tight { .. }
@@ -190,7 +193,7 @@ impl Reason {
             | Reason::Slow { .. }
             | Reason::Samples { .. } => "F",
             Reason::Circle(CircleError::Helix { .. }) | Reason::Plane { .. } => "Z",
-            Reason::Spline => "G5",
+            Reason::Spline | Reason::Climb => "G5",
             Reason::Pose { .. } => "arm",
             Reason::Circle(_) | Reason::Gap { .. } => "arc",
             Reason::Reach { what, .. } => what,
@@ -219,6 +222,7 @@ impl Reason {
             }
             Reason::Circle(CircleError::Radii { .. }) => "a centre as far from both".into(),
             Reason::Spline => "a line or an arc".into(),
+            Reason::Climb => "a line or an arc, or W at rest".into(),
             Reason::Gap { .. } => "a curve from the end of the piece before to its own end".into(),
             Reason::Tight { most, .. } => {
                 format!(

@@ -24,6 +24,7 @@ fn arc(x: f64, y: f64, z: f64, centre: [f64; 2], clockwise: bool) -> Move {
 fn drawing(start: Point, moves: Vec<Move>) -> Drawing {
     Drawing {
         file: "test".into(),
+        fourth: Vec::new(),
         zero_length: 0,
         start,
         moves,

@@ -1,14 +1,14 @@
 //! The keys of the arc generator.
 
 use super::exactly::exactly;
-use super::{Program, Runnable};
+use super::{Place, Program, Runnable};
 use crate::circuits::arc_generator::Rounding;
 use crate::input::Point;
 use crate::jobs::arc_generator::mechanism::Mechanism;
 use crate::jobs::arc_generator::settings::{Settings, ShortPieces};
 use crate::path::arm::{Arm, Elbow};
 use crate::path::pieces::Taught;
-use crate::settings::{Place, SettingError};
+use crate::settings::{self, SettingError};
 use serde::{Deserialize, Deserializer};
 use std::path::PathBuf;
 
@@ -68,10 +68,9 @@ pub struct Scenario {
 /// A table `[[piece]]`.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct PieceKeys {
-    /// Where it ends.
-    #[serde(deserialize_with = "exactly")]
-    pub to_mm: Point,
+pub struct PieceKeys<const FOURTH: bool = false> {
+    /// Where it ends, with W where there may be a fourth axis.
+    pub to_mm: Place<FOURTH>,
     /// A point of the arc; without it the piece is a line or a spline.
     #[serde(default, deserialize_with = "some_point")]
     pub via_mm: Option<Point>,
@@ -167,10 +166,10 @@ impl Scenario {
     }
 }
 
-/// The pieces as they are taught; empty if the path is a drawing.
-pub(super) fn taught(
+/// The pieces as they are taught, in X, Y and Z; empty if the path is a drawing.
+pub(super) fn taught<const FOURTH: bool>(
     input: Option<&PathBuf>,
-    piece: &[PieceKeys],
+    piece: &[PieceKeys<FOURTH>],
 ) -> Result<Vec<Taught>, SettingError> {
     if input.is_some() && !piece.is_empty() {
         return Err(SettingError::new(
@@ -181,10 +180,10 @@ pub(super) fn taught(
     }
     if let Some(both) = piece.iter().position(|of| of.spline && of.via_mm.is_some()) {
         let error = SettingError::new("spline", "given beside via_mm", "an arc or a spline");
-        return Err(error.at(Place::Row("piece", both)));
+        return Err(error.at(settings::Place::Row("piece", both)));
     }
-    let taught = |piece: &PieceKeys| Taught {
-        to: piece.to_mm,
+    let taught = |piece: &PieceKeys<FOURTH>| Taught {
+        to: piece.to_mm.point,
         via: piece.via_mm,
         spline: piece.spline,
         speed: piece.speed_mm_per_s,

@@ -1,21 +1,21 @@
 //! The keys of the trajectory controller.
 
 use super::arc_generator::{PieceKeys, taught};
-use super::exactly::exactly;
-use super::{Program, Runnable};
+use super::{Place, Program, Runnable};
 use crate::circuits::trajectory_controller::Rounding;
-use crate::input::Point;
 use crate::jobs::trajectory_controller::each_axis::EachAxis;
 use crate::jobs::trajectory_controller::load_torque::LoadTorque;
+use crate::jobs::trajectory_controller::segments::FourthAxis;
 use crate::jobs::trajectory_controller::settings::{Correction, Settings};
 use crate::path::pieces::Taught;
 use crate::plant::TwoMassParameters;
-use crate::settings::SettingError;
+use crate::settings::{self, SettingError};
 use serde::Deserialize;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// Axes that the controller is made for.
-const AXES: [u32; 2] = [2, 3];
+const AXES: RangeInclusive<u32> = 2..=4;
 
 /// A scenario of the trajectory controller. Every key but `circuit` has a default; the path is a
 /// drawing or part program, or the tables `[[piece]]`.
@@ -29,13 +29,12 @@ pub struct Scenario {
     /// Where the zeros of a part program are.
     #[serde(default)]
     pub program: Program,
-    /// Where the first piece begins.
-    #[serde(default, deserialize_with = "exactly")]
-    pub start_mm: Point,
+    /// Where the first piece begins; at 0 without it.
+    pub start_mm: Option<Place<true>>,
     /// The pieces.
     #[serde(default)]
-    pub piece: Vec<PieceKeys>,
-    /// Axes: 2 or 3. Without it 3 where the path moves in Z.
+    pub piece: Vec<PieceKeys<true>>,
+    /// Axes: 2, 3, or 4 with W. Without it 3 where the path moves in Z.
     pub axes: Option<u32>,
     /// Reference clock in Hz.
     #[serde(default = "default::clock_hz")]
@@ -60,6 +59,8 @@ pub struct Scenario {
     /// Largest acceleration across it, on arcs.
     #[serde(default = "default::normal_acceleration_mm_per_s2")]
     pub normal_acceleration_mm_per_s2: f64,
+    /// Contour error that the feed is limited to.
+    pub contour_tolerance_mm: Option<f64>,
     /// Time in which the acceleration along the path comes and goes; 0 for a trapezoid of speed.
     #[serde(default = "default::jerk_time_ms")]
     pub jerk_time_ms: f64,
@@ -127,6 +128,7 @@ impl Scenario {
             acceleration_time_ms: self.acceleration_time_ms,
             axis_acceleration_mm_per_s2: self.axis_acceleration_mm_per_s2.clone(),
             normal_acceleration_mm_per_s2: self.normal_acceleration_mm_per_s2,
+            contour_tolerance_mm: self.contour_tolerance_mm,
             jerk_time_ms: self.jerk_time_ms,
             corner_mm_per_s: self.corner_mm_per_s,
             k1_per_s: self.k1_per_s.clone(),
@@ -144,23 +146,48 @@ impl Scenario {
         }
     }
 
+    /// Whether there is W beside X, Y and Z.
+    #[must_use]
+    pub fn has_fourth(&self) -> bool {
+        self.axes == Some(4)
+    }
+
     /// The taught pieces, from [`Scenario::start_mm`] on; empty if the path is a drawing.
     ///
     /// # Errors
-    /// There are pieces, and a drawing too.
+    /// There are pieces, and a drawing too; a point without W where there are four axes, or with it
+    /// where there are not.
     pub fn taught(&self) -> Result<Vec<Taught>, SettingError> {
+        let fourth = self.has_fourth();
+        if let Some(start) = &self.start_mm {
+            start.check("start_mm", fourth)?;
+        }
+        for (row, piece) in self.piece.iter().enumerate() {
+            let checked = piece.to_mm.check("to_mm", fourth);
+            checked.map_err(|error| error.at(settings::Place::Row("piece", row)))?;
+        }
         taught(self.input.as_ref(), &self.piece)
+    }
+
+    /// W of the taught pieces.
+    #[must_use]
+    pub fn taught_w(&self) -> FourthAxis {
+        let w = |place: &Place<true>| place.w.unwrap_or(0.0);
+        FourthAxis {
+            from_mm: self.start_mm.as_ref().map_or(0.0, w),
+            to_mm: self.piece.iter().map(|piece| w(&piece.to_mm)).collect(),
+        }
     }
 
     /// How many axes there are, of a path that moves in Z or not.
     ///
     /// # Errors
-    /// Neither 2 nor 3.
+    /// Neither 2 nor 3 nor 4.
     pub fn axes(&self, moves_in_z: bool) -> Result<usize, SettingError> {
         let axes = self.axes.unwrap_or(if moves_in_z { 3 } else { 2 });
         match AXES.contains(&axes) {
             true => Ok(axes as usize),
-            false => Err(SettingError::value("axes", axes, "2 or 3")),
+            false => Err(SettingError::value("axes", axes, "2, 3 or 4")),
         }
     }
 

@@ -19,8 +19,8 @@ fn bad_settings_are_refused_with_their_line() {
             "s.toml:6: input: given beside tables [[piece]]; allowed: a drawing or pieces, not both",
         ),
         (
-            "axes = 4\n[[piece]]\nto_mm = [10, 0, 0]\n",
-            "s.toml:6: axes: is 4; allowed: 2 or 3",
+            "axes = 5\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: axes: is 5; allowed: 2, 3 or 4",
         ),
         (
             "axes = 2\n[[piece]]\nto_mm = [10, 0, 1]\n",
@@ -79,6 +79,10 @@ fn bad_settings_are_refused_with_their_line() {
             "s.toml:6: acceleration_mm_per_s2: is NaN; allowed: ",
         ),
         (
+            "contour_tolerance_mm = 0\n[[piece]]\nto_mm = [10, 0, 0]\n",
+            "s.toml:6: contour_tolerance_mm: is 0; allowed: 0.000001 to 1000",
+        ),
+        (
             "jerk_time_ms = -1\n[[piece]]\nto_mm = [10, 0, 0]\n",
             "s.toml:6: jerk_time_ms: is -1; allowed: 0 to ",
         ),
@@ -131,8 +135,8 @@ fn bad_settings_are_refused_with_their_line() {
             "s.toml:9: load_torque 0: axis: is z; allowed: one of x, y",
         ),
         (
-            "[[piece]]\nto_mm = [10, 0, 0]\n[[load_torque]]\naxis = \"w\"\ntorque_nm = 1\n",
-            "s.toml:9: axis: unknown variant `w`; allowed: one of `x`, `y`, `z`",
+            "[[piece]]\nto_mm = [10, 0, 0]\n[[load_torque]]\naxis = \"v\"\ntorque_nm = 1\n",
+            "s.toml:9: axis: unknown variant `v`; allowed: one of `x`, `y`, `z`, `w`",
         ),
         (
             "[[piece]]\nto_mm = [10, 0, 0]\n[[load_torque]]\naxis = \"x\"\ntorque_nm = 1\nfrom_s = 2\nto_s = 1\n",

@@ -5,8 +5,10 @@ use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
 use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::input::Drawing;
+use motion_rtl::jobs::trajectory_controller::job::controller;
 use motion_rtl::jobs::trajectory_controller::program::{Program, ProgramError};
-use motion_rtl::jobs::trajectory_controller::settings::Settings;
+use motion_rtl::jobs::trajectory_controller::segments::FourthAxis;
+use motion_rtl::jobs::trajectory_controller::settings::{Correction, LEAST_PERIOD_TICKS, Settings};
 use motion_rtl::path::error::PathError;
 use motion_rtl::path::pieces::Speeds;
 use motion_rtl::plant::TwoMassParameters;
@@ -25,6 +27,8 @@ pub struct Job {
     pub settings: Settings,
     /// The path and the words.
     pub program: Program,
+    /// The same path at full feed, where a contour tolerance limits it.
+    pub full_feed: Option<Program>,
     /// Motor and load of each axis.
     pub machines: Vec<TwoMassParameters>,
     /// The pieces that are rapid moves.
@@ -50,16 +54,39 @@ impl Job {
             key: "feed_mm_per_s",
             rapid: "rapid_mm_per_s",
         };
-        let (drawing, start, pieces) = pieces(&source, scenario.start_mm, &taught, keys)?;
+        let from = scenario.start_mm.unwrap_or_default();
+        let (drawing, start, pieces) = pieces(&source, from.point, &taught, keys)?;
+        let fourth = match &drawing {
+            Some(_) if from.w.is_some_and(|w| w != 0.0) => {
+                let allowed = "where the drawing begins: no start_mm";
+                let error = SettingError::new("start_mm", "has W beside an input", allowed);
+                return Err(refuse(error).into());
+            }
+            Some(drawing) => FourthAxis {
+                from_mm: 0.0,
+                to_mm: drawing.fourth.clone(),
+            },
+            None => scenario.taught_w(),
+        };
+        let fourth = scenario.has_fourth().then_some(fourth);
         let refuse_path = |error: PathError| fault(loaded, drawing.as_ref(), keys, &error);
         let in_z = pieces.iter().any(|piece| piece.to[2] != start[2]);
         let axes = scenario.axes(in_z).map_err(refuse)?;
         let machines = scenario.machines(axes).map_err(refuse)?;
-        let program = Program::of(start, &pieces, &settings, &machines, &Widths::FULL);
-        let program = program.map_err(|error| match error {
-            ProgramError::Path(error) => refuse_path(error),
-            ProgramError::Setting(error) => refuse(error),
-        })?;
+        let plan = |settings: &Settings| {
+            let (of, full) = (fourth.as_ref(), &Widths::FULL);
+            let program = Program::with_fourth(start, &pieces, of, settings, &machines, full);
+            program.map_err(|error| match error {
+                ProgramError::Path(error) => refuse_path(error),
+                ProgramError::Setting(error) => refuse(error),
+            })
+        };
+        let program = plan(&settings)?;
+        let full_feed = settings.contour_tolerance_mm.map(|_| Settings {
+            contour_tolerance_mm: None,
+            ..settings.clone()
+        });
+        let full_feed = full_feed.as_ref().map(plan).transpose()?;
         let moves = drawing.iter().flat_map(|drawing| &drawing.moves);
         let rapid = moves.map(|step| step.rapid).collect();
         let Source { stem, loaded, .. } = source;
@@ -68,6 +95,7 @@ impl Job {
             drawing,
             settings,
             program,
+            full_feed,
             machines,
             rapid,
             loaded,
@@ -77,6 +105,12 @@ impl Job {
     /// How many axes there are.
     pub fn axes(&self) -> usize {
         self.machines.len()
+    }
+
+    /// Ticks of a period that its circuit needs, whatever corrects it.
+    pub fn period_ticks_needed(&self) -> u64 {
+        let circuit = controller(self.axes(), Correction::Vector, self.settings.rounding);
+        circuit.least_period().max(LEAST_PERIOD_TICKS)
     }
 
     /// Δt in seconds.

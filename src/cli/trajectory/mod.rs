@@ -18,6 +18,7 @@ use super::{Failure, threads};
 use motion_rtl::circuits::trajectory_controller::TrajectoryController;
 use motion_rtl::hdl::{Model, RunError, Without, model_beside};
 use motion_rtl::jobs::trajectory_controller::job::{Played, controller, play};
+use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::plant::TwoMassAxis;
 use motion_rtl::plant::waves::Machine;
@@ -73,7 +74,8 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     conclude(arguments, &options, files, summary)
 }
 
-/// Plays the path by every correction, that of the scenario with its waves.
+/// Plays the path by every correction, that of the scenario with its waves; by the vector at full feed
+/// too where a contour tolerance limits it.
 fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Files), Failure> {
     let traced = job.settings.correction;
     let circuit = controller(job.axes(), traced, job.settings.rounding);
@@ -84,15 +86,20 @@ fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Fil
     thread::scope(|scope| {
         let mut others = Vec::new();
         for correction in CORRECTIONS {
-            let untraced = move || untraced(job, correction);
+            let untraced = move || untraced(job, &job.program, correction);
             let started = (correction != traced).then(|| threads::beside(scope, untraced));
             others.push(started.transpose()?);
         }
+        let full_feed = job.full_feed.as_ref().map(|program| {
+            threads::beside(scope, move || untraced(job, program, Correction::Vector))
+        });
+        let full_feed = full_feed.transpose()?;
         let own = simulate((&circuit, &model), job, traces);
         let others: Vec<_> = others
             .into_iter()
             .map(|other| other.map(threads::joined))
             .collect();
+        let full_feed = full_feed.map(threads::joined).transpose();
         let (own, files) = own?;
         let mut own = Some(own);
         let mut runs = Vec::new();
@@ -101,7 +108,14 @@ fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Fil
                 Some(played) => Some(played?),
                 None => own.take(),
             };
-            runs.extend(played.and_then(|played| Run::of(job, correction, &played)));
+            runs.extend(played.and_then(|played| Run::of(&job.program, correction, &played)));
+        }
+        if let (Some(program), Some(played)) = (&job.full_feed, full_feed?) {
+            let run = Run::of(program, Correction::Vector, &played);
+            runs.extend(run.map(|run| Run {
+                full_feed: true,
+                ..run
+            }));
         }
         Ok((Runs { runs, traced }, files))
     })
@@ -116,9 +130,9 @@ fn plants(job: &Job) -> Result<Vec<TwoMassAxis>, Failure> {
 }
 
 /// Plays the path without waves.
-fn untraced(job: &Job, correction: Correction) -> Result<Played, Failure> {
+fn untraced(job: &Job, program: &Program, correction: Correction) -> Result<Played, Failure> {
     let circuit = controller(job.axes(), correction, job.settings.rounding);
-    Ok(play(&circuit, &job.program, plants(job)?, ())?)
+    Ok(play(&circuit, program, plants(job)?, ())?)
 }
 
 /// Plays the path with its waves.

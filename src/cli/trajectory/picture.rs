@@ -6,6 +6,7 @@ use super::runs::{Run, Runs};
 use crate::cli::magnification::magnification;
 use motion_rtl::input::Point;
 use motion_rtl::jobs::trajectory_controller::measure::Deviation;
+use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::path::vector::{distance, sub};
 use motion_rtl::picture::{Curve, Panel, Picture};
@@ -16,6 +17,9 @@ const IDEAL: &str = "#d8d8d8";
 /// What is planned.
 const PLANNED: &str = "#8c8c8c";
 
+/// What is at full feed where the rest is slower.
+const FULL_FEED: &str = "#d55e00";
+
 /// The loads' speed.
 const LOADS: &str = "#0072b2";
 
@@ -25,17 +29,16 @@ const STEP: f64 = 1e-3;
 /// A curve with gaps.
 type Points = Vec<(f64, f64)>;
 
-/// A correction's curve: wider below, for what is the same to be seen.
-fn curve(correction: Correction, points: Points) -> Curve {
-    let (colour, width) = match correction {
+/// A run's curve: wider below, for what is the same to be seen.
+fn curve(run: &Run, points: Points) -> Curve {
+    let (colour, width) = match run.correction {
+        _ if run.full_feed => (FULL_FEED, 0.9),
         Correction::None => ("#e69f00", 2.6),
         Correction::Steady => ("#009e73", 1.4),
         Correction::Feedback => ("#cc79a7", 1.1),
         Correction::Vector => ("#0072b2", 0.9),
     };
-    Curve::new(correction.name(), points)
-        .colour(colour)
-        .width(width)
+    Curve::new(run.name(), points).colour(colour).width(width)
 }
 
 /// The picture as SVG.
@@ -58,8 +61,8 @@ pub fn draw(job: &Job, runs: &Runs) -> String {
 fn path(job: &Job, runs: &Runs) -> Panel {
     let factor = magnification(largest(job, runs), size(job));
     let view = match job.axes() {
-        3 => "path from above",
-        _ => "path",
+        2 => "path",
+        _ => "path from above",
     };
     let title = match factor {
         1.0 => view.to_owned(),
@@ -74,7 +77,7 @@ fn path(job: &Job, runs: &Runs) -> Panel {
         panel = panel.curve(curve.dashed());
     }
     for run in &runs.runs {
-        panel = panel.curve(curve(run.correction, magnified(job, run, factor)));
+        panel = panel.curve(curve(run, magnified(job, run, factor)));
     }
     panel
 }
@@ -158,34 +161,38 @@ fn over_time(runs: &Runs, title: &str, unit: &str, of: fn(&Deviation) -> f64) ->
     for run in &runs.runs {
         let all = run.measured.load.deviations.iter();
         let points = all.map(|one| (one.time_s, of(one))).collect();
-        panel = panel.curve(curve(run.correction, points));
+        panel = panel.curve(curve(run, points));
     }
     panel
 }
 
 /// The planned speed, and that of the loads in the run with waves.
 fn speed(job: &Job, runs: &Runs) -> Panel {
-    let profile = &job.program.profile;
-    let unit = job.program.motion.units_per_mm;
     let (run, period) = (runs.traced(), job.period_s());
     let deviations = &run.measured.load.deviations;
-    let planned = (0..deviations.len()).map(|sample| {
-        let t = sample as f64 * period;
-        (t, profile.at(t)[1] / unit)
-    });
+    let planned = |program: &Program, name: &str| {
+        let unit = program.motion.units_per_mm;
+        let points = (0..deviations.len()).map(|sample| {
+            let t = sample as f64 * period;
+            (t, program.profile.at(t)[1] / unit)
+        });
+        let curve = Curve::new(name, points.collect());
+        curve.colour(PLANNED).dashed()
+    };
     // Positions are taken when the lookups are done: on arcs later in the period than on lines.
     let loads = deviations.windows(2).zip(run.taken.windows(2));
     let loads = loads.map(|(pair, taken)| {
-        let way = distance(pair[1].actual, pair[0].actual);
+        let way = distance(pair[1].actual, pair[0].actual).hypot(pair[1].w_mm - pair[0].w_mm);
         let time = (taken[1] - taken[0]) as f64 / job.settings.clock_hz as f64;
         (f64::midpoint(pair[0].time_s, pair[1].time_s), way / time)
     });
     let name = format!("loads, {}", run.correction.name());
-    Panel::new("speed", "time in s", "mm/s")
+    let mut panel = Panel::new("speed", "time in s", "mm/s")
         .curve(Curve::new(name, loads.collect()).colour(LOADS))
-        .curve(
-            Curve::new("planned", planned.collect())
-                .colour(PLANNED)
-                .dashed(),
-        )
+        .curve(planned(&job.program, "planned"));
+    if let Some(program) = &job.full_feed {
+        let curve = planned(program, "planned, full feed");
+        panel = panel.curve(curve.colour(FULL_FEED));
+    }
+    panel
 }

@@ -14,8 +14,15 @@ use serde::Serialize;
 /// What one correction came to.
 #[derive(Debug, Serialize)]
 pub struct CorrectionRow {
+    /// What the run is called.
+    #[serde(skip)]
+    pub name: &'static str,
     /// The correction.
     pub correction: &'static str,
+    /// It is at full feed, where a contour tolerance limits that of the others.
+    pub full_feed: bool,
+    /// Time that the path is planned in.
+    pub planned_seconds: f64,
     /// Its waves are written.
     pub in_waves: bool,
     /// Ticks of the run.
@@ -118,8 +125,11 @@ pub struct SegmentRow {
 /// By each correction.
 pub fn corrections(job: &Job, runs: &Runs) -> Vec<CorrectionRow> {
     let row = |run: &Run| CorrectionRow {
+        name: run.name(),
         correction: run.correction.name(),
-        in_waves: run.correction == runs.traced,
+        full_feed: run.full_feed,
+        planned_seconds: run.planned_s,
+        in_waves: run.correction == runs.traced && !run.full_feed,
         ticks: run.ticks,
         periods: run.periods,
         model: error_row(&run.measured.model),

@@ -1,18 +1,20 @@
 //! What a path came to by each correction.
 
-use super::Job;
 use motion_rtl::circuits::trajectory_controller::path_point::AXES;
-use motion_rtl::input::Point;
 use motion_rtl::jobs::trajectory_controller::closed::{ClosedForms, Steady};
 use motion_rtl::jobs::trajectory_controller::job::Played;
-use motion_rtl::jobs::trajectory_controller::measure::Measured;
+use motion_rtl::jobs::trajectory_controller::measure::{Measured, apart};
+use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
-use motion_rtl::path::vector::distance;
+use std::array::from_fn;
+
+/// What the run at full feed is called.
+const FULL_FEED: &str = "vector, full feed";
 
 /// The runs of a path.
 #[derive(Debug)]
 pub struct Runs {
-    /// By each correction.
+    /// By each correction; behind them the vector at full feed, where the others are slower.
     pub runs: Vec<Run>,
     /// The one with waves.
     pub traced: Correction,
@@ -32,6 +34,10 @@ impl Runs {
 pub struct Run {
     /// The correction.
     pub correction: Correction,
+    /// It is at full feed, where the others are slower for a contour tolerance.
+    pub full_feed: bool,
+    /// Time that the path is planned in, in s.
+    pub planned_s: f64,
     /// Ticks of the run.
     pub ticks: u64,
     /// The tick in which the path began; before it was written.
@@ -75,8 +81,7 @@ pub struct CircleError {
 
 impl Run {
     /// Of what was played; none where there is no period.
-    pub fn of(job: &Job, correction: Correction, played: &Played) -> Option<Self> {
-        let program = &job.program;
+    pub fn of(program: &Program, correction: Correction, played: &Played) -> Option<Self> {
         let measured = Measured::of(program, played)?;
         let last = played.periods.last()?;
         let circle = Steady::of(program, played).map(|steady| CircleError {
@@ -87,15 +92,15 @@ impl Run {
         });
         // Commands are from where the path begins.
         let off = |command: [i64; AXES], length: f64| {
-            let exact = program.path.point(length);
-            let at: Point =
-                std::array::from_fn(|axis| program.origin[axis] as f64 + command[axis] as f64);
-            distance(at, exact) / program.motion.units_per_mm
+            let at = from_fn(|axis| program.origin[axis] as f64 + command[axis] as f64);
+            apart(at, program.path.place(length)) / program.motion.units_per_mm
         };
         let commands = played.periods.iter();
         let errors = commands.map(|period| off(period.command, period.length as f64));
         Some(Run {
             correction,
+            full_feed: false,
+            planned_s: program.profile.duration,
             ticks: played.ticks,
             start: played.start,
             periods: played.periods.len(),
@@ -110,5 +115,13 @@ impl Run {
             lost: played.lost,
             settled: played.settled,
         })
+    }
+
+    /// What it is called.
+    pub fn name(&self) -> &'static str {
+        match self.full_feed {
+            false => self.correction.name(),
+            true => FULL_FEED,
+        }
     }
 }

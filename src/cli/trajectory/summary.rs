@@ -9,7 +9,6 @@ use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
 use motion_rtl::jobs::trajectory_controller::load_torque::LoadTorque;
-use motion_rtl::jobs::trajectory_controller::settings::LEAST_PERIOD_TICKS;
 use serde::Serialize;
 
 /// The summary of a run.
@@ -34,6 +33,8 @@ pub struct Summary {
     pub k1_per_s: EachAxis,
     /// K2.
     pub k2_per_s: EachAxis,
+    /// Contour error that the feed is limited to.
+    pub contour_tolerance_mm: Option<f64>,
     /// Gains of the feedback, along the path and across it.
     pub feedback_gains: [f64; 2],
     /// What the feed-forward of each axis is told of its inertia, as a part of it.
@@ -124,10 +125,11 @@ impl Summary {
             rounding: settings.rounding.name(),
             axes: job.axes(),
             period_ticks: program.period_ticks,
-            period_ticks_needed: LEAST_PERIOD_TICKS,
+            period_ticks_needed: job.period_ticks_needed(),
             period_ms: settings.period_ms,
             k1_per_s: settings.k1_per_s.clone(),
             k2_per_s: settings.k2_per_s.clone(),
+            contour_tolerance_mm: settings.contour_tolerance_mm,
             feedback_gains: program.feedback.parts(&Widths::FULL),
             inertia_factor: settings.inertia_factor.clone(),
             load_torque: settings.load_torque.clone(),
@@ -187,7 +189,7 @@ fn warnings(job: &Job, runs: &Runs) -> Vec<String> {
             if periods > 0 {
                 warnings.push(format!(
                     "{}: in {periods} periods {} asks for more than {} Nm",
-                    run.correction.name(),
+                    run.name(),
                     AXIS_NAMES[axis],
                     job.machines[axis].max_torque_nm
                 ));

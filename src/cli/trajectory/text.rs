@@ -44,6 +44,7 @@ impl Report for Summary {
             "the feedback has {tangential} of the error along the path, {normal} of that across it"
         )?;
         self.disturbances(text)?;
+        self.tolerance(text)?;
         self.path(text)?;
         self.errors(text)?;
         self.circle(text)?;
@@ -92,6 +93,21 @@ impl Summary {
         Ok(())
     }
 
+    /// What the feed is limited to, and what that costs.
+    fn tolerance(&self, text: &mut String) -> fmt::Result {
+        let full = self.corrections.iter().find(|row| row.full_feed);
+        let (Some(mm), Some(full)) = (self.contour_tolerance_mm, full) else {
+            return Ok(());
+        };
+        let (own, full) = (self.plan.seconds, full.planned_seconds);
+        writeln!(
+            text,
+            "feed limited to a contour error of {} um without correction: {own:.3} s, at full feed \
+             {full:.3} s",
+            mm * 1e3
+        )
+    }
+
     fn path(&self, text: &mut String) -> fmt::Result {
         let (path, plan) = (&self.path, &self.plan);
         write!(
@@ -138,7 +154,7 @@ impl Summary {
         let cells = self.corrections.iter().map(|row| {
             let torques = row.axes.iter().map(|axis: &AxisRow| axis.torque_max_nm);
             [
-                name(row.correction),
+                name(row.name),
                 fixed(row.model.contour_max_um, 3),
                 fixed(row.model.contour_rms_um, 3),
                 fixed(row.load.contour_max_um, 3),
@@ -156,15 +172,24 @@ impl Summary {
     }
 
     fn circle(&self, text: &mut String) -> fmt::Result {
-        let mut rows = self.corrections.iter();
-        let Some(first) = rows.find_map(|row| row.circle.as_ref()) else {
+        let circles = |full: bool| {
+            let rows = self
+                .corrections
+                .iter()
+                .filter(move |row| row.full_feed == full);
+            rows.filter_map(|row| row.circle.as_ref())
+        };
+        let Some(first) = circles(false).next() else {
             return Ok(());
         };
+        let full = circles(true).next();
+        let full = full.map(|circle| fixed(circle.speed_mm_per_s, 3));
         writeln!(
             text,
-            "circle of {} mm at {} mm/s: mean contour error of {} steady periods",
+            "circle of {} mm at {} mm/s{}: mean contour error of {} steady periods",
             fixed(first.radius_mm, 3),
             fixed(first.speed_mm_per_s, 3),
+            full.map_or_else(String::new, |speed| format!(", at full feed {speed} mm/s")),
             first.periods
         )?;
         let title = name("um");
@@ -178,7 +203,7 @@ impl Summary {
         let circles = self.corrections.iter().filter_map(|row: &CorrectionRow| {
             let circle = row.circle.as_ref()?;
             Some([
-                name(row.correction),
+                name(row.name),
                 fixed(circle.model_um, 3),
                 fixed(circle.sampled_um, 3),
                 fixed(circle.continuous_um, 3),

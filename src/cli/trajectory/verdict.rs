@@ -11,7 +11,7 @@ pub const NOT_SETTLED: &str = "models and motors did not settle at the end";
 pub fn complaints(job: &Job, runs: &Runs) -> Vec<String> {
     let each = runs.runs.iter().flat_map(|run| {
         let own = of_run(job, run, compared(run, runs)).into_iter();
-        own.map(|text| format!("{}: {text}", run.correction.name()))
+        own.map(|text| format!("{}: {text}", run.name()))
     });
     each.collect()
 }
@@ -59,7 +59,8 @@ fn of_run(job: &Job, run: &Run, compared: bool) -> Vec<String> {
             Correction::Feedback => job.settings.tangential_gain.max(job.settings.normal_gain),
             _ => 0.0,
         };
-        let bound = 3f64.sqrt() * (0.5 + fed / (1.0 + fed)) * count_mm;
+        let axes = job.axes().max(3) as f64;
+        let bound = axes.sqrt() * (0.5 + fed / (1.0 + fed)) * count_mm;
         let model = run.measured.model.final_mm;
         keep("the models beside the path's end", model, bound);
     }
@@ -120,7 +121,7 @@ mod tests {
     }
 
     fn judged(job: &Job, played: &Played) -> Vec<String> {
-        let run = |correction| Run::of(job, correction, played);
+        let run = |correction| Run::of(&job.program, correction, played);
         let runs = Runs {
             runs: CORRECTIONS.into_iter().filter_map(run).collect(),
             traced: Correction::Vector,

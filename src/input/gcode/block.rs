@@ -161,6 +161,11 @@ impl Block {
         [b'X', b'Y', b'Z'].map(|letter| self.letter(letter))
     }
 
+    /// Whether a word of an axis is there; W is taken out before where it is none.
+    pub(super) fn moves(&self) -> bool {
+        self.axes().iter().any(Option::is_some) || self.letter(b'W').is_some()
+    }
+
     /// The letters that are there.
     pub(super) fn given(&self) -> impl Iterator<Item = u8> + '_ {
         (b'A'..=b'Z').filter(|&letter| self.letter(letter).is_some())

@@ -21,7 +21,8 @@ impl Machine<'_> {
                 Some(offset.get(axis as usize).map_or(0.0, |mm| mm / units))
             }
             5400 => Some(self.tool),
-            5420..=5428 => Some(pick(self.here(), 5420)),
+            5428 => Some(self.w() / units),
+            5420..=5427 => Some(pick(self.here(), 5420)),
             _ => None,
         }
     }
@@ -36,7 +37,8 @@ impl Machine<'_> {
             "_X" => Some(x),
             "_Y" => Some(y),
             "_Z" => Some(z),
-            "_A" | "_B" | "_C" | "_U" | "_V" | "_W" | "_TASK" => Some(0.0),
+            "_A" | "_B" | "_C" | "_U" | "_V" | "_TASK" => Some(0.0),
+            "_W" => Some(self.w() / units),
             "_ABS_X" => Some(self.at[0] / units),
             "_ABS_Y" => Some(self.at[1] / units),
             "_ABS_Z" => Some(self.at[2] / units),

@@ -32,6 +32,9 @@ pub(super) struct Machine<'a> {
     pub(super) track: Track<'a>,
     /// The programmed position from the machine's zero, in millimetres.
     pub(super) at: Point,
+    /// W likewise, where it is an axis: before the line that is run, and behind it.
+    w: [f64; 2],
+    fourth: bool,
     pub(super) modal: Modal,
     saved: Option<Modal>,
     pub(super) offsets: Offsets,
@@ -57,6 +60,8 @@ impl<'a> Machine<'a> {
         Self {
             track: Track::new(file),
             at: [0.0; 3],
+            w: [0.0; 2],
+            fourth: options.fourth,
             modal: Modal::default(),
             saved: None,
             offsets: Offsets::new(options.zeros),
@@ -119,12 +124,15 @@ impl<'a> Machine<'a> {
     /// Records the moves of the line that was run.
     pub(super) fn push(&mut self, line: usize) -> Result<(), Problem> {
         let total: f64 = self.pieces.iter().map(|piece| piece.length).sum();
+        let [from, to] = self.w;
+        let length = total.hypot(to - from);
         let feed_mm_per_min = match (self.modal.inverse_time, self.feed_word) {
-            (true, Some(per_min)) if total > 0.0 => Some(per_min * total),
+            (true, Some(per_min)) if length > 0.0 => Some(per_min * length),
             (true, _) => None,
             (false, _) => self.modal.feed_mm_per_min,
         };
-        for piece in self.pieces.drain(..) {
+        let (mut length, last) = (0.0, self.pieces.len().saturating_sub(1));
+        for (index, piece) in self.pieces.drain(..).enumerate() {
             if !piece.rapid && feed_mm_per_min.is_none() {
                 let text = || "no feed set; the feed of the settings applies".to_owned();
                 self.track.note("feed", line, text);
@@ -136,7 +144,16 @@ impl<'a> Machine<'a> {
                 feed_mm_per_min: feed_mm_per_min.filter(|_| !piece.rapid),
                 line,
             };
-            let pushed = self.track.push(&self.made_by, next);
+            length += piece.length;
+            // The chords and turns of an arc have their parts of W.
+            let w = match index == last || to == from {
+                true => to,
+                false => from + (to - from) * (length / total),
+            };
+            let pushed = match self.fourth {
+                true => self.track.push_with(&self.made_by, next, w),
+                false => self.track.push(&self.made_by, next),
+            };
             pushed
                 .map_err(|far| Problem::new(&self.made_by, far.problem, far.allowed).following())?;
         }
@@ -147,6 +164,7 @@ impl<'a> Machine<'a> {
     /// planes and distances, feed, M words, offsets, then the move.
     pub(super) fn run(&mut self, line: usize, block: &mut Block) -> Result<u64, Problem> {
         self.pieces.clear();
+        self.w[0] = self.w();
         if block.optional {
             self.say_nothing("/", line)?;
         }
@@ -173,12 +191,36 @@ impl<'a> Machine<'a> {
         self.motion(line, block, &words)
     }
 
-    /// Rotary and parallel axes, which no circuit has, may be named as long as they stand still.
+    /// Where W is, from the machine's zero, in millimetres.
+    pub(super) fn w(&self) -> f64 {
+        self.w[1]
+    }
+
+    /// Takes the word of W for the end of a line's move.
+    pub(super) fn move_w(&mut self, block: &mut Block, machine: bool) {
+        if let Some(word) = block.take(b'W').map(|word| word * self.modal.mm_per_unit) {
+            let relative = self.modal.relative && !machine;
+            self.w[1] = if relative { self.w[0] + word } else { word };
+        }
+    }
+
+    /// Rotary and parallel axes, which no circuit has, may be named as long as they stand still; W
+    /// where it is no axis.
     fn still_axes(&mut self, line: usize, block: &mut Block) -> Result<(), Problem> {
-        for letter in [b'A', b'B', b'C', b'U', b'V', b'W'] {
+        let letters = [b'A', b'B', b'C', b'U', b'V', b'W'];
+        for letter in &letters[..if self.fourth { 5 } else { 6 }] {
+            let letter = *letter;
             match block.take(letter) {
                 None => {}
                 Some(0.0) => self.say_nothing(&char::from(letter).to_string(), line)?,
+                Some(value) if letter == b'W' => {
+                    let allowed = "W at 0; any with axes = 4 of the trajectory controller";
+                    return Err(Problem::new(
+                        'W',
+                        format!("{value}: a fourth axis"),
+                        allowed,
+                    ));
+                }
                 Some(value) => {
                     let problem = format!("{value}: an axis that no circuit has");
                     let allowed = "X, Y and Z; A, B, C, U, V and W at 0";

@@ -30,13 +30,13 @@ impl Machine<'_> {
         // The time of a dwell is P or, on some controls, X.
         if words.dwell && block.take(b'P').is_none() && !explicit {
             block.take(b'X');
-            if block.axes().iter().any(Option::is_some) || bends(block) {
+            if block.moves() || bends(block) {
                 let problem = "a dwell and a move in one line";
                 return Err(Problem::new("G4", problem, "G4 with P, or with X alone"));
             }
         }
         self.not_within_nurbs(words)?;
-        let moves = block.axes().iter().any(Option::is_some);
+        let moves = block.moves();
         let motion = self.modal.motion;
         if let Some(motion @ (Motion::Nurbs | Motion::NurbsEnd | Motion::KnottedNurbs)) = motion
             && (moves || explicit || block.given().next().is_some())
@@ -75,6 +75,9 @@ impl Machine<'_> {
             Motion::Cycle(code) => holes = Some(self.drill(block, code)?),
             _ => {
                 let (from, to) = (self.at, self.target(block, words.machine));
+                if !matches!(motion, Motion::Cubic | Motion::Quadratic) {
+                    self.move_w(block, words.machine);
+                }
                 match motion {
                     Motion::Arc { clockwise } => self.arc(line, block, to, clockwise)?,
                     Motion::Cubic | Motion::Quadratic => {
@@ -134,6 +137,7 @@ impl Machine<'_> {
         let allowed = match letter {
             b'P' => "P with G2 to G5, G10, cycles and M words",
             b'Q' => "Q with G5, G64, G73, G83 and M words",
+            b'W' => "W with G0 to G3 and G38",
             b'L' => "L with G10, cycles and M words",
             b'I' | b'J' | b'K' | b'R' => "I, J, K and R with arcs, curves and cycles",
             _ => "the letters A B C D E F G H I J K L M N O P Q R S T U V W X Y Z as of RS274",

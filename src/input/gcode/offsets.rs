@@ -90,7 +90,12 @@ impl Machine<'_> {
         moves: bool,
     ) -> Result<(), Problem> {
         let axes = block.axes();
-        if moves && !matches!(own, Own::Forget | Own::Suspend | Own::Resume) {
+        let shifts = !matches!(own, Own::Forget | Own::Suspend | Own::Resume);
+        if shifts && block.letter(b'W').is_some() {
+            let problem = format!("with {}", name('G', code));
+            return Err(Problem::new('W', problem, "X, Y and Z: W has no offsets"));
+        }
+        if moves && shifts {
             // G0 G28 X0 is common; what goes is G28.
             if !matches!(own, Own::Go(_) | Own::Shift | Own::Set) {
                 let problem = "together with a motion in one line";
@@ -142,7 +147,7 @@ impl Machine<'_> {
             }
             Own::Resume => self.offsets.shift = self.offsets.suspended,
         }
-        if !matches!(own, Own::Forget | Own::Suspend | Own::Resume) {
+        if shifts {
             for letter in [b'X', b'Y', b'Z'] {
                 block.take(letter);
             }

@@ -212,7 +212,8 @@ fn circles(program: &Program) -> Vec<(Range<u64>, f64)> {
     for stretch in &program.path.stretches {
         let segment = stretch.segment;
         let end = stretch.begin + stretch.length;
-        let flat = segment.third == [0.0; COORDINATES] && segment.fourth.is_none();
+        let flat = segment.third == [0.0; COORDINATES]
+            && segment.fourth.is_none_or(|fourth| fourth.along == 0.0);
         let Some(arc) = segment.arc.filter(|_| flat) else {
             before = None;
             continue;

@@ -21,6 +21,8 @@ pub enum AxisName {
     Y,
     /// The third.
     Z,
+    /// The fourth.
+    W,
 }
 
 impl AxisName {

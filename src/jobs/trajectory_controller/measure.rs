@@ -3,29 +3,32 @@
 use super::job::{Period, Played, Program};
 use super::segments::{Arc, Path, Segment};
 use crate::circuits::trajectory_controller::Widths;
+use crate::circuits::trajectory_controller::path_point::AXES;
 use crate::input::{COORDINATES, Point};
 use crate::path::cubic::{rise, rises};
-use crate::path::vector::{add, distance, dot, norm, scale, sub};
+use crate::path::vector::{add, dot, scale, sub};
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
 /// Guard units of a count.
 const COUNT: f64 = (1u64 << Widths::FULL.guard()) as f64;
 
-/// A period of a run, in mm; of a fourth axis nothing.
+/// A period of a run, in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
     /// Time from the path's start, in s.
     pub time_s: f64,
     /// Length along the path of the point nearest to it.
     pub length_mm: f64,
-    /// Where it was.
+    /// X, Y and Z of where it was.
     pub actual: Point,
-    /// The nearest point of the path.
+    /// Those of the nearest point of the path.
     pub nearest: Point,
-    /// Contour error: the distance of both.
+    /// W of where it was; 0 where there is none.
+    pub w_mm: f64,
+    /// Contour error: the distance of both, with W where there is one.
     pub contour_mm: f64,
-    /// Following error: the distance from P_c of the same period.
+    /// Following error: the distance from P_c of the same period, likewise.
     pub following_mm: f64,
 }
 
@@ -111,26 +114,28 @@ impl Measured {
 fn errors(program: &Program, played: &Played, position: impl Fn(&Period, usize) -> f64) -> Errors {
     let path = &program.path;
     let (mm, end) = (1.0 / program.motion.units_per_mm, path.length as f64);
-    let place = |from_start: &dyn Fn(usize) -> f64| -> Point {
+    let place = |from_start: &dyn Fn(usize) -> f64| -> [f64; AXES] {
         from_fn(|axis| program.origin[axis] as f64 + from_start(axis))
     };
+    let in_space = |[x, y, z, _]: [f64; AXES]| scale([x, y, z], mm);
     let mut final_mm = 0.0;
     let deviations = played.periods.iter().enumerate().map(|(index, period)| {
         let actual = place(&|axis| position(period, axis));
         let command = place(&|axis| period.command[axis] as f64);
-        let following = distance(actual, command);
+        let following = apart(actual, command);
         // It is about where the tangential response is. What is nearer is within twice the way to
         // there; beyond that the path may come by again.
         let answered = period.answered as f64;
-        let reach = 2.0 * distance(actual, path.point(answered)) + COUNT;
+        let reach = 2.0 * apart(actual, path.place(answered)) + COUNT;
         let (length, nearest) = path.nearest(actual, [answered - reach, answered + reach]);
-        final_mm = mm * distance(actual, path.point(end));
+        final_mm = mm * apart(actual, path.place(end));
         Deviation {
             time_s: index as f64 * program.motion.period,
             length_mm: mm * length,
-            actual: scale(actual, mm),
-            nearest: scale(nearest, mm),
-            contour_mm: mm * distance(actual, nearest),
+            actual: in_space(actual),
+            nearest: in_space(nearest),
+            w_mm: mm * actual[COORDINATES],
+            contour_mm: mm * apart(actual, nearest),
             following_mm: mm * following,
         }
     });
@@ -163,13 +168,20 @@ fn errors(program: &Program, played: &Played, position: impl Fn(&Period, usize) 
     }
 }
 
+/// Distance of two points, with W.
+#[must_use]
+pub fn apart(one: [f64; AXES], other: [f64; AXES]) -> f64 {
+    let squares = one.iter().zip(other).map(|(a, b)| (a - b) * (a - b));
+    squares.sum::<f64>().sqrt()
+}
+
 impl Path {
     /// The point between two lengths that is nearest to a point, and its length; the first of
     /// several. All in guard units.
     #[must_use]
-    pub fn nearest(&self, point: Point, window: [f64; 2]) -> (f64, Point) {
+    pub fn nearest(&self, point: [f64; AXES], window: [f64; 2]) -> (f64, [f64; AXES]) {
         let [from, to] = window.map(|length| length.clamp(0.0, self.length as f64));
-        let (mut best, mut least) = ((from, self.point(from)), f64::INFINITY);
+        let (mut best, mut least) = ((from, self.place(from)), f64::INFINITY);
         for stretch in &self.stretches[self.index(from)..=self.index(to)] {
             let begin = stretch.begin as f64;
             let inside = [
@@ -177,8 +189,8 @@ impl Path {
                 (to - begin).min(stretch.length as f64),
             ];
             for offset in stretch.segment.candidates(point, inside) {
-                let near = stretch.segment.point(offset);
-                let off = distance(point, near);
+                let near = stretch.segment.place(offset);
+                let off = apart(point, near);
                 if off < least {
                     (best, least) = ((begin + offset, near), off);
                 }
@@ -190,7 +202,10 @@ impl Path {
 
 impl Segment {
     /// Offsets between two of them of which one is nearest to a point.
-    fn candidates(&self, point: Point, [from, to]: [f64; 2]) -> Vec<f64> {
+    fn candidates(&self, place: [f64; AXES], [from, to]: [f64; 2]) -> Vec<f64> {
+        let [x, y, z, w] = place;
+        let (point, climb) = ([x, y, z], self.fourth.map_or(0.0, |fourth| fourth.along));
+        // W stands still along a spline.
         if let Some(bits) = self.powers {
             // It turns by so little that there is one at most.
             let ahead = |at: f64| dot(sub(self.point(at), point), self.derivatives(bits, at)[0]);
@@ -199,16 +214,17 @@ impl Segment {
         let way = sub(point, self.base.map(|units| units as f64));
         let [along, across] = [dot(way, self.along), dot(way, self.across)];
         let Some(arc) = self.arc else {
-            // A way of length 1 in a unit of length, but for the length's rounding and a fourth axis.
-            let size = norm(self.along);
-            if size == 0.0 {
-                return vec![from];
-            }
-            return vec![(along / (size * size)).clamp(from, to)];
+            // A way of length 1 in a unit of length, but for the length's rounding.
+            let square = dot(self.along, self.along) + climb * climb;
+            let ahead = along + climb * (w - self.fourth_point(0.0));
+            return vec![(ahead / square).clamp(from, to)];
         };
-        if self.third != [0.0; COORDINATES] {
+        if self.third != [0.0; COORDINATES] || climb != 0.0 {
             let parts = ((to - from) / arc.turn * 8.0).ceil().max(1.0) as u32;
-            let ahead = |at: f64| dot(sub(self.point(at), point), self.helical(&arc, at));
+            let ahead = |at: f64| {
+                let beside = climb * (self.fourth_point(at) - w);
+                dot(sub(self.point(at), point), self.helical(&arc, at)) + beside
+            };
             let turns = rises([from, to], parts, ahead);
             return turns.chain([from, to]).collect();
         }

@@ -12,6 +12,7 @@ pub mod axis_limits;
 pub mod closed;
 pub mod each_axis;
 mod extent;
+mod fourth;
 mod host;
 pub mod job;
 pub mod load_torque;

@@ -79,8 +79,7 @@ impl Program {
         Self::with_fourth(start, pieces, None, settings, machine, widths)
     }
 
-    /// The same for four axes, where there is a fourth. The limits of axes' accelerations are those
-    /// of X, Y and Z; W has that of the path.
+    /// The same for four axes, where there is a fourth.
     ///
     /// # Errors
     /// As [`Program::of`]; and a period that is too short for a fourth axis.
@@ -109,9 +108,9 @@ impl Program {
         }
         let gains = settings.gains(widths, machine.len())?;
         if let Some(told) = &settings.axis_acceleration_mm_per_s2 {
-            let limited = machine.len().min(COORDINATES);
-            told.check("axis_acceleration_mm_per_s2", limited)?;
+            told.check("axis_acceleration_mm_per_s2", machine.len())?;
         }
+        motion.contour_acceleration = settings.contour_acceleration(widths, &gains)?;
         let feedback = settings.feedback_gains(widths)?;
         let slowest = gains.iter().min_by_key(|gains| (gains.k1, gains.k2));
         let tangential = slowest.copied().unwrap_or(gains[0]);
@@ -151,12 +150,7 @@ impl Program {
             let allowed = format!("{MOST_PERIODS}: a faster or shorter path, or longer periods");
             return Err(SettingError::new("period_ms", problem, allowed).into());
         }
-        let mut origin = [0; AXES];
-        for (origin, units) in origin.iter_mut().zip(path.point(0.0)) {
-            *origin = units.round() as i64;
-        }
-        let first = path.stretches[0].segment.fourth;
-        origin[COORDINATES] = first.map_or(0, |fourth| fourth.base);
+        let origin = path.place(0.0).map(|units| units.round() as i64);
         Ok(Program {
             records: records(&profile, motion.period, widths),
             path,

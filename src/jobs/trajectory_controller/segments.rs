@@ -21,10 +21,13 @@
 //! unit in the length of the piece.
 
 use super::extent::{fits, hold, margin};
+use super::fourth::beside;
+pub use super::fourth::{Fourth, FourthAxis};
 use super::speed_limits::Span;
 use super::splines;
 use crate::circuits::blocks::cordic_state::GAIN;
 use crate::circuits::trajectory_controller::Widths;
+use crate::circuits::trajectory_controller::path_point::AXES;
 use crate::circuits::trajectory_controller::segment_store::WORDS;
 use crate::input::{COORDINATES, Point};
 use crate::path::circle::Circle;
@@ -54,24 +57,6 @@ pub struct Segment {
     pub powers: Option<u32>,
     /// What it has of a fourth axis.
     pub fourth: Option<Fourth>,
-}
-
-/// A fourth coordinate, which goes linearly with the length. All in guard units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fourth {
-    /// Where it begins.
-    pub base: i64,
-    /// Its way in a guard unit of the length.
-    pub along: f64,
-}
-
-/// W of the pieces of a path.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FourthAxis {
-    /// Where it begins, in mm.
-    pub from_mm: f64,
-    /// Where it is at the end of each piece.
-    pub to_mm: Vec<f64>,
 }
 
 /// An arc, in guard units.
@@ -131,51 +116,10 @@ impl Segment {
         words
     }
 
-    /// The words of a fourth axis, which follow these. An arc has it as a helix its rise.
-    #[must_use]
-    pub fn fourth_words(&self, widths: &Widths) -> Option<[u64; 4]> {
-        let Fourth { base, along } = self.fourth?;
-        let unit = two_to(widths.coefficient - 2);
-        let word = |value: i64| value as u64 & ((1 << widths.data) - 1);
-        let along = word((along * unit).round() as i64);
-        let [of_line, of_arc] = match self.arc {
-            None => [along, 0],
-            Some(_) => [0, along],
-        };
-        Some([word(base), of_line, 0, of_arc])
-    }
-
-    /// W at a length behind its beginning, unrounded.
-    #[must_use]
-    pub fn fourth_point(&self, offset: f64) -> Option<f64> {
-        let Fourth { base, along } = self.fourth?;
-        Some(base as f64 + along * offset)
-    }
-
-    /// It with W beside it, of `length` guard units, and its length then. Its points are the same,
-    /// by a longer length.
-    fn with_fourth(self, length: u64, base: i64, way: f64) -> (Self, u64) {
-        let longer = (length as f64).hypot(way).round();
-        let part = length as f64 / longer;
-        let arc = self.arc.map(|arc| Arc {
-            turn: arc.turn / part,
-            ..arc
-        });
-        let along = match arc {
-            None => scale(self.along, part),
-            Some(_) => self.along,
-        };
-        let segment = Segment {
-            along,
-            arc,
-            third: scale(self.third, part),
-            fourth: Some(Fourth {
-                base,
-                along: way / longer,
-            }),
-            ..self
-        };
-        (segment, longer as u64)
+    /// The point at a length behind its beginning with W, unrounded.
+    pub(super) fn place(&self, offset: f64) -> [f64; AXES] {
+        let [x, y, z] = self.point(offset);
+        [x, y, z, self.fourth_point(offset)]
     }
 
     /// What it is called.
@@ -381,9 +325,16 @@ impl Path {
     /// the end, the start and the end.
     #[must_use]
     pub fn point(&self, length: f64) -> Point {
+        let [x, y, z, _] = self.place(length);
+        [x, y, z]
+    }
+
+    /// The same with W; 0 where there is none.
+    #[must_use]
+    pub fn place(&self, length: f64) -> [f64; AXES] {
         let length = length.clamp(0.0, self.length as f64);
         let stretch = &self.stretches[self.index(length)];
-        stretch.segment.point(length - stretch.begin as f64)
+        stretch.segment.place(length - stretch.begin as f64)
     }
 }
 
@@ -438,51 +389,6 @@ fn made(from: Point, piece: &Piece, index: usize, [unit, count]: [f64; 2]) -> Ve
     }
 }
 
-/// The segments of a piece with W from one place to another, in guard units.
-fn beside(
-    made: Vec<Stretch>,
-    from: Point,
-    piece: &Piece,
-    index: usize,
-    [begin, end]: [f64; 2],
-    unit: f64,
-) -> Result<Vec<Stretch>, Reason> {
-    let (way, base) = (end - begin, begin as i64);
-    let still = |stretch: Stretch| Stretch {
-        segment: Segment {
-            fourth: Some(Fourth { base, along: 0.0 }),
-            ..stretch.segment
-        },
-        ..stretch
-    };
-    if way == 0.0 {
-        return Ok(made.into_iter().map(still).collect());
-    }
-    if matches!(piece.course, Course::Spline(_)) {
-        return Err(Reason::Spline);
-    }
-    // W alone, where the others stand.
-    let alone = || Stretch {
-        segment: Segment::line(from.map(|mm| (mm * unit).round()), [0.0; COORDINATES]),
-        begin: 0,
-        length: 0,
-        directions: [[0.0; COORDINATES]; 2],
-        speed: piece.speed,
-        radius: None,
-        piece: index,
-        line: piece.line,
-    };
-    let of = made.into_iter().next().unwrap_or_else(alone);
-    let (segment, length) = of.segment.with_fourth(of.length, base, way);
-    let part = of.length as f64 / length as f64;
-    Ok(vec![Stretch {
-        segment,
-        length,
-        directions: of.directions.map(|direction| scale(direction, part)),
-        ..of
-    }])
-}
-
-fn two_to(exponent: usize) -> f64 {
+pub(super) fn two_to(exponent: usize) -> f64 {
     (exponent as f64).exp2()
 }

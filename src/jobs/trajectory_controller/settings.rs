@@ -4,9 +4,10 @@ use super::each_axis::EachAxis;
 use super::job::controller;
 use super::load_torque::LoadTorque;
 use super::ramp::Slope;
+use crate::circuits::trajectory_controller::path_point::AXES;
 pub use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::{Rounding, Widths};
-use crate::input::{COORDINATES, Point};
+use crate::input::COORDINATES;
 use crate::jobs::arc_generator::settings::SPEED_RANGE_MM_PER_S;
 use crate::path::pieces::Speeds;
 use crate::plan::ACCELERATION_RANGE;
@@ -26,6 +27,9 @@ pub const ACCELERATION_MM_PER_S2: f64 = 2000.0;
 
 /// Acceleration times that are accepted, in ms.
 pub const ACCELERATION_TIME_RANGE_MS: RangeInclusive<f64> = 1e-6..=1e6;
+
+/// Contour errors that the feed may be limited to, in mm.
+pub const CONTOUR_TOLERANCE_RANGE_MM: RangeInclusive<f64> = 1e-6..=1e3;
 
 /// Settings of a path and its run.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +53,9 @@ pub struct Settings {
     pub axis_acceleration_mm_per_s2: Option<EachAxis>,
     /// Largest acceleration across it, on arcs.
     pub normal_acceleration_mm_per_s2: f64,
+    /// Steady contour error of the models, with nothing added, that the feed in curves is limited to
+    /// (¶0004); none where it is not.
+    pub contour_tolerance_mm: Option<f64>,
     /// Time in which the acceleration along the path comes and goes; 0 for a trapezoid of speed.
     pub jerk_time_ms: f64,
     /// Largest step of the velocity between two segments; 0 stops at every corner.
@@ -95,6 +102,7 @@ impl Default for Settings {
             acceleration_time_ms: None,
             axis_acceleration_mm_per_s2: None,
             normal_acceleration_mm_per_s2: 2000.0,
+            contour_tolerance_mm: None,
             jerk_time_ms: 0.0,
             corner_mm_per_s: 10.0,
             k1_per_s: EachAxis::All(50.0),
@@ -124,8 +132,11 @@ pub struct Motion {
     pub slope: Slope,
     /// Largest acceleration across the path, in mm/s².
     pub normal_acceleration: f64,
+    /// Acceleration across the path, in mm/s², at which the models are as far inside of it as they
+    /// may be; infinite where nothing is told.
+    pub contour_acceleration: f64,
     /// Largest acceleration of each axis, in mm/s².
-    pub axis_acceleration: Point,
+    pub axis_acceleration: [f64; AXES],
     /// Largest step of the velocity, in mm/s.
     pub corner_speed: f64,
 }
@@ -194,8 +205,9 @@ impl Settings {
         self.feedback_gains(widths)?;
         let told = [&self.k1_per_s, &self.k2_per_s].map(EachAxis::told);
         let axes = told.into_iter().flatten().next().unwrap_or(1);
-        let axes = axes.min(COORDINATES);
-        self.gains(widths, axes).map(drop)
+        let axes = axes.min(AXES);
+        let gains = self.gains(widths, axes)?;
+        self.contour_acceleration(widths, &gains).map(drop)
     }
 
     /// Δt as ticks of the clock.
@@ -216,7 +228,7 @@ impl Settings {
         Ok(f64::from(self.period_ticks(widths)?) / self.clock_hz as f64)
     }
 
-    /// What the planner needs.
+    /// What the planner needs; [`Motion::contour_acceleration`] is infinite, as it is of the gains.
     ///
     /// # Errors
     /// As [`Settings::validate`], of all but the model's gains.
@@ -244,9 +256,37 @@ impl Settings {
                 jerk_time: self.jerk_time_ms / 1e3,
             },
             normal_acceleration: normal,
+            contour_acceleration: f64::INFINITY,
             axis_acceleration,
             corner_speed: self.corner_mm_per_s,
         })
+    }
+
+    /// [`Motion::contour_acceleration`] of models with these gains: c times it is the tolerance.
+    ///
+    /// # Errors
+    /// A tolerance out of its range; of models that differ or overshoot, whose error is another.
+    pub fn contour_acceleration(
+        &self,
+        widths: &Widths,
+        gains: &[Gains],
+    ) -> Result<f64, SettingError> {
+        let field = "contour_tolerance_mm";
+        let (Some(mm), Some(first)) = (self.contour_tolerance_mm, gains.first()) else {
+            return Ok(f64::INFINITY);
+        };
+        within(field, mm, &CONTOUR_TOLERANCE_RANGE_MM)?;
+        let refuse = |what: &str, allowed| {
+            let problem = format!("is {mm} beside models that {what}");
+            Err(SettingError::new(field, problem, allowed))
+        };
+        if gains.iter().any(|of| of != first) {
+            return refuse("differ", "the same k1_per_s and k2_per_s for all axes");
+        }
+        if first.k2 < 4 * first.k1 {
+            return refuse("overshoot", "k2_per_s of 4 times k1_per_s or more");
+        }
+        Ok(mm / first.radial_s2(widths, self.period_s(widths)?))
     }
 
     /// Acceleration along the path, in mm/s².
@@ -282,12 +322,12 @@ impl Settings {
     }
 
     /// Largest acceleration of each axis, in mm/s².
-    fn axis_accelerations(&self) -> Result<Point, SettingError> {
-        let mut allowed = [f64::INFINITY; COORDINATES];
+    fn axis_accelerations(&self) -> Result<[f64; AXES], SettingError> {
+        let mut allowed = [f64::INFINITY; AXES];
         let Some(told) = &self.axis_acceleration_mm_per_s2 else {
             return Ok(allowed);
         };
-        let axes = told.told().unwrap_or(COORDINATES).min(COORDINATES);
+        let axes = told.told().unwrap_or(AXES).min(AXES);
         for (axis, allowed) in allowed[..axes].iter_mut().enumerate() {
             *allowed = told.of(axis);
             within("axis_acceleration_mm_per_s2", *allowed, &ACCELERATION_RANGE)

@@ -1,10 +1,13 @@
 //! How fast the path may be run where, and the lowest limit between two lengths at once.
 
 use super::axis_limits;
-use super::segments::Path;
+use super::segments::{Path, Stretch};
 use super::settings::Motion;
 use crate::path::vector::distance;
 use crate::plan::junction;
+
+/// Two lines are chords of a curve where their directions, of length 1, are no further apart: 10°.
+const CHORD_TURN: f64 = 0.1743;
 
 /// A segment for the planner. Units of length and time are the caller's.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,32 +21,56 @@ pub struct Span {
 }
 
 /// The spans of a path, in guard units and seconds: feed or rapid, √(a·r) in curves, with the
-/// acceleration that the path and its axes allow, and where two meet, the speed at which the velocity
-/// changes by the corner speed.
+/// acceleration that the path, its axes and the contour tolerance allow, and where two meet, the speed
+/// at which the velocity changes by the corner speed.
 #[must_use]
 pub fn spans(path: &Path, motion: &Motion) -> Vec<Span> {
     let unit = motion.units_per_mm;
-    let mut before = None;
-    let spans = path.stretches.iter().map(|stretch| {
+    let stretches = &path.stretches;
+    let spans = stretches.iter().enumerate().map(|(index, stretch)| {
         let along = motion.slope.acceleration / unit;
         let around = stretch.radius.map(|radius| {
             let across = axis_limits::across(&stretch.segment, &motion.axis_acceleration, along);
+            let across = across.min(motion.contour_acceleration);
             (motion.normal_acceleration.min(across) * radius).sqrt()
         });
-        let [first, last] = stretch.directions;
-        let along = stretch.segment.fourth.map_or(0.0, |fourth| fourth.along);
-        let entry = before.map_or(0.0, |(before, beside)| {
-            let turn = distance(before, first).hypot(along - beside);
-            junction(turn, motion.corner_speed)
+        let entry = match index {
+            0 => 0.0,
+            _ => junction(turn(&stretches[index - 1], stretch), motion.corner_speed),
+        };
+        let near = &stretches[index.saturating_sub(1)..stretches.len().min(index + 2)];
+        let chords = near.windows(2).map(|pair| {
+            let radius = chord_radius(&pair[0], &pair[1]) / unit;
+            (motion.contour_acceleration * radius).sqrt()
         });
-        before = Some((last, along));
+        let limits = chords.chain(around);
         Span {
             length: stretch.length,
-            speed: unit * stretch.speed.min(around.unwrap_or(f64::INFINITY)),
+            speed: unit * limits.fold(stretch.speed, f64::min),
             entry: unit * entry,
         }
     });
     spans.collect()
+}
+
+/// How far the directions of two segments are apart where they meet: an angle where it is small.
+fn turn(before: &Stretch, next: &Stretch) -> f64 {
+    let [beside, along] =
+        [before, next].map(|of| of.segment.fourth.map_or(0.0, |fourth| fourth.along));
+    distance(before.directions[1], next.directions[0]).hypot(along - beside)
+}
+
+/// Radius of the curve that two lines are chords of, in guard units; infinite where they are none.
+fn chord_radius(before: &Stretch, next: &Stretch) -> f64 {
+    let (turn, mean) = (
+        turn(before, next),
+        (before.length + next.length) as f64 / 2.0,
+    );
+    let lines = [before, next].map(|of| of.segment.kind() == "line");
+    match lines == [true; 2] && turn <= CHORD_TURN {
+        true => mean / turn,
+        false => f64::INFINITY,
+    }
 }
 
 /// Limits by the length along the path.

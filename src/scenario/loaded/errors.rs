@@ -150,6 +150,7 @@ pub(super) fn split(message: &str) -> (String, String) {
         "a boolean" => "true or false",
         "an array of length 2" => "a list of two numbers, of X and of Y",
         "an array of length 3" => "a list of three numbers, of X, Y and Z",
+        "an array of length 3 or 4" => "a list of three numbers, of X, Y and Z, or of four with W",
         "a sequence" => "a list of numbers, one for each axis",
         "path string" => "a path",
         record if record.starts_with("struct ") => "a table of keys and values",

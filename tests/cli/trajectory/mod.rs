@@ -3,7 +3,9 @@
 mod axes;
 mod chords;
 mod curves;
+mod fourth;
 mod plant;
+mod tolerance;
 
 use super::scenarios::{CIRCLE, POCKET, runs_exactly};
 use super::support::{Bench, keys, list, near, number, whole};
@@ -60,6 +62,7 @@ fn the_circle_is_what_closed_forms_say() {
             "circuit",
             "clock_hz",
             "complaints",
+            "contour_tolerance_mm",
             "correction",
             "corrections",
             "counts_per_mm",

@@ -3,6 +3,7 @@
 mod curves;
 mod cycles;
 mod flow;
+mod fourth;
 mod offsets;
 mod words;
 

@@ -156,6 +156,7 @@ fn drawing(to: Point, centre: [f64; 2], clockwise: bool) -> Drawing {
             feed_mm_per_min: Some(600.0),
             line: 7,
         }],
+        fourth: Vec::new(),
         zero_length: 0,
         warnings: Vec::new(),
     }

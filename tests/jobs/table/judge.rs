@@ -28,6 +28,7 @@ pub fn drawing(start: Point, mut moves: Vec<Move>) -> Drawing {
     }
     Drawing {
         file: "test".into(),
+        fourth: Vec::new(),
         zero_length: 0,
         start,
         moves,

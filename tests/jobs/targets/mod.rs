@@ -22,6 +22,7 @@ fn drawing(moves: Vec<Move>) -> Drawing {
         file: "d".into(),
         start: [0.0; 3],
         moves,
+        fourth: Vec::new(),
         zero_length: 0,
         warnings: Vec::new(),
     }

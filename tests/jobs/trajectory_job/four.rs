@@ -1,7 +1,9 @@
 //! A fourth axis beside the three of a path: W, linear with the length of each piece.
 
 use super::*;
+use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
 use motion_rtl::jobs::trajectory_controller::job::Period;
+use motion_rtl::jobs::trajectory_controller::measure::apart;
 use motion_rtl::jobs::trajectory_controller::program::ProgramError;
 use motion_rtl::jobs::trajectory_controller::segments::FourthAxis;
 use motion_rtl::path::pieces::{Speeds, Taught, from_points};
@@ -125,7 +127,8 @@ fn w_is_on_the_path_and_is_corrected() {
     for correction in [Correction::None, Correction::Vector, Correction::Feedback] {
         let run = played(&pieces, &fourth, correction);
         let mut squares = [0.0; 2];
-        for period in &run.played.periods {
+        let measured = run.measured();
+        for (number, period) in run.played.periods.iter().enumerate() {
             let exact = w_at(&run, &fourth, period.length as f64);
             let off = period.command[3] as f64 - exact;
             assert!(off.abs() < 3.0, "{off}: {period:?}");
@@ -138,15 +141,37 @@ fn w_is_on_the_path_and_is_corrected() {
                 }
             }
             let model = period.model.map(|units| units as f64);
-            squares[0] += contour(&run, &fourth, period, model).powi(2);
-            squares[1] += contour(&run, &fourth, period, period.load.map(|of| of * COUNT)).powi(2);
+            let load = period.load.map(|of| of * COUNT);
+            for (part, (at, seen)) in [(model, &measured.model), (load, &measured.load)]
+                .into_iter()
+                .enumerate()
+            {
+                let off = contour(&run, &fourth, period, at);
+                squares[part] += off.powi(2);
+                // The search has steps of 0.2 um.
+                let one = seen.deviations[number];
+                assert!(
+                    (one.contour_mm * MM - off).abs() < 1e-4 * MM,
+                    "{off}: {one:?}"
+                );
+                assert!((one.w_mm * MM - fourth.from_mm * MM - at[3]).abs() < 1.0);
+                let command = period.command.map(|units| units as f64);
+                let late = apart(at, command);
+                assert!(
+                    (one.following_mm * MM - late).abs() < 1.0,
+                    "{late}: {one:?}"
+                );
+            }
         }
+        let end = [0, 0, 1000, 6000].map(|counts| f64::from(counts) * COUNT);
         let last = run.played.periods.last().unwrap();
+        let off = apart(last.model.map(|units| units as f64), end) / MM;
+        assert!((measured.model.final_mm - off).abs() < 1e-6, "{off}");
         for (axis, end) in [0i64, 0, 1000, 6000].into_iter().enumerate() {
             assert!((last.motor[axis] - end).abs() <= 2, "{last:?}");
             assert!((last.load[axis] - end as f64).abs() <= 2.0, "{last:?}");
         }
-        let torque = run.measured().torque;
+        let torque = measured.torque;
         assert!(torque.len() == 4 && torque[3] > 1000, "{torque:?}");
         let count = run.played.periods.len() as f64;
         let own = squares.map(|sum| (sum / count).sqrt() / MM * 1e3);
@@ -166,9 +191,10 @@ fn contour(run: &Run, fourth: &FourthAxis, period: &Period, at: [f64; 4]) -> f64
     let off = |length: f64| {
         let [x, y, z] = path.point(length.clamp(0.0, path.length as f64));
         let due = [x, y, z, w_at(run, fourth, length)];
-        (0..4).map(|k| (at[k] - due[k]).powi(2)).sum::<f64>().sqrt()
+        apart(at, due)
     };
     let search = |from: f64, step: f64| {
+        let from = from.clamp(0.0, path.length as f64);
         let lengths = (-200..=200).map(|k| from + f64::from(k) * step);
         lengths.min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap()
     };
@@ -208,6 +234,32 @@ fn w_beside_y_is_y() {
             .any(|period| period.motor[3] > 11_000);
         assert!(moved, "{correction:?}");
     }
+}
+
+/// W has no more acceleration than it is allowed, and no less than it could have, on lines.
+#[test]
+fn w_is_within_its_own_acceleration() {
+    let (pieces, fourth) = bent();
+    let settings = |w: f64| Settings {
+        acceleration_mm_per_s2: Some(1e4),
+        axis_acceleration_mm_per_s2: Some(EachAxis::Each(vec![1e9, 1e9, 1e9, w])),
+        ..with_w()
+    };
+    // W moves alone, so that what it is allowed is all that the path has.
+    let acceleration = |w: f64| {
+        let program = planned(&pieces, &fourth, &settings(w), 4).unwrap();
+        program.motion.slope.acceleration / MM
+    };
+    assert!((acceleration(300.0) / 300.0 - 1.0).abs() < 1e-9);
+    assert_eq!(acceleration(9e8), 1e4);
+    // On an arc of 15 mm with 4 of W: its part of the way, and as much for what is across.
+    let (arc, way) = (&pieces[..1], 4.0 / 15f64.hypot(4.0));
+    let program = planned(arc, &fourth, &settings(300.0), 4).unwrap();
+    let own = program.motion.slope.acceleration / MM;
+    assert!(
+        (own * way * 2f64.sqrt() / 300.0 - 1.0).abs() < 1e-6,
+        "{own}"
+    );
 }
 
 #[test]
@@ -254,7 +306,19 @@ fn a_fourth_axis_at_fault_is_refused() {
     };
     assert!(along([1.0; 3]).is_ok());
     let error = along([1.0, 1.0, 2.0]).unwrap_err().to_string();
-    assert!(error.contains("is a spline"), "{error}");
+    assert!(error.contains("is a spline along which W moves"), "{error}");
+    // Lists are of four.
+    let lists = Settings {
+        axis_acceleration_mm_per_s2: Some(EachAxis::Each(vec![1e3; 3])),
+        ..with_w()
+    };
+    refused(
+        &fourth,
+        &lists,
+        4,
+        "axis_acceleration_mm_per_s2: is a list of 3; allowed: a number for all axes, or a list \
+         of 4",
+    );
     // Three axes have no fourth.
     let machine = [TwoMassParameters::default(); 4];
     let three = Program::of([0.0; 3], &pieces, &with_w(), &machine, &Widths::FULL);

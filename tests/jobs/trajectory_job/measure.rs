@@ -2,8 +2,8 @@
 
 use super::*;
 use motion_rtl::jobs::trajectory_controller::job::Period;
-use motion_rtl::jobs::trajectory_controller::measure::Measured;
-use motion_rtl::jobs::trajectory_controller::segments::Path;
+use motion_rtl::jobs::trajectory_controller::measure::{Measured, apart};
+use motion_rtl::jobs::trajectory_controller::segments::{FourthAxis, Path};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -41,23 +41,28 @@ proptest! {
     fn the_nearest_point_is_that_of_a_search(
         x in -5.0..20.0f64,
         y in -8.0..12.0f64,
+        w in -8.0..8.0f64,
+        fourth in prop::bool::ANY,
         ends in [0.0..1.0f64, 0.0..1.0],
     ) {
-        let path = Path::of([0.0; 3], &pieces(), 1000.0, &Widths::FULL).unwrap();
-        let point = [x, y, 0.0].map(|mm| mm * MM);
+        // With W the circle is a helix, and the lines climb.
+        let own = FourthAxis { from_mm: 1.0, to_mm: vec![5.0, -6.0, 2.0] };
+        let own = fourth.then_some(&own);
+        let path = Path::with_fourth([0.0; 3], &pieces(), own, 1000.0, &Widths::FULL).unwrap();
+        let point = [x, y, 0.0, if fourth { w } else { 0.0 }].map(|mm| mm * MM);
         let length = path.length as f64;
         let window = [ends[0].min(ends[1]) * length, ends[0].max(ends[1]) * length];
         let (at, near) = path.nearest(point, window);
         prop_assert!(window[0] <= at && at <= window[1]);
-        prop_assert!(off(near, path.point(at)) < 2.0);
+        prop_assert!(apart(near, path.place(at)) < 2.0);
         let steps = 4000;
         let searched = (0..=steps).map(|k| {
             let part = f64::from(k) / f64::from(steps);
-            off(point, path.point(window[0] + part * (window[1] - window[0])))
+            apart(point, path.place(window[0] + part * (window[1] - window[0])))
         });
         let least = searched.fold(f64::INFINITY, f64::min);
         let step = (window[1] - window[0]) / f64::from(steps);
-        let found = off(point, near);
+        let found = apart(point, near);
         prop_assert!(found <= least + 2.0 && least <= found + step, "{} {}", found, least);
     }
 }

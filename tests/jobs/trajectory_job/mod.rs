@@ -8,6 +8,7 @@ mod measure;
 mod paths;
 mod refusals;
 mod servo;
+mod tolerance;
 mod unequal;
 
 use motion_rtl::circuits::trajectory_controller::Widths;
