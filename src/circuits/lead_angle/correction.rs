@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Error 27, position register 30 and overrun 31, the arithmetic 28 with a sequential
-//! multiplier-divider, and the [grid](super::grid) for the result, which is that of the ratio logic unless
+//! multiplier-divider, and the [grid] for the result, which is that of the ratio logic unless
 //! N is fixed at 1. To second order the [refinement] has it divided twice.
 
 use super::grid::{self, Grid, GridPart};

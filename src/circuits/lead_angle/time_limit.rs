@@ -31,6 +31,8 @@ signals! { for TimeLimit as c;
     }
     /// Nets.
     pub struct Net {
+        /// The time is longer than the history.
+        beyond: Bit,
         /// The time, or the longest of the history.
         pub code: U(tap_width(c.stages)),
         /// The time is one of the history, or 0 for none.
@@ -47,6 +49,7 @@ impl Circuit for TimeLimit {
         let longest = U::new(self.stages as u64, i.lead_time.width());
         let beyond = longest.below(i.lead_time);
         let net = Net {
+            beyond,
             code: beyond.mux(longest, i.lead_time),
             on_grid: !beyond,
         };
