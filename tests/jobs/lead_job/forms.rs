@@ -78,6 +78,7 @@ fn with_n_fixed_at_one_stops_are_within_a_ck_of_way() {
     assert!((10..=30).contains(&differ), "{differ}");
 
     let fixed = formed(LeadForm::FixedRatio, &settings);
+    assert_eq!([settings.ratio(250), fixed.ratio(250)], [2, 1]);
     let played = with_lead(&fixed);
     let mut between = 0;
     for step in 0..fixed.steps.len() {
