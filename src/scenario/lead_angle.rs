@@ -3,8 +3,8 @@
 use super::Runnable;
 use crate::input::position_log::Columns;
 use crate::jobs::lead_angle::settings::{
-    Action, Comparing, Completion, Detector, Function, History, LeadBy, Placement, Settings, Sign,
-    Step, Targets,
+    Action, Comparing, Completion, Detector, Function, History, LeadBy, LeadForm, Placement,
+    Settings, Sign, Step, Targets, TimeSource,
 };
 use crate::plant::{BodyParameters, Load};
 use serde::Deserialize;
@@ -54,6 +54,9 @@ pub struct Scenario {
     /// Where the lead comes from.
     #[serde(default)]
     pub lead: LeadBy,
+    /// Which of the equal forms the lead of a time has.
+    #[serde(default)]
+    pub form: LeadForm,
     /// Where the lead is placed.
     #[serde(default)]
     pub placement: Placement,
@@ -75,6 +78,9 @@ pub struct Scenario {
     /// All steps share the time data of step 0.
     #[serde(default = "default::common_time")]
     pub common_time: bool,
+    /// Where the first time data come from.
+    #[serde(default)]
+    pub time_source: TimeSource,
     /// What a step without time data begins to learn with.
     #[serde(default = "default::seed")]
     pub seed_ms: f64,
@@ -149,6 +155,8 @@ pub struct StepKeys {
     /// Lead time to begin with; 0 for none.
     #[serde(default)]
     pub lead_ms: f64,
+    /// Lead time that is set when the load changes.
+    pub load_lead_ms: Option<f64>,
 }
 
 impl Scenario {
@@ -159,6 +167,11 @@ impl Scenario {
             target: keys.target,
             speed_counts_per_s: keys.speed_counts_per_s,
             lead_ms: keys.lead_ms,
+        };
+        let load_leads = self.step.iter().map(|keys| keys.load_lead_ms);
+        let load_leads_ms = match load_leads.clone().any(|lead| lead.is_some()) {
+            true => load_leads.collect(),
+            false => Vec::new(),
         };
         Settings {
             clock_hz: self.clock_hz,
@@ -171,6 +184,7 @@ impl Scenario {
             detector: self.detector,
             sampling_clock_ppm: self.sampling_clock_ppm,
             lead: self.lead,
+            form: self.form,
             placement: self.placement,
             comparing: self.comparing,
             completion: self.completion,
@@ -179,6 +193,8 @@ impl Scenario {
             history: self.history,
             learn: self.learn,
             common_time: self.common_time,
+            time_source: self.time_source,
+            load_leads_ms,
             seed_ms: self.seed_ms,
             standstill_ms: self.standstill_ms,
             time_out_ms: self.time_out_ms,

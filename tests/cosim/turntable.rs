@@ -5,7 +5,7 @@ use super::tools::{Simulator, complete, write};
 use motion_rtl::hdl::{Circuit, Declarations, Without};
 use motion_rtl::jobs::lead_angle::job::{Played, play, positioner};
 use motion_rtl::jobs::lead_angle::settings::{
-    Comparing, Detector, History, LeadBy, Placement, Settings, Step,
+    Comparing, Detector, History, LeadBy, LeadForm, Placement, Settings, Step,
 };
 use motion_rtl::trace::{Clock, Options, StimulusFile, Vcd};
 use motion_rtl::verilog::Verilog;
@@ -87,6 +87,25 @@ fn an_absolute_encoder_is_the_same_in_icarus() {
         ..settings(2)
     };
     hold(&absolute, Simulator::Icarus);
+}
+
+#[test]
+#[ignore = "needs Icarus Verilog"]
+fn the_equal_forms_are_the_same_in_icarus() {
+    for &form in &LeadForm::ALL[1..] {
+        let history = match form {
+            LeadForm::FixedRatio | LeadForm::FixedRatioProducts => History::Ram,
+            _ => History::ShiftRegister,
+        };
+        hold(
+            &Settings {
+                form,
+                history,
+                ..settings(2)
+            },
+            Simulator::Icarus,
+        );
+    }
 }
 
 #[test]

@@ -71,6 +71,23 @@ pub fn code(stages: u64, time: u64) -> Option<Code> {
     grid(stages).into_iter().find(|code| code.time == time)
 }
 
+/// What the ratio logic makes of any time in CKs: its code, or the nearest of the range that it is in.
+#[must_use]
+pub fn rounded(stages: u64, time: u64) -> Code {
+    let below = grid(stages)
+        .into_iter()
+        .rev()
+        .find(|code| code.time <= time);
+    let ratio = below.map_or(0, |code| code.ratio);
+    let tap = (time + ratio / 2).checked_div(ratio).unwrap_or(0);
+    let tap = tap.min(stages);
+    Code {
+        time: ratio * tap,
+        ratio,
+        tap,
+    }
+}
+
 /// The nearest code below and the nearest above a time in CKs; 0 where there is none below, and
 /// nothing where there is none above.
 #[must_use]

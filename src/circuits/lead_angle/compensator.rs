@@ -13,81 +13,24 @@
 //! ```
 //!
 //! Where the position comes from is a choice: an incremental encoder, or an absolute one whose clock is
-//! CK. So is the lead: of the time Δt with the history as a shift register or as a RAM, or of the speed
-//! as in Fig. 7, by a parameter or a memory. `brake` is the control signal; it holds from the crossing
+//! CK. So is the lead: of the time Δt with the history as a shift register or as a RAM, in any of the
+//! equal [forms](LeadForm), or of the speed as in Fig. 7, by a parameter or a memory. `brake` is the control signal; it holds from the crossing
 //! through the rest up to the next step. With `passing` the body goes on, and `operate` is the control
 //! signal in place of `brake`: of an operation that is complete with its `effect`.
 
 use super::detector::{DetectorPart, DetectorSource};
-use super::lead_source::{LeadFrom, LeadPart, LeadSource};
+use super::grid::{self, Grid, GridPart};
+use super::lead_source::{LeadForm, LeadFrom, LeadPart, LeadSource};
 use super::{
-    AbsoluteDetector, Comparator, Comparing, CompletionDetector, Correction, Detector, Function,
-    LeadPlacement, Memory, Placement, RatioLogic, Sign, SpeedLead, StepSequencer, TableLead,
-    TargetSetter, TimeData, TimeLead, TouchProbe, absolute_detector, codes, comparator,
-    completion_detector, correction, placement, ratio_logic, speed_lead, step_sequencer,
-    table_lead, target_setter, time_data, time_lead, touch_probe,
+    AbsoluteDetector, Comparator, CompletionDetector, Correction, Detector, Form, LeadPlacement,
+    Memory, Placement, SpeedLead, StepSequencer, TableLead, TargetSetter, TimeData, TouchProbe,
+    Variant, Widths, absolute_detector, comparator, completion_detector, correction, placement,
+    speed_lead, step_sequencer, table_lead, target_setter, time_data, time_lead, touch_probe,
 };
 use crate::circuits::blocks::{
     EnableCounter, QuadratureCounter, enable_counter, quadrature_counter,
 };
 use crate::hdl::prelude::*;
-
-/// Widths of a compensator.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Widths {
-    /// Stages of history.
-    pub stages: usize,
-    /// Width of a position.
-    pub position: usize,
-    /// Width of a step number.
-    pub step: usize,
-    /// Width of a speed.
-    pub speed: usize,
-    /// Width of a time in CKs that is no lead time.
-    pub cks: usize,
-    /// Width of the CK's period in ticks.
-    pub ck_period: usize,
-    /// Width of an absolute encoder's word.
-    pub code: usize,
-}
-
-impl Widths {
-    /// Width of a lead time in CKs.
-    #[must_use]
-    pub fn time(&self) -> usize {
-        codes::time_width(self.stages)
-    }
-}
-
-impl Default for Widths {
-    /// Those of the text's table, and room for the rest.
-    fn default() -> Self {
-        Widths {
-            stages: 199,
-            position: 24,
-            step: 4,
-            speed: 16,
-            cks: 16,
-            ck_period: 24,
-            code: 17,
-        }
-    }
-}
-
-/// What is chosen when a compensator is built.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Variant {
-    /// What the lead is put on.
-    pub placement: Placement,
-    /// When the target is reached.
-    pub comparing: Comparing,
-    /// Which way the error counts.
-    pub sign: Sign,
-    /// What is made of error and overrun.
-    pub function: Function,
-    /// What the position comes from.
-    pub detector: Detector,
-}
 
 /// Compensator.
 ///
@@ -123,7 +66,9 @@ impl Compensator {
             ..
         } = self.widths;
         match &self.lead_from {
-            LeadFrom::Time(memory) => LeadSource::Time(TimeLead::new(stages, position, *memory)),
+            LeadFrom::Time(memory, form) => {
+                LeadSource::Time(form.time_lead(*memory, stages, position))
+            }
             LeadFrom::Speed => LeadSource::Speed(SpeedLead { position, gate }),
             LeadFrom::Table(table) => LeadSource::Table(TableLead {
                 position,
@@ -131,6 +76,31 @@ impl Compensator {
                 table: table.clone(),
             }),
         }
+    }
+
+    /// The form of its lead of a time; of another lead that of the figures.
+    fn form(&self) -> LeadForm {
+        match self.lead_from {
+            LeadFrom::Time(_, form) => form,
+            _ => LeadForm::default(),
+        }
+    }
+
+    /// The products are the place itself, on which no lead is put any more.
+    fn placed(&self) -> bool {
+        self.form().form() != Form::Products
+    }
+
+    /// 21.
+    fn time_data(&self) -> TimeData {
+        let (division, stages) = (self.form().division(), self.widths.stages);
+        let (step, time) = (self.widths.step, grid::word(division, stages));
+        let data = self
+            .rom
+            .iter()
+            .map(|time| grid::data(division, stages, time));
+        let rom = Image::of(step, time, data);
+        TimeData { step, time, rom }
     }
 }
 
@@ -204,15 +174,13 @@ signals! { for Compensator as c;
             step: c.widths.step, position: c.widths.position, speed: c.widths.speed,
         }),
         /// Whether a time that is written is on the grid.
-        pub write_check: Part<RatioLogic>(RatioLogic { stages: c.widths.stages }),
+        pub write_check: GridPart(&Grid::of(c.form().division(), c.widths.stages)),
         /// 21.
-        pub time_data: Part<TimeData>(TimeData {
-            step: c.widths.step, time: c.widths.time(), rom: c.rom.clone(),
-        }),
+        pub time_data: Part<TimeData>(c.time_data()),
         /// 17 or 20.
-        pub placement: Part<LeadPlacement>(LeadPlacement {
+        pub placement: [Part<LeadPlacement>(LeadPlacement {
             position: c.widths.position, placement: c.variant.placement,
-        }),
+        }); usize::from(c.placed())] as Elements(&["placement"]),
         /// 19.
         pub comparator: Part<Comparator>(Comparator {
             position: c.widths.position, comparing: c.variant.comparing,
@@ -226,7 +194,7 @@ signals! { for Compensator as c;
         /// 23.
         pub correction: Part<Correction>(Correction {
             stages: c.widths.stages, position: c.widths.position, sign: c.variant.sign,
-            function: c.variant.function,
+            function: c.variant.function, division: c.form().division(),
         }),
         /// The steps.
         pub sequencer: Part<StepSequencer>(StepSequencer {
@@ -287,19 +255,24 @@ impl Circuit for Compensator {
 
     fn name(&self) -> &'static str {
         match self.lead_from {
-            LeadFrom::Time(Memory::ShiftRegister) => Self::NAME,
-            LeadFrom::Time(Memory::Ram) => "ram_compensator",
+            LeadFrom::Time(Memory::ShiftRegister, _) => Self::NAME,
+            LeadFrom::Time(Memory::Ram, _) => "ram_compensator",
             LeadFrom::Speed | LeadFrom::Table(_) => "conventional_compensator",
         }
     }
 
     fn about(&self) -> &'static str {
         match self.lead_from {
-            LeadFrom::Time(Memory::ShiftRegister) => Self::ABOUT,
-            LeadFrom::Time(Memory::Ram) => "lead-angle compensator with its history in a RAM",
+            LeadFrom::Time(Memory::ShiftRegister, _) => Self::ABOUT,
+            LeadFrom::Time(Memory::Ram, _) => "lead-angle compensator with its history in a RAM",
             LeadFrom::Speed => "compensator whose lead is measured speed times a parameter",
             LeadFrom::Table(_) => "compensator whose lead is read from a memory by the speed",
         }
+    }
+
+    fn objection(&self) -> Option<String> {
+        let wrong = !self.placed() && self.variant.placement != Placement::Position;
+        wrong.then(|| "the products are the place itself: no lead is put on a target".into())
     }
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
@@ -329,7 +302,8 @@ impl Circuit for Compensator {
         };
         let restart = i.clear;
         let target = p.target_setter.q.target;
-        let lead_time = p.time_data.q.lead_time;
+        let data = p.time_data.q.lead_time;
+        let mut lead_time = data;
         let sequence = &p.sequencer.q;
         let target_setter = p.target_setter.settle(target_setter::In {
             write: i.write_target,
@@ -345,9 +319,11 @@ impl Circuit for Compensator {
                     ck,
                     restart,
                     position,
-                    lead_time,
+                    lead_time: data,
                 });
                 let w = time_lead.w;
+                // The correction counts in CKs, whatever the data hold.
+                lead_time = w.code.first().copied().unwrap_or(data);
                 (w.present, w.lead, w.fresh, w.enough)
             }
             LeadPart::Speed(part) => {
@@ -372,16 +348,23 @@ impl Circuit for Compensator {
                 (w.present, w.lead, w.fresh, w.enough)
             }
         };
-        let placement = p.placement.settle(placement::In {
-            position: present,
-            target,
-            lead,
-        });
+        let [compared_position, compared_target] = match p.placement.into_iter().next() {
+            Some(part) => {
+                let ports = placement::In {
+                    position: present,
+                    target,
+                    lead,
+                };
+                let w = part.settle(ports).w;
+                [w.compared_position, w.compared_target]
+            }
+            None => [lead, target],
+        };
         let comparator = p.comparator.settle(comparator::In {
             evaluate: fresh,
             valid: enough,
-            position: placement.w.compared_position,
-            target: placement.w.compared_target,
+            position: compared_position,
+            target: compared_target,
             arm: sequence.arm,
             halt: sequence.halting,
         });
@@ -412,19 +395,19 @@ impl Circuit for Compensator {
             missed: sequence.missed | (i.passing & !probe.q.taken),
             seed: i.seed,
         });
-        let write_check = p.write_check.settle(ratio_logic::In {
-            lead_time: i.step_time,
-        });
+        let write_check = p.write_check.settle(i.step_time);
+        let learned = &correction.w;
+        let learned_data = learned.learned_data.first().copied();
         let time_data = p.time_data.settle(time_data::In {
             load: sequence.load,
             step: sequence.step,
             common: i.common,
             learned: correction.w.learned,
-            learned_time: correction.w.learned_time,
+            learned_time: learned_data.unwrap_or(learned.learned_time),
             write: i.write_time,
             write_step: i.write_step,
-            write_time: i.step_time,
-            write_on_grid: write_check.w.on_grid,
+            write_time: write_check.divided.unwrap_or(i.step_time),
+            write_on_grid: write_check.on_grid,
             clear: i.clear,
         });
         let sequencer = p.sequencer.settle(step_sequencer::In {
@@ -444,7 +427,7 @@ impl Circuit for Compensator {
         let net = Net {
             ck,
             position: present,
-            predicted: placement.w.compared_position,
+            predicted: compared_position,
             target,
             lead_time,
             step: sequencer.q.step,

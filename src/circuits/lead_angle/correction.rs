@@ -9,11 +9,12 @@
 //! ```
 //!
 //! Error 27, position register 30 and overrun 31, the arithmetic 28 with a sequential
-//! multiplier-divider, and the [ratio logic](super::ratio_logic) to put the result on the grid. To
-//! second order the [refinement] has it divided twice.
+//! multiplier-divider, and the [grid] for the result, which is that of the ratio logic unless
+//! N is fixed at 1. To second order the [refinement] has it divided twice.
 
-use super::{CorrectionArithmetic, Function, RatioLogic, Refinement, Sign, StopError};
-use super::{correction_arithmetic, ratio_logic, refinement, stop_error};
+use super::grid::{self, Grid, GridPart};
+use super::{CorrectionArithmetic, Division, Function, Refinement, Sign, StopError};
+use super::{correction_arithmetic, refinement, stop_error};
 use crate::circuits::blocks::{MulDiv, mul_div};
 use crate::hdl::prelude::*;
 
@@ -31,6 +32,8 @@ pub struct Correction {
     pub sign: Sign,
     /// What is made of error and overrun.
     pub function: Function,
+    /// How the time data hold what is learned.
+    pub division: Division,
 }
 
 impl Correction {
@@ -101,7 +104,7 @@ signals! { for Correction as c;
         /// The divider.
         pub mul_div: Part<MulDiv>(c.mul_div()),
         /// Puts the result on the grid.
-        pub grid: Part<RatioLogic>(RatioLogic { stages: c.stages }),
+        pub grid: GridPart(&Grid::of(c.division, c.stages)),
     }
     /// Ports out.
     pub struct Net {
@@ -111,6 +114,10 @@ signals! { for Correction as c;
         pub error: I(c.position),
         /// Δt2.
         pub learned_time: U(c.arithmetic().time()),
+        /// Δt2 divided into N above Δt/N, where the time data are.
+        pub learned_data: [
+            U(grid::word(c.division, c.stages)); usize::from(c.division == Division::Beforehand)
+        ] as Elements(&["learned_data"]),
         /// Δt2 is new in this tick.
         pub learned: Bit,
         /// The correction is over, with a new time or without; one tick.
@@ -188,13 +195,12 @@ impl Circuit for Correction {
             };
         }
         p.mul_div.settle(divided);
-        let grid = p.grid.settle(ratio_logic::In {
-            lead_time: arithmetic.q.raw,
-        });
+        let grid = p.grid.settle(arithmetic.q.raw);
         let net = Net {
             overrun: stop_error.w.overrun,
             error: stop_error.w.error,
-            learned_time: grid.w.code,
+            learned_time: grid.code,
+            learned_data: grid.divided.into_iter().collect(),
             learned: arithmetic.q.learned,
             corrected: arithmetic.q.corrected,
         };

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!               ┌──────────────┐
-//!  lead_time ──▶│ divided time ├──▶ ratio, tap
+//!  lead_time ──▶│ divided time ├──▶ ratio, tap, code
 //!               └──────────────┘
 //! ```
 //!
@@ -12,7 +12,7 @@
 //!
 //! Departure: a tap of 0 is no lead, whatever N stands beside it.
 
-use super::codes::tap_width;
+use super::codes::{tap_width, time_width};
 use crate::hdl::prelude::*;
 
 /// Where N comes from.
@@ -46,6 +46,15 @@ impl DividedTime {
     pub fn word(&self) -> usize {
         self.tap() + if self.one { 0 } else { 4 }
     }
+
+    /// Width of the time that they stand for.
+    #[must_use]
+    pub fn time(&self) -> usize {
+        match self.one {
+            true => self.tap(),
+            false => time_width(self.stages),
+        }
+    }
 }
 
 signals! { for DividedTime as c;
@@ -60,6 +69,8 @@ signals! { for DividedTime as c;
         pub ratio: U(4),
         /// Δt/N: CKs that the earlier sample is old; 0 for no lead.
         pub tap: U(c.tap()),
+        /// N·tap: Δt in CKs.
+        pub code: U(c.time()),
     }
 }
 
@@ -74,24 +85,35 @@ impl Circuit for DividedTime {
             true => (!tap.is_zero()).word().resize(4),
             false => tap.is_zero().mux(0, i.lead_time.slice(self.tap(), 4)),
         };
-        (Net { ratio, tap }, Nothing)
+        let code = match self.one {
+            true => tap,
+            false => tap.times(ratio, self.time()),
+        };
+        (Net { ratio, tap, code }, Nothing)
     }
 }
 
 impl Specified for DividedTime {
     fn invariants(&self) -> Invariants<'_, Self> {
         let range = 1u64 << self.tap();
-        Invariants::<Self>::new().always(
-            "the data are N and tap, and no tap is no lead",
-            move |now| {
-                let (ratio, tap) = (now.i.lead_time / range, now.i.lead_time % range);
-                let ratio = if self.one { 1 } else { ratio };
-                let expected = if tap == 0 { (0, 0) } else { (ratio, tap) };
-                let given = (now.w.ratio, now.w.tap);
-                require(given == expected, ["ratio", "tap"], || {
-                    format!("{given:?} where {expected:?} is expected")
+        Invariants::<Self>::new()
+            .always(
+                "the data are N and tap, and no tap is no lead",
+                move |now| {
+                    let (ratio, tap) = (now.i.lead_time / range, now.i.lead_time % range);
+                    let ratio = if self.one { 1 } else { ratio };
+                    let expected = if tap == 0 { (0, 0) } else { (ratio, tap) };
+                    let given = (now.w.ratio, now.w.tap);
+                    require(given == expected, ["ratio", "tap"], || {
+                        format!("{given:?} where {expected:?} is expected")
+                    })
+                },
+            )
+            .always("the time is N taps", move |now| {
+                let expected = now.w.ratio * now.w.tap % (1 << self.time());
+                require(now.w.code == expected, ["code"], || {
+                    format!("{expected} expected")
                 })
-            },
-        )
+            })
     }
 }

@@ -1,13 +1,78 @@
 //! What a compensator can take its lead from.
 
-use super::{LeadTable, Memory, SpeedLead, TableLead, TimeLead};
+use super::{Division, Form, LeadTable, Memory, SpeedLead, TableLead, TimeLead, grid};
 use crate::hdl::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// The forms of the time lead that the text gives as equal, each in a compensator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LeadForm {
+    /// Fig. 1: N by the logic circuit 13, subtractor 15 behind the take-out 14, multiplier 16.
+    #[default]
+    Embodiment,
+    /// Time data that hold N and Δt/N, without 13.
+    DividedTime,
+    /// N fixed at 1, without 13 and 16; a history ten times as long for the same times.
+    FixedRatio,
+    /// (N + 1)·Dx − N·Dx(−Δt/N), without 15 and 17.
+    Products,
+    /// 2·Dx − Dx(−Δt): the products with N fixed at 1, without 13, 15, 16 and 17.
+    FixedRatioProducts,
+    /// Subtractor 15 between memory 11 and take-out 14.
+    EarlyDifference,
+}
+
+impl LeadForm {
+    /// All of them.
+    pub const ALL: &[Self] = &[
+        LeadForm::Embodiment,
+        LeadForm::DividedTime,
+        LeadForm::FixedRatio,
+        LeadForm::Products,
+        LeadForm::FixedRatioProducts,
+        LeadForm::EarlyDifference,
+    ];
+
+    /// Where its N comes from.
+    #[must_use]
+    pub fn division(self) -> Division {
+        match self {
+            LeadForm::DividedTime => Division::Beforehand,
+            LeadForm::FixedRatio | LeadForm::FixedRatioProducts => Division::One,
+            _ => Division::Logic,
+        }
+    }
+
+    /// How its prediction is worked out.
+    #[must_use]
+    pub fn form(self) -> Form {
+        match self {
+            LeadForm::Products | LeadForm::FixedRatioProducts => Form::Products,
+            LeadForm::EarlyDifference => Form::EarlyDifference,
+            _ => Form::Difference,
+        }
+    }
+
+    /// The time lead of this form, for the times that `stages` stages allow with the ratios of the
+    /// table.
+    #[must_use]
+    pub fn time_lead(self, memory: Memory, stages: usize, position: usize) -> TimeLead {
+        TimeLead {
+            stages: grid::history(self.division(), stages),
+            position,
+            memory,
+            division: self.division(),
+            form: self.form(),
+        }
+    }
+}
 
 /// Where a compensator's lead comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum LeadFrom {
-    /// The time Δt, with what keeps the history.
-    Time(Memory),
+    /// The time Δt, with what keeps the history, in one of the equal forms.
+    Time(Memory, LeadForm),
     /// The speed times a parameter, as in Fig. 7.
     Speed,
     /// The speed by a memory of leads, as in Fig. 7 too.

@@ -181,6 +181,9 @@ signals! { for TimeLead as c;
         pub fresh: Bit,
         /// The history reaches back as far as the time wants.
         pub enough: Bit,
+        /// Δt in CKs, of data that hold N and Δt/N.
+        pub code: [U(c.divided().time()); usize::from(c.division == Division::Beforehand)]
+            as Elements(&["code"]),
     }
 }
 
@@ -210,6 +213,7 @@ impl Circuit for TimeLead {
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
         let lead_time = i.lead_time;
+        let mut code = Vec::new();
         let (tap, ratio) = match p.ratio_logic {
             RatioPart::Logic(part) => {
                 let w = part.settle(ratio_logic::In { lead_time }).w;
@@ -217,6 +221,9 @@ impl Circuit for TimeLead {
             }
             RatioPart::Divided(part) => {
                 let w = part.settle(divided_time::In { lead_time }).w;
+                if self.division == Division::Beforehand {
+                    code.push(w.code);
+                }
                 (w.tap, w.ratio)
             }
         };
@@ -269,6 +276,7 @@ impl Circuit for TimeLead {
             lead,
             fresh,
             enough,
+            code,
         };
         (net, Nothing)
     }

@@ -13,7 +13,7 @@ use super::enables::In as Rates;
 use super::ports::{Lift, Lines, Pulse, Trajectory};
 use super::{CommandJoin, Enables, command_join};
 use crate::circuits::arc_generator::generator::{self, ArcGenerator, Segments};
-use crate::circuits::lead_angle::{Compensator, LeadFrom, Memory, compensator};
+use crate::circuits::lead_angle::{Compensator, LeadForm, LeadFrom, Memory, compensator};
 use crate::circuits::linear_interpolator::LinearInterpolator;
 use crate::circuits::linear_interpolator::command_source::{self, Orders};
 use crate::circuits::pulse_interpolator::{Group, group};
@@ -57,7 +57,7 @@ impl Machine {
             ),
             lead_angle: Compensator {
                 widths: Default::default(),
-                lead_from: LeadFrom::Time(Memory::Ram),
+                lead_from: LeadFrom::Time(Memory::Ram, LeadForm::Embodiment),
                 variant: Default::default(),
                 rom: lead_times,
             },

@@ -3,11 +3,10 @@
 use super::Job;
 use super::systems::{LEARNING, SECOND_ORDER, System, learner};
 use crate::cli::report::Outcome;
-use motion_rtl::circuits::lead_angle::codes::{STAGES, code};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
-    Action, Comparing, Completion, Detector, Function, History, LeadBy, Placement, Settings, Sign,
-    Targets,
+    Action, Comparing, Completion, Detector, Function, History, LeadBy, LeadForm, Placement,
+    Settings, Sign, Targets,
 };
 use serde::Serialize;
 use std::ops::Range;
@@ -29,6 +28,8 @@ pub struct Summary {
     pub detector: Detector,
     /// Where the lead comes from.
     pub lead: LeadBy,
+    /// Which of the equal forms the lead of a time has.
+    pub form: LeadForm,
     /// What targets count from.
     pub targets: Targets,
     /// What the lead is put on.
@@ -147,8 +148,8 @@ pub struct Row {
 
 /// Counts that a body goes in one step of the code that a positioning used.
 pub fn code_travel(settings: &Settings, positioning: &Positioning) -> f64 {
-    let ratio = code(STAGES, positioning.code).map_or(1, |code| code.ratio);
-    positioning.speed_counts_per_s.abs() * settings.ck_ms() / 1e3 * ratio as f64
+    let cks = settings.ratio(positioning.code) as f64;
+    positioning.speed_counts_per_s.abs() * settings.ck_ms() / 1e3 * cks
 }
 
 /// Whether it stopped within a code's travel; where its time was over it has not stopped.
@@ -190,6 +191,7 @@ impl Summary {
             action: settings.action,
             detector: settings.detector,
             lead: settings.lead,
+            form: settings.form,
             targets: settings.targets,
             placement: settings.placement,
             comparing: settings.comparing,

@@ -3,11 +3,12 @@
 //! nominal load, and with a memory of the leads that this load asks for, with a fixed lead, with a
 //! lead that is learned, learned to second order, and learned with the text's sign; where the
 //! scenario has positionings complete by a fixed time, learned at standstills too; where it has an
-//! absolute encoder, its own system with an incremental one.
+//! absolute encoder, its own system with an incremental one; where it has another form of the lead,
+//! its own system in the form of the figures.
 
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
-    Completion, Detector, Function, LeadBy, Settings, Sign,
+    Completion, Detector, Function, LeadBy, LeadForm, Settings, Sign,
 };
 
 /// Name of the system that learns with the sign that converges, to first order.
@@ -20,6 +21,8 @@ pub const LITERAL: &str = "literal sign";
 const STANDSTILL: &str = "at standstill";
 /// Name of the system that is the scenario's own but for an incremental encoder.
 const INCREMENTAL: &str = "incremental";
+/// Name of the system that is the scenario's own but for the form of its lead.
+const EMBODIMENT: &str = "embodiment";
 /// Name of the system without a lead.
 pub const NONE: &str = "no lead";
 /// Name of the system whose signals come at a distance from the targets.
@@ -76,6 +79,7 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         ..fixed.clone()
     };
     let mut none = fixed.clone();
+    none.load_leads_ms.clear();
     for step in &mut none.steps {
         step.lead_ms = 0.0;
     }
@@ -109,14 +113,25 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         stopped.time_out_ms = stopped.time_out_ms.max(Settings::default().time_out_ms);
         all.push(system(STANDSTILL, stopped));
     }
-    let own = all.iter().find(|system| system.own);
-    if let Some(own) = own.filter(|_| settings.detector == Detector::Absolute) {
-        let mut counted = own.settings.clone();
+    let Some(own) = all.iter().find(|system| system.own) else {
+        return all;
+    };
+    let own = own.settings.clone();
+    if settings.detector == Detector::Absolute {
+        let mut counted = own.clone();
         counted.detector = Detector::Incremental;
         counted.sampling_clock_ppm = 0.0;
         // An absolute encoder may be faster than a count per tick.
         if counted.validate().is_ok() {
             all.push(system(INCREMENTAL, counted));
+        }
+    }
+    if own.lead == LeadBy::Time && own.form != LeadForm::Embodiment {
+        let form = LeadForm::Embodiment;
+        let drawn = Settings { form, ..own };
+        // With N fixed at 1 there are times between its codes.
+        if drawn.validate().is_ok() {
+            all.push(system(EMBODIMENT, drawn));
         }
     }
     all

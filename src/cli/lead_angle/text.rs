@@ -2,7 +2,7 @@
 
 use super::summary::{ByOrder, Phase, Summary, SystemSummary, error_name};
 use crate::cli::report::{Outcome, Report};
-use motion_rtl::jobs::lead_angle::settings::{Action, Detector, LeadBy};
+use motion_rtl::jobs::lead_angle::settings::{Action, Detector, LeadBy, LeadForm};
 use std::fmt::Write;
 
 /// Characters of a column of stop errors at least.
@@ -30,12 +30,16 @@ impl Report for Summary {
         )?;
         writeln!(
             text,
-            "{}history {}, lead on {}, comparing {}, complete by {}, {}\n",
+            "{}history {}, {}lead on {}, comparing {}, complete by {}, {}\n",
             match self.detector {
                 Detector::Incremental => "",
                 Detector::Absolute => "absolute encoder, ",
             },
             name(self.history),
+            match self.form {
+                LeadForm::Embodiment => String::new(),
+                form => format!("form {}, ", name(form)),
+            },
             name(self.placement),
             name(self.comparing),
             match self.action {

@@ -1,8 +1,10 @@
 //! The control computer of a compensator: writes the steps, lets them run, and sees to it that each
-//! finds its next target.
+//! finds its next target. It is the setter 25 too, of first times and of those for another load.
 
 use super::job::{Ports, WIDTHS};
-use super::settings::{Action, Completion, Detector, SPEED_UNIT_COUNTS_PER_S, Settings};
+use super::settings::{
+    Action, Completion, Detector, SPEED_UNIT_COUNTS_PER_S, Settings, TimeSource,
+};
 use crate::circuits::lead_angle::Compensator;
 use crate::hdl::zero;
 
@@ -15,6 +17,8 @@ pub(super) struct ControlComputer<'a> {
     begun: usize,
     /// A step was armed in the tick before.
     arming: bool,
+    /// Steps whose time for the other load has been set.
+    changed: usize,
 }
 
 impl<'a> ControlComputer<'a> {
@@ -23,6 +27,7 @@ impl<'a> ControlComputer<'a> {
             settings,
             begun: 0,
             arming: false,
+            changed: 0,
         }
     }
 
@@ -35,7 +40,6 @@ impl<'a> ControlComputer<'a> {
             // No standstill is so long.
             _ => (1 << WIDTHS.cks) - 1,
         };
-        // The times are in the ROM.
         Ports {
             passing: settings.action == Action::Operate,
             learn: settings.learn,
@@ -78,9 +82,15 @@ impl<'a> ControlComputer<'a> {
         i.lead_parameter == before
     }
 
-    /// What it gives in `tick`, in which a step is armed or not; steps run as soon as all are
-    /// written. Whether all of it stands as it was.
-    pub(super) fn tick(&mut self, i: &mut Ports, tick: u64, arm: bool, run: bool) -> bool {
+    /// What it gives in `tick`, in which a step is armed or runs or not; steps run as soon as all are
+    /// written, and wait at a change of the load for their times. Whether all of it stands as it was.
+    pub(super) fn tick(
+        &mut self,
+        i: &mut Ports,
+        tick: u64,
+        [arm, busy]: [bool; 2],
+        run: bool,
+    ) -> bool {
         let steps = self.settings.steps.len();
         let place = usize::try_from(tick).unwrap_or(usize::MAX);
         let taken = arm && !self.arming;
@@ -95,10 +105,35 @@ impl<'a> ControlComputer<'a> {
             }
             false => None,
         };
-        let before = (i.write_target, i.run);
+        let change = self.settings.load_change_after == u32::try_from(self.begun).ok();
+        let waits = change && self.changed < self.settings.load_leads_ms.len();
+        let before = (i.write_target | i.write_time, i.run);
         self.write(i, write);
-        i.run = place >= steps && run;
-        before == (false, i.run) && !i.write_target
+        // What is learned is written in a step only, so between steps nothing is refused.
+        self.set_time(i, place, waits && !busy);
+        i.run = place >= steps && run && !waits;
+        before == (false, i.run) && !i.write_target && !i.write_time
+    }
+
+    /// Sets the first time of a step, or the next one for the other load.
+    fn set_time(&mut self, i: &mut Ports, place: usize, changes: bool) {
+        let settings = self.settings;
+        let first = match settings.time_source {
+            TimeSource::Rom => None,
+            TimeSource::Setter => settings.steps.get(place).map(|step| (place, step.lead_ms)),
+        };
+        let next = match changes {
+            true => settings.load_leads_ms[self.changed].map(|ms| (self.changed, ms)),
+            false => None,
+        };
+        self.changed += usize::from(changes);
+        let set = first.or(next);
+        let time = set.and_then(|(step, ms)| Some((step as u64, settings.code(ms)?)));
+        i.write_time = time.is_some();
+        i.step_time = time.map_or(0, |(_, time)| time);
+        if let Some((step, _)) = time {
+            i.write_step = step;
+        }
     }
 
     /// Writes the step of a positioning, with the target that it has then.

@@ -1,7 +1,7 @@
 //! Positionings one after the other: a compensator, a body, and its brake.
 
 use super::computer::{ControlComputer, word};
-use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings};
+use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings, TimeSource};
 use crate::circuits::lead_angle::codes::STAGES;
 use crate::circuits::lead_angle::compensator::In;
 use crate::circuits::lead_angle::{Compensator, Variant, Widths};
@@ -33,6 +33,10 @@ pub(super) type Ports = In<Value>;
 pub fn positioner(settings: &Settings) -> Compensator {
     let steps = settings.steps.iter();
     let codes = steps.map(|step| settings.code(step.lead_ms).unwrap_or(0));
+    let rom = match settings.time_source {
+        TimeSource::Rom => Image::of(WIDTHS.step, WIDTHS.time(), codes),
+        TimeSource::Setter => Image::new(WIDTHS.step, WIDTHS.time()),
+    };
     Compensator {
         widths: WIDTHS,
         lead_from: settings.lead_from(),
@@ -43,7 +47,7 @@ pub fn positioner(settings: &Settings) -> Compensator {
             function: settings.function,
             detector: settings.detector,
         },
-        rom: Image::of(WIDTHS.step, WIDTHS.time(), codes),
+        rom,
     }
 }
 
@@ -108,6 +112,7 @@ struct See {
     complete: At<bool>,
     learned: At<bool>,
     learned_time: At<u64>,
+    running: At<bool>,
     busy: At<bool>,
     lost: At<bool>,
     timed_out: At<bool>,
@@ -132,6 +137,7 @@ impl See {
             complete: watch.at(w.complete),
             learned: watch.at(w.learned),
             learned_time: watch.at(w.learned_time),
+            running: watch.at(p.sequencer.q.busy),
             busy: watch.at(w.busy),
             lost: watch.at(w.lost),
             timed_out: watch.at(w.timed_out),
@@ -291,10 +297,10 @@ pub fn play(
             operation.set_delay(settings.operation_delay(true));
             loaded = true;
         }
-        let ([drive, reverse], [control, arm], [speed, step]) = simulator.state(|q| {
+        let ([drive, reverse], [control, arm, busy], [speed, step]) = simulator.state(|q| {
             (
                 [q.get(see.drive), q.get(see.reverse)],
-                [q.get(see.control), q.get(see.arm)],
+                [q.get(see.control), q.get(see.arm), q.get(see.running)],
                 [q.get(see.speed), q.get(see.step)],
             )
         });
@@ -306,7 +312,7 @@ pub fn play(
         };
         let effect = operation.step(control && i.passing);
         bench.operate(effect, &body);
-        stands &= computer.tick(&mut i, bench.played.ticks, arm, bench.run());
+        stands &= computer.tick(&mut i, bench.played.ticks, [arm, busy], bench.run());
         stands &= computer.choose_parameter(&mut i, step);
         let halt = bench.past && drive;
         let before = (i.a, i.b, i.strobe, i.code, i.effect, i.halt);

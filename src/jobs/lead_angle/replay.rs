@@ -1,7 +1,7 @@
 //! A position log on a compensator: where it would have given its signals, and how good its
 //! predictions were.
 
-use super::computer::ControlComputer;
+use super::computer::{ControlComputer, word};
 use super::settings::{Action, LeadBy, Settings, Targets};
 use crate::circuits::lead_angle::Compensator;
 use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
@@ -80,6 +80,8 @@ pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
         settings.learn = false;
         settings.time_out_ms = ck_ms;
     }
+    // A log has one load.
+    settings.load_leads_ms.clear();
     settings.standstill_ms = ck_ms;
     settings.rest_ms = ck_ms;
     settings
@@ -114,7 +116,7 @@ struct See {
     time: At<u64>,
     position: At<i64>,
     target: At<i64>,
-    lead: At<i64>,
+    compared: [At<i64>; 2],
 }
 
 impl See {
@@ -131,7 +133,7 @@ impl See {
             time: watch.at(w.lead_time),
             position: watch.at(w.position),
             target: watch.at(w.target),
-            lead: watch.at(watch.p.placement.i.lead),
+            compared: [comparator.position, comparator.target].map(|at| watch.at(at)),
         }
     }
 }
@@ -198,7 +200,7 @@ pub fn replay(
         let position = at(seconds);
         let (a, b) = Encoder::default().channels(position);
         let [arm, control] = simulator.state(|q| [see.arm, see.control].map(|at| q.get(at)));
-        computer.tick(&mut i, tick, arm, true);
+        computer.tick(&mut i, tick, [arm, true], true);
         i.a = a;
         i.b = b;
         if let Some(encoder) = &mut absolute {
@@ -229,7 +231,11 @@ pub fn replay(
             if let Some(truth) = known
                 && predicts
             {
-                let (position, lead) = (now.get(see.position) as f64, now.get(see.lead) as f64);
+                let [predicted, wanted] = see.compared.map(|at| now.get(at));
+                let (position, target) = (now.get(see.position), now.get(see.target));
+                // However it is placed.
+                let lead = word(predicted - wanted + target - position) as f64;
+                let position = position as f64;
                 let part = u128::from(tick) * PARTS as u128 / (u128::from(ticks) + 1);
                 sums.add(part as usize, [position + lead - truth, position - truth]);
             }

@@ -1,10 +1,10 @@
 //! What the lead-angle compensator is run with: clock and CK, steps, learning, body and load.
 
+mod lead;
+
 use super::job::WIDTHS;
-use super::lead_table::lead_table;
-use crate::circuits::lead_angle::codes::{LARGEST, STAGES, code, neighbours};
-pub use crate::circuits::lead_angle::{Comparing, Detector, Function, Placement, Sign};
-use crate::circuits::lead_angle::{LeadFrom, Memory};
+use crate::circuits::lead_angle::codes::LARGEST;
+pub use crate::circuits::lead_angle::{Comparing, Detector, Function, LeadForm, Placement, Sign};
 use crate::plant::{AbsoluteEncoder, BodyParameters, Load};
 use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
 use serde::{Deserialize, Serialize};
@@ -88,6 +88,17 @@ pub enum Completion {
     FixedTime,
 }
 
+/// Where the first time data come from (25).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TimeSource {
+    /// A ROM: they are there at power-on.
+    #[default]
+    Rom,
+    /// A setter: the control computer writes them before the first step.
+    Setter,
+}
+
 /// One step of the sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
@@ -123,6 +134,8 @@ pub struct Settings {
     pub sampling_clock_ppm: f64,
     /// Where the lead comes from.
     pub lead: LeadBy,
+    /// Which of the equal forms the lead of a time has.
+    pub form: LeadForm,
     /// Where the lead is placed.
     pub placement: Placement,
     /// When the comparator gives the control signal.
@@ -137,6 +150,10 @@ pub struct Settings {
     pub learn: bool,
     /// All steps share the time data of step 0.
     pub common_time: bool,
+    /// Where the first time data come from (25).
+    pub time_source: TimeSource,
+    /// Δt by step that is set when the load changes, before the next positioning; empty for none.
+    pub load_leads_ms: Vec<Option<f64>>,
     /// What a step without time data begins to learn with; 0 for nothing.
     pub seed_ms: f64,
     /// When a positioning is complete.
@@ -188,6 +205,7 @@ impl Default for Settings {
             detector: Detector::default(),
             sampling_clock_ppm: 0.0,
             lead: LeadBy::default(),
+            form: LeadForm::default(),
             placement: Placement::default(),
             comparing: Comparing::default(),
             completion: Completion::default(),
@@ -196,6 +214,8 @@ impl Default for Settings {
             history: History::default(),
             learn: true,
             common_time: false,
+            time_source: TimeSource::default(),
+            load_leads_ms: Vec::new(),
             seed_ms: 20.0,
             standstill_ms: 5.0,
             time_out_ms: 1000.0,
@@ -218,17 +238,6 @@ impl Settings {
     #[must_use]
     pub fn ck_ms(&self) -> f64 {
         1e3 * f64::from(self.ck_ticks) / self.clock_hz as f64
-    }
-
-    /// Where the lead of their compensator comes from.
-    #[must_use]
-    pub fn lead_from(&self) -> LeadFrom {
-        match (self.lead, self.history) {
-            (LeadBy::Speed, _) => LeadFrom::Speed,
-            (LeadBy::Table, _) => LeadFrom::Table(lead_table(self)),
-            (LeadBy::Time, History::ShiftRegister) => LeadFrom::Time(Memory::ShiftRegister),
-            (LeadBy::Time, History::Ram) => LeadFrom::Time(Memory::Ram),
-        }
     }
 
     /// Where a positioning, by its number from 0 on, is to stop, in counts from the start.
@@ -277,22 +286,6 @@ impl Settings {
     #[must_use]
     pub fn cks(&self, ms: f64) -> u16 {
         (ms / self.ck_ms()).round() as u16
-    }
-
-    /// A lead time as its code; none where it cannot be set.
-    #[must_use]
-    pub fn code(&self, lead_ms: f64) -> Option<u64> {
-        let cks = lead_ms / self.ck_ms();
-        let time = cks.round() as u64;
-        // A time written in milliseconds has its rounding.
-        let meant = (cks - time as f64).abs() < 1e-6;
-        (meant && (time == 0 || code(STAGES, time).is_some())).then_some(time)
-    }
-
-    /// A code as a lead time in milliseconds, without the digits that floating point adds.
-    #[must_use]
-    pub fn lead_ms(&self, code: u64) -> f64 {
-        (code as f64 * self.ck_ms() * 1e9).round() / 1e9
     }
 
     /// The fastest speed of a step in counts a second.
@@ -372,10 +365,12 @@ impl Settings {
             return Err(SettingError::value("step", "1 step", allowed));
         }
         self.validate_detector()?;
+        self.validate_form()?;
         for index in 0..count {
             self.validate_step(index)
                 .map_err(|error| error.at(Place::Row("step", index)))?;
         }
+        self.validate_load_leads()?;
         self.check_lead("seed_ms", self.seed_ms)?;
         let times = [
             ("standstill_ms", self.standstill_ms),
@@ -444,20 +439,6 @@ impl Settings {
             return Err(SettingError::value("lead_ms", lead_ms, allowed));
         }
         self.check_lead("lead_ms", lead_ms)
-    }
-
-    /// A lead time must be on the grid of the codes.
-    fn check_lead(&self, field: &'static str, ms: f64) -> Result<(), SettingError> {
-        if self.code(ms).is_some() {
-            return Ok(());
-        }
-        let shown = |code: u64| self.lead_ms(code);
-        let allowed = match neighbours(STAGES, ms / self.ck_ms()) {
-            (below, Some(above)) if ms > 0.0 => format!("{} or {}", shown(below), shown(above)),
-            (below, None) if ms > 0.0 => format!("at most {}", shown(below)),
-            _ => format!("0 for none, {} to {}", shown(1), shown(LARGEST)),
-        };
-        Err(SettingError::value(field, ms, allowed))
     }
 }
 

@@ -2,9 +2,9 @@ use super::make::{at_most, choice, one_of, only, width, words};
 use crate::circuits::lead_angle::{
     AbsoluteDetector, Comparator, Comparing, Compensator, CompletionDetector, Correction,
     CorrectionArithmetic, Detector, DifferenceHistory, DividedTime, Division, Form, Function, Lead,
-    LeadFrom, LeadPlacement, LeadProducts, LeadTable, Memory, Placement, PositionHistory,
+    LeadForm, LeadFrom, LeadPlacement, LeadProducts, LeadTable, Memory, Placement, PositionHistory,
     RamHistory, RatioLogic, Refinement, Sign, SpeedDetector, SpeedLead, StepSequencer, StopError,
-    TableLead, TargetSetter, TimeData, TimeLead, TouchProbe, Variant, Widths,
+    TableLead, TargetSetter, TimeData, TimeLead, TimeLimit, TouchProbe, Variant, Widths,
 };
 use crate::hdl::Image;
 use crate::registry::Entry;
@@ -36,9 +36,25 @@ const LEARNINGS: &[(Sign, Function)] = &[
     (Sign::Literal, Function::SecondOrder),
 ];
 
-/// The numbers of placement, comparing, learning and detector, then the times of the ROM, one in each
-/// word from step 0 up.
+/// The numbers of placement, comparing, learning, detector and form, then the times of the ROM, one in
+/// each word from step 0 up.
 fn chosen(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
+    let form = choice(given, 4, LeadForm::ALL)?;
+    let lead_from = match circuit.lead_from {
+        LeadFrom::Time(memory, _) => LeadFrom::Time(memory, form),
+        other => other,
+    };
+    varied(
+        Compensator {
+            lead_from,
+            ..circuit
+        },
+        given,
+    )
+}
+
+/// The same with any lead.
+fn varied(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
     let (sign, function) = choice(given, 2, LEARNINGS)?;
     let variant = Variant {
         placement: choice(given, 0, PLACEMENTS)?,
@@ -47,7 +63,7 @@ fn chosen(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
         function,
         detector: choice(given, 3, DETECTORS)?,
     };
-    let rom = rom(circuit.rom.address(), circuit.rom.width(), given, 4)?;
+    let rom = rom(circuit.rom.address(), circuit.rom.width(), given, 5)?;
     Some(Compensator {
         variant,
         rom,
@@ -68,6 +84,7 @@ fn correction(function: Function, stages: usize, position: usize) -> Correction 
         position,
         sign: Sign::Converging,
         function,
+        division: Division::Logic,
     }
 }
 
@@ -96,21 +113,19 @@ fn small(lead_from: LeadFrom, given: &[u64]) -> Option<Compensator> {
     Some(compensator(lead_from, widths))
 }
 
-/// The numbers of [`chosen`], and before the times 0 for a product as the lead, or 1 for a memory
-/// that leads by two gates.
+/// The numbers of [`chosen`], with 0 for a product as the lead, or 1 for a memory that leads by two
+/// gates, in place of the form.
 fn conventional(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
     let position = circuit.widths.position;
     let lead_from = match choice(given, 4, ONES)? {
         true => LeadFrom::Table(table(position, |speed| 2 * speed)?),
         false => LeadFrom::Speed,
     };
-    let (before, behind) = given.split_at(given.len().min(4));
-    let numbers = [before, behind.get(1..).unwrap_or(&[])].concat();
     let circuit = Compensator {
         lead_from,
         ..circuit
     };
-    chosen(circuit, &numbers)
+    varied(circuit, given)
 }
 
 /// A memory of leads for positions of so many bits: of 8 words at 8 bits, of 256 at 24.
@@ -191,8 +206,8 @@ fn formed(circuit: TimeLead, given: &[u64]) -> Option<TimeLead> {
     })
 }
 
-const SHIFT: LeadFrom = LeadFrom::Time(Memory::ShiftRegister);
-const RAM: LeadFrom = LeadFrom::Time(Memory::Ram);
+const SHIFT: LeadFrom = LeadFrom::Time(Memory::ShiftRegister, LeadForm::Embodiment);
+const RAM: LeadFrom = LeadFrom::Time(Memory::Ram, LeadForm::Embodiment);
 
 /// The circuits of JPH0646367B2.
 pub(super) const CIRCUITS: &[Entry] = &[
@@ -254,6 +269,16 @@ pub(super) const CIRCUITS: &[Entry] = &[
             Some(DividedTime { stages: stages(width(given)?), one: one_of(given, ONES)? })
         },
         with: |circuit, given| Some(DividedTime { one: only(given, ONES)?, ..circuit }),
+        proved: 4,
+    ),
+    entry!(
+        TimeLimit, "JPH0646367B2, without 13",
+        full: || TimeLimit { stages: 1990 },
+        widths: [stages],
+        from: "4 for 30 stages, 8 for 150", |given| {
+            alone(given, |width| TimeLimit { stages: 10 * stages(width) })
+        },
+        with: nothing,
         proved: 4,
     ),
     entry!(
@@ -465,7 +490,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
                placement, comparing and learning as 0, 1 and so on, 0 for an incremental or 1 for an \
-               absolute encoder, times of the ROM",
+               absolute encoder, the form as 0 to 5, times of the ROM",
             |given| chosen(small(SHIFT, given)?, &given[1..]),
         with: chosen,
         proved: none,
@@ -480,7 +505,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
                placement, comparing and learning as 0, 1 and so on, 0 for an incremental or 1 for an \
-               absolute encoder, times of the ROM",
+               absolute encoder, the form as 0 to 5, times of the ROM",
             |given| chosen(small(RAM, given)?, &given[1..]),
         with: chosen,
         proved: none,

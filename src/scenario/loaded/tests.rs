@@ -130,7 +130,7 @@ fn a_step_of_the_wrong_shape_is_refused_with_its_line() {
     assert_eq!(
         with("[[step]]\nspeed = 1\n"),
         "s.toml:3: speed: unknown field `speed`; allowed: one of `target`, \
-         `speed_counts_per_s`, `lead_ms`"
+         `speed_counts_per_s`, `lead_ms`, `load_lead_ms`"
     );
     assert_eq!(
         with("sign = \"both\"\n[[step]]\n"),

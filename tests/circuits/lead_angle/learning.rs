@@ -2,7 +2,7 @@
 
 use motion_rtl::circuits::lead_angle::codes;
 use motion_rtl::circuits::lead_angle::correction::In;
-use motion_rtl::circuits::lead_angle::{Correction, Function, Sign};
+use motion_rtl::circuits::lead_angle::{Correction, Division, Function, Sign};
 use motion_rtl::hdl::Simulator;
 
 /// What came of a correction.
@@ -93,6 +93,7 @@ fn ready(stages: usize, position: usize, sign: Sign, function: Function) -> Simu
         position,
         sign,
         function,
+        division: Division::Logic,
     };
     Simulator::new(&circuit).unwrap()
 }

@@ -30,6 +30,21 @@ fn every_variant_is_proved() {
     }
 }
 
+/// What a program makes of a time for the time data is what the ratio logic makes of it.
+#[test]
+fn times_are_divided_as_the_ratio_logic_divides_them() {
+    for stages in [3, 15, 199] {
+        let mut logic = Simulator::new(&RatioLogic { stages }).unwrap();
+        for lead_time in 0..1 << codes::time_width(stages) {
+            let seen = logic.step_with(&ratio_logic::In { lead_time }, |now| {
+                [now.w.code, now.w.ratio, now.w.tap]
+            });
+            let code = codes::rounded(stages as u64, lead_time);
+            assert_eq!([code.time, code.ratio, code.tap], seen, "{lead_time}");
+        }
+    }
+}
+
 /// A form of the lead beside the embodiment, with the same samples and the same Δt.
 #[derive(Debug, Clone)]
 struct Beside {

@@ -4,7 +4,9 @@ use super::below;
 use motion_rtl::check::{Lockstep, Pair, PairIn, Random};
 use motion_rtl::circuits::lead_angle::codes;
 use motion_rtl::circuits::lead_angle::compensator::In;
-use motion_rtl::circuits::lead_angle::{Compensator, LeadFrom, Memory, Placement, Variant, Widths};
+use motion_rtl::circuits::lead_angle::{
+    Compensator, Division, LeadForm, LeadFrom, Memory, Placement, Variant, Widths,
+};
 use motion_rtl::hdl::{Image, Observer, Simulator, State, Value};
 
 /// What the outputs of a run are compared by.
@@ -35,7 +37,7 @@ fn small(memory: Memory, placement: Placement) -> Compensator {
     };
     Compensator {
         widths,
-        lead_from: LeadFrom::Time(memory),
+        lead_from: LeadFrom::Time(memory, LeadForm::Embodiment),
         variant: Variant {
             placement,
             ..Variant::default()
@@ -141,6 +143,73 @@ fn the_three_placements_fire_in_the_same_tick() {
             fired += u64::from(seen.unwrap());
         }
         assert!(fired > 300, "{fired}");
+    }
+}
+
+/// The forms are equal in every tick: with N fixed at 1 as long as N is 1 elsewhere too.
+#[test]
+fn every_form_is_the_embodiment_in_every_tick() {
+    let names = OUTPUTS
+        .into_iter()
+        .chain(["predicted", "learned_time", "refused"]);
+    let outputs: Vec<_> = names.map(|name| (name, name)).collect();
+    for &form in LeadForm::ALL {
+        for memory in [Memory::ShiftRegister, Memory::Ram] {
+            if (form, memory) == (LeadForm::EarlyDifference, Memory::Ram) {
+                continue;
+            }
+            let one = form.division() == Division::One;
+            let mut left = plain(Memory::ShiftRegister);
+            if one {
+                left.rom = Image::of(2, left.widths.time(), [7, 15, 1, 4]);
+            }
+            let mut right = left.clone();
+            right.lead_from = LeadFrom::Time(memory, form);
+            let pair = Pair { left, right };
+            let mut lockstep = Lockstep::of(&pair, &outputs).unwrap();
+            let mut bench = Bench::new(5);
+            let mut simulator = Simulator::new(&pair).unwrap();
+            let (mut fired, mut learned) = (0u64, 0u64);
+            for tick in 0..60_000 {
+                let mut i = bench.tick(None);
+                if one {
+                    i.learn = false;
+                    i.step_time %= 16;
+                }
+                let seen = simulator.step_with(&PairIn(i), |now| {
+                    let w = &now.p.left.w;
+                    lockstep.sample(now).map(|_| [w.fire, w.learned])
+                });
+                let seen =
+                    seen.unwrap_or_else(|error| panic!("{form:?}, {memory:?}, {tick}: {error}"));
+                fired += u64::from(seen[0]);
+                learned += u64::from(seen[1]);
+            }
+            assert!(
+                fired > 150 && (one || learned > 20),
+                "{form:?}: {fired}, {learned}"
+            );
+        }
+    }
+}
+
+/// What forms have not.
+#[test]
+fn a_form_says_what_it_has_not() {
+    let refused = |form, memory, placement| {
+        let mut circuit = small(memory, placement);
+        circuit.lead_from = LeadFrom::Time(memory, form);
+        Simulator::new(&circuit).unwrap_err().to_string()
+    };
+    let early = refused(LeadForm::EarlyDifference, Memory::Ram, Placement::Position);
+    assert!(
+        early.ends_with("a RAM is its own take-out: no subtractor stands before that"),
+        "{early}"
+    );
+    for placement in [Placement::Target, Placement::Halves] {
+        let products = refused(LeadForm::Products, Memory::Ram, placement);
+        let end = "the products are the place itself: no lead is put on a target";
+        assert!(products.ends_with(end), "{products}");
     }
 }
 

@@ -3,9 +3,11 @@
 mod completion;
 mod detector;
 mod files;
+mod forms;
 mod log;
 mod operation;
 mod refusals;
+mod setter;
 
 use super::support::{Bench, DRAWINGS, keys, list, number, whole};
 use expect_test::expect;
@@ -223,6 +225,7 @@ fn the_summary_has_these_keys() {
         "completion",
         "detector",
         "files",
+        "form",
         "function",
         "history",
         "input",

@@ -12,10 +12,8 @@ fn log(position: impl Fn(f64) -> i64, samples: u32) -> PositionLog {
     read("log.csv", text.as_bytes(), &Columns::default()).expect("a log")
 }
 
-/// At constant speed every prediction is within its bound, and each signal comes when the body is
-/// its lead away from the target.
-#[test]
-fn a_log_at_constant_speed_is_predicted_within_the_bound() {
+/// A log at constant speed, and settings with N of 2, 10 and 1.
+pub(super) fn steady() -> (PositionLog, Settings) {
     let log = log(|seconds| 500 + (8000.0 * seconds) as i64, 400);
     let step = |target, lead_ms| Step {
         target,
@@ -28,6 +26,14 @@ fn a_log_at_constant_speed_is_predicted_within_the_bound() {
         ..Settings::default()
     };
     let settings = settings_for(&log, &settings);
+    (log, settings)
+}
+
+/// At constant speed every prediction is within its bound, and each signal comes when the body is
+/// its lead away from the target.
+#[test]
+fn a_log_at_constant_speed_is_predicted_within_the_bound() {
+    let (log, settings) = steady();
     let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
     let signals = &replayed.signals;
     assert_eq!(signals.len(), 3, "{signals:?}");

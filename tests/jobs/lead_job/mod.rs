@@ -2,9 +2,11 @@
 //! position logs.
 
 mod detector;
+mod forms;
 mod logs;
+mod setter;
 
-use motion_rtl::circuits::lead_angle::codes::{LARGEST, STAGES, code};
+use motion_rtl::circuits::lead_angle::codes::LARGEST;
 use motion_rtl::input::position_log::{Columns, PositionLog, read};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning, play, positioner};
 use motion_rtl::jobs::lead_angle::replay::{replay, settings_for};
@@ -34,7 +36,7 @@ fn with_lead(settings: &Settings) -> Played {
 
 /// Counts that one code is worth at the speed of a positioning.
 fn code_travel(settings: &Settings, one: &Positioning) -> f64 {
-    let ratio = code(STAGES, one.code).map_or(1, |code| code.ratio) as f64;
+    let ratio = settings.ratio(one.code) as f64;
     one.speed_counts_per_s.abs() * settings.ck_ms() / 1e3 * ratio + 1e-6
 }
 

@@ -1,6 +1,7 @@
 //! What is accepted, what is refused and with which words.
 
 use super::*;
+use crate::circuits::lead_angle::codes::{STAGES, code, neighbours};
 use crate::plant::BrakedBody;
 
 #[test]

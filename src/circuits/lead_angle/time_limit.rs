@@ -1,0 +1,75 @@
+//! Limit of the times where N is fixed at 1: what stands in place of the ratio logic where times are
+//! learned and written.
+//!
+//! ```text
+//!               ┌────────────┐
+//!  lead_time ──▶│ time limit ├──▶ code, on_grid
+//!               └────────────┘
+//! ```
+//!
+//! Every CK of the history is a time then, so nothing is rounded (N=1に固定する場合はこのような論理回路13は
+//! 不要).
+//!
+//! Departure: a time beyond the history would never be predicted with, and so never stop the body. The
+//! longest of the history takes its place, and `on_grid` is low.
+
+use super::codes::tap_width;
+use crate::hdl::prelude::*;
+
+/// Limit of times that are taps. Combinational.
+#[derive(Debug, Clone)]
+pub struct TimeLimit {
+    /// Stages of history: the longest time in CKs.
+    pub stages: usize,
+}
+
+signals! { for TimeLimit as c;
+    /// Ports in.
+    pub struct In {
+        /// Δt in CKs.
+        pub lead_time: U(tap_width(c.stages)),
+    }
+    /// Nets.
+    pub struct Net {
+        /// The time is longer than the history.
+        beyond: Bit,
+        /// The time, or the longest of the history.
+        pub code: U(tap_width(c.stages)),
+        /// The time is one of the history, or 0 for none.
+        pub on_grid: Bit,
+    }
+}
+
+impl Circuit for TimeLimit {
+    const NAME: &'static str = "time_limit";
+    const ABOUT: &'static str = "keeps times within the history where N is fixed at 1";
+    records!(In, Nothing, Net);
+
+    fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
+        let longest = U::new(self.stages as u64, i.lead_time.width());
+        let beyond = longest.below(i.lead_time);
+        let net = Net {
+            beyond,
+            code: beyond.mux(longest, i.lead_time),
+            on_grid: !beyond,
+        };
+        (net, Nothing)
+    }
+}
+
+impl Specified for TimeLimit {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let longest = self.stages as u64;
+        Invariants::<Self>::new().always(
+            "a time is that of the history, at most all of it",
+            move |now| {
+                let time = now.i.lead_time;
+                let right =
+                    now.w.code == time.min(longest) && now.w.on_grid == (time == now.w.code);
+                require(right, ["code", "on_grid"], || {
+                    format!("{:?} of {time}", now.w)
+                })
+            },
+        )
+    }
+}

@@ -1,0 +1,60 @@
+//! Word lengths and variants of a compensator.
+
+use super::{Comparing, Detector, Function, Placement, Sign, codes};
+
+/// Widths of a compensator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Widths {
+    /// Stages of history.
+    pub stages: usize,
+    /// Width of a position.
+    pub position: usize,
+    /// Width of a step number.
+    pub step: usize,
+    /// Width of a speed.
+    pub speed: usize,
+    /// Width of a time in CKs that is no lead time.
+    pub cks: usize,
+    /// Width of the CK's period in ticks.
+    pub ck_period: usize,
+    /// Width of an absolute encoder's word.
+    pub code: usize,
+}
+
+impl Widths {
+    /// Width of a lead time in CKs.
+    #[must_use]
+    pub fn time(&self) -> usize {
+        codes::time_width(self.stages)
+    }
+}
+
+impl Default for Widths {
+    /// Those of the text's table, and room for the rest.
+    fn default() -> Self {
+        Widths {
+            stages: 199,
+            position: 24,
+            step: 4,
+            speed: 16,
+            cks: 16,
+            ck_period: 24,
+            code: 17,
+        }
+    }
+}
+
+/// What is chosen when a compensator is built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Variant {
+    /// What the lead is put on.
+    pub placement: Placement,
+    /// When the target is reached.
+    pub comparing: Comparing,
+    /// Which way the error counts.
+    pub sign: Sign,
+    /// What is made of error and overrun.
+    pub function: Function,
+    /// What the position comes from.
+    pub detector: Detector,
+}
