@@ -3,6 +3,7 @@
 
 mod arc;
 mod arc_arm;
+mod arc_files;
 mod arc_mechanism;
 mod arc_refusals;
 mod check_parts;

@@ -192,7 +192,9 @@ impl Path {
                 let near = stretch.segment.place(offset);
                 let off = apart(point, near);
                 if off < least {
-                    (best, least) = ((begin + offset, near), off);
+                    // The sum may be rounded over an end.
+                    let length = (begin + offset).max(from).min(to);
+                    (best, least) = ((length, near), off);
                 }
             }
         }
