@@ -46,8 +46,8 @@
 //! With one warning a kind: M0, M1, M3 to M9, S, T, O numbers, G4, G61 and G64. So are, unless
 //! [`Options::strict`] refuses them: other M words whose meaning is known and that neither move nor
 //! change offsets or scales (heaters, fans, displays, switches, settings of printers), with what
-//! else is in their line; E, H and D; A, B, C, U, V and, where it is no axis, W at 0; `$` lines; the `/` of optional
-//! lines, which are run; G61.1, P, Q and R of G64, G43, G96, G97, G10 for tools, G10 and G11 of
+//! else is in their line; E, H and D; A, B, C, U, V and, where it is no axis, W at 0; `$` lines; the
+//! `/` of optional lines, which are run; G61.1, P, Q and R of G64, G43, G96, G97, G10 for tools, G10 and G11 of
 //! printers, G29, G34.
 //!
 //! # What is refused

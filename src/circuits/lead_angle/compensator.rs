@@ -14,9 +14,10 @@
 //!
 //! Where the position comes from is a choice: an incremental encoder, or an absolute one whose clock is
 //! CK. So is the lead: of the time Δt with the history as a shift register or as a RAM, in any of the
-//! equal [forms](LeadForm), or of the speed as in Fig. 7, by a parameter or a memory. `brake` is the control signal; it holds from the crossing
-//! through the rest up to the next step. With `passing` the body goes on, and `operate` is the control
-//! signal in place of `brake`: of an operation that is complete with its `effect`.
+//! equal [forms](LeadForm), or of the speed as in Fig. 7, by a parameter or a memory. `brake` is the
+//! control signal; it holds from the crossing through the rest up to the next step. With `passing` the
+//! body goes on, and `operate` is the control signal in place of `brake`: of an operation that is
+//! complete with its `effect`.
 
 use super::detector::{DetectorPart, DetectorSource};
 use super::grid::{self, Grid, GridPart};

@@ -22,6 +22,17 @@ pub struct Widths {
 }
 
 impl Widths {
+    /// Those of the text's table, and room for the rest.
+    pub const FULL: Self = Widths {
+        stages: codes::STAGES as usize,
+        position: 24,
+        step: 4,
+        speed: 16,
+        cks: 16,
+        ck_period: 24,
+        code: 17,
+    };
+
     /// Width of a lead time in CKs.
     #[must_use]
     pub fn time(&self) -> usize {
@@ -30,17 +41,9 @@ impl Widths {
 }
 
 impl Default for Widths {
-    /// Those of the text's table, and room for the rest.
+    /// [`Widths::FULL`].
     fn default() -> Self {
-        Widths {
-            stages: 199,
-            position: 24,
-            step: 4,
-            speed: 16,
-            cks: 16,
-            ck_period: 24,
-            code: 17,
-        }
+        Widths::FULL
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::computer::{ControlComputer, word};
 use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings, TimeSource};
-use crate::circuits::lead_angle::codes::STAGES;
 use crate::circuits::lead_angle::compensator::In;
 use crate::circuits::lead_angle::{Compensator, Variant, Widths};
 use crate::hdl::{At, Image, Observer, Sample, Simulator, Value, Watcher};
@@ -11,15 +10,7 @@ use crate::plant::{BrakedBody, Operation};
 use crate::settings::JobError;
 
 /// Widths of the compensator that jobs run on.
-pub(super) const WIDTHS: Widths = Widths {
-    stages: STAGES as usize,
-    position: 24,
-    step: 4,
-    speed: 16,
-    cks: 16,
-    ck_period: 24,
-    code: 17,
-};
+pub(super) const WIDTHS: Widths = Widths::FULL;
 
 /// How far past its target a body is stopped by hand, in seconds of its way.
 const MISSED_S: f64 = 0.1;

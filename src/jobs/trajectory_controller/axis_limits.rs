@@ -4,8 +4,8 @@
 //! a component of each has the amplitude e_k: together they are at most e_k·√(a² + a_n²) of the
 //! axis. So the acceleration along the path, which is one for all of it, is held to half of the
 //! square on curves, and what it leaves is for the acceleration across. On a helix the rise adds to
-//! the amplitude; W has its part of the way all along; on a spline the directions are not looked at, and every axis that moves counts for
-//! the whole.
+//! the amplitude; W has its part of the way all along; on a spline the directions are not looked at,
+//! and every axis that moves counts for the whole.
 
 use super::segments::{Path, Segment};
 use crate::circuits::trajectory_controller::path_point::AXES;

@@ -66,8 +66,8 @@ fn chord_radius(before: &Stretch, next: &Stretch) -> f64 {
         turn(before, next),
         (before.length + next.length) as f64 / 2.0,
     );
-    let lines = [before, next].map(|of| of.segment.kind() == "line");
-    match lines == [true; 2] && turn <= CHORD_TURN {
+    let is_line = |of: &Stretch| of.segment.arc.is_none() && of.segment.powers.is_none();
+    match is_line(before) && is_line(next) && turn <= CHORD_TURN {
         true => mean / turn,
         false => f64::INFINITY,
     }

@@ -1,0 +1,161 @@
+//! A circuit is set, stepped, asked, held beside others and swept.
+
+use super::*;
+use crate::check::{Law, Lockstep, Pair, sweep};
+use crate::hdl::{self, At, Beside};
+
+#[test]
+fn a_simulator_is_set_stepped_and_asked() {
+    let mut simulator = Simulator::new(&around(Fault::None)).unwrap();
+    simulator.set(|i| i.by, 0x15);
+    for tick in 0..9 {
+        let before = (3 + 5 * tick) % 16;
+        assert_eq!(simulator.see(|s| s.p.counter.q.sum), before, "{tick}");
+        assert_eq!(simulator.see(|s| s.w.sum), (before + 5) % 16);
+        assert_eq!(simulator.now(|now| now.i.by), 5);
+        simulator.step();
+    }
+    simulator.now(|now| {
+        let last = (3 + 5 * 9) % 16;
+        assert_eq!((now.q.last, now.w.words.len()), (last, 2));
+        assert_eq!(now.p.counter.w.next, (last + 5) % 16);
+        assert_eq!(now.next().p.counter.q.sum, (last + 5) % 16);
+        assert!(now.q.one.iter().any(|word| *word != 0), "{:?}", now.q.one);
+    });
+    simulator.reset();
+    assert_eq!(simulator.registers().p.counter.q.sum, 3);
+    assert_eq!(simulator.tick(), 10);
+}
+
+/// Something that moves beside a circuit.
+#[derive(Clone)]
+struct Load;
+
+signals! { for Load as _c;
+    /// It.
+    pub struct LoadSignals {
+        /// Where it is.
+        position: I(8),
+    }
+}
+
+impl Beside for Load {
+    const SCOPE: &'static str = "load";
+    type Signals<V: View> = LoadSignals<V>;
+}
+
+#[test]
+fn what_stands_beside_a_circuit_stands_in_its_waves() {
+    let circuit = Counter { width: 4, other: 4 };
+    let watch = |watch: &hdl::Watcher<'_, Counter>| watch.at(watch.q.sum);
+    let (mut simulator, sum): (_, At<u64>) =
+        Simulator::watching_beside(&circuit, &Load, true, watch).unwrap();
+    let model = hdl::model_beside(&circuit, &Load).unwrap();
+    let paths: Vec<_> = model
+        .declarations()
+        .leaves
+        .iter()
+        .map(|leaf| leaf.path())
+        .collect();
+    assert_eq!(
+        paths[..3],
+        ["counter.by", "counter.load.position", "counter.sum"]
+    );
+    simulator.set(|i| i.by, 1);
+    simulator.show::<Load>(&LoadSignals { position: -3 });
+    simulator.step();
+    assert_eq!((simulator.get(sum), simulator.engine().port(1)), (4, 0xfd));
+}
+
+#[test]
+fn circuits_are_held_side_by_side() {
+    let pair = |other| Pair {
+        left: Counter { width: 4, other: 4 },
+        right: Counter {
+            width: other,
+            other: 4,
+        },
+    };
+    let same = pair(4);
+    let lockstep = Lockstep::by_name(&same).unwrap();
+    let agree = Invariants::new().always("agree", |now| lockstep.compare(now));
+    let proof = reach(&same, &agree)
+        .run()
+        .unwrap()
+        .proof()
+        .expect("a proof");
+    assert_eq!((proof.states, proof.transitions), (16, 256));
+    let wrong = elaborate(&pair(5)).unwrap_err().to_string();
+    assert!(
+        wrong.contains("pair.right: sum of `sum` (5 bits) and `by` (4 bits)"),
+        "{wrong}"
+    );
+}
+
+/// Two additions by one counter, as a law.
+#[derive(Debug, Clone)]
+struct Adds {
+    wrong_at: Option<u64>,
+}
+
+signals! { for Adds as _c;
+    /// A case.
+    pub struct AddsIn {
+        /// Added.
+        by: U(6),
+    }
+    /// What is counted with.
+    pub struct AddsParts {
+        /// It.
+        counter: Part<Counter>(Counter { width: 6, other: 6 }),
+    }
+    /// What is seen.
+    pub struct AddsNet {
+        /// The sum.
+        sum: U(6),
+    }
+}
+
+impl Circuit for Adds {
+    const NAME: &'static str = "adds";
+    const ABOUT: &'static str = "adds a number twice";
+    records!(AddsIn, Nothing, AddsNet, AddsParts);
+
+    fn tick(&self, i: AddsIn, _: Nothing, p: AddsParts) -> (AddsNet, Nothing) {
+        let counter = p.counter.settle(In { by: i.by });
+        (
+            AddsNet {
+                sum: counter.w.next,
+            },
+            Nothing,
+        )
+    }
+}
+
+impl Law for Adds {
+    fn law(&self) -> &str {
+        "twice is twice"
+    }
+    fn ticks(&self) -> u64 {
+        2
+    }
+    fn expected(&self, case: &AddsIn<Value>) -> Option<AddsNet<Value>> {
+        let wrong = u64::from(self.wrong_at == Some(case.by));
+        (case.by != 7).then_some(AddsNet {
+            sum: (3 + 2 * case.by + wrong) % 64,
+        })
+    }
+}
+
+#[test]
+fn a_law_is_swept() {
+    let law = Adds { wrong_at: None };
+    assert_eq!(sweep(&law).run().unwrap().held(), Some(63));
+    assert_eq!(sweep(&law).run_simulated().unwrap().held(), Some(63));
+    let law = Adds { wrong_at: Some(21) };
+    for found in [sweep(&law).run(), sweep(&law).run_simulated()] {
+        let found = found.unwrap().counterexample().expect("a case");
+        let message = "sum is 45, not 46 with by = 21 (case 21)";
+        assert_eq!((found.message.as_str(), found.tick), (message, 1));
+    }
+}
