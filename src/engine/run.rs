@@ -120,10 +120,15 @@ impl Engine {
     #[inline]
     fn inputs_from(&mut self, port: usize, words: &[u64]) {
         let layout = &self.program.plan.layout;
-        for (&slot, &word) in layout.inputs.iter().skip(port).zip(words) {
+        let mut port = port;
+        for &word in words {
+            let Some(&slot) = layout.inputs.get(port) else {
+                break;
+            };
+            port += 1;
             if self.slab[slot as usize] != word {
                 interpreter::put(layout, &mut self.slab, slot, word);
-                self.whole.take();
+                *self.whole.get_mut() = None;
             }
         }
     }
@@ -165,7 +170,7 @@ impl Engine {
         self.slab[layout.event as usize] = 0;
         let changed = layout.changed as usize;
         self.slab[changed..changed + layout.changed_words as usize].fill(0);
-        self.whole.take();
+        *self.whole.get_mut() = None;
     }
 
     /// Up to so many times an edge and a settling with ports in as they are; ends where a watched
@@ -350,7 +355,7 @@ impl Engine {
     /// Takes over a state of an engine of the same program.
     pub(crate) fn restore(&mut self, slab: &[u64]) {
         self.slab.copy_from_slice(slab);
-        self.whole.take();
+        *self.whole.get_mut() = None;
         self.memories.take();
     }
 
@@ -375,7 +380,7 @@ impl Engine {
         if !self.straight {
             self.wake_all();
         }
-        self.whole.take();
+        *self.whole.get_mut() = None;
         self.memories.take();
     }
 

@@ -134,6 +134,7 @@ impl<'a> View<'a> {
     }
 
     /// What a leaf of the circuit is.
+    #[inline]
     pub fn leaf(self, leaf: usize) -> u64 {
         match leaf < self.first {
             true => self.engine.leaf(leaf),
@@ -142,6 +143,7 @@ impl<'a> View<'a> {
     }
 
     /// The leaf of the circuit that one of the engine is.
+    #[inline]
     pub fn shown(self, leaf: u32) -> Option<u32> {
         match (leaf as usize).checked_sub(self.first) {
             None => Some(leaf),
@@ -155,11 +157,12 @@ impl<'a> View<'a> {
 pub struct Lazy<'a, S> {
     /// One that is at hand.
     given: Option<&'a S>,
-    made: OnceCell<S>,
+    made: OnceCell<Box<S>>,
     make: &'a dyn Fn() -> S,
 }
 
 impl<'a, S> Lazy<'a, S> {
+    #[inline]
     fn new(make: &'a dyn Fn() -> S) -> Self {
         Lazy {
             given: None,
@@ -175,7 +178,7 @@ impl<S> Deref for Lazy<'_, S> {
     fn deref(&self) -> &S {
         match self.given {
             Some(given) => given,
-            None => self.made.get_or_init(self.make),
+            None => self.made.get_or_init(|| Box::new((self.make)())),
         }
     }
 }
@@ -187,6 +190,7 @@ impl<S: fmt::Debug> fmt::Debug for Lazy<'_, S> {
 }
 
 impl<C: Circuit> Sample<'_, C> {
+    #[inline]
     pub(crate) fn show<T>(
         tick: u64,
         known: &Known<C>,
@@ -197,6 +201,7 @@ impl<C: Circuit> Sample<'_, C> {
     }
 
     /// The same where ports in and registers are at hand.
+    #[inline]
     pub(crate) fn show_given<T>(
         tick: u64,
         known: &Known<C>,
@@ -281,6 +286,7 @@ impl<C: Circuit> Sample<'_, C> {
 }
 
 impl<C: Circuit> State<'_, C> {
+    #[inline]
     pub(crate) fn show<T>(
         known: &Known<C>,
         engine: &Engine,

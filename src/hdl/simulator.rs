@@ -215,6 +215,7 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Sets all ports in, from this tick on.
+    #[inline]
     pub fn apply(&mut self, i: &C::In<Value>) {
         self.words.clear();
         i.words(&mut self.words);
@@ -233,6 +234,7 @@ impl<C: Circuit> Simulator<C> {
         }
     }
 
+    #[inline]
     fn settle(&mut self) {
         if !self.settled {
             self.engine.settle();
@@ -241,6 +243,7 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// What stands at a place in this tick, settled.
+    #[inline]
     pub fn get<T: Number>(&mut self, at: At<T>) -> T {
         self.settle();
         at.of(&self.engine)
@@ -253,12 +256,14 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Shows this tick, settled.
+    #[inline]
     pub fn now<T>(&mut self, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
         self.settle();
         Sample::show(self.tick, &self.known, &self.engine, show)
     }
 
     /// Shows the registers of this tick.
+    #[inline]
     pub fn state<T>(&self, show: impl FnOnce(&State<'_, C>) -> T) -> T {
         State::show(&self.known, &self.engine, show)
     }

@@ -1,32 +1,45 @@
 //! Plants that go ahead of the circuit, for as long as it leaves them alone.
 
-use std::array::from_fn;
-
 /// The most ticks that plants go ahead.
 const MOST: u64 = 256;
 
 /// What moves, and can be put back to where it was.
 pub trait Plant {
     /// All of it that changes.
-    type State: Copy;
+    type State;
 
     /// Its state.
     fn state(&self) -> Self::State;
 
     /// Puts it into a state.
-    fn set_state(&mut self, state: Self::State);
+    fn set_state(&mut self, state: &Self::State);
 }
 
-impl<P: Plant, const N: usize> Plant for [P; N] {
-    type State = [P::State; N];
+/// Plants that go ahead together.
+pub trait Plants {
+    /// What of one of them changes, or of all.
+    type State;
+
+    /// Writes their states behind others: always as many.
+    fn save(&self, states: &mut Vec<Self::State>);
+
+    /// Puts them into states that they have written.
+    fn restore(&mut self, states: &[Self::State]);
+}
+
+impl<P: Plant, const N: usize> Plants for [P; N] {
+    type State = P::State;
 
     #[inline]
-    fn state(&self) -> Self::State {
-        from_fn(|n| self[n].state())
+    fn save(&self, states: &mut Vec<P::State>) {
+        for plant in self {
+            states.push(plant.state());
+        }
     }
 
-    fn set_state(&mut self, state: Self::State) {
-        for (plant, state) in self.iter_mut().zip(state) {
+    #[inline]
+    fn restore(&mut self, states: &[P::State]) {
+        for (plant, state) in self.iter_mut().zip(states) {
             plant.set_state(state);
         }
     }
@@ -34,7 +47,7 @@ impl<P: Plant, const N: usize> Plant for [P; N] {
 
 /// Plants, stepped once a tick, and what they give: the levels of their encoders' channels.
 #[derive(Debug, Clone)]
-pub struct Ahead<P: Plant, S> {
+pub struct Ahead<P: Plants, S> {
     /// The plants, in the tick that they were stepped to last.
     pub plants: P,
     given: Option<S>,
@@ -42,13 +55,13 @@ pub struct Ahead<P: Plant, S> {
     states: Vec<P::State>,
 }
 
-impl<P: Plant, S: Copy + PartialEq> Ahead<P, S> {
+impl<P: Plants, S: Copy + PartialEq> Ahead<P, S> {
     /// Plants before their first tick.
     pub fn new(plants: P) -> Self {
         Ahead {
             plants,
             given: None,
-            states: Vec::with_capacity(MOST as usize),
+            states: Vec::new(),
         }
     }
 
@@ -64,6 +77,7 @@ impl<P: Plant, S: Copy + PartialEq> Ahead<P, S> {
     /// they gave last and the circuit drives them as it did: `step` steps them, and `circuit` goes on
     /// by at most so many ticks and says by how many. They are then in the tick before the one that
     /// it has come to.
+    #[inline]
     pub fn go_on(
         &mut self,
         most: u64,
@@ -71,18 +85,20 @@ impl<P: Plant, S: Copy + PartialEq> Ahead<P, S> {
         circuit: impl FnOnce(u64) -> u64,
     ) {
         self.states.clear();
-        self.states.push(self.plants.state());
-        let most = most.clamp(1, MOST) as usize;
+        self.plants.save(&mut self.states);
+        let each = self.states.len();
+        let most = most.clamp(1, MOST);
+        let mut tried = 1;
         // In the tick in which they give something else the circuit may drive them otherwise.
-        while self.states.len() < most && self.given == Some(step(&mut self.plants)) {
-            self.states.push(self.plants.state());
+        while tried < most && self.given == Some(step(&mut self.plants)) {
+            self.plants.save(&mut self.states);
+            tried += 1;
         }
-        let gone = circuit(self.states.len() as u64);
-        let before = usize::try_from(gone)
-            .unwrap_or(usize::MAX)
-            .saturating_sub(1);
-        if let Some(&state) = self.states.get(before) {
-            self.plants.set_state(state);
+        let gone = circuit(tried);
+        let before = gone.saturating_sub(1);
+        if before < tried {
+            let first = before as usize * each;
+            self.plants.restore(&self.states[first..first + each]);
         }
     }
 }
@@ -94,15 +110,15 @@ mod tests {
     /// Gives a third of how often it was stepped.
     struct Thirds(u64);
 
-    impl Plant for Thirds {
+    impl Plants for Thirds {
         type State = u64;
 
-        fn state(&self) -> u64 {
-            self.0
+        fn save(&self, states: &mut Vec<u64>) {
+            states.push(self.0);
         }
 
-        fn set_state(&mut self, state: u64) {
-            self.0 = state;
+        fn restore(&mut self, states: &[u64]) {
+            self.0 = states[0];
         }
     }
 

@@ -93,8 +93,9 @@ impl Plant for ServoAxis {
         (self.motor.state(), self.torque_nm)
     }
 
-    fn set_state(&mut self, (motor, torque_nm): Self::State) {
+    #[inline]
+    fn set_state(&mut self, (motor, torque_nm): &Self::State) {
         self.motor.set_state(motor);
-        self.torque_nm = torque_nm;
+        self.torque_nm = *torque_nm;
     }
 }

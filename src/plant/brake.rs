@@ -29,6 +29,8 @@ pub struct BrakedBody {
     /// The brake has rubbed since it was last released.
     rubbed: bool,
     brakings: u32,
+    /// What these have left of the brake's torque, as a part.
+    left: f64,
 }
 
 /// What of a body changes, its load aside.
@@ -40,6 +42,7 @@ pub struct BodyState {
     engaged: bool,
     rubbed: bool,
     brakings: u32,
+    left: f64,
 }
 
 impl Plant for BrakedBody {
@@ -54,16 +57,19 @@ impl Plant for BrakedBody {
             engaged: self.engaged,
             rubbed: self.rubbed,
             brakings: self.brakings,
+            left: self.left,
         }
     }
 
-    fn set_state(&mut self, state: BodyState) {
+    #[inline]
+    fn set_state(&mut self, state: &BodyState) {
         self.position_counts = state.position_counts;
         self.speed_counts_per_s = state.speed_counts_per_s;
         self.signal_s = state.signal_s;
         self.engaged = state.engaged;
         self.rubbed = state.rubbed;
         self.brakings = state.brakings;
+        self.left = state.left;
     }
 }
 
@@ -87,6 +93,7 @@ impl BrakedBody {
             engaged: false,
             rubbed: false,
             brakings: 0,
+            left: 1.0,
         })
     }
 
@@ -121,6 +128,7 @@ impl BrakedBody {
         if !brake && self.rubbed {
             self.rubbed = false;
             self.brakings += 1;
+            self.left = (1.0 - self.parameters.brake_fade).powf(f64::from(self.brakings));
         }
         self.engaged = false;
         match drive {
@@ -179,9 +187,9 @@ impl BrakedBody {
     }
 
     /// Friction torque of the brake under this load and at its age, in N·m.
+    #[inline]
     pub fn brake_torque_nm(&self) -> f64 {
-        let left = (1.0 - self.parameters.brake_fade).powf(f64::from(self.brakings));
-        self.parameters.brake_torque_nm * self.load.load_brake_factor * left
+        self.parameters.brake_torque_nm * self.load.load_brake_factor * self.left
     }
 
     /// What friction takes off the speed, in counts/s².

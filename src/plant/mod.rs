@@ -43,7 +43,7 @@ pub mod two_mass;
 pub mod waves;
 
 pub use absolute::AbsoluteEncoder;
-pub use ahead::{Ahead, Plant};
+pub use ahead::{Ahead, Plant, Plants};
 pub use axis::ServoAxis;
 pub use brake::{BodyParameters, BrakedBody, Load};
 pub use encoder::Encoder;

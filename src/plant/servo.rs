@@ -123,7 +123,8 @@ impl Plant for Motor {
         [self.position_counts, self.speed_rad_per_s]
     }
 
-    fn set_state(&mut self, [position_counts, speed_rad_per_s]: MotorState) {
+    #[inline]
+    fn set_state(&mut self, &[position_counts, speed_rad_per_s]: &MotorState) {
         self.position_counts = position_counts;
         self.speed_rad_per_s = speed_rad_per_s;
     }

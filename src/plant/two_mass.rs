@@ -77,7 +77,8 @@ impl Plant for TwoMassAxis {
         }
     }
 
-    fn set_state(&mut self, state: TwoMassState) {
+    #[inline]
+    fn set_state(&mut self, state: &TwoMassState) {
         self.torque_nm = state.torque_nm;
         self.load_torque_nm = state.load_torque_nm;
         self.state = state.state;

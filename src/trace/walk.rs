@@ -97,15 +97,17 @@ impl Walk {
         let Walk { touched, marks, .. } = self;
         let engine = view.engine;
         let mut touch = |leaf: u32| {
-            view.shown(leaf)
-                .into_iter()
-                .for_each(|leaf| touched.touch(leaf))
+            if let Some(leaf) = view.shown(leaf) {
+                touched.touch(leaf);
+            }
         };
         let plan = engine.program().plan();
         engine.changed(|place| {
             let watched = &plan.layout.watched[place];
             let Some(memory) = watched.memory.map(|memory| memory as usize) else {
-                watched.leaves.iter().copied().for_each(&mut touch);
+                for &leaf in &watched.leaves {
+                    touch(leaf);
+                }
                 return;
             };
             let (mark, word) = engine.written(memory);
@@ -113,7 +115,11 @@ impl Walk {
             let shifts = plan.memories[memory].head.is_some();
             match watched.leaves.get(word as usize) {
                 Some(&leaf) if writes == 1 && !shifts => touch(leaf),
-                _ => watched.leaves.iter().copied().for_each(&mut touch),
+                _ => {
+                    for &leaf in &watched.leaves {
+                        touch(leaf);
+                    }
+                }
             }
         });
         touched.take(|leaf| {
@@ -158,6 +164,7 @@ impl Touched {
         }
     }
 
+    #[inline]
     fn touch(&mut self, leaf: u32) {
         let word = leaf as usize / 64;
         self.leaves[word] |= 1 << (leaf % 64);
@@ -165,6 +172,7 @@ impl Touched {
     }
 
     /// Empties it, in the order of the walk.
+    #[inline]
     fn take(&mut self, mut see: impl FnMut(usize)) {
         for (place, words) in self.words.iter_mut().enumerate() {
             for word in ones(std::mem::take(words)) {

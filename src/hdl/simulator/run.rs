@@ -128,6 +128,7 @@ impl<C: Circuit> Simulator<C> {
     ///
     /// # Errors
     /// What `observer` objects to.
+    #[inline]
     pub fn look<T>(
         &mut self,
         i: &C::In<Value>,
@@ -142,6 +143,7 @@ impl<C: Circuit> Simulator<C> {
     ///
     /// # Errors
     /// What `observer` objects to.
+    #[inline]
     pub fn look_as_set<T>(
         &mut self,
         mut observer: impl Observer<C>,

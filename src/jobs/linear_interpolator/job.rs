@@ -248,8 +248,10 @@ pub fn play<const N: usize>(
     loop {
         let references = simulator.state(|q| see.reference.map(|axis| q.get(axis)));
         let step = |[x, y]: &mut [ServoAxis; 2]| {
-            [(x, references[0]), (y, references[1])]
-                .map(|(axis, reference)| axis.step(reference, FULL_SCALE))
+            [
+                x.step(references[0], FULL_SCALE),
+                y.step(references[1], FULL_SCALE),
+            ]
         };
         [(i.a_x, i.b_x), (i.a_y, i.b_y)] = motors.step(step);
         give(&mut i.orders, bench.push());

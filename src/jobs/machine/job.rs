@@ -12,8 +12,7 @@ use crate::jobs::lead_angle::settings::SPEED_UNIT_COUNTS_PER_S;
 use crate::jobs::pulse_interpolator::StepTiming;
 use crate::jobs::pulse_interpolator::step_dir::Driver;
 use crate::jobs::trajectory_controller::job::patience;
-use crate::plant::brake::BodyState;
-use crate::plant::{Ahead, BrakedBody, Plant as Motion, TwoMassAxis};
+use crate::plant::{Ahead, BrakedBody, Plant as Motion, Plants as Motions, TwoMassAxis};
 use crate::settings::{JobError, SettingError};
 use std::array::from_fn;
 
@@ -170,22 +169,30 @@ struct Driven {
     brake: bool,
 }
 
-impl Motion for Bodies {
-    type State = (<[TwoMassAxis; 2] as Motion>::State, BodyState);
+impl Motions for Bodies {
+    type State = (
+        [<TwoMassAxis as Motion>::State; 2],
+        <BrakedBody as Motion>::State,
+    );
 
     #[inline]
-    fn state(&self) -> Self::State {
-        (self.servos.state(), self.lift.state())
+    fn save(&self, states: &mut Vec<Self::State>) {
+        let [x, y] = &self.servos;
+        states.push(([x.state(), y.state()], self.lift.state()));
     }
 
-    fn set_state(&mut self, (servos, lift): Self::State) {
-        self.servos.set_state(servos);
-        self.lift.set_state(lift);
+    #[inline]
+    fn restore(&mut self, states: &[Self::State]) {
+        for (servos, lift) in states {
+            self.servos.restore(servos);
+            self.lift.set_state(lift);
+        }
     }
 }
 
 impl Bodies {
     /// A tick; the encoders' channels of X, of Y and of the lift.
+    #[inline]
     fn step(&mut self, by: &Driven) -> [(bool, bool); 3] {
         let [x, y] = &mut self.servos;
         [

@@ -9,7 +9,7 @@ use crate::circuits::trajectory_controller::path_point::AXES;
 use crate::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
 use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
 use crate::plant::waves::{Machine, MachineSignals};
-use crate::plant::{Ahead, Plant, TwoMassAxis};
+use crate::plant::{Ahead, Plant, Plants, TwoMassAxis};
 use crate::settings::{JobError, SettingError};
 use std::array::from_fn;
 
@@ -204,6 +204,7 @@ impl Motors<'_> {
     }
 
     /// Steps them under these torques; gives the channels of their encoders.
+    #[inline]
     fn step(&mut self, torques: [i64; AXES]) -> [(bool, bool); AXES] {
         self.load();
         let mut channels = [(false, false); AXES];
@@ -215,19 +216,22 @@ impl Motors<'_> {
     }
 }
 
-impl Plant for Motors<'_> {
-    type State = ([Option<<TwoMassAxis as Plant>::State>; AXES], Since);
+impl Plants for Motors<'_> {
+    type State = (<TwoMassAxis as Plant>::State, Since);
 
-    fn state(&self) -> Self::State {
-        let state = |axis| self.axes.get(axis).map(Plant::state);
-        (from_fn(state), self.now)
+    #[inline]
+    fn save(&self, states: &mut Vec<Self::State>) {
+        for axis in &self.axes {
+            states.push((axis.state(), self.now));
+        }
     }
 
-    fn set_state(&mut self, (states, now): Self::State) {
-        for (motor, state) in self.axes.iter_mut().zip(states.into_iter().flatten()) {
-            motor.set_state(state);
+    #[inline]
+    fn restore(&mut self, states: &[Self::State]) {
+        for (axis, (state, now)) in self.axes.iter_mut().zip(states) {
+            axis.set_state(state);
+            self.now = *now;
         }
-        self.now = now;
     }
 }
 

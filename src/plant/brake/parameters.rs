@@ -58,6 +58,7 @@ impl BodyParameters {
     }
 
     /// Encoder counts a radian.
+    #[inline]
     pub fn counts_per_rad(&self) -> f64 {
         self.counts_per_rev / std::f64::consts::TAU
     }

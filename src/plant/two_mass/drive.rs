@@ -3,7 +3,7 @@
 
 use super::TwoMassAxis;
 use super::events::{Event, Flank, Grip, Guards};
-use super::motion::{Regime, State, falls_below_zero};
+use super::motion::{Regime, State, falls_below_zero, sum};
 
 /// Most events in a piece; more are a tie within rounding, and the piece is taken as it is.
 const EVENTS: usize = 40;
@@ -13,7 +13,7 @@ impl TwoMassAxis {
     #[inline]
     pub(super) fn drive(&mut self, torque_nm: f64) {
         self.torque_nm = torque_nm;
-        if self.grips == [Grip::Loose; 2] && self.flank == Flank::Touches(0.0) {
+        if matches!(self.grips, [Grip::Loose, Grip::Loose]) && self.flank == Flank::Touches(0.0) {
             return self.gain(
                 self.whole
                     .gained(&self.state, [torque_nm, self.load_torque_nm]),
@@ -21,7 +21,7 @@ impl TwoMassAxis {
         }
         self.break_loose();
         for _ in 0..self.count {
-            if self.grips == [Grip::Stuck; 2] {
+            if matches!(self.grips, [Grip::Stuck, Grip::Stuck]) {
                 return;
             }
             self.piece();
@@ -38,8 +38,9 @@ impl TwoMassAxis {
             + 4 * usize::from(regime.touches);
         let start = self.untwisted();
         let gained = self.pieces[index].gained(&start, torques);
-        let end: State = std::array::from_fn(|row| start[row] + gained[row]);
-        let rates = [start, end].map(|x| self.equations.rates(regime, &x, torques));
+        let end = sum(&start, &gained);
+        let rates = |x| self.equations.rates(regime, x, torques);
+        let rates = [rates(&start), rates(&end)];
         let quiet = guards.list().iter().all(|guard| {
             let turns = guard.part(&rates[0]) < 0.0 && guard.part(&rates[1]) > 0.0;
             guard.value(&end) >= 0.0 && !turns
@@ -114,11 +115,11 @@ impl TwoMassAxis {
         let [motor, load, ..] = self.state;
         let blur = 1e-12 * (self.torque_nm.abs() + self.load_torque_nm.abs())
             + 4.0 * f64::EPSILON * self.equations.stiffness * (motor.abs() + load.abs());
+        let held = |stiction: f64| stiction * (1.0 + 1e-12) + blur;
         [
-            p.motor_friction_nm.max(p.motor_stiction_nm),
-            p.load_friction_nm.max(p.load_stiction_nm),
+            held(p.motor_friction_nm.max(p.motor_stiction_nm)),
+            held(p.load_friction_nm.max(p.load_stiction_nm)),
         ]
-        .map(|stiction| stiction * (1.0 + 1e-12) + blur)
     }
 
     /// Torques on motor and load that do not depend on the state.
@@ -138,7 +139,7 @@ impl TwoMassAxis {
     fn regime(&self) -> Regime {
         Regime {
             touches: matches!(self.flank, Flank::Touches(_)),
-            stuck: self.grips.map(|grip| grip == Grip::Stuck),
+            stuck: [self.grips[0] == Grip::Stuck, self.grips[1] == Grip::Stuck],
         }
     }
 
@@ -169,8 +170,6 @@ impl TwoMassAxis {
 
     #[inline]
     fn gain(&mut self, gained: State) {
-        for (x, gained) in self.state.iter_mut().zip(gained) {
-            *x += gained;
-        }
+        self.state = sum(&self.state, &gained);
     }
 }

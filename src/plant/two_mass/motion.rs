@@ -12,6 +12,17 @@ pub(super) const REACH: f64 = 0.5;
 /// speed.
 pub(super) type State = [f64; 4];
 
+/// One state and what it gains.
+#[inline]
+pub(super) fn sum(x: &State, gained: &State) -> State {
+    [
+        x[0] + gained[0],
+        x[1] + gained[1],
+        x[2] + gained[2],
+        x[3] + gained[3],
+    ]
+}
+
 /// Which of the forces act, as long as no event comes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Regime {
@@ -142,7 +153,7 @@ impl Step {
             let twist = twist + (first[0] - first[1]);
             let middle = [twist, 0.0, motor + first[2], load + first[3]];
             let second = self.gained(&middle, [on_motor, on_load]);
-            std::array::from_fn(|row| first[row] + second[row])
+            sum(&first, &second)
         };
         Step {
             columns: std::array::from_fn(column),
@@ -154,13 +165,14 @@ impl Step {
     pub fn gained(&self, x: &State, torques: [f64; 2]) -> State {
         let [twist, motor, load, on_motor, on_load] = &self.columns;
         let by = x[0] - x[1];
-        std::array::from_fn(|row| {
+        let row = |row: usize| {
             by * twist[row]
                 + x[2] * motor[row]
                 + x[3] * load[row]
                 + torques[0] * on_motor[row]
                 + torques[1] * on_load[row]
-        })
+        };
+        [row(0), row(1), row(2), row(3)]
     }
 }
 

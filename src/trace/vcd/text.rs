@@ -221,14 +221,19 @@ impl Text {
 
 /// Writes the bits of bytes, eight digits each.
 #[inline(always)]
-fn put_digits(digits: &mut [u8], bytes: &[u8]) {
-    for (eight, &byte) in digits.chunks_exact_mut(8).zip(bytes) {
-        eight.copy_from_slice(&eight_digits(byte));
+fn put_digits(mut digits: &mut [u8], bytes: &[u8]) {
+    for &byte in bytes {
+        let Some((eight, behind)) = digits.split_first_chunk_mut() else {
+            break;
+        };
+        *eight = eight_digits(byte);
+        digits = behind;
     }
 }
 
 /// The bits of a byte as text, the highest first: a copy for each, whose bit stands at the top of
 /// a byte of its own.
+#[inline]
 pub fn eight_digits(byte: u8) -> [u8; 8] {
     let ones = u64::from(byte).wrapping_mul(0x8040_2010_0804_0201) >> 7 & 0x0101_0101_0101_0101;
     (ones | 0x3030_3030_3030_3030).to_le_bytes()

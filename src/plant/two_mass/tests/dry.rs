@@ -64,7 +64,7 @@ fn stiction_of_the_load_holds_a_torque_from_outside() {
             run(&mut axis, 0.0, 2e-3);
             let after = axis.state;
             axis.set_load_torque_nm(0.0);
-            axis.set_state(state);
+            axis.set_state(&state);
             assert_eq!(axis.state, before);
             run(&mut axis, 0.0, 2e-3);
             assert_eq!(axis.state, after);
