@@ -91,6 +91,19 @@ fn an_absolute_encoder_is_the_same_in_icarus() {
 
 #[test]
 #[ignore = "needs Icarus Verilog"]
+fn a_phase_shift_detector_is_the_same_in_icarus() {
+    let mut shifted = Settings {
+        detector: Detector::PhaseShift,
+        clock_hz: 400_000,
+        ck_ticks: 40,
+        ..settings(1)
+    };
+    shifted.steps.truncate(1);
+    hold(&shifted, Simulator::Icarus);
+}
+
+#[test]
+#[ignore = "needs Icarus Verilog"]
 fn the_equal_forms_are_the_same_in_icarus() {
     for &form in &LeadForm::ALL[1..] {
         let history = match form {

@@ -3,8 +3,8 @@
 //!
 //! ```text
 //!                                     ┌─────────────┐
-//!  a, b or strobe, code, turn; clear ▶│             ├──▶ drive, reverse, speed, brake
-//!  run, halt, learn, common ─────────▶│             ├──▶ position, predicted, target, lead_time
+//!  a, b or strobe, code or secondary ▶│             ├──▶ drive, reverse, speed, brake; carrier
+//!  turn, clear, run, halt, learn, … ─▶│             ├──▶ position, predicted, target, lead_time
 //!  write_target, write_time, … ──────▶│ compensator ├──▶ fire, complete, timed_out
 //!  ck_period, standstill, time_out ──▶│             ├──▶ error, overrun, learned
 //!  rest, last_step, seed ────────────▶│             ├──▶ busy, refused, lost
@@ -12,25 +12,23 @@
 //!                                     └─────────────┘
 //! ```
 //!
-//! Where the position comes from is a choice: an incremental encoder, or an absolute one whose clock is
-//! CK. So is the lead: of the time Δt with the history as a shift register or as a RAM, in any of the
-//! equal [forms](LeadForm), or of the speed as in Fig. 7, by a parameter or a memory. `brake` is the
-//! control signal; it holds from the crossing through the rest up to the next step. With `passing` the
-//! body goes on, and `operate` is the control signal in place of `brake`: of an operation that is
-//! complete with its `effect`.
+//! Where the position comes from is a choice: an incremental encoder, or a detector of places in a turn
+//! or a pitch whose clock is CK. So is the lead: of the time Δt with the history as a shift register or
+//! as a RAM, in any of the equal [forms](LeadForm), or of the speed as in Fig. 7, by a parameter or a
+//! memory. `brake` is the control signal; it holds from the crossing through the rest up to the next
+//! step. With `passing` the body goes on, and `operate` is the control signal in place of `brake`: of
+//! an operation that is complete with its `effect`.
 
-use super::detector::{DetectorPart, DetectorSource};
+use super::detector::{Detected, DetectorPart, DetectorSource};
 use super::grid::{self, Grid, GridPart};
 use super::lead_source::{LeadForm, LeadFrom, LeadPart, LeadSource};
 use super::{
-    AbsoluteDetector, Comparator, CompletionDetector, Correction, Detector, Form, LeadPlacement,
-    Memory, Placement, SpeedLead, StepSequencer, TableLead, TargetSetter, TimeData, TouchProbe,
-    Variant, Widths, absolute_detector, comparator, completion_detector, correction, placement,
-    speed_lead, step_sequencer, table_lead, target_setter, time_data, time_lead, touch_probe,
+    Comparator, CompletionDetector, Correction, Detector, Form, LeadPlacement, Memory, Placement,
+    SpeedLead, StepSequencer, TableLead, TargetSetter, TimeData, TouchProbe, Variant, Widths,
+    comparator, completion_detector, correction, placement, speed_lead, step_sequencer, table_lead,
+    target_setter, time_data, time_lead, touch_probe,
 };
-use crate::circuits::blocks::{
-    EnableCounter, QuadratureCounter, enable_counter, quadrature_counter,
-};
+use crate::circuits::blocks::{EnableCounter, enable_counter};
 use crate::hdl::prelude::*;
 
 /// Compensator.
@@ -49,16 +47,6 @@ pub struct Compensator {
 }
 
 impl Compensator {
-    fn detector(&self) -> DetectorSource {
-        let Widths { position, code, .. } = self.widths;
-        match self.variant.detector {
-            Detector::Incremental => {
-                DetectorSource::Incremental(QuadratureCounter { width: position })
-            }
-            Detector::Absolute => DetectorSource::Absolute(AbsoluteDetector { code, position }),
-        }
-    }
-
     fn lead_source(&self) -> LeadSource {
         let Widths {
             stages,
@@ -116,9 +104,12 @@ signals! { for Compensator as c;
         pub strobe: Bit,
         /// Absolute encoder, its Gray word.
         pub code: U(c.widths.code) as Hex,
-        /// Absolute encoder: counts of a turn; 0 for all of its words.
+        /// Phase-shift transducer: its secondary is above zero.
+        pub secondary: Bit,
+        /// Counts of an absolute encoder's turn, or of a phase-shift transducer's pitch, which are
+        /// ticks of its carrier; 0 for all words.
         pub turn: U(c.widths.code),
-        /// Between two steps: the position becomes 0, or that of the absolute encoder's next word; the
+        /// Between two steps: the position becomes 0, or the next place in turn or pitch; the
         /// history begins anew, the flags go.
         pub clear: Bit,
         /// Steps run one after the other; when it goes low the running one is the last.
@@ -135,7 +126,7 @@ signals! { for Compensator as c;
         pub common: Bit,
         /// The step after which step 0 comes.
         pub last_step: U(c.widths.step),
-        /// Ticks of CK; 0 counts as 1. An absolute encoder has a CK of its own.
+        /// Ticks of CK; 0 counts as 1. Encoders of places have a CK of their own.
         pub ck_period: U(c.widths.ck_period),
         /// CKs without a change that are a standstill.
         pub standstill: U(c.widths.cks),
@@ -167,7 +158,7 @@ signals! { for Compensator as c;
         /// CK.
         pub ck_counter: Part<EnableCounter>(EnableCounter { width: c.widths.ck_period }),
         /// 10.
-        pub detector: DetectorPart(&c.detector()),
+        pub detector: DetectorPart(&DetectorSource::of(c.variant.detector, &c.widths)),
         /// What makes the lead.
         pub lead_source: LeadPart(&c.lead_source()),
         /// 18.
@@ -244,8 +235,11 @@ signals! { for Compensator as c;
         pub learned_time: U(c.widths.time()),
         /// A written time was refused since `clear`.
         pub refused: Bit,
-        /// The encoder was too fast since `clear`.
+        /// The encoder was too fast since `clear`, or its signal wrong.
         pub lost: Bit,
+        /// Phase of a phase-shift detector's carrier, for the D/A converters of the primaries.
+        pub carrier: [U(c.widths.code); usize::from(c.variant.detector == Detector::PhaseShift)]
+            as Elements(&["carrier"]),
     }
 }
 
@@ -280,27 +274,12 @@ impl Circuit for Compensator {
         let ck_counter = p.ck_counter.settle(enable_counter::In {
             period: i.ck_period,
         });
-        let (ck, position, lost) = match p.detector {
-            DetectorPart::Incremental(part) => {
-                let detector = part.settle(quadrature_counter::In {
-                    a: i.a,
-                    b: i.b,
-                    clear: i.clear,
-                });
-                let q = detector.q;
-                (ck_counter.w.enable, q.position, q.lost)
-            }
-            DetectorPart::Absolute(part) => {
-                let detector = part.settle(absolute_detector::In {
-                    strobe: i.strobe,
-                    code: i.code,
-                    turn: i.turn,
-                    clear: i.clear,
-                });
-                let q = detector.q;
-                (q.sample, q.position, q.lost)
-            }
-        };
+        let Detected {
+            ck,
+            position,
+            lost,
+            carrier,
+        } = p.detector.detect(&i, ck_counter.w.enable);
         let restart = i.clear;
         let target = p.target_setter.q.target;
         let data = p.time_data.q.lead_time;
@@ -447,6 +426,7 @@ impl Circuit for Compensator {
             learned_time: correction.w.learned_time,
             refused: time_data.q.refused,
             lost,
+            carrier,
         };
         (net, Nothing)
     }

@@ -1,7 +1,8 @@
 //! What a compensator can have for its position detector 10.
 
-use super::AbsoluteDetector;
-use crate::circuits::blocks::QuadratureCounter;
+use super::compensator::In;
+use super::{AbsoluteDetector, PhaseDetector, Widths, absolute_detector, phase_detector};
+use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
 use crate::hdl::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +15,8 @@ pub enum Detector {
     Incremental,
     /// An absolute encoder of a turn, whose sampling clock is CK.
     Absolute,
+    /// A phase-shift transducer, whose carrier is CK.
+    PhaseShift,
 }
 
 choice! {
@@ -23,5 +26,74 @@ choice! {
         Incremental(QuadratureCounter),
         /// The words of a turn, continued.
         Absolute(AbsoluteDetector),
+        /// The phase in a pitch, continued.
+        PhaseShift(PhaseDetector),
+    }
+}
+
+impl DetectorSource {
+    /// The detector of this kind.
+    pub(super) fn of(kind: Detector, widths: &Widths) -> Self {
+        let Widths { position, code, .. } = *widths;
+        match kind {
+            Detector::Incremental => Self::Incremental(QuadratureCounter { width: position }),
+            Detector::Absolute => Self::Absolute(AbsoluteDetector { code, position }),
+            Detector::PhaseShift => Self::PhaseShift(PhaseDetector {
+                phase: code,
+                position,
+            }),
+        }
+    }
+}
+
+/// What a detector gives.
+pub(super) struct Detected {
+    /// CK.
+    pub(super) ck: Bit,
+    /// Dx.
+    pub(super) position: I,
+    /// The position is wrong.
+    pub(super) lost: Bit,
+    /// Phase of the carrier of a phase-shift detector.
+    pub(super) carrier: Vec<U>,
+}
+
+impl DetectorPart {
+    /// Settles it by the ports of a compensator and the CK of its counter.
+    pub(super) fn detect(self, i: &In, ck: Bit) -> Detected {
+        let clear = i.clear;
+        let none = Vec::new();
+        let (ck, position, lost, carrier) = match self {
+            DetectorPart::Incremental(part) => {
+                let (a, b) = (i.a, i.b);
+                let q = part.settle(quadrature_counter::In { a, b, clear }).q;
+                (ck, q.position, q.lost, none)
+            }
+            DetectorPart::Absolute(part) => {
+                let ports = absolute_detector::In {
+                    strobe: i.strobe,
+                    code: i.code,
+                    turn: i.turn,
+                    clear,
+                };
+                let w = part.settle(ports).w;
+                (w.sample, w.position, w.lost, none)
+            }
+            DetectorPart::PhaseShift(part) => {
+                let ports = phase_detector::In {
+                    secondary: i.secondary,
+                    modulus: i.turn,
+                    clear,
+                };
+                let w = part.settle(ports).w;
+                (w.sample, w.position, w.lost, vec![w.phase])
+            }
+        };
+        Detected {
+            ck,
+            position,
+            lost,
+            carrier,
+        }
     }
 }

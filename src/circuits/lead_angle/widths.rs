@@ -17,7 +17,7 @@ pub struct Widths {
     pub cks: usize,
     /// Width of the CK's period in ticks.
     pub ck_period: usize,
-    /// Width of an absolute encoder's word.
+    /// Width of an absolute encoder's word, or of a place in a pitch.
     pub code: usize,
 }
 

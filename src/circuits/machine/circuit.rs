@@ -257,6 +257,7 @@ impl Circuit for Machine {
             b: of.b,
             strobe: low,
             code: U::new(0, self.lead_angle.widths.code),
+            secondary: low,
             turn: U::new(0, self.lead_angle.widths.code),
             clear: low,
             run: of.run,

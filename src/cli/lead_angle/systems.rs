@@ -117,7 +117,7 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         return all;
     };
     let own = own.settings.clone();
-    if settings.detector == Detector::Absolute {
+    if settings.detector != Detector::Incremental {
         let mut counted = own.clone();
         counted.detector = Detector::Incremental;
         counted.sampling_clock_ppm = 0.0;

@@ -34,6 +34,7 @@ impl Report for Summary {
             match self.detector {
                 Detector::Incremental => "",
                 Detector::Absolute => "absolute encoder, ",
+                Detector::PhaseShift => "phase-shift detector, ",
             },
             name(self.history),
             match self.form {

@@ -57,12 +57,14 @@ impl<'a> ControlComputer<'a> {
         }
     }
 
-    /// Counts of an absolute encoder's turn, as the port has them.
+    /// Counts of a turn or a pitch, as the port has them.
     fn turn(&self) -> u64 {
-        match self.settings.detector {
+        let counts = match self.settings.detector {
             Detector::Incremental => 0,
-            Detector::Absolute => self.settings.body.counts_per_rev as u64 % (1 << WIDTHS.code),
-        }
+            Detector::Absolute => self.settings.body.counts_per_rev as u64,
+            Detector::PhaseShift => u64::from(self.settings.ck_ticks),
+        };
+        counts % (1 << WIDTHS.code)
     }
 
     /// A lead time of the conventional compensator as its parameter: in gates, in 1/256.

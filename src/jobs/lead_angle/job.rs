@@ -1,6 +1,7 @@
 //! Positionings one after the other: a compensator, a body, and its brake.
 
 use super::computer::{ControlComputer, word};
+use super::sensor::{Sensor, carrier};
 use super::settings::{Completion, SPEED_UNIT_COUNTS_PER_S, Settings, TimeSource};
 use crate::circuits::lead_angle::compensator::In;
 use crate::circuits::lead_angle::{Compensator, Variant, Widths};
@@ -112,6 +113,7 @@ struct See {
     position: At<i64>,
     target: At<i64>,
     time: At<u64>,
+    carrier: Option<At<u64>>,
 }
 
 impl See {
@@ -137,6 +139,7 @@ impl See {
             position: watch.at(w.position),
             target: watch.at(w.target),
             time: watch.at(w.lead_time),
+            carrier: carrier(watch),
         }
     }
 }
@@ -277,7 +280,7 @@ pub fn play(
     let mut computer = ControlComputer::new(settings);
     let mut i = computer.standing(circuit);
     let mut operation = Operation::new(settings.operation_delay(false));
-    let mut absolute = settings.absolute_encoder();
+    let mut sensor = Sensor::of(settings);
     let mut loaded = false;
     let mut stands = false;
     let (mut simulator, see) =
@@ -288,28 +291,28 @@ pub fn play(
             operation.set_delay(settings.operation_delay(true));
             loaded = true;
         }
-        let ([drive, reverse], [control, arm, busy], [speed, step]) = simulator.state(|q| {
+        let ([drive, reverse], [control, arm, busy], [speed, step, phase]) = simulator.state(|q| {
             (
                 [q.get(see.drive), q.get(see.reverse)],
                 [q.get(see.control), q.get(see.arm), q.get(see.running)],
-                [q.get(see.speed), q.get(see.step)],
+                [
+                    q.get(see.speed),
+                    q.get(see.step),
+                    see.carrier.map_or(0, |at| q.get(at)),
+                ],
             )
         });
         let speed = speed * u64::from(SPEED_UNIT_COUNTS_PER_S);
         let (a, b) = body.step(drive, reverse, speed as f64, control && !i.passing);
-        let (strobe, code) = match &mut absolute {
-            Some(encoder) => encoder.step(body.position_counts()),
-            None => (false, 0),
-        };
+        stands &= sensor.step(&mut i, body.position_counts(), phase);
         let effect = operation.step(control && i.passing);
         bench.operate(effect, &body);
         stands &= computer.tick(&mut i, bench.played.ticks, [arm, busy], bench.run());
         stands &= computer.choose_parameter(&mut i, step);
         let halt = bench.past && drive;
-        let before = (i.a, i.b, i.strobe, i.code, i.effect, i.halt);
+        let before = (i.a, i.b, i.effect, i.halt);
         (i.a, i.b, i.effect, i.halt) = (a, b, effect, halt);
-        (i.strobe, i.code) = (strobe, code);
-        if !stands || before != (a, b, strobe, code, effect, halt) {
+        if !stands || before != (a, b, effect, halt) {
             simulator.apply(&i);
             stands = true;
         }

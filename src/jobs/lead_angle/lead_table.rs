@@ -6,11 +6,13 @@ use crate::circuits::lead_angle::LeadTable;
 
 /// Bits of the memory's address: half of its words are of either direction.
 const ADDRESS: usize = 8;
-/// Ticks from an encoder's pins to the control signal, the wait for a CK apart.
-fn latency_ticks(detector: Detector) -> f64 {
-    match detector {
+/// Ticks from an encoder's pins to the control signal, the wait for a CK apart; of a phase-shift
+/// detector with the age of a crossing, which is half a CK in the mean.
+fn latency_ticks(settings: &Settings) -> f64 {
+    match settings.detector {
         Detector::Incremental => 5.0,
         Detector::Absolute => 6.0,
+        Detector::PhaseShift => 5.0 + 0.5 * f64::from(settings.ck_ticks),
     }
 }
 
@@ -19,7 +21,7 @@ fn latency_ticks(detector: Detector) -> f64 {
 pub(super) fn lead_table(settings: &Settings) -> LeadTable {
     let ck_s = settings.ck_ms() / 1e3;
     let gate_s = f64::from(settings.cks(settings.speed_gate_ms)) * ck_s;
-    let latency_s = latency_ticks(settings.detector) / settings.clock_hz as f64 + 0.5 * ck_s;
+    let latency_s = latency_ticks(settings) / settings.clock_hz as f64 + 0.5 * ck_s;
     let steps = settings.steps.iter().map(|step| step.speed_counts_per_s);
     let fastest = f64::from(steps.max().unwrap_or(0)) * gate_s + 1.0;
     let widest = WIDTHS.position - ADDRESS;

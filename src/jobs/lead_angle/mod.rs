@@ -4,4 +4,5 @@ mod computer;
 pub mod job;
 mod lead_table;
 pub mod replay;
+mod sensor;
 pub mod settings;

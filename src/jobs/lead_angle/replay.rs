@@ -2,6 +2,7 @@
 //! predictions were.
 
 use super::computer::{ControlComputer, word};
+use super::sensor::{Sensor, carrier};
 use super::settings::{Action, LeadBy, Settings, Targets};
 use crate::circuits::lead_angle::Compensator;
 use crate::hdl::{At, Observer, Sample, Simulator, Watcher};
@@ -117,6 +118,7 @@ struct See {
     position: At<i64>,
     target: At<i64>,
     compared: [At<i64>; 2],
+    carrier: Option<At<u64>>,
 }
 
 impl See {
@@ -134,6 +136,7 @@ impl See {
             position: watch.at(w.position),
             target: watch.at(w.target),
             compared: [comparator.position, comparator.target].map(|at| watch.at(at)),
+            carrier: carrier(watch),
         }
     }
 }
@@ -190,7 +193,7 @@ pub fn replay(
     sums.parts = vec![[f64::NAN; 2]; PARTS];
     let mut computer = ControlComputer::new(settings);
     let mut i = computer.standing(circuit);
-    let mut absolute = settings.absolute_encoder();
+    let mut sensor = Sensor::of(settings);
     let mut operation = Operation::new(settings.operation_delay(false));
     let (mut before, mut effect) = (0.0, false);
     let (mut simulator, see) =
@@ -203,9 +206,8 @@ pub fn replay(
         computer.tick(&mut i, tick, [arm, true], true);
         i.a = a;
         i.b = b;
-        if let Some(encoder) = &mut absolute {
-            (i.strobe, i.code) = encoder.step(position);
-        }
+        let phase = see.carrier.map_or(0, |at| simulator.state(|q| q.get(at)));
+        sensor.step(&mut i, position, phase);
         i.effect = operation.step(control && i.passing);
         let takes_effect = i.effect && !effect;
         effect = i.effect;

@@ -1,12 +1,14 @@
 //! What the lead-angle compensator is run with: clock and CK, steps, learning, body and load.
 
+mod detector;
 mod lead;
 
 use super::job::WIDTHS;
 use crate::circuits::lead_angle::codes::LARGEST;
 pub use crate::circuits::lead_angle::{Comparing, Detector, Function, LeadForm, Placement, Sign};
-use crate::plant::{AbsoluteEncoder, BodyParameters, Load};
+use crate::plant::{BodyParameters, Load};
 use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
+pub use detector::{PITCH_RANGE_COUNTS, SAMPLING_RANGE_PPM, TURN_RANGE_COUNTS};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -48,11 +50,6 @@ pub enum LeadBy {
     /// The measured speed by a memory of the leads that the machine's numbers ask for, as in Fig. 7.
     Table,
 }
-
-/// Counts of a turn that an absolute encoder can have, by twos: as many as it has words at most.
-pub const TURN_RANGE_COUNTS: RangeInclusive<u32> = 4..=1 << WIDTHS.code;
-/// How far its sampling clock may be off, in parts per million.
-pub const SAMPLING_RANGE_PPM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 
 /// What the control signal is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -293,56 +290,6 @@ impl Settings {
     pub fn fastest_counts_per_s(&self) -> u32 {
         let word = ((1 << WIDTHS.speed) - 1) * SPEED_UNIT_COUNTS_PER_S;
         u64::from(word).min(self.followed_counts_per_s() as u64) as u32
-    }
-
-    /// The fastest speed that the detector follows, in counts a second: an incremental encoder is
-    /// counted at one count per tick, an absolute one may go a quarter of a turn in a CK.
-    #[must_use]
-    pub fn followed_counts_per_s(&self) -> f64 {
-        match self.detector {
-            Detector::Incremental => self.clock_hz as f64,
-            Detector::Absolute => self.body.counts_per_rev / 4e-3 / self.sampling_ms(),
-        }
-    }
-
-    /// The period of an absolute encoder's sampling clock, which is CK then.
-    fn sampling_ms(&self) -> f64 {
-        self.ck_ms() / (1.0 + self.sampling_clock_ppm / 1e6)
-    }
-
-    /// The absolute encoder of these settings, if it is one.
-    pub(super) fn absolute_encoder(&self) -> Option<AbsoluteEncoder> {
-        let period_ticks = self.sampling_ms() / 1e3 * self.clock_hz as f64;
-        let counts = self.body.counts_per_rev as u32;
-        let absolute = self.detector == Detector::Absolute;
-        absolute.then(|| AbsoluteEncoder::new(counts, WIDTHS.code, period_ticks))
-    }
-
-    /// An absolute encoder's turn is a whole number of counts, and an even one, so that its code has a
-    /// neighbour over the seam.
-    fn validate_detector(&self) -> Result<(), SettingError> {
-        within(
-            "sampling_clock_ppm",
-            self.sampling_clock_ppm,
-            &SAMPLING_RANGE_PPM,
-        )?;
-        if self.detector == Detector::Incremental {
-            return match self.sampling_clock_ppm == 0.0 {
-                true => Ok(()),
-                false => {
-                    let allowed = "0 with detector = \"incremental\", whose CK is ck_ticks";
-                    let value = self.sampling_clock_ppm;
-                    Err(SettingError::value("sampling_clock_ppm", value, allowed))
-                }
-            };
-        }
-        let (counts, (least, most)) = (self.body.counts_per_rev, TURN_RANGE_COUNTS.into_inner());
-        let range = f64::from(least)..=f64::from(most);
-        if range.contains(&counts) && counts % 2.0 == 0.0 {
-            return Ok(());
-        }
-        let allowed = format!("an even number from {least} to {most} with detector = \"absolute\"");
-        Err(SettingError::value("counts_per_rev", counts, allowed))
     }
 
     /// Checks every field.

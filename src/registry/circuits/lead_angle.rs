@@ -3,10 +3,11 @@ mod makers;
 use super::make::{one_of, only, width};
 use crate::circuits::lead_angle::{
     AbsoluteDetector, Comparator, Comparing, Compensator, CompletionDetector, Correction,
-    CorrectionArithmetic, DifferenceHistory, DividedTime, Function, Lead, LeadFrom, LeadPlacement,
-    LeadProducts, LeadTable, Memory, Placement, PositionHistory, RamHistory, RatioLogic,
-    Refinement, Sign, SpeedDetector, SpeedLead, StepSequencer, StopError, TableLead, TargetSetter,
-    TimeData, TimeLead, TimeLimit, TouchProbe, Widths,
+    CorrectionArithmetic, DifferenceHistory, DividedTime, Function, GrayReceiver, Lead, LeadFrom,
+    LeadPlacement, LeadProducts, LeadTable, Memory, PhaseCounter, PhaseDetector, Placement,
+    PositionHistory, RamHistory, RatioLogic, Refinement, Sign, SpeedDetector, SpeedLead,
+    StepSequencer, StopError, TableLead, TargetSetter, TimeData, TimeLead, TimeLimit, TouchProbe,
+    Unwrapper, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
@@ -24,6 +25,42 @@ pub(super) const CIRCUITS: &[Entry] = &[
         from: "width of the position, a word being one bit narrower", |given| {
             alone(given, |position| AbsoluteDetector { code: position.saturating_sub(1), position })
         },
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        GrayReceiver, "JPH0646367B2 10, words of an absolute encoder",
+        full: || GrayReceiver { code: 17 },
+        widths: [code],
+        from: "width of a word", |given| alone(given, |code| GrayReceiver { code }),
+        with: nothing,
+        proved: 3,
+    ),
+    entry!(
+        Unwrapper, "JPH0646367B2 10, places of a turn or a pitch",
+        full: || Unwrapper { place: 17, position: 24 },
+        widths: [place, position],
+        from: "width of the position, a place being one bit narrower", |given| {
+            alone(given, |position| Unwrapper { place: position.saturating_sub(1), position })
+        },
+        with: nothing,
+        proved: 4,
+    ),
+    entry!(
+        PhaseDetector, "JPH0646367B2 10, a phase-shift transducer",
+        full: || PhaseDetector { phase: 17, position: 24 },
+        widths: [phase, position],
+        from: "width of the position, a phase being one bit narrower", |given| {
+            alone(given, |position| PhaseDetector { phase: position.saturating_sub(1), position })
+        },
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        PhaseCounter, "JPH0646367B2 10, carrier and crossings",
+        full: || PhaseCounter { phase: 17 },
+        widths: [phase],
+        from: "width of a phase", |given| alone(given, |phase| PhaseCounter { phase }),
         with: nothing,
         proved: 3,
     ),
@@ -295,8 +332,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
             code = widths.code,
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
-               placement, comparing and learning as 0, 1 and so on, 0 for an incremental or 1 for an \
-               absolute encoder, the form as 0 to 5, times of the ROM",
+               placement, comparing and learning as 0, 1 and so on, 0 for an incremental, 1 for an \
+               absolute encoder, 2 for a phase-shift detector, the form as 0 to 5, times of the ROM",
             |given| chosen(small(SHIFT, given)?, &given[1..]),
         with: chosen,
         proved: none,
@@ -310,8 +347,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
             code = widths.code,
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
-               placement, comparing and learning as 0, 1 and so on, 0 for an incremental or 1 for an \
-               absolute encoder, the form as 0 to 5, times of the ROM",
+               placement, comparing and learning as 0, 1 and so on, 0 for an incremental, 1 for an \
+               absolute encoder, 2 for a phase-shift detector, the form as 0 to 5, times of the ROM",
             |given| chosen(small(RAM, given)?, &given[1..]),
         with: chosen,
         proved: none,
@@ -326,7 +363,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
             code = widths.code,
         ],
         from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
-               learning as 0, 1 and so on, 0 for an incremental or 1 for an absolute encoder, 0 for a \
+               learning as 0, 1 and so on, 0 for an incremental, 1 for an absolute encoder, 2 for a \
+               phase-shift detector, 0 for a \
                product as the lead or 1 for a memory of it, times of the ROM",
             |given| conventional(small(LeadFrom::Speed, given)?, &given[1..]),
         with: conventional,

@@ -49,10 +49,10 @@ impl Bench {
                 .set(|i| i.strobe, tick < 2 && !(tick == 0 && strobe_late));
             self.detector
                 .set(|i| i.code, if tick == 0 { torn } else { word });
-            if self.detector.see(|s| s.q.sample) {
+            if self.detector.see(|s| s.w.sample) {
                 assert!(seen.is_none(), "two samples");
-                let position = self.detector.see(|s| s.q.position);
-                seen = Some((position, self.detector.see(|s| s.q.lost)));
+                let position = self.detector.see(|s| s.w.position);
+                seen = Some((position, self.detector.see(|s| s.w.lost)));
             }
             self.detector.step();
         }
@@ -99,7 +99,7 @@ fn beyond_a_quarter_of_a_turn_it_is_lost() {
         bench.detector.set(|i| i.clear, true);
         bench.detector.step();
         bench.detector.set(|i| i.clear, false);
-        assert!(!bench.detector.see(|s| s.q.lost));
+        assert!(!bench.detector.see(|s| s.w.lost));
         let place = way.rem_euclid(TURN);
         assert_eq!(bench.sample(gray(way), 6), (place, false), "{way}");
     }

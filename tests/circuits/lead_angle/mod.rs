@@ -4,6 +4,7 @@ mod absolute;
 mod comparing;
 mod history;
 mod learning;
+mod phase;
 mod prediction;
 mod table;
 mod variants;

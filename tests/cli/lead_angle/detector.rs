@@ -1,4 +1,4 @@
-//! Position detectors: an absolute encoder of a turn.
+//! Position detectors: an absolute encoder of a turn, and a phase-shift transducer.
 
 use super::refusals::{refusal, refused};
 use super::*;
@@ -38,25 +38,101 @@ fn an_absolute_encoder_has_an_incremental_one_beside_it() {
     );
 }
 
-/// A log too is seen by it: another path to the same predictions.
+/// A log too is seen by them: other paths to the same predictions. At 10 counts a millisecond a CK is a
+/// count.
 #[test]
-fn a_log_is_seen_by_an_absolute_encoder() {
-    let run = ["run", "s.toml", "--no-vcd", "--set", "detector=absolute"];
-    let [absolute, counted] = [&run[..], &run[..3]].map(|run| log().json(run));
-    let signals = |summary: &Value| list(summary, "signals").to_vec();
-    assert_eq!(signals(&absolute).len(), 2);
-    for (one, other) in signals(&absolute).iter().zip(signals(&counted)) {
-        let apart = number(one, "/error_counts") - number(&other, "/error_counts");
-        assert!(apart.abs() <= 4.0, "{one} {other}");
+fn a_log_is_seen_by_an_absolute_encoder_and_by_a_phase_shift_transducer() {
+    for (detector, most) in [("absolute", 4.0), ("phase_shift", 6.0)] {
+        let set = format!("detector={detector}");
+        let run = ["run", "s.toml", "--no-vcd", "--set", &set];
+        let [places, counted] = [&run[..], &run[..3]].map(|run| log().json(run));
+        let signals = |summary: &Value| list(summary, "signals").to_vec();
+        assert_eq!(signals(&places).len(), 2);
+        for (one, other) in signals(&places).iter().zip(signals(&counted)) {
+            let apart = number(one, "/error_counts") - number(&other, "/error_counts");
+            assert!(apart.abs() <= most, "{one} {other}");
+        }
     }
+}
+
+/// The small job with pitches of 50 counts.
+const PHASE_SHIFT: [&str; 6] = [
+    "--set",
+    "detector=phase_shift",
+    "--set",
+    "clock_hz=500000",
+    "--set",
+    "ck_ticks=50",
+];
+
+#[test]
+fn a_phase_shift_transducer_has_an_incremental_encoder_beside_it() {
+    let bench = small();
+    let run = [&["run", "s.toml", "--to", "3000"][..], &PHASE_SHIFT].concat();
+    let summary = bench.json(&run);
+    assert_eq!(summary["detector"], "phase_shift");
+    let [learning, counted] = ["learning", "incremental"].map(|name| system(&summary, name));
+    for row in list(&summary, "positionings") {
+        let error = |system: usize| row["error_counts"][system].as_i64().unwrap();
+        // At 40000 counts/s a CK is 4 counts, of which the position is late by up to one.
+        let apart = error(learning) - error(counted);
+        assert!(apart.abs() <= 30, "{row}");
+    }
+    let vcd = bench.read("waves/s.vcd");
+    for signal in [" sync_secondary ", " carrier ", " seen_phase "] {
+        assert!(vcd.contains(signal), "no{signal}");
+    }
+    let text = bench.succeed(&run);
+    assert!(
+        text.contains("\nphase-shift detector, history shift_register"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_pitch_that_no_transducer_has_is_refused() {
+    for (lines, complaint) in [
+        (
+            "ck_ticks = 15\n",
+            "ck_ticks: is 15; allowed: 16 to 131072 with detector = \"phase_shift\", counts of its \
+             pitch",
+        ),
+        (
+            "ck_ticks = 131_073\n",
+            "ck_ticks: is 131073; allowed: 16 to 131072 with detector = \"phase_shift\", counts of its \
+             pitch",
+        ),
+        (
+            "counts_per_rev = 90_050\n",
+            "counts_per_rev: is 90050; allowed: a multiple of 100 with detector = \"phase_shift\", \
+             whose pitch is ck_ticks",
+        ),
+        (
+            "sampling_clock_ppm = 50\n",
+            "sampling_clock_ppm: is 50; allowed: 0 with detector = \"phase_shift\", whose carrier is \
+             ck_ticks",
+        ),
+    ] {
+        assert_eq!(
+            refused(&format!("detector = \"phase_shift\"\n{lines}")),
+            format!("error: s.toml:3: {complaint}\n")
+        );
+    }
+    // (20 - 4)/(7·20 + 4) of 200,000.
+    let set = ["s.toml", "--set", "detector=phase_shift"];
+    assert_eq!(
+        refusal(&small(), &set),
+        "error: s.toml:13: step 1: speed_counts_per_s: is 40000; allowed: 10 to 22222, a multiple of \
+         10\n"
+    );
 }
 
 #[test]
 fn a_turn_that_no_encoder_has_is_refused() {
     assert_eq!(
         refused("detector = \"resolver\"\n"),
-        "error: s.toml:2: detector: unknown variant `resolver`; allowed: `incremental` or \
-         `absolute`\n"
+        "error: s.toml:2: detector: unknown variant `resolver`; allowed: one of \
+         `incremental`, `absolute`, `phase_shift`\n"
     );
     for counts in ["90_001", "131_074", "2", "1000.5"] {
         let shown = counts.replace('_', "");

@@ -1,4 +1,4 @@
-//! Absolute encoders as the position detector.
+//! Absolute encoders and phase-shift transducers as the position detector.
 
 use super::*;
 
@@ -59,4 +59,72 @@ fn a_sampling_clock_that_is_off_is_learned() {
     learned.sampling_clock_ppm = -10_000.0;
     let played = with_lead(&learned);
     assert!(off(&played.positionings[7]) <= code_travel(&learned, &played.positionings[7]));
+}
+
+/// The turntable with 1,200 pitches of 75 counts to a turn, and a carrier of 10 kHz.
+fn phase_shift() -> Settings {
+    Settings {
+        detector: Detector::PhaseShift,
+        clock_hz: 750_000,
+        ck_ticks: 75,
+        ..turntable()
+    }
+}
+
+/// A phase-shift detector, whose carrier is CK: its place is up to a CK old, which is learned as any
+/// other delay. What the place in the pitch makes of it is a CK's way to either side, N-fold.
+#[test]
+fn a_phase_shift_detector_is_learned_to_a_codes_travel_and_its_own_unevenness() {
+    let settings = Settings {
+        positionings: 24,
+        load_change_after: None,
+        ..phase_shift()
+    };
+    let played = with_lead(&settings);
+    let counted = with_lead(&Settings {
+        detector: Detector::Incremental,
+        ..settings.clone()
+    });
+    for (one, other) in played
+        .positionings
+        .iter()
+        .zip(&counted.positionings)
+        .skip(20)
+    {
+        let travel = code_travel(&settings, one);
+        assert!(off(other) <= travel, "{other:?}");
+        assert!(off(one) <= 2.0 * travel, "{one:?} {travel}");
+        // Half a CK is no more than a step of its grid.
+        assert!(one.code.abs_diff(other.code) <= 6, "{one:?} {other:?}");
+    }
+    // Pitch after pitch, turn after turn.
+    let turning = Settings {
+        targets: Targets::Relative,
+        steps: one_step(45_000, 90_000, 10).steps,
+        positionings: 10,
+        ..settings
+    };
+    let played = with_lead(&turning);
+    assert_eq!(played.positionings[9].target, 450_000);
+    for one in &played.positionings[6..] {
+        assert!(off(one) <= 2.0 * code_travel(&turning, one), "{one:?}");
+    }
+}
+
+/// At the fastest speed that is accepted nothing is lost, in either direction.
+#[test]
+fn the_fastest_speed_of_a_phase_shift_detector_is_followed() {
+    for way in [45_000, -45_000] {
+        let mut settings = phase_shift();
+        settings.body.acceleration_counts_per_s2 = 3e6;
+        let fastest = settings.fastest_counts_per_s() / 10 * 10;
+        assert_eq!(fastest, 100_660);
+        settings.targets = Targets::Relative;
+        settings.steps = one_step(way, fastest, 2).steps;
+        (settings.positionings, settings.load_change_after) = (2, None);
+        with_lead(&settings);
+        settings.steps[0].speed_counts_per_s += 10;
+        let refused = settings.validate().expect_err("too fast");
+        assert!(refused.to_string().contains("10 to 100661"), "{refused}");
+    }
 }

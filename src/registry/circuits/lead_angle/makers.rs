@@ -23,7 +23,11 @@ pub(super) const COMPARINGS: &[Comparing] = &[Comparing::Crossing, Comparing::Eq
 pub(super) const ONES: &[bool] = &[false, true];
 const DIVISIONS: &[Division] = &[Division::Logic, Division::Beforehand, Division::One];
 const FORMS: &[Form] = &[Form::Difference, Form::Products, Form::EarlyDifference];
-const DETECTORS: &[Detector] = &[Detector::Incremental, Detector::Absolute];
+const DETECTORS: &[Detector] = &[
+    Detector::Incremental,
+    Detector::Absolute,
+    Detector::PhaseShift,
+];
 pub(super) const SIGNS: &[Sign] = &[Sign::Converging, Sign::Literal];
 
 /// Either sign, then either sign to second order.

@@ -1,0 +1,164 @@
+//! Unwrapper: a position that goes on, from places in a turn or in a pitch. Part of position
+//! detector 10 of JPH0646367B2.
+//!
+//! ```text
+//!                ┌───────────┐
+//!  take, fault ─▶│           ├──▶ sample, position
+//!  place ───────▶│ unwrapper │
+//!  modulus ─────▶│           ├──▶ lost
+//!  clear ───────▶│           │
+//!                └───────────┘
+//! ```
+//!
+//! What a sensor knows of a position is the place in its turn, or in its pitch. The way from sample to
+//! sample is the shorter one round, and is added to a position that wraps at 2^position only. The
+//! text says nothing of turns.
+//!
+//! Departures: the position after power-on or `clear` is the place. Beyond a quarter of the modulus in
+//! a sample the way is counted but `lost` is high: half of it more would look the same in the other
+//! direction. A place that is at fault is not counted, and is `lost` too.
+
+use crate::hdl::prelude::*;
+
+/// Unwrapper; a place taken in tick n is in `position` from n + 1 on, with `sample` in that tick.
+#[derive(Debug, Clone)]
+pub struct Unwrapper {
+    /// Width of a place.
+    pub place: usize,
+    /// Width of the position, greater than that.
+    pub position: usize,
+}
+
+signals! { for Unwrapper as c;
+    /// Ports in.
+    pub struct In {
+        /// A place is taken.
+        pub take: Bit,
+        /// It is none: it is not counted.
+        pub fault: Bit,
+        /// The place, below the modulus.
+        pub place: U(c.place),
+        /// Counts of a turn or of a pitch; 0 for 2^place.
+        pub modulus: U(c.place),
+        /// The next place is taken for the position, as after power-on; `lost` off.
+        pub clear: Bit,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// A place was counted since power-on or `clear`.
+        known: Bit,
+        /// The place of the last sample.
+        last: U(c.place),
+        /// A sample is new in this tick: CK.
+        pub sample: Bit,
+        /// Dx: the place, and the turns since; wraps.
+        pub position: I(c.position) as Analog = 0,
+        /// The body was too fast, or a place was none, since `clear`.
+        pub lost: Bit,
+    }
+    /// Nets.
+    pub struct Net {
+        /// The place counts.
+        counted: Bit,
+        /// The modulus, with room for all places.
+        counts: U(c.place + 1),
+        /// The place, the modulus and half of it, with room for a sign.
+        placed: I(c.place + 2),
+        /// The modulus.
+        whole: I(c.place + 2),
+        /// Half of it.
+        half: I(c.place + 2),
+        /// Counts gone since the last sample, in either direction.
+        gone: I(c.place + 2),
+        /// The same by the shorter way round.
+        way: I(c.place + 2),
+        /// The way is longer than a quarter of the modulus.
+        far: Bit,
+        /// What a sample adds to the position.
+        step: I(c.position),
+    }
+}
+
+impl Circuit for Unwrapper {
+    const NAME: &'static str = "unwrapper";
+    const ABOUT: &'static str = "a position that goes on, from places in a turn or in a pitch";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        let wider = self.position > self.place && self.place >= 2;
+        (!wider).then(|| "a position is wider than a place, and that has 2 bits at least".into())
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let n = self.place;
+        let counts = i.modulus.is_zero().word().join(i.modulus);
+        let signed = |word: U| word.resize(n + 2).signed();
+        let placed = signed(i.place);
+        let gone = placed - signed(q.last);
+        let (whole, half) = (signed(counts), signed(counts.shift_right(1)));
+        let up = half.below(gone);
+        let down = gone.below(-half);
+        let way = up.mux(gone - whole, down.mux(gone + whole, gone));
+        let far = counts.shift_right(2).below_any(way.magnitude());
+        let counted = i.take & !i.fault;
+        let step = q.known.mux(way, placed).resize(self.position);
+        let before = q.known.mux(q.position, 0);
+        let net = Net {
+            counted,
+            counts,
+            placed,
+            whole,
+            half,
+            gone,
+            way,
+            far,
+            step,
+        };
+        let next = Reg {
+            known: (q.known | counted) & !i.clear,
+            last: counted.mux(i.place, q.last),
+            sample: i.take,
+            position: counted.mux(before + step, q.position),
+            lost: (q.lost | (i.take & (i.fault | (q.known & far)))) & !i.clear,
+        };
+        (net, next)
+    }
+}
+
+impl Specified for Unwrapper {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let range = 1i64 << self.position;
+        let all = 1i64 << self.place;
+        Invariants::<Self>::new().step(
+            "a sample moves the position by the shorter way round, or is its place at first",
+            move |now, next| {
+                let (i, q, after) = (now.i, now.q, &next.q);
+                let counts = if i.modulus == 0 {
+                    all
+                } else {
+                    i.modulus as i64
+                };
+                let gone = i.place as i64 - q.last as i64;
+                let ways = [gone, gone - counts, gone + counts];
+                let way = ways.into_iter().min_by_key(|way| way.abs()).unwrap_or(gone);
+                let far = way.abs() > counts / 4;
+                let position = match (i.take && !i.fault, q.known) {
+                    (false, _) => q.position,
+                    (true, false) => i.place as i64,
+                    (true, true) => q.position + way,
+                };
+                let counted = i.take && !i.fault;
+                let lost = q.lost || (i.take && (i.fault || (q.known && far)));
+                let right = (after.position - position).rem_euclid(range) == 0
+                    && after.last == if counted { i.place } else { q.last }
+                    && after.sample == i.take
+                    && after.lost == (lost && !i.clear)
+                    && after.known == ((q.known || counted) && !i.clear);
+                let signals = ["position", "last", "sample", "lost", "known"];
+                require(right, signals, || {
+                    format!("{} by {way} of {counts}", after.position)
+                })
+            },
+        )
+    }
+}
