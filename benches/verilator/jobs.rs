@@ -216,7 +216,7 @@ pub fn weld(ticks: u64, clock: Clock) -> Job<ArcGenerator> {
     let (scale, rounding) = (settings.counts_per_mm, settings.rounding);
     let records = records(&prepared, scale, &widths, rounding).expect("it fits");
     let sample_ticks = settings.sample_ticks(&widths).expect("it fits");
-    let circuit = arc_generator(rounding);
+    let circuit = arc_generator(&settings);
     let mut recorder = Recorder::new(&circuit, ticks);
     jobs::arc_generator::job::play(&circuit, &records, sample_ticks, &mut recorder)
         .expect("nobody objects");

@@ -9,7 +9,8 @@
 //! | 8c + 8 … | of coordinate c: whole and part of the differences 1 to 4 | row c of R, then 0 |
 //!
 //! Points are in guard units of 2^-G count, coefficients in units of 2^-B; a signed word is cut to
-//! its bits. Differences are exact: whole·modulus + part.
+//! its bits. Differences are exact: whole·modulus + part. Blends and lines by products have other words:
+//! [`products`](crate::jobs::arc_generator::products).
 
 /// Words of a record.
 pub const WORDS: usize = 32;

@@ -2,7 +2,7 @@
 
 use super::exactly::exactly;
 use super::{Place, Program, Runnable};
-use crate::circuits::arc_generator::Rounding;
+use crate::circuits::arc_generator::{Blend, Rounding};
 use crate::input::Point;
 use crate::jobs::arc_generator::mechanism::Mechanism;
 use crate::jobs::arc_generator::settings::{Settings, ShortPieces};
@@ -53,6 +53,9 @@ pub struct Scenario {
     /// How the rotation rounds.
     #[serde(default)]
     pub rounding: Rounding,
+    /// How blends and lines are made.
+    #[serde(default)]
+    pub blend: Blend,
     /// What becomes of a piece that is too short or too tight for its speed.
     #[serde(default)]
     pub short_pieces: ShortPieces,
@@ -153,6 +156,7 @@ impl Scenario {
             rapid_mm_per_s: self.rapid_mm_per_s,
             corner_deg: self.corner_deg,
             rounding: self.rounding,
+            blend: self.blend,
             short_pieces: self.short_pieces,
         }
     }

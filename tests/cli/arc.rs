@@ -49,6 +49,7 @@ fn the_seam_is_what_closed_forms_say() {
         [
             "arcs",
             "arm",
+            "blend",
             "blend_samples",
             "blends",
             "circuit",

@@ -43,6 +43,10 @@ fn bad_settings_are_refused() {
             "rounding: unknown variant `up`; allowed: `nearest` or `floor`\n",
         ),
         (
+            "blend=cubes",
+            "blend: unknown variant `cubes`; allowed: `differences` or `products`\n",
+        ),
+        (
             "short_pieces=no",
             "short_pieces: unknown variant `no`; allowed: `refuse` or `slower`\n",
         ),

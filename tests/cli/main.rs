@@ -5,6 +5,7 @@ mod arc;
 mod arc_arm;
 mod arc_files;
 mod arc_mechanism;
+mod arc_products;
 mod arc_refusals;
 mod check_parts;
 mod checks;

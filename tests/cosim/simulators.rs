@@ -68,6 +68,16 @@ fn the_other_variants_equal_their_verilog_too() {
         let circuit = entry.model(&[8, 1]).unwrap();
         assert!(hold(&*circuit, Simulator::Icarus, SEED, TICKS) > 0);
     }
+    for (name, given) in [
+        ("record_sequencer", &[8, 1][..]),
+        ("arc_generator", &[8, 0, 1]),
+    ] {
+        let circuit = motion_rtl::registry::find(name)
+            .unwrap()
+            .model(given)
+            .unwrap();
+        assert!(hold(&*circuit, Simulator::Icarus, SEED, TICKS) > 0);
+    }
     for rule in [1, 2] {
         let entry = motion_rtl::registry::find("integrator").unwrap();
         let circuit = entry.model(&[8, rule]).unwrap();
@@ -95,6 +105,8 @@ fn the_top_circuits_equal_their_verilog_in_verilator() {
 #[ignore = "needs Verilator"]
 fn verilator_finds_nothing_to_warn_of() {
     all(|circuit, _| lint(circuit));
+    let by_products = motion_rtl::registry::find("arc_generator").unwrap();
+    lint(&*by_products.model(&[8, 0, 1]).unwrap());
 }
 
 /// Verilator finds nothing to warn of.

@@ -47,7 +47,10 @@ fn hold(rounding: Rounding, simulator: Simulator) -> Played {
     let records = records(&prepared, 1000.0, &Widths::FULL, rounding).unwrap();
     assert!(records.len() > 9, "{} segments", records.len());
 
-    let circuit = arc_generator(rounding);
+    let circuit = arc_generator(&Settings {
+        rounding,
+        ..Settings::default()
+    });
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
     let modules = write(path, &Verilog::of(&circuit).unwrap());

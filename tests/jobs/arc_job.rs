@@ -99,7 +99,10 @@ fn path(wanted: &Wanted, speed: f64, blend_samples: u64) -> Prepared {
 }
 
 fn played(records: &[Record], rounding: Rounding) -> Vec<[i64; 3]> {
-    let circuit = arc_generator(rounding);
+    let circuit = arc_generator(&Settings {
+        rounding,
+        ..Settings::default()
+    });
     let played = play(&circuit, records, LEAST_SAMPLE_TICKS as u32, ()).expect("nothing objects");
     assert!(!played.late && !played.starved);
     let ticks = played.commands.iter().map(|command| command.tick);

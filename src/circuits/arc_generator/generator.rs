@@ -10,13 +10,18 @@
 //! ```
 
 use super::{
-    Conventional, PositionCommand, Rotation, Rounding, Widths, position_command, rotation,
+    Blend, BlendPoint, Conventional, PositionCommand, Rotation, Rounding, Widths, blend_point,
+    position_command, rotation,
 };
+use crate::circuits::blocks::record_memory::ARC;
 use crate::circuits::blocks::{
     DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
     enable_counter, record_memory, record_sequencer,
 };
 use crate::hdl::prelude::*;
+
+/// Names of the difference engines.
+const ENGINES: &[&str] = &["engine_x", "engine_y", "engine_z"];
 
 /// Arc generator.
 ///
@@ -30,15 +35,18 @@ pub struct ArcGenerator {
     pub records: usize,
     /// How the rotation rounds.
     pub rounding: Rounding,
+    /// How blends and lines are made.
+    pub blend: Blend,
 }
 
 impl ArcGenerator {
     /// A generator of the full widths whose rotation rounds by `rounding`.
-    pub const fn new(rounding: Rounding) -> Self {
+    pub const fn new(rounding: Rounding, blend: Blend) -> Self {
         ArcGenerator {
-            widths: Widths::FULL,
+            widths: blend.widths(Widths::FULL),
             records: 4,
             rounding,
+            blend,
         }
     }
 
@@ -47,10 +55,14 @@ impl ArcGenerator {
         self.memory().latency() + 2
     }
 
-    /// The shortest sampling time, in ticks, in which the first point of an arc is made behind the
-    /// last of the segment before.
+    /// The shortest sampling time, in ticks, in which the first point of any segment is made behind
+    /// the last of the segment before.
     pub const fn least_period(&self) -> u64 {
-        self.first() + 1 + self.rotation().latency() + 1
+        let latency = match self.blend {
+            Blend::Differences => self.rotation().latency(),
+            Blend::Products => self.blend_point().latency(),
+        };
+        self.first() + 1 + latency + 1
     }
 
     const fn memory(&self) -> RecordMemory {
@@ -67,6 +79,26 @@ impl ArcGenerator {
         }
     }
 
+    const fn blend_point(&self) -> BlendPoint {
+        let widths = self.widths;
+        BlendPoint { widths }
+    }
+
+    const fn sequencer(&self) -> RecordSequencer {
+        RecordSequencer {
+            waits: matches!(self.blend, Blend::Products),
+            ..self.widths.sequencer()
+        }
+    }
+
+    /// How many coordinates have a difference engine.
+    const fn engines(&self) -> usize {
+        match self.blend {
+            Blend::Differences => 3,
+            Blend::Products => 0,
+        }
+    }
+
     fn command(&self, coordinate: u64) -> PositionCommand {
         let widths = self.widths;
         PositionCommand { widths, coordinate }
@@ -75,7 +107,7 @@ impl ArcGenerator {
 
 impl Default for ArcGenerator {
     fn default() -> Self {
-        Self::new(Rounding::default())
+        Self::new(Rounding::default(), Blend::default())
     }
 }
 
@@ -136,13 +168,13 @@ signals! { for ArcGenerator as c;
         /// Coefficients of the segments to come.
         pub memory: Part<RecordMemory>(c.memory()),
         /// Segment after segment.
-        pub sequencer: Part<RecordSequencer>(c.widths.sequencer()),
-        /// Blends and lines, x.
-        pub engine_x: Part<DifferenceEngine>(c.widths.engine(0)),
-        /// Blends and lines, y.
-        pub engine_y: Part<DifferenceEngine>(c.widths.engine(1)),
-        /// Blends and lines, z.
-        pub engine_z: Part<DifferenceEngine>(c.widths.engine(2)),
+        pub sequencer: Part<RecordSequencer>(c.sequencer()),
+        /// Blends and lines, one for each coordinate.
+        pub engines: [Part<DifferenceEngine>(c.widths.engine(k as u64)); k in c.engines()]
+            as Elements(ENGINES),
+        /// Blends and lines by products, in their place.
+        pub blend_points: [Part<BlendPoint>(c.blend_point()); usize::from(c.engines() == 0)]
+            as Elements(&["blend_point"]),
         /// Arcs.
         pub rotation: Part<Rotation>(c.rotation()),
         /// Command of x.
@@ -175,13 +207,27 @@ impl Circuit for ArcGenerator {
             flush: i.halt,
         });
         let (word, data) = (memory.q.word, memory.q.data);
+        let (rotate, arc) = (p.sequencer.q.rotate, p.sequencer.q.kind.equals(ARC));
         let rotation = p.rotation.settle(rotation::In {
             load: memory.w.load_rotation,
             word,
             data,
-            step: p.sequencer.q.rotate,
+            step: match self.blend {
+                Blend::Differences => rotate,
+                Blend::Products => rotate & arc,
+            },
             halt: i.halt,
         });
+        let blend_points = settle_each(p.blend_points, |_| blend_point::In {
+            load: memory.w.load_engines,
+            word,
+            data,
+            modulus: p.sequencer.q.modulus,
+            step: rotate & !arc,
+            halt: i.halt,
+        });
+        let points = blend_points.first().map(|point| &point.w);
+        let rotated = rotation.w.done;
         let sequencer = p.sequencer.settle(record_sequencer::In {
             start: segments.start,
             halt: i.halt,
@@ -191,31 +237,35 @@ impl Circuit for ArcGenerator {
             word,
             data,
             loaded: memory.q.loaded,
-            rotated: rotation.w.done,
+            rotated: points.map_or(rotated, |point| rotated | point.done),
         });
-        let command = |engine: Part<DifferenceEngine>, command: Part<PositionCommand>, offset| {
-            let engine = engine.settle(difference_engine::In {
-                load: memory.w.load_engines,
-                word,
-                data,
-                modulus: sequencer.q.modulus,
-                step: sequencer.w.advance,
-            });
+        let engines = settle_each(p.engines, |_| difference_engine::In {
+            load: memory.w.load_engines,
+            word,
+            data,
+            modulus: sequencer.q.modulus,
+            step: sequencer.w.advance,
+        });
+        let polynomials = match points {
+            Some(point) => vec![point.x, point.y, point.z],
+            None => engines.iter().map(|engine| engine.w.nearest).collect(),
+        };
+        let command = |command: Part<PositionCommand>, coordinate: usize, offset| {
             let command = command.settle(position_command::In {
                 load: memory.q.load,
                 word,
                 data,
                 rotating: sequencer.w.rotating,
-                polynomial: engine.w.nearest,
+                polynomial: polynomials[coordinate],
                 offset,
                 present: sequencer.w.present,
             });
             command.q.command
         };
         let net = Net {
-            x: command(p.engine_x, p.command_x, rotation.w.x),
-            y: command(p.engine_y, p.command_y, rotation.w.y),
-            z: command(p.engine_z, p.command_z, rotation.w.z),
+            x: command(p.command_x, 0, rotation.w.x),
+            y: command(p.command_y, 1, rotation.w.y),
+            z: command(p.command_z, 2, rotation.w.z),
             sampled: sequencer.q.sampled,
             ready: memory.w.ready,
             busy: sequencer.w.busy,

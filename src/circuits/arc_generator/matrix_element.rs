@@ -12,6 +12,7 @@
 //! As in a [`RotationRow`](super::RotationRow) the sum is halved behind a bit of the fraction, and
 //! what falls off last rounds it.
 
+use super::rotation_row::halved;
 use crate::hdl::prelude::*;
 
 /// Sign of an element's second term.
@@ -100,11 +101,8 @@ impl Circuit for MatrixElement {
         let total = q.sum + i.top.mux(-addend.shift_left(1), addend);
         let raised = q.sum + q.half.word().resize(self.sum()).signed();
         let entry = raised.unsigned().resize(self.coefficient);
-        let next = Reg {
-            // Without bits left the total is the sum.
-            sum: i.copy.mux(0, i.fraction.mux(total.shift_right(1), total)),
-            half: i.fraction.mux(total.unsigned().bit(0), q.half),
-        };
+        let (sum, half) = halved(total, q.half, i.copy, i.fraction);
+        let next = Reg { sum, half };
         let net = Net {
             term_product,
             term_turn,

@@ -16,6 +16,9 @@
 
 pub mod angle_step;
 pub mod axis_terms;
+pub mod blend_point;
+pub mod blend_row;
+pub mod blend_weight;
 pub mod conventional;
 pub mod generator;
 pub mod matrix_element;
@@ -28,6 +31,9 @@ pub mod widths;
 
 pub use angle_step::AngleStep;
 pub use axis_terms::AxisTerms;
+pub use blend_point::BlendPoint;
+pub use blend_row::BlendRow;
+pub use blend_weight::BlendWeight;
 pub use conventional::Conventional;
 pub use generator::ArcGenerator;
 pub use matrix_element::MatrixElement;
@@ -56,6 +62,49 @@ impl Rounding {
         match self {
             Rounding::Nearest => "nearest",
             Rounding::Floor => "floor",
+        }
+    }
+}
+
+/// How the points of blends and lines are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Blend {
+    /// By additions, from the differences of the quartic.
+    #[default]
+    Differences,
+    /// By products, from \[5\] and \[10\] as they are written.
+    Products,
+}
+
+impl Blend {
+    /// The name it has in scenarios.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Blend::Differences => "differences",
+            Blend::Products => "products",
+        }
+    }
+
+    /// The widths of the generator that makes them so: by products a modulus is M itself.
+    #[must_use]
+    pub const fn widths(self, widths: Widths) -> Widths {
+        match self {
+            Blend::Differences => widths,
+            Blend::Products => Widths {
+                fraction: widths.samples + 1,
+                ..widths
+            },
+        }
+    }
+
+    /// The most samples of a blend: an even number, of which the modulus fits.
+    #[must_use]
+    pub fn most_samples(self, widths: &Widths) -> u64 {
+        match self {
+            Blend::Differences => widths.most_blend_samples(),
+            Blend::Products => widths.most_samples() - 1,
         }
     }
 }

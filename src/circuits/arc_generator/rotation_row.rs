@@ -141,11 +141,16 @@ impl Products {
 
     /// Sum and half after the edge.
     pub(super) fn after(&self, net: &Net, copy: Bit, fraction: Bit) -> (I, Bit) {
-        // Without bits left the total is the sum.
-        let sum = fraction.mux(net.total.shift_right(1), net.total);
-        let half = fraction.mux(net.total.unsigned().bit(0), self.half);
-        (copy.mux(0, sum), half)
+        halved(net.total, self.half, copy, fraction)
     }
+}
+
+/// A sum and its half after the edge, behind a bit that was added to it.
+pub(super) fn halved(total: I, half: Bit, copy: Bit, fraction: Bit) -> (I, Bit) {
+    // Without bits left the total is the sum.
+    let sum = fraction.mux(total.shift_right(1), total);
+    let half = fraction.mux(total.unsigned().bit(0), half);
+    (copy.mux(0, sum), half)
 }
 
 impl Circuit for RotationRow {

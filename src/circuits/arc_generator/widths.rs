@@ -65,6 +65,7 @@ impl Widths {
             modulus: self.fraction,
             samples: self.samples,
             data: self.data,
+            waits: false,
         }
     }
 

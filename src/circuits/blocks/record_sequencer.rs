@@ -39,6 +39,8 @@ pub struct RecordSequencer {
     pub samples: usize,
     /// Width of a word of a record.
     pub data: usize,
+    /// The points of blends and lines are waited for as those of arcs are.
+    pub waits: bool,
 }
 
 signals! { for RecordSequencer as c;
@@ -60,7 +62,7 @@ signals! { for RecordSequencer as c;
         pub data: U(c.data) as Hex,
         /// The record is complete.
         pub loaded: Bit,
-        /// The rotation has its next point.
+        /// The rotation has its next point, or who else is waited for.
         pub rotated: Bit,
     }
     /// Flip-flops.
@@ -79,7 +81,7 @@ signals! { for RecordSequencer as c;
         pub modulus: U(c.modulus) = 0,
         /// The next record is fetched.
         pub take: Bit = 0,
-        /// The rotation makes the next point.
+        /// The rotation makes the next point, or who else is waited for.
         pub rotate: Bit = 0,
         /// New commands stand in this tick.
         pub sampled: Bit = 0,
@@ -134,7 +136,8 @@ impl Circuit for RecordSequencer {
         let to = |state: u64| U::new(state, 3);
         let ended = i.available.mux(to(FETCH), to(IDLE));
         let stands = q.first | q.remaining.is_zero();
-        let made = rotating.mux(to(ROTATE), to(READY));
+        let waits = if self.waits { Bit::high() } else { rotating };
+        let made = waits.mux(to(ROTATE), to(READY));
         let state = begins.mux(FETCH, q.state);
         let state = (i.loaded & is(FETCH)).mux(stands.mux(to(READY), to(STEP)), state);
         let state = makes.mux(made, state);
@@ -162,7 +165,7 @@ impl Circuit for RecordSequencer {
             remaining: header.mux(samples, remaining),
             modulus: modulus.mux(i.data.resize(self.modulus), q.modulus),
             take: begins | (over & i.available),
-            rotate: makes & rotating,
+            rotate: makes & waits,
             sampled: present,
             late: (q.late & !begins) | hurried,
             starved: (q.starved & !begins) | (over & !q.rests & !i.available),
@@ -172,7 +175,7 @@ impl Circuit for RecordSequencer {
 }
 
 /// What the control does next, in the words of its description: `None` where it stays as it is.
-fn after(q: &Reg<Value>, i: &In<Value>) -> Option<u64> {
+fn after(q: &Reg<Value>, i: &In<Value>, waits: bool) -> Option<u64> {
     let on = |condition: bool, state| condition.then_some(state);
     let next = on(i.available, FETCH).unwrap_or(IDLE);
     match q.state {
@@ -180,7 +183,7 @@ fn after(q: &Reg<Value>, i: &In<Value>) -> Option<u64> {
         IDLE => on(i.start && i.available, FETCH),
         FETCH if q.first || q.remaining == 0 => on(i.loaded, READY),
         FETCH => on(i.loaded, STEP),
-        STEP if q.kind == ARC => Some(ROTATE),
+        STEP if q.kind == ARC || waits => Some(ROTATE),
         STEP => Some(READY),
         ROTATE => on(i.rotated, READY),
         _ if q.remaining == 0 => on(i.sample, next),
@@ -193,7 +196,7 @@ impl Specified for RecordSequencer {
         let begins = |q: &Reg<Value>, next: &Reg<Value>| q.state == IDLE && next.state == FETCH;
         Invariants::<Self>::new()
             .step("state after state as described", |now, next| {
-                let expected = after(now.q, now.i).unwrap_or(now.q.state);
+                let expected = after(now.q, now.i, self.waits).unwrap_or(now.q.state);
                 require(next.q.state == expected, ["state"], || {
                     format!("not {}", STATES[expected as usize])
                 })
@@ -203,14 +206,14 @@ impl Specified for RecordSequencer {
                 |now, next| {
                     let header = now.i.load && now.i.word == 0;
                     let steps = now.q.state == STEP && !now.i.halt;
-                    let made = u64::from(now.w.advance) + u64::from(next.q.rotate);
                     let arc = now.q.kind == ARC;
                     let words = 1 << self.samples;
-                    let left = (now.q.remaining + words - made) % words;
+                    let left = (now.q.remaining + words - u64::from(steps)) % words;
                     let counted = header || next.q.remaining == left;
-                    let right = made == u64::from(steps) && next.q.rotate == (steps && arc);
+                    let right = now.w.advance == (steps && !arc)
+                        && next.q.rotate == (steps && (arc || self.waits));
                     require(right && counted, ["remaining", "advance", "rotate"], || {
-                        format!("{made} made")
+                        format!("{left} left")
                     })
                 },
             )

@@ -229,6 +229,7 @@ signals! { for TrajectoryController as c;
             modulus: c.widths.fraction,
             samples: c.widths.samples,
             data: c.widths.data,
+            waits: false,
         }),
         /// Interpolation and acceleration 1.
         pub profile: Part<DifferenceEngine>(DifferenceEngine {

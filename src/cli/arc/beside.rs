@@ -189,7 +189,7 @@ pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, R
         most(&mut arcs.iter().map(|arc| arc.bound)),
     ];
     Ok(vec![
-        Row::of(&hdl::model(&arc_generator(rounding))?, played, own),
+        Row::of(&hdl::model(&arc_generator(&job.settings))?, played, own),
         Row::of(
             &hdl::model(&Conventional::new(rounding))?,
             &beside.played,

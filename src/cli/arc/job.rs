@@ -3,15 +3,14 @@
 use crate::cli::Failure;
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
-use motion_rtl::circuits::arc_generator::Widths;
+use motion_rtl::circuits::arc_generator::{Blend, Widths};
 use motion_rtl::input::{Drawing, Point};
 use motion_rtl::jobs::arc_generator::joints::{Followed, follow};
 use motion_rtl::jobs::arc_generator::mechanism::Mechanism;
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::prepared::Prepared;
-use motion_rtl::jobs::arc_generator::record::records;
-use motion_rtl::jobs::arc_generator::reference::commands;
 use motion_rtl::jobs::arc_generator::settings::Settings;
+use motion_rtl::jobs::arc_generator::{products, record, reference};
 use motion_rtl::path::arm::Arm;
 use motion_rtl::path::error::{PathError, Reason};
 use motion_rtl::path::pieces::Speeds;
@@ -47,7 +46,7 @@ impl Job {
     pub fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
         let (settings, loaded) = (scenario.settings(), &source.loaded);
         let refuse = |error| loaded.refuse(error);
-        let widths = Widths::FULL;
+        let widths = settings.blend.widths(Widths::FULL);
         let timing = settings.timing(&widths).map_err(refuse)?;
         let sample_ticks = settings.sample_ticks(&widths).map_err(refuse)?;
         let arm = scenario.arm.map(Arm::from);
@@ -65,15 +64,17 @@ impl Job {
         let (drawing, start, pieces) = pieces(&source, scenario.start_mm, &taught, keys)?;
         let refuse = |error: PathError| fault(loaded, drawing.as_ref(), keys, &error);
         let prepared = prepare(start, &pieces, &timing).map_err(refuse)?;
-        let records = records(
-            &prepared,
-            settings.counts_per_mm,
-            &widths,
-            settings.rounding,
-        );
+        let (scale, rounding) = (settings.counts_per_mm, settings.rounding);
+        let records = match settings.blend {
+            Blend::Differences => record::records(&prepared, scale, &widths, rounding),
+            Blend::Products => products::records(&prepared, scale, &widths, rounding),
+        };
         let records = records.map_err(refuse)?;
         let followed = arm.map(|arm| {
-            let commands = commands(&records, &widths, settings.rounding);
+            let commands = match settings.blend {
+                Blend::Differences => reference::commands(&records, &widths, rounding),
+                Blend::Products => products::commands(&records, &widths, rounding),
+            };
             let mm = |counts: [i64; 3]| counts.map(|c| c as f64 / settings.counts_per_mm);
             let points: Vec<Point> = commands.into_iter().map(mm).collect();
             let followed = follow(&arm, &points, timing.sample_s);

@@ -7,6 +7,7 @@ mod job;
 mod mechanism;
 mod operations;
 mod picture;
+mod products;
 mod rows;
 mod summary;
 mod text;
@@ -34,7 +35,7 @@ use summary::Summary;
 const SAMPLES_SHOWN: u64 = 12;
 
 /// What the save file shows on top.
-const OVERVIEW: [&str; 17] = [
+const OVERVIEW: [&str; 23] = [
     "sampled",
     "kind",
     "sequencer.state",
@@ -42,6 +43,12 @@ const OVERVIEW: [&str; 17] = [
     "engine_x.nearest",
     "engine_y.nearest",
     "engine_z.nearest",
+    "blend_point.share.nearest",
+    "blend_point.weight.pass",
+    "blend_point.weight.bits",
+    "blend_point.row_x.sum",
+    "blend_point.row_y.sum",
+    "blend_point.row_z.sum",
     "rotation.control.bit_index",
     "rotation.row_x.sum",
     "rotation.row_y.sum",
@@ -77,7 +84,7 @@ fn simulate(
     job: &Job,
     options: &Options,
 ) -> Result<(Played, Files), Failure> {
-    let circuit = arc_generator(job.settings.rounding);
+    let circuit = arc_generator(&job.settings);
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     let joints = job.arm.as_ref().map_or(&[][..], |(_, arm)| &arm.counts);
     let shown = match joints.is_empty() {

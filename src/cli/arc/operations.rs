@@ -2,10 +2,10 @@
 //! the circuit.
 
 use super::Job;
-use motion_rtl::circuits::arc_generator::Widths;
+use motion_rtl::circuits::arc_generator::{Blend, BlendPoint, Widths};
 use motion_rtl::circuits::blocks::CoefficientControl;
 use motion_rtl::jobs::arc_generator::conventional::{
-    Conventional, Operations, blend, blend_terms, difference_engines, rotation,
+    Conventional, Operations, blend, blend_terms, difference_engines, products, rotation,
 };
 use motion_rtl::path::vector::rodrigues;
 use serde::Serialize;
@@ -13,6 +13,12 @@ use serde::Serialize;
 /// Ticks of a step of the rotation.
 const ROTATION_TICKS: u64 = CoefficientControl {
     coefficient: Widths::FULL.coefficient,
+}
+.latency();
+
+/// Ticks of a point of a blend by products.
+const PRODUCT_TICKS: u64 = BlendPoint {
+    widths: Widths::FULL,
 }
 .latency();
 
@@ -55,8 +61,12 @@ pub fn rows(job: &Job) -> Vec<Row> {
         // Nine products at once, a bit of the coefficients a tick.
         ("circuit, arc", rotation, Some(ROTATION_TICKS)),
     ];
-    if let Ok(engines) = difference_engines() {
-        rows.push(("circuit, blend and line", engines, Some(1)));
+    let (blends, ticks) = match job.settings.blend {
+        Blend::Differences => (difference_engines(), 1),
+        Blend::Products => (products(), PRODUCT_TICKS),
+    };
+    if let Ok(blends) = blends {
+        rows.push(("circuit, blend and line", blends, Some(ticks)));
     }
     let row = |(method, operations, ticks): (_, Operations, _)| Row {
         method,

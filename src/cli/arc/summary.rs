@@ -6,13 +6,14 @@ use super::beside;
 use super::figures::Figures;
 use super::mechanism;
 use super::operations;
+use super::products::{self, Products};
 use super::rows::{self, ArcRow, BlendRow, LineRow};
 use super::verdict::{bounds, complaints};
 use crate::cli::report::Outcome;
 use motion_rtl::circuits::arc_generator::Widths;
 use motion_rtl::hdl::RunError;
 use motion_rtl::jobs::arc_generator::job::Played;
-use motion_rtl::jobs::arc_generator::settings::LEAST_SAMPLE_TICKS;
+use motion_rtl::jobs::arc_generator::settings::least_sample_ticks;
 use motion_rtl::path::record::WORDS;
 use serde::Serialize;
 
@@ -24,6 +25,8 @@ pub struct Summary {
     pub outcome: Outcome,
     /// How the rotation rounds.
     pub rounding: &'static str,
+    /// How blends and lines are made.
+    pub blend: &'static str,
     /// Ts in ticks.
     pub sample_ticks: u32,
     /// Ticks that the circuit needs of them.
@@ -54,6 +57,9 @@ pub struct Summary {
     pub record_bits: u64,
     /// Bits of all of its commands, had they been stored beforehand.
     pub point_bits: u64,
+    /// Blends by products beside those by differences.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub products: Option<Products>,
     /// What a sample costs.
     pub operations: Vec<operations::Row>,
     /// The circuit, and that of the conventional method.
@@ -89,8 +95,9 @@ impl Summary {
                 ..Outcome::new("arc_generator", input, settings.clock_hz, played.ticks)
             },
             rounding: settings.rounding.name(),
+            blend: settings.blend.name(),
             sample_ticks: job.sample_ticks,
-            sample_ticks_needed: LEAST_SAMPLE_TICKS,
+            sample_ticks_needed: least_sample_ticks(settings.blend),
             blend_samples: job.prepared.timing.blend_samples,
             counts_per_mm: settings.counts_per_mm,
             samples: played.commands.len(),
@@ -108,6 +115,7 @@ impl Summary {
             blends: rows::blends(job, figures),
             record_bits: bits(job.records.len(), WORDS, widths.data),
             point_bits: bits(played.commands.len(), 3, widths.position),
+            products: products::products(job, played),
             operations: operations::rows(job),
             circuits: beside::rows(job, played, figures)?,
             speed_changes: mechanism::rows(job, figures),

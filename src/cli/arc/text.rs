@@ -48,6 +48,9 @@ impl Report for Summary {
         self.arcs(text, all)?;
         self.lines(text, all)?;
         self.blends(text, all)?;
+        if let Some(products) = &self.products {
+            products.write(text, self.samples)?;
+        }
         self.operations(text)?;
         if let Some(arm) = &self.arm {
             arm.write(text)?;

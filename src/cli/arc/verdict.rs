@@ -4,7 +4,8 @@ use super::Job;
 use super::figures::Figures;
 use super::rows::{ArcRow, bound};
 use crate::cli::report::first;
-use motion_rtl::circuits::arc_generator::Widths;
+use motion_rtl::circuits::arc_generator::{Blend, Widths};
+use motion_rtl::jobs::arc_generator::bounds::product_error;
 use motion_rtl::jobs::arc_generator::job::Played;
 use motion_rtl::path::vector::distance;
 
@@ -80,11 +81,17 @@ pub fn bounds(job: &Job, figures: &Figures) -> Vec<f64> {
     bounds
 }
 
-/// The same on lines and blends, whose points are exact but for the rounding: √3/2 counts, and the
-/// same of a guard unit for what goes in and for what comes out.
+/// The same on lines and blends, whose points are exact but for the rounding, √3/2 counts, and the
+/// same of a guard unit for what goes in and for what comes out; and for products where they are made
+/// by them.
 fn straight(job: &Job) -> f64 {
-    let unit = (-(Widths::FULL.guard() as f64)).exp2();
-    3f64.sqrt() / 2.0 * (1.0 + 2.0 * unit) / job.settings.counts_per_mm
+    let widths = Widths::FULL;
+    let unit = (-(widths.guard() as f64)).exp2();
+    let products = match job.settings.blend {
+        Blend::Differences => 0.0,
+        Blend::Products => product_error(&widths),
+    };
+    3f64.sqrt() * (0.5 + unit + products) / job.settings.counts_per_mm
 }
 
 #[cfg(test)]

@@ -41,6 +41,18 @@ fn grown(radius: f64, steps: u64, matrix: f64, widths: &Widths, rounding: Roundi
     begun + grown / matrix * (matrix * radius + rounded)
 }
 
+/// Largest distance, in counts, of a coordinate from the exact quartic or line where it is made by
+/// products, before it is rounded to a guard unit.
+///
+/// h is half a unit of 2^-B off at most, and takes the point along by |x'| <= 2^(P+1) guard units for
+/// each 1; h² is as much off, which (2 − h)h³ has half of, and that is as much off itself, both times
+/// |S| <= 2^(P+1).
+#[must_use]
+pub fn product_error(widths: &Widths) -> f64 {
+    let most = (widths.position as f64 + 1.0).exp2();
+    2.5 * half(widths.coefficient_fraction()) * most
+}
+
 /// The same of a position command, which is rounded to counts.
 #[must_use]
 pub fn command_error(radius: f64, steps: u64, widths: &Widths, rounding: Rounding) -> f64 {

@@ -5,7 +5,7 @@
 //! circle while it accelerates.
 
 use super::prepare::Timing;
-use crate::circuits::arc_generator::Widths;
+use crate::circuits::arc_generator::{Blend, BlendPoint, Widths};
 use crate::engine::EngineError;
 use crate::hdl;
 use crate::input::Point;
@@ -249,4 +249,19 @@ pub fn difference_engines() -> Result<Operations, EngineError> {
         operations.additions += model.cost().adders;
     }
     Ok(operations)
+}
+
+/// One sample of a blend by products, as the circuit has it: h², its product with 2h − h², two products
+/// a coordinate; their sums, the centre's place taken by A⁻, and the adders of h.
+///
+/// # Errors
+/// The circuit is no netlist.
+pub fn products() -> Result<Operations, EngineError> {
+    let widths = Blend::Products.widths(Widths::FULL);
+    let share = hdl::model(&BlendPoint { widths }.share())?;
+    Ok(Operations {
+        multiplications: 2 + 3 * 2,
+        additions: 1 + 3 * 2 + share.cost().adders,
+        trigonometric: 0,
+    })
 }

@@ -1,7 +1,8 @@
 //! A path on the arc generator: the control computer that feeds it, and the commands that come out.
 
 use super::joints::{JointSignals, Joints};
-use crate::circuits::arc_generator::{ArcGenerator, Rounding, generator};
+use super::settings::Settings;
+use crate::circuits::arc_generator::{ArcGenerator, generator};
 use crate::circuits::blocks::record_memory::ARC;
 use crate::circuits::blocks::record_sequencer::{self, FETCH, READY};
 use crate::hdl::{At, Circuit, Observer, Place, RunError, Sample, Simulator, Value, Watcher};
@@ -15,8 +16,8 @@ const HEAD_START: usize = 16;
 
 /// The generator that plays a job.
 #[must_use]
-pub fn arc_generator(rounding: Rounding) -> ArcGenerator {
-    ArcGenerator::new(rounding)
+pub fn arc_generator(settings: &Settings) -> ArcGenerator {
+    ArcGenerator::new(settings.rounding, settings.blend)
 }
 
 /// The commands of one sampling time.

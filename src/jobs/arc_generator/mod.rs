@@ -2,7 +2,7 @@
 //!
 //! [`prepare`](mod@prepare) ([pieces](crate::path::pieces) as segments), [`record`] (segments as
 //! words), [`bounds`] (how far the rotation may be off), [`mod@reference`] (the same samples by
-//! division), [`conventional`] (what the patent compares itself with), [`job`] (a path on the
+//! division), [`products`] (blends and lines by products), [`conventional`] (what the patent compares itself with), [`job`] (a path on the
 //! circuit), [`beside`] (its arcs on the conventional circuit), [`measure`] (what came out),
 //! [`joints`] (the commands as those of an arm's joints), [`mechanism`] (what they make of an elastic
 //! one).
@@ -16,6 +16,7 @@ pub mod measure;
 pub mod mechanism;
 pub mod prepare;
 pub mod prepared;
+pub mod products;
 pub mod record;
 pub mod reference;
 pub mod settings;

@@ -105,18 +105,29 @@ pub fn commands(
     widths: &Widths,
     rounding: Rounding,
 ) -> Vec<[i64; COORDINATES]> {
+    commands_of(records, widths, |record| {
+        Decoded::of(record, widths).points(widths, rounding)
+    })
+}
+
+/// The same of records whose points `points` makes.
+pub(super) fn commands_of(
+    records: &[Record],
+    widths: &Widths,
+    points: impl Fn(&Record) -> Vec<[i64; COORDINATES]>,
+) -> Vec<[i64; COORDINATES]> {
     let half = (1i64 << widths.guard()) >> 1;
-    let segments = records.iter().enumerate().flat_map(|(index, record)| {
-        let points = Decoded::of(record, widths).points(widths, rounding);
-        points.into_iter().skip(usize::from(index > 0))
-    });
+    let segments = records
+        .iter()
+        .enumerate()
+        .flat_map(|(index, record)| points(record).into_iter().skip(usize::from(index > 0)));
     segments
         .map(|point| point.map(|units| (units + half) >> widths.guard()))
         .collect()
 }
 
 /// A word of so many bits in two's complement.
-fn signed(word: u64, bits: usize) -> i64 {
+pub(super) fn signed(word: u64, bits: usize) -> i64 {
     let unused = 64 - bits;
     (word << unused) as i64 >> unused
 }

@@ -1,7 +1,7 @@
 //! What the arc generator is run with: clock and sampling, machine, motion.
 
 use super::prepare::Timing;
-use crate::circuits::arc_generator::{ArcGenerator, Rounding, Widths};
+use crate::circuits::arc_generator::{ArcGenerator, Blend, Rounding, Widths};
 use crate::path::pieces::Speeds;
 use crate::settings::{
     CLOCK_RANGE_HZ, COUNTS_PER_MM_RANGE, SettingError, whole, whole_ticks, within,
@@ -10,7 +10,13 @@ use serde::Deserialize;
 use std::ops::RangeInclusive;
 
 /// Shortest sampling period in ticks: a record is fetched and a rotation done within it.
-pub const LEAST_SAMPLE_TICKS: u64 = ArcGenerator::new(Rounding::Nearest).least_period();
+pub const LEAST_SAMPLE_TICKS: u64 = least_sample_ticks(Blend::Differences);
+
+/// The same where blends are made so: products take longer than a rotation.
+#[must_use]
+pub const fn least_sample_ticks(blend: Blend) -> u64 {
+    ArcGenerator::new(Rounding::Nearest, blend).least_period()
+}
 
 /// Speeds that are accepted, in mm/s.
 pub const SPEED_RANGE_MM_PER_S: RangeInclusive<f64> = 1e-6..=1e9;
@@ -45,6 +51,8 @@ pub struct Settings {
     pub corner_deg: f64,
     /// How the rotation rounds.
     pub rounding: Rounding,
+    /// How blends and lines are made.
+    pub blend: Blend,
     /// What becomes of a piece that is too short or too tight for its speed.
     pub short_pieces: ShortPieces,
 }
@@ -61,6 +69,7 @@ impl Default for Settings {
             rapid_mm_per_s: 200.0,
             corner_deg: 20.0,
             rounding: Rounding::default(),
+            blend: Blend::default(),
             short_pieces: ShortPieces::default(),
         }
     }
@@ -81,7 +90,7 @@ impl Settings {
     /// As [`Settings::validate`], of the clock and the sampling period.
     pub fn sample_ticks(&self, widths: &Widths) -> Result<u32, SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
-        let ticks = LEAST_SAMPLE_TICKS..=(1 << widths.period) - 1;
+        let ticks = least_sample_ticks(self.blend)..=(1 << widths.period) - 1;
         whole_ticks(
             "sample_period_ms",
             self.sample_period_ms,
@@ -118,7 +127,7 @@ impl Settings {
     fn blend_samples(&self, widths: &Widths) -> Result<u64, SettingError> {
         let field = "acceleration_ms";
         let (ms, period) = (self.acceleration_ms, self.sample_period_ms);
-        let most = widths.most_blend_samples();
+        let most = self.blend.most_samples(widths);
         let halves = ms / (2.0 * period);
         if !(halves >= 0.5 && halves <= most as f64 / 2.0 + 0.5) {
             let (first, last) = (2.0 * period, most as f64 * period);

@@ -219,6 +219,7 @@ impl Settings {
             rapid_mm_per_s: self.motion.rapid_mm_per_min / 60.0,
             corner_deg: 0.0,
             rounding: arcs::Settings::default().rounding,
+            blend: arcs::Settings::default().blend,
             short_pieces: ShortPieces::Slower,
         }
     }

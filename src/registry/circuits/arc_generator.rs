@@ -1,8 +1,8 @@
-use super::make::{ROUNDINGS, one_of, only, width};
+use super::make::{BLENDS, ROUNDINGS, at_most, choice, one_of, only, width};
 use crate::circuits::arc_generator::matrix_element::Sign;
 use crate::circuits::arc_generator::{
-    AngleStep, ArcGenerator, AxisTerms, Conventional, MatrixElement, PositionCommand, Rotation,
-    RotationRow, Rounding, SineWords, VectorRow, Widths,
+    AngleStep, ArcGenerator, AxisTerms, Blend, BlendPoint, BlendRow, BlendWeight, Conventional,
+    MatrixElement, PositionCommand, Rotation, RotationRow, Rounding, SineWords, VectorRow, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
@@ -32,6 +32,12 @@ fn command(widths: Widths) -> PositionCommand {
         widths,
         coordinate: 0,
     }
+}
+
+/// How a generator rounds and makes its blends.
+fn generator(given: &[u64]) -> Option<(Rounding, Blend)> {
+    at_most(given, 2)?;
+    Some((choice(given, 0, ROUNDINGS)?, choice(given, 1, BLENDS)?))
 }
 
 /// Signs of an element's second term, by their numbers.
@@ -103,13 +109,58 @@ pub(super) const CIRCUITS: &[Entry] = &[
             records,
             period = widths.period,
         ],
-        from: "width of commands, 1 for rounding down (half as many guard bits, two records)",
-        |given| Some(ArcGenerator {
-            widths: Widths::narrow(width(given)?),
-            records: 1,
-            rounding: one_of(given, ROUNDINGS)?,
+        from: "width of commands, 1 for rounding down, 1 for blends by products (half as many guard \
+               bits, two records)",
+        |given| {
+            let (rounding, blend) = generator(given.get(1..)?)?;
+            Some(ArcGenerator {
+                widths: blend.widths(Widths::narrow(width(given)?)),
+                records: 1,
+                rounding,
+                blend,
+            })
+        },
+        with: |arcs, given| {
+            let (rounding, blend) = generator(given)?;
+            Some(ArcGenerator { widths: blend.widths(arcs.widths), rounding, blend, ..arcs })
+        },
+        proved: none,
+    ),
+    entry!(
+        BlendWeight, "JPH0743606B2 [5], [10]: (2 − h)h³",
+        full: || BlendWeight { coefficient: Widths::FULL.coefficient },
+        widths: [coefficient],
+        from: "width of a coefficient",
+        |given| alone(given, |coefficient| BlendWeight { coefficient }),
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        BlendRow, "JPH0743606B2 [5], [10], a coordinate",
+        full: || BlendRow { widths: Widths::FULL, coordinate: 0 },
+        widths: [point = widths.point, data = widths.data],
+        from: "width of points; words have two bits more", |given| alone(given, |point| {
+            let widths = Widths { point, data: point + 2, ..Widths::FULL };
+            BlendRow { widths, coordinate: 0 }
         }),
-        with: |arcs, given| Some(ArcGenerator { rounding: only(given, ROUNDINGS)?, ..arcs }),
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        BlendPoint, "JPH0743606B2 [5], [10]",
+        full: || BlendPoint { widths: Blend::Products.widths(Widths::FULL) },
+        widths: [
+            point = widths.point,
+            coefficient = widths.coefficient,
+            fraction = widths.fraction,
+            data = widths.data,
+        ],
+        from: "width of points, coefficients and moduli; words have two bits more", |given| {
+            alone(given, |width| BlendPoint {
+                widths: Widths { fraction: width, data: width + 2, ..square(width) },
+            })
+        },
+        with: nothing,
         proved: none,
     ),
     entry!(

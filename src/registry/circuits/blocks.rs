@@ -1,3 +1,4 @@
+use super::make::{one_of, only, width};
 use crate::circuits::blocks::{
     CoefficientControl, Cordic, CordicState, DifferenceColumn, DifferenceEngine, EnableCounter,
     MulDiv, QuadratureCounter, RecordMemory, RecordSequencer, Shifter, difference_column::Widths,
@@ -17,6 +18,9 @@ fn engine(widths: Widths) -> DifferenceEngine {
 fn column(widths: Widths) -> DifferenceColumn {
     engine(widths).difference(1)
 }
+
+/// Whether every point is waited for, by its number.
+const WAITS: &[bool] = &[false, true];
 
 /// Blocks that more than one circuit is made of.
 pub(super) const CIRCUITS: &[Entry] = &[
@@ -111,12 +115,13 @@ pub(super) const CIRCUITS: &[Entry] = &[
     ),
     entry!(
         RecordSequencer, "block: record after record",
-        full: || RecordSequencer { modulus: 41, samples: 20, data: 42 },
+        full: || RecordSequencer { modulus: 41, samples: 20, data: 42, waits: false },
         widths: [modulus, samples, data],
-        from: "width of moduli; a word has three bits more", |given| alone(given, |width| {
-            RecordSequencer { modulus: width, samples: width, data: width + 3 }
-        }),
-        with: nothing,
+        from: "width of moduli (a word has three bits more), 1 to wait for every point", |given| {
+            let (width, waits) = (width(given)?, one_of(given, WAITS)?);
+            Some(RecordSequencer { modulus: width, samples: width, data: width + 3, waits })
+        },
+        with: |sequencer, given| Some(RecordSequencer { waits: only(given, WAITS)?, ..sequencer }),
         proved: 2,
     ),
 ];

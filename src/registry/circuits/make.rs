@@ -1,6 +1,6 @@
 //! Circuits from the numbers that an entry takes.
 
-use crate::circuits::arc_generator::Rounding;
+use crate::circuits::arc_generator::{Blend, Rounding};
 use crate::circuits::linear_interpolator::{MasterAxis, Rule};
 use crate::circuits::pulse_interpolator::Variant;
 
@@ -15,6 +15,9 @@ pub const MASTERS: &[MasterAxis] = &[MasterAxis::Longer, MasterAxis::X, MasterAx
 
 /// How coordinates are rounded, by its number.
 pub const ROUNDINGS: &[Rounding] = &[Rounding::Nearest, Rounding::Floor];
+
+/// How blends are made, by its number.
+pub const BLENDS: &[Blend] = &[Blend::Differences, Blend::Products];
 
 /// So many numbers at most.
 pub fn at_most(given: &[u64], count: usize) -> Option<()> {

@@ -1,5 +1,6 @@
 //! The arc generator: difference engine, rotation, memory and the whole against programs.
 
+mod blend;
 mod conventional;
 mod engine;
 mod example;

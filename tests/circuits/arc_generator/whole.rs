@@ -5,10 +5,10 @@ use super::engine::quartic;
 use super::program::{differences, rotated, wrap};
 use motion_rtl::check::Random;
 use motion_rtl::circuits::arc_generator::generator::{In, Segments};
-use motion_rtl::circuits::arc_generator::{ArcGenerator, Rounding};
+use motion_rtl::circuits::arc_generator::{ArcGenerator, Blend, Rounding};
 use motion_rtl::hdl::{Simulator, Value};
 
-const FULL: ArcGenerator = ArcGenerator::new(Rounding::Nearest);
+const FULL: ArcGenerator = ArcGenerator::new(Rounding::Nearest, Blend::Differences);
 const GUARD: u32 = 16;
 
 /// A segment as its record and the points it makes.
@@ -176,7 +176,7 @@ struct Run {
 }
 
 fn run(segments: &[Segment], rounding: Rounding, period: u64, start_with: usize) -> Run {
-    let mut simulator = Simulator::new(&ArcGenerator::new(rounding)).unwrap();
+    let mut simulator = Simulator::new(&ArcGenerator::new(rounding, Blend::Differences)).unwrap();
     let mut host = Host {
         segments,
         segment: 0,

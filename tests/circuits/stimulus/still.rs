@@ -143,6 +143,8 @@ pub const FAR: &[(&str, u32)] = &[
     ("difference_engine.d4.step", 0),
     ("difference_engine.d4.by_whole", 0),
     ("difference_engine.d4.by_part", 0),
+    // The word of a bend is one of 32.
+    ("blend_row.term_bend", 41),
     // One word of 32, and most words are small.
     ("axis_terms.x", 23),
     ("rotation.row_y.by_y", 31),
@@ -281,6 +283,8 @@ pub const NEVER: &[(&str, u32)] = &[
     ("difference_engine.d4.step", 0),
     ("difference_engine.d4.by_whole", 0),
     ("difference_engine.d4.by_part", 0),
+    // As above.
+    ("blend_row.term_bend", 9),
     // Coefficients of 8 bits.
     ("coefficient_control.bit_index", 4),
     ("rotation.control.bit_index", 4),
@@ -323,6 +327,7 @@ pub const JOBS: &[&str] = &[
     "conventional_compensator",
     "arc_generator",
     "conventional_generator",
+    "blend_point",
     "reference_model",
     "cordic",
     "path_point",

@@ -3,7 +3,7 @@
 //!
 //! `UPDATE_NOTES=1 cargo test --release --test cli notes` writes them anew.
 
-use super::{axes, connections, expect_none, miscounts, notes, rotations};
+use super::{axes, blends, connections, expect_none, miscounts, notes, rotations};
 use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::hdl::{Declaration, Format, Kind, MemoryDeclaration, Role};
 use motion_rtl::registry::{CATALOGUE, Entry, ProofSearch, Verdict, find};
@@ -33,6 +33,7 @@ fn make(what: &str, stands: &str, long: bool) -> Result<String, String> {
         ("vectors", None) => Ok(vectors()),
         ("counts", None) => Ok(offers()),
         ("rotation_errors", None) => Ok(rotations::errors()),
+        ("blend_errors", None) => Ok(blends::errors()),
         ("operations", None) => Ok(rotations::operations()),
         _ => Err(format!("nothing is called `{what}`")),
     }

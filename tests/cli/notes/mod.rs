@@ -1,6 +1,7 @@
 //! The notes in rtl_notes: their charts run, their tables are those of the code.
 
 mod axes;
+mod blends;
 mod catalogue;
 mod charts;
 mod connections;

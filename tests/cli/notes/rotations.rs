@@ -3,7 +3,7 @@
 use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::jobs::arc_generator::bounds::rotation_error;
 use motion_rtl::jobs::arc_generator::conventional::{
-    Conventional, Operations, blend, blend_terms, difference_engines, rotation,
+    Conventional, Operations, blend, blend_terms, difference_engines, products, rotation,
 };
 use motion_rtl::jobs::arc_generator::prepare::Timing;
 use motion_rtl::jobs::arc_generator::prepared::{Prepared, Segment, Shape};
@@ -123,6 +123,7 @@ pub fn operations() -> String {
             "blend, by the difference engine",
             difference_engines().unwrap(),
         ),
+        ("this text", "blend, by products at h", products().unwrap()),
         ("this text", "arc", arc),
     ];
     let mut text = String::from(

@@ -7,6 +7,7 @@ mod conventional;
 mod drawings;
 mod measures;
 mod paths;
+mod products;
 mod records;
 mod refusals;
 mod scenario;

@@ -1,6 +1,6 @@
 //! Scenarios of the arc generator: keys, defaults, and faults with their lines.
 
-use motion_rtl::circuits::arc_generator::{Rounding, Widths};
+use motion_rtl::circuits::arc_generator::{Blend, Rounding, Widths};
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::settings::{Settings, ShortPieces};
 use motion_rtl::path::pieces::{Taught, from_points};
@@ -41,6 +41,7 @@ fn every_key_is_read() {
     let loaded = loaded(
         "clock_hz = 2000000\nsample_period_ms = 0.5\nacceleration_ms = 32\ncounts_per_mm = 250\n\
          speed_mm_per_s = 30\nrapid_mm_per_s = 90\ncorner_deg = 5\nrounding = \"floor\"\n\
+         blend = \"products\"\n\
          short_pieces = \"slower\"\nvcd_ticks = 77\nstart_mm = [1, 2, 3]\n\
          [[piece]]\nto_mm = [4, 5, 6.5]\n\
          [[piece]]\nvia_mm = [7, 8, 9]\nto_mm = [10, 11, 12]\nspeed_mm_per_s = 3\n",
@@ -55,6 +56,7 @@ fn every_key_is_read() {
         rapid_mm_per_s: 90.0,
         corner_deg: 5.0,
         rounding: Rounding::Floor,
+        blend: Blend::Products,
         short_pieces: ShortPieces::Slower,
     };
     assert_eq!(keys.settings(), settings);

@@ -1,0 +1,160 @@
+//! Blends and lines as the text has them: \[5\] and \[10\] evaluated at h by products, for every sample
+//! anew.
+//!
+//! ```text
+//!                     ┌─────────────────────────────────────┐
+//!  load, word, data ─▶│ share_step ▶ share ▶ weight ▶ row_x ├──▶ x, y, z
+//!  modulus, step ────▶│                ▲▼           ▶ row_y ├──▶ done
+//!  halt ─────────────▶│              control        ▶ row_z │
+//!                     └─────────────────────────────────────┘
+//! ```
+//!
+//! h = n/M is a sum of whole and part, exact as a [`DifferenceColumn`] has it, and rounded where it
+//! is taken; so it is 1 at the end, and the point A⁺.
+
+use super::{BlendRow, BlendWeight, Widths, blend_row, blend_weight};
+use crate::circuits::blocks::{
+    CoefficientControl, DifferenceColumn, coefficient_control, difference_column,
+};
+use crate::hdl::prelude::*;
+
+/// Word of a record that is h where a segment begins; 1/M follows, as whole and part.
+pub const SHARE_WORD: u64 = 10;
+
+/// Points of blends and lines by products.
+#[derive(Debug, Clone)]
+pub struct BlendPoint {
+    /// Widths of points, coefficients, moduli and records.
+    pub widths: Widths,
+}
+
+impl BlendPoint {
+    /// Ticks from `step` to the new point.
+    pub const fn latency(&self) -> u64 {
+        1 + 3 * self.control().latency()
+    }
+
+    const fn control(&self) -> CoefficientControl {
+        let coefficient = self.widths.coefficient;
+        CoefficientControl { coefficient }
+    }
+
+    /// The column of h.
+    pub const fn share(&self) -> DifferenceColumn {
+        self.column(SHARE_WORD, None)
+    }
+
+    const fn column(&self, whole_word: u64, part_word: Option<u64>) -> DifferenceColumn {
+        DifferenceColumn {
+            widths: difference_column::Widths {
+                whole: self.widths.coefficient,
+                part: self.widths.fraction,
+                data: self.widths.data,
+            },
+            whole_word,
+            part_word,
+        }
+    }
+
+    const fn row(&self, coordinate: u64) -> BlendRow {
+        let widths = self.widths;
+        BlendRow { widths, coordinate }
+    }
+}
+
+signals! { for BlendPoint as c;
+    /// Ports in.
+    pub struct In {
+        /// `data` is word `word` of a record; not on the way to a point.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(5),
+        /// Its data.
+        pub data: U(c.widths.data) as Hex,
+        /// M: the samples of the segment.
+        pub modulus: U(c.widths.fraction),
+        /// On to the next point; not on the way to one.
+        pub step: Bit,
+        /// Gives up a point that is under way.
+        pub halt: Bit,
+    }
+    /// The blocks.
+    pub struct Parts {
+        /// h, in units of 2^−B.
+        pub share: Part<DifferenceColumn>(c.share()),
+        /// 1/M.
+        pub share_step: Part<DifferenceColumn>(c.column(SHARE_WORD + 1, Some(SHARE_WORD + 2))),
+        /// Which bit a product is at.
+        pub control: Part<CoefficientControl>(c.control()),
+        /// (2 − h)h³.
+        pub weight: Part<BlendWeight>(BlendWeight { coefficient: c.widths.coefficient }),
+        /// X.
+        pub row_x: Part<BlendRow>(c.row(0)),
+        /// Y.
+        pub row_y: Part<BlendRow>(c.row(1)),
+        /// Z.
+        pub row_z: Part<BlendRow>(c.row(2)),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// X of the way from A⁻ to the point.
+        pub x: I(c.widths.point) as Analog,
+        /// Y of it.
+        pub y: I(c.widths.point) as Analog,
+        /// Z of it.
+        pub z: I(c.widths.point) as Analog,
+        /// They are new in this tick.
+        pub done: Bit,
+    }
+}
+
+impl Circuit for BlendPoint {
+    const NAME: &'static str = "blend_point";
+    const ABOUT: &'static str = "the next point of a blend or line, by products at h";
+    records!(In, Nothing, Net, Parts);
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let column = |step: Bit, by_whole: I, by_part: U| difference_column::In {
+            load: i.load,
+            word: i.word,
+            data: i.data,
+            modulus: i.modulus,
+            step,
+            by_whole,
+            by_part,
+        };
+        let one = p.share_step.q.clone();
+        let share = p.share.settle(column(i.step, one.whole, one.part));
+        let of = &self.widths;
+        let nothing = (I::new(0, of.coefficient), U::new(0, of.fraction));
+        p.share_step
+            .settle(column(Bit::low(), nothing.0, nothing.1));
+        let control = p.control.settle(coefficient_control::In {
+            step: p.weight.q.begins,
+            halt: i.halt,
+        });
+        let weight = p.weight.settle(blend_weight::In {
+            step: i.step,
+            halt: i.halt,
+            copy: control.w.copy,
+            fraction: control.w.fraction,
+            commit: control.w.commit,
+            share: share.w.nearest,
+        });
+        let [x, y, z] = [p.row_x.q.offset, p.row_y.q.offset, p.row_z.q.offset];
+        for row in [p.row_x, p.row_y, p.row_z] {
+            row.settle(blend_row::In {
+                load: i.load,
+                word: i.word,
+                data: i.data,
+                copy: control.w.copy,
+                fraction: control.w.fraction,
+                commit: weight.w.point_commit,
+                share_bit: weight.w.share_bit,
+                weight_bit: weight.w.weight_bit,
+            });
+        }
+        let done = weight.q.done;
+        (Net { x, y, z, done }, Nothing)
+    }
+}

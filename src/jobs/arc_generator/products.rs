@@ -1,0 +1,122 @@
+//! Blends and lines by products: their records, and what the circuit makes of them by integers.
+//!
+//! | word | of a blend or line by products |
+//! |---|---|
+//! | 1 | M, its samples |
+//! | 2, 3, 4 | 0: the way from A⁻ |
+//! | 5, 6, 7 | A⁻, where it begins |
+//! | 8c + 8, 8c + 9 | of coordinate c: 2(A − A⁻), S; of a line its way, 0 |
+//! | 10, 11, 12 | h = 0; 1/M as whole and part, in units of 2^-B |
+//!
+//! The others are 0; header and arcs are as always.
+
+use super::prepared::{Prepared, Segment, Shape};
+use super::record::{self, quantise, signed};
+use super::reference::{Decoded, commands_of, signed as wrap};
+use crate::circuits::arc_generator::blend_point::SHARE_WORD;
+use crate::circuits::arc_generator::{Rounding, Widths};
+use crate::circuits::blocks::record_memory::ARC;
+use crate::input::COORDINATES;
+use crate::path::error::PathError;
+use crate::path::record::{Record, WORDS, coordinate_word};
+use crate::path::vector::scale;
+
+/// The records of a path, at so many counts per millimetre; `widths` are those of products.
+///
+/// # Errors
+/// As of [`record::records`].
+pub fn records(
+    prepared: &Prepared,
+    counts_per_mm: f64,
+    widths: &Widths,
+    rounding: Rounding,
+) -> Result<Vec<Record>, PathError> {
+    let mut records = record::records(prepared, counts_per_mm, widths, rounding)?;
+    for (record, segment) in records.iter_mut().zip(&prepared.segments) {
+        rewrite(record, segment, counts_per_mm, widths);
+    }
+    Ok(records)
+}
+
+/// Gives a blend or line the words that products take.
+fn rewrite(record: &mut Record, segment: &Segment, counts_per_mm: f64, widths: &Widths) {
+    let units = |point| scale(point, counts_per_mm).map(|counts| quantise(counts, widths.guard()));
+    let (before, slope, bend) = match segment.shape {
+        Shape::Arc { .. } => return,
+        Shape::Line { from, to } => {
+            let (from, to) = (units(from), units(to));
+            (
+                from,
+                std::array::from_fn(|k| to[k] - from[k]),
+                [0; COORDINATES],
+            )
+        }
+        Shape::Blend {
+            before,
+            corner,
+            behind,
+        } => {
+            let [before, corner, behind] = [before, corner, behind].map(units);
+            let slope: [i64; COORDINATES] = std::array::from_fn(|k| 2 * (corner[k] - before[k]));
+            let bend = |k: usize| before[k] - 2 * corner[k] + behind[k];
+            (before, slope, std::array::from_fn(bend))
+        }
+    };
+    let mut words = [0; WORDS];
+    words[0] = record.words[0];
+    words[1] = segment.samples;
+    for k in 0..COORDINATES {
+        words[5 + k] = signed(before[k], widths.point);
+        words[coordinate_word(k)] = signed(slope[k], widths.point + 2);
+        words[coordinate_word(k) + 1] = signed(bend[k], widths.point + 2);
+    }
+    let one = 1u64 << widths.coefficient_fraction();
+    // A segment without samples takes no step.
+    let samples = segment.samples.max(1);
+    words[SHARE_WORD as usize + 1] = one / samples;
+    words[SHARE_WORD as usize + 2] = one % samples;
+    record.words = words;
+}
+
+/// The position commands of such records, in counts: the start of the first and every sample of all.
+#[must_use]
+pub fn commands(
+    records: &[Record],
+    widths: &Widths,
+    rounding: Rounding,
+) -> Vec<[i64; COORDINATES]> {
+    commands_of(records, widths, |record| points(record, widths, rounding))
+}
+
+/// The points of a record's samples in guard units, from the one where it begins.
+#[must_use]
+pub fn points(record: &Record, widths: &Widths, rounding: Rounding) -> Vec<[i64; COORDINATES]> {
+    let decoded = Decoded::of(record, widths);
+    if decoded.kind == ARC {
+        return decoded.points(widths, rounding);
+    }
+    let fraction = widths.coefficient_fraction();
+    let nearest = |product: i128| (product + (1 << (fraction - 1))) >> fraction;
+    let modulus = i128::from(decoded.modulus);
+    let word = |k: usize| i128::from(record.words[k]);
+    let first = SHARE_WORD as usize;
+    let step = word(first + 1) * modulus + word(first + 2);
+    let point = |n: u64| {
+        let share = word(first) * modulus + i128::from(n) * step;
+        let h = (2 * share + modulus).div_euclid(2 * modulus);
+        let square = nearest(h * h);
+        let weight = nearest(square * (2 * h - square));
+        std::array::from_fn(|k| {
+            let term = |place: usize| {
+                let word = record.words[coordinate_word(k) + place];
+                i128::from(wrap(word, widths.point + 2))
+            };
+            let way = match n {
+                0 => i128::from(decoded.start[k]),
+                _ => nearest(term(0) * h + term(1) * weight),
+            };
+            wrap((i128::from(decoded.origin[k]) + way) as u64, widths.point)
+        })
+    };
+    (0..=decoded.samples).map(point).collect()
+}
