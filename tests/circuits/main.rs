@@ -6,6 +6,7 @@ mod fast_forward;
 mod lead_angle;
 mod linear_interpolator;
 mod position_pattern;
+mod pulse_arcs;
 mod pulse_counts;
 mod pulse_group;
 mod pulse_reference;

@@ -68,10 +68,12 @@ fn the_other_variants_equal_their_verilog_too() {
         let circuit = entry.model(&[8, 1]).unwrap();
         assert!(hold(&*circuit, Simulator::Icarus, SEED, TICKS) > 0);
     }
-    for (name, given) in [
-        ("record_sequencer", &[8, 1][..]),
+    let others: [(&str, &[u64]); 3] = [
+        ("record_sequencer", &[8, 1]),
         ("arc_generator", &[8, 0, 1]),
-    ] {
+        ("conventional_pulse_interpolator", &[8, 2, 10, 1]),
+    ];
+    for (name, given) in others {
         let circuit = motion_rtl::registry::find(name)
             .unwrap()
             .model(given)
@@ -105,8 +107,13 @@ fn the_top_circuits_equal_their_verilog_in_verilator() {
 #[ignore = "needs Verilator"]
 fn verilator_finds_nothing_to_warn_of() {
     all(|circuit, _| lint(circuit));
-    let by_products = motion_rtl::registry::find("arc_generator").unwrap();
-    lint(&*by_products.model(&[8, 0, 1]).unwrap());
+    let find = |name| motion_rtl::registry::find(name).unwrap();
+    lint(&*find("arc_generator").model(&[8, 0, 1]).unwrap());
+    lint(
+        &*find("conventional_pulse_interpolator")
+            .model(&[8, 2, 10, 1])
+            .unwrap(),
+    );
 }
 
 /// Verilator finds nothing to warn of.

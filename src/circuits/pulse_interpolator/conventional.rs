@@ -12,10 +12,11 @@
 //! While a unit time runs, the next is computed. One that is not prepared in time comes a whole unit
 //! time later; the axes stand until then.
 
+use super::circular_interpolator::{self, ArcMove, CircularInterpolator};
 use super::motor_controller::{self, ConventionalWidths, Move};
 use super::{AXIS_NAMES, MotorController, PulseTrain, UnitTimeRegister};
 use super::{group, pulse_train, unit_time_register};
-use crate::circuits::blocks::{EnableCounter, MulDiv, enable_counter, mul_div};
+use crate::circuits::blocks::{Cordic, EnableCounter, MulDiv, cordic, enable_counter, mul_div};
 use crate::hdl::prelude::*;
 
 /// Conventional device of 1 to 8 axes.
@@ -27,6 +28,8 @@ pub struct Conventional {
     pub widths: ConventionalWidths,
     /// Unit time at power-on, in ticks.
     pub period: u64,
+    /// Whether it takes arcs of its first two axes too.
+    pub arcs: bool,
 }
 
 impl Conventional {
@@ -37,13 +40,27 @@ impl Conventional {
             widths: self.widths,
         }
     }
+
+    /// What makes moves of an arc, where it takes arcs.
+    pub const fn circular(&self) -> CircularInterpolator {
+        CircularInterpolator {
+            controller: self.controller(),
+            angle: ANGLE,
+        }
+    }
 }
+
+/// Width of an angle: after a thousand unit times it is off by a twentieth of a step at the greatest
+/// radius.
+const ANGLE: usize = 32;
 
 signals! { for Conventional as c;
     /// Ports in: the computer 7.
     pub struct In {
         /// The move that is given.
         pub order: Move(&c.controller()) as Flat,
+        /// The same as an arc.
+        pub arcs: [ArcMove(&c.circular()); usize::from(c.arcs)] as Elements(&["arc"]),
     }
     /// The circuits inside.
     pub struct Parts {
@@ -54,6 +71,12 @@ signals! { for Conventional as c;
         }),
         /// Unit-time counter; its enable is RST.
         pub counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
+        /// Amounts of arcs.
+        pub circulars: [Part<CircularInterpolator>(c.circular()); usize::from(c.arcs)]
+            as Elements(&["circular"]),
+        /// Their points.
+        pub cordics: [Part<Cordic>(c.circular().cordic()); usize::from(c.arcs)]
+            as Elements(&["cordic"]),
         /// Motor controller 5.
         pub controller: Part<MotorController>(c.controller()),
         /// Its divider.
@@ -92,8 +115,23 @@ impl Circuit for Conventional {
             period: p.unit_time.q.active,
         });
         let unit_rst = counter.w.enable;
+        let cordics = settle_each(p.cordics, |k| cordic::In {
+            start: p.circulars[k].q.start,
+            halt: Bit::low(),
+            radius: p.circulars[k].q.wide_radius,
+            angle: p.circulars[k].q.place,
+        });
+        let circulars = settle_each(p.circulars, |k| circular_interpolator::In {
+            order: i.order.clone(),
+            arc: i.arcs[k].clone(),
+            pending: p.controller.q.pending,
+            done: cordics[k].w.done,
+            along: cordics[k].w.along,
+            across: cordics[k].w.across,
+        });
+        let arcs = circulars.first().map(|circular| &circular.w);
         let controller = p.controller.settle(motor_controller::In {
-            order: i.order,
+            order: arcs.map_or(i.order, |arcs| arcs.next_order.clone()),
             unit_rst,
             done: p.divider.q.done,
             quotient: p.divider.q.quotient,
@@ -128,7 +166,7 @@ impl Circuit for Conventional {
             step: trains.iter().map(|train| train.q.step).collect(),
             dir: trains.iter().map(|train| train.q.dir).collect(),
             unit_rst,
-            ready: controller.w.ready,
+            ready: arcs.map_or(controller.w.ready, |arcs| arcs.idle),
             busy: controller.q.busy,
             late: controller.w.late,
         };
@@ -207,6 +245,7 @@ mod tests {
             axes,
             widths: ConventionalWidths::default(),
             period: 10,
+            arcs: false,
         };
         let mut expected = Vec::new();
         let mut from = vec![0; axes];
@@ -263,6 +302,7 @@ mod tests {
                 axes,
                 widths: ConventionalWidths::default(),
                 period: 1,
+                arcs: false,
             };
             let least = controller.controller().least_period();
             assert_eq!(least, 3 + 54 * axes as u64);
@@ -283,6 +323,7 @@ mod tests {
             axes: 1,
             widths: ConventionalWidths::default(),
             period: 10,
+            arcs: false,
         };
         for (steps, made) in [(50, 50), (51, 0), (200, 0)] {
             let mut seen = Vec::new();

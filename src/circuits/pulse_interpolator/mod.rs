@@ -29,6 +29,7 @@
 
 pub mod address_sequencer;
 pub mod axis;
+pub mod circular_interpolator;
 pub mod command_port;
 pub mod conventional;
 pub mod counts;
@@ -44,6 +45,7 @@ pub mod widths;
 
 pub use address_sequencer::AddressSequencer;
 pub use axis::Axis;
+pub use circular_interpolator::CircularInterpolator;
 pub use command_port::CommandPort;
 pub use conventional::Conventional;
 pub use group::Group;

@@ -23,8 +23,9 @@
 //! so after u units an axis has gone |delta|·u/U, rounded, and ends exactly. What it makes for a unit
 //! stands until the RST that begins it.
 //!
-//! The text does not say how the controller computes. This is the cheapest that makes a line: curves
-//! come as short lines, whose points the computer 7 computes.
+//! The text does not say how the controller computes. This is the cheapest that makes a line. Arcs come
+//! to it from a [circular interpolator](super::circular_interpolator), other curves as short lines, whose
+//! points the computer 7 computes.
 
 use super::{AXES_MAX, AXIS_NAMES};
 use crate::circuits::blocks::MulDiv;
@@ -138,7 +139,7 @@ signals! { for MotorController as c;
     /// Flip-flops.
     pub struct Reg {
         /// A move waits.
-        pending: Bit,
+        pub pending: Bit,
         /// Its unit times.
         pending_units: U(c.widths.units),
         /// Its T.

@@ -59,6 +59,7 @@ pub fn device(axes: usize, orders: &[Order]) -> Conventional {
         axes,
         widths: ConventionalWidths::default(),
         period: orders.first().map_or(1, |first| first.period.into()),
+        arcs: false,
     }
 }
 
@@ -131,7 +132,8 @@ impl Bench<'_> {
             },
         );
         let given = order.command;
-        (conventional::In { order }, given)
+        let arcs = Vec::new();
+        (conventional::In { order, arcs }, given)
     }
 
     /// Takes down a tick, in which a move is given or not.

@@ -2,12 +2,15 @@ use super::make::words;
 use super::make::{VARIANTS, address_bits, at_most, choice, one_of, only, second, width, word};
 use crate::circuits::pulse_interpolator::pattern_memory::Contents;
 use crate::circuits::pulse_interpolator::{
-    AddressSequencer, Axis, CommandPort, Conventional, ConventionalWidths, Group, MotorController,
-    Pattern, PatternMemory, PulseGenerator, PulseTrain, SyncStage, UnitLaw, UnitTimeRegister,
-    Variant, Widths,
+    AddressSequencer, Axis, CircularInterpolator, CommandPort, Conventional, ConventionalWidths,
+    Group, MotorController, Pattern, PatternMemory, PulseGenerator, PulseTrain, SyncStage, UnitLaw,
+    UnitTimeRegister, Variant, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
+
+/// Whether a device takes arcs, by its number.
+const ARCS: &[bool] = &[false, true];
 
 /// The full widths of a memory.
 fn full_memory() -> PatternMemory {
@@ -242,27 +245,51 @@ pub(super) const CIRCUITS: &[Entry] = &[
         proved: none,
     ),
     entry!(
+        CircularInterpolator, "JP3640909B2 5, Fig. 5: arcs",
+        full: || Conventional::circular(&Conventional {
+            axes: 2,
+            widths: ConventionalWidths::default(),
+            period: 1000,
+            arcs: true,
+        }),
+        widths: [
+            axes = controller.axes, distance = controller.widths.distance,
+            units = controller.widths.units, period = controller.widths.period, angle,
+        ],
+        from: "width of all words (distances have a bit less), axes", |given| {
+            let controller = match given {
+                [width] => controller(&[*width, 2])?,
+                _ => controller(given)?,
+            };
+            Some(CircularInterpolator { controller, angle: width(given)? })
+        },
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
         Conventional, "JP3640909B2 Fig. 5",
         full: || Conventional {
             axes: 2,
             widths: ConventionalWidths::default(),
             period: 1000,
+            arcs: false,
         },
         widths: [
             axes, distance = widths.distance, units = widths.units,
             half_period = widths.half_period, period = widths.period,
         ],
-        from: "width of all words (distances have a bit less), axes, T at power-on",
+        from: "width of all words (distances have a bit less), axes, T at power-on, 1 for arcs too",
         |given| {
-            at_most(given, 3)?;
+            at_most(given, 4)?;
             let MotorController { axes, widths } = controller(&given[..given.len().min(2)])?;
             let period = word(given.get(2).copied().unwrap_or(1), widths.period)?;
-            Some(Conventional { axes, widths, period })
+            Some(Conventional { axes, widths, period, arcs: choice(given, 3, ARCS)? })
         },
         with: |circuit, given| {
-            at_most(given, 1)?;
+            at_most(given, 2)?;
             let period = given.first().copied().unwrap_or(circuit.period);
-            Some(Conventional { period: word(period, circuit.widths.period)?, ..circuit })
+            let (period, arcs) = (word(period, circuit.widths.period)?, choice(given, 1, ARCS)?);
+            Some(Conventional { period, arcs, ..circuit })
         },
         proved: none,
     ),

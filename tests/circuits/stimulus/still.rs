@@ -143,6 +143,8 @@ pub const FAR: &[(&str, u32)] = &[
     ("difference_engine.d4.step", 0),
     ("difference_engine.d4.by_whole", 0),
     ("difference_engine.d4.by_part", 0),
+    // Never: a radius is not negative, and has room for a rounded point beyond it.
+    ("circular_interpolator.wide_radius", 24),
     // The word of a bend is one of 32.
     ("blend_row.term_bend", 41),
     // One word of 32, and most words are small.
@@ -284,6 +286,7 @@ pub const NEVER: &[(&str, u32)] = &[
     ("difference_engine.d4.by_whole", 0),
     ("difference_engine.d4.by_part", 0),
     // As above.
+    ("circular_interpolator.wide_radius", 15),
     ("blend_row.term_bend", 9),
     // Coefficients of 8 bits.
     ("coefficient_control.bit_index", 4),

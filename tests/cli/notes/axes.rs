@@ -11,8 +11,9 @@ use std::fmt::Write as _;
 pub fn table() -> String {
     let mut text = String::from(
         "| axes | adders and comparators | their bits | flip-flops | memory bits a unit time \
-         | conventional: adders and comparators | their bits | flip-flops | ticks to compute |\n\
-         |---|---|---|---|---|---|---|---|---|\n",
+         | conventional: adders and comparators | their bits | flip-flops | ticks to compute \
+         | with arcs: adders and comparators | their bits | flip-flops |\n\
+         |---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for axes in 1..=AXES_MAX {
         let widths = Widths::default();
@@ -21,15 +22,28 @@ pub fn table() -> String {
             axes,
             widths: ConventionalWidths::default(),
             period: 1000,
+            arcs: false,
         };
         let ours = hdl::model(&group).unwrap().cost();
         let before = hdl::model(&conventional).unwrap().cost();
         assert_eq!(before.memory_bits, 0);
+        let arcs = (axes > 1).then(|| {
+            let arcs = hdl::model(&Conventional {
+                arcs: true,
+                ..conventional.clone()
+            });
+            let cost = arcs.unwrap().cost();
+            format!(
+                "{} | {} | {}",
+                cost.adders, cost.adder_bits, cost.register_bits
+            )
+        });
+        let arcs = arcs.unwrap_or("– | – | –".to_owned());
         let memory = ours.memory_bits >> widths.address;
         let ticks = conventional.controller().least_period();
         let _ = writeln!(
             text,
-            "| {axes} | {} | {} | {} | {memory} | {} | {} | {} | {ticks} |",
+            "| {axes} | {} | {} | {} | {memory} | {} | {} | {} | {ticks} | {arcs} |",
             ours.adders,
             ours.adder_bits,
             ours.register_bits,
