@@ -121,6 +121,16 @@ signals! { for CircularInterpolator as c;
         begins: Bit,
         /// The controller takes the move of a unit time.
         given: Bit,
+        /// The point arrives.
+        arrives: Bit,
+        /// It is kept, for the way to the next.
+        kept: Bit,
+        /// The CORDIC goes on to the next.
+        again: Bit,
+        /// The first coordinate and half a step, in whole steps.
+        raised_along: I(c.radius() + 2),
+        /// The second likewise.
+        raised_across: I(c.radius() + 2),
         /// The point in whole steps, a half upwards.
         rounded_along: I(c.controller.widths.distance + 1),
         /// Its second coordinate.
@@ -149,11 +159,9 @@ impl Circuit for CircularInterpolator {
         let begins = idle & circular & !i.order.units.is_zero();
         let given = offers & !i.pending;
         let steps = self.controller.widths.distance + 1;
-        let rounded = |word: I| {
-            let raised = word + (1i64 << (GUARD - 1));
-            raised.shift_right(GUARD).resize(steps)
-        };
-        let (along, across) = (rounded(i.along), rounded(i.across));
+        let raised = |word: I| (word + (1i64 << (GUARD - 1))).shift_right(GUARD);
+        let (raised_along, raised_across) = (raised(i.along), raised(i.across));
+        let (along, across) = (raised_along.resize(steps), raised_across.resize(steps));
         let deltas = [along - q.last_along, across - q.last_across];
         let delta = i.order.delta.iter().enumerate();
         let delta = delta.map(|(axis, &straight)| match deltas.get(axis) {
@@ -172,7 +180,7 @@ impl Circuit for CircularInterpolator {
         let number = |state| U::new(state, 2);
         let after = given.mux(last.mux(number(IDLE), number(TURN)), q.state);
         let after = (arrives & !q.first).mux(OFFER, after);
-        let taken = (arrives & q.first) | given;
+        let kept = (arrives & q.first) | given;
         let place = again.mux(q.place + q.held_turn, q.place);
         let next = Reg {
             state: begins.mux(TURN, after),
@@ -185,14 +193,19 @@ impl Circuit for CircularInterpolator {
             ),
             place: begins.mux(i.arc.angle, place),
             held_turn: begins.mux(i.arc.turn, q.held_turn),
-            last_along: taken.mux(along, q.last_along),
-            last_across: taken.mux(across, q.last_across),
+            last_along: kept.mux(along, q.last_along),
+            last_across: kept.mux(across, q.last_across),
             start: begins | again,
         };
         let net = Net {
             idle,
             begins,
             given,
+            arrives,
+            kept,
+            again,
+            raised_along,
+            raised_across,
             rounded_along: along,
             rounded_across: across,
             next_order,
