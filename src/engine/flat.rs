@@ -262,6 +262,7 @@ impl Flat {
     }
 
     /// The leaves of a part of the circuit.
+    #[inline]
     pub fn part(&self, role: crate::hdl::Role) -> std::ops::Range<usize> {
         let [inputs, registers] = self.parts;
         match role {

@@ -75,11 +75,13 @@ impl Program {
     }
 
     /// How it runs.
+    #[inline]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
     /// What it was made from.
+    #[inline]
     pub fn flat(&self) -> &Flat {
         &self.flat
     }

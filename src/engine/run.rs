@@ -100,6 +100,7 @@ impl Engine {
     }
 
     /// What runs.
+    #[inline]
     pub fn program(&self) -> &Program {
         &self.program
     }
@@ -165,6 +166,7 @@ impl Engine {
         self.wake_all();
     }
 
+    #[inline]
     fn begin(&mut self) {
         let layout = &self.program.plan.layout;
         self.slab[layout.event as usize] = 0;
@@ -348,6 +350,7 @@ impl Engine {
     }
 
     /// The whole state: registers, memories and what has been settled.
+    #[inline]
     pub(crate) fn slab(&self) -> &[u64] {
         &self.slab
     }
@@ -407,6 +410,7 @@ impl Engine {
     }
 
     /// Netlist that it was made from.
+    #[inline]
     pub fn flat(&self) -> &Flat {
         self.program.flat()
     }

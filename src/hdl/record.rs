@@ -82,6 +82,7 @@ pub(crate) struct Places {
 
 impl Places {
     /// The first of so many leaves that come now.
+    #[inline]
     pub fn take(&mut self, leaves: usize) -> usize {
         let next = &mut self.next[self.role as usize];
         *next += leaves;
@@ -89,6 +90,7 @@ impl Places {
     }
 
     /// Leaves to come are of this pass.
+    #[inline]
     pub fn pass(&mut self, pass: Pass) {
         self.role = match pass {
             Pass::Registers => Role::Register,
@@ -97,6 +99,7 @@ impl Places {
     }
 
     /// The pass.
+    #[inline]
     pub fn passing(&self) -> Pass {
         match self.role {
             Role::Net => Pass::Nets,

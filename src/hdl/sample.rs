@@ -157,15 +157,15 @@ impl<'a> View<'a> {
 pub struct Lazy<'a, S> {
     /// One that is at hand.
     given: Option<&'a S>,
-    made: OnceCell<Box<S>>,
+    made: OnceCell<S>,
     make: &'a dyn Fn() -> S,
 }
 
 impl<'a, S> Lazy<'a, S> {
     #[inline]
-    fn new(make: &'a dyn Fn() -> S) -> Self {
+    fn new(given: Option<&'a S>, make: &'a dyn Fn() -> S) -> Self {
         Lazy {
-            given: None,
+            given,
             made: OnceCell::new(),
             make,
         }
@@ -175,10 +175,11 @@ impl<'a, S> Lazy<'a, S> {
 impl<S> Deref for Lazy<'_, S> {
     type Target = S;
 
+    #[inline]
     fn deref(&self) -> &S {
         match self.given {
             Some(given) => given,
-            None => self.made.get_or_init(|| Box::new((self.make)())),
+            None => self.made.get_or_init(self.make),
         }
     }
 }
@@ -213,32 +214,25 @@ impl<C: Circuit> Sample<'_, C> {
         let (i, registers) = given;
         show(&Sample {
             tick,
-            i: &Lazy {
-                given: i,
-                ..Lazy::new(&|| {
-                    let mut leaves = Leaves::of(engine, Role::Input);
-                    C::In::make(circuit, view::role(Role::Input), &mut leaves)
-                })
-            },
-            q: &Lazy {
-                given: registers.map(|all| &all.q),
-                ..Lazy::new(&|| own_registers(circuit, engine))
-            },
-            w: &Lazy::new(&|| {
+            i: &Lazy::new(i, &|| {
+                let mut leaves = Leaves::of(engine, Role::Input);
+                C::In::make(circuit, view::role(Role::Input), &mut leaves)
+            }),
+            q: &Lazy::new(registers.map(|all| &all.q), &|| {
+                own_registers(circuit, engine)
+            }),
+            w: &Lazy::new(None, &|| {
                 let mut leaves = Leaves::of(engine, Role::Net);
                 // Its own come last.
                 leaves.places.next[Role::Net as usize] = engine.leaves() - known.nets;
                 C::Net::make(circuit, view::role(Role::Net), &mut leaves)
             }),
-            p: &Lazy::new(&|| {
+            p: &Lazy::new(None, &|| {
                 let mut leaves = Leaves::of(engine, Role::Register);
                 C::Reg::<view::Shapes>::make(circuit, view::role(Role::Register), &mut leaves);
                 C::Parts::make(circuit, view::role(Role::Net), &mut leaves)
             }),
-            registers: &Lazy {
-                given: registers,
-                ..Lazy::new(&|| all_registers(circuit, engine))
-            },
+            registers: &Lazy::new(registers, &|| all_registers(circuit, engine)),
             known,
             engine,
             alone: false,
@@ -268,6 +262,7 @@ impl<C: Circuit> Sample<'_, C> {
     }
 
     /// What one of the [signals](Signals) is: `now.see(|s| s.w.enable)`.
+    #[inline]
     pub fn see<T: Number>(&self, signal: impl FnOnce(&Signals<C>) -> At<T>) -> T {
         self.get(signal(self.known.signals()))
     }
@@ -294,8 +289,8 @@ impl<C: Circuit> State<'_, C> {
     ) -> T {
         let circuit = &known.circuit;
         show(&State {
-            q: &Lazy::new(&|| own_registers(circuit, engine)),
-            p: &Lazy::new(&|| all_registers(circuit, engine).p),
+            q: &Lazy::new(None, &|| own_registers(circuit, engine)),
+            p: &Lazy::new(None, &|| all_registers(circuit, engine).p),
             engine,
         })
     }
@@ -329,6 +324,7 @@ struct Leaves<'a> {
 }
 
 impl<'a> Leaves<'a> {
+    #[inline]
     fn of(engine: &'a Engine, role: Role) -> Self {
         let first = |role| engine.flat().part(role).start;
         Leaves {
@@ -336,7 +332,7 @@ impl<'a> Leaves<'a> {
             spots: &engine.program().plan().layout.leaves,
             slab: engine.slab(),
             places: Places {
-                next: [Role::Input, Role::Register, Role::Net].map(first),
+                next: [first(Role::Input), first(Role::Register), first(Role::Net)],
                 role,
             },
         }

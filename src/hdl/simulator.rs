@@ -199,6 +199,7 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Sets a port in, from this tick on.
+    #[inline]
     pub fn set<T: Number>(&mut self, port: impl FnOnce(&C::In<Place>) -> At<T>, value: T) {
         let port = port(&self.known.signals().i);
         self.set_port(port.leaf(), value.word());
@@ -250,6 +251,7 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// What one of the [signals](Signals) is in this tick, settled.
+    #[inline]
     pub fn see<T: Number>(&mut self, signal: impl FnOnce(&Signals<C>) -> At<T>) -> T {
         let at = signal(self.known.signals());
         self.get(at)
@@ -274,6 +276,7 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Goes on to the next tick.
+    #[inline]
     pub fn step(&mut self) {
         self.settle();
         self.edge();
@@ -291,6 +294,7 @@ impl<C: Circuit> Simulator<C> {
         self.settled = false;
     }
 
+    #[inline]
     fn edge(&mut self) {
         self.engine.edge();
         self.tick += 1;
@@ -322,11 +326,13 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Runs one tick with these inputs and shows its sample.
+    #[inline]
     pub fn step_with<T>(&mut self, i: &C::In<Value>, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
         self.step_with_reset(false, i, show)
     }
 
     /// The same; with `rst` high its edge is that of a [reset](Self::reset).
+    #[inline]
     pub fn step_with_reset<T>(
         &mut self,
         rst: bool,
