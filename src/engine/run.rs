@@ -108,29 +108,21 @@ impl Engine {
     /// Sets a port in, by its number.
     #[inline]
     pub fn input(&mut self, port: usize, word: u64) {
-        self.inputs_from(port, &[word]);
+        let layout = &self.program.plan.layout;
+        let Some(&slot) = layout.inputs.get(port) else {
+            return;
+        };
+        if self.slab[slot as usize] != word {
+            interpreter::put(layout, &mut self.slab, slot, word);
+            *self.whole.get_mut() = None;
+        }
     }
 
     /// Sets all ports in.
     #[inline]
     pub fn inputs(&mut self, words: &[u64]) {
-        self.inputs_from(0, words);
-    }
-
-    /// Sets ports in one after the other, from one on.
-    #[inline]
-    fn inputs_from(&mut self, port: usize, words: &[u64]) {
-        let layout = &self.program.plan.layout;
-        let mut port = port;
-        for &word in words {
-            let Some(&slot) = layout.inputs.get(port) else {
-                break;
-            };
-            port += 1;
-            if self.slab[slot as usize] != word {
-                interpreter::put(layout, &mut self.slab, slot, word);
-                *self.whole.get_mut() = None;
-            }
+        for (port, &word) in words.iter().enumerate() {
+            self.input(port, word);
         }
     }
 
