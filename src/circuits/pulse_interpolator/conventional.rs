@@ -73,7 +73,7 @@ signals! { for Conventional as c;
         pub counter: Part<EnableCounter>(EnableCounter { width: c.widths.period }),
         /// Amounts of arcs.
         pub circulars: [Part<CircularInterpolator>(c.circular()); usize::from(c.arcs)]
-            as Elements(&["circular"]),
+            as Elements(&["interpolator"]),
         /// Their points.
         pub cordics: [Part<Cordic>(c.circular().cordic()); usize::from(c.arcs)]
             as Elements(&["cordic"]),
