@@ -47,8 +47,8 @@
 //! [`Options::strict`] refuses them: other M words whose meaning is known and that neither move nor
 //! change offsets or scales (heaters, fans, displays, switches, settings of printers), with what
 //! else is in their line; E, H and D; A, B, C, U, V and, where it is no axis, W at 0; `$` lines; the
-//! `/` of optional lines, which are run; G61.1, P, Q and R of G64, G43, G96, G97, G10 for tools, G10 and G11 of
-//! printers, G29, G34.
+//! `/` of optional lines, which are run; G61.1, P, Q and R of G64, G43, G96, G97, G10 for tools, G10
+//! and G11 of printers, G29, G34.
 //!
 //! # What is refused
 //!

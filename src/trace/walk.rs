@@ -96,29 +96,24 @@ impl Walk {
     fn look_at_changes(&mut self, view: View<'_>) {
         let Walk { touched, marks, .. } = self;
         let engine = view.engine;
-        let mut touch = |leaf: u32| {
-            if let Some(leaf) = view.shown(leaf) {
-                touched.touch(leaf);
-            }
-        };
         let plan = engine.program().plan();
         engine.changed(|place| {
             let watched = &plan.layout.watched[place];
-            let Some(memory) = watched.memory.map(|memory| memory as usize) else {
-                for &leaf in &watched.leaves {
-                    touch(leaf);
+            let mut leaves = &watched.leaves[..];
+            if let Some(memory) = watched.memory.map(|memory| memory as usize) {
+                let (mark, word) = engine.written(memory);
+                let writes = mark.wrapping_sub(std::mem::replace(&mut marks[memory], mark));
+                let shifts = plan.memories[memory].head.is_some();
+                if let Some(leaf) = leaves.get(word as usize)
+                    && writes == 1
+                    && !shifts
+                {
+                    leaves = std::slice::from_ref(leaf);
                 }
-                return;
-            };
-            let (mark, word) = engine.written(memory);
-            let writes = mark.wrapping_sub(std::mem::replace(&mut marks[memory], mark));
-            let shifts = plan.memories[memory].head.is_some();
-            match watched.leaves.get(word as usize) {
-                Some(&leaf) if writes == 1 && !shifts => touch(leaf),
-                _ => {
-                    for &leaf in &watched.leaves {
-                        touch(leaf);
-                    }
+            }
+            for &leaf in leaves {
+                if let Some(leaf) = view.shown(leaf) {
+                    touched.touch(leaf);
                 }
             }
         });

@@ -39,7 +39,7 @@ fn blends_by_products_are_those_by_differences() {
         (&cost["multiplications"], &cost["ticks"]),
         (&8.into(), &133.into())
     );
-    // The bound is that of differences and 2½·2^(W − B) counts in each coordinate.
+    // Without a command that differs the path is as far off.
     let differences = with(SEAM).json(&["run", "s.toml", "--no-vcd", "--set", "clock_hz=20000"]);
     assert_eq!(differences["products"], Value::Null);
     assert_eq!(differences["blend"], "differences");

@@ -126,22 +126,19 @@ impl Specified for GrayReceiver {
         Invariants::<Self>::new()
             .always(
                 "a word is taken two ticks behind its strobe, by its place in the turn",
-                {
-                    move |now| {
-                        // By counting through the code; none where the turn is without it.
-                        let (turn, word) = (now.i.turn as i64, now.q.sync_code);
-                        let counts = if turn == 0 { codes } else { turn };
-                        let number =
-                            (0..codes).find(|number| (number ^ (number >> 1)) as u64 == word);
-                        let place = number.unwrap_or(codes) - (codes - counts) / 2;
-                        let inside = (0..counts).contains(&place);
-                        let right = now.w.take == (now.q.sync_strobe & 0b1100 == 0b0100)
-                            && now.w.outside != inside
-                            && (!inside || now.w.place as i64 == place);
-                        require(right, ["place", "outside", "take"], || {
-                            format!("{place} of {counts}")
-                        })
-                    }
+                move |now| {
+                    // By counting through the code; none where the turn is without it.
+                    let (turn, word) = (now.i.turn as i64, now.q.sync_code);
+                    let counts = if turn == 0 { codes } else { turn };
+                    let number = (0..codes).find(|number| (number ^ (number >> 1)) as u64 == word);
+                    let place = number.unwrap_or(codes) - (codes - counts) / 2;
+                    let inside = (0..counts).contains(&place);
+                    let right = now.w.take == (now.q.sync_strobe & 0b1100 == 0b0100)
+                        && now.w.outside != inside
+                        && (!inside || now.w.place as i64 == place);
+                    require(right, ["place", "outside", "take"], || {
+                        format!("{place} of {counts}")
+                    })
                 },
             )
             .step("wires pass their flip-flops, the word two", |now, next| {

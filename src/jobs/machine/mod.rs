@@ -5,6 +5,7 @@ pub mod job;
 pub mod measure;
 pub mod program;
 pub mod settings;
+mod surroundings;
 pub mod waves;
 
 pub use program::Program;

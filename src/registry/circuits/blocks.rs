@@ -1,4 +1,4 @@
-use super::make::{one_of, only, width};
+use super::make::{FLAGS, one_of, only, width};
 use crate::circuits::blocks::{
     CoefficientControl, Cordic, CordicState, DifferenceColumn, DifferenceEngine, EnableCounter,
     MulDiv, QuadratureCounter, RecordMemory, RecordSequencer, Shifter, difference_column::Widths,
@@ -18,9 +18,6 @@ fn engine(widths: Widths) -> DifferenceEngine {
 fn column(widths: Widths) -> DifferenceColumn {
     engine(widths).difference(1)
 }
-
-/// Whether every point is waited for, by its number.
-const WAITS: &[bool] = &[false, true];
 
 /// Blocks that more than one circuit is made of.
 pub(super) const CIRCUITS: &[Entry] = &[
@@ -118,10 +115,10 @@ pub(super) const CIRCUITS: &[Entry] = &[
         full: || RecordSequencer { modulus: 41, samples: 20, data: 42, waits: false },
         widths: [modulus, samples, data],
         from: "width of moduli (a word has three bits more), 1 to wait for every point", |given| {
-            let (width, waits) = (width(given)?, one_of(given, WAITS)?);
+            let (width, waits) = (width(given)?, one_of(given, FLAGS)?);
             Some(RecordSequencer { modulus: width, samples: width, data: width + 3, waits })
         },
-        with: |sequencer, given| Some(RecordSequencer { waits: only(given, WAITS)?, ..sequencer }),
+        with: |sequencer, given| Some(RecordSequencer { waits: only(given, FLAGS)?, ..sequencer }),
         proved: 2,
     ),
 ];

@@ -1,6 +1,6 @@
 mod makers;
 
-use super::make::{one_of, only, width};
+use super::make::{FLAGS, one_of, only, width};
 use crate::circuits::lead_angle::{
     AbsoluteDetector, Comparator, Comparing, Compensator, CompletionDetector, Correction,
     CorrectionArithmetic, DifferenceHistory, DividedTime, Function, GrayReceiver, Lead, LeadFrom,
@@ -12,7 +12,7 @@ use crate::circuits::lead_angle::{
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
 use makers::{
-    COMPARINGS, ONES, PLACEMENTS, RAM, SHIFT, SIGNS, chosen, compensator, conventional, correction,
+    COMPARINGS, PLACEMENTS, RAM, SHIFT, SIGNS, chosen, compensator, conventional, correction,
     filled, formed, rom, small, stages, table_lead, time_data, time_lead,
 };
 
@@ -109,9 +109,9 @@ pub(super) const CIRCUITS: &[Entry] = &[
         full: || DividedTime { stages: 199, one: false },
         widths: [stages],
         from: "4 for 3 stages, 8 for 15, then 0 for N above Δt/N or 1 for N = 1", |given| {
-            Some(DividedTime { stages: stages(width(given)?), one: one_of(given, ONES)? })
+            Some(DividedTime { stages: stages(width(given)?), one: one_of(given, FLAGS)? })
         },
-        with: |circuit, given| Some(DividedTime { one: only(given, ONES)?, ..circuit }),
+        with: |circuit, given| Some(DividedTime { one: only(given, FLAGS)?, ..circuit }),
         proved: 4,
     ),
     entry!(
@@ -129,9 +129,9 @@ pub(super) const CIRCUITS: &[Entry] = &[
         full: || Lead { position: 24, one: false },
         widths: [position],
         from: "width, 0 for N or 1 for N = 1", |given| {
-            Some(Lead { position: width(given)?, one: one_of(given, ONES)? })
+            Some(Lead { position: width(given)?, one: one_of(given, FLAGS)? })
         },
-        with: |circuit, given| Some(Lead { one: only(given, ONES)?, ..circuit }),
+        with: |circuit, given| Some(Lead { one: only(given, FLAGS)?, ..circuit }),
         proved: 4,
     ),
     entry!(
@@ -139,9 +139,9 @@ pub(super) const CIRCUITS: &[Entry] = &[
         full: || LeadProducts { position: 24, one: false },
         widths: [position],
         from: "width, 0 for N or 1 for N = 1", |given| {
-            Some(LeadProducts { position: width(given)?, one: one_of(given, ONES)? })
+            Some(LeadProducts { position: width(given)?, one: one_of(given, FLAGS)? })
         },
-        with: |circuit, given| Some(LeadProducts { one: only(given, ONES)?, ..circuit }),
+        with: |circuit, given| Some(LeadProducts { one: only(given, FLAGS)?, ..circuit }),
         proved: 4,
     ),
     entry!(
@@ -364,8 +364,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
         ],
         from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
                learning as 0, 1 and so on, 0 for an incremental, 1 for an absolute encoder, 2 for a \
-               phase-shift detector, 0 for a \
-               product as the lead or 1 for a memory of it, times of the ROM",
+               phase-shift detector, 0 for a product as the lead or 1 for a memory of it, times of \
+               the ROM",
             |given| conventional(small(LeadFrom::Speed, given)?, &given[1..]),
         with: conventional,
         proved: none,

@@ -19,6 +19,9 @@ pub const ROUNDINGS: &[Rounding] = &[Rounding::Nearest, Rounding::Floor];
 /// How blends are made, by its number.
 pub const BLENDS: &[Blend] = &[Blend::Differences, Blend::Products];
 
+/// Without or with, by its number.
+pub const FLAGS: &[bool] = &[false, true];
+
 /// So many numbers at most.
 pub fn at_most(given: &[u64], count: usize) -> Option<()> {
     (given.len() <= count).then_some(())

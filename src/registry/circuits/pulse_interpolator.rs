@@ -1,5 +1,7 @@
 use super::make::words;
-use super::make::{VARIANTS, address_bits, at_most, choice, one_of, only, second, width, word};
+use super::make::{
+    FLAGS, VARIANTS, address_bits, at_most, choice, one_of, only, second, width, word,
+};
 use crate::circuits::pulse_interpolator::pattern_memory::Contents;
 use crate::circuits::pulse_interpolator::{
     AddressSequencer, Axis, CircularInterpolator, CommandPort, Conventional, ConventionalWidths,
@@ -8,9 +10,6 @@ use crate::circuits::pulse_interpolator::{
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
-
-/// Whether a device takes arcs, by its number.
-const ARCS: &[bool] = &[false, true];
 
 /// The full widths of a memory.
 fn full_memory() -> PatternMemory {
@@ -283,12 +282,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
             at_most(given, 4)?;
             let MotorController { axes, widths } = controller(&given[..given.len().min(2)])?;
             let period = word(given.get(2).copied().unwrap_or(1), widths.period)?;
-            Some(Conventional { axes, widths, period, arcs: choice(given, 3, ARCS)? })
+            Some(Conventional { axes, widths, period, arcs: choice(given, 3, FLAGS)? })
         },
         with: |circuit, given| {
             at_most(given, 2)?;
             let period = given.first().copied().unwrap_or(circuit.period);
-            let (period, arcs) = (word(period, circuit.widths.period)?, choice(given, 1, ARCS)?);
+            let (period, arcs) = (word(period, circuit.widths.period)?, choice(given, 1, FLAGS)?);
             Some(Conventional { period, arcs, ..circuit })
         },
         proved: none,

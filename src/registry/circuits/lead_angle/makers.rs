@@ -5,7 +5,7 @@ use crate::circuits::lead_angle::{
     LeadTable, Memory, Placement, Sign, TableLead, TimeData, TimeLead, Variant, Widths,
 };
 use crate::hdl::Image;
-use crate::registry::circuits::make::{at_most, choice, width, words};
+use crate::registry::circuits::make::{FLAGS, at_most, choice, width, words};
 
 /// Stages of history where positions have `width` bits.
 pub(super) const fn stages(width: usize) -> usize {
@@ -19,8 +19,6 @@ pub(super) const fn stages(width: usize) -> usize {
 pub(super) const PLACEMENTS: &[Placement] =
     &[Placement::Position, Placement::Target, Placement::Halves];
 pub(super) const COMPARINGS: &[Comparing] = &[Comparing::Crossing, Comparing::Equal];
-/// N as it is, or fixed at 1.
-pub(super) const ONES: &[bool] = &[false, true];
 const DIVISIONS: &[Division] = &[Division::Logic, Division::Beforehand, Division::One];
 const FORMS: &[Form] = &[Form::Difference, Form::Products, Form::EarlyDifference];
 const DETECTORS: &[Detector] = &[
@@ -119,7 +117,7 @@ pub(super) fn small(lead_from: LeadFrom, given: &[u64]) -> Option<Compensator> {
 /// gates, in place of the form.
 pub(super) fn conventional(circuit: Compensator, given: &[u64]) -> Option<Compensator> {
     let position = circuit.widths.position;
-    let lead_from = match choice(given, 4, ONES)? {
+    let lead_from = match choice(given, 4, FLAGS)? {
         true => LeadFrom::Table(table(position, |speed| 2 * speed)?),
         false => LeadFrom::Speed,
     };
