@@ -3,11 +3,12 @@
 use super::check::entries;
 use super::{Failure, print, print_json, threads};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::hdl::RunError;
 use motion_rtl::input::{Fault, read_string};
 use motion_rtl::registry::{Campaign, CampaignError, Entry, Fate, Found, Suspect};
 use motion_rtl::trace::chart::{Chart, parse};
+use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -92,9 +93,9 @@ pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
         transitions: arguments.transitions,
     };
     threads::start()?;
-    let rows = entries
-        .into_iter()
-        .map(|entry| row(&campaign, &notes, entry));
+    let bars = MultiProgress::new();
+    let entries = entries.into_par_iter().with_max_len(1);
+    let rows = entries.map(|entry| row(&campaign, &notes, entry, &bars));
     let report = Report::of(rows.collect::<Result<_, _>>()?);
     match arguments.json {
         true => print_json(&report)?,
@@ -144,9 +145,14 @@ fn charts(path: &Path) -> Result<Vec<(String, Chart)>, Failure> {
     }
 }
 
-fn row(campaign: &Campaign, notes: &[String], entry: &'static Entry) -> Result<Row, Failure> {
+fn row(
+    campaign: &Campaign,
+    notes: &[String],
+    entry: &'static Entry,
+    bars: &MultiProgress,
+) -> Result<Row, Failure> {
     let begun = Instant::now();
-    let bar = ProgressBar::new(0);
+    let bar = bars.add(ProgressBar::new(0));
     if let Ok(style) = ProgressStyle::with_template("{prefix} {wide_bar} {pos} of {len}") {
         bar.set_style(style);
     }

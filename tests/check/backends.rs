@@ -97,6 +97,7 @@ fn same(name: &str, model: &Model) {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn every_circuit_at_its_own_widths() {
     for entry in CATALOGUE {
         same(entry.name, &entry.full().model().expect("a netlist"));

@@ -231,6 +231,7 @@ fn the_words_of_a_ram_are_part_of_the_state() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn bitmap_and_hash_set_see_the_same() {
     let none = Invariants::new();
     let hashed = reach(&Store, &none).bitmap_bits(0).run().unwrap();
@@ -265,6 +266,7 @@ fn by_brute_force(table: &Table, bad: u64, longest: usize) -> Option<usize> {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn no_counterexample_is_longer_than_need_be() {
     let mut random = Random::new(11);
     let mut lengths = HashSet::new();

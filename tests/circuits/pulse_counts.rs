@@ -10,33 +10,25 @@ fn after_start(wave: &[bool], period: u64) -> &[bool] {
 
 #[test]
 fn every_unit_obeys_the_count_law_and_is_low_at_its_borders() {
+    let half_periods: Vec<u64> = (0..80).flat_map(|n| [n, n]).collect();
     for period in 1..=64u64 {
-        for half_period in 0..80u64 {
-            let group = player(
-                widths(7, 7, 1),
-                Safe,
-                &[half_period, half_period],
-                period,
-                false,
-            );
-            let wave = steps(&group, 4 * period);
-            let (silent, rest) = wave.split_at(period as usize);
-            assert_eq!(rises(silent), 0, "pulses before the first unit time");
-            for unit in rest[..2 * period as usize].chunks(period as usize) {
-                assert!(!unit[0], "high across RST: T = {period}, n = {half_period}");
-                let law = match half_period {
-                    0 => 0,
-                    n => ((period - 1) / n).div_ceil(2),
-                };
-                assert_eq!(rises(unit), law, "T = {period}, n = {half_period}");
-                assert_eq!(unit, unit_wave(half_period, period));
-            }
-            assert_eq!(
-                rises(&rest[2 * period as usize..]),
-                0,
-                "pulses after the end"
-            );
+        let group = player(widths(7, 7, 8), Safe, &half_periods, period, false);
+        let units = half_periods.len() as u64;
+        let wave = steps(&group, (units + 2) * period);
+        let (silent, rest) = wave.split_at(period as usize);
+        assert_eq!(rises(silent), 0, "pulses before the first unit time");
+        let mut played = rest.chunks(period as usize);
+        for n in &half_periods {
+            let unit = played.next().expect("a unit time of each");
+            assert!(!unit[0], "high across RST: T = {period}, n = {n}");
+            let law = match n {
+                0 => 0,
+                n => ((period - 1) / n).div_ceil(2),
+            };
+            assert_eq!(rises(unit), law, "T = {period}, n = {n}");
+            assert_eq!(unit, unit_wave(*n, period), "T = {period}, n = {n}");
         }
+        assert_eq!(rises(played.next().unwrap()), 0, "pulses after the end");
     }
 }
 
@@ -44,14 +36,22 @@ fn every_unit_obeys_the_count_law_and_is_low_at_its_borders() {
 fn a_unit_does_not_depend_on_the_unit_before() {
     for period in 1..=24u64 {
         // Longer ones are alike: there is no pulse.
-        for first in 0..period + 2 {
-            for second in 0..period + 2 {
-                let group = player(widths(5, 5, 1), Safe, &[first, second], period, false);
-                let wave = steps(&group, 3 * period);
-                let units = after_start(&wave, period);
-                assert_eq!(units[..period as usize], unit_wave(first, period));
-                assert_eq!(units[period as usize..], unit_wave(second, period));
-            }
+        let all = 0..period + 2;
+        let pairs = all.clone().flat_map(|first| {
+            let pair = move |second| [first, second];
+            all.clone().flat_map(pair)
+        });
+        let half_periods: Vec<u64> = pairs.collect();
+        let group = player(widths(5, 5, 11), Safe, &half_periods, period, false);
+        let wave = steps(&group, (half_periods.len() as u64 + 1) * period);
+        let mut played = after_start(&wave, period).chunks(period as usize);
+        for (address, n) in half_periods.iter().enumerate() {
+            let unit = played.next().expect("a unit time of each");
+            assert_eq!(
+                unit,
+                unit_wave(*n, period),
+                "T = {period}, n = {n} at {address}"
+            );
         }
     }
 }
@@ -61,13 +61,13 @@ fn the_literal_variant_miscounts() {
     let mut units = 0;
     let mut wrong = 0;
     for period in 2..=64u64 {
-        for half_period in 1..=period {
-            let group = player(widths(7, 7, 1), Literal, &[half_period; 2], period, true);
-            let wave = steps(&group, 9 * period);
-            for unit in after_start(&wave, period).chunks(period as usize) {
-                units += 1;
-                wrong += u32::from(rises(unit) != rises(&unit_wave(half_period, period)));
-            }
+        let half_periods: Vec<u64> = (1..=period).flat_map(|n| [n; 8]).collect();
+        let group = player(widths(7, 7, 9), Literal, &half_periods, period, false);
+        let wave = steps(&group, (half_periods.len() as u64 + 1) * period);
+        let played = after_start(&wave, period).chunks(period as usize);
+        for (unit, n) in played.zip(half_periods) {
+            units += 1;
+            wrong += u32::from(rises(unit) != rises(&unit_wave(n, period)));
         }
     }
     assert!(

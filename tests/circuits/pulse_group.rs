@@ -38,8 +38,8 @@ fn run(group: &Group, ticks: u64, stimulus: impl Fn(u64) -> Port) -> Vec<Seen> {
             unit_rst: now.w.unit_rst,
             busy: now.w.busy,
             ready: now.w.ready,
-            address: now.p.sequencer.q.address,
-            period: now.p.unit_time.q.active,
+            address: now.see(|s| s.p.sequencer.q.address),
+            period: now.see(|s| s.p.unit_time.q.active),
             step: now.w.step[0],
             dir: now.w.dir[0],
         });

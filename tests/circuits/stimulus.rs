@@ -193,6 +193,7 @@ fn every_circuit_is_made_at_its_widths() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn every_bit_that_can_move_moves() {
     // The large ones first, so that the last ones are short.
     let entries = CATALOGUE.par_iter().rev().with_max_len(1);

@@ -87,6 +87,7 @@ fn the_table_is_printed_as_json() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn parts_come_together_to_the_whole() {
     let bench = Bench::new();
     let whole = timeless(&bench.succeed(&WORK));
@@ -110,6 +111,7 @@ fn parts_come_together_to_the_whole() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn what_is_broken_in_a_part_is_broken_in_the_whole() {
     let bench = Bench::new();
     let work = ["check", "unit_law", "line_law", "--with", "1"];

@@ -65,11 +65,13 @@ fn every_byte_of(format: &str, ends: &[i32]) {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn any_byte_of_an_fst() {
     every_byte_of("fst", &[0, 2]);
 }
 
 #[test]
+#[ignore = "takes long"]
 fn any_byte_of_a_vcd() {
     every_byte_of("vcd", &[0, 1, 2]);
 }

@@ -151,6 +151,7 @@ fn ten_millimetres_are_a_hundred_and_thirty_four_scans() {
 
 /// What whole counts a scan would have halved, in every direction.
 #[test]
+#[ignore = "takes long"]
 fn a_slow_feed_is_reached() {
     for feed in [290, 590] {
         for to in ["X20", "X20 Y11.547", "Y-20"] {
@@ -325,6 +326,7 @@ fn zigzag(strokes: usize) -> String {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn people_see_the_worst_segments_or_all_and_machines_see_all() {
     let bench = Bench::with("z.hpgl", zigzag(15));
     let text = bench.succeed(&run("z.hpgl", &[]));

@@ -51,6 +51,7 @@ fn peak(millimetres: u32, format: &str) -> (u64, u64) {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn a_run_eight_times_as_long_takes_no_more() {
     for format in ["vcd", "fst"] {
         let (short, long) = (peak(80, format), peak(640, format));

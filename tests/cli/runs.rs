@@ -237,6 +237,7 @@ fn without_waves_everything_else_is_the_same() {
 
 /// Without waves circuits and motors go over many ticks at once.
 #[test]
+#[ignore = "takes long"]
 fn a_run_is_the_same_without_waves() {
     let bench = Bench::with("p.ngc", "G1 X2 F1500\nX1 Y1\nG3 X2 Y1 I0.5\nG0 X0 Y0\n");
     bench.write("straight.ngc", "G1 X2 F1500\nX1 Y1\nG0 X0 Y0\n");

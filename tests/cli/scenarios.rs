@@ -1,6 +1,7 @@
 //! Scenarios: those that ship with the crate, and files of one's own.
 
 use super::support::{Bench, LINE, SHORT, list, whole};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
@@ -46,23 +47,34 @@ fn every_scenario_that_ships_is_listed_and_none_else() {
 }
 
 /// Scenarios that take long.
-const LONG: [&str; 3] = ["waves/machine.toml", CIRCLE, POCKET];
+const LONG: [&str; 5] = [
+    "waves/machine.toml",
+    "waves/turntable.toml",
+    "waves/face.toml",
+    "waves/saddle.toml",
+    "waves/cam.toml",
+];
 
 /// The circle and the pocket, which tests of the trajectory controller run.
 pub const CIRCLE: &str = "waves/circle.toml";
 pub const POCKET: &str = "waves/pocket.toml";
 
 #[test]
-fn the_machine_ends_exactly_and_its_dump_is_whole() {
-    runs_exactly(LONG[0]);
+#[ignore = "takes long"]
+fn the_long_scenarios_run_exactly_and_their_dumps_are_whole() {
+    LONG.into_par_iter()
+        .for_each(|scenario| drop(runs_exactly(scenario)));
 }
 
 #[test]
 fn every_other_scenario_runs_exactly_and_its_dump_is_whole() {
     let scenarios = shipped();
+    let apart = [&LONG[..], &[CIRCLE, POCKET]].concat();
     let others = scenarios.iter().map(String::as_str);
-    let others: Vec<_> = others.filter(|scenario| !LONG.contains(scenario)).collect();
-    assert_eq!(others.len() + LONG.len(), scenarios.len());
+    let others: Vec<_> = others
+        .filter(|scenario| !apart.contains(scenario))
+        .collect();
+    assert_eq!(others.len() + apart.len(), scenarios.len());
     for scenario in others {
         runs_exactly(scenario);
     }
@@ -146,6 +158,7 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn what_is_built_in_is_what_the_files_say() {
     for scenario in [
         "bracket", "patterns", "rosette", "plotter", "weld", "flange",

@@ -168,6 +168,7 @@ fn every_result_is_right(width: usize) {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn words_side_by_side_do_what_one_does() {
     for width in [1, 2, 3, 5, 8, 11, 16] {
         every_result_is_right(width);

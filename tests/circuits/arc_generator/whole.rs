@@ -219,6 +219,7 @@ fn expected_ticks(first: u64, period: u64, count: usize) -> Vec<u64> {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn random_paths_are_those_of_the_program_in_both_roundings() {
     for seed in 0..60 {
         let mut random = Random::new(seed);
@@ -305,6 +306,7 @@ fn the_first_point_is_ready_after_its_latency() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn halt_leaves_the_commands_where_they_are() {
     let segments = line_and_arc();
     for halted in 300..900 {

@@ -220,6 +220,7 @@ fn both((drawing, settings): &(Drawing, Settings), variant: Variant) {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_drawings_that_ship_are_played_the_same_at_slow_and_fast_clocks() {
     let bracket = |times| {
         let input = include_bytes!("../../../waves/bracket.ngc");

@@ -123,11 +123,13 @@ fn the_arc_generator() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_trajectory_controller() {
     both(jobs::pocket);
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_machine() {
     both(jobs::machine);
 }

@@ -95,7 +95,9 @@ fn ready(stages: usize, position: usize, sign: Sign, function: Function) -> Simu
         function,
         division: Division::Logic,
     };
-    Simulator::new(&circuit).unwrap()
+    let mut simulator = Simulator::new(&circuit).unwrap();
+    simulator.compile();
+    simulator
 }
 
 fn every_correction(stages: u64, position: usize) {

@@ -71,6 +71,7 @@ fn as_it_is(_: u64, level: bool) -> bool {
 /// At rest the position is the place, on every count of a pitch, of a long one every 13th, and 0.4 to
 /// either side of it.
 #[test]
+#[ignore = "takes long"]
 fn at_rest_the_position_is_the_place() {
     for pitch in [8, 9, 16, 100, 1000, 1024] {
         for place in (0..pitch).step_by(if pitch > 100 { 13 } else { 1 }) {

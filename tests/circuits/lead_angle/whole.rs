@@ -138,7 +138,7 @@ fn the_three_placements_fire_in_the_same_tick() {
         let mut simulator = Simulator::new(&pair).unwrap();
         for _ in 0..100_000 {
             let seen = simulator.step_with(&PairIn(bench.tick(None)), |now| {
-                lockstep.sample(now).map(|_| now.p.left.w.fire)
+                lockstep.sample(now).map(|_| now.see(|s| s.p.left.w.fire))
             });
             fired += u64::from(seen.unwrap());
         }
@@ -177,8 +177,11 @@ fn every_form_is_the_embodiment_in_every_tick() {
                     i.step_time %= 16;
                 }
                 let seen = simulator.step_with(&PairIn(i), |now| {
-                    let w = &now.p.left.w;
-                    lockstep.sample(now).map(|_| [w.fire, w.learned])
+                    let seen = [
+                        now.see(|s| s.p.left.w.fire),
+                        now.see(|s| s.p.left.w.learned),
+                    ];
+                    lockstep.sample(now).map(|_| seen)
                 });
                 let seen =
                     seen.unwrap_or_else(|error| panic!("{form:?}, {memory:?}, {tick}: {error}"));
@@ -224,8 +227,9 @@ fn never_fires_too_early(circuit: &Compensator, wanted: impl Fn(u64) -> Option<u
         let i = bench.tick(None);
         let restart = i.clear;
         let (ck, fire, halting, time) = simulator.step_with(&i, |now| {
-            let halting = now.p.sequencer.q.halting;
-            (now.w.ck, now.w.fire, halting, now.w.lead_time)
+            let [ck, fire] = [now.see(|s| s.w.ck), now.see(|s| s.w.fire)];
+            let halting = now.see(|s| s.p.sequencer.q.halting);
+            (ck, fire, halting, now.see(|s| s.w.lead_time))
         });
         let covered = pair.is_some_and(|(time, samples)| {
             wanted(time).is_some_and(|samples_wanted| samples > samples_wanted)

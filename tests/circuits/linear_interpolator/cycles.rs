@@ -182,6 +182,7 @@ fn on_the_line_of(
 }
 
 #[test]
+#[ignore = "takes long"]
 fn every_cycle_runs_on_its_line_and_ends_exactly() {
     for rule in [Rule::Floor, Rule::Truncating, Rule::Centred] {
         let circuit = at_power_on(rule);
@@ -220,6 +221,7 @@ fn every_cycle_runs_on_its_line_and_ends_exactly() {
 
 /// Claim 1: one axis leads, however short its way is; where it stands, the other one does.
 #[test]
+#[ignore = "takes long"]
 fn with_a_fixed_master_every_cycle_runs_on_its_line_and_ends_exactly() {
     for (rule, fixed, axis) in [
         (Rule::Floor, MasterAxis::X, 0),
@@ -277,6 +279,7 @@ fn x_and_y_exchanged_give_the_path_exchanged() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_way_back_goes_over_points_of_the_same_line() {
     let circuit = at_power_on(Rule::Floor);
     for (speed, times) in shapes() {

@@ -272,6 +272,7 @@ fn at_full_width(ports: &Ports, most: u64) {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_extremes_at_full_width() {
     let (least, most) = (i64::from(i32::MIN), i64::from(i32::MAX));
     for (from, distance) in [

@@ -42,6 +42,7 @@ fn small_line(axis: usize, base: i64, sign: i64) -> [u64; 16] {
 /// the counts, both axes, in a step and in several: no correction in any period, and the end is
 /// reached, for every pair of gains that does not overshoot and has a product of 2^−2 at least.
 #[test]
+#[ignore = "takes long"]
 fn every_small_move_along_an_axis_is_never_corrected() {
     let at_power_on = SMALL.at_power_on(Correction::Vector).compiled();
     for axis in 0..2 {
@@ -178,6 +179,7 @@ proptest! {
 
     /// The axes are alike: with x, y and z exchanged in the path they are in all that comes of it.
     #[test]
+    #[ignore = "takes long"]
     fn axes_are_alike(segments in polyline(), exchange in 0..6usize) {
         const ORDERS: [[usize; 3]; 6] =
             [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];

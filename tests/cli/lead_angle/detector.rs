@@ -4,6 +4,7 @@ use super::refusals::{refusal, refused};
 use super::*;
 
 #[test]
+#[ignore = "takes long"]
 fn an_absolute_encoder_has_an_incremental_one_beside_it() {
     let bench = small();
     let run = [
@@ -66,6 +67,7 @@ const PHASE_SHIFT: [&str; 6] = [
 ];
 
 #[test]
+#[ignore = "takes long"]
 fn a_phase_shift_transducer_has_an_incremental_encoder_beside_it() {
     let bench = small();
     let run = [&["run", "s.toml", "--to", "3000"][..], &PHASE_SHIFT].concat();

@@ -5,6 +5,7 @@ use super::*;
 
 /// The forms with N of the table, and their own one beside them.
 #[test]
+#[ignore = "takes long"]
 fn a_form_has_that_of_the_figures_beside_it() {
     let bench = small();
     let drawn = small().json(&["run", "s.toml", "--no-vcd"]);

@@ -79,6 +79,7 @@ fn system(summary: &Value, name: &str) -> usize {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_turntable_shows_what_the_circuit_is_for() {
     let summary = &*TURNTABLE;
     assert_eq!(summary["complaints"], json!([]));
@@ -146,6 +147,7 @@ fn the_turntable_shows_what_the_circuit_is_for() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_literal_sign_drives_the_lead_times_to_their_ends() {
     let run = [
         "run",
@@ -315,6 +317,7 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
 
 /// The simplest conventional system: as good as its distances are, up to the load change.
 #[test]
+#[ignore = "takes long"]
 fn displaced_switches_stand_as_far_off_as_the_first_stops_went() {
     let summary = &*TURNTABLE;
     let [none, switch] = ["no lead", "displaced switch"].map(|name| system(summary, name));
@@ -350,6 +353,7 @@ fn displaced_switches_stand_as_far_off_as_the_first_stops_went() {
 
 /// Fig. 7 in the waves, with what it measures on top: by its parameter, and by its memory.
 #[test]
+#[ignore = "takes long"]
 fn the_conventional_system_can_be_in_the_waves() {
     let bench = small();
     let other = small().json(&["run", "s.toml", "--no-vcd"]);
@@ -390,6 +394,7 @@ fn a_ram_gives_the_same() {
 
 /// The figures of the README: no step comes to its speed.
 #[test]
+#[ignore = "takes long"]
 fn what_is_measured_on_the_way_to_speed_is_of_a_moment_ago() {
     let bench = Bench::new();
     let run = bench.json(&[

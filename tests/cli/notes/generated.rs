@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 use std::fs;
 
 /// Proofs of more transitions take long; unless they are asked for, the note is believed.
-const LONG: u64 = 8_000_000;
+const LONG: u64 = 1_000_000;
 
 const BEGIN: &str = "<!-- begin generated: ";
 const END: &str = "<!-- end generated -->";

@@ -4,6 +4,7 @@ use super::*;
 
 /// The time to the feed, and what the axes are allowed, are the acceleration along the path.
 #[test]
+#[ignore = "takes long"]
 fn the_acceleration_is_told_in_other_ways() {
     let bench = with("[[piece]]\nto_mm = [8, 6, 0]\n");
     let run = ["run", "s.toml", "--no-vcd", "--set"];
@@ -27,6 +28,7 @@ fn the_acceleration_is_told_in_other_ways() {
 
 /// Models of different gains leave a line, and the vector has most of that.
 #[test]
+#[ignore = "takes long"]
 fn each_axis_may_have_its_own_gains() {
     let bench = with("[[piece]]\nto_mm = [24, 18, 0]\n");
     let run = ["run", "s.toml", "--no-vcd", "--set", "k1_per_s=[50,40]"];
@@ -44,6 +46,7 @@ fn each_axis_may_have_its_own_gains() {
 
 /// Across a line the load gives way by the same amount whatever is added to the commands.
 #[test]
+#[ignore = "takes long"]
 fn a_torque_from_outside_is_not_corrected() {
     let bench = with("[[piece]]\nto_mm = [40, 0, 0]\n");
     let run = ["run", "s.toml", "--no-vcd", "--set"];

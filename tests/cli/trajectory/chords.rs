@@ -23,6 +23,7 @@ fn cam() -> String {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_cam_is_its_formula_and_is_run_at_feed() {
     let program = Path::new(env!("CARGO_MANIFEST_DIR")).join("waves/cam.ngc");
     let program = fs::read_to_string(program).unwrap();
@@ -56,6 +57,7 @@ fn the_cam_is_its_formula_and_is_run_at_feed() {
 
 /// A spiral of chords on a saddle, which no radius is known of.
 #[test]
+#[ignore = "takes long"]
 fn a_face_in_space_is_corrected_chord_by_chord() {
     let summary = Bench::new().json(&["run", "waves/face.toml", "--no-vcd"]);
     assert_eq!(summary["complaints"], json!([]));

@@ -3,6 +3,7 @@
 use super::*;
 
 #[test]
+#[ignore = "takes long"]
 fn splines_of_a_program_are_run_as_curves() {
     // A circle of 10 mm in four parts, entered and left in its tangent; the fourth part leaves out
     // what goes on from the third.
@@ -45,6 +46,7 @@ fn splines_of_a_program_are_run_as_curves() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn taught_points_are_joined_by_one_curve_in_space() {
     // A closed loop that rises and falls, with a line to it.
     let mut text = String::from("[[piece]]\nto_mm = [20, 0, 5]\n");
@@ -94,6 +96,7 @@ fn taught_points_are_joined_by_one_curve_in_space() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn a_helix_is_a_segment_a_turn() {
     let program = "G17 G21 G90\nG1 X20 F6000\nG3 X20 Z4 I0 J10 P2\nG1 X40\nM2\n";
     let bench = with("input = \"l.ngc\"\n");

@@ -17,6 +17,7 @@ const PIECES: &str = "[[piece]]\nto_mm = [3, 0, 0, 4]\n\
      [[piece]]\nto_mm = [0, 4, 2, 2]\n";
 
 #[test]
+#[ignore = "takes long"]
 fn w_is_an_axis_as_the_others() {
     let bench = four(PIECES);
     let summary = bench.json(&["run", "s.toml", "--out", "o", "--to", "9000"]);
@@ -64,6 +65,7 @@ fn w_is_an_axis_as_the_others() {
 
 /// What W is late by across the others is a contour error: with its own gains it leaves a line.
 #[test]
+#[ignore = "takes long"]
 fn contour_errors_have_w_in_them() {
     let bench = four("start_mm = [1, 0, 0, -4]\n[[piece]]\nto_mm = [1, 24, 0, 14]\n");
     let summary = bench.json(&[

@@ -53,6 +53,7 @@ fn closed_forms(radius_mm: f64, speed: f64, [k1, k2]: [f64; 2]) -> [f64; 2] {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_circle_is_what_closed_forms_say() {
     let (_, summary) = runs_exactly(CIRCLE);
     assert_eq!(
@@ -231,6 +232,7 @@ fn a_straight_path_needs_no_correction() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_correction_of_the_waves_is_chosen() {
     let quarter = "[[piece]]\nvia_mm = [3, 1, 0]\nto_mm = [4, 4, 0]\n";
     let only = "trajectory_controller.x.corrector.correction";
@@ -273,6 +275,7 @@ fn the_worst_segments_are_shown_or_all() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_pocket_moves_three_axes() {
     let (bench, summary) = runs_exactly(POCKET);
     assert_eq!(whole(&summary, "/axes"), 3);
@@ -302,6 +305,7 @@ fn the_pocket_moves_three_axes() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_files_of_a_run() {
     let bench = with(LINE);
     let summary = bench.json(&["run", "s.toml", "--to", "3000", "--out", "o"]);
@@ -335,6 +339,7 @@ fn the_files_of_a_run() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn every_key_of_a_scenario_is_taken() {
     let text = "circuit = \"trajectory_controller\"\ninput = \"l.ngc\"\naxes = 3\n\
          clock_hz = 250_000\nperiod_ms = 2\ncounts_per_mm = 500\nfeed_mm_per_s = 20\n\
@@ -424,6 +429,7 @@ fn every_key_of_a_scenario_is_taken() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn a_drawing_by_itself() {
     let bench = Bench::with("l.ngc", "G1 X5 F1200\nG1 Z1\n");
     let run = [

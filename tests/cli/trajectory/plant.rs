@@ -93,6 +93,7 @@ fn they_move_as_the_summary_says() {
 
 /// The ticks before a window are gone over many at once.
 #[test]
+#[ignore = "takes long"]
 fn they_are_the_same_in_a_window() {
     let bench = soft();
     run(&bench, &[]);
@@ -121,6 +122,7 @@ fn they_are_the_same_in_a_window() {
 
 /// What stands beside the circuit is not in its Verilog, nor in what goes into it.
 #[test]
+#[ignore = "takes long"]
 fn its_verilog_has_none_of_them() {
     let bench = with(LINE);
     let only = ["--only", "trajectory_controller.plant"];

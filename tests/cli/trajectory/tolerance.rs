@@ -5,6 +5,7 @@ use super::*;
 const HALF: &str = "[[piece]]\nvia_mm = [4, 4, 0]\nto_mm = [8, 0, 0]\n";
 
 #[test]
+#[ignore = "takes long"]
 fn a_tolerance_costs_time() {
     let bench = with(HALF);
     let limited = ["run", "s.toml", "--out", "o", "--to", "1000"];

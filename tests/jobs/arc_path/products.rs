@@ -31,6 +31,7 @@ fn corner() -> impl Strategy<Value = [i64; 3]> {
 
 proptest! {
     #[test]
+    #[ignore = "takes long"]
     fn blends_are_within_the_bound_and_end_exactly(
         before in corner(),
         at in corner(),

@@ -5,6 +5,7 @@ use super::*;
 /// An absolute encoder, whose clock is CK, beside a counter: both learn to within a code, and over the
 /// seams of the turn as elsewhere.
 #[test]
+#[ignore = "takes long"]
 fn an_absolute_encoder_is_as_good_as_a_counter() {
     let absolute = Settings {
         detector: Detector::Absolute,
@@ -74,6 +75,7 @@ fn phase_shift() -> Settings {
 /// A phase-shift detector, whose carrier is CK: its place is up to a CK old, which is learned as any
 /// other delay. What the place in the pitch makes of it is a CK's way to either side, N-fold.
 #[test]
+#[ignore = "takes long"]
 fn a_phase_shift_detector_is_learned_to_a_codes_travel_and_its_own_unevenness() {
     let settings = Settings {
         positionings: 24,

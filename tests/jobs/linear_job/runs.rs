@@ -98,6 +98,7 @@ fn the_conventional_ways_are_given_what_the_text_says() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
     let text = include_bytes!("../../../waves/plotter.hpgl");
     let drawing = read_text("plotter.hpgl", text).unwrap();

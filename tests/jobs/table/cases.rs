@@ -300,6 +300,7 @@ fn faults_of_settings_and_input_are_errors() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn a_million_points() {
     let moves = (1..=1_000_000_u32).map(|k| {
         let angle = f64::from(k) * 1e-3;

@@ -89,6 +89,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
     #[test]
+    #[ignore = "takes long"]
     fn pulses_add_up_to_the_steps_demanded(path in any_path(), settings in any_settings()) {
         let (table, report) = run(&path, &settings);
         if let Some(remedy) = report.remedy {

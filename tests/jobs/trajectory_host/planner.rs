@@ -305,6 +305,7 @@ fn a_slower_curve_is_slowed_down_for_no_more_than_it_needs() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn a_hundred_thousand_segments_keep_their_limits() {
     let mut seed = 1u64;
     let mut random = || {

@@ -116,6 +116,7 @@ fn stiff(gains: Gains, torque: impl Fn(usize) -> f64, periods: usize) -> Vec<f64
 }
 
 #[test]
+#[ignore = "takes long"]
 fn a_torque_from_outside_is_answered_by_the_loops_alone() {
     let usual = moved(USUAL);
     let first = usual.iter().position(|&d| d != 0.0).unwrap();

@@ -121,6 +121,7 @@ fn a_length_is_the_way_of_all_four() {
 
 /// Points, sums and errors of all four axes; W is corrected as the others are.
 #[test]
+#[ignore = "takes long"]
 fn w_is_on_the_path_and_is_corrected() {
     let (pieces, fourth) = bent();
     let mut rms = Vec::new();

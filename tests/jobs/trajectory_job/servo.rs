@@ -110,6 +110,7 @@ fn latency(axes: usize, pieces: &[Piece], correction: Correction) -> BTreeSet<u6
 
 /// On lines and on arcs of any size alike: the motors are looked at as often as there are periods.
 #[test]
+#[ignore = "takes long"]
 fn torques_come_at_the_same_tick_of_every_period() {
     for correction in ALL {
         let [small, large] = [1e-4, 1.0].map(|radius| [arc(radius, 3.0, 100.0)]);

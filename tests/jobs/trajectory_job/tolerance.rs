@@ -29,6 +29,7 @@ fn uncorrected(pieces: &[Piece]) -> Run {
 /// Arcs, helices, splines and chords whose curvature is the same all the way have the error that is
 /// allowed once they run steadily, and never more.
 #[test]
+#[ignore = "takes long"]
 fn the_error_of_a_steady_curve_is_the_tolerance() {
     let whole = arc(10.0, TAU, 100.0);
     let Course::Arc(circle) = whole.course else {
