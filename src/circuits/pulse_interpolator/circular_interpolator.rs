@@ -67,8 +67,7 @@ signals! { for CircularInterpolator as c;
     pub struct ArcMove {
         /// The move is an arc.
         pub circular: Bit,
-        /// Its radius divided by the [gain](crate::circuits::blocks::cordic_state::GAIN), in units of
-        /// 2^−G step.
+        /// Its radius divided by the gain of the CORDIC, in units of 2^−G step.
         pub radius: U(c.radius()),
         /// Where it begins, in units of 2^−H turn.
         pub angle: U(c.angle),
