@@ -3,7 +3,7 @@ mod errors;
 use super::{BARE, BARE_LOG, Runnable, Scenario};
 use crate::input::{DRAWINGS, Fault, Kind, POSITION_LOGS, read_string};
 use crate::settings::{Place, SettingError};
-use errors::{key_of, of_tables, split};
+use errors::{key_of, of_lists, split};
 use serde::Deserialize;
 use serde_path_to_error::Segment;
 use std::path::Path;
@@ -336,7 +336,7 @@ fn set_fault(key: &str, error: &Located) -> Fault {
         return Fault::new(SET, 0, field, "missing", NO_DEFAULT);
     }
     let field = if inner { &field } else { key };
-    let (problem, allowed) = of_tables(field, message).unwrap_or_else(|| split(message));
+    let (problem, allowed) = of_lists(field, message).unwrap_or_else(|| split(message));
     Fault::new(SET, 0, field, problem, allowed)
 }
 

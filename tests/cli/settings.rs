@@ -81,6 +81,8 @@ fn bad_overrides_are_refused() {
         ("clock_hz=1\nvcd_ticks=9", format!("clock_hz: invalid type: string \"1\\nvcd_ticks=9\"; {WHOLE}")),
         ("line_unit_ticks=4294967296", format!("line_unit_ticks: invalid value: integer `4294967296`; {WHOLE} to 4294967295")),
         ("steps_per_mm=80", "steps_per_mm: invalid type: integer `80`; allowed: a list of numbers, one for each axis".into()),
+        ("pattern=3", "pattern: invalid type: integer `3`; allowed: tables [[pattern]]".into()),
+        ("play=ring", "play: invalid type: string \"ring\"; allowed: a list of names of patterns".into()),
         ("variant=wild", "variant: unknown variant `wild`; allowed: `safe` or `literal`".into()),
         ("circuit=cam", "circuit: unknown variant `cam`; allowed: one of `pulse_interpolator`, `linear_interpolator`, `lead_angle`, `arc_generator`, `trajectory_controller`, `machine`".into()),
         ("input=other.ngc", "input: line.hpgl is the input; allowed: input with a scenario only".into()),

@@ -127,11 +127,15 @@ fn line_at(text: &[u8], place: usize) -> usize {
     before.iter().filter(|&&byte| byte == b'\n').count() + 1
 }
 
-/// Problem and what is allowed of a key whose value is a list of tables.
-pub(super) fn of_tables(key: &str, message: &str) -> Option<(String, String)> {
+/// Problem and what is allowed of a key whose value is a list, but not of numbers.
+pub(super) fn of_lists(key: &str, message: &str) -> Option<(String, String)> {
     let (problem, _) = message.split_once(", expected a sequence")?;
-    let tables = ["step", "piece", "axis", "load_torque"].contains(&key);
-    tables.then(|| (problem.to_owned(), format!("tables [[{key}]]")))
+    let allowed = match key {
+        "step" | "piece" | "axis" | "load_torque" | "pattern" => format!("tables [[{key}]]"),
+        "play" => "a list of names of patterns".to_owned(),
+        _ => return None,
+    };
+    Some((problem.to_owned(), allowed))
 }
 
 /// A message of the TOML reader as problem and what is allowed.
@@ -189,7 +193,7 @@ pub(super) fn fault(file: &str, text: &str, error: &toml::de::Error) -> Fault {
         "" => "file",
         key => key,
     };
-    let (problem, allowed) = of_tables(field, message).unwrap_or_else(|| split(message));
+    let (problem, allowed) = of_lists(field, message).unwrap_or_else(|| split(message));
     let fault = Fault::new(file, line, field, problem, allowed);
     match error.span() {
         Some(span) => fault.marked(text.as_bytes(), &span),
