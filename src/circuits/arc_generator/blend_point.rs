@@ -14,7 +14,7 @@
 
 use super::{BlendRow, BlendWeight, Widths, blend_row, blend_weight};
 use crate::circuits::blocks::{
-    CoefficientControl, DifferenceColumn, coefficient_control, difference_column,
+    CoefficientControl, DifferenceColumn, RecordWord, coefficient_control, difference_column,
 };
 use crate::hdl::prelude::*;
 
@@ -65,15 +65,11 @@ impl BlendPoint {
 signals! { for BlendPoint as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record; not on the way to a point.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
         /// M: the samples of the segment.
         pub modulus: U(c.widths.fraction),
-        /// On to the next point; not on the way to one.
+        /// On to the next point; no step and no word on the way to it.
         pub step: Bit,
         /// Gives up a point that is under way.
         pub halt: Bit,
@@ -115,9 +111,7 @@ impl Circuit for BlendPoint {
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
         let column = |step: Bit, by_whole: I, by_part: U| difference_column::In {
-            load: i.load,
-            word: i.word,
-            data: i.data,
+            record: i.record.clone(),
             modulus: i.modulus,
             step,
             by_whole,
@@ -144,9 +138,7 @@ impl Circuit for BlendPoint {
         let [x, y, z] = [p.row_x.q.offset, p.row_y.q.offset, p.row_z.q.offset];
         for row in [p.row_x, p.row_y, p.row_z] {
             row.settle(blend_row::In {
-                load: i.load,
-                word: i.word,
-                data: i.data,
+                record: i.record.clone(),
                 copy: control.w.copy,
                 fraction: control.w.fraction,
                 commit: weight.w.point_commit,

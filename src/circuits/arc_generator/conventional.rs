@@ -216,12 +216,10 @@ impl Circuit for Conventional {
             kind: p.sequencer.q.kind,
             flush: i.halt,
         });
-        let (load, word, data) = (memory.q.load, memory.q.word, memory.q.data);
+        let record = || memory.q.record(memory.q.load);
         let rotate = p.sequencer.q.rotate;
         let engine = p.engine.settle(difference_engine::In {
-            load,
-            word,
-            data,
+            record: record(),
             modulus: p.sequencer.q.modulus,
             step: rotate,
         });
@@ -245,7 +243,7 @@ impl Circuit for Conventional {
             along: cordic.w.along,
             across: cordic.w.across,
         });
-        let k = p.axis.settle(axis_terms::In { load, word, data }).q;
+        let k = p.axis.settle(axis_terms::In { record: record() }).q;
         let products = [k.xx, k.xy, k.xz, k.xy, k.yy, k.yz, k.xz, k.yz, k.zz];
         let one = I::new(
             1 << self.widths.coefficient_fraction(),
@@ -274,9 +272,7 @@ impl Circuit for Conventional {
             .zip(elements.chunks(3))
         {
             row.settle(vector_row::In {
-                load,
-                word,
-                data,
+                record: record(),
                 copy: control.w.copy,
                 fraction: control.w.fraction,
                 top: control.w.top,
@@ -294,17 +290,13 @@ impl Circuit for Conventional {
             halt: i.halt,
             sample: sample.w.enable,
             available: memory.w.available,
-            load,
-            word,
-            data,
+            record: record(),
             loaded: memory.q.loaded,
             rotated: control.q.done,
         });
         let command = |command: Part<PositionCommand>, offset| {
             let command = command.settle(position_command::In {
-                load,
-                word,
-                data,
+                record: record(),
                 rotating: Bit::high(),
                 polynomial: I::new(0, self.widths.point),
                 offset,

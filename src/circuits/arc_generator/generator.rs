@@ -206,12 +206,9 @@ impl Circuit for ArcGenerator {
             kind: p.sequencer.q.kind,
             flush: i.halt,
         });
-        let (word, data) = (memory.q.word, memory.q.data);
         let (rotate, arc) = (p.sequencer.q.rotate, p.sequencer.q.kind.equals(ARC));
         let rotation = p.rotation.settle(rotation::In {
-            load: memory.w.load_rotation,
-            word,
-            data,
+            record: memory.q.record(memory.w.load_rotation),
             step: match self.blend {
                 Blend::Differences => rotate,
                 Blend::Products => rotate & arc,
@@ -219,9 +216,7 @@ impl Circuit for ArcGenerator {
             halt: i.halt,
         });
         let blend_points = settle_each(p.blend_points, |_| blend_point::In {
-            load: memory.w.load_engines,
-            word,
-            data,
+            record: memory.q.record(memory.w.load_engines),
             modulus: p.sequencer.q.modulus,
             step: rotate & !arc,
             halt: i.halt,
@@ -233,16 +228,12 @@ impl Circuit for ArcGenerator {
             halt: i.halt,
             sample: sample.w.enable,
             available: memory.w.available,
-            load: memory.q.load,
-            word,
-            data,
+            record: memory.q.record(memory.q.load),
             loaded: memory.q.loaded,
             rotated: points.map_or(rotated, |point| rotated | point.done),
         });
         let engines = settle_each(p.engines, |_| difference_engine::In {
-            load: memory.w.load_engines,
-            word,
-            data,
+            record: memory.q.record(memory.w.load_engines),
             modulus: sequencer.q.modulus,
             step: sequencer.w.advance,
         });
@@ -252,9 +243,7 @@ impl Circuit for ArcGenerator {
         };
         let command = |command: Part<PositionCommand>, coordinate: usize, offset| {
             let command = command.settle(position_command::In {
-                load: memory.q.load,
-                word,
-                data,
+                record: memory.q.record(memory.q.load),
                 rotating: sequencer.w.rotating,
                 polynomial: polynomials[coordinate],
                 offset,

@@ -12,7 +12,7 @@
 //! row. All three coordinates change at once.
 
 use super::{RotationRow, Rounding, Widths, rotation_row};
-use crate::circuits::blocks::{CoefficientControl, coefficient_control};
+use crate::circuits::blocks::{CoefficientControl, RecordWord, coefficient_control};
 use crate::hdl::prelude::*;
 
 /// Rotation of vectors by a matrix of coefficients; see [`RotationRow`].
@@ -50,13 +50,9 @@ impl Rotation {
 signals! { for Rotation as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record; not during a step.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
-        /// On to the next point.
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
+        /// On to the next point; no word is loaded on the way to it.
         pub step: Bit,
         /// Gives a step up that is under way.
         pub halt: Bit,
@@ -98,9 +94,7 @@ impl Circuit for Rotation {
         let [x, y, z] = [p.row_x.q.offset, p.row_y.q.offset, p.row_z.q.offset];
         for row in [p.row_x, p.row_y, p.row_z] {
             row.settle(rotation_row::In {
-                load: i.load,
-                word: i.word,
-                data: i.data,
+                record: i.record.clone(),
                 copy: control.w.copy,
                 fraction: control.w.fraction,
                 top: control.w.top,

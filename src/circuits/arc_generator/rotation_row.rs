@@ -15,6 +15,7 @@
 //! lost before the rounding, and no word is wider than the sum.
 
 use super::{Rounding, VectorRow, Widths};
+use crate::circuits::blocks::RecordWord;
 use crate::hdl::prelude::*;
 
 /// Row of a rotation, for vectors of points and for coefficients.
@@ -43,12 +44,8 @@ pub(super) const fn sum(widths: &Widths) -> usize {
 signals! { for RotationRow as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
         /// A step begins: the coefficients are copied.
         pub copy: Bit,
         /// The bit is one of the fraction.
@@ -169,10 +166,10 @@ impl Circuit for RotationRow {
         let net = products.nets(&self.widths, self.rounding, i.top);
         let (sum, half) = products.after(&net, i.copy, i.fraction);
 
-        let is = |name, word| i.load & i.word.equals(U::parameter(name, word, 5));
+        let is = |name, word| i.record.is(name, word);
         let first = 8 + 8 * self.coordinate;
-        let by = i.data.resize(coefficient);
-        let given = i.data.resize(point).signed();
+        let by = i.record.data.resize(coefficient);
+        let given = i.record.data.resize(point).signed();
         let kept = i.commit.mux(net.rounded, q.offset);
         let next = Reg {
             offset: is("offset_word", 2 + self.coordinate).mux(given, kept),

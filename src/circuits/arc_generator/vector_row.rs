@@ -13,6 +13,7 @@
 
 use super::rotation_row::{Net, Products, sum};
 use super::{Rounding, Widths};
+use crate::circuits::blocks::RecordWord;
 use crate::hdl::prelude::*;
 
 /// Word of a record that is GA's x; y and z follow.
@@ -39,12 +40,8 @@ impl VectorRow {
 signals! { for VectorRow as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
         /// A step begins: the coefficients are copied.
         pub copy: Bit,
         /// The bit is one of the fraction.
@@ -98,9 +95,8 @@ impl Circuit for VectorRow {
         let net = products.nets(&self.widths, self.rounding, i.top);
         let (sum, half) = products.after(&net, i.copy, i.fraction);
 
-        let word = U::parameter("offset_word", VECTOR_WORD + self.coordinate, 5);
-        let own = i.load & i.word.equals(word);
-        let given = i.data.resize(self.widths.point).signed();
+        let own = i.record.is("offset_word", VECTOR_WORD + self.coordinate);
+        let given = i.record.data.resize(self.widths.point).signed();
         let bits = |by: U, bits: U| i.copy.mux(by, bits.shift_right(1));
         let next = Reg {
             offset: own.mux(given, i.commit.mux(net.rounded, q.offset)),
