@@ -12,6 +12,7 @@
 //! h = n/M is a sum of whole and part, exact as a [`DifferenceColumn`] has it, and rounded where it
 //! is taken; so it is 1 at the end, and the point A⁺.
 
+use super::rotation_row::ROWS;
 use super::{BlendRow, BlendWeight, Widths, blend_row, blend_weight};
 use crate::circuits::blocks::{
     CoefficientControl, DifferenceColumn, RecordWord, coefficient_control, difference_column,
@@ -84,12 +85,8 @@ signals! { for BlendPoint as c;
         pub control: Part<CoefficientControl>(c.control()),
         /// (2 − h)h³.
         pub weight: Part<BlendWeight>(BlendWeight { coefficient: c.widths.coefficient }),
-        /// X.
-        pub row_x: Part<BlendRow>(c.row(0)),
-        /// Y.
-        pub row_y: Part<BlendRow>(c.row(1)),
-        /// Z.
-        pub row_z: Part<BlendRow>(c.row(2)),
+        /// X, Y and Z.
+        pub rows: [Part<BlendRow>(c.row(k as u64)); k in 3] as Elements(ROWS),
     }
     /// Ports out.
     pub struct Net {
@@ -135,17 +132,15 @@ impl Circuit for BlendPoint {
             commit: control.w.commit,
             share: share.w.nearest,
         });
-        let [x, y, z] = [p.row_x.q.offset, p.row_y.q.offset, p.row_z.q.offset];
-        for row in [p.row_x, p.row_y, p.row_z] {
-            row.settle(blend_row::In {
-                record: i.record.clone(),
-                copy: control.w.copy,
-                fraction: control.w.fraction,
-                commit: weight.w.point_commit,
-                share_bit: weight.w.share_bit,
-                weight_bit: weight.w.weight_bit,
-            });
-        }
+        let [x, y, z] = [0, 1, 2].map(|k: usize| p.rows[k].q.offset);
+        settle_each(p.rows, |_| blend_row::In {
+            record: i.record.clone(),
+            copy: control.w.copy,
+            fraction: control.w.fraction,
+            commit: weight.w.point_commit,
+            share_bit: weight.w.share_bit,
+            weight_bit: weight.w.weight_bit,
+        });
         let done = weight.q.done;
         (Net { x, y, z, done }, Nothing)
     }
