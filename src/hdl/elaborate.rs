@@ -6,12 +6,13 @@ use super::leaves::Leaves;
 use super::memory::{State, Written};
 use super::mistake::Wrong;
 use super::mutation;
+use super::names;
 use super::netlist::{Design, Id, Module, Port, Register, Setting, Value};
 use super::part::{Counted, pair};
 use super::property;
 use super::record::{Record, Site, Source, Walk};
 use super::view::{self, Edge, Shapes, Wire};
-use super::{Circuit, Role};
+use super::{Circuit, Nothing, Role};
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -71,7 +72,12 @@ fn module_with<C: Circuit>(
     path: String,
     more: &mut dyn FnMut(&mut dyn Source),
 ) -> (usize, Vec<Setting>) {
-    let site = <C::In<Wire> as Walk<Wire>>::SITE;
+    let site = declared([
+        <C::In<Wire> as Walk<Wire>>::SITE,
+        <C::Reg<Wire> as Walk<Wire>>::SITE,
+        <C::Net<Wire> as Walk<Wire>>::SITE,
+        <C::Parts<Wire> as Walk<Wire>>::SITE,
+    ]);
     begin(path, site);
     let nets = match circuit.objection() {
         Some(what) => {
@@ -81,6 +87,14 @@ fn module_with<C: Circuit>(
         None => signals_of(circuit, site, more),
     };
     end(circuit.name(), circuit.about(), nets)
+}
+
+/// Where a circuit with these records is declared: the first of them that is its own.
+#[inline(never)]
+fn declared(records: [Site; 4]) -> Site {
+    let nothing = <Nothing as Walk<Wire>>::SITE;
+    let mut own = records.into_iter().filter(|site| *site != nothing);
+    own.next().unwrap_or(nothing)
 }
 
 /// A module begins, inside the one that is being made.
@@ -149,9 +163,9 @@ fn signals_of<C: Circuit>(circuit: &C, site: Site, more: &mut dyn FnMut(&mut dyn
     let mut given = Counted::default();
     next.visit(view::role(Role::Register), &mut given);
     drive(&wanted, given, <C::Reg<Edge> as Walk<Edge>>::SITE);
+    names::check(site);
     elaboration(|elaboration| mutation::visit(circuit.name(), elaboration, &mut nets));
     property::note(circuit, &nets);
-    names(site);
     nets
 }
 
@@ -185,34 +199,6 @@ fn unsettled(site: Site) {
     });
     for name in names {
         mistake(site, format!("part `{name}` is never settled"));
-    }
-}
-
-/// Names that are used twice.
-fn names(site: Site) {
-    let twice: Vec<String> = builder(|builder| {
-        let signals = builder
-            .signals
-            .iter()
-            .filter(|signal| signal.owner.is_none());
-        let memories = builder.memories.iter().filter(|memory| !memory.inner);
-        let parts = builder.parts.iter().map(|part| &part.name);
-        let mut names: Vec<&String> = signals
-            .map(|signal| &signal.name)
-            .chain(memories.map(|memory| &memory.name))
-            .chain(parts)
-            .collect();
-        names.sort();
-        let mut twice: Vec<String> = names
-            .windows(2)
-            .filter(|pair| pair[0] == pair[1])
-            .map(|pair| pair[0].clone())
-            .collect();
-        twice.dedup();
-        twice
-    });
-    for name in twice {
-        mistake(site, format!("the name `{name}` is used twice"));
     }
 }
 

@@ -21,6 +21,7 @@ mod memory;
 mod mistake;
 mod model;
 pub(crate) mod mutation;
+mod names;
 pub mod netlist;
 mod observe;
 pub(crate) mod outline;

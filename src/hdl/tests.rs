@@ -1,7 +1,7 @@
 //! What is wrong with a circuit is told all at once, with file, line and column.
 
 use super::prelude::*;
-use super::{Nothing, elaborate};
+use super::{Nothing, elaborate, netlist};
 use expect_test::{Expect, expect};
 
 /// The mistakes of a circuit, lines counted from that of `from`.
@@ -188,6 +188,56 @@ impl Circuit for Around {
     }
 }
 
+/// Names that Verilog makes of others, and a part that is called as what is inside it.
+#[derive(Debug, Clone)]
+struct Made;
+
+const MADE: u32 = line!();
+signals! { for Made as _c;
+    /// Registers.
+    pub struct MadeReg {
+        /// What waits.
+        line: Shift(2, 4),
+        /// A memory.
+        store: Ram(2, 4),
+    }
+    /// The circuits inside.
+    pub struct MadeParts {
+        /// It is called as one of its ports.
+        pub sum: Part<Counter>(Counter { width: 4, other: 4 }),
+    }
+    /// Nets.
+    pub struct MadeNet {
+        /// The port of that name.
+        sum_next: U(4),
+        /// Another one than that.
+        sum_sum: U(4),
+        /// As loops over words and a file are called.
+        loops: [Bit; 4] as Elements(&["line_shift", "line_to", "store_word", "STORE"]),
+        /// As words are called that nobody declares.
+        rom: U(4),
+    }
+}
+
+impl Circuit for Made {
+    const NAME: &'static str = "made";
+    const ABOUT: &'static str = "has names that Verilog takes besides";
+    records!(Nothing, MadeReg, MadeNet, MadeParts);
+
+    fn tick(&self, _: Nothing, q: MadeReg, p: MadeParts) -> (MadeNet, MadeReg<Edge>) {
+        let by = U::parameter("at", 1, 4) + U::parameter("at", 2, 5).resize(4);
+        let counter = p.sum.settle(In { by });
+        let net = MadeNet {
+            sum_next: counter.w.next,
+            sum_sum: counter.w.next,
+            loops: vec![Bit::low(); 4],
+            rom: Image::from_fn(4, 4, |word| word as u64).rom(by),
+        };
+        let (line, store) = (q.line.shift(Bit::high(), by), q.store.keep());
+        (net, MadeReg { line, store })
+    }
+}
+
 fn around(fault: Fault) -> Around {
     Around {
         counter: Counter { width: 4, other: 4 },
@@ -345,6 +395,37 @@ fn a_name_stands_once() {
         tests.rs:1:1: twice: the name `a` is used twice
     "#]],
     );
+}
+
+#[test]
+fn what_verilog_makes_stands_once() {
+    mistakes(
+        &Made,
+        MADE,
+        &expect![[r#"
+        tests.rs:1:1: made: the name `AT` is used twice: Verilog makes it of `at` (4 bits) and of `at` (5 bits)
+        tests.rs:1:1: made: the name `STORE` is used twice: Verilog makes it of `store`
+        tests.rs:1:1: made: the name `line_shift` is used twice: Verilog makes it of `line`
+        tests.rs:1:1: made: the name `line_to` is used twice: Verilog makes it of `line`
+        tests.rs:1:1: made: the name `rom` is used twice: Verilog makes it of a ROM
+        tests.rs:1:1: made: the name `store_word` is used twice: Verilog makes it of `store`
+        tests.rs:1:1: made: the name `sum_sum` is used twice: Verilog makes it of `sum.sum`
+        tests.rs:34:29: made: part `sum` has the name of a signal of `counter`, inside it
+    "#]],
+    );
+}
+
+#[test]
+fn a_module_has_a_name_of_its_own() {
+    let mut modules = Vec::new();
+    for (name, width) in [("it_2", 1), ("it", 2), ("it", 3), ("it", 2)] {
+        let other = width;
+        let mut made = elaborate(&Counter { width, other }).unwrap().modules;
+        made[0].name = name.to_owned();
+        netlist::enter(made.remove(0), &mut modules);
+    }
+    let names: Vec<_> = modules.iter().map(|module| &module.name).collect();
+    assert_eq!(names, ["it_2", "it", "it_3"]);
 }
 
 /// Circuits whose code panics.

@@ -269,15 +269,34 @@ pub(super) fn nothing<C>(circuit: C, given: &[u64]) -> Option<C> {
 
 /// An entry.
 ///
-/// `widths: [half_period = widths.half_period]` names a width and the field that it is; `[width]` is
-/// short for `[width = width]`. `from` makes the circuit from numbers, the first a width; `with`
-/// changes the full one by the numbers behind. `proved: 3` says at which width it is proved,
-/// `proved: none` that it is not.
+/// `widths: [width]` names a width that is the field of that name, `[address, time in widths]` fields
+/// of a field, behind `axes;` some of the circuit's own, `[gate = lead.gate]` any field. `by` makes the
+/// circuit from a width, `|width| …`, or from that and a number that chooses a field,
+/// `|width, sign of SIGNS| …`, which then can be chosen of the full circuit too. What takes other
+/// numbers has `from`, which makes it from all of them, the first a width, and `with`, which changes
+/// the full one by the numbers behind. `proved: 3` says at which width it is proved, `proved: none`
+/// that it is not.
 macro_rules! entry {
     (
         $circuit:ty, $source:literal,
         full: $full:expr,
-        widths: [$($name:ident $(= $first:ident $(. $field:ident)*)?),* $(,)?],
+        widths: $widths:tt,
+        by: $arguments:literal, |$width:ident $(, $field:ident of $choices:ident)?| $made:expr,
+        proved: $($rest:tt)*
+    ) => {
+        entry!(
+            $circuit, $source,
+            full: $full,
+            widths: $widths,
+            from: $arguments, entry!(@from $width $($field $choices)? $made),
+            with: entry!(@with $circuit $(, $field $choices)?),
+            proved: $($rest)*
+        )
+    };
+    (
+        $circuit:ty, $source:literal,
+        full: $full:expr,
+        widths: $widths:tt,
         from: $arguments:literal, $from:expr,
         with: $with:expr,
         proved: $proved:tt
@@ -293,12 +312,27 @@ macro_rules! entry {
                 full: $full,
                 from: $from,
                 with: $with,
-                names: &[$(stringify!($name)),*],
-                fields: &[$(
-                    |circuit: &mut $circuit| entry!(@field circuit $name $($first $(. $field)*)?),
-                )*],
+                names: entry!(@names $widths),
+                fields: entry!(@fields $circuit, $widths),
                 proved: entry!(@proof $proved),
             },
+        }
+    };
+    (@from $width:ident $made:expr) => {
+        |given| $crate::registry::entry::alone(given, |$width| $made)
+    };
+    (@from $width:ident $field:ident $choices:ident $made:expr) => {
+        |given| {
+            let $width = $crate::registry::circuits::make::width(given)?;
+            let $field = $crate::registry::circuits::make::one_of(given, $choices)?;
+            Some($made)
+        }
+    };
+    (@with $circuit:ty) => { $crate::registry::entry::nothing };
+    (@with $circuit:ty, $field:ident $choices:ident) => {
+        |mut circuit: $circuit, given| {
+            circuit.$field = $crate::registry::circuits::make::only(given, $choices)?;
+            Some(circuit)
         }
     };
     (@either $own:expr) => { $own };
@@ -307,6 +341,25 @@ macro_rules! entry {
     (@width $width:literal) => { Some($width) };
     (@proof none) => { None };
     (@proof $width:literal) => { Some($crate::registry::entry::specified) };
+    (@names [$($own:ident),+; $($name:ident),+ in $in:ident]) => {
+        &[$(stringify!($own),)+ $(stringify!($name)),+]
+    };
+    (@names [$($name:ident),+ in $in:ident]) => { &[$(stringify!($name)),+] };
+    (@names [$($name:ident $(= $first:ident $(. $field:ident)*)?),* $(,)?]) => {
+        &[$(stringify!($name)),*]
+    };
+    (@fields $circuit:ty, [$($own:ident),+; $($name:ident),+ in $in:ident]) => {
+        &[
+            $(|circuit: &mut $circuit| &mut circuit.$own,)+
+            $(|circuit: &mut $circuit| &mut circuit.$in.$name),+
+        ]
+    };
+    (@fields $circuit:ty, [$($name:ident),+ in $in:ident]) => {
+        &[$(|circuit: &mut $circuit| &mut circuit.$in.$name),+]
+    };
+    (@fields $circuit:ty, [$($name:ident $(= $first:ident $(. $field:ident)*)?),* $(,)?]) => {
+        &[$(|circuit: &mut $circuit| entry!(@field circuit $name $($first $(. $field)*)?)),*]
+    };
     (@field $circuit:ident $name:ident) => { &mut $circuit.$name };
     (@field $circuit:ident $name:ident $first:ident $(. $field:ident)*) => {
         &mut $circuit.$first$(.$field)*

@@ -328,10 +328,12 @@ fn reserved(module: &Module, modules: &[Module]) -> impl Iterator<Item = String>
     }
     for memory in &module.memories {
         names.push(memory.name.clone());
-        if let Port::Shift { .. } = memory.port {
-            names.push(format!("{}_shift", memory.name));
-        }
+        names.extend(memory.loops());
     }
+    // What is called as the instance that it is in hides it.
+    let around = modules.iter().flat_map(|around| &around.instances);
+    let around = around.filter(|child| std::ptr::eq(&modules[child.module], module));
+    names.extend(around.map(|child| child.name.clone()));
     for child in &module.instances {
         names.push(child.name.clone());
         for signal in &modules[child.module].signals {

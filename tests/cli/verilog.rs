@@ -209,6 +209,9 @@ fn widths_are_chosen_by_their_names_and_variants_with_full_widths() {
         full.contains("input  wire [15:0] write_half_period"),
         "{full}"
     );
+    bench.succeed(&verilog("axis", &["--out", "x"]));
+    let generator = |of: &str| bench.read(&format!("{of}/pulse_generator.v"));
+    assert_ne!(generator("w"), generator("x"));
 }
 
 #[test]

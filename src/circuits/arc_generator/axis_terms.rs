@@ -6,6 +6,7 @@
 //!                     └────────────┘
 //! ```
 
+use crate::circuits::blocks::RecordWord;
 use crate::hdl::prelude::*;
 
 /// Word of a record that is kx; the others follow.
@@ -23,12 +24,8 @@ pub struct AxisTerms {
 signals! { for AxisTerms as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.data) as Flat,
     }
     /// Flip-flops.
     pub struct Reg {
@@ -69,9 +66,9 @@ impl Circuit for AxisTerms {
     }
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
-        let given = i.data.resize(self.coefficient).signed();
+        let given = i.record.data.resize(self.coefficient).signed();
         let kept = |place: u64, held: I| {
-            let own = i.load & i.word.equals(AXIS_WORD + place);
+            let own = i.record.load & i.record.word.equals(AXIS_WORD + place);
             own.mux(given, held)
         };
         let next = Reg {

@@ -12,9 +12,10 @@
 //! h = n/M is a sum of whole and part, exact as a [`DifferenceColumn`] has it, and rounded where it
 //! is taken; so it is 1 at the end, and the point A⁺.
 
+use super::rotation_row::ROWS;
 use super::{BlendRow, BlendWeight, Widths, blend_row, blend_weight};
 use crate::circuits::blocks::{
-    CoefficientControl, DifferenceColumn, coefficient_control, difference_column,
+    CoefficientControl, DifferenceColumn, RecordWord, coefficient_control, difference_column,
 };
 use crate::hdl::prelude::*;
 
@@ -65,15 +66,11 @@ impl BlendPoint {
 signals! { for BlendPoint as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record; not on the way to a point.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
         /// M: the samples of the segment.
         pub modulus: U(c.widths.fraction),
-        /// On to the next point; not on the way to one.
+        /// On to the next point; no step and no word on the way to it.
         pub step: Bit,
         /// Gives up a point that is under way.
         pub halt: Bit,
@@ -88,12 +85,8 @@ signals! { for BlendPoint as c;
         pub control: Part<CoefficientControl>(c.control()),
         /// (2 − h)h³.
         pub weight: Part<BlendWeight>(BlendWeight { coefficient: c.widths.coefficient }),
-        /// X.
-        pub row_x: Part<BlendRow>(c.row(0)),
-        /// Y.
-        pub row_y: Part<BlendRow>(c.row(1)),
-        /// Z.
-        pub row_z: Part<BlendRow>(c.row(2)),
+        /// X, Y and Z.
+        pub rows: [Part<BlendRow>(c.row(k as u64)); k in 3] as Elements(ROWS),
     }
     /// Ports out.
     pub struct Net {
@@ -115,9 +108,7 @@ impl Circuit for BlendPoint {
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
         let column = |step: Bit, by_whole: I, by_part: U| difference_column::In {
-            load: i.load,
-            word: i.word,
-            data: i.data,
+            record: i.record.clone(),
             modulus: i.modulus,
             step,
             by_whole,
@@ -141,19 +132,15 @@ impl Circuit for BlendPoint {
             commit: control.w.commit,
             share: share.w.nearest,
         });
-        let [x, y, z] = [p.row_x.q.offset, p.row_y.q.offset, p.row_z.q.offset];
-        for row in [p.row_x, p.row_y, p.row_z] {
-            row.settle(blend_row::In {
-                load: i.load,
-                word: i.word,
-                data: i.data,
-                copy: control.w.copy,
-                fraction: control.w.fraction,
-                commit: weight.w.point_commit,
-                share_bit: weight.w.share_bit,
-                weight_bit: weight.w.weight_bit,
-            });
-        }
+        let [x, y, z] = [0, 1, 2].map(|k: usize| p.rows[k].q.offset);
+        settle_each(p.rows, |_| blend_row::In {
+            record: i.record.clone(),
+            copy: control.w.copy,
+            fraction: control.w.fraction,
+            commit: weight.w.point_commit,
+            share_bit: weight.w.share_bit,
+            weight_bit: weight.w.weight_bit,
+        });
         let done = weight.q.done;
         (Net { x, y, z, done }, Nothing)
     }

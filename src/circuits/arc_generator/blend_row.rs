@@ -14,6 +14,7 @@
 
 use super::Widths;
 use super::rotation_row::halved;
+use crate::circuits::blocks::RecordWord;
 use crate::hdl::prelude::*;
 
 /// Row of a blend, of x, y or z.
@@ -40,12 +41,8 @@ impl BlendRow {
 signals! { for BlendRow as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
         /// A pass begins.
         pub copy: Bit,
         /// The bit is one of the fraction.
@@ -99,10 +96,10 @@ impl Circuit for BlendRow {
         let rounded = raised.resize(self.widths.point);
         let (sum, half) = halved(total, q.half, i.copy, i.fraction);
 
-        let is = |name, word| i.load & i.word.equals(U::parameter(name, word, 5));
+        let is = |name, word| i.record.is(name, word);
         let first = 8 + 8 * self.coordinate;
-        let by = i.data.resize(self.term()).signed();
-        let given = i.data.resize(self.widths.point).signed();
+        let by = i.record.data.resize(self.term()).signed();
+        let given = i.record.data.resize(self.widths.point).signed();
         let kept = i.commit.mux(rounded, q.offset);
         let next = Reg {
             slope: is("slope_word", first).mux(by, q.slope),

@@ -13,15 +13,16 @@
 //! Ports as those of the arc generator. Δθi = θi − θi−1, sine and cosine by CORDIC, \[2\] from them,
 //! GPi = R·GPi−1 and \[4\], one after the other.
 
+use super::generator::{COMMANDS, ports_out};
 pub use super::generator::{In, Net};
 use super::matrix_element::Sign;
+use super::rotation_row::ROWS;
 use super::sine_words::FINE;
 use super::*;
 use crate::circuits::blocks::cordic_state::GAIN;
 use crate::circuits::blocks::{
     CoefficientControl, Cordic, DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer,
-    coefficient_control, cordic, difference_column, difference_engine, enable_counter,
-    record_memory, record_sequencer,
+    coefficient_control, cordic, difference_engine, enable_counter, record_sequencer,
 };
 use crate::hdl::prelude::*;
 
@@ -80,16 +81,11 @@ impl Conventional {
         }
     }
 
+    /// The angle, as wide as a coefficient.
     const fn engine(&self) -> DifferenceEngine {
-        let widths = difference_column::Widths {
-            whole: self.widths.coefficient,
-            part: self.widths.fraction,
-            data: self.widths.data,
-        };
-        DifferenceEngine {
-            widths,
-            coordinate: 0,
-        }
+        let point = self.widths.coefficient;
+        let widths = self.widths;
+        Widths { point, ..widths }.engine(0)
     }
 
     const fn cordic(&self) -> Cordic {
@@ -136,13 +132,6 @@ impl Conventional {
         }
     }
 
-    const fn command(&self, coordinate: u64) -> PositionCommand {
-        PositionCommand {
-            widths: self.widths,
-            coordinate,
-        }
-    }
-
     /// The vector of length 1 before it is lengthened, as CORDIC takes it.
     fn radius(&self) -> i64 {
         let one = ((self.widths.coefficient_fraction() + FINE) as f64).exp2();
@@ -181,18 +170,11 @@ signals! { for Conventional as c;
         pub elements: [Part<MatrixElement>(c.element(k)); k in 9] as Elements(ELEMENTS),
         /// Which bit of it the rotation is at.
         pub rotation_control: Part<CoefficientControl>(c.control()),
-        /// X.
-        pub row_x: Part<VectorRow>(c.row(0)),
-        /// Y.
-        pub row_y: Part<VectorRow>(c.row(1)),
-        /// Z.
-        pub row_z: Part<VectorRow>(c.row(2)),
-        /// Command of x.
-        pub command_x: Part<PositionCommand>(c.command(0)),
-        /// Command of y.
-        pub command_y: Part<PositionCommand>(c.command(1)),
-        /// Command of z.
-        pub command_z: Part<PositionCommand>(c.command(2)),
+        /// X, Y and Z.
+        pub rows: [Part<VectorRow>(c.row(k as u64)); k in 3] as Elements(ROWS),
+        /// Their commands.
+        pub commands: [Part<PositionCommand>(c.widths.command(k as u64)); k in 3]
+            as Elements(COMMANDS),
     }
 }
 
@@ -207,21 +189,12 @@ impl Circuit for Conventional {
         let sample = p.sample_counter.settle(enable_counter::In {
             period: i.sample_period,
         });
-        let memory = p.memory.settle(record_memory::In {
-            write: segments.write,
-            write_word: segments.write_word,
-            write_data: segments.write_data,
-            push: segments.push,
-            take: p.sequencer.q.take,
-            kind: p.sequencer.q.kind,
-            flush: i.halt,
-        });
-        let (load, word, data) = (memory.q.load, memory.q.word, memory.q.data);
+        let memory = segments.to_memory(&p.sequencer.q, i.halt);
+        let memory = p.memory.settle(memory);
+        let record = || memory.q.record(memory.q.load);
         let rotate = p.sequencer.q.rotate;
         let engine = p.engine.settle(difference_engine::In {
-            load,
-            word,
-            data,
+            record: record(),
             modulus: p.sequencer.q.modulus,
             step: rotate,
         });
@@ -245,7 +218,7 @@ impl Circuit for Conventional {
             along: cordic.w.along,
             across: cordic.w.across,
         });
-        let k = p.axis.settle(axis_terms::In { load, word, data }).q;
+        let k = p.axis.settle(axis_terms::In { record: record() }).q;
         let products = [k.xx, k.xy, k.xz, k.xy, k.yy, k.yz, k.xz, k.yz, k.zz];
         let one = I::new(
             1 << self.widths.coefficient_fraction(),
@@ -268,61 +241,37 @@ impl Circuit for Conventional {
             step: bits.w.commit,
             halt: i.halt,
         });
-        let [x, y, z] = [p.row_x.q.offset, p.row_y.q.offset, p.row_z.q.offset];
-        for (row, by) in [p.row_x, p.row_y, p.row_z]
-            .into_iter()
-            .zip(elements.chunks(3))
-        {
-            row.settle(vector_row::In {
-                load,
-                word,
-                data,
-                copy: control.w.copy,
-                fraction: control.w.fraction,
-                top: control.w.top,
-                commit: control.w.commit,
-                by_x: by[0].w.entry,
-                by_y: by[1].w.entry,
-                by_z: by[2].w.entry,
-                x,
-                y,
-                z,
-            });
-        }
+        let offsets = [0, 1, 2].map(|k: usize| p.rows[k].q.offset);
+        let [x, y, z] = offsets;
+        settle_each(p.rows, |k| vector_row::In {
+            record: record(),
+            copy: control.w.copy,
+            fraction: control.w.fraction,
+            top: control.w.top,
+            commit: control.w.commit,
+            by_x: elements[3 * k].w.entry,
+            by_y: elements[3 * k + 1].w.entry,
+            by_z: elements[3 * k + 2].w.entry,
+            x,
+            y,
+            z,
+        });
         let sequencer = p.sequencer.settle(record_sequencer::In {
             start: segments.start,
             halt: i.halt,
             sample: sample.w.enable,
             available: memory.w.available,
-            load,
-            word,
-            data,
+            record: record(),
             loaded: memory.q.loaded,
             rotated: control.q.done,
         });
-        let command = |command: Part<PositionCommand>, offset| {
-            let command = command.settle(position_command::In {
-                load,
-                word,
-                data,
-                rotating: Bit::high(),
-                polynomial: I::new(0, self.widths.point),
-                offset,
-                present: sequencer.w.present,
-            });
-            command.q.command
-        };
-        let net = Net {
-            x: command(p.command_x, x),
-            y: command(p.command_y, y),
-            z: command(p.command_z, z),
-            sampled: sequencer.q.sampled,
-            ready: memory.w.ready,
-            busy: sequencer.w.busy,
-            kind: sequencer.q.kind,
-            late: sequencer.q.late,
-            starved: sequencer.q.starved,
-        };
-        (net, Nothing)
+        let commands = settle_each(p.commands, |k| position_command::In {
+            record: record(),
+            rotating: Bit::high(),
+            polynomial: I::new(0, self.widths.point),
+            offset: offsets[k],
+            present: sequencer.w.present,
+        });
+        (ports_out(&commands, &memory, &sequencer), Nothing)
     }
 }

@@ -22,6 +22,8 @@ use crate::hdl::prelude::*;
 
 /// Names of the difference engines.
 const ENGINES: &[&str] = &["engine_x", "engine_y", "engine_z"];
+/// Names of what gives the commands.
+pub(super) const COMMANDS: &[&str] = &["command_x", "command_y", "command_z"];
 
 /// Arc generator.
 ///
@@ -98,11 +100,6 @@ impl ArcGenerator {
             Blend::Products => 0,
         }
     }
-
-    fn command(&self, coordinate: u64) -> PositionCommand {
-        let widths = self.widths;
-        PositionCommand { widths, coordinate }
-    }
 }
 
 impl Default for ArcGenerator {
@@ -177,12 +174,47 @@ signals! { for ArcGenerator as c;
             as Elements(&["blend_point"]),
         /// Arcs.
         pub rotation: Part<Rotation>(c.rotation()),
-        /// Command of x.
-        pub command_x: Part<PositionCommand>(c.command(0)),
-        /// Command of y.
-        pub command_y: Part<PositionCommand>(c.command(1)),
-        /// Command of z.
-        pub command_z: Part<PositionCommand>(c.command(2)),
+        /// Commands of x, y and z.
+        pub commands: [Part<PositionCommand>(c.widths.command(k as u64)); k in 3]
+            as Elements(COMMANDS),
+    }
+}
+
+impl Segments {
+    /// They for their memory, beside what the sequencer takes of it.
+    pub(super) fn to_memory(
+        &self,
+        sequencer: &record_sequencer::Reg<Seen>,
+        flush: Bit,
+    ) -> record_memory::In {
+        record_memory::In {
+            write: self.write,
+            write_word: self.write_word,
+            write_data: self.write_data,
+            push: self.push,
+            take: sequencer.take,
+            kind: sequencer.kind,
+            flush,
+        }
+    }
+}
+
+/// The ports out of a generator with these circuits inside.
+pub(super) fn ports_out(
+    commands: &[Settled<PositionCommand>],
+    memory: &Settled<RecordMemory>,
+    sequencer: &Settled<RecordSequencer>,
+) -> Net {
+    Net {
+        x: commands[0].q.command,
+        y: commands[1].q.command,
+        z: commands[2].q.command,
+        sampled: sequencer.q.sampled,
+        ready: memory.w.ready,
+        busy: sequencer.w.busy,
+        kind: sequencer.q.kind,
+        late: sequencer.q.late,
+        starved: sequencer.q.starved,
     }
 }
 
@@ -197,21 +229,11 @@ impl Circuit for ArcGenerator {
         let sample = p.sample_counter.settle(enable_counter::In {
             period: i.sample_period,
         });
-        let memory = p.memory.settle(record_memory::In {
-            write: segments.write,
-            write_word: segments.write_word,
-            write_data: segments.write_data,
-            push: segments.push,
-            take: p.sequencer.q.take,
-            kind: p.sequencer.q.kind,
-            flush: i.halt,
-        });
-        let (word, data) = (memory.q.word, memory.q.data);
+        let memory = segments.to_memory(&p.sequencer.q, i.halt);
+        let memory = p.memory.settle(memory);
         let (rotate, arc) = (p.sequencer.q.rotate, p.sequencer.q.kind.equals(ARC));
         let rotation = p.rotation.settle(rotation::In {
-            load: memory.w.load_rotation,
-            word,
-            data,
+            record: memory.q.record(memory.w.load_rotation),
             step: match self.blend {
                 Blend::Differences => rotate,
                 Blend::Products => rotate & arc,
@@ -219,9 +241,7 @@ impl Circuit for ArcGenerator {
             halt: i.halt,
         });
         let blend_points = settle_each(p.blend_points, |_| blend_point::In {
-            load: memory.w.load_engines,
-            word,
-            data,
+            record: memory.q.record(memory.w.load_engines),
             modulus: p.sequencer.q.modulus,
             step: rotate & !arc,
             halt: i.halt,
@@ -233,16 +253,12 @@ impl Circuit for ArcGenerator {
             halt: i.halt,
             sample: sample.w.enable,
             available: memory.w.available,
-            load: memory.q.load,
-            word,
-            data,
+            record: memory.q.record(memory.q.load),
             loaded: memory.q.loaded,
             rotated: points.map_or(rotated, |point| rotated | point.done),
         });
         let engines = settle_each(p.engines, |_| difference_engine::In {
-            load: memory.w.load_engines,
-            word,
-            data,
+            record: memory.q.record(memory.w.load_engines),
             modulus: sequencer.q.modulus,
             step: sequencer.w.advance,
         });
@@ -250,29 +266,14 @@ impl Circuit for ArcGenerator {
             Some(point) => vec![point.x, point.y, point.z],
             None => engines.iter().map(|engine| engine.w.nearest).collect(),
         };
-        let command = |command: Part<PositionCommand>, coordinate: usize, offset| {
-            let command = command.settle(position_command::In {
-                load: memory.q.load,
-                word,
-                data,
-                rotating: sequencer.w.rotating,
-                polynomial: polynomials[coordinate],
-                offset,
-                present: sequencer.w.present,
-            });
-            command.q.command
-        };
-        let net = Net {
-            x: command(p.command_x, 0, rotation.w.x),
-            y: command(p.command_y, 1, rotation.w.y),
-            z: command(p.command_z, 2, rotation.w.z),
-            sampled: sequencer.q.sampled,
-            ready: memory.w.ready,
-            busy: sequencer.w.busy,
-            kind: sequencer.q.kind,
-            late: sequencer.q.late,
-            starved: sequencer.q.starved,
-        };
-        (net, Nothing)
+        let offsets = [rotation.w.x, rotation.w.y, rotation.w.z];
+        let commands = settle_each(p.commands, |k| position_command::In {
+            record: memory.q.record(memory.q.load),
+            rotating: sequencer.w.rotating,
+            polynomial: polynomials[k],
+            offset: offsets[k],
+            present: sequencer.w.present,
+        });
+        (ports_out(&commands, &memory, &sequencer), Nothing)
     }
 }

@@ -13,6 +13,7 @@
 //! difference engine gives the point itself.
 
 use super::Widths;
+use crate::circuits::blocks::RecordWord;
 use crate::hdl::prelude::*;
 
 /// Position command.
@@ -33,12 +34,8 @@ impl PositionCommand {
 signals! { for PositionCommand as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
         /// The point is on an arc.
         pub rotating: Bit,
         /// The coordinate as the difference engine has it.
@@ -76,10 +73,10 @@ impl Circuit for PositionCommand {
         let point = q.origin + i.rotating.mux(i.offset, i.polynomial);
         let raised = point + (1i64 << (guard - 1));
         let nearest = raised.shift_right(guard).resize(self.widths.position);
-        let word = U::parameter("origin_word", self.origin_word(), 5);
-        let load = i.load & i.word.equals(word);
+        let own = i.record.is("origin_word", self.origin_word());
+        let given = i.record.data.resize(self.widths.point).signed();
         let next = Reg {
-            origin: load.mux(i.data.resize(self.widths.point).signed(), q.origin),
+            origin: own.mux(given, q.origin),
             command: i.present.mux(nearest, q.command),
         };
         (
@@ -127,10 +124,11 @@ impl Specified for PositionCommand {
                 },
             )
             .step("its word is the origin, others are not", |now, next| {
-                let own = now.i.load && now.i.word == self.origin_word();
+                let record = &now.i.record;
+                let own = record.load && record.word == self.origin_word();
                 let unused = 64 - self.widths.point;
                 let expected = match own {
-                    true => ((now.i.data << unused) as i64) >> unused,
+                    true => ((record.data << unused) as i64) >> unused,
                     false => now.q.origin,
                 };
                 require(next.q.origin == expected, ["origin"], || {
@@ -141,10 +139,6 @@ impl Specified for PositionCommand {
 
     /// A word that is not its own does not differ from another such.
     fn applies(&self, i: &In<Value>) -> bool {
-        let own = i.word == self.origin_word();
-        match i.load {
-            true => own || i.word == 0,
-            false => i.word == 0 && i.data == 0,
-        }
+        i.record.is_among(&[0, self.origin_word()])
     }
 }

@@ -11,8 +11,9 @@
 //! Nine products and six additions for each point, as a bit-serial multiply-accumulate in each
 //! row. All three coordinates change at once.
 
-use super::{RotationRow, Rounding, Widths, rotation_row};
-use crate::circuits::blocks::{CoefficientControl, coefficient_control};
+use super::rotation_row::{self, ROWS};
+use super::{RotationRow, Rounding, Widths};
+use crate::circuits::blocks::{CoefficientControl, RecordWord, coefficient_control};
 use crate::hdl::prelude::*;
 
 /// Rotation of vectors by a matrix of coefficients; see [`RotationRow`].
@@ -50,13 +51,9 @@ impl Rotation {
 signals! { for Rotation as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record; not during a step.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
-        /// On to the next point.
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
+        /// On to the next point; no word is loaded on the way to it.
         pub step: Bit,
         /// Gives a step up that is under way.
         pub halt: Bit,
@@ -65,12 +62,8 @@ signals! { for Rotation as c;
     pub struct Parts {
         /// Which bit it is at.
         pub control: Part<CoefficientControl>(c.control()),
-        /// X.
-        pub row_x: Part<RotationRow>(c.row(0)),
-        /// Y.
-        pub row_y: Part<RotationRow>(c.row(1)),
-        /// Z.
-        pub row_z: Part<RotationRow>(c.row(2)),
+        /// X, Y and Z.
+        pub rows: [Part<RotationRow>(c.row(k as u64)); k in 3] as Elements(ROWS),
     }
     /// Ports out.
     pub struct Net {
@@ -95,21 +88,17 @@ impl Circuit for Rotation {
             step: i.step,
             halt: i.halt,
         });
-        let [x, y, z] = [p.row_x.q.offset, p.row_y.q.offset, p.row_z.q.offset];
-        for row in [p.row_x, p.row_y, p.row_z] {
-            row.settle(rotation_row::In {
-                load: i.load,
-                word: i.word,
-                data: i.data,
-                copy: control.w.copy,
-                fraction: control.w.fraction,
-                top: control.w.top,
-                commit: control.w.commit,
-                x,
-                y,
-                z,
-            });
-        }
+        let [x, y, z] = [0, 1, 2].map(|k: usize| p.rows[k].q.offset);
+        settle_each(p.rows, |_| rotation_row::In {
+            record: i.record.clone(),
+            copy: control.w.copy,
+            fraction: control.w.fraction,
+            top: control.w.top,
+            commit: control.w.commit,
+            x,
+            y,
+            z,
+        });
         let done = control.q.done;
         (Net { x, y, z, done }, Nothing)
     }

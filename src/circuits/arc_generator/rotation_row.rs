@@ -15,7 +15,11 @@
 //! lost before the rounding, and no word is wider than the sum.
 
 use super::{Rounding, VectorRow, Widths};
+use crate::circuits::blocks::RecordWord;
 use crate::hdl::prelude::*;
+
+/// Names of the rows of x, y and z.
+pub(super) const ROWS: &[&str] = &["row_x", "row_y", "row_z"];
 
 /// Row of a rotation, for vectors of points and for coefficients.
 #[derive(Debug, Clone)]
@@ -43,12 +47,8 @@ pub(super) const fn sum(widths: &Widths) -> usize {
 signals! { for RotationRow as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
         /// A step begins: the coefficients are copied.
         pub copy: Bit,
         /// The bit is one of the fraction.
@@ -74,6 +74,14 @@ signals! { for RotationRow as c;
         by_y: U(c.widths.coefficient) as Hex = 0,
         /// Coefficient of z.
         by_z: U(c.widths.coefficient) as Hex = 0,
+        /// The products.
+        products: Products(c) as Flat,
+    }
+}
+
+signals! { for (RotationRow, VectorRow) as c;
+    /// Three products under way, also those of a [row of a matrix that changes](super::vector_row).
+    pub struct Products {
         /// Bits of the coefficient of x that are yet to come.
         bits_x: U(c.widths.coefficient) as Hex = 0,
         /// Bits of that of y.
@@ -85,9 +93,6 @@ signals! { for RotationRow as c;
         /// The bit below the sum: a half.
         half: Bit = 0,
     }
-}
-
-signals! { for (RotationRow, VectorRow) as c;
     /// Nets, also those of a [row of a matrix that changes](super::vector_row).
     pub struct Net {
         /// X where its coefficient has the bit, else 0.
@@ -107,22 +112,19 @@ signals! { for (RotationRow, VectorRow) as c;
     }
 }
 
-/// Three products under way, the next bits of the coefficients lowest.
-pub(super) struct Products {
-    pub(super) bits: [U; 3],
-    pub(super) vector: [I; 3],
-    /// The products so far, by the weight of the bit to come.
-    pub(super) sum: I,
-    /// The bit below the sum.
-    pub(super) half: Bit,
-}
-
 impl Products {
-    /// What the bits add, and what the sum comes to; `top` where they are signs.
-    pub(super) fn nets(&self, widths: &Widths, rounding: Rounding, top: Bit) -> Net {
+    /// What the next bits add of a vector, and what the sum comes to; `top` where they are signs.
+    pub(super) fn nets(
+        &self,
+        [x, y, z]: [I; 3],
+        widths: &Widths,
+        rounding: Rounding,
+        top: Bit,
+    ) -> Net {
         let width = sum(widths);
-        let term = |k: usize| self.bits[k].bit(0).mux(self.vector[k].resize(width), 0);
-        let [term_x, term_y, term_z] = [0, 1, 2].map(term);
+        let term = |bits: U, word: I| bits.bit(0).mux(word.resize(width), 0);
+        let (term_x, term_y) = (term(self.bits_x, x), term(self.bits_y, y));
+        let term_z = term(self.bits_z, z);
         let addend = term_x + term_y + term_z;
         let raised = match rounding {
             Rounding::Nearest => self.sum + self.half.word().resize(width).signed(),
@@ -139,9 +141,17 @@ impl Products {
         }
     }
 
-    /// Sum and half after the edge.
-    pub(super) fn after(&self, net: &Net, copy: Bit, fraction: Bit) -> (I, Bit) {
-        halved(net.total, self.half, copy, fraction)
+    /// They after the edge, with the coefficients that are copied.
+    pub(super) fn after(&self, net: &Net, copy: Bit, fraction: Bit, by: [U; 3]) -> Products<Edge> {
+        let (sum, half) = halved(net.total, self.half, copy, fraction);
+        let bits = |by: U, bits: U| copy.mux(by, bits.shift_right(1));
+        Products {
+            bits_x: bits(by[0], self.bits_x),
+            bits_y: bits(by[1], self.bits_y),
+            bits_z: bits(by[2], self.bits_z),
+            sum,
+            half,
+        }
     }
 }
 
@@ -160,30 +170,22 @@ impl Circuit for RotationRow {
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
         let (point, coefficient) = (self.widths.point, self.widths.coefficient);
-        let products = Products {
-            bits: [q.bits_x, q.bits_y, q.bits_z],
-            vector: [i.x, i.y, i.z],
-            sum: q.sum,
-            half: q.half,
-        };
-        let net = products.nets(&self.widths, self.rounding, i.top);
-        let (sum, half) = products.after(&net, i.copy, i.fraction);
+        let vector = [i.x, i.y, i.z];
+        let net = q.products.nets(vector, &self.widths, self.rounding, i.top);
+        let held = [q.by_x, q.by_y, q.by_z];
+        let products = q.products.after(&net, i.copy, i.fraction, held);
 
-        let is = |name, word| i.load & i.word.equals(U::parameter(name, word, 5));
+        let is = |name, word| i.record.is(name, word);
         let first = 8 + 8 * self.coordinate;
-        let by = i.data.resize(coefficient);
-        let given = i.data.resize(point).signed();
+        let by = i.record.data.resize(coefficient);
+        let given = i.record.data.resize(point).signed();
         let kept = i.commit.mux(net.rounded, q.offset);
         let next = Reg {
             offset: is("offset_word", 2 + self.coordinate).mux(given, kept),
             by_x: is("x_word", first).mux(by, q.by_x),
             by_y: is("y_word", first + 1).mux(by, q.by_y),
             by_z: is("z_word", first + 2).mux(by, q.by_z),
-            bits_x: i.copy.mux(q.by_x, q.bits_x.shift_right(1)),
-            bits_y: i.copy.mux(q.by_y, q.bits_y.shift_right(1)),
-            bits_z: i.copy.mux(q.by_z, q.bits_z.shift_right(1)),
-            sum,
-            half,
+            products,
         };
         (net, next)
     }

@@ -13,6 +13,7 @@
 
 use super::rotation_row::{Net, Products, sum};
 use super::{Rounding, Widths};
+use crate::circuits::blocks::RecordWord;
 use crate::hdl::prelude::*;
 
 /// Word of a record that is GA's x; y and z follow.
@@ -39,12 +40,8 @@ impl VectorRow {
 signals! { for VectorRow as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
         /// A step begins: the coefficients are copied.
         pub copy: Bit,
         /// The bit is one of the fraction.
@@ -70,16 +67,8 @@ signals! { for VectorRow as c;
     pub struct Reg {
         /// This row's coordinate of the vector from the centre to the point.
         pub offset: I(c.widths.point) as Analog = 0,
-        /// Bits of the coefficient of x that are yet to come.
-        bits_x: U(c.widths.coefficient) as Hex = 0,
-        /// Bits of that of y.
-        bits_y: U(c.widths.coefficient) as Hex = 0,
-        /// Bits of that of z.
-        bits_z: U(c.widths.coefficient) as Hex = 0,
-        /// The products so far, by the weight of the bit to come.
-        sum: I(c.sum()) = 0,
-        /// The bit below the sum: a half.
-        half: Bit = 0,
+        /// The products.
+        products: Products(c) as Flat,
     }
 }
 
@@ -89,26 +78,16 @@ impl Circuit for VectorRow {
     records!(In, Reg, Net);
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
-        let products = Products {
-            bits: [q.bits_x, q.bits_y, q.bits_z],
-            vector: [i.x, i.y, i.z],
-            sum: q.sum,
-            half: q.half,
-        };
-        let net = products.nets(&self.widths, self.rounding, i.top);
-        let (sum, half) = products.after(&net, i.copy, i.fraction);
+        let vector = [i.x, i.y, i.z];
+        let net = q.products.nets(vector, &self.widths, self.rounding, i.top);
+        let by = [i.by_x, i.by_y, i.by_z];
+        let products = q.products.after(&net, i.copy, i.fraction, by);
 
-        let word = U::parameter("offset_word", VECTOR_WORD + self.coordinate, 5);
-        let own = i.load & i.word.equals(word);
-        let given = i.data.resize(self.widths.point).signed();
-        let bits = |by: U, bits: U| i.copy.mux(by, bits.shift_right(1));
+        let own = i.record.is("offset_word", VECTOR_WORD + self.coordinate);
+        let given = i.record.data.resize(self.widths.point).signed();
         let next = Reg {
             offset: own.mux(given, i.commit.mux(net.rounded, q.offset)),
-            bits_x: bits(i.by_x, q.bits_x),
-            bits_y: bits(i.by_y, q.bits_y),
-            bits_z: bits(i.by_z, q.bits_z),
-            sum,
-            half,
+            products,
         };
         (net, next)
     }

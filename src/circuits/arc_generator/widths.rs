@@ -1,5 +1,6 @@
 //! Widths of the arc generator's words, and of the blocks that play its records.
 
+use super::PositionCommand;
 use crate::circuits::blocks::{DifferenceEngine, RecordSequencer, difference_column};
 
 /// Widths in bits.
@@ -78,6 +79,15 @@ impl Widths {
             data: self.data,
         };
         DifferenceEngine { widths, coordinate }
+    }
+
+    /// The command of a coordinate.
+    #[must_use]
+    pub const fn command(self, coordinate: u64) -> PositionCommand {
+        PositionCommand {
+            widths: self,
+            coordinate,
+        }
     }
 
     /// The most samples of a segment.

@@ -14,6 +14,7 @@
 //! carries into the whole. The whole wraps at its width; sums are linear, so it comes out right
 //! whenever the number itself fits, whatever the columns below did on the way.
 
+use super::record_memory::RecordWord;
 use crate::hdl::Registers;
 use crate::hdl::prelude::*;
 
@@ -52,12 +53,8 @@ pub struct DifferenceColumn {
 signals! { for DifferenceColumn as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
         /// What a part wraps at: 1 to 2^(F − 1).
         pub modulus: U(c.widths.part),
         /// Adds the column below; not with `load`.
@@ -102,18 +99,17 @@ impl Circuit for DifferenceColumn {
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
         let sum = q.part + i.by_part;
         let carry = !sum.below(i.modulus);
-        let is = |name, word| i.load & i.word.equals(U::parameter(name, word, 5));
-        let load_whole = is("whole_word", self.whole_word);
+        let load_whole = i.record.is("whole_word", self.whole_word);
         let load_part = match self.part_word {
-            Some(word) => is("part_word", word),
+            Some(word) => i.record.is("part_word", word),
             None => Bit::low(),
         };
         let up = !q.part.shift_left(1).below(i.modulus);
         let moved = q.whole + i.by_whole;
         let whole = carry.mux(moved + 1, moved);
         let part = carry.mux(sum - i.modulus, sum);
-        let loaded_whole = i.data.resize(self.widths.whole).signed();
-        let loaded_part = i.data.resize(self.widths.part);
+        let loaded_whole = i.record.data.resize(self.widths.whole).signed();
+        let loaded_part = i.record.data.resize(self.widths.part);
         let stepped_part = load_part.mux(loaded_part, i.step.mux(part, q.part));
         let net = Net {
             sum,
@@ -140,7 +136,7 @@ impl Specified for DifferenceColumn {
                 let sum = number(now.q.whole, now.q.part) + number(now.i.by_whole, now.i.by_part);
                 let after = number(next.q.whole, next.q.part);
                 let right = (after - sum).rem_euclid(modulus << whole) == 0;
-                let steps = now.i.step && !now.i.load;
+                let steps = now.i.step && !now.i.record.load;
                 require(right || !steps, ["whole", "part"], || {
                     format!("{after} / {modulus}, not {sum} / {modulus}")
                 })
@@ -150,12 +146,13 @@ impl Specified for DifferenceColumn {
                 require(right || now.w.load_part, ["part"], || "too large".into())
             })
             .step("its words are loaded, others are not", move |now, next| {
-                let word = now.i.load.then_some(now.i.word);
+                let record = &now.i.record;
+                let word = record.load.then_some(record.word);
                 let (mut expected, mut parts) = (now.q.whole, now.q.part);
                 if word == Some(self.whole_word) {
-                    (expected, parts) = (now.i.data as i64, 0);
+                    (expected, parts) = (record.data as i64, 0);
                 } else if word.is_some() && word == self.part_word {
-                    parts = now.i.data;
+                    parts = record.data;
                 }
                 let right = (next.q.whole - expected).rem_euclid(1 << whole) == 0
                     && next.q.part == parts % (1 << part);
@@ -177,13 +174,11 @@ impl Specified for DifferenceColumn {
     fn applies(&self, i: &In<Value>) -> bool {
         let other = (0..32).find(|word| *word != self.whole_word && Some(*word) != self.part_word);
         let words = [Some(self.whole_word), self.part_word, other];
-        let word = match i.load {
-            true => words.contains(&Some(i.word)),
-            false => i.word == 0 && i.data == 0,
-        };
-        word && (1..=1 << (self.widths.part - 1)).contains(&i.modulus)
+        i.record
+            .is_among(&words.map(|word| word.unwrap_or(self.whole_word)))
+            && (1..=1 << (self.widths.part - 1)).contains(&i.modulus)
             && i.by_part < i.modulus
-            && !(i.load && i.step)
+            && !(i.record.load && i.step)
     }
 
     /// The modulus comes with the parts that are below it.

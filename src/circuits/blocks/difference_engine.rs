@@ -15,6 +15,7 @@
 //! line.
 
 use super::difference_column::{self, DifferenceColumn, Widths};
+use super::record_memory::RecordWord;
 use crate::hdl::prelude::*;
 
 /// Difference engine of a coordinate.
@@ -52,12 +53,8 @@ impl DifferenceEngine {
 signals! { for DifferenceEngine as c;
     /// Ports in.
     pub struct In {
-        /// `data` is word `word` of a record.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.widths.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.widths.data) as Flat,
         /// What the parts are parts of: M⁴ in a blend of M samples, the samples of a line.
         pub modulus: U(c.widths.part),
         /// On to the next sample; not with `load`.
@@ -90,9 +87,7 @@ impl Circuit for DifferenceEngine {
 
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
         let column = |by_whole: I, by_part: U| difference_column::In {
-            load: i.load,
-            word: i.word,
-            data: i.data,
+            record: i.record.clone(),
             modulus: i.modulus,
             step: i.step,
             by_whole,

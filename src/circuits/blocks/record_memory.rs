@@ -116,6 +116,44 @@ signals! { for RecordMemory as c;
     }
 }
 
+signals! { for usize as data;
+    /// What a word of a record is on its way to the blocks, where a word has so many bits.
+    pub struct RecordWord {
+        /// `data` is word `word` of a record.
+        pub load: Bit,
+        /// Number of the word.
+        pub word: U(5),
+        /// Its data.
+        pub data: U(*data) as Hex,
+    }
+}
+
+impl Reg<Seen> {
+    /// Its word for blocks that take it where `load` is high.
+    pub fn record(&self, load: Bit) -> RecordWord {
+        let (word, data) = (self.word, self.data);
+        RecordWord { load, word, data }
+    }
+}
+
+impl RecordWord {
+    /// It is the word of that number, which is a parameter of that name.
+    #[track_caller]
+    pub fn is(&self, name: &'static str, number: u64) -> Bit {
+        self.load & self.word.equals(U::parameter(name, number, 5))
+    }
+}
+
+impl RecordWord<Value> {
+    /// Whether it is one of these words, or low where there is none: as far as a proof goes.
+    pub(crate) fn is_among(&self, words: &[u64]) -> bool {
+        match self.load {
+            true => words.contains(&self.word),
+            false => self.word == 0 && self.data == 0,
+        }
+    }
+}
+
 impl Circuit for RecordMemory {
     const NAME: &'static str = "record_memory";
     const ABOUT: &'static str = "coefficients of the segments to come, first in, first out";

@@ -19,7 +19,7 @@
 //! first. The first point of a path is the beginning of its first segment. A segment of 0 samples
 //! gives the point where it begins.
 
-use super::record_memory::{ARC, KINDS};
+use super::record_memory::{ARC, KINDS, RecordWord};
 use crate::hdl::prelude::*;
 
 /// Names of the states.
@@ -54,12 +54,8 @@ signals! { for RecordSequencer as c;
         pub sample: Bit,
         /// A segment waits.
         pub available: Bit,
-        /// `data` is word `word` of a record.
-        pub load: Bit,
-        /// Number of the word.
-        pub word: U(5),
-        /// Its data.
-        pub data: U(c.data) as Hex,
+        /// Word of a record.
+        pub record: RecordWord(&c.data) as Flat,
         /// The record is complete.
         pub loaded: Bit,
         /// The rotation has its next point, or who else is waited for.
@@ -125,7 +121,7 @@ impl Circuit for RecordSequencer {
 
     fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
         let is = |state: u64| q.state.equals(state);
-        let header = i.load & i.word.is_zero();
+        let header = i.record.load & i.record.word.is_zero();
         let begins = is(IDLE) & i.start & i.available & !i.halt;
         let present = is(READY) & i.sample & !i.halt;
         let over = present & q.remaining.is_zero();
@@ -143,9 +139,9 @@ impl Circuit for RecordSequencer {
         let state = makes.mux(made, state);
         let state = (i.rotated & is(ROTATE)).mux(READY, state);
         let state = present.mux(over.mux(ended, to(STEP)), state);
-        let samples = i.data.shift_right(3).resize(self.samples);
+        let samples = i.record.data.shift_right(3).resize(self.samples);
         let remaining = makes.mux(q.remaining - 1, q.remaining);
-        let modulus = i.load & i.word.equals(1);
+        let modulus = i.record.load & i.record.word.equals(1);
         let net = Net {
             header,
             begins,
@@ -160,10 +156,10 @@ impl Circuit for RecordSequencer {
         let next = Reg {
             state: i.halt.mux(IDLE, state),
             first: begins | (q.first & !present),
-            kind: header.mux(i.data.resize(2), q.kind),
-            rests: header.mux(i.data.bit(2), q.rests),
+            kind: header.mux(i.record.data.resize(2), q.kind),
+            rests: header.mux(i.record.data.bit(2), q.rests),
             remaining: header.mux(samples, remaining),
-            modulus: modulus.mux(i.data.resize(self.modulus), q.modulus),
+            modulus: modulus.mux(i.record.data.resize(self.modulus), q.modulus),
             take: begins | (over & i.available),
             rotate: makes & waits,
             sampled: present,
@@ -204,7 +200,7 @@ impl Specified for RecordSequencer {
             .step(
                 "a point is made for every step, and counted",
                 |now, next| {
-                    let header = now.i.load && now.i.word == 0;
+                    let header = now.i.record.load && now.i.record.word == 0;
                     let steps = now.q.state == STEP && !now.i.halt;
                     let arc = now.q.kind == ARC;
                     let words = 1 << self.samples;
@@ -269,8 +265,8 @@ impl Specified for RecordSequencer {
             .step(
                 "words 0 and 1 of a record are header and modulus",
                 |now, next| {
-                    let word = now.i.load.then_some(now.i.word);
-                    let data = now.i.data;
+                    let word = now.i.record.load.then_some(now.i.record.word);
+                    let data = now.i.record.data;
                     let header = match word {
                         Some(0) => [data % 4, data / 4 % 2],
                         _ => [now.q.kind, u64::from(now.q.rests)],
@@ -292,9 +288,6 @@ impl Specified for RecordSequencer {
 
     /// A word is loaded in a fetch; one from 2 on does not differ from another such.
     fn applies(&self, i: &In<Value>) -> bool {
-        match i.load {
-            true => i.word <= 2 && !i.loaded,
-            false => i.word == 0 && i.data == 0,
-        }
+        i.record.is_among(&[0, 1, 2]) && !(i.record.load && i.loaded)
     }
 }

@@ -76,16 +76,10 @@ impl Circuit for AbsoluteDetector {
             modulus: i.turn,
             clear: i.clear,
         });
-        let unwrapper::Reg {
-            sample,
-            position,
-            lost,
-            ..
-        } = unwrapper.q;
         let net = Net {
-            sample,
-            position,
-            lost,
+            sample: unwrapper.q.sample,
+            position: unwrapper.q.position,
+            lost: unwrapper.q.lost,
         };
         (net, Nothing)
     }

@@ -13,6 +13,7 @@
 //! Where N is fixed at 1 there is no multiplier (この場合は論理回路13と乗算器16は不要): the lead is the
 //! difference, or nothing.
 
+use super::LeadProducts;
 use crate::hdl::prelude::*;
 
 /// Subtractor and multiplier. Combinational.
@@ -24,8 +25,8 @@ pub struct Lead {
     pub one: bool,
 }
 
-signals! { for Lead as c;
-    /// Ports in.
+signals! { for (Lead, LeadProducts) as c;
+    /// Ports in; also those of the [products](super::lead_products).
     pub struct In {
         /// Dx: the present sample.
         pub present: I(c.position),
@@ -34,6 +35,9 @@ signals! { for Lead as c;
         /// N, up to 10; 0 for no lead.
         pub ratio: U(4),
     }
+}
+
+signals! { for Lead as c;
     /// Nets.
     pub struct Net {
         /// N with a sign.

@@ -12,6 +12,7 @@
 //! 2·Dx − Dx(−Δt), without a multiplier. Adder 17 is in it: what comes out is Dx(+Δt), on which nothing
 //! is put any more.
 
+pub use super::lead::In;
 use crate::hdl::prelude::*;
 
 /// Prediction from two products. Combinational.
@@ -24,15 +25,6 @@ pub struct LeadProducts {
 }
 
 signals! { for LeadProducts as c;
-    /// Ports in.
-    pub struct In {
-        /// Dx: the present sample.
-        pub present: I(c.position),
-        /// Dx(−Δt/N): the earlier one.
-        pub old: I(c.position),
-        /// N, up to 10; 0 for no lead.
-        pub ratio: U(4),
-    }
     /// Nets.
     pub struct Net {
         /// N as a signed word.

@@ -79,18 +79,12 @@ impl Circuit for PhaseDetector {
             modulus: i.modulus,
             clear: i.clear,
         });
-        let unwrapper::Reg {
-            sample,
-            position,
-            lost,
-            ..
-        } = unwrapper.q;
         let net = Net {
             phase: counter.q.phase,
             square_wave: counter.w.square_wave,
-            sample,
-            position,
-            lost,
+            sample: unwrapper.q.sample,
+            position: unwrapper.q.position,
+            lost: unwrapper.q.lost,
         };
         (net, Nothing)
     }

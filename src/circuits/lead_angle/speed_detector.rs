@@ -10,6 +10,7 @@
 //! The speed is the way of a gate of so many CKs, and stands until the next gate is over: on
 //! average it is a whole gate old.
 
+use super::TableLead;
 use crate::hdl::prelude::*;
 
 /// Speed detector. A position that stands in the tick of CK is at `present` in the tick after it.
@@ -21,8 +22,8 @@ pub struct SpeedDetector {
     pub gate: usize,
 }
 
-signals! { for SpeedDetector as c;
-    /// Ports in.
+signals! { for (SpeedDetector, TableLead) as c;
+    /// Ports in; also those of the [lead from a memory](super::table_lead).
     pub struct In {
         /// CK: a sample is taken.
         pub ck: Bit,
@@ -33,6 +34,9 @@ signals! { for SpeedDetector as c;
         /// CKs of a gate; 0 counts as 1.
         pub gate: U(c.gate),
     }
+}
+
+signals! { for SpeedDetector as c;
     /// Flip-flops.
     pub struct Reg {
         /// Dx: the present sample.

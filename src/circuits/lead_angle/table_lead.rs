@@ -15,7 +15,8 @@
 //! Departures: the text has a lead for each speed; here they are 2^`fraction` counts apart. A speed
 //! beyond the memory has the lead of the last that it covers.
 
-use super::{SpeedDetector, speed_detector};
+use super::SpeedDetector;
+pub use super::speed_detector::In;
 use crate::hdl::prelude::*;
 
 /// Leads by speed, as they stand in a memory: f(ν) at every 2^`fraction` counts.
@@ -90,17 +91,6 @@ impl TableLead {
 }
 
 signals! { for TableLead as c;
-    /// Ports in.
-    pub struct In {
-        /// CK: a sample is taken.
-        pub ck: Bit,
-        /// What was sampled so far counts no more.
-        pub restart: Bit,
-        /// The position.
-        pub position: I(c.position),
-        /// CKs of a gate; 0 counts as 1.
-        pub gate: U(c.gate),
-    }
     /// Output registers of the memory.
     pub struct Reg {
         /// The lead of the last word's speed at or below ν.
@@ -174,12 +164,7 @@ impl Circuit for TableLead {
             fraction,
         } = &self.table;
         let (bits, fraction) = (self.table.bits(), *fraction);
-        let detector = p.detector.settle(speed_detector::In {
-            ck: i.ck,
-            restart: i.restart,
-            position: i.position,
-            gate: i.gate,
-        });
+        let detector = p.detector.settle(i);
         let (over, way) = (detector.w.over, detector.w.way);
         let cut = way.resize(bits);
         let covered = cut.resize(self.position).equals(way);

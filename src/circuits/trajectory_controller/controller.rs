@@ -313,16 +313,12 @@ impl Circuit for TrajectoryController {
             halt: i.halt,
             sample: period.w.enable,
             available: memory.w.available,
-            load: memory.q.load,
-            word: memory.q.word,
-            data: memory.q.data,
+            record: memory.q.record(memory.q.load),
             loaded: memory.q.loaded,
             rotated: Bit::low(),
         });
         let profile = p.profile.settle(difference_engine::In {
-            load: memory.w.load_engines,
-            word: memory.q.word,
-            data: memory.q.data,
+            record: memory.q.record(memory.w.load_engines),
             modulus: sequencer.q.modulus,
             step: sequencer.w.advance,
         });

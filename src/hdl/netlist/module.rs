@@ -95,6 +95,19 @@ pub struct Memory {
     pub inner: bool,
 }
 
+impl Memory {
+    /// What Verilog calls after it: loops over its words.
+    pub(crate) fn loops(&self) -> impl Iterator<Item = String> {
+        let zeros = (!self.filled).then_some("word");
+        let shift: &[&str] = match self.port {
+            Port::Shift { .. } => &["to", "shift"],
+            Port::Ram { .. } | Port::Rom => &[],
+        };
+        let loops = zeros.into_iter().chain(shift.iter().copied());
+        loops.map(|of| format!("{}_{of}", self.name))
+    }
+}
+
 /// A property of a module.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assertion {

@@ -107,7 +107,6 @@ pub(crate) fn live(nodes: &[(Node, Shape)], roots: impl Iterator<Item = Id>) -> 
 pub(crate) fn enter(mut module: Module, modules: &mut Vec<Module>) -> usize {
     let circuit = module.name.clone();
     let filled: Vec<bool> = module.memories.iter().map(|memory| memory.filled).collect();
-    let mut number = 1;
     for (index, other) in modules.iter_mut().enumerate() {
         module.name.clone_from(&other.name);
         for (memory, other) in module.memories.iter_mut().zip(&other.memories) {
@@ -119,18 +118,16 @@ pub(crate) fn enter(mut module: Module, modules: &mut Vec<Module>) -> usize {
             }
             return index;
         }
-        let numbered = other.name.strip_prefix(&circuit);
-        if numbered.is_some_and(|rest| rest.is_empty() || rest == format!("_{number}")) {
-            number += 1;
-        }
     }
     for (memory, filled) in module.memories.iter_mut().zip(filled) {
         memory.filled = filled;
     }
-    module.name = match number {
-        1 => circuit,
-        _ => format!("{circuit}_{number}"),
-    };
+    let mut number = 1;
+    module.name.clone_from(&circuit);
+    while modules.iter().any(|other| other.name == module.name) {
+        number += 1;
+        module.name = format!("{circuit}_{number}");
+    }
     modules.push(module);
     modules.len() - 1
 }

@@ -74,7 +74,7 @@ impl See {
         let arcs = &p.arc_generator.p;
         See {
             pending: watch.at(p.pulse_interpolator.p.port.q.pending),
-            arcs: [&arcs.command_x, &arcs.command_y].map(|axis| watch.at(axis.q.command)),
+            arcs: [0, 1].map(|axis: usize| watch.at(arcs.commands[axis].q.command)),
             arcs_ready: watch.at(w.arcs_ready),
             profile_ready: watch.at(w.profile_ready),
             busy: [w.lines_busy, w.arcs_busy, w.profile_busy].map(|busy| watch.at(busy)),

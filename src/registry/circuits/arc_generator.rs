@@ -1,11 +1,11 @@
-use super::make::{BLENDS, ROUNDINGS, at_most, choice, one_of, only, width};
+use super::make::{BLENDS, ROUNDINGS, at_most, choice, width};
 use crate::circuits::arc_generator::matrix_element::Sign;
 use crate::circuits::arc_generator::{
     AngleStep, ArcGenerator, AxisTerms, Blend, BlendPoint, BlendRow, BlendWeight, Conventional,
     MatrixElement, PositionCommand, Rotation, RotationRow, Rounding, SineWords, VectorRow, Widths,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{alone, entry, nothing};
+use crate::registry::entry::entry;
 
 /// Points, coefficients and words of records of one width.
 fn square(width: usize) -> Widths {
@@ -23,14 +23,6 @@ fn row(widths: Widths, rounding: Rounding) -> RotationRow {
         widths,
         coordinate: 0,
         rounding,
-    }
-}
-
-/// The command of x.
-fn command(widths: Widths) -> PositionCommand {
-    PositionCommand {
-        widths,
-        coordinate: 0,
     }
 }
 
@@ -57,56 +49,36 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         RotationRow, "JPH0743606B2 (ロ), a row of R",
         full: || row(Widths::FULL, Rounding::default()),
-        widths: [
-            point = widths.point,
-            coefficient = widths.coefficient,
-            data = widths.data,
-        ],
-        from: "width of points and coefficients, 1 for rounding down", |given| {
-            Some(row(square(width(given)?), one_of(given, ROUNDINGS)?))
-        },
-        with: |row, given| Some(RotationRow { rounding: only(given, ROUNDINGS)?, ..row }),
+        widths: [point, coefficient, data in widths],
+        by: "width of points and coefficients, 1 for rounding down",
+        |width, rounding of ROUNDINGS| row(square(width), rounding),
         proved: none,
     ),
     entry!(
         Rotation, "JPH0743606B2 (ロ)",
         full: || Rotation { widths: Widths::FULL, rounding: Rounding::default() },
-        widths: [
-            point = widths.point,
-            coefficient = widths.coefficient,
-            data = widths.data,
-        ],
-        from: "width of points and coefficients, 1 for rounding down", |given| {
-            let (widths, rounding) = (square(width(given)?), one_of(given, ROUNDINGS)?);
-            Some(Rotation { widths, rounding })
-        },
-        with: |rotation, given| Some(Rotation { rounding: only(given, ROUNDINGS)?, ..rotation }),
+        widths: [point, coefficient, data in widths],
+        by: "width of points and coefficients, 1 for rounding down",
+        |width, rounding of ROUNDINGS| Rotation { widths: square(width), rounding },
         proved: none,
     ),
     entry!(
         PositionCommand, "JPH0743606B2 [4]",
-        full: || command(Widths::FULL),
-        widths: [position = widths.position, point = widths.point, data = widths.data],
-        from: "width of commands; as many guard bits", |given| {
-            alone(given, |position| {
-                let points = square(2 * position);
-                command(Widths { position, ..points })
-            })
+        full: || Widths::FULL.command(0),
+        widths: [position, point, data in widths],
+        by: "width of commands; as many guard bits",
+        |position| {
+            let points = square(2 * position);
+            Widths { position, ..points }.command(0)
         },
-        with: nothing,
         proved: 2,
     ),
     entry!(
         ArcGenerator, "JPH0743606B2",
         full: ArcGenerator::default,
         widths: [
-            position = widths.position,
-            point = widths.point,
-            coefficient = widths.coefficient,
-            fraction = widths.fraction,
-            data = widths.data,
-            samples = widths.samples,
-            records,
+            position = widths.position, point = widths.point, coefficient = widths.coefficient,
+            fraction = widths.fraction, data = widths.data, samples = widths.samples, records,
             period = widths.period,
         ],
         from: "width of commands, 1 for rounding down, 1 for blends by products (half as many guard \
@@ -130,54 +102,42 @@ pub(super) const CIRCUITS: &[Entry] = &[
         BlendWeight, "JPH0743606B2 [5], [10]: (2 − h)h³",
         full: || BlendWeight { coefficient: Widths::FULL.coefficient },
         widths: [coefficient],
-        from: "width of a coefficient",
-        |given| alone(given, |coefficient| BlendWeight { coefficient }),
-        with: nothing,
+        by: "width of a coefficient", |coefficient| BlendWeight { coefficient },
         proved: none,
     ),
     entry!(
         BlendRow, "JPH0743606B2 [5], [10], a coordinate",
         full: || BlendRow { widths: Widths::FULL, coordinate: 0 },
-        widths: [point = widths.point, data = widths.data],
-        from: "width of points; words have two bits more", |given| alone(given, |point| {
+        widths: [point, data in widths],
+        by: "width of points; words have two bits more",
+        |point| {
             let widths = Widths { point, data: point + 2, ..Widths::FULL };
             BlendRow { widths, coordinate: 0 }
-        }),
-        with: nothing,
+        },
         proved: none,
     ),
     entry!(
         BlendPoint, "JPH0743606B2 [5], [10]",
         full: || BlendPoint { widths: Blend::Products.widths(Widths::FULL) },
-        widths: [
-            point = widths.point,
-            coefficient = widths.coefficient,
-            fraction = widths.fraction,
-            data = widths.data,
-        ],
-        from: "width of points, coefficients and moduli; words have two bits more", |given| {
-            alone(given, |width| BlendPoint {
-                widths: Widths { fraction: width, data: width + 2, ..square(width) },
-            })
+        widths: [point, coefficient, fraction, data in widths],
+        by: "width of points, coefficients and moduli; words have two bits more",
+        |width| BlendPoint {
+            widths: Widths { fraction: width, data: width + 2, ..square(width) },
         },
-        with: nothing,
         proved: none,
     ),
     entry!(
         AngleStep, "JPH0743606B2, prior art: Δθ",
         full: || AngleStep { width: Widths::FULL.coefficient },
         widths: [width],
-        from: "width", |given| alone(given, |width| AngleStep { width }),
-        with: nothing,
+        by: "width", |width| AngleStep { width },
         proved: 4,
     ),
     entry!(
         SineWords, "JPH0743606B2, prior art: sin, cos, vers",
         full: || SineWords { coefficient: Widths::FULL.coefficient },
         widths: [coefficient],
-        from: "width of a coefficient",
-        |given| alone(given, |coefficient| SineWords { coefficient }),
-        with: nothing,
+        by: "width of a coefficient", |coefficient| SineWords { coefficient },
         proved: none,
     ),
     entry!(
@@ -187,9 +147,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             data: Widths::FULL.data,
         },
         widths: [coefficient, data],
-        from: "width of a coefficient",
-        |given| alone(given, |width| AxisTerms { coefficient: width, data: width }),
-        with: nothing,
+        by: "width of a coefficient", |width| AxisTerms { coefficient: width, data: width },
         proved: none,
     ),
     entry!(
@@ -199,46 +157,32 @@ pub(super) const CIRCUITS: &[Entry] = &[
             sign: Sign::default(),
         },
         widths: [coefficient],
-        from: "width of a coefficient, 1 for a term that is subtracted", |given| {
-            Some(MatrixElement { coefficient: width(given)?, sign: one_of(given, SIGNS)? })
-        },
-        with: |element, given| Some(MatrixElement { sign: only(given, SIGNS)?, ..element }),
+        by: "width of a coefficient, 1 for a term that is subtracted",
+        |coefficient, sign of SIGNS| MatrixElement { coefficient, sign },
         proved: none,
     ),
     entry!(
         VectorRow, "JPH0743606B2, prior art [3], a row",
         full: || vector_row(Widths::FULL, Rounding::default()),
-        widths: [
-            point = widths.point,
-            coefficient = widths.coefficient,
-            data = widths.data,
-        ],
-        from: "width of points and coefficients, 1 for rounding down", |given| {
-            Some(vector_row(square(width(given)?), one_of(given, ROUNDINGS)?))
-        },
-        with: |row, given| Some(VectorRow { rounding: only(given, ROUNDINGS)?, ..row }),
+        widths: [point, coefficient, data in widths],
+        by: "width of points and coefficients, 1 for rounding down",
+        |width, rounding of ROUNDINGS| vector_row(square(width), rounding),
         proved: none,
     ),
     entry!(
         Conventional, "JPH0743606B2, prior art: Figs 5 and 6",
         full: Conventional::default,
         widths: [
-            position = widths.position,
-            point = widths.point,
-            coefficient = widths.coefficient,
-            fraction = widths.fraction,
-            data = widths.data,
-            samples = widths.samples,
-            records,
+            position = widths.position, point = widths.point, coefficient = widths.coefficient,
+            fraction = widths.fraction, data = widths.data, samples = widths.samples, records,
             period = widths.period,
         ],
-        from: "width of commands, 1 for rounding down (half as many guard bits, two records)",
-        |given| Some(Conventional {
-            widths: Widths::narrow(width(given)?),
+        by: "width of commands, 1 for rounding down (half as many guard bits, two records)",
+        |width, rounding of ROUNDINGS| Conventional {
+            widths: Widths::narrow(width),
             records: 1,
-            rounding: one_of(given, ROUNDINGS)?,
-        }),
-        with: |arcs, given| Some(Conventional { rounding: only(given, ROUNDINGS)?, ..arcs }),
+            rounding,
+        },
         proved: none,
     ),
 ];

@@ -1,6 +1,6 @@
 mod makers;
 
-use super::make::{FLAGS, one_of, only, width};
+use super::make::FLAGS;
 use crate::circuits::lead_angle::{
     AbsoluteDetector, Comparator, Comparing, Compensator, CompletionDetector, Correction,
     CorrectionArithmetic, DifferenceHistory, DividedTime, Function, GrayReceiver, Lead, LeadFrom,
@@ -10,7 +10,7 @@ use crate::circuits::lead_angle::{
     Unwrapper, Widths,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{alone, entry, nothing};
+use crate::registry::entry::entry;
 use makers::{
     COMPARINGS, PLACEMENTS, RAM, SHIFT, SIGNS, chosen, compensator, conventional, correction,
     filled, formed, rom, small, stages, table_lead, time_data, time_lead,
@@ -22,126 +22,99 @@ pub(super) const CIRCUITS: &[Entry] = &[
         AbsoluteDetector, "JPH0646367B2 10, an absolute encoder of a turn",
         full: || AbsoluteDetector { code: 17, position: 24 },
         widths: [code, position],
-        from: "width of the position, a word being one bit narrower", |given| {
-            alone(given, |position| AbsoluteDetector { code: position.saturating_sub(1), position })
-        },
-        with: nothing,
+        by: "width of the position, a word being one bit narrower",
+        |position| AbsoluteDetector { code: position.saturating_sub(1), position },
         proved: none,
     ),
     entry!(
         GrayReceiver, "JPH0646367B2 10, words of an absolute encoder",
         full: || GrayReceiver { code: 17 },
         widths: [code],
-        from: "width of a word", |given| alone(given, |code| GrayReceiver { code }),
-        with: nothing,
+        by: "width of a word", |code| GrayReceiver { code },
         proved: 3,
     ),
     entry!(
         Unwrapper, "JPH0646367B2 10, places of a turn or a pitch",
         full: || Unwrapper { place: 17, position: 24 },
         widths: [place, position],
-        from: "width of the position, a place being one bit narrower", |given| {
-            alone(given, |position| Unwrapper { place: position.saturating_sub(1), position })
-        },
-        with: nothing,
+        by: "width of the position, a place being one bit narrower",
+        |position| Unwrapper { place: position.saturating_sub(1), position },
         proved: 4,
     ),
     entry!(
         PhaseDetector, "JPH0646367B2 10, a phase-shift transducer",
         full: || PhaseDetector { phase: 17, position: 24 },
         widths: [phase, position],
-        from: "width of the position, a phase being one bit narrower", |given| {
-            alone(given, |position| PhaseDetector { phase: position.saturating_sub(1), position })
-        },
-        with: nothing,
+        by: "width of the position, a phase being one bit narrower",
+        |position| PhaseDetector { phase: position.saturating_sub(1), position },
         proved: none,
     ),
     entry!(
         PhaseCounter, "JPH0646367B2 10, carrier and crossings",
         full: || PhaseCounter { phase: 17 },
         widths: [phase],
-        from: "width of a phase", |given| alone(given, |phase| PhaseCounter { phase }),
-        with: nothing,
+        by: "width of a phase", |phase| PhaseCounter { phase },
         proved: 3,
     ),
     entry!(
         RatioLogic, "JPH0646367B2 13",
         full: || RatioLogic { stages: 199 },
         widths: [stages],
-        from: "4 for 3 stages, 8 for 15", |given| alone(given, |width| RatioLogic {
-            stages: stages(width),
-        }),
-        with: nothing,
+        by: "4 for 3 stages, 8 for 15", |width| RatioLogic { stages: stages(width) },
         proved: 4,
     ),
     entry!(
         PositionHistory, "JPH0646367B2 11 + 14",
         full: || PositionHistory { stages: 199, position: 24 },
         widths: [stages, position],
-        from: "width: 2 stages for 2, 3 for 4, 15 for 8", |given| {
-            alone(given, |position| PositionHistory { stages: stages(position), position })
-        },
-        with: nothing,
+        by: "width: 2 stages for 2, 3 for 4, 15 for 8",
+        |position| PositionHistory { stages: stages(position), position },
         proved: 2,
     ),
     entry!(
         RamHistory, "JPH0646367B2 11 + 14, as a RAM",
         full: || RamHistory { stages: 199, position: 24 },
         widths: [stages, position],
-        from: "width: 2 stages for 2, 3 for 4, 15 for 8", |given| {
-            alone(given, |position| RamHistory { stages: stages(position), position })
-        },
-        with: nothing,
+        by: "width: 2 stages for 2, 3 for 4, 15 for 8",
+        |position| RamHistory { stages: stages(position), position },
         proved: 2,
     ),
     entry!(
         DifferenceHistory, "JPH0646367B2 11 + 15 + 14",
         full: || DifferenceHistory { stages: 199, position: 24 },
         widths: [stages, position],
-        from: "width: 2 stages for 2, 3 for 4, 15 for 8", |given| {
-            alone(given, |position| DifferenceHistory { stages: stages(position), position })
-        },
-        with: nothing,
+        by: "width: 2 stages for 2, 3 for 4, 15 for 8",
+        |position| DifferenceHistory { stages: stages(position), position },
         proved: 2,
     ),
     entry!(
         DividedTime, "JPH0646367B2, without 13",
         full: || DividedTime { stages: 199, one: false },
         widths: [stages],
-        from: "4 for 3 stages, 8 for 15, then 0 for N above Δt/N or 1 for N = 1", |given| {
-            Some(DividedTime { stages: stages(width(given)?), one: one_of(given, FLAGS)? })
-        },
-        with: |circuit, given| Some(DividedTime { one: only(given, FLAGS)?, ..circuit }),
+        by: "4 for 3 stages, 8 for 15, then 0 for N above Δt/N or 1 for N = 1",
+        |width, one of FLAGS| DividedTime { stages: stages(width), one },
         proved: 4,
     ),
     entry!(
         TimeLimit, "JPH0646367B2, without 13",
         full: || TimeLimit { stages: 1990 },
         widths: [stages],
-        from: "4 for 30 stages, 8 for 150", |given| {
-            alone(given, |width| TimeLimit { stages: 10 * stages(width) })
-        },
-        with: nothing,
+        by: "4 for 30 stages, 8 for 150", |width| TimeLimit { stages: 10 * stages(width) },
         proved: 4,
     ),
     entry!(
         Lead, "JPH0646367B2 15 + 16",
         full: || Lead { position: 24, one: false },
         widths: [position],
-        from: "width, 0 for N or 1 for N = 1", |given| {
-            Some(Lead { position: width(given)?, one: one_of(given, FLAGS)? })
-        },
-        with: |circuit, given| Some(Lead { one: only(given, FLAGS)?, ..circuit }),
+        by: "width, 0 for N or 1 for N = 1", |position, one of FLAGS| Lead { position, one },
         proved: 4,
     ),
     entry!(
         LeadProducts, "JPH0646367B2 17, without 15",
         full: || LeadProducts { position: 24, one: false },
         widths: [position],
-        from: "width, 0 for N or 1 for N = 1", |given| {
-            Some(LeadProducts { position: width(given)?, one: one_of(given, FLAGS)? })
-        },
-        with: |circuit, given| Some(LeadProducts { one: only(given, FLAGS)?, ..circuit }),
+        by: "width, 0 for N or 1 for N = 1",
+        |position, one of FLAGS| LeadProducts { position, one },
         proved: 4,
     ),
     entry!(
@@ -169,18 +142,14 @@ pub(super) const CIRCUITS: &[Entry] = &[
         SpeedDetector, "JPH0646367B2 2 of Fig. 7",
         full: || SpeedDetector { position: 24, gate: 16 },
         widths: [position, gate],
-        from: "width", |given| {
-            alone(given, |width| SpeedDetector { position: width, gate: width })
-        },
-        with: nothing,
+        by: "width", |width| SpeedDetector { position: width, gate: width },
         proved: 2,
     ),
     entry!(
         SpeedLead, "JPH0646367B2 1 + 2 of Fig. 7",
         full: || SpeedLead { position: 24, gate: 16 },
         widths: [position, gate],
-        from: "width", |given| alone(given, |width| SpeedLead { position: width, gate: width }),
-        with: nothing,
+        by: "width", |width| SpeedLead { position: width, gate: width },
         proved: 2,
     ),
     entry!(
@@ -200,32 +169,24 @@ pub(super) const CIRCUITS: &[Entry] = &[
         LeadPlacement, "JPH0646367B2 17, 20",
         full: || LeadPlacement { position: 24, placement: Placement::Position },
         widths: [position],
-        from: "width, 0 for the position, 1 for the target or 2 for halves", |given| {
-            Some(LeadPlacement { position: width(given)?, placement: one_of(given, PLACEMENTS)? })
-        },
-        with: |circuit, given| {
-            Some(LeadPlacement { placement: only(given, PLACEMENTS)?, ..circuit })
-        },
+        by: "width, 0 for the position, 1 for the target or 2 for halves",
+        |position, placement of PLACEMENTS| LeadPlacement { position, placement },
         proved: 4,
     ),
     entry!(
         Comparator, "JPH0646367B2 19",
         full: || Comparator { position: 24, comparing: Comparing::Crossing },
         widths: [position],
-        from: "width, 0 for crossing or 1 for equal", |given| {
-            Some(Comparator { position: width(given)?, comparing: one_of(given, COMPARINGS)? })
-        },
-        with: |circuit, given| Some(Comparator { comparing: only(given, COMPARINGS)?, ..circuit }),
+        by: "width, 0 for crossing or 1 for equal",
+        |position, comparing of COMPARINGS| Comparator { position, comparing },
         proved: 4,
     ),
     entry!(
         TargetSetter, "JPH0646367B2 18",
         full: || TargetSetter { step: 4, position: 24, speed: 16 },
         widths: [step, position, speed],
-        from: "width of positions and speeds (steps have two bits)", |given| {
-            alone(given, |width| TargetSetter { step: 2, position: width, speed: width })
-        },
-        with: nothing,
+        by: "width of positions and speeds (steps have two bits)",
+        |width| TargetSetter { step: 2, position: width, speed: width },
         proved: 2,
     ),
     entry!(
@@ -242,74 +203,61 @@ pub(super) const CIRCUITS: &[Entry] = &[
         CompletionDetector, "JPH0646367B2 26",
         full: || CompletionDetector { position: 24, time: 16 },
         widths: [position, time],
-        from: "width", |given| {
-            alone(given, |width| CompletionDetector { position: width, time: width })
-        },
-        with: nothing,
+        by: "width", |width| CompletionDetector { position: width, time: width },
         proved: 2,
     ),
     entry!(
         TouchProbe, "JPH0646367B2, any operation",
         full: || TouchProbe { position: 24 },
         widths: [position],
-        from: "width", |given| alone(given, |position| TouchProbe { position }),
-        with: nothing,
+        by: "width", |position| TouchProbe { position },
         proved: 4,
     ),
     entry!(
         StopError, "JPH0646367B2 27, 30, 31",
         full: || StopError { position: 24, sign: Sign::Converging },
         widths: [position],
-        from: "width, 0 for the converging sign or 1 for the literal one", |given| {
-            Some(StopError { position: width(given)?, sign: one_of(given, SIGNS)? })
-        },
-        with: |circuit, given| Some(StopError { sign: only(given, SIGNS)?, ..circuit }),
+        by: "width, 0 for the converging sign or 1 for the literal one",
+        |position, sign of SIGNS| StopError { position, sign },
         proved: 4,
     ),
     entry!(
         CorrectionArithmetic, "JPH0646367B2 28",
         full: || CorrectionArithmetic { stages: 199, position: 24 },
         widths: [stages, position],
-        from: "width of positions: 3 stages for 4, 15 for 8", |given| {
-            alone(given, |position| CorrectionArithmetic { stages: stages(position), position })
-        },
-        with: nothing,
+        by: "width of positions: 3 stages for 4, 15 for 8",
+        |position| CorrectionArithmetic { stages: stages(position), position },
         proved: none,
     ),
     entry!(
         Refinement, "JPH0646367B2 28, second order",
         full: || Refinement { time: 11, position: 24 },
         widths: [time, position],
-        from: "width", |given| {
-            alone(given, |width| Refinement { time: width, position: width })
-        },
-        with: nothing,
+        by: "width", |width| Refinement { time: width, position: width },
         proved: 2,
     ),
     entry!(
         Correction, "JPH0646367B2 23 = 27, 28, 30, 31",
         full: || correction(Function::FirstOrder, 199, 24),
         widths: [stages, position],
-        from: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
-               the literal one", |given| {
-            let (position, sign) = (width(given)?, one_of(given, SIGNS)?);
-            let circuit = correction(Function::FirstOrder, stages(position), position);
-            Some(Correction { sign, ..circuit })
+        by: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
+             the literal one",
+        |position, sign of SIGNS| Correction {
+            sign,
+            ..correction(Function::FirstOrder, stages(position), position)
         },
-        with: |circuit, given| Some(Correction { sign: only(given, SIGNS)?, ..circuit }),
         proved: none,
     ),
     entry!(
         Correction, "JPH0646367B2 23 = 27, 28, 30, 31, second order",
         full: || correction(Function::SecondOrder, 199, 24),
         widths: [stages, position],
-        from: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
-               the literal one", |given| {
-            let (position, sign) = (width(given)?, one_of(given, SIGNS)?);
-            let circuit = correction(Function::SecondOrder, stages(position), position);
-            Some(Correction { sign, ..circuit })
+        by: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
+             the literal one",
+        |position, sign of SIGNS| Correction {
+            sign,
+            ..correction(Function::SecondOrder, stages(position), position)
         },
-        with: |circuit, given| Some(Correction { sign: only(given, SIGNS)?, ..circuit }),
         proved: none,
         named: "second_order_correction", "learns the lead time of a step to second order",
     ),
@@ -317,20 +265,14 @@ pub(super) const CIRCUITS: &[Entry] = &[
         StepSequencer, "JPH0646367B2, step numbers",
         full: || StepSequencer { step: 4, position: 24, rest: 16 },
         widths: [step, position, rest],
-        from: "width of positions and times (steps have two bits)", |given| {
-            alone(given, |width| StepSequencer { step: 2, position: width, rest: width })
-        },
-        with: nothing,
+        by: "width of positions and times (steps have two bits)",
+        |width| StepSequencer { step: 2, position: width, rest: width },
         proved: 2,
     ),
     entry!(
         Compensator, "JPH0646367B2, Figs 1, 5 and 6",
         full: || compensator(SHIFT, Widths::default()),
-        widths: [
-            stages = widths.stages, position = widths.position, step = widths.step,
-            speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
-            code = widths.code,
-        ],
+        widths: [stages, position, step, speed, cks, ck_period, code in widths],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
                placement, comparing and learning as 0, 1 and so on, 0 for an incremental, 1 for an \
                absolute encoder, 2 for a phase-shift detector, the form as 0 to 5, times of the ROM",
@@ -341,11 +283,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Compensator, "JPH0646367B2, Figs 1, 5 and 6, with a RAM",
         full: || compensator(RAM, Widths::default()),
-        widths: [
-            stages = widths.stages, position = widths.position, step = widths.step,
-            speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
-            code = widths.code,
-        ],
+        widths: [stages, position, step, speed, cks, ck_period, code in widths],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
                placement, comparing and learning as 0, 1 and so on, 0 for an incremental, 1 for an \
                absolute encoder, 2 for a phase-shift detector, the form as 0 to 5, times of the ROM",
@@ -357,11 +295,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Compensator, "JPH0646367B2, Fig. 7",
         full: || compensator(LeadFrom::Speed, Widths::default()),
-        widths: [
-            stages = widths.stages, position = widths.position, step = widths.step,
-            speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
-            code = widths.code,
-        ],
+        widths: [stages, position, step, speed, cks, ck_period, code in widths],
         from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
                learning as 0, 1 and so on, 0 for an incremental, 1 for an absolute encoder, 2 for a \
                phase-shift detector, 0 for a product as the lead or 1 for a memory of it, times of \

@@ -4,7 +4,7 @@ use crate::circuits::machine::{CommandJoin, Enables, Machine};
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::hdl::Image;
 use crate::registry::Entry;
-use crate::registry::entry::{alone, entry, nothing};
+use crate::registry::entry::{entry, nothing};
 
 /// Lead time of the pen lift's brake, down and up, in CKs of 0.1 ms.
 const LEAD_TIMES: [u64; 2] = [250; 2];
@@ -15,17 +15,15 @@ pub(super) const CIRCUITS: &[Entry] = &[
         Enables, "system, rates",
         full: Enables::default,
         widths: [width],
-        from: "width of the counters", |given| alone(given, |width| Enables { width }),
-        with: nothing,
+        by: "width of the counters", |width| Enables { width },
         proved: 2,
     ),
     entry!(
         CommandJoin, "system, commands",
         full: || CommandJoin { line: 32, arc: 24 },
         widths: [line, arc],
-        from: "width of the lines' way; that of the arcs is a bit less",
-        |given| alone(given, |line| CommandJoin { line, arc: line.saturating_sub(1) }),
-        with: nothing,
+        by: "width of the lines' way; that of the arcs is a bit less",
+        |line| CommandJoin { line, arc: line.saturating_sub(1) },
         proved: 3,
     ),
     entry!(

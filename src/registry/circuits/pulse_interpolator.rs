@@ -1,7 +1,4 @@
-use super::make::words;
-use super::make::{
-    FLAGS, VARIANTS, address_bits, at_most, choice, one_of, only, second, width, word,
-};
+use super::make::{FLAGS, VARIANTS, address_bits, at_most, choice, second, width, word, words};
 use crate::circuits::pulse_interpolator::pattern_memory::Contents;
 use crate::circuits::pulse_interpolator::{
     AddressSequencer, Axis, CircularInterpolator, CommandPort, Conventional, ConventionalWidths,
@@ -9,7 +6,7 @@ use crate::circuits::pulse_interpolator::{
     UnitTimeRegister, Variant, Widths,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{alone, entry, nothing};
+use crate::registry::entry::{entry, nothing};
 
 /// The full widths of a memory.
 fn full_memory() -> PatternMemory {
@@ -131,12 +128,8 @@ pub(super) const CIRCUITS: &[Entry] = &[
         PulseGenerator, "JP3640909B2 20 = 201 + 202",
         full: || PulseGenerator { width: 16, variant: Variant::Safe },
         widths: [width],
-        from: "width, 0 for safe or 1 for literal", |given| {
-            Some(PulseGenerator { width: width(given)?, variant: one_of(given, VARIANTS)? })
-        },
-        with: |circuit, given| {
-            Some(PulseGenerator { variant: only(given, VARIANTS)?, ..circuit })
-        },
+        by: "width, 0 for safe or 1 for literal",
+        |width, variant of VARIANTS| PulseGenerator { width, variant },
         proved: 3,
     ),
     entry!(
@@ -167,50 +160,40 @@ pub(super) const CIRCUITS: &[Entry] = &[
         AddressSequencer, "JP3640909B2 50",
         full: || AddressSequencer { width: 12 },
         widths: [width],
-        from: "width", |given| alone(given, |width| AddressSequencer { width }),
-        with: nothing,
+        by: "width", |width| AddressSequencer { width },
         proved: 3,
     ),
     entry!(
         CommandPort, "JP3640909B2 ¶0018, ¶0026",
         full: || CommandPort { address: 12, period: 24, free_running: None },
         widths: [address, period],
-        from: "width", |given| alone(given, |width| {
-            CommandPort { address: width, period: width, free_running: None }
-        }),
-        with: nothing,
+        by: "width", |width| CommandPort { address: width, period: width, free_running: None },
         proved: 3,
     ),
     entry!(
         Axis, "JP3640909B2 10 + 20 + 40",
         full: || Axis { memory: full_memory(), variant: Variant::Safe },
-        widths: [half_period = memory.half_period, address = memory.address],
-        from: "width of the half-period (addresses have one bit, above a width of 4 four), 0 for \
-               safe or 1 for literal",
-        |given| {
-            let width = width(given)?;
-            let memory = PatternMemory::new(width, address_bits(width), 0);
-            Some(Axis { memory, variant: one_of(given, VARIANTS)? })
+        widths: [half_period, address in memory],
+        by: "width of the half-period (addresses have one bit, above a width of 4 four), 0 for \
+             safe or 1 for literal",
+        |width, variant of VARIANTS| Axis {
+            memory: PatternMemory::new(width, address_bits(width), 0),
+            variant,
         },
-        with: |circuit, given| Some(Axis { variant: only(given, VARIANTS)?, ..circuit }),
         proved: 3,
     ),
     entry!(
         UnitLaw, "JP3640909B2 30 + 20 + 40, with ghosts",
         full: || UnitLaw { width: 16, variant: Variant::Safe },
         widths: [width],
-        from: "width, 0 for safe or 1 for literal", |given| {
-            Some(UnitLaw { width: width(given)?, variant: one_of(given, VARIANTS)? })
-        },
-        with: |circuit, given| Some(UnitLaw { variant: only(given, VARIANTS)?, ..circuit }),
+        by: "width, 0 for safe or 1 for literal",
+        |width, variant of VARIANTS| UnitLaw { width, variant },
         proved: 3,
     ),
     entry!(
         Group, "JP3640909B2 1",
         full: || Group { memories: Vec::new(), ..Group::new(2, Widths::default(), Variant::Safe, 1000) },
-        widths: [
-            axes, half_period = widths.half_period, period = widths.period, address = widths.address,
-        ],
+        widths: [axes; half_period, period, address in widths],
         from: "width of half-period and T, T at power-on: one axis, two words of memory (1 up, 2 \
                down); then 0 for safe or 1 for literal, and 0 to wait, 1 to play once or 2 to loop \
                by itself: two axes of eight words (above a width of 4 always); then words of x and \
@@ -226,19 +209,13 @@ pub(super) const CIRCUITS: &[Entry] = &[
         PulseTrain, "JP3640909B2 6x, 6y, Fig. 5",
         full: || PulseTrain { half_period: 16, pulses: 17 },
         widths: [half_period, pulses],
-        from: "width of both words", |given| alone(given, |width| {
-            PulseTrain { half_period: width, pulses: width }
-        }),
-        with: nothing,
+        by: "width of both words", |width| PulseTrain { half_period: width, pulses: width },
         proved: 3,
     ),
     entry!(
         MotorController, "JP3640909B2 5, Fig. 5",
         full: || MotorController { axes: 2, widths: ConventionalWidths::default() },
-        widths: [
-            axes, distance = widths.distance, units = widths.units,
-            half_period = widths.half_period, period = widths.period,
-        ],
+        widths: [axes; distance, units, half_period, period in widths],
         from: "width of all words (distances have a bit less), axes", controller,
         with: nothing,
         proved: none,
@@ -273,10 +250,7 @@ pub(super) const CIRCUITS: &[Entry] = &[
             period: 1000,
             arcs: false,
         },
-        widths: [
-            axes, distance = widths.distance, units = widths.units,
-            half_period = widths.half_period, period = widths.period,
-        ],
+        widths: [axes; distance, units, half_period, period in widths],
         from: "width of all words (distances have a bit less), axes, T at power-on, 1 for arcs too",
         |given| {
             at_most(given, 4)?;

@@ -1,4 +1,4 @@
-use super::make::{ROUNDINGS, at_most, one_of, only, second, width};
+use super::make::{ROUNDINGS, at_most, second, width};
 use crate::circuits::trajectory_controller::model_state::ModelWidths;
 use crate::circuits::trajectory_controller::point_sequencer::RADIUS;
 use crate::circuits::trajectory_controller::servo_arithmetic::ServoWidths;
@@ -11,7 +11,7 @@ use crate::circuits::trajectory_controller::{
     Widths,
 };
 use crate::registry::Entry;
-use crate::registry::entry::{alone, entry, nothing};
+use crate::registry::entry::entry;
 
 /// The corrections by their numbers.
 const CORRECTIONS: &[Correction] = &[
@@ -115,126 +115,83 @@ pub(super) const CIRCUITS: &[Entry] = &[
         Scaler, "CN104204977 21, 23, 27, 29, 30: a gain",
         full: || Scaler { gain: FULL.servo_gain, value: FULL.servo().product() },
         widths: [gain, value],
-        from: "width of a gain; a value has as many bits", |given| {
-            alone(given, |gain| Scaler { gain, value: gain + 1 })
-        },
-        with: nothing,
+        by: "width of a gain; a value has as many bits", |gain| Scaler { gain, value: gain + 1 },
         proved: 3,
     ),
     entry!(
         ModelState, "CN104204977 20, 22, 24, 25",
         full: || ModelState { widths: FULL.model(), rounding: Rounding::Nearest },
-        widths: [position = widths.position, gain = widths.gain],
-        from: "width of positions and gains, 1 for rounding down", |given| {
-            let (widths, rounding) = (models(width(given)?), one_of(given, ROUNDINGS)?);
-            Some(ModelState { widths, rounding })
-        },
-        with: |model, given| Some(ModelState { rounding: only(given, ROUNDINGS)?, ..model }),
+        widths: [position, gain in widths],
+        by: "width of positions and gains, 1 for rounding down",
+        |width, rounding of ROUNDINGS| ModelState { widths: models(width), rounding },
         proved: none,
     ),
     entry!(
         ReferenceModel, "CN104204977 12, 50, 51, 52",
         full: || ReferenceModel { widths: FULL.model(), rounding: Rounding::Nearest },
-        widths: [position = widths.position, gain = widths.gain],
-        from: "width of positions and gains, 1 for rounding down", |given| {
-            let (widths, rounding) = (models(width(given)?), one_of(given, ROUNDINGS)?);
-            Some(ReferenceModel { widths, rounding })
-        },
-        with: |model, given| Some(ReferenceModel { rounding: only(given, ROUNDINGS)?, ..model }),
+        widths: [position, gain in widths],
+        by: "width of positions and gains, 1 for rounding down",
+        |width, rounding of ROUNDINGS| ReferenceModel { widths: models(width), rounding },
         proved: none,
     ),
     entry!(
         SegmentSearch, "CN104204977 2, 3: segment",
         full: || SegmentSearch { widths: FULL.point() },
-        widths: [segment = widths.segment, point = widths.point],
-        from: "width of lengths (four segments)", |given| {
-            alone(given, |width| {
-                let widths = PointWidths { segment: 2, ..points(width) };
-                SegmentSearch { widths }
-            })
+        widths: [segment, point in widths],
+        by: "width of lengths (four segments)",
+        |width| {
+            let widths = PointWidths { segment: 2, ..points(width) };
+            SegmentSearch { widths }
         },
-        with: nothing,
         proved: none,
     ),
     entry!(
         SegmentStore, "CN104204977 2, 3: segments",
         full: || SegmentStore { widths: FULL.point() },
-        widths: [segment = widths.segment, data = widths.data],
-        from: "width of a word (two segments)", |given| {
-            alone(given, |data| {
-                let widths = PointWidths { data, ..points(data) };
-                SegmentStore { widths }
-            })
+        widths: [segment, data in widths],
+        by: "width of a word (two segments)",
+        |data| {
+            let widths = PointWidths { data, ..points(data) };
+            SegmentStore { widths }
         },
-        with: nothing,
         proved: none,
     ),
     entry!(
         ArcAngle, "CN104204977 2, 3: arc",
         full: || ArcAngle { widths: FULL.point() },
-        widths: [point = widths.point, curvature = widths.curvature, angle = widths.angle],
-        from: "width of lengths, curvatures and angles", |given| {
-            alone(given, |width| ArcAngle { widths: points(width) })
-        },
-        with: nothing,
+        widths: [point, curvature, angle in widths],
+        by: "width of lengths, curvatures and angles", |width| ArcAngle { widths: points(width) },
         proved: none,
     ),
     entry!(
         LengthPowers, "CN104204977 2, 3: spline",
         full: || LengthPowers { widths: FULL.point() },
-        widths: [point = widths.point, radius = widths.radius],
-        from: "width of lengths; two bits more inside", |given| {
-            alone(given, |width| LengthPowers { widths: points(width) })
-        },
-        with: nothing,
+        widths: [point, radius in widths],
+        by: "width of lengths; two bits more inside",
+        |width| LengthPowers { widths: points(width) },
         proved: none,
     ),
     entry!(
         AxisRow, "CN104204977 (1), (5)",
         full: || AxisRow { widths: FULL.point(), coordinate: 0 },
-        widths: [
-            point = widths.point,
-            radius = widths.radius,
-            coefficient = widths.coefficient,
-            data = widths.data,
-        ],
-        from: "width of points and coefficients; two bits more inside", |given| {
-            alone(given, |width| AxisRow { widths: points(width), coordinate: 0 })
-        },
-        with: nothing,
+        widths: [point, radius, coefficient, data in widths],
+        by: "width of points and coefficients; two bits more inside",
+        |width| AxisRow { widths: points(width), coordinate: 0 },
         proved: none,
     ),
     entry!(
         PointSequencer, "CN104204977 2, 3",
         full: || sequencer(FULL.point()),
-        widths: [
-            point = widths.point,
-            radius = widths.radius,
-            curvature = widths.curvature,
-            data = widths.data,
-        ],
-        from: "width of lengths; two bits more inside", |given| {
-            alone(given, |width| sequencer(points(width)))
-        },
-        with: nothing,
+        widths: [point, radius, curvature, data in widths],
+        by: "width of lengths; two bits more inside", |width| sequencer(points(width)),
         proved: none,
     ),
     entry!(
         PathPoint, "CN104204977 2, 3",
         full: || point(FULL.point(), 3),
-        widths: [
-            axes,
-            segment = widths.segment,
-            point = widths.point,
-            radius = widths.radius,
-            coefficient = widths.coefficient,
-            curvature = widths.curvature,
-            angle = widths.angle,
-            data = widths.data,
-        ],
-        from: "width of points, lengths, coefficients and angles (two axes, two segments)",
-        |given| alone(given, |width| point(points(width), 2)),
-        with: nothing,
+        widths: [axes; segment, point, radius, coefficient, curvature, angle, data in widths],
+        by: "width of points, lengths, coefficients and angles (two axes, two segments)",
+        |width| point(points(width), 2),
         proved: none,
     ),
     entry!(
@@ -256,33 +213,23 @@ pub(super) const CIRCUITS: &[Entry] = &[
         PathLength, "CN104204977 1, qc",
         full: || PathLength { width: FULL.point },
         widths: [width],
-        from: "width", |given| alone(given, |width| PathLength { width }),
-        with: nothing,
+        by: "width", |width| PathLength { width },
         proved: 4,
     ),
     entry!(
         VectorCorrection, "CN104204977 4",
         full: || VectorCorrection { width: FULL.point, correction: Correction::Vector },
         widths: [width],
-        from: "width, 1 for no correction, 2 for the steady one, 3 for the feedback", |given| {
-            let (width, correction) = (width(given)?, one_of(given, CORRECTIONS)?);
-            Some(VectorCorrection { width, correction })
-        },
-        with: |corrector, given| {
-            let correction = only(given, CORRECTIONS)?;
-            Some(VectorCorrection { correction, ..corrector })
-        },
+        by: "width, 1 for no correction, 2 for the steady one, 3 for the feedback",
+        |width, correction of CORRECTIONS| VectorCorrection { width, correction },
         proved: 3,
     ),
     entry!(
         ErrorFeedback, "CN104204977 prior art: errors along and across the path",
         full: || ErrorFeedback { widths: FULL.feedback(), axes: 2 },
-        widths: [axes, count = widths.count, position = widths.position, gain = widths.gain],
-        from: "width of counts and gains (two axes, two guard bits)",
-        |given| alone(given, |width| {
-            ErrorFeedback { widths: widths(width).feedback(), axes: 2 }
-        }),
-        with: nothing,
+        widths: [axes; count, position, gain in widths],
+        by: "width of counts and gains (two axes, two guard bits)",
+        |width| ErrorFeedback { widths: widths(width).feedback(), axes: 2 },
         proved: none,
     ),
     entry!(
@@ -304,32 +251,16 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         ServoArithmetic, "CN104204977 26 to 31",
         full: || ServoArithmetic { widths: FULL.servo() },
-        widths: [
-            count = widths.count,
-            position = widths.position,
-            gain = widths.gain,
-            torque = widths.torque,
-        ],
-        from: "width of counts, gains and torques; two guard bits", |given| {
-            alone(given, |width| ServoArithmetic { widths: servos(width) })
-        },
-        with: nothing,
+        widths: [count, position, gain, torque in widths],
+        by: "width of counts, gains and torques; two guard bits",
+        |width| ServoArithmetic { widths: servos(width) },
         proved: none,
     ),
     entry!(
         Servo, "CN104204977 11",
         full: || servo(FULL.servo()),
-        widths: [
-            count = widths.count,
-            position = widths.position,
-            model_gain = widths.model_gain,
-            gain = widths.gain,
-            torque = widths.torque,
-        ],
-        from: "width of counts, gains and torques; two guard bits", |given| {
-            alone(given, |width| servo(servos(width)))
-        },
-        with: nothing,
+        widths: [count, position, model_gain, gain, torque in widths],
+        by: "width of counts, gains and torques; two guard bits", |width| servo(servos(width)),
         proved: none,
     ),
     entry!(
@@ -342,45 +273,26 @@ pub(super) const CIRCUITS: &[Entry] = &[
             gain = servo.widths.gain,
             torque = servo.widths.torque,
         ],
-        from: "width of counts, gains and torques, 1 for no correction, 2 for the steady one, 3 for the feedback; two guard bits",
-        |given| Some(axis(servos(width(given)?), one_of(given, CORRECTIONS)?)),
-        with: |axis, given| {
-            let correction = only(given, CORRECTIONS)?;
-            Some(ControlledAxis { correction, ..axis })
-        },
+        by: "width of counts, gains and torques, 1 for no correction, 2 for the steady one, 3 for the \
+             feedback; two guard bits",
+        |width, correction of CORRECTIONS| axis(servos(width), correction),
         proved: none,
     ),
     entry!(
         TrajectoryController, "CN104204977 10",
         full: || TrajectoryController::new(FULL, 2, Correction::Vector, Rounding::Nearest),
         widths: [
-            axes,
-            segment = widths.segment,
-            position = widths.position,
-            point = widths.point,
-            radius = widths.radius,
-            coefficient = widths.coefficient,
-            curvature = widths.curvature,
-            angle = widths.angle,
-            data = widths.data,
-            fraction = widths.fraction,
-            samples = widths.samples,
-            gain = widths.gain,
-            servo_gain = widths.servo_gain,
-            torque = widths.torque,
-            period = widths.period,
+            axes; segment, position, point, radius, coefficient, curvature, angle, data, fraction,
+            samples, gain, servo_gain, torque, period in widths
         ],
-        from: "width of counts, gains and torques, 1 for no correction, 2 for the steady one, 3 for the feedback (two axes, two segments; no wait)",
-        |given| Some(TrajectoryController {
-            widths: widths(width(given)?),
+        by: "width of counts, gains and torques, 1 for no correction, 2 for the steady one, 3 for the \
+             feedback (two axes, two segments; no wait)",
+        |width, correction of CORRECTIONS| TrajectoryController {
+            widths: widths(width),
             axes: 2,
-            correction: one_of(given, CORRECTIONS)?,
+            correction,
             rounding: Rounding::Nearest,
             waits: false,
-        }),
-        with: |controller, given| {
-            let correction = only(given, CORRECTIONS)?;
-            Some(TrajectoryController { correction, ..controller })
         },
         proved: none,
     ),

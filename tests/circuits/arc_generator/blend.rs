@@ -92,12 +92,12 @@ fn load(
     i: &mut blend_point::In<Value>,
     words: &[(u64, u64)],
 ) {
-    i.load = true;
+    i.record.load = true;
     for (word, data) in words {
-        (i.word, i.data) = (*word, *data);
+        (i.record.word, i.record.data) = (*word, *data);
         simulator.step_with(i, |_| ());
     }
-    i.load = false;
+    i.record.load = false;
 }
 
 /// Plays `steps` samples of a blend of `samples`, each in its ticks, and calls with the ways from A⁻.

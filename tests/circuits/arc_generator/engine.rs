@@ -1,9 +1,9 @@
 //! The difference engine against the polynomial of the text.
 
 use super::program::differences;
-use motion_rtl::circuits::blocks::DifferenceEngine;
 use motion_rtl::circuits::blocks::difference_column::Widths;
 use motion_rtl::circuits::blocks::difference_engine::In;
+use motion_rtl::circuits::blocks::{DifferenceEngine, RecordWord};
 use motion_rtl::hdl::{Simulator, zero};
 use proptest::prelude::*;
 
@@ -48,9 +48,11 @@ fn run(
     };
     for (word, data) in loads {
         let i = In {
-            load: true,
-            word,
-            data: data as u64,
+            record: RecordWord {
+                load: true,
+                word,
+                data: data as u64,
+            },
             ..idle.clone()
         };
         simulator.step_with(&i, |_| ());

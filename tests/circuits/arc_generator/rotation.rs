@@ -3,24 +3,28 @@
 use super::program::{rotated, wrap};
 use motion_rtl::circuits::arc_generator::rotation::In;
 use motion_rtl::circuits::arc_generator::{Rotation, Rounding, Widths};
+use motion_rtl::circuits::blocks::RecordWord;
 use motion_rtl::hdl::{Simulator, Value};
 use proptest::prelude::*;
 
 /// Ports in with a word that is loaded.
 fn word((word, data): (u64, i128)) -> In<Value> {
-    In {
+    let record = RecordWord {
         load: true,
         word,
         data: data as u64,
-        ..idle()
-    }
+    };
+    In { record, ..idle() }
 }
 
 fn idle() -> In<Value> {
-    In {
+    let record = RecordWord {
         load: false,
         word: 0,
         data: 0,
+    };
+    In {
+        record,
         step: false,
         halt: false,
     }

@@ -1,0 +1,113 @@
+//! Names that a module has twice, in its waves or in Verilog.
+
+use super::build::{self, Builder, Elaboration, elaboration, mistake};
+use super::netlist::{Id, Module, Node};
+use super::record::Site;
+use super::signal::Role;
+use std::collections::BTreeMap;
+
+/// Tells of names that the module which is being made has twice, and of parts that are called as
+/// what is inside them.
+pub(super) fn check(site: Site) {
+    let wrong = elaboration(|Elaboration { open, modules, .. }| match open.last() {
+        Some(builder) => {
+            let twice = builder.twice(modules).into_iter();
+            let twice = twice.map(|what| (site, what));
+            twice.chain(builder.hidden(modules)).collect()
+        }
+        None => Vec::new(),
+    });
+    for (site, what) in wrong {
+        mistake(site, what);
+    }
+}
+
+impl Builder {
+    /// Names that are used twice, by signals, memories and parts or by what Verilog makes of them.
+    fn twice(&self, modules: &[Module]) -> Vec<String> {
+        let mut names: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        let mut add = |name: String, of: String| {
+            let all = names.entry(name).or_default();
+            if of.is_empty() || !all.contains(&of) {
+                all.push(of);
+            }
+        };
+        let own = self.signals.iter().filter(|own| own.owner.is_none());
+        let parts = self.parts.iter().map(|part| &part.name);
+        for name in own.map(|signal| &signal.name).chain(parts) {
+            add(name.clone(), String::new());
+        }
+        for (index, memory) in self.memories.iter().enumerate() {
+            if !memory.inner {
+                let rom = self.roms.contains(&index);
+                let of = if rom { "a ROM" } else { "" };
+                add(memory.name.clone(), of.to_owned());
+                for made in memory.loops().chain([memory.name.to_uppercase()]) {
+                    add(made, format!("`{}`", memory.name));
+                }
+            }
+        }
+        for (parameter, _) in &self.parameters {
+            let bits = build::bits(parameter.width);
+            let of = format!("`{}` ({bits})", parameter.name);
+            add(parameter.name.to_uppercase(), of);
+        }
+        for (index, instance) in self.instances.iter().enumerate() {
+            let name = &instance.child.name;
+            for (inner, signal) in modules[instance.child.module].signals.iter().enumerate() {
+                let port = format!("{name}_{}", signal.name);
+                let out = signal.is_port() && signal.role != Role::Input;
+                if out && !self.shows(&port, (index, inner), modules) {
+                    add(port, format!("`{name}.{}`", signal.name));
+                }
+            }
+            for setting in &instance.settings {
+                let path = |between| format!("{name}{between}{}", setting.path.join(between));
+                add(path("_").to_uppercase(), format!("`{}`", path(".")));
+            }
+        }
+        let twice = names.into_iter().filter(|(_, of)| of.len() > 1);
+        let twice = twice.map(|(name, mut of)| {
+            of.retain(|of| !of.is_empty());
+            let made = match of.is_empty() {
+                true => String::new(),
+                false => format!(": Verilog makes it of {}", of.join(" and of ")),
+            };
+            format!("the name `{name}` is used twice{made}")
+        });
+        twice.collect()
+    }
+
+    /// Whether a net of that name is nothing but a port of an instance.
+    fn shows(&self, name: &str, port: (usize, usize), modules: &[Module]) -> bool {
+        let port_of = |id: Id| match self.nodes[id].0 {
+            Node::Signal(signal) => self.signals[signal].owner,
+            Node::Port { instance, leaf } => {
+                let inside = &modules[self.instances[instance].child.module];
+                inside.net(leaf).map(|inner| (instance, inner))
+            }
+            _ => None,
+        };
+        let mut own = self.signals.iter().filter(|own| own.role == Role::Net);
+        own.any(|net| net.name == name && net.driver.and_then(port_of) == Some(port))
+    }
+
+    /// Parts that have the name of a signal or memory inside them, which would hide them.
+    fn hidden(&self, modules: &[Module]) -> impl Iterator<Item = (Site, String)> {
+        self.instances.iter().filter_map(|instance| {
+            let (name, inside) = (&instance.child.name, &modules[instance.child.module]);
+            let mut signals = inside.signals.iter().filter(|own| own.owner.is_none());
+            let mut memories = inside.memories.iter().filter(|memory| !memory.inner);
+            let hides = signals.any(|signal| signal.name == *name)
+                || memories
+                    .any(|memory| memory.name == *name || memory.loops().any(|made| made == *name));
+            hides.then(|| {
+                let what = format!(
+                    "part `{name}` has the name of a signal of `{}`, inside it",
+                    inside.name
+                );
+                (instance.site, what)
+            })
+        })
+    }
+}
