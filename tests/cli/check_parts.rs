@@ -240,6 +240,7 @@ fn a_part_may_come_through_a_pipe() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn parts_that_do_not_belong_together_are_refused() {
     let bench = Bench::new();
     let files = parts(&bench, &WORK, 2);

@@ -122,6 +122,7 @@ fn without_motors_there_are_rates_alone() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn a_drawing_can_have_motors_too() {
     let motor = "motor={holding_torque_nm=1,inertia_kg_m2=5e-5,damping_nm_s=5e-3,microsteps=4}";
     let run = ["run", "waves/bracket.toml", "--no-vcd", "--set", motor];

@@ -326,6 +326,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(120))]
 
     #[test]
+    #[ignore = "takes long"]
     fn cycles_at_full_width(ports in any_cycle(8)) {
         prop_assume!(ports.distance != 0);
         at_full_width(&ports, SCANS);

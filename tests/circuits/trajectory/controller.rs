@@ -137,6 +137,7 @@ fn moves_along_an_axis_are_never_corrected() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn any_straight_path_is_corrected_by_its_rounding_alone() {
     for turn in 0..12 {
         let (sin, cos) = (0.3 + TAU * f64::from(turn) / 12.0).sin_cos();

@@ -39,6 +39,7 @@ fn a_form_has_that_of_the_figures_beside_it() {
 
 /// With N fixed at 1 there are times that the figures have not: then nothing stands beside it.
 #[test]
+#[ignore = "takes long"]
 fn a_fixed_ratio_has_every_time() {
     let bench = small();
     let run = [

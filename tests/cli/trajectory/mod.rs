@@ -172,6 +172,7 @@ fn the_circle_is_what_closed_forms_say() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn in_shorter_periods_the_continuous_forms_hold() {
     // Two fifths of a circle, in periods of 1/4096 s.
     let text = "circuit = \"trajectory_controller\"\nclock_hz = 1_638_400\n\
@@ -191,6 +192,7 @@ fn in_shorter_periods_the_continuous_forms_hold() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn a_straight_path_needs_no_correction() {
     let bench = with("[[piece]]\nto_mm = [8, 6, 0]\n");
     let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
@@ -261,6 +263,7 @@ fn the_correction_of_the_waves_is_chosen() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn the_worst_segments_are_shown_or_all() {
     let piece = |k: u32| format!("[[piece]]\nto_mm = [{}, {}, 0]\n", k / 2, k.div_ceil(2));
     let pieces: String = (1..=9).map(piece).collect();

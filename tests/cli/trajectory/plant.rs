@@ -42,6 +42,7 @@ fn run(bench: &Bench, more: &[&str]) -> Value {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn they_move_as_the_summary_says() {
     let bench = soft();
     let summary = run(&bench, &[]);

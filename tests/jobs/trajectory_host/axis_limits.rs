@@ -148,6 +148,7 @@ proptest! {
     #![proptest_config(config(100))]
 
     #[test]
+    #[ignore = "takes long"]
     fn no_axis_has_more_than_it_is_allowed(
         direction in 0.0..TAU,
         radius in 1.0..50.0f64,

@@ -169,6 +169,7 @@ fn a_torque_from_outside_is_answered_by_the_loops_alone() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn a_command_is_answered_by_the_model_alone() {
     // v/K1 less the period in which the model already moves.
     let lag = |run: &Run| {
@@ -207,6 +208,7 @@ fn a_command_is_answered_by_the_model_alone() {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn a_wrong_inertia_is_a_torque_from_outside() {
     let told = |factor: f64| {
         let run = along_x(USUAL, |settings| {

