@@ -5,15 +5,15 @@ use crate::circuits::lead_angle::{
     AbsoluteDetector, Comparator, Comparing, Compensator, CompletionDetector, Correction,
     CorrectionArithmetic, DifferenceHistory, DividedTime, Function, GrayReceiver, Lead, LeadFrom,
     LeadPlacement, LeadProducts, LeadTable, Memory, PhaseCounter, PhaseDetector, Placement,
-    PositionHistory, RamHistory, RatioLogic, Refinement, Sign, SpeedDetector, SpeedLead,
-    StepSequencer, StopError, TableLead, TargetSetter, TimeData, TimeLead, TimeLimit, TouchProbe,
-    Unwrapper, Widths,
+    PositionHistory, RamHistory, RatioLogic, Refinement, ResolverDetector, Sign, SpeedDetector,
+    SpeedLead, StepSequencer, StopError, TableLead, TargetSetter, TimeData, TimeLead, TimeLimit,
+    TouchProbe, TrackingConverter, TrackingLoop, Unwrapper, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::{alone, entry, nothing};
 use makers::{
     COMPARINGS, PLACEMENTS, RAM, SHIFT, SIGNS, chosen, compensator, conventional, correction,
-    filled, formed, rom, small, stages, table_lead, time_data, time_lead,
+    filled, formed, rom, small, stages, table_lead, time_data, time_lead, tracking,
 };
 
 /// The circuits of JPH0646367B2.
@@ -63,6 +63,45 @@ pub(super) const CIRCUITS: &[Entry] = &[
         from: "width of a phase", |given| alone(given, |phase| PhaseCounter { phase }),
         with: nothing,
         proved: 3,
+    ),
+    entry!(
+        ResolverDetector, "JPH0646367B2 10, a resolver",
+        full: || ResolverDetector { converter: tracking(17, 12), position: 24 },
+        widths: [
+            converter = converter.converter, angle = converter.tracking.angle,
+            smoothing = converter.tracking.smoothing, settling = converter.tracking.settling,
+            position,
+        ],
+        from: "width of an angle and of the A/D words, the position being one bit wider", |given| {
+            alone(given, |angle| ResolverDetector {
+                converter: tracking(angle, angle),
+                position: angle + 1,
+            })
+        },
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        TrackingConverter, "JPH0646367B2 10, windings of a resolver",
+        full: || tracking(17, 12),
+        widths: [
+            converter, angle = tracking.angle, smoothing = tracking.smoothing,
+            settling = tracking.settling,
+        ],
+        from: "width of an angle and of the A/D words",
+            |given| alone(given, |angle| tracking(angle, angle)),
+        with: nothing,
+        proved: none,
+    ),
+    entry!(
+        TrackingLoop, "JPH0646367B2 10, error of an angle",
+        full: || TrackingLoop::new(17),
+        widths: [angle, smoothing, settling],
+        from: "width of an angle", |given| {
+            alone(given, |angle| TrackingLoop { angle, smoothing: 1, settling: 1 })
+        },
+        with: nothing,
+        proved: 4,
     ),
     entry!(
         RatioLogic, "JPH0646367B2 13",
@@ -329,11 +368,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
         widths: [
             stages = widths.stages, position = widths.position, step = widths.step,
             speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
-            code = widths.code,
+            code = widths.code, converter = widths.converter,
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
                placement, comparing and learning as 0, 1 and so on, 0 for an incremental, 1 for an \
-               absolute encoder, 2 for a phase-shift detector, the form as 0 to 5, times of the ROM",
+               absolute encoder, 2 for a phase-shift detector, 3 for a resolver, the form as 0 to 5, times \
+               of the ROM",
             |given| chosen(small(SHIFT, given)?, &given[1..]),
         with: chosen,
         proved: none,
@@ -344,11 +384,12 @@ pub(super) const CIRCUITS: &[Entry] = &[
         widths: [
             stages = widths.stages, position = widths.position, step = widths.step,
             speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
-            code = widths.code,
+            code = widths.code, converter = widths.converter,
         ],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
                placement, comparing and learning as 0, 1 and so on, 0 for an incremental, 1 for an \
-               absolute encoder, 2 for a phase-shift detector, the form as 0 to 5, times of the ROM",
+               absolute encoder, 2 for a phase-shift detector, 3 for a resolver, the form as 0 to 5, times \
+               of the ROM",
             |given| chosen(small(RAM, given)?, &given[1..]),
         with: chosen,
         proved: none,
@@ -360,11 +401,11 @@ pub(super) const CIRCUITS: &[Entry] = &[
         widths: [
             stages = widths.stages, position = widths.position, step = widths.step,
             speed = widths.speed, cks = widths.cks, ck_period = widths.ck_period,
-            code = widths.code,
+            code = widths.code, converter = widths.converter,
         ],
         from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
                learning as 0, 1 and so on, 0 for an incremental, 1 for an absolute encoder, 2 for a \
-               phase-shift detector, 0 for a product as the lead or 1 for a memory of it, times of \
+               phase-shift detector, 3 for a resolver, 0 for a product as the lead or 1 for a memory of it, times of \
                the ROM",
             |given| conventional(small(LeadFrom::Speed, given)?, &given[1..]),
         with: conventional,
