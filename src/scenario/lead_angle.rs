@@ -6,7 +6,7 @@ use crate::jobs::lead_angle::settings::{
     Action, Comparing, Completion, Detector, Function, History, LeadBy, LeadForm, Placement,
     Settings, Sign, Step, Targets, TimeSource,
 };
-use crate::plant::{BodyParameters, Load};
+use crate::plant::{BodyParameters, Load, ResolverParameters};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -51,6 +51,15 @@ pub struct Scenario {
     /// How much faster than CK an absolute encoder's sampling clock is.
     #[serde(default)]
     pub sampling_clock_ppm: f64,
+    /// Pitches of a resolver's turn.
+    #[serde(default = "default::pole_pairs")]
+    pub pole_pairs: u32,
+    /// What a resolver's sine channel has at an angle of 0, as a part of the amplitude.
+    #[serde(default)]
+    pub sine_offset: f64,
+    /// How much greater its sine winding is than the other, as a part of it.
+    #[serde(default)]
+    pub gain_mismatch: f64,
     /// Where the lead comes from.
     #[serde(default)]
     pub lead: LeadBy,
@@ -183,6 +192,11 @@ impl Scenario {
             load_delay_factor: self.load_delay_factor,
             detector: self.detector,
             sampling_clock_ppm: self.sampling_clock_ppm,
+            resolver: ResolverParameters {
+                pole_pairs: self.pole_pairs,
+                sine_offset: self.sine_offset,
+                gain_mismatch: self.gain_mismatch,
+            },
             lead: self.lead,
             form: self.form,
             placement: self.placement,
@@ -258,6 +272,9 @@ mod default {
     }
     pub(super) fn ck_ticks() -> u32 {
         settings().ck_ticks
+    }
+    pub(super) fn pole_pairs() -> u32 {
+        settings().resolver.pole_pairs
     }
     pub(super) fn learn() -> bool {
         settings().learn

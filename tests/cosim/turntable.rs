@@ -104,6 +104,18 @@ fn a_phase_shift_detector_is_the_same_in_icarus() {
 
 #[test]
 #[ignore = "needs Icarus Verilog"]
+fn a_resolver_is_the_same_in_icarus() {
+    let resolver = Settings {
+        detector: Detector::Resolver,
+        clock_hz: 200_000,
+        ck_ticks: 20,
+        ..settings(2)
+    };
+    hold(&resolver, Simulator::Icarus);
+}
+
+#[test]
+#[ignore = "needs Icarus Verilog"]
 fn the_equal_forms_are_the_same_in_icarus() {
     for &form in &LeadForm::ALL[1..] {
         let history = match form {

@@ -207,6 +207,7 @@ impl Circuit for Conventional {
             start: step.q.turn,
             halt: i.halt,
             radius: I::new(self.radius(), self.words().radius()),
+            offset: I::new(0, self.words().radius()),
             angle: step.w.difference,
         });
         let bits = p.matrix_control.settle(coefficient_control::In {

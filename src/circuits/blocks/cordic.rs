@@ -1,10 +1,11 @@
-//! CORDIC: the point of an arc around its centre at an angle, an iteration a tick.
+//! CORDIC: a vector turned by an angle, an iteration a tick; the point of an arc around its centre.
 //!
 //! ```text
 //!           ┌──────────────────────────┐
 //!  start ──▶│ cordic_state             ├──▶ along, across
 //!  radius ─▶│   ◀▶ shifters of along   ├──▶ done, busy
-//!  angle ──▶│        and across        │
+//!  offset ─▶│        and across        │
+//!  angle ──▶│                          │
 //!  halt ───▶│                          │
 //!           └──────────────────────────┘
 //! ```
@@ -37,8 +38,11 @@ signals! { for Cordic as c;
         pub start: Bit,
         /// Gives up what is under way; a start that comes with it is not taken.
         pub halt: Bit,
-        /// The radius divided by [`GAIN`](cordic_state::GAIN); not negative, with room for the gain.
+        /// First coordinate of what is turned, with room for the vector's length times
+        /// [`GAIN`](cordic_state::GAIN); of a point of a circle the radius divided by it.
         pub radius: I(c.radius),
+        /// The second, 0 for a point of a circle.
+        pub offset: I(c.radius),
         /// The angle in units of 2^−H turn.
         pub angle: U(c.angle),
     }
@@ -53,9 +57,9 @@ signals! { for Cordic as c;
     }
     /// Ports out.
     pub struct Net {
-        /// radius · cos angle, from `done` on.
+        /// GAIN · (radius · cos angle − offset · sin angle), from `done` on.
         pub along: I(c.radius) as Analog,
-        /// radius · sin angle, from `done` on.
+        /// GAIN · (radius · sin angle + offset · cos angle), from `done` on.
         pub across: I(c.radius) as Analog,
         /// The point stands in this tick.
         pub done: Bit,
@@ -82,6 +86,7 @@ impl Circuit for Cordic {
             start: i.start,
             halt: i.halt,
             radius: i.radius,
+            offset: i.offset,
             angle: i.angle,
             small_along: small(p.shift_along, along),
             small_across: small(p.shift_across, across),

@@ -3,16 +3,16 @@
 //!
 //! ```text
 //!                           ┌──────────────┐
-//!  start, radius, angle ───▶│              ├──▶ along, across, done, busy
-//!  halt ───────────────────▶│              │
+//!  start, halt ────────────▶│              ├──▶ along, across, done, busy
+//!  radius, offset, angle ──▶│              │
 //!  small_along ────────────▶│ cordic_state ├──▶ iteration ──▶ shifters
 //!  small_across ───────────▶│              │◀── shifters
 //!                           └──────────────┘
 //! ```
 //!
-//! The vector (radius, 0) is first turned by whole quarters, so what is left is within an eighth of a
-//! turn of zero. Each turn lengthens the vector by the same factor, whatever its sign, so the radius
-//! that is given is divided by their product, [`GAIN`], beforehand.
+//! The vector (radius, offset) is first turned by whole quarters, so what is left is within an eighth of
+//! a turn of zero. Each turn lengthens the vector by the same factor, whatever its sign: by their
+//! product, [`GAIN`], in all. What is to come out in its own length is divided by it beforehand.
 
 use crate::hdl::prelude::*;
 use std::f64::consts::TAU;
@@ -49,8 +49,10 @@ signals! { for CordicState as c;
         pub start: Bit,
         /// Gives up what is under way; a start that comes with it is not taken.
         pub halt: Bit,
-        /// The radius divided by [`GAIN`]; not negative, with room for the gain.
+        /// First coordinate of what is turned, with room for the vector's length times [`GAIN`].
         pub radius: I(c.radius),
+        /// The second, 0 for a point of a circle.
+        pub offset: I(c.radius),
         /// The angle in units of 2^−H turn.
         pub angle: U(c.angle),
         /// `along` by 2^−iteration.
@@ -64,9 +66,9 @@ signals! { for CordicState as c;
         pub busy: Bit = 0,
         /// The iteration.
         pub iteration: U(6) = 0,
-        /// radius · cos angle, from `done` on.
+        /// [`GAIN`] · (radius · cos angle − offset · sin angle), from `done` on.
         pub along: I(c.radius) as Analog = 0,
-        /// radius · sin angle, from `done` on.
+        /// [`GAIN`] · (radius · sin angle + offset · cos angle), from `done` on.
         pub across: I(c.radius) as Analog = 0,
         /// The angle that is left.
         left: I(c.angle) as Analog = 0,
@@ -83,14 +85,20 @@ signals! { for CordicState as c;
         goes_on: Bit,
         /// The angle is nearer to the next quarter: the eighths are rounded.
         raised: U(c.angle),
-        /// The nearest quarter is the first or third: the vector is upright.
+        /// The nearest quarter is the first or third: the coordinates change places.
         upright: Bit,
-        /// It is the first or second: `along` is negative, or `across` in the first.
+        /// It is the second or third: `across` changes its sign. `along` does in the first and second.
         half: Bit,
         /// The nearest quarter.
         quarter: U(c.angle),
-        /// The vector's coordinate that is not 0 there.
-        beginning: I(c.radius),
+        /// The coordinate that it puts along, but for the sign.
+        first: I(c.radius),
+        /// The one that it puts across, likewise.
+        second: I(c.radius),
+        /// The vector turned by it, along.
+        begin_along: I(c.radius),
+        /// Across.
+        begin_across: I(c.radius),
         /// The angle without its quarters.
         rest: I(c.angle),
         /// What is left is below zero: the vector is turned back.
@@ -121,14 +129,15 @@ impl Circuit for CordicState {
         let quarter = low + high;
         let take = i.start & !q.busy & !i.halt;
         let last = q.iteration.equals(width as u64 - 1);
-        let beginning = half.mux(-i.radius, i.radius);
         let rest = (i.angle - quarter).signed();
         let back = q.left.is_negative();
         let turn = self.angles().rom(q.iteration).signed();
 
         let goes_on = q.busy & !last & !i.halt;
-        let begin_along = upright.mux(0, beginning);
-        let begin_across = upright.mux(beginning, 0);
+        let first = upright.mux(i.offset, i.radius);
+        let second = upright.mux(i.radius, i.offset);
+        let begin_along = first.negated_by(upright ^ half);
+        let begin_across = second.negated_by(half);
         let turned_along = back.mux(q.along + i.small_across, q.along - i.small_across);
         let turned_across = back.mux(q.across - i.small_along, q.across + i.small_along);
         let turned = back.mux(q.left + turn, q.left - turn);
@@ -148,7 +157,10 @@ impl Circuit for CordicState {
             upright,
             half,
             quarter,
-            beginning,
+            first,
+            second,
+            begin_along,
+            begin_across,
             rest,
             back,
             turn,

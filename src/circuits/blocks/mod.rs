@@ -10,6 +10,7 @@ pub mod mul_div;
 pub mod quadrature_counter;
 pub mod record_memory;
 pub mod record_sequencer;
+pub mod scaler;
 pub mod shifter;
 
 pub use coefficient_control::CoefficientControl;
@@ -22,4 +23,5 @@ pub use mul_div::MulDiv;
 pub use quadrature_counter::QuadratureCounter;
 pub use record_memory::{RecordMemory, RecordWord};
 pub use record_sequencer::RecordSequencer;
+pub use scaler::Scaler;
 pub use shifter::Shifter;

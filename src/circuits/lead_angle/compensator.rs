@@ -3,8 +3,8 @@
 //!
 //! ```text
 //!                                     ┌─────────────┐
-//!  a, b or strobe, code or secondary ▶│             ├──▶ drive, reverse, speed, brake; carrier
-//!  turn, clear, run, halt, learn, … ─▶│             ├──▶ position, predicted, target, lead_time
+//!  a, b; strobe, code, sine, cosine ──▶│             ├──▶ drive, reverse, speed, brake; carrier
+//!  secondary, turn, clear, run, halt … ▶│             ├──▶ position, predicted, target, lead_time
 //!  write_target, write_time, … ──────▶│ compensator ├──▶ fire, complete, timed_out
 //!  ck_period, standstill, time_out ──▶│             ├──▶ error, overrun, learned
 //!  rest, last_step, seed ────────────▶│             ├──▶ busy, refused, lost
@@ -100,14 +100,18 @@ signals! { for Compensator as c;
         pub a: Bit,
         /// Incremental encoder, channel B.
         pub b: Bit,
-        /// Absolute encoder, its sampling clock.
+        /// Absolute encoder, its sampling clock; resolver, its words are new.
         pub strobe: Bit,
         /// Absolute encoder, its Gray word.
         pub code: U(c.widths.code) as Hex,
         /// Phase-shift transducer: its secondary is above zero.
         pub secondary: Bit,
-        /// Counts of an absolute encoder's turn, or of a phase-shift transducer's pitch, which are
-        /// ticks of its carrier; 0 for all words.
+        /// Resolver: its sine winding, at a peak of the carrier.
+        pub sine: I(c.widths.converter),
+        /// Resolver: its cosine winding.
+        pub cosine: I(c.widths.converter),
+        /// Counts of an absolute encoder's turn, of a resolver's pitch, or of a phase-shift
+        /// transducer's, which are ticks of its carrier; 0 for all words.
         pub turn: U(c.widths.code),
         /// Between two steps: the position becomes 0, or the next place in turn or pitch; the
         /// history begins anew, the flags go.

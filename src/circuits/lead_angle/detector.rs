@@ -1,7 +1,10 @@
 //! What a compensator can have for its position detector 10.
 
 use super::compensator::In;
-use super::{AbsoluteDetector, PhaseDetector, Widths, absolute_detector, phase_detector};
+use super::{
+    AbsoluteDetector, PhaseDetector, ResolverDetector, TrackingConverter, TrackingLoop, Widths,
+    absolute_detector, phase_detector, resolver_detector,
+};
 use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
 use crate::hdl::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -17,6 +20,8 @@ pub enum Detector {
     Absolute,
     /// A phase-shift transducer, whose carrier is CK.
     PhaseShift,
+    /// A resolver, whose conversions are CK.
+    Resolver,
 }
 
 choice! {
@@ -28,18 +33,32 @@ choice! {
         Absolute(AbsoluteDetector),
         /// The phase in a pitch, continued.
         PhaseShift(PhaseDetector),
+        /// The angle in a pitch, continued.
+        Resolver(ResolverDetector),
     }
 }
 
 impl DetectorSource {
     /// The detector of this kind.
     pub(super) fn of(kind: Detector, widths: &Widths) -> Self {
-        let Widths { position, code, .. } = *widths;
+        let Widths {
+            position,
+            code,
+            converter,
+            ..
+        } = *widths;
         match kind {
             Detector::Incremental => Self::Incremental(QuadratureCounter { width: position }),
             Detector::Absolute => Self::Absolute(AbsoluteDetector { code, position }),
             Detector::PhaseShift => Self::PhaseShift(PhaseDetector {
                 phase: code,
+                position,
+            }),
+            Detector::Resolver => Self::Resolver(ResolverDetector {
+                converter: TrackingConverter {
+                    converter,
+                    tracking: TrackingLoop::new(code),
+                },
                 position,
             }),
         }
@@ -87,6 +106,17 @@ impl DetectorPart {
                 };
                 let w = part.settle(ports).w;
                 (w.sample, w.position, w.lost, vec![w.phase])
+            }
+            DetectorPart::Resolver(part) => {
+                let ports = resolver_detector::In {
+                    strobe: i.strobe,
+                    sine: i.sine,
+                    cosine: i.cosine,
+                    modulus: i.turn,
+                    clear,
+                };
+                let w = part.settle(ports).w;
+                (w.sample, w.position, w.lost, none)
             }
         };
         Detected {

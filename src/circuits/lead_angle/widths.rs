@@ -19,6 +19,8 @@ pub struct Widths {
     pub ck_period: usize,
     /// Width of an absolute encoder's word, or of a place in a pitch.
     pub code: usize,
+    /// Width of the words of a resolver's A/D converters, no wider than a place.
+    pub converter: usize,
 }
 
 impl Widths {
@@ -31,6 +33,7 @@ impl Widths {
         cks: 16,
         ck_period: 24,
         code: 17,
+        converter: 12,
     };
 
     /// Width of a lead time in CKs.

@@ -258,6 +258,8 @@ impl Circuit for Machine {
             strobe: low,
             code: U::new(0, self.lead_angle.widths.code),
             secondary: low,
+            sine: I::new(0, self.lead_angle.widths.converter),
+            cosine: I::new(0, self.lead_angle.widths.converter),
             turn: U::new(0, self.lead_angle.widths.code),
             clear: low,
             run: of.run,

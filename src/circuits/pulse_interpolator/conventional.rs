@@ -119,6 +119,7 @@ impl Circuit for Conventional {
             start: p.circulars[k].q.start,
             halt: Bit::low(),
             radius: p.circulars[k].q.wide_radius,
+            offset: I::new(0, self.circular().cordic().radius),
             angle: p.circulars[k].q.place,
         });
         let circulars = settle_each(p.circulars, |k| circular_interpolator::In {

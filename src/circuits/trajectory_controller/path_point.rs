@@ -178,6 +178,7 @@ impl Circuit for PathPoint {
             start: p.sequencer.q.turn,
             halt: Bit::low(),
             radius: p.sequencer.q.radius,
+            offset: I::new(0, self.cordic().radius),
             angle: measure.q.angle,
         });
         let powers = p.powers.settle(length_powers::In {

@@ -12,7 +12,8 @@
 //! the model 12 inside a servo control 11: all of them are the same to the bit (¶0030).
 
 use super::model_state::{ModelGains, ModelWidths};
-use super::{ModelState, Rounding, Scaler, model_state, scaler};
+use super::{ModelState, Rounding, model_state};
+use crate::circuits::blocks::{Scaler, scaler};
 use crate::hdl::prelude::*;
 
 /// Reference model.

@@ -11,10 +11,8 @@
 
 use super::model_state::ModelGains;
 use super::servo_arithmetic::{ServoGains, ServoWidths};
-use super::{
-    ReferenceModel, Rounding, Scaler, ServoArithmetic, reference_model, scaler, servo_arithmetic,
-};
-use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
+use super::{ReferenceModel, Rounding, ServoArithmetic, reference_model, servo_arithmetic};
+use crate::circuits::blocks::{QuadratureCounter, Scaler, quadrature_counter, scaler};
 use crate::hdl::prelude::*;
 
 /// Servo control.

@@ -120,7 +120,9 @@ fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<
         let allowed = match settings.detector {
             Detector::Incremental => format!("up to {fastest}, one count per tick"),
             Detector::Absolute => format!("up to {fastest:.0}, a quarter of a turn per CK"),
-            Detector::PhaseShift => format!("up to {fastest:.0}, an eighth of a pitch per CK"),
+            Detector::PhaseShift | Detector::Resolver => {
+                format!("up to {fastest:.0}, an eighth of a pitch per CK")
+            }
         };
         return Err(fault(line, problem, allowed));
     }

@@ -68,6 +68,8 @@ pub struct SystemSummary {
     pub error_max_counts: u64,
     /// Root of the mean square of the stop errors, in counts.
     pub error_rms_counts: f64,
+    /// Largest amount by which the detector was off where a positioning was complete, in counts.
+    pub position_error_max_counts: f64,
     /// Positionings that missed their target and were stopped by hand.
     pub missed: usize,
     /// Positionings whose time was over before the body stood still: their errors are of where it
@@ -134,6 +136,8 @@ pub struct Row {
     pub loaded: bool,
     /// Stop error of each system, in counts.
     pub error_counts: Vec<i64>,
+    /// What the detector of each system was off by then, in counts.
+    pub position_error_counts: Vec<f64>,
     /// Whether its time was over before the body stood still, for each system: the error is of where
     /// it was then.
     pub timed_out: Vec<bool>,
@@ -221,6 +225,11 @@ fn system_summary((system, run): &(System, Played)) -> SystemSummary {
         name: system.name,
         own: system.own,
         error_max_counts: errors().map(i64::unsigned_abs).max().unwrap_or(0),
+        position_error_max_counts: run
+            .positionings
+            .iter()
+            .map(|one| one.position_error_counts.abs())
+            .fold(0.0, f64::max),
         error_rms_counts: (squares / run.positionings.len().max(1) as f64).sqrt(),
         missed: run.positionings.iter().filter(|one| one.missed).count(),
         timed_out: run.positionings.iter().filter(|one| one.timed_out).count(),
@@ -255,6 +264,7 @@ fn rows(settings: &Settings, played: &[(System, Played)], learner: &Played) -> V
             step: one.step,
             loaded: loaded(settings, number),
             error_counts: of_all(played, number, |one| one.error),
+            position_error_counts: of_all(played, number, |one| one.position_error_counts),
             timed_out: of_all(played, number, |one| one.timed_out),
             end_speed_counts_per_s: of_all(played, number, |one| one.end_speed_counts_per_s),
             lead_ms: settings.lead_ms(one.code),

@@ -2,8 +2,8 @@
 //! before their targets, by speed with one parameter, with one for each step that is tuned to the
 //! nominal load, and with a memory of the leads that this load asks for, with a fixed lead, with a
 //! lead that is learned, learned to second order, and learned with the text's sign; where the
-//! scenario has positionings complete by a fixed time, learned at standstills too; where it has an
-//! absolute encoder, its own system with an incremental one; where it has another form of the lead,
+//! scenario has positionings complete by a fixed time, learned at standstills too; where it has
+//! another detector, its own system with an incremental one; where it has another form of the lead,
 //! its own system in the form of the figures.
 
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
@@ -121,6 +121,7 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         let mut counted = own.clone();
         counted.detector = Detector::Incremental;
         counted.sampling_clock_ppm = 0.0;
+        counted.resolver = Settings::default().resolver;
         // An absolute encoder may be faster than a count per tick.
         if counted.validate().is_ok() {
             all.push(system(INCREMENTAL, counted));

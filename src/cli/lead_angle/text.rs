@@ -35,6 +35,7 @@ impl Report for Summary {
                 Detector::Incremental => "",
                 Detector::Absolute => "absolute encoder, ",
                 Detector::PhaseShift => "phase-shift detector, ",
+                Detector::Resolver => "resolver, ",
             },
             name(self.history),
             match self.form {

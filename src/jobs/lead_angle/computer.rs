@@ -63,6 +63,7 @@ impl<'a> ControlComputer<'a> {
             Detector::Incremental => 0,
             Detector::Absolute => self.settings.body.counts_per_rev as u64,
             Detector::PhaseShift => u64::from(self.settings.ck_ticks),
+            Detector::Resolver => self.settings.pitch_counts() as u64,
         };
         counts % (1 << WIDTHS.code)
     }

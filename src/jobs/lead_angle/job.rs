@@ -69,6 +69,8 @@ pub struct Positioning {
     /// Way past the target in the direction of the move; negative where it stopped short, or where
     /// the operation took effect before it. Where the time was over, of where the body was then.
     pub error: i64,
+    /// Dx then, less where the body truly was, in counts: what the detector is off by.
+    pub position_error_counts: f64,
     /// Its time was over before the body stood still, or the operation took effect.
     pub timed_out: bool,
     /// True speed when it was complete, in counts a second.
@@ -203,6 +205,7 @@ impl Bench<'_> {
                 completed: tick,
                 stopped: position,
                 error: 0,
+                position_error_counts: 0.0,
                 timed_out: false,
                 end_speed_counts_per_s: 0.0,
                 missed: false,
@@ -218,6 +221,7 @@ impl Bench<'_> {
             }
             if now.get(see.complete) {
                 let position = unwrapped(now.get(see.position), current.target);
+                current.position_error_counts = position as f64 - body.position_counts();
                 let position = self.effect_at.unwrap_or(position);
                 let way = position - current.target;
                 current.completed = tick;

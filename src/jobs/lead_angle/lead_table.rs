@@ -1,17 +1,19 @@
 //! The leads of Fig. 7 by speed, as the machine's delays and its braking ask for them.
 
 use super::job::WIDTHS;
-use super::settings::{Action, Detector, Settings, TARGET_RANGE_COUNTS};
+use super::settings::{Action, CONVERSION_TICKS, Detector, Settings, TARGET_RANGE_COUNTS};
 use crate::circuits::lead_angle::LeadTable;
 
 /// Bits of the memory's address: half of its words are of either direction.
 const ADDRESS: usize = 8;
+
 /// Ticks from an encoder's pins to the control signal, the wait for a CK apart; of a phase-shift
-/// detector with the age of a crossing, which is half a CK in the mean.
+/// detector with the age of a crossing, which is half a CK in the mean, of a resolver from its strobe.
 fn latency_ticks(settings: &Settings) -> f64 {
     match settings.detector {
         Detector::Incremental => 5.0,
         Detector::Absolute => 6.0,
+        Detector::Resolver => 2.0 + f64::from(CONVERSION_TICKS),
         Detector::PhaseShift => 5.0 + 0.5 * f64::from(settings.ck_ticks),
     }
 }

@@ -5,7 +5,7 @@ use super::settings::{Detector, Settings};
 use crate::circuits::lead_angle::Compensator;
 use crate::circuits::lead_angle::detector::DetectorPart;
 use crate::hdl::{At, Watcher};
-use crate::plant::{AbsoluteEncoder, PhaseShiftTransducer};
+use crate::plant::{AbsoluteEncoder, PhaseShiftTransducer, Resolver};
 
 /// The sensor of a detector that gives places.
 #[derive(Debug)]
@@ -16,6 +16,8 @@ pub(super) enum Sensor {
     Absolute(AbsoluteEncoder),
     /// A phase-shift transducer, excited by the detector.
     PhaseShift(PhaseShiftTransducer),
+    /// A resolver and its A/D converters.
+    Resolver(Resolver),
 }
 
 impl Sensor {
@@ -31,6 +33,12 @@ impl Sensor {
             Detector::PhaseShift => {
                 Sensor::PhaseShift(PhaseShiftTransducer::new(settings.ck_ticks))
             }
+            Detector::Resolver => Sensor::Resolver(Resolver::new(
+                settings.resolver,
+                settings.pitch_counts(),
+                WIDTHS.converter,
+                settings.ck_ticks,
+            )),
         }
     }
 
@@ -38,15 +46,19 @@ impl Sensor {
     /// stand as they were.
     #[inline]
     pub(super) fn step(&mut self, i: &mut Ports, position_counts: f64, phase: u64) -> bool {
-        let before = (i.strobe, i.code, i.secondary);
+        let pins = |i: &Ports| (i.strobe, i.code, i.secondary, i.sine, i.cosine);
+        let before = pins(i);
         match self {
             Sensor::Channels => (),
             Sensor::Absolute(encoder) => (i.strobe, i.code) = encoder.step(position_counts),
             Sensor::PhaseShift(transducer) => {
                 i.secondary = transducer.secondary(phase, position_counts);
             }
+            Sensor::Resolver(resolver) => {
+                (i.strobe, [i.sine, i.cosine]) = resolver.step(position_counts);
+            }
         }
-        before == (i.strobe, i.code, i.secondary)
+        before == pins(i)
     }
 }
 

@@ -6,9 +6,9 @@ mod lead;
 use super::job::WIDTHS;
 use crate::circuits::lead_angle::codes::LARGEST;
 pub use crate::circuits::lead_angle::{Comparing, Detector, Function, LeadForm, Placement, Sign};
-use crate::plant::{BodyParameters, Load};
+use crate::plant::{BodyParameters, Load, ResolverParameters};
 use crate::settings::{CLOCK_RANGE_HZ, Place, SettingError, within};
-pub use detector::{PITCH_RANGE_COUNTS, SAMPLING_RANGE_PPM, TURN_RANGE_COUNTS};
+pub use detector::{CONVERSION_TICKS, PITCH_RANGE_COUNTS, SAMPLING_RANGE_PPM, TURN_RANGE_COUNTS};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -129,6 +129,8 @@ pub struct Settings {
     /// How much faster than a CK of `ck_ticks` an absolute encoder's sampling clock is, in parts per
     /// million.
     pub sampling_clock_ppm: f64,
+    /// The resolver, where it is the detector.
+    pub resolver: ResolverParameters,
     /// Where the lead comes from.
     pub lead: LeadBy,
     /// Which of the equal forms the lead of a time has.
@@ -201,6 +203,7 @@ impl Default for Settings {
             load_delay_factor: 1.0,
             detector: Detector::default(),
             sampling_clock_ppm: 0.0,
+            resolver: ResolverParameters::default(),
             lead: LeadBy::default(),
             form: LeadForm::default(),
             placement: Placement::default(),

@@ -1,7 +1,8 @@
 use super::make::FLAGS;
 use crate::circuits::blocks::{
     CoefficientControl, Cordic, CordicState, DifferenceColumn, DifferenceEngine, EnableCounter,
-    MulDiv, QuadratureCounter, RecordMemory, RecordSequencer, Shifter, difference_column::Widths,
+    MulDiv, QuadratureCounter, RecordMemory, RecordSequencer, Scaler, Shifter,
+    difference_column::Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::entry;
@@ -27,6 +28,13 @@ pub(super) const CIRCUITS: &[Entry] = &[
         widths: [multiplier, word],
         by: "width of the words; the multiplier has one bit less",
         |word| MulDiv { multiplier: word.saturating_sub(1), word },
+        proved: 3,
+    ),
+    entry!(
+        Scaler, "block: a gain, of CN104204977 and others",
+        full: || Scaler { gain: 24, value: 58 },
+        widths: [gain, value],
+        by: "width of a gain; a value has as many bits", |gain| Scaler { gain, value: gain + 1 },
         proved: 3,
     ),
     entry!(

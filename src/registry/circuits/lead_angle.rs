@@ -5,15 +5,15 @@ use crate::circuits::lead_angle::{
     AbsoluteDetector, Comparator, Comparing, Compensator, CompletionDetector, Correction,
     CorrectionArithmetic, DifferenceHistory, DividedTime, Function, GrayReceiver, Lead, LeadFrom,
     LeadPlacement, LeadProducts, LeadTable, Memory, PhaseCounter, PhaseDetector, Placement,
-    PositionHistory, RamHistory, RatioLogic, Refinement, Sign, SpeedDetector, SpeedLead,
-    StepSequencer, StopError, TableLead, TargetSetter, TimeData, TimeLead, TimeLimit, TouchProbe,
-    Unwrapper, Widths,
+    PositionHistory, RamHistory, RatioLogic, Refinement, ResolverDetector, Sign, SpeedDetector,
+    SpeedLead, StepSequencer, StopError, TableLead, TargetSetter, TimeData, TimeLead, TimeLimit,
+    TouchProbe, TrackingConverter, TrackingLoop, Unwrapper, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::entry;
 use makers::{
     COMPARINGS, PLACEMENTS, RAM, SHIFT, SIGNS, chosen, compensator, conventional, correction,
-    filled, formed, rom, small, stages, table_lead, time_data, time_lead,
+    filled, formed, rom, small, stages, table_lead, time_data, time_lead, tracking,
 };
 
 /// The circuits of JPH0646367B2.
@@ -55,6 +55,33 @@ pub(super) const CIRCUITS: &[Entry] = &[
         widths: [phase],
         by: "width of a phase", |phase| PhaseCounter { phase },
         proved: 3,
+    ),
+    entry!(
+        ResolverDetector, "JPH0646367B2 10, a resolver",
+        full: || ResolverDetector { converter: tracking(17, 12), position: 24 },
+        widths: [
+            converter = converter.converter, angle = converter.tracking.angle,
+            smoothing = converter.tracking.smoothing, settling = converter.tracking.settling,
+            position,
+        ],
+        by: "width of an angle and of the A/D words, the position being one bit wider", |angle| {
+            ResolverDetector { converter: tracking(angle, angle), position: angle + 1 }
+        },
+        proved: none,
+    ),
+    entry!(
+        TrackingConverter, "JPH0646367B2 10, windings of a resolver",
+        full: || tracking(17, 12),
+        widths: [converter; angle, smoothing, settling in tracking],
+        by: "width of an angle and of the A/D words", |angle| tracking(angle, angle),
+        proved: none,
+    ),
+    entry!(
+        TrackingLoop, "JPH0646367B2 10, error of an angle",
+        full: || TrackingLoop::new(17),
+        widths: [angle, smoothing, settling],
+        by: "width of an angle", |angle| TrackingLoop { angle, smoothing: 1, settling: 1 },
+        proved: 4,
     ),
     entry!(
         RatioLogic, "JPH0646367B2 13",
@@ -272,10 +299,11 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Compensator, "JPH0646367B2, Figs 1, 5 and 6",
         full: || compensator(SHIFT, Widths::default()),
-        widths: [stages, position, step, speed, cks, ck_period, code in widths],
+        widths: [stages, position, step, speed, cks, ck_period, code, converter in widths],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
                placement, comparing and learning as 0, 1 and so on, 0 for an incremental, 1 for an \
-               absolute encoder, 2 for a phase-shift detector, the form as 0 to 5, times of the ROM",
+               absolute encoder, 2 for a phase-shift detector, 3 for a resolver, the form as 0 to 5, times \
+               of the ROM",
             |given| chosen(small(SHIFT, given)?, &given[1..]),
         with: chosen,
         proved: none,
@@ -283,10 +311,11 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Compensator, "JPH0646367B2, Figs 1, 5 and 6, with a RAM",
         full: || compensator(RAM, Widths::default()),
-        widths: [stages, position, step, speed, cks, ck_period, code in widths],
+        widths: [stages, position, step, speed, cks, ck_period, code, converter in widths],
         from: "width of positions, speeds and CK (3 stages for 4, 15 for 8; steps have two bits), \
                placement, comparing and learning as 0, 1 and so on, 0 for an incremental, 1 for an \
-               absolute encoder, 2 for a phase-shift detector, the form as 0 to 5, times of the ROM",
+               absolute encoder, 2 for a phase-shift detector, 3 for a resolver, the form as 0 to 5, times \
+               of the ROM",
             |given| chosen(small(RAM, given)?, &given[1..]),
         with: chosen,
         proved: none,
@@ -295,11 +324,11 @@ pub(super) const CIRCUITS: &[Entry] = &[
     entry!(
         Compensator, "JPH0646367B2, Fig. 7",
         full: || compensator(LeadFrom::Speed, Widths::default()),
-        widths: [stages, position, step, speed, cks, ck_period, code in widths],
+        widths: [stages, position, step, speed, cks, ck_period, code, converter in widths],
         from: "width of positions, speeds and CK (steps have two bits), placement, comparing and \
                learning as 0, 1 and so on, 0 for an incremental, 1 for an absolute encoder, 2 for a \
-               phase-shift detector, 0 for a product as the lead or 1 for a memory of it, times of \
-               the ROM",
+               phase-shift detector, 3 for a resolver, 0 for a product as the lead or 1 for a memory \
+               of it, times of the ROM",
             |given| conventional(small(LeadFrom::Speed, given)?, &given[1..]),
         with: conventional,
         proved: none,

@@ -6,9 +6,8 @@ use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::widths::PointWidths;
 use crate::circuits::trajectory_controller::{
     ArcAngle, AxisRow, ControlledAxis, ErrorFeedback, LengthClamp, LengthPowers, ModelState,
-    PathLength, PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, Scaler,
-    SegmentSearch, SegmentStore, Servo, ServoArithmetic, TrajectoryController, VectorCorrection,
-    Widths,
+    PathLength, PathPoint, PeriodJoin, PointSequencer, ReferenceModel, Rounding, SegmentSearch,
+    SegmentStore, Servo, ServoArithmetic, TrajectoryController, VectorCorrection, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::entry;
@@ -111,13 +110,6 @@ fn axis(widths: ServoWidths, correction: Correction) -> ControlledAxis {
 
 /// The circuits of CN104204977.
 pub(super) const CIRCUITS: &[Entry] = &[
-    entry!(
-        Scaler, "CN104204977 21, 23, 27, 29, 30: a gain",
-        full: || Scaler { gain: FULL.servo_gain, value: FULL.servo().product() },
-        widths: [gain, value],
-        by: "width of a gain; a value has as many bits", |gain| Scaler { gain, value: gain + 1 },
-        proved: 3,
-    ),
     entry!(
         ModelState, "CN104204977 20, 22, 24, 25",
         full: || ModelState { widths: FULL.model(), rounding: Rounding::Nearest },

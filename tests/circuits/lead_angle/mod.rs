@@ -6,6 +6,7 @@ mod history;
 mod learning;
 mod phase;
 mod prediction;
+mod resolver;
 mod table;
 mod variants;
 mod whole;

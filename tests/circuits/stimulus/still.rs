@@ -185,6 +185,7 @@ pub const ZEROS: &[(&str, u32)] = &[
     ("error_feedback.own_high_x", 0),
     ("error_feedback.own_high_y", 0),
     ("lead_products.factor", 4),
+    ("tracking_loop.proportional", 0),
 ];
 
 /// At 8 bits: the pulses of a unit time of up to 255 ticks are at most 127, and a word of 8 bits
@@ -333,6 +334,8 @@ pub const JOBS: &[&str] = &[
     "blend_point",
     "reference_model",
     "cordic",
+    "tracking_converter",
+    "resolver_detector",
     "path_point",
     "servo",
     "controlled_axis",

@@ -1,4 +1,4 @@
-//! CORDIC against sine and cosine.
+//! CORDIC against sine and cosine, and vectors that it turns.
 
 use motion_rtl::circuits::blocks::Cordic;
 use motion_rtl::circuits::blocks::cordic::In;
@@ -12,8 +12,8 @@ fn cordic(radius: usize, angle: usize) -> Simulator<Cordic> {
     Simulator::new(&Cordic { radius, angle }).unwrap()
 }
 
-/// The point at an angle; nothing before its tick.
-fn point(cordic: &Simulator<Cordic>, radius: i64, angle: u64) -> [i64; 2] {
+/// A vector turned by an angle; nothing before its tick.
+fn turned(cordic: &Simulator<Cordic>, [radius, offset]: [i64; 2], angle: u64) -> [i64; 2] {
     let latency = cordic.circuit().angle as u64 + 1;
     let mut simulator = cordic.clone();
     for ticks in 1..=latency {
@@ -21,6 +21,7 @@ fn point(cordic: &Simulator<Cordic>, radius: i64, angle: u64) -> [i64; 2] {
             start: ticks == 1 || ticks == 3,
             halt: false,
             radius: if ticks == 1 { radius } else { 1 },
+            offset: if ticks == 1 { offset } else { 2 },
             angle: if ticks == 1 { angle } else { 0 },
         };
         simulator.step_with(&i, |_| ());
@@ -31,9 +32,9 @@ fn point(cordic: &Simulator<Cordic>, radius: i64, angle: u64) -> [i64; 2] {
     [along, simulator.see(|s| s.p.turning.q.across)]
 }
 
-/// How far the point is from that of sine and cosine.
+/// How far the point at an angle is from that of sine and cosine.
 fn error(cordic: &Simulator<Cordic>, radius: i64, angle: u64) -> f64 {
-    let [along, across] = point(cordic, radius, angle);
+    let [along, across] = turned(cordic, [radius, 0], angle);
     let turn = angle as f64 / (cordic.circuit().angle as f64).exp2() * TAU;
     let exact = radius as f64 * GAIN;
     (along as f64 - exact * turn.cos()).hypot(across as f64 - exact * turn.sin())
@@ -57,6 +58,29 @@ fn every_angle_of_a_small_circle() {
                 seen <= bound,
                 "{seen} at {angle}, radius {radius}, not {bound}"
             );
+        }
+    }
+}
+
+/// Vectors in all quarters, by all angles.
+#[test]
+fn every_angle_of_vectors_all_around() {
+    let cordic = cordic(14, 10);
+    for vector in [
+        [3000, 900],
+        [-20, 3100],
+        [-2500, -1500],
+        [1, -3000],
+        [2100, -2100],
+    ] {
+        let [x, y] = vector.map(|part| part as f64 * GAIN);
+        let bound = bound(10, 10, x.hypot(y).ceil() as i64);
+        for angle in 0..1 << 10 {
+            let (sine, cosine) = (angle as f64 / 1024.0 * TAU).sin_cos();
+            let [along, across] = turned(&cordic, vector, angle);
+            let off =
+                (along as f64 - x * cosine + y * sine).hypot(across as f64 - x * sine - y * cosine);
+            assert!(off <= bound, "{vector:?} at {angle}: {off}");
         }
     }
 }

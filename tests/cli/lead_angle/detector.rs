@@ -1,4 +1,4 @@
-//! Position detectors: an absolute encoder of a turn, and a phase-shift transducer.
+//! Position detectors: an absolute encoder of a turn, a phase-shift transducer, and a resolver.
 
 use super::refusals::{refusal, refused};
 use super::*;
@@ -42,8 +42,8 @@ fn an_absolute_encoder_has_an_incremental_one_beside_it() {
 /// A log too is seen by them: other paths to the same predictions. At 10 counts a millisecond a CK is a
 /// count.
 #[test]
-fn a_log_is_seen_by_an_absolute_encoder_and_by_a_phase_shift_transducer() {
-    for (detector, most) in [("absolute", 4.0), ("phase_shift", 6.0)] {
+fn a_log_is_seen_by_the_detectors_of_places() {
+    for (detector, most) in [("absolute", 4.0), ("phase_shift", 6.0), ("resolver", 6.0)] {
         let set = format!("detector={detector}");
         let run = ["run", "s.toml", "--no-vcd", "--set", &set];
         let [places, counted] = [&run[..], &run[..3]].map(|run| log().json(run));
@@ -130,11 +130,103 @@ fn a_pitch_that_no_transducer_has_is_refused() {
 }
 
 #[test]
+fn a_resolver_has_an_incremental_encoder_beside_it() {
+    let bench = small();
+    let run = [
+        "run",
+        "s.toml",
+        "--to",
+        "9000",
+        "--set",
+        "detector=resolver",
+    ];
+    let summary = bench.json(&run);
+    assert_eq!(summary["detector"], "resolver");
+    let [learning, counted] = ["learning", "incremental"].map(|name| system(&summary, name));
+    for row in list(&summary, "positionings") {
+        let error = |system: usize| row["error_counts"][system].as_i64().unwrap();
+        // At 40000 counts/s a CK is 4 counts.
+        assert!((error(learning) - error(counted)).abs() <= 24, "{row}");
+        assert!(number(row, &format!("/position_error_counts/{learning}")).abs() <= 3.0);
+    }
+    let vcd = bench.read("waves/s.vcd");
+    for signal in [" sine ", " quadrature ", " scaled "] {
+        assert!(vcd.contains(signal), "no{signal}");
+    }
+    let text = bench.succeed(&run);
+    assert!(
+        text.contains("\nresolver, history shift_register"),
+        "{text}"
+    );
+    // 22500 counts a pitch by 2π: 35.8 for an offset of 0.01, at the angle of 0.
+    let off = [&run[..], &["--set", "sine_offset=0.01"]].concat();
+    let summary = bench.json(&off);
+    let largest = number(&summary["systems"][learning], "/position_error_max_counts");
+    assert!((25.0..40.0).contains(&largest), "{largest}");
+}
+
+#[test]
+fn a_resolver_that_is_none_is_refused() {
+    for (lines, complaint) in [
+        (
+            "ck_ticks = 18\n",
+            "ck_ticks: is 18; allowed: 19 or more with detector = \"resolver\": a conversion",
+        ),
+        ("pole_pairs = 65\n", "pole_pairs: is 65; allowed: 1 to 64"),
+        (
+            "sine_offset = 0.2\n",
+            "sine_offset: is 0.2; allowed: -0.1 to 0.1",
+        ),
+        (
+            "gain_mismatch = nan\n",
+            "gain_mismatch: is NaN; allowed: -0.1 to 0.1",
+        ),
+        (
+            "counts_per_rev = 90_001\n",
+            "counts_per_rev: is 90001; allowed: a multiple of 4 from 64 to 524288 with detector = \
+             \"resolver\", whose pitch is a pole pair",
+        ),
+        (
+            "sampling_clock_ppm = 50\n",
+            "sampling_clock_ppm: is 50; allowed: 0 with detector = \"resolver\", whose strobe is \
+             ck_ticks",
+        ),
+    ] {
+        assert_eq!(
+            refused(&format!("detector = \"resolver\"\n{lines}")),
+            format!("error: s.toml:3: {complaint}\n")
+        );
+    }
+    for (line, allowed) in [
+        ("pole_pairs = 8", 4),
+        ("sine_offset = 0.01", 0),
+        ("gain_mismatch = -0.01", 0),
+    ] {
+        let (field, value) = line.split_once(" = ").unwrap();
+        assert_eq!(
+            refused(&format!("{line}\n")),
+            format!(
+                "error: s.toml:2: {field}: is {value}; allowed: {allowed} without detector = \
+                 \"resolver\"\n"
+            )
+        );
+    }
+    // An eighth of 20 counts in a CK of 0.1 ms.
+    let set = "detector=resolver counts_per_rev=1280 pole_pairs=64";
+    let set: Vec<&str> = set.split(' ').flat_map(|set| ["--set", set]).collect();
+    assert_eq!(
+        refusal(&small(), &[&["s.toml"][..], &set].concat()),
+        "error: s.toml:13: step 1: speed_counts_per_s: is 40000; allowed: 10 to 25000, a multiple of \
+         10\n"
+    );
+}
+
+#[test]
 fn a_turn_that_no_encoder_has_is_refused() {
     assert_eq!(
-        refused("detector = \"resolver\"\n"),
-        "error: s.toml:2: detector: unknown variant `resolver`; allowed: one of \
-         `incremental`, `absolute`, `phase_shift`\n"
+        refused("detector = \"tachometer\"\n"),
+        "error: s.toml:2: detector: unknown variant `tachometer`; allowed: one of \
+         `incremental`, `absolute`, `phase_shift`, `resolver`\n"
     );
     for counts in ["90_001", "131_074", "2", "1000.5"] {
         let shown = counts.replace('_', "");

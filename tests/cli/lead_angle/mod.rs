@@ -255,6 +255,7 @@ fn the_summary_has_these_keys() {
         "error_counts",
         "lead_ms",
         "loaded",
+        "position_error_counts",
         "positioning",
         "step",
         "timed_out",

@@ -1,6 +1,7 @@
-//! Absolute encoders and phase-shift transducers as the position detector.
+//! Absolute encoders, phase-shift transducers and resolvers as the position detector.
 
 use super::*;
+use std::f64::consts::TAU;
 
 /// An absolute encoder, whose clock is CK, beside a counter: both learn to within a code, and over the
 /// seams of the turn as elsewhere.
@@ -128,5 +129,63 @@ fn the_fastest_speed_of_a_phase_shift_detector_is_followed() {
         settings.steps[0].speed_counts_per_s += 10;
         let refused = settings.validate().expect_err("too fast");
         assert!(refused.to_string().contains("10 to 100661"), "{refused}");
+    }
+}
+
+/// A resolver is learned as a counter is. What is wrong with its windings is in the position where the
+/// body stops, and the same at each stop of a step: learning has its code nevertheless.
+#[test]
+fn a_resolver_is_as_good_as_a_counter_but_for_its_windings() {
+    let mut settings = Settings {
+        detector: Detector::Resolver,
+        positionings: 24,
+        load_change_after: None,
+        ..turntable()
+    };
+    let counted = with_lead(&Settings {
+        detector: Detector::Incremental,
+        ..settings.clone()
+    });
+    for (offset, mismatch) in [(0.0, 0.0), (0.01, 0.0), (0.0, -0.02)] {
+        (
+            settings.resolver.sine_offset,
+            settings.resolver.gain_mismatch,
+        ) = (offset, mismatch);
+        let played = with_lead(&settings);
+        let pairs = played.positionings.iter().zip(&counted.positionings);
+        for (one, other) in pairs.skip(20) {
+            let travel = code_travel(&settings, one);
+            assert!(off(one) <= travel + 2.0, "{one:?} {travel}");
+            assert!(one.code.abs_diff(other.code) <= 4, "{one:?} {other:?}");
+        }
+        let per_rad = 22_500.0 / TAU;
+        for one in &played.positionings {
+            let angle = one.stopped as f64 / per_rad;
+            let wrong = offset * angle.cos() + mismatch / 2.0 * (2.0 * angle).sin();
+            let left = one.position_error_counts - wrong * per_rad;
+            assert!((-3.0..=2.0).contains(&left), "{offset} {mismatch} {one:?}");
+        }
+    }
+}
+
+/// At the fastest speed that is accepted nothing is lost, in either direction, with small
+/// pitches.
+#[test]
+fn the_fastest_speed_of_a_resolver_is_followed() {
+    for way in [45_000, -45_000] {
+        let mut settings = Settings {
+            detector: Detector::Resolver,
+            targets: Targets::Relative,
+            ..turntable()
+        };
+        // Of 400 counts to a pitch 50 in 0.1 ms.
+        settings.resolver.pole_pairs = 64;
+        settings.body.counts_per_rev = 25_600.0;
+        settings.body.acceleration_counts_per_s2 = 6e6;
+        let fastest = settings.fastest_counts_per_s();
+        assert_eq!(fastest, 500_000);
+        settings.steps = one_step(way, fastest, 2).steps;
+        (settings.positionings, settings.load_change_after) = (2, None);
+        with_lead(&settings);
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::circuits::lead_angle::{
     Comparing, Compensator, Correction, Detector, Division, Form, Function, LeadForm, LeadFrom,
-    LeadTable, Memory, Placement, Sign, TableLead, TimeData, TimeLead, Variant, Widths,
+    LeadTable, Memory, Placement, Sign, TableLead, TimeData, TimeLead, TrackingConverter,
+    TrackingLoop, Variant, Widths,
 };
 use crate::hdl::Image;
 use crate::registry::circuits::make::{FLAGS, at_most, choice, width, words};
@@ -25,6 +26,7 @@ const DETECTORS: &[Detector] = &[
     Detector::Incremental,
     Detector::Absolute,
     Detector::PhaseShift,
+    Detector::Resolver,
 ];
 pub(super) const SIGNS: &[Sign] = &[Sign::Converging, Sign::Literal];
 
@@ -88,6 +90,14 @@ pub(super) fn correction(function: Function, stages: usize, position: usize) -> 
     }
 }
 
+/// A converter with angles and A/D words of so many bits.
+pub(super) const fn tracking(angle: usize, converter: usize) -> TrackingConverter {
+    TrackingConverter {
+        converter,
+        tracking: TrackingLoop::new(angle),
+    }
+}
+
 /// A compensator without any time.
 pub(super) fn compensator(lead_from: LeadFrom, widths: Widths) -> Compensator {
     Compensator {
@@ -109,6 +119,7 @@ pub(super) fn small(lead_from: LeadFrom, given: &[u64]) -> Option<Compensator> {
         cks: width,
         ck_period: width,
         code: (width - 1).max(1),
+        converter: (width - 1).max(1),
     };
     Some(compensator(lead_from, widths))
 }

@@ -1,0 +1,115 @@
+//! Tracking converter: angle and speed of a resolver from its two windings. Part of position
+//! detector 10 of JPH0646367B2.
+//!
+//! ```text
+//!          ┌────────────── tracking converter ──────────────┐
+//!  strobe ─┼▶┌────────┐ quadrature, in_phase ┌──────────┐   │
+//!  sine ───┼▶│ CORDIC ├─────────────────────▶│ tracking ├───┼▶ angle, speed
+//!  cosine ─┼▶│        │◀─────────────────────┤ loop     ├───┼▶ take, fault
+//!          │ └────────┘        angle         └──────────┘   │
+//!          └────────────────────────────────────────────────┘
+//! ```
+//!
+//! One winding of the resolver is excited by a carrier, and the other two have its amplitude times sine
+//! and cosine of θ (amplitude mode). Both are sampled by A/D converters at a peak of the carrier, which
+//! demodulates them. The vector (sine, cosine) turned by φ is a·(sin(θ − φ), cos(θ − φ)), a being the
+//! amplitude: so no table of sines is needed, and no product.
+
+use super::{TrackingLoop, tracking_loop};
+use crate::circuits::blocks::{Cordic, cordic};
+use crate::hdl::prelude::*;
+
+/// Tracking converter.
+///
+/// `take` is high A + 1 ticks after `strobe`, for the angle that stands until then: what the conversions
+/// before said of this one.
+#[derive(Debug, Clone)]
+pub struct TrackingConverter {
+    /// S: width of the A/D converters' words, at most A.
+    pub converter: usize,
+    /// The loop; A is the width of its angle.
+    pub tracking: TrackingLoop,
+}
+
+impl TrackingConverter {
+    /// Ticks from `strobe` to the next that is converted with a new angle.
+    #[must_use]
+    pub const fn period(&self) -> u64 {
+        self.tracking.angle as u64 + 2
+    }
+
+    const fn cordic(&self) -> Cordic {
+        Cordic {
+            radius: self.tracking.vector(),
+            angle: self.tracking.angle,
+        }
+    }
+}
+
+signals! { for TrackingConverter as c;
+    /// Ports in.
+    pub struct In {
+        /// The words are new, A + 2 ticks after those before at least; what comes sooner is not taken, or
+        /// finds the angle of the conversion before.
+        pub strobe: Bit,
+        /// The sine winding at a peak of the carrier.
+        pub sine: I(c.converter) as Analog,
+        /// The cosine winding.
+        pub cosine: I(c.converter) as Analog,
+    }
+    /// The circuits inside.
+    pub struct Parts {
+        /// The windings turned back.
+        pub cordic: Part<Cordic>(c.cordic()),
+        /// Angle and speed.
+        pub tracking: Part<TrackingLoop>(c.tracking.clone()),
+    }
+    /// Ports out.
+    pub struct Net {
+        /// φ, in units of 2^−A pitch.
+        pub angle: U(c.tracking.angle) as Analog,
+        /// What it goes in a conversion, in units of 2^−(A + 2·G) pitch.
+        pub speed: I(c.tracking.phase()) as Analog,
+        /// The angle is a place.
+        pub take: Bit,
+        /// It is none: there is no signal, or the loop is off it.
+        pub fault: Bit,
+    }
+}
+
+impl Circuit for TrackingConverter {
+    const NAME: &'static str = "tracking_converter";
+    const ABOUT: &'static str = "angle and speed of a resolver from its two windings";
+    records!(In, Nothing, Net, Parts);
+
+    fn objection(&self) -> Option<String> {
+        let wider = self.converter > self.tracking.angle;
+        wider.then(|| "a word of an A/D converter is no wider than an angle".into())
+    }
+
+    fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
+        let TrackingLoop { angle, .. } = self.tracking;
+        let below = angle.saturating_sub(self.converter);
+        let full = |word: I| word.resize(self.tracking.vector()).shift_left(below);
+        let before = p.tracking.q.phase.slice(self.tracking.fraction(), angle);
+        let cordic = p.cordic.settle(cordic::In {
+            start: i.strobe,
+            halt: Bit::low(),
+            radius: full(i.sine),
+            offset: full(i.cosine),
+            angle: before,
+        });
+        let tracking = p.tracking.settle(tracking_loop::In {
+            done: cordic.w.done,
+            quadrature: cordic.w.along,
+            in_phase: cordic.w.across,
+        });
+        let net = Net {
+            angle: before,
+            speed: tracking.q.speed,
+            take: tracking.w.take,
+            fault: tracking.w.fault,
+        };
+        (net, Nothing)
+    }
+}

@@ -1,0 +1,207 @@
+//! Tracking loop: the angle and the speed that a resolver's windings ask for. Part of position
+//! detector 10 of JPH0646367B2.
+//!
+//! ```text
+//!               ┌───────────────┐
+//!  done ───────▶│               ├──▶ phase ──▶ CORDIC
+//!  quadrature ─▶│ tracking loop ├──▶ speed
+//!  in_phase ───▶│               ├──▶ take, fault
+//!               └───────────────┘
+//! ```
+//!
+//! The loop is of type II. The windings, turned back by its angle φ, are a·sin(θ − φ), which is the
+//! error, and a·cos(θ − φ), a being their amplitude. The error is integrated into a speed, and the speed
+//! with a multiple of the error into the angle, once in a conversion. All words are parts of a pitch and
+//! wrap with it.
+//!
+//! The error is rounded to a word of which a unit is wider than one of the angle: there is always an
+//! angle at which it is 0, and a body at rest has an angle that rests.
+//!
+//! Beyond a quarter of a pitch the sine goes down again, to 0 at half of it, where the loop would stand.
+//! So where the cosine is negative its amount is added: the error grows on to 1.41·a and is a at
+//! half a pitch. There the way up is taken.
+//!
+//! Departures: the text has no such loop. The first conversions after power-on are given to it to
+//! settle, and no place is taken of them.
+
+use crate::hdl::prelude::*;
+
+/// Tracking loop. What a conversion finds is in `phase` from the tick after `done` on, for the next.
+#[derive(Debug, Clone)]
+pub struct TrackingLoop {
+    /// A: width of an angle, in units of 2^−A pitch.
+    pub angle: usize,
+    /// G: how often the loop's bandwidth is halved.
+    pub smoothing: usize,
+    /// Width of a number of conversions: 2^settling − 1 settle the loop.
+    pub settling: usize,
+}
+
+/// Bits by which the error is rounded.
+const ROUNDED: usize = 4;
+
+impl TrackingLoop {
+    /// The loop of a detector with angles of so many bits: at 17 its bandwidth is halved twice, and 255
+    /// conversions settle it.
+    #[must_use]
+    pub const fn new(angle: usize) -> Self {
+        TrackingLoop {
+            angle,
+            smoothing: angle / 8,
+            settling: angle / 2,
+        }
+    }
+
+    /// Width of what comes from the CORDIC: full scale is 2^(A − 1), by √2 and its gain.
+    #[must_use]
+    pub const fn vector(&self) -> usize {
+        self.angle + 2
+    }
+
+    /// Bits of the phase below the angle.
+    #[must_use]
+    pub const fn fraction(&self) -> usize {
+        2 * self.smoothing
+    }
+
+    /// Width of phase and speed.
+    #[must_use]
+    pub const fn phase(&self) -> usize {
+        self.angle + self.fraction()
+    }
+
+    /// The least a·cos(θ − φ): of an amplitude of 0.30 of full scale at the angle.
+    const fn least(&self) -> i64 {
+        1 << self.angle.saturating_sub(2)
+    }
+}
+
+signals! { for TrackingLoop as c;
+    /// Ports in.
+    pub struct In {
+        /// A conversion is done; both words stand.
+        pub done: Bit,
+        /// a·sin(θ − φ), by the CORDIC's gain.
+        pub quadrature: I(c.vector()) as Analog,
+        /// a·cos(θ − φ), likewise.
+        pub in_phase: I(c.vector()) as Analog,
+    }
+    /// Flip-flops.
+    pub struct Reg {
+        /// φ, in units of 2^−(A + 2·G) pitch; wraps. Its upper A bits are the angle.
+        pub phase: U(c.phase()) as Analog = 0,
+        /// What it goes in a conversion, in the same units; wraps.
+        pub speed: I(c.phase()) as Analog = 0,
+        /// Conversions since power-on, to the end of their number.
+        settled: U(c.settling) = 0,
+    }
+    /// Nets.
+    pub struct Net {
+        /// The error is beyond a quarter of a pitch.
+        beyond: Bit,
+        /// The error, growing on beyond it.
+        folded: I(c.vector()),
+        /// The same with half a unit of the error.
+        raised: I(c.vector() + 1),
+        /// The error rounded.
+        error: I(c.angle.saturating_sub(1)) as Analog,
+        /// The speed with the error.
+        next_speed: I(c.phase()),
+        /// The error's own part in the angle.
+        proportional: I(c.phase()),
+        /// The angle that the conversion began with is a place.
+        pub take: Bit,
+        /// It is none: there is no signal, or the loop is off it.
+        pub fault: Bit,
+    }
+}
+
+impl Circuit for TrackingLoop {
+    const NAME: &'static str = "tracking_loop";
+    const ABOUT: &'static str = "angle and speed of a resolver, by the error of the angle";
+    records!(In, Reg, Net);
+
+    fn objection(&self) -> Option<String> {
+        (self.angle < 4).then(|| "an angle has 4 bits at least, or no error is a unit".into())
+    }
+
+    fn tick(&self, i: In, q: Reg, _: Nothing) -> (Net, Reg<Edge>) {
+        let wide = self.phase();
+        let beyond = i.in_phase.is_negative();
+        let amount = i.in_phase.negated_by(!i.quadrature.is_negative());
+        let folded = i.quadrature + beyond.mux(amount, I::new(0, self.vector()));
+        let half = 1 << (ROUNDED - 1);
+        let raised = folded.resize(self.vector() + 1) + half;
+        let error = raised.shift_right(ROUNDED).resize(self.angle - 1);
+        let next_speed = q.speed + error.resize(wide);
+        let proportional = error.resize(wide).shift_left(self.smoothing + 2);
+        let over = (!q.settled).is_zero();
+        let net = Net {
+            beyond,
+            folded,
+            raised,
+            error,
+            next_speed,
+            proportional,
+            take: i.done & over,
+            fault: i.in_phase.below(self.least()),
+        };
+        let turned = q.phase + (next_speed + proportional).unsigned();
+        let next = Reg {
+            phase: i.done.mux(turned, q.phase),
+            speed: i.done.mux(next_speed, q.speed),
+            settled: (i.done & !over).mux(q.settled + 1, q.settled),
+        };
+        (net, next)
+    }
+}
+
+impl Specified for TrackingLoop {
+    /// A vector has no more than full scale in both coordinates, by the CORDIC's gain.
+    fn applies(&self, i: &In<Value>) -> bool {
+        let length = i.quadrature.unsigned_abs() + i.in_phase.unsigned_abs();
+        length < 2 << self.angle
+    }
+
+    fn invariants(&self) -> Invariants<'_, Self> {
+        let pitch = 1i64 << self.phase();
+        let conversions = (1u64 << self.settling) - 1;
+        Invariants::<Self>::new()
+            .step(
+                "a conversion moves speed and angle by the error, and nothing else does",
+                move |now, next| {
+                    let (sine, cosine) = (now.i.quadrature, now.i.in_phase);
+                    let error = match (cosine < 0, sine < 0) {
+                        (false, _) => sine,
+                        (true, false) => sine - cosine,
+                        (true, true) => sine + cosine,
+                    };
+                    let error = (error + 8).div_euclid(16);
+                    let gain = 4i64 << self.smoothing;
+                    let (speed, phase) = match now.i.done {
+                        true => {
+                            let speed = now.q.speed + error;
+                            (speed, now.q.phase as i64 + speed + gain * error)
+                        }
+                        false => (now.q.speed, now.q.phase as i64),
+                    };
+                    let right = (next.q.speed - speed).rem_euclid(pitch) == 0
+                        && (next.q.phase as i64 - phase).rem_euclid(pitch) == 0;
+                    require(right, ["speed", "phase"], || format!("an error of {error}"))
+                },
+            )
+            .step(
+                "places come when the loop has settled, and are faults below the least signal",
+                move |now, next| {
+                    let over = now.q.settled == conversions;
+                    let settled = now.q.settled + u64::from(now.i.done && !over);
+                    let right = now.w.take == (now.i.done && over)
+                        && next.q.settled == settled
+                        && now.w.fault == (4 * now.i.in_phase < 1 << self.angle);
+                    require(right, ["take", "settled", "fault"], || {
+                        format!("{settled} conversions")
+                    })
+                },
+            )
+    }
+}
