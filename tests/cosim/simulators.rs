@@ -9,7 +9,7 @@ use std::fs::File;
 
 /// At 8 bits nearly all that can move moves in so many: the test of the stimulus asks for all, in
 /// more.
-const TICKS: u64 = 40_000;
+const TICKS: u64 = 30_000;
 /// At the least and at the own widths.
 const FEWER_TICKS: u64 = 10_000;
 const SEED: u64 = 3;

@@ -13,7 +13,7 @@ use signed::SignedWords;
 use structure::{Free, Tree};
 use unsigned::UnsignedWords;
 
-const TICKS: u64 = 20_000;
+const TICKS: u64 = 10_000;
 
 /// Holds a circuit against its Verilog in Icarus, and asks Verilator for its opinion;
 /// returns how many ticks had a reset.

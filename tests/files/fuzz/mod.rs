@@ -16,7 +16,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 /// Seconds for each reader, unless `FUZZ_SECONDS` says otherwise.
-const SECONDS: u64 = 8;
+const SECONDS: u64 = 5;
 
 /// Beyond it an input takes too long.
 const LONGEST: Duration = Duration::from_secs(20);
