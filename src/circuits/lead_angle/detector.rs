@@ -2,7 +2,7 @@
 
 use super::compensator::In;
 use super::{
-    AbsoluteDetector, PhaseDetector, ResolverDetector, TrackingConverter, TrackingLoop, Widths,
+    AbsoluteDetector, PhaseDetector, ResolverDetector, TrackingConverter, Widths,
     absolute_detector, phase_detector, resolver_detector,
 };
 use crate::circuits::blocks::{QuadratureCounter, quadrature_counter};
@@ -55,10 +55,7 @@ impl DetectorSource {
                 position,
             }),
             Detector::Resolver => Self::Resolver(ResolverDetector {
-                converter: TrackingConverter {
-                    converter,
-                    tracking: TrackingLoop::new(code),
-                },
+                converter: TrackingConverter::new(converter, code),
                 position,
             }),
         }

@@ -99,17 +99,11 @@ impl Circuit for ResolverDetector {
             modulus: i.modulus,
             clear: i.clear,
         });
-        let unwrapper::Reg {
-            sample,
-            position,
-            lost,
-            ..
-        } = unwrapper.q;
         let net = Net {
             speed: converter.w.speed,
-            sample,
-            position,
-            lost,
+            sample: unwrapper.q.sample,
+            position: unwrapper.q.position,
+            lost: unwrapper.q.lost,
         };
         (net, Nothing)
     }

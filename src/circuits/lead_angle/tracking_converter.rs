@@ -32,6 +32,16 @@ pub struct TrackingConverter {
 }
 
 impl TrackingConverter {
+    /// A converter of words and angles of so many bits, with the [loop](TrackingLoop::new) of such
+    /// angles.
+    #[must_use]
+    pub const fn new(converter: usize, angle: usize) -> Self {
+        TrackingConverter {
+            converter,
+            tracking: TrackingLoop::new(angle),
+        }
+    }
+
     /// Ticks from `strobe` to the next that is converted with a new angle.
     #[must_use]
     pub const fn period(&self) -> u64 {

@@ -13,7 +13,7 @@ use crate::registry::Entry;
 use crate::registry::entry::entry;
 use makers::{
     COMPARINGS, PLACEMENTS, RAM, SHIFT, SIGNS, chosen, compensator, conventional, correction,
-    filled, formed, rom, small, stages, table_lead, time_data, time_lead, tracking,
+    filled, formed, rom, small, stages, table_lead, time_data, time_lead,
 };
 
 /// The circuits of JPH0646367B2.
@@ -58,22 +58,22 @@ pub(super) const CIRCUITS: &[Entry] = &[
     ),
     entry!(
         ResolverDetector, "JPH0646367B2 10, a resolver",
-        full: || ResolverDetector { converter: tracking(17, 12), position: 24 },
+        full: || ResolverDetector { converter: TrackingConverter::new(12, 17), position: 24 },
         widths: [
             converter = converter.converter, angle = converter.tracking.angle,
             smoothing = converter.tracking.smoothing, settling = converter.tracking.settling,
             position,
         ],
         by: "width of an angle and of the A/D words, the position being one bit wider", |angle| {
-            ResolverDetector { converter: tracking(angle, angle), position: angle + 1 }
+            ResolverDetector { converter: TrackingConverter::new(angle, angle), position: angle + 1 }
         },
         proved: none,
     ),
     entry!(
         TrackingConverter, "JPH0646367B2 10, windings of a resolver",
-        full: || tracking(17, 12),
+        full: || TrackingConverter::new(12, 17),
         widths: [converter; angle, smoothing, settling in tracking],
-        by: "width of an angle and of the A/D words", |angle| tracking(angle, angle),
+        by: "width of an angle and of the A/D words", |angle| TrackingConverter::new(angle, angle),
         proved: none,
     ),
     entry!(

@@ -11,10 +11,7 @@ use std::f64::consts::TAU;
 /// The detector as it is built.
 fn detector() -> ResolverDetector {
     ResolverDetector {
-        converter: TrackingConverter {
-            converter: 12,
-            tracking: TrackingLoop::new(17),
-        },
+        converter: TrackingConverter::new(12, 17),
         position: 24,
     }
 }

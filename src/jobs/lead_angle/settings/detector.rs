@@ -1,7 +1,7 @@
 //! Detectors of the settings: what they follow, and which turns and pitches they have.
 
 use super::{Detector, SettingError, Settings, WIDTHS};
-use crate::circuits::lead_angle::{TrackingConverter, TrackingLoop};
+use crate::circuits::lead_angle::TrackingConverter;
 use crate::plant::{PhaseShiftTransducer, ResolverParameters};
 use crate::settings::within;
 use std::ops::RangeInclusive;
@@ -11,11 +11,8 @@ pub const TURN_RANGE_COUNTS: RangeInclusive<u32> = 4..=1 << WIDTHS.code;
 /// Counts of a pitch; of a phase-shift transducer's they are ticks of its carrier, and so of CK.
 pub const PITCH_RANGE_COUNTS: RangeInclusive<u32> = 16..=1 << WIDTHS.code;
 /// Ticks of a resolver's conversion, which a CK has at least.
-pub const CONVERSION_TICKS: u32 = TrackingConverter {
-    converter: WIDTHS.converter,
-    tracking: TrackingLoop::new(WIDTHS.code),
-}
-.period() as u32;
+pub const CONVERSION_TICKS: u32 =
+    TrackingConverter::new(WIDTHS.converter, WIDTHS.code).period() as u32;
 /// How far an absolute encoder's sampling clock may be off, in parts per million.
 pub const SAMPLING_RANGE_PPM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 

@@ -2,8 +2,7 @@
 
 use crate::circuits::lead_angle::{
     Comparing, Compensator, Correction, Detector, Division, Form, Function, LeadForm, LeadFrom,
-    LeadTable, Memory, Placement, Sign, TableLead, TimeData, TimeLead, TrackingConverter,
-    TrackingLoop, Variant, Widths,
+    LeadTable, Memory, Placement, Sign, TableLead, TimeData, TimeLead, Variant, Widths,
 };
 use crate::hdl::Image;
 use crate::registry::circuits::make::{FLAGS, at_most, choice, width, words};
@@ -87,14 +86,6 @@ pub(super) fn correction(function: Function, stages: usize, position: usize) -> 
         sign: Sign::Converging,
         function,
         division: Division::Logic,
-    }
-}
-
-/// A converter with angles and A/D words of so many bits.
-pub(super) const fn tracking(angle: usize, converter: usize) -> TrackingConverter {
-    TrackingConverter {
-        converter,
-        tracking: TrackingLoop::new(angle),
     }
 }
 
