@@ -117,7 +117,7 @@ fn job_stepped(bencher: divan::Bencher<'_, '_>, times: u32) {
     let group = job::group(&table, Variant::Safe);
     bencher
         .counter(ItemsCount::new(table.total_ticks()))
-        .bench_local(|| play(&group, &table, ()).expect("no observer objects"));
+        .bench_local(|| play(&group, &table, &mut ()).expect("no observer objects"));
 }
 
 /// The same.
@@ -127,7 +127,7 @@ fn job_fast_forward(bencher: divan::Bencher<'_, '_>, times: u32) {
     let group = job::group(&table, Variant::Safe);
     bencher
         .counter(ItemsCount::new(table.total_ticks()))
-        .bench_local(|| fast_forward(&group, &table, ()).expect("no observer objects"));
+        .bench_local(|| fast_forward(&group, &table, &mut ()).expect("no observer objects"));
 }
 
 fn main() {

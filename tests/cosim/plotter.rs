@@ -51,8 +51,8 @@ fn hold<const N: usize>(
     let options = Options::default();
     let mut vcd = Vcd::new(create("vcd"), circuit, Clock::default(), &options).unwrap();
     let mut stimulus = StimulusFile::new(create("stimulus"), circuit);
-    let observers = (Without(&mut vcd), Without(&mut stimulus));
-    let played = play(circuit, targets, settings, observers).unwrap();
+    let mut observers = (Without(&mut vcd), Without(&mut stimulus));
+    let played = play(circuit, targets, settings, &mut observers).unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
     assert_eq!(played.cycles.len(), targets.len());

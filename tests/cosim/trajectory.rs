@@ -74,8 +74,8 @@ fn hold(axes: usize, correction: Correction, rounding: Rounding, simulator: Simu
     let (clock, options) = (Clock::default(), Options::default());
     let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &options).unwrap();
     let mut stimulus = StimulusFile::new(create("stimulus"), &circuit);
-    let observers = (Without(&mut vcd), Without(&mut stimulus));
-    let played = play(&circuit, &program, plants, observers).unwrap();
+    let mut observers = (Without(&mut vcd), Without(&mut stimulus));
+    let played = play(&circuit, &program, plants, &mut observers).unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
     assert!(!played.late && !played.starved && !played.lost && played.settled);

@@ -43,8 +43,8 @@ fn hold(settings: &Settings, simulator: Simulator) -> Played {
     let (clock, all) = (Clock::default(), Options::default());
     let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &all).unwrap();
     let mut stimulus = StimulusFile::new(create("stimulus"), &circuit);
-    let observers = (Without(&mut vcd), &mut stimulus);
-    let played = play(&circuit, settings, observers).unwrap();
+    let mut observers = (Without(&mut vcd), &mut stimulus);
+    let played = play(&circuit, settings, &mut observers).unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
     assert_eq!(played.positionings.len(), settings.positionings as usize);

@@ -58,8 +58,14 @@ fn hold(rounding: Rounding, simulator: Simulator) -> Played {
     let (clock, options) = (Clock::default(), Options::default());
     let mut vcd = Vcd::new(create("vcd"), &circuit, clock, &options).unwrap();
     let mut stimulus = StimulusFile::new(create("stimulus"), &circuit);
-    let observers = (&mut vcd, &mut stimulus);
-    let played = play(&circuit, &records, LEAST_SAMPLE_TICKS as u32, observers).unwrap();
+    let mut observers = (&mut vcd, &mut stimulus);
+    let played = play(
+        &circuit,
+        &records,
+        LEAST_SAMPLE_TICKS as u32,
+        &mut observers,
+    )
+    .unwrap();
     vcd.finish().unwrap();
     stimulus.finish().unwrap();
     let seen: Vec<_> = played.commands.iter().map(|one| one.counts).collect();

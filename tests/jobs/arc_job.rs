@@ -103,7 +103,8 @@ fn played(records: &[Record], rounding: Rounding) -> Vec<[i64; 3]> {
         rounding,
         ..Settings::default()
     });
-    let played = play(&circuit, records, LEAST_SAMPLE_TICKS as u32, ()).expect("nothing objects");
+    let played =
+        play(&circuit, records, LEAST_SAMPLE_TICKS as u32, &mut ()).expect("nothing objects");
     assert!(!played.late && !played.starved);
     let ticks = played.commands.iter().map(|command| command.tick);
     let first = played.commands[0].tick;

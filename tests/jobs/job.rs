@@ -37,8 +37,8 @@ fn run(axes: usize, program: &str, variant: Variant) -> (Table, Report, Played) 
 
 fn play_twice(table: &Table, variant: Variant) -> Played {
     let group = group(table, variant);
-    let played = play(&group, table, ()).expect("no observer objects");
-    let jumped = fast_forward(&group, table, ()).expect("no observer objects");
+    let played = play(&group, table, &mut ()).expect("no observer objects");
+    let jumped = fast_forward(&group, table, &mut ()).expect("no observer objects");
     assert!(played == jumped, "another run without the idle ticks");
     played
 }
@@ -151,7 +151,10 @@ fn a_table_that_the_group_has_no_room_for_is_refused() {
     let refused = |settings: &Settings| {
         let (table, _) = compile(&drawing, settings).expect("it compiles");
         let group = Group::new(2, Widths::default(), Variant::Safe, 40);
-        let both = [play(&group, &table, ()), fast_forward(&group, &table, ())];
+        let both = [
+            play(&group, &table, &mut ()),
+            fast_forward(&group, &table, &mut ()),
+        ];
         let [played, jumped] = both.map(|run| run.map_err(|error| error.to_string()));
         assert_eq!(played, jumped);
         played.expect_err("it does not fit")

@@ -99,8 +99,14 @@ fn simulate(
         traces.stimulus.as_mut(),
         traces.noted.as_mut(),
     );
-    let observers = (files, &mut progress);
-    let played = play_arm(&circuit, &job.records, job.sample_ticks, joints, observers)?;
+    let mut observers = (files, &mut progress);
+    let played = play_arm(
+        &circuit,
+        &job.records,
+        job.sample_ticks,
+        joints,
+        &mut observers,
+    )?;
     drop(progress);
     let ticks_shown = SAMPLES_SHOWN * u64::from(job.sample_ticks);
     // Where the first segment ends and the second begins.

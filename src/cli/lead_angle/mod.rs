@@ -96,7 +96,7 @@ fn alone(system: &System) -> Result<Played, Failure> {
         history: History::ShiftRegister,
         ..system.settings.clone()
     };
-    Ok(play(&positioner(settings), settings, ())?)
+    Ok(play(&positioner(settings), settings, &mut ())?)
 }
 
 /// Plays the settings' own system with its waves.
@@ -113,7 +113,7 @@ fn simulate(
     let mut progress = Progress::new(ticks);
     let (waves, stimulus) = (traces.waves.as_mut(), traces.stimulus.as_mut());
     let files = (waves, stimulus, traces.noted.as_mut());
-    let played = play(&circuit, settings, (files, &mut progress))?;
+    let played = play(&circuit, settings, &mut (files, &mut progress))?;
     drop(progress);
     let first = played.positionings.first();
     let focus = focus(settings, first.map_or(0, |positioning| positioning.fired));

@@ -63,14 +63,14 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let traces = Traces::begin((&model, &circuit), arguments, scenario, &options, ticks)?;
     let conventional = |way: Way| {
         let targets = way.targets(&job.longer().targets, &job.settings);
-        play(&conventional(), &targets, &job.settings, ())
+        play(&conventional(), &targets, &job.settings, &mut ())
     };
     let other = || match &job.other.compiled {
         Err(_) => Ok(None),
         Ok(compiled) => {
             let settings = &job.other.settings;
             let circuit = plotter(settings);
-            play(&circuit, &compiled.targets, settings, ()).map(Some)
+            play(&circuit, &compiled.targets, settings, &mut ()).map(Some)
         }
     };
     let (interpolator, mut files, conventional, other) = thread::scope(|scope| {
@@ -103,7 +103,7 @@ fn simulate(
     let mut progress = Progress::new(job.ticks_at_least());
     let stimulus = traces.stimulus.as_mut().map(Without);
     let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-    let played = play(circuit, targets, settings, (files, &mut progress))?;
+    let played = play(circuit, targets, settings, &mut (files, &mut progress))?;
     drop(progress);
     let scan = u64::from(settings.scan_ticks);
     let first = played.cycles.first().map_or(0, |cycle| cycle.scans.start);

@@ -110,10 +110,10 @@ fn simulate(
         (_, motors) => {
             let stimulus = traces.stimulus.as_mut().map(Without);
             let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-            let observers = (files, &mut progress);
+            let mut observers = (files, &mut progress);
             match motors {
-                None => play_by(group, table, computer, observers),
-                Some(motors) => play_motors(group, table, computer, motors, observers),
+                None => play_by(group, table, computer, &mut observers),
+                Some(motors) => play_motors(group, table, computer, motors, &mut observers),
             }
         }
     }?;

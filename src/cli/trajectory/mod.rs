@@ -132,7 +132,7 @@ fn plants(job: &Job) -> Result<Vec<TwoMassAxis>, Failure> {
 /// Plays the path without waves.
 fn untraced(job: &Job, program: &Program, correction: Correction) -> Result<Played, Failure> {
     let circuit = controller(job.axes(), correction, job.settings.rounding);
-    Ok(play(&circuit, program, plants(job)?, ())?)
+    Ok(play(&circuit, program, plants(job)?, &mut ())?)
 }
 
 /// Plays the path with its waves.
@@ -145,7 +145,7 @@ fn simulate(
     let mut progress = Progress::new(job.ticks_at_least());
     let stimulus = traces.stimulus.as_mut().map(Without);
     let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-    let played = play(circuit, &job.program, plants, (files, &mut progress))?;
+    let played = play(circuit, &job.program, plants, &mut (files, &mut progress))?;
     drop(progress);
     let shown = PERIODS_SHOWN * u64::from(job.program.period_ticks);
     let focus = Focus {

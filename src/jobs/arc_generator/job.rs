@@ -198,7 +198,7 @@ pub fn play(
     circuit: &ArcGenerator,
     records: &[Record],
     sample_ticks: u32,
-    observer: impl Observer<ArcGenerator>,
+    observer: &mut dyn Observer<ArcGenerator>,
 ) -> Result<Played, RunError> {
     play_arm(circuit, records, sample_ticks, &[], observer)
 }
@@ -213,7 +213,7 @@ pub fn play_arm(
     records: &[Record],
     sample_ticks: u32,
     joints: &[[i64; JOINTS]],
-    mut observer: impl Observer<ArcGenerator>,
+    observer: &mut dyn Observer<ArcGenerator>,
 ) -> Result<Played, RunError> {
     let mut bench = Bench::new(records, sample_ticks);
     let all = observer.needs_all();
@@ -233,7 +233,7 @@ pub fn play_arm(
             simulator.show::<Joints>(&JointSignals::of(*joints));
             shown = Some(made);
         }
-        let ((), flow) = simulator.look(&i, &mut observer, |now| bench.take(now, &see))?;
+        let ((), flow) = simulator.look(&i, &mut *observer, |now| bench.take(now, &see))?;
         stopped = flow.is_break();
         let most = match bench.stands() && !stopped {
             true => simulator.unseen(&observer),

@@ -265,7 +265,7 @@ fn unwrapped(position: i64, target: i64) -> i64 {
 pub fn play(
     circuit: &Compensator,
     settings: &Settings,
-    mut observer: impl Observer<Compensator>,
+    observer: &mut dyn Observer<Compensator>,
 ) -> Result<Played, JobError> {
     settings.validate()?;
     let clock = settings.clock_hz as f64;
@@ -324,7 +324,7 @@ pub fn play(
             simulator.show::<Body>(&BodySignals::of(&body));
         }
         let take = |now: &Sample<'_, _>| bench.take(now, &see, &body);
-        let (goes_on, flow) = simulator.look_as_set(&mut observer, take)?;
+        let (goes_on, flow) = simulator.look_as_set(&mut *observer, take)?;
         simulator.step();
         if !goes_on || flow.is_break() {
             return Ok(bench.played);

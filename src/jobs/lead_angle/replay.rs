@@ -182,7 +182,7 @@ pub fn replay(
     circuit: &Compensator,
     settings: &Settings,
     log: &PositionLog,
-    mut observer: impl Observer<Compensator>,
+    observer: &mut dyn Observer<Compensator>,
 ) -> Result<Replayed, JobError> {
     validate(settings)?;
     let origin = origin(log);
@@ -260,7 +260,7 @@ pub fn replay(
             replayed.ticks = tick + 1;
             replayed.lost = now.get(see.lost);
         };
-        let ((), flow) = simulator.step_watched(&i, &mut observer, take)?;
+        let ((), flow) = simulator.step_watched(&i, &mut *observer, take)?;
         if flow.is_break() {
             break;
         }

@@ -209,7 +209,7 @@ pub fn play<const N: usize>(
     circuit: &Controller,
     targets: &[Target<N>],
     settings: &Settings,
-    mut observer: impl Observer<Controller>,
+    observer: &mut dyn Observer<Controller>,
 ) -> Result<Played, JobError> {
     settings.validate()?;
     let tick_s = 1.0 / settings.clock_hz as f64;
@@ -261,7 +261,7 @@ pub fn play<const N: usize>(
         }
         let motor = [0, 1].map(|axis: usize| servos[axis].position_counts());
         let take = |now: &Sample<'_, _>| bench.take(now, &see, motor);
-        let (goes_on, flow) = simulator.look(&i, &mut observer, take)?;
+        let (goes_on, flow) = simulator.look(&i, &mut *observer, take)?;
         if !goes_on || flow.is_break() {
             return Ok(bench.played);
         }

@@ -214,7 +214,7 @@ pub fn least_period(table: &Table, variant: Variant) -> Result<u32, JobError> {
     let mut period = 1;
     loop {
         let table = table.at_period(period);
-        if fast_forward(&group(&table, variant), &table, ())?.idle_units == 0 {
+        if fast_forward(&group(&table, variant), &table, &mut ())?.idle_units == 0 {
             return Ok(period);
         }
         period += 1;

@@ -61,9 +61,9 @@ struct See {
 }
 
 /// Drivers on all axes, and where they are when a unit time ends.
-struct Bench<O> {
+struct Bench<'o> {
     see: See,
-    observer: O,
+    observer: &'o mut dyn Observer<Group>,
     /// The run ends in pieces: with every tick in which a command can be taken.
     pieces: bool,
     /// The table is played, or the observer has stopped.
@@ -79,7 +79,7 @@ struct Bench<O> {
     last_tick: u64,
 }
 
-impl<O: Observer<Group>> Observer<Group> for Bench<O> {
+impl Observer<Group> for Bench<'_> {
     fn needs_all(&self) -> bool {
         self.observer.needs_all()
     }
@@ -111,7 +111,7 @@ impl<O: Observer<Group>> Observer<Group> for Bench<O> {
     }
 }
 
-impl<O> Bench<O> {
+impl Bench<'_> {
     /// The unit time of the table that is under way.
     fn unit(&self) -> usize {
         let ended = self.positions.len() / self.axes.len();
@@ -143,7 +143,7 @@ pub type Computer<'c> = dyn FnMut(bool) -> Option<In<Value>> + 'c;
 pub fn play(
     group: &Group,
     table: &Table,
-    observer: impl Observer<Group>,
+    observer: &mut dyn Observer<Group>,
 ) -> Result<Played, JobError> {
     let mut computer = ControlComputer::new(group, table);
     play_by(
@@ -162,7 +162,7 @@ pub fn play_by(
     group: &Group,
     table: &Table,
     computer: &mut Computer<'_>,
-    observer: impl Observer<Group>,
+    observer: &mut dyn Observer<Group>,
 ) -> Result<Played, JobError> {
     played(group, table, (observer, None), |simulator, bench| {
         let (pending, quiet) = (bench.see.pending, zero(group));
@@ -185,7 +185,7 @@ pub fn play_motors(
     table: &Table,
     computer: &mut Computer<'_>,
     mut motors: Motors,
-    observer: impl Observer<Group>,
+    observer: &mut dyn Observer<Group>,
 ) -> Result<Played, JobError> {
     let beside = StepMotors { axes: group.axes };
     played(
@@ -218,7 +218,7 @@ pub fn play_motors(
 pub fn fast_forward(
     group: &Group,
     table: &Table,
-    observer: impl Observer<Group>,
+    observer: &mut dyn Observer<Group>,
 ) -> Result<Played, JobError> {
     let mut computer = ControlComputer::new(group, table);
     fast_forward_by(
@@ -237,7 +237,7 @@ pub fn fast_forward_by(
     group: &Group,
     table: &Table,
     computer: &mut Computer<'_>,
-    observer: impl Observer<Group>,
+    observer: &mut dyn Observer<Group>,
 ) -> Result<Played, JobError> {
     // With T = 1 RST stands, and a unit time ends without an edge to stop at.
     if table.patterns().iter().any(|pattern| pattern.period == 1) {
@@ -286,11 +286,11 @@ impl See {
 }
 
 /// What the drivers see of a group that is run to the end of `table`, and what `run` says of motors.
-fn played<O: Observer<Group>>(
+fn played(
     group: &Group,
     table: &Table,
-    (observer, beside): (O, Option<StepMotors>),
-    run: impl FnOnce(&mut Simulator<Group>, &mut Bench<O>) -> Result<Vec<MotorReport>, RunError>,
+    (observer, beside): (&mut dyn Observer<Group>, Option<StepMotors>),
+    run: impl FnOnce(&mut Simulator<Group>, &mut Bench<'_>) -> Result<Vec<MotorReport>, RunError>,
 ) -> Result<Played, JobError> {
     fits(group, table)?;
     let all = observer.needs_all();

@@ -257,7 +257,7 @@ pub fn play(
     circuit: &TrajectoryController,
     program: &Program,
     plants: Vec<TwoMassAxis>,
-    mut observer: impl Observer<TrajectoryController>,
+    observer: &mut dyn Observer<TrajectoryController>,
 ) -> Result<Played, JobError> {
     let (segments, most) = (program.path.stretches.len(), circuit.widths.most_segments());
     if segments > most {
@@ -320,7 +320,7 @@ pub fn play(
                 ended = !now.get(see.busy);
             }
         };
-        let ((), flow) = simulator.look(&i, &mut observer, take)?;
+        let ((), flow) = simulator.look(&i, &mut *observer, take)?;
         if let Some(period) = played.periods.last()
             && ended
             && !starts

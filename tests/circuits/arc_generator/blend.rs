@@ -256,7 +256,7 @@ fn whole_paths_are_those_of_the_program_in_their_ticks() {
         let all = records(&path(8), 1000.0, &FULL, rounding).unwrap();
         let expected = commands(&all, &FULL, rounding);
         for period in [least, least - 1] {
-            let played = play(&circuit, &all, period as u32, ()).unwrap();
+            let played = play(&circuit, &all, period as u32, &mut ()).unwrap();
             let counts: Vec<_> = played.commands.iter().map(|c| c.counts).collect();
             assert_eq!(counts, expected, "{rounding:?}");
             let needed = Needed {

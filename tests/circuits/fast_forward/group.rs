@@ -214,8 +214,8 @@ fn shipped(name: &str, text: &str, input: (&str, &[u8]), times: u32) -> (Drawing
 fn both((drawing, settings): &(Drawing, Settings), variant: Variant) {
     let (table, _) = compile(drawing, settings).expect("it compiles");
     let group = group(&table, variant);
-    let stepped = play(&group, &table, ()).expect("no observer objects");
-    let jumped = fast_forward(&group, &table, ()).expect("no observer objects");
+    let stepped = play(&group, &table, &mut ()).expect("no observer objects");
+    let jumped = fast_forward(&group, &table, &mut ()).expect("no observer objects");
     assert!(stepped == jumped, "the drivers saw something else");
 }
 

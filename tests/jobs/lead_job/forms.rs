@@ -127,7 +127,7 @@ fn logs_are_predicted_by_all_forms() {
             placement,
             ..formed(form, &steady)
         };
-        let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
+        let replayed = replay(&positioner(&settings), &settings, &log, &mut ()).unwrap();
         assert!(replayed.predictions.count > 0);
         replayed.predictions
     };

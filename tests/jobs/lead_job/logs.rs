@@ -34,7 +34,7 @@ pub(super) fn steady() -> (PositionLog, Settings) {
 #[test]
 fn a_log_at_constant_speed_is_predicted_within_the_bound() {
     let (log, settings) = steady();
-    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
+    let replayed = replay(&positioner(&settings), &settings, &log, &mut ()).unwrap();
     let signals = &replayed.signals;
     assert_eq!(signals.len(), 3, "{signals:?}");
     for (signal, ratio) in signals.iter().zip([2.0, 10.0, 1.0]) {
@@ -62,7 +62,7 @@ fn a_log_that_turns_on_gives_a_signal_a_turn() {
     settings.lead = LeadBy::Speed;
     settings.speed_lead_ms = 10.0;
     let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
+    let replayed = replay(&positioner(&settings), &settings, &log, &mut ()).unwrap();
     let targets: Vec<_> = replayed
         .signals
         .iter()
@@ -96,7 +96,7 @@ fn a_log_is_taken_from_its_first_sample_on() {
         ..Settings::default()
     };
     let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
+    let replayed = replay(&positioner(&settings), &settings, &log, &mut ()).unwrap();
     let targets: Vec<_> = replayed
         .signals
         .iter()
@@ -117,7 +117,7 @@ fn operations_on_a_log_are_learned() {
     settings.action = Action::Operate;
     settings.operation_delay_s = 0.03;
     let settings = settings_for(&log, &settings);
-    let replayed = replay(&positioner(&settings), &settings, &log, ()).unwrap();
+    let replayed = replay(&positioner(&settings), &settings, &log, &mut ()).unwrap();
     let errors: Vec<f64> = replayed
         .signals
         .iter()

@@ -28,7 +28,7 @@ fn turntable() -> Settings {
 }
 
 fn with_lead(settings: &Settings) -> Played {
-    let played = play(&positioner(settings), settings, ()).expect("it runs");
+    let played = play(&positioner(settings), settings, &mut ()).expect("it runs");
     assert!(!played.lost && !played.unsettled);
     assert_eq!(played.positionings.len(), settings.positionings as usize);
     played

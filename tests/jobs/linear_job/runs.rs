@@ -114,7 +114,7 @@ fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
             ..short_scans()
         };
         let targets = compile(&drawing, &settings).unwrap().targets;
-        let ours = play(&plotter(&settings), &targets, &settings, ()).unwrap();
+        let ours = play(&plotter(&settings), &targets, &settings, &mut ()).unwrap();
         as_the_formulas_say(&ours, &targets, &settings);
         // ¶0014: a slave with the shorter way accelerates no more than its master, but for the
         // count that rounding makes. A fixed master has slaves with longer ways.
@@ -138,7 +138,7 @@ fn the_circuits_command_what_the_formulas_say_in_every_scan_of_a_job() {
         let mut bent = Vec::new();
         for way in Way::ALL {
             let targets = way.targets(&targets, &settings);
-            let played = play(&conventional(), &targets, &settings, ()).unwrap();
+            let played = play(&conventional(), &targets, &settings, &mut ()).unwrap();
             as_the_formulas_say(&played, &targets, &settings);
             let segments = played.segments(settings.counts_per_mm);
             let sloped = segments
@@ -192,7 +192,7 @@ fn the_contour_error_of_the_circuit_is_that_of_theory() {
     ] {
         // Counts of the master axis a scan of 1 ms.
         let targets = [target(x, y, feed as u64, [100, 100])];
-        let played = play(&plotter(&settings), &targets, &settings, ()).unwrap();
+        let played = play(&plotter(&settings), &targets, &settings, &mut ()).unwrap();
         let cycle = &played.cycles[0];
         let scans = cycle.scans.clone();
         let middle = scans.start + 800..scans.end - 200;
@@ -269,7 +269,7 @@ fn a_motor_that_is_too_slow_is_counted_as_saturated() {
 fn a_setting_that_is_no_number_is_refused() {
     let mut settings = short_scans();
     settings.axes[1].position_gain_per_s = f64::NAN;
-    let error = play::<1>(&plotter(&settings), &[], &settings, ()).expect_err("not a number");
+    let error = play::<1>(&plotter(&settings), &[], &settings, &mut ()).expect_err("not a number");
     assert!(
         error.to_string().starts_with("position_gain_per_s: "),
         "{error}"

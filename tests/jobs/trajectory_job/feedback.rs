@@ -214,7 +214,7 @@ fn beyond_the_bound_the_loop_grows() {
         let circuit = controller(2, Correction::Feedback, settings.rounding);
         let plants = plants(&machine, 1.0 / settings.clock_hz as f64);
         // What grows does not settle.
-        let played = play(&circuit, &program, plants, ()).unwrap();
+        let played = play(&circuit, &program, plants, &mut ()).unwrap();
         // What is off a steady run along x: how much the lag changes, or y.
         let periods = &played.periods;
         let off = |n: usize| match normal > 0.0 {

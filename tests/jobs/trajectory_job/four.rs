@@ -41,7 +41,7 @@ fn played(pieces: &[Piece], fourth: &FourthAxis, correction: Correction) -> Run 
     let circuit = controller(4, correction, settings.rounding);
     let machine = [TwoMassParameters::default(); 4];
     let plants = plants(&machine, 1.0 / settings.clock_hz as f64);
-    let played = play(&circuit, &program, plants, ()).unwrap();
+    let played = play(&circuit, &program, plants, &mut ()).unwrap();
     assert!(!played.late && !played.starved && !played.lost && played.settled);
     assert_eq!(played.axes, 4);
     Run { program, played }

@@ -78,7 +78,7 @@ fn run(
     let program = Program::of(start, pieces, settings, machine, &Widths::FULL).unwrap();
     let tick_s = 1.0 / settings.clock_hz as f64;
     let circuit = controller(machine.len(), correction, settings.rounding);
-    let played = play(&circuit, &program, plants(machine, tick_s), ()).unwrap();
+    let played = play(&circuit, &program, plants(machine, tick_s), &mut ()).unwrap();
     assert!(!played.late && !played.starved && !played.lost);
     Run { program, played }
 }

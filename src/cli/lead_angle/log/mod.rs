@@ -95,7 +95,7 @@ fn simulate(
     let mut progress = Progress::new(ticks);
     let (waves, stimulus) = (traces.waves.as_mut(), traces.stimulus.as_mut());
     let files = (waves, stimulus, traces.noted.as_mut());
-    let replayed = replay(&circuit, settings, log, (files, &mut progress))?;
+    let replayed = replay(&circuit, settings, log, &mut (files, &mut progress))?;
     drop(progress);
     let action = replayed.signals.first().map_or(0, |signal| signal.tick);
     let files = traces.finish(&shown, &focus(settings, action), replayed.ticks)?;
