@@ -1,5 +1,5 @@
 use crate::engine::EngineError;
-use crate::hdl::pack::{bits_of, given, input_widths};
+use crate::hdl::pack::{bits_of, input_widths, inputs};
 use crate::hdl::{Circuit, Value};
 
 /// More bits than can be enumerated.
@@ -42,7 +42,7 @@ impl TooWide {
 pub fn all<C: Circuit>(circuit: &C) -> Result<impl Iterator<Item = C::In<Value>>, TooWide> {
     let bits = input_widths(circuit).iter().sum();
     TooWide::check_bits("the signals", bits, 63)?;
-    Ok((0..1u64 << bits).map(|word| given(circuit, bits_of(word))))
+    Ok((0..1u64 << bits).map(|word| inputs(circuit, bits_of(word))))
 }
 
 /// A stream of random words, the same on every machine for the same seed (SplitMix64).
@@ -63,7 +63,7 @@ impl Random {
 
     /// Random inputs of a circuit.
     pub fn inputs<C: Circuit>(&mut self, circuit: &C) -> C::In<Value> {
-        given(circuit, |_| self.word())
+        inputs(circuit, |_| self.word())
     }
 }
 

@@ -3,7 +3,7 @@ use super::{Fault, Verdict};
 use crate::engine::Engine;
 use crate::hdl::outline::Shown;
 use crate::hdl::pack::input_widths;
-use crate::hdl::{Circuit, Observer, Pass, Sample, view};
+use crate::hdl::{Circuit, Observer, Pass, Sample};
 use crate::hdl::{Field, Kind, Outline, Path, Role, RunError, Shape};
 use crate::trace::value::number;
 use std::fmt;
@@ -230,13 +230,13 @@ impl Leaves {
             outline: &mut leaves,
             pass: Pass::Registers,
         };
-        view::registers(circuit, &mut shown);
+        circuit.make_shapes(Role::Register, &mut shown);
         leaves.registers = leaves.leaves.len();
         let mut shown = Shown {
             outline: &mut leaves,
             pass: Pass::Nets,
         };
-        view::nets(circuit, &mut shown);
+        circuit.make_shapes(Role::Net, &mut shown);
         leaves
     }
 

@@ -3,7 +3,7 @@
 use crate::hdl::leaves::Nodes;
 use crate::hdl::pack::tokens;
 use crate::hdl::part::Counted;
-use crate::hdl::{Circuit, Nothing, Record, Shapes, Sink, Site, Source, View, Walk, Wire, view};
+use crate::hdl::{Circuit, Nothing, Record, Sink, Site, Source, View, Walk, Wire, view};
 use crate::hdl::{Field, Role, Shape};
 use std::fmt;
 use std::ops::Deref;
@@ -128,7 +128,7 @@ impl<A: Circuit, B: Circuit, V: View> Walk<V> for Sides<A, B, V> {
 /// The ports in of a circuit: names and shapes.
 fn ports<C: Circuit>(circuit: &C) -> Vec<(String, Shape)> {
     let mut ports = Counted::default();
-    C::In::<Shapes>::make(circuit, view::role(Role::Input), &mut ports);
+    circuit.make_shapes(Role::Input, &mut ports);
     let ports = ports.leaves.into_iter();
     ports.map(|port| (port.name, port.shape)).collect()
 }
@@ -140,6 +140,7 @@ impl<A: Circuit, B: Circuit> Circuit for Pair<A, B> {
     type Reg<V: View> = Nothing;
     type Net<V: View> = Nothing;
     type Parts<V: View> = Sides<A, B, V>;
+    crate::hdl_made!();
 
     fn objection(&self) -> Option<String> {
         let (left, right) = (ports(&self.left), ports(&self.right));

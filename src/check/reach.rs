@@ -5,9 +5,7 @@ use super::visited::Visited;
 use super::{CheckError, Fault, TooWide};
 use super::{Counterexample, Invariants};
 use crate::engine::Engine;
-use crate::hdl::pack::{
-    bits_of, given, input_widths, joined, register_widths, registers_of, words,
-};
+use crate::hdl::pack::{bits_of, input_widths, joined, register_widths, registers_of, words};
 use crate::hdl::sample::{Known, all_registers};
 use crate::hdl::{self, Circuit, Model, Registers, Sample, Value};
 use std::cell::RefCell;
@@ -218,7 +216,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
         // Loops where iterators would read better: this is made anew for every circuit.
         let (mut inputs, mut ports) = (Vec::new(), Vec::new());
         for word in 0..1u64 << wide {
-            let i = given(self.circuit, bits_of(word));
+            let i = hdl::inputs(self.circuit, bits_of(word));
             if self.only.as_ref().is_none_or(|possible| possible(&i)) {
                 ports.push(words(&i, &widths));
                 inputs.push(i);
@@ -251,7 +249,7 @@ impl<'a, C: Circuit> Reach<'a, C> {
                 Ended::Fault(way, name, fault) => {
                     let (mut inputs, mut ports) = (Vec::new(), Vec::new());
                     for index in way {
-                        inputs.push(given(self.circuit, bits_of(searching.words[index])));
+                        inputs.push(hdl::inputs(self.circuit, bits_of(searching.words[index])));
                         ports.push(searching.ports[index].clone());
                     }
                     let found = Counterexample::new(&model, (inputs, ports), name, fault);

@@ -1,6 +1,6 @@
 use super::Random;
 use crate::engine::Engine;
-use crate::hdl::{Circuit, Value, pack::given};
+use crate::hdl::{Circuit, Value, pack::inputs};
 
 /// A stretch in which a port keeps to one way of changing has up to this many binary digits of
 /// ticks. Longer ones bring single counters further, and fewer combinations of ports.
@@ -59,7 +59,7 @@ impl Stimulus {
     /// The inputs of the tick that comes next. Give them all to one circuit.
     pub fn inputs<C: Circuit>(&mut self, circuit: &C) -> C::In<Value> {
         let mut ports = self.ports();
-        given(circuit, |shape| ports.port(shape.width))
+        inputs(circuit, |shape| ports.port(shape.width))
     }
 
     /// Sets the ports in of an engine for the tick that comes next.

@@ -2,7 +2,7 @@ use super::Counterexample;
 use super::{CheckError, Fault, TooWide};
 use crate::engine::sliced::{LANES, Run, Sliced};
 use crate::engine::{Engine, Watch, passes};
-use crate::hdl::pack::{bits_of, given, input_widths, joined, widths, words};
+use crate::hdl::pack::{bits_of, input_widths, joined, widths, words};
 use crate::hdl::{self, Circuit, Shapes, Value};
 use crate::hdl::{Declaration, Model};
 use crate::trace::value::show;
@@ -235,7 +235,7 @@ impl<'a, W: Law> Cases<'a, W> {
 
     /// What is expected of a case, as one word.
     fn expected(&self, index: u64) -> Option<u64> {
-        let case = given(self.law, bits_of(index));
+        let case = hdl::inputs(self.law, bits_of(index));
         let expected = self.law.expected(&case)?;
         Some(joined(&words(&expected, &self.seen), &self.seen))
     }
@@ -288,7 +288,7 @@ impl<'a, W: Law> Cases<'a, W> {
     /// What is seen of a case in the end, from power-on.
     fn run(&self, engine: &mut Engine, index: u64) -> Vec<u64> {
         let ports = input_widths(self.law);
-        let case: W::In<Value> = given(self.law, bits_of(index));
+        let case: W::In<Value> = hdl::inputs(self.law, bits_of(index));
         engine.inputs(&words(&case, &ports));
         for tick in 0..self.law.ticks() {
             if tick > 0 {
@@ -305,7 +305,7 @@ impl<'a, W: Law> Cases<'a, W> {
 /// A case that is wrong, played in simulation.
 fn replayed<W: Law>(law: &W, model: &Model, index: u64) -> Counterexample<W> {
     let cases = Cases::of(law);
-    let case: W::In<Value> = given(law, bits_of(index));
+    let case: W::In<Value> = hdl::inputs(law, bits_of(index));
     let leaves = &model.declarations().leaves;
     let own = &leaves[leaves.len() - cases.seen.len()..];
     let seen = cases.run(&mut model.engine(Watch::All), index);
@@ -333,7 +333,7 @@ fn replayed<W: Law>(law: &W, model: &Model, index: u64) -> Counterexample<W> {
     let message = format!("{} with {named} (case {index})", found.join(", "));
     let fault = Fault { signals, message };
     let ticks = 0..law.ticks();
-    let inputs = ticks.clone().map(|_| given(law, bits_of(index)));
+    let inputs = ticks.clone().map(|_| hdl::inputs(law, bits_of(index)));
     let ports = ticks.map(|_| ports.clone());
     let inputs = (inputs.collect(), ports.collect());
     Counterexample::new(model, inputs, law.law().to_owned(), fault)

@@ -10,9 +10,9 @@ use super::names;
 use super::netlist::{Design, Id, Module, Port, Register, Setting, Value};
 use super::part::{Counted, pair};
 use super::property;
-use super::record::{Record, Site, Source, Walk};
+use super::record::{Record, Site, Walk};
 use super::view::{self, Edge, Shapes, Wire};
-use super::{Circuit, Nothing, Role};
+use super::{Circuit, More, Nothing, Role};
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -25,11 +25,8 @@ pub fn elaborate<C: Circuit>(circuit: &C) -> Result<Design, Wrong> {
 }
 
 /// The same with ports in of the whole that it does not look at.
-pub(crate) fn with_inputs<C: Circuit>(
-    circuit: &C,
-    more: &mut dyn FnMut(&mut dyn Source),
-) -> Result<Design, Wrong> {
-    whole(&mut || module_with(circuit, circuit.name().to_owned(), more))
+pub(crate) fn with_inputs<C: Circuit>(circuit: &C, more: More<'_>) -> Result<Design, Wrong> {
+    whole(&mut || circuit.make_module(circuit.name().to_owned(), more))
 }
 
 // What does not depend on the circuit's type is not made for each.
@@ -63,14 +60,10 @@ fn whole(make: &mut dyn FnMut() -> (usize, Vec<Setting>)) -> Result<Design, Wron
 }
 
 /// Makes the module of a circuit; returns its number and its settings.
-pub(super) fn module<C: Circuit>(circuit: &C, path: String) -> (usize, Vec<Setting>) {
-    module_with(circuit, path, &mut |_| {})
-}
-
-fn module_with<C: Circuit>(
+pub(super) fn module<C: Circuit>(
     circuit: &C,
     path: String,
-    more: &mut dyn FnMut(&mut dyn Source),
+    more: More<'_>,
 ) -> (usize, Vec<Setting>) {
     let site = declared([
         <C::In<Wire> as Walk<Wire>>::SITE,
@@ -137,7 +130,7 @@ fn end(name: &str, about: &'static str, nets: Nets) -> (usize, Vec<Setting>) {
 }
 
 /// Makes the signals of a circuit, what drives them, and the circuits inside.
-fn signals_of<C: Circuit>(circuit: &C, site: Site, more: &mut dyn FnMut(&mut dyn Source)) -> Nets {
+fn signals_of<C: Circuit>(circuit: &C, site: Site, more: More<'_>) -> Nets {
     let mistakes = build::mistakes();
     let i: C::In<Wire> = C::In::make(circuit, view::role(Role::Input), &mut Leaves::default());
     more(&mut Leaves::default());

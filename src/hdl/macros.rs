@@ -380,12 +380,48 @@ macro_rules! hdl_records {
         $crate::hdl_records!(@ Reg $reg);
         $crate::hdl_records!(@ Net $net);
         $crate::hdl_records!(@ Parts $parts);
+        $crate::hdl_made!();
     };
     (@ $role:ident Nothing) => {
         type $role<V: $crate::hdl::View> = $crate::hdl::Nothing;
     };
     (@ $role:ident $record:ident) => {
         type $role<V: $crate::hdl::View> = $record<V>;
+    };
+}
+
+/// What is made of a circuit's records, compiled where the circuit is.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_made {
+    () => {
+        $crate::hdl_made! {
+            make_module module(
+                path: ::std::string::String,
+                more: $crate::hdl::More<'_>,
+            ) -> (usize, ::std::vec::Vec<$crate::hdl::netlist::Setting>);
+            make_shapes shapes(role: $crate::hdl::Role, source: &mut dyn $crate::hdl::Source) -> ();
+            make_places places(source: &mut dyn $crate::hdl::Source) -> $crate::hdl::Signals<Self>;
+            make_inputs inputs(
+                source: &mut dyn $crate::hdl::Source,
+            ) -> Self::In<$crate::hdl::Value>;
+            make_registers registers(
+                source: &mut dyn $crate::hdl::Source,
+            ) -> Self::Reg<$crate::hdl::Value>;
+            make_nets nets(source: &mut dyn $crate::hdl::Source) -> Self::Net<$crate::hdl::Value>;
+            make_parts parts(
+                source: &mut dyn $crate::hdl::Source,
+            ) -> Self::Parts<$crate::hdl::Value>;
+            make_kept kept(source: &mut dyn $crate::hdl::Source) -> $crate::hdl::Registers<Self>;
+        }
+    };
+    ($( $name:ident $made:ident($($given:ident: $kind:ty),* $(,)?) -> $makes:ty; )+) => {
+        $(
+            #[inline(never)]
+            fn $name(&self, $($given: $kind),*) -> $makes {
+                $crate::hdl::made::$made(self, $($given),*)
+            }
+        )+
     };
 }
 

@@ -17,6 +17,8 @@ mod declare;
 mod elaborate;
 pub(crate) mod leaves;
 mod macros;
+#[doc(hidden)]
+pub mod made;
 mod memory;
 mod mistake;
 mod model;
@@ -124,7 +126,29 @@ pub trait Circuit: Clone + Debug + Send + Sync + 'static {
     fn objection(&self) -> Option<String> {
         None
     }
+
+    // What `records!` writes; see `made`.
+    #[doc(hidden)]
+    fn make_module(&self, path: String, more: More<'_>) -> (usize, Vec<netlist::Setting>);
+    #[doc(hidden)]
+    fn make_shapes(&self, role: Role, source: &mut dyn Source);
+    #[doc(hidden)]
+    fn make_places(&self, source: &mut dyn Source) -> Signals<Self>;
+    #[doc(hidden)]
+    fn make_inputs(&self, source: &mut dyn Source) -> Self::In<Value>;
+    #[doc(hidden)]
+    fn make_registers(&self, source: &mut dyn Source) -> Self::Reg<Value>;
+    #[doc(hidden)]
+    fn make_nets(&self, source: &mut dyn Source) -> Self::Net<Value>;
+    #[doc(hidden)]
+    fn make_parts(&self, source: &mut dyn Source) -> Self::Parts<Value>;
+    #[doc(hidden)]
+    fn make_kept(&self, source: &mut dyn Source) -> Registers<Self>;
 }
+
+/// Shows ports in that a circuit does not look at.
+#[doc(hidden)]
+pub type More<'a> = &'a mut dyn FnMut(&mut dyn Source);
 
 /// A circuit elaborated, its type forgotten.
 ///

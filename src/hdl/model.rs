@@ -147,6 +147,12 @@ impl Model {
         widths.map(|width| u64::MAX >> (64 - width)).collect()
     }
 
+    /// How many of its nets are its own, and not of a circuit inside it.
+    pub(crate) fn own_nets(&self) -> usize {
+        let modules = &self.design.modules;
+        modules.last().map_or(0, |whole| whole.own_nets(modules))
+    }
+
     /// The leaves of a part of the whole.
     pub(crate) fn leaves(&self, role: Role) -> std::ops::Range<usize> {
         self.flat.part(role)

@@ -2,8 +2,7 @@
 
 use super::Circuit;
 use super::memory::Contents;
-use super::record::{Cells, MemoryShape, Pass, Record, Source};
-use super::view::{self, Shapes};
+use super::record::{Cells, MemoryShape, Pass, Source};
 use crate::hdl::{Declarations, Field, Outline, Role, Shape};
 
 /// The signals of a circuit: ports in, registers, nets. What they are at power-on is left at 0.
@@ -17,10 +16,10 @@ pub(crate) fn declarations<C: Circuit>(
         outline: &mut declarations,
         pass: Pass::Registers,
     };
-    C::In::<Shapes>::make(circuit, view::role(Role::Input), &mut shown);
+    circuit.make_shapes(Role::Input, &mut shown);
     beside(&mut shown);
-    view::registers(circuit, &mut shown);
-    view::nets(circuit, &mut shown);
+    circuit.make_shapes(Role::Register, &mut shown);
+    circuit.make_shapes(Role::Net, &mut shown);
     declarations
 }
 

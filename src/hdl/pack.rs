@@ -47,13 +47,17 @@ pub(crate) fn widths<O: ?Sized, R: Record<O, Shapes>>(of: &O) -> Vec<usize> {
 
 /// The widths of the ports in of a circuit.
 pub(crate) fn input_widths<C: Circuit>(circuit: &C) -> Vec<usize> {
-    widths::<C, C::In<Shapes>>(circuit)
+    widths_of(circuit, Role::Input)
 }
 
 /// The widths of all registers of a circuit and of those inside it.
 pub(crate) fn register_widths<C: Circuit>(circuit: &C) -> Vec<usize> {
+    widths_of(circuit, Role::Register)
+}
+
+fn widths_of<C: Circuit>(circuit: &C, role: Role) -> Vec<usize> {
     let mut widths = Widths::default();
-    view::registers(circuit, &mut widths);
+    circuit.make_shapes(role, &mut widths);
     widths.widths
 }
 
@@ -75,14 +79,10 @@ pub(crate) fn tokens<V: View, R: Walk<V>>(record: &R) -> Vec<u64> {
 
 /// Ports in whose words are given one after the other, each cut to its width.
 pub fn inputs<C: Circuit>(circuit: &C, word: impl FnMut(Shape) -> u64) -> C::In<Value> {
-    given(circuit, word)
+    circuit.make_inputs(&mut Given(word))
 }
 
-/// A record whose leaves are given one after the other.
-pub(crate) fn given<O: ?Sized, R: Record<O, Value>>(of: &O, leaf: impl FnMut(Shape) -> u64) -> R {
-    R::make(of, view::role(Role::Input), &mut Given(leaf))
-}
-
+/// Leaves that are given one after the other.
 struct Given<F>(F);
 
 impl<F: FnMut(Shape) -> u64> Source for Given<F> {
@@ -131,8 +131,5 @@ pub(crate) fn joined(words: &[u64], widths: &[usize]) -> u64 {
 
 /// All registers of a circuit from a word.
 pub(crate) fn registers_of<C: Circuit>(circuit: &C, word: u64) -> Registers<C> {
-    let mut given = Given(bits_of(word));
-    let q = C::Reg::make(circuit, view::role(Role::Register), &mut given);
-    let p = C::Parts::make(circuit, view::role(Role::Register), &mut given);
-    Registers { q, p }
+    circuit.make_kept(&mut Given(bits_of(word)))
 }

@@ -1,7 +1,6 @@
 //! Circuits inside a circuit.
 
 use super::build::{self, Declared, Instance, builder, elaboration, here, node};
-use super::elaborate;
 use super::leaves::Nodes;
 use super::record::{Pass, Record, Sink, Source, Walk};
 use super::view::{self, Seen, Shapes, Wire};
@@ -53,14 +52,13 @@ impl<C: Circuit> Part<C> {
     pub fn settle(self, i: C::In<Wire>) -> Settled<C> {
         let site = here();
         let inputs = drive::<C>(&self.circuit, &i, site);
-        let (module, settings) = elaborate::module(&self.circuit, path(self.part));
-        let ports = instance(self.part, (module, settings), inputs, site);
-        let mut own = Counted::default();
-        C::Net::<Shapes>::make(&self.circuit, view::role(Role::Net), &mut own);
-        // The nets of a module come after those of the circuits inside it.
-        let inner = ports.len() - own.leaves.len().min(ports.len());
-        let mut ports = Nodes(ports[inner..].iter());
-        let w = C::Net::make(&self.circuit, view::role(Role::Net), &mut ports);
+        let made = self.circuit.make_module(path(self.part), &mut |_| {});
+        let nets = instance(self.part, made, inputs, site);
+        let w = C::Net::make(
+            &self.circuit,
+            view::role(Role::Net),
+            &mut Nodes(nets.iter()),
+        );
         Settled { i, q: self.q, w }
     }
 }
@@ -97,7 +95,7 @@ fn path(part: usize) -> String {
     builder(|builder| format!("{}.{}", builder.path, builder.parts[part].name))
 }
 
-/// Makes a part an instance of its module; returns the nodes of all its nets.
+/// Makes a part an instance of its module; returns the nodes of its own nets.
 #[inline(never)]
 fn instance(
     part: usize,
@@ -105,9 +103,12 @@ fn instance(
     inputs: Vec<build::Id>,
     site: super::Site,
 ) -> Vec<build::Id> {
-    let leaves = elaboration(|elaboration| elaboration.modules[module].net_leaves());
+    let (leaves, own) = elaboration(|elaboration| {
+        let module = &elaboration.modules[module];
+        (module.net_leaves(), module.own_nets(&elaboration.modules))
+    });
     let instance = builder(|builder| builder.instances.len());
-    let ports: Vec<_> = (0..leaves)
+    let mut ports: Vec<_> = (0..leaves)
         .map(|leaf| {
             let shape = elaboration(|elaboration| elaboration.modules[module].net_shape(leaf));
             node(Node::Port { instance, leaf }, shape)
@@ -133,7 +134,7 @@ fn instance(
             site,
         });
     });
-    ports
+    ports.split_off(leaves - own)
 }
 
 /// Settles several parts; `drive` gives the ports in of one by its index.
@@ -152,7 +153,7 @@ pub fn settle_each<C: Circuit>(
 /// The nodes that drive ports in, each as wide as its port.
 fn drive<C: Circuit>(circuit: &C, i: &C::In<Wire>, site: super::Site) -> Vec<build::Id> {
     let mut wanted = Counted::default();
-    C::In::<Shapes>::make(circuit, view::role(Role::Input), &mut wanted);
+    circuit.make_shapes(Role::Input, &mut wanted);
     let mut given = Counted::default();
     i.visit(view::role(Role::Input), &mut given);
     pair(&given, &wanted, site, "port")

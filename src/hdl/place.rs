@@ -3,8 +3,8 @@
 use super::Circuit;
 use super::memory::Contents;
 use super::pack;
-use super::record::{Cells, MemoryShape, Pass, Places, Record, Source};
-use super::view::{self, Place};
+use super::record::{Cells, MemoryShape, Pass, Places, Source};
+use super::view::Place;
 use crate::engine::Engine;
 use crate::hdl::{Field, Role, Shape};
 use std::fmt;
@@ -162,9 +162,7 @@ impl<C: Circuit> Signals<C> {
             next: [0, ports, nets],
             role: Role::Input,
         });
-        let i = C::In::make(circuit, view::role(Role::Input), &mut leaves);
-        let (q, p, w) = view::inner(circuit, &mut leaves);
-        Signals { i, q, w, p }
+        circuit.make_places(&mut leaves)
     }
 }
 

@@ -3,8 +3,8 @@
 use super::Circuit;
 use super::memory::Contents;
 use super::place::{At, Number, Signals};
-use super::record::{Cells, MemoryShape, Pass, Places, Record, Source};
-use super::view::{self, Kept, Value};
+use super::record::{Cells, MemoryShape, Pass, Places, Source};
+use super::view::{Kept, Value};
 use crate::engine::{Engine, Spot};
 use crate::hdl::{Field, Model, Role, Shape};
 use std::cell::OnceCell;
@@ -89,7 +89,7 @@ impl<C: Circuit> Known<C> {
             circuit: circuit.clone(),
             beside,
             masks: model.masks(),
-            nets: super::pack::widths::<C, C::Net<view::Shapes>>(circuit).len(),
+            nets: model.own_nets(),
             signals: OnceLock::new(),
         }
     }
@@ -216,7 +216,7 @@ impl<C: Circuit> Sample<'_, C> {
             tick,
             i: &Lazy::new(i, &|| {
                 let mut leaves = Leaves::of(engine, Role::Input);
-                C::In::make(circuit, view::role(Role::Input), &mut leaves)
+                circuit.make_inputs(&mut leaves)
             }),
             q: &Lazy::new(registers.map(|all| &all.q), &|| {
                 own_registers(circuit, engine)
@@ -225,12 +225,10 @@ impl<C: Circuit> Sample<'_, C> {
                 let mut leaves = Leaves::of(engine, Role::Net);
                 // Its own come last.
                 leaves.places.next[Role::Net as usize] = engine.leaves() - known.nets;
-                C::Net::make(circuit, view::role(Role::Net), &mut leaves)
+                circuit.make_nets(&mut leaves)
             }),
             p: &Lazy::new(None, &|| {
-                let mut leaves = Leaves::of(engine, Role::Register);
-                C::Reg::<view::Shapes>::make(circuit, view::role(Role::Register), &mut leaves);
-                C::Parts::make(circuit, view::role(Role::Net), &mut leaves)
+                circuit.make_parts(&mut Leaves::of(engine, Role::Register))
             }),
             registers: &Lazy::new(registers, &|| all_registers(circuit, engine)),
             known,
@@ -303,16 +301,12 @@ impl<C: Circuit> State<'_, C> {
 }
 
 fn own_registers<C: Circuit>(circuit: &C, engine: &Engine) -> C::Reg<Value> {
-    let mut leaves = Leaves::of(engine, Role::Register);
-    C::Reg::make(circuit, view::role(Role::Register), &mut leaves)
+    circuit.make_registers(&mut Leaves::of(engine, Role::Register))
 }
 
 /// The registers of a circuit and of those inside it.
 pub(crate) fn all_registers<C: Circuit>(circuit: &C, engine: &Engine) -> Registers<C> {
-    let mut leaves = Leaves::of(engine, Role::Register);
-    let q = C::Reg::make(circuit, view::role(Role::Register), &mut leaves);
-    let p = C::Parts::make(circuit, view::role(Role::Register), &mut leaves);
-    Registers { q, p }
+    circuit.make_kept(&mut Leaves::of(engine, Role::Register))
 }
 
 /// What the leaves of an engine are, in the order of a walk.

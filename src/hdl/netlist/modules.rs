@@ -71,6 +71,13 @@ impl Module {
         self.net_nodes.len()
     }
 
+    /// How many of them are its own: they come after those of the instances.
+    pub(crate) fn own_nets(&self, modules: &[Module]) -> usize {
+        let instances = self.instances.iter();
+        let inner = instances.map(|child| child.inputs.len() + modules[child.module].net_leaves());
+        self.net_leaves() - inner.sum::<usize>()
+    }
+
     /// The leaves of the walk over the registers; a memory is one.
     pub(crate) fn register_leaves(&self) -> impl Iterator<Item = Register> + '_ {
         self.registers.iter().copied()
