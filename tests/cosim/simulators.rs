@@ -12,6 +12,10 @@ use std::fs::File;
 const TICKS: u64 = 30_000;
 /// At the least and at the own widths.
 const FEWER_TICKS: u64 = 10_000;
+/// At own widths with more than [`MANY_WORDS`] signals, words of memories among them: when one of
+/// these is written, Icarus goes through all.
+const LEAST_TICKS: u64 = 2_000;
+const MANY_WORDS: usize = 1_000;
 const SEED: u64 = 3;
 
 /// Drives a circuit and its Verilog; returns how many ticks had a reset.
@@ -36,13 +40,20 @@ pub fn hold(circuit: &dyn AnyModel, simulator: Simulator, seed: u64, ticks: u64)
 }
 
 /// The circuit of an entry at several widths, with the ticks it is held for: an odd one where it can
-/// be made so, a middle one, its own, at which Icarus goes through thousands of words in each tick.
+/// be made so, a middle one, its own.
 fn widths(entry: &Entry) -> Vec<(Box<dyn AnyModel>, u64)> {
     let made = |width| entry.model(&[width]).filter(|made| made.model().is_ok());
     let least = made(3).or_else(|| made(4)).map(|made| (made, FEWER_TICKS));
     let middle = made(8).map(|made| (made, TICKS));
-    let own = (entry.full(), FEWER_TICKS);
-    [least, middle, Some(own)].into_iter().flatten().collect()
+    let own = entry.full();
+    let ticks = match own.outline().leaves.len() > MANY_WORDS {
+        true => LEAST_TICKS,
+        false => FEWER_TICKS,
+    };
+    [least, middle, Some((own, ticks))]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Every circuit of the catalogue at every width, on all cores.

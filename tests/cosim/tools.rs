@@ -66,7 +66,11 @@ impl Simulator {
                     "--trace-underscore",
                     "--trace-max-array",
                     "65536",
-                    "-O3",
+                    // It runs for less time than g++ takes to optimise it.
+                    "-MAKEFLAGS",
+                    "OPT_FAST=-O0",
+                    "-MAKEFLAGS",
+                    "OPT_GLOBAL=-O0",
                     "--top-module",
                     &bench,
                 ];

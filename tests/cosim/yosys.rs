@@ -30,7 +30,7 @@ fn cells(said: &str, wanted: impl Fn(&str) -> bool) -> u64 {
 
 /// Up to so many bytes of Verilog a circuit is measured again although its row stands: the tools
 /// still say what the note says.
-const SHORT: usize = 3_000;
+const SHORT: usize = 2_000;
 
 /// LUTs, flip-flops, carries and block RAMs of every circuit at its own widths. A row of `old` whose
 /// Verilog is what it was stands, if the same Yosys has measured it: large circuits take minutes.
