@@ -1,6 +1,8 @@
 //! What a control computer gives to a record memory: a word a tick, as there is room.
 
 use super::record::{Record, WORDS};
+use crate::circuits::blocks::RecordWrite;
+use crate::hdl::Value;
 
 /// Records that are written one after the other.
 #[derive(Debug)]
@@ -12,18 +14,13 @@ pub(crate) struct RecordWriter<'a> {
     pub(crate) free: bool,
 }
 
-/// What stands at the memory's ports in a tick; all 0 where nothing is written.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Written {
-    /// A word is written.
-    pub(crate) write: bool,
-    /// Its number.
-    pub(crate) word: u64,
-    /// Its data.
-    pub(crate) data: u64,
-    /// It is the record's last.
-    pub(crate) push: bool,
-}
+/// What stands at the memory's ports where nothing is written.
+const NOTHING: RecordWrite<Value> = RecordWrite {
+    write: false,
+    write_word: 0,
+    write_data: 0,
+    push: false,
+};
 
 impl<'a> RecordWriter<'a> {
     /// Of records, for an empty memory.
@@ -47,26 +44,26 @@ impl<'a> RecordWriter<'a> {
     }
 
     /// The word of this tick.
-    pub(crate) fn write(&mut self) -> Written {
+    pub(crate) fn write(&mut self) -> RecordWrite<Value> {
         self.write_up_to(self.records.len())
     }
 
     /// The word of this tick, of the first so many records: a path that ends at rest ends where no
     /// record waits.
-    pub(crate) fn write_up_to(&mut self, records: usize) -> Written {
+    pub(crate) fn write_up_to(&mut self, records: usize) -> RecordWrite<Value> {
         if self.record >= records {
-            return Written::default();
+            return NOTHING;
         }
         let Some(record) = self.records.get(self.record).filter(|_| self.free) else {
-            return Written::default();
+            return NOTHING;
         };
         let (word, push) = (self.word, self.word + 1 == WORDS);
         self.word = (word + 1) % WORDS;
         self.record += usize::from(push);
-        Written {
+        RecordWrite {
             write: true,
-            word: word as u64,
-            data: record.words[word],
+            write_word: word as u64,
+            write_data: record.words[word],
             push,
         }
     }

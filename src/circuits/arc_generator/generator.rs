@@ -15,7 +15,7 @@ use super::{
 };
 use crate::circuits::blocks::record_memory::ARC;
 use crate::circuits::blocks::{
-    DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_engine,
+    DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, RecordWrite, difference_engine,
     enable_counter, record_memory, record_sequencer,
 };
 use crate::hdl::prelude::*;
@@ -111,14 +111,8 @@ impl Default for ArcGenerator {
 signals! { for Widths as c;
     /// Segments, as they are written, and the start of their path.
     pub struct Segments {
-        /// Writes a word of the free record; not taken unless `ready`.
-        pub write: Bit,
-        /// Number of the word.
-        pub write_word: U(5),
-        /// Its data.
-        pub write_data: U(c.data) as Hex,
-        /// The free record is complete; not taken unless `ready`.
-        pub push: Bit,
+        /// Records of segments.
+        pub record: RecordWrite(&c.data) as Flat,
         /// Begins a path, unless one is under way or no segment waits.
         pub start: Bit,
     }
@@ -188,10 +182,7 @@ impl Segments {
         flush: Bit,
     ) -> record_memory::In {
         record_memory::In {
-            write: self.write,
-            write_word: self.write_word,
-            write_data: self.write_data,
-            push: self.push,
+            record: self.record.clone(),
             take: sequencer.take,
             kind: sequencer.kind,
             flush,

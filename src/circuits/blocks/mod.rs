@@ -21,7 +21,7 @@ pub use difference_engine::DifferenceEngine;
 pub use enable_counter::EnableCounter;
 pub use mul_div::MulDiv;
 pub use quadrature_counter::QuadratureCounter;
-pub use record_memory::{RecordMemory, RecordWord};
+pub use record_memory::{RecordMemory, RecordWord, RecordWrite};
 pub use record_sequencer::RecordSequencer;
 pub use scaler::Scaler;
 pub use shifter::Shifter;

@@ -50,14 +50,8 @@ impl RecordMemory {
 signals! { for RecordMemory as c;
     /// Ports in.
     pub struct In {
-        /// Writes a word of the free record; not taken unless `ready`.
-        pub write: Bit,
-        /// Number of the word.
-        pub write_word: U(5),
-        /// Its data.
-        pub write_data: U(c.data) as Hex,
-        /// The free record is complete, with what is written in this tick; not taken unless `ready`.
-        pub push: Bit,
+        /// Records, as they are written.
+        pub record: RecordWrite(&c.data) as Flat,
         /// The next record goes to the blocks, if there is one and none is on its way.
         pub take: Bit,
         /// The kind of the record that is on its way, from its second word on.
@@ -117,6 +111,17 @@ signals! { for RecordMemory as c;
 }
 
 signals! { for usize as data;
+    /// A record as the control computer writes it, where a word has so many bits.
+    pub struct RecordWrite {
+        /// Writes a word of the free record; not taken unless `ready`.
+        pub write: Bit,
+        /// Number of the word.
+        pub write_word: U(5),
+        /// Its data.
+        pub write_data: U(*data) as Hex,
+        /// The free record is complete, with what is written in this tick; not taken unless `ready`.
+        pub push: Bit,
+    }
     /// What a word of a record is on its way to the blocks, where a word has so many bits.
     pub struct RecordWord {
         /// `data` is word `word` of a record.
@@ -163,10 +168,10 @@ impl Circuit for RecordMemory {
         let arc = i.kind.equals(ARC);
         let ready = !q.full;
         let available = q.full | !q.write_record.equals(q.read_record);
-        let write_address = q.write_record.join(i.write_word);
+        let write_address = q.write_record.join(i.record.write_word);
         let read_address = q.read_record.join(q.read_word);
-        let store = i.write & ready;
-        let complete = i.push & !q.full;
+        let store = i.record.write & ready;
+        let complete = i.record.push & !q.full;
         let last = q.reading & q.read_word.equals(LAST_WORD);
         let read_on = last.mux(q.read_record + 1, q.read_record);
         let write_on = complete.mux(q.write_record + 1, q.write_record);
@@ -191,7 +196,7 @@ impl Circuit for RecordMemory {
         };
         let next = Reg {
             data: q.records.read_when(load, read_address, q.data),
-            records: q.records.write(store, write_address, i.write_data),
+            records: q.records.write(store, write_address, i.record.write_data),
             write_record: next_write,
             read_record: next_read,
             full: full & !i.flush,

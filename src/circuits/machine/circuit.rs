@@ -218,19 +218,11 @@ impl Circuit for Machine {
         let guarded = |counts: I| counts.resize(widths.point).shift_left(widths.guard());
         let of = i.trajectory;
         let trajectory = p.trajectory_controller.settle(controller::In {
-            write: of.write,
-            write_word: of.write_word,
-            write_data: of.write_data,
-            push: of.push,
+            record: of.record,
             start: of.start,
             halt,
             restart: low,
-            write_begin: of.write_begin,
-            begin_segment: of.begin_segment,
-            begin_length: of.begin_length,
-            write_path: of.write_path,
-            path_address: of.path_address,
-            path_data: of.path_data,
+            path: of.path,
             last: of.last,
             path_end: of.path_end,
             period: enables.w.sample_led,

@@ -1,6 +1,7 @@
 //! Ports of the machine, a bundle for each circuit: what its control computer gives it. Those of the
 //! arc generator are its own.
 
+use crate::circuits::blocks::RecordWrite;
 use crate::circuits::lead_angle::Compensator;
 use crate::circuits::linear_interpolator::LinearInterpolator;
 use crate::circuits::linear_interpolator::target_data::Settings;
@@ -8,6 +9,7 @@ use crate::circuits::pulse_interpolator::Group;
 use crate::circuits::pulse_interpolator::pattern_memory::WritePort;
 use crate::circuits::trajectory_controller::TrajectoryController;
 use crate::circuits::trajectory_controller::model_state::ModelGains;
+use crate::circuits::trajectory_controller::path_point::PathWrite;
 use crate::hdl::prelude::*;
 
 /// Names of the axes' ports.
@@ -56,28 +58,12 @@ signals! { for TrajectoryController as c;
     /// To the trajectory controller; see
     /// [`controller::In`](crate::circuits::trajectory_controller::controller::In).
     pub struct Trajectory {
-        /// Writes a word of the free record of the profile.
-        pub write: Bit,
-        /// Number of the word.
-        pub write_word: U(5),
-        /// Its data.
-        pub write_data: U(c.widths.data) as Hex,
-        /// The free record is complete.
-        pub push: Bit,
+        /// Records of the profile.
+        pub record: RecordWrite(&c.widths.data) as Flat,
         /// Begins to move along the path.
         pub start: Bit,
-        /// Writes where a segment of the path begins.
-        pub write_begin: Bit,
-        /// The segment.
-        pub begin_segment: U(c.widths.segment),
-        /// The length at which it begins.
-        pub begin_length: U(c.widths.point),
-        /// Writes a word of a segment.
-        pub write_path: Bit,
-        /// The segment, and in the lowest bits the number of its word.
-        pub path_address: U(c.widths.point().address()) as Hex,
-        /// Its data.
-        pub path_data: U(c.widths.data) as Hex,
+        /// The path's segments.
+        pub path: PathWrite(&c.widths.point().of_axes(c.axes)) as Flat,
         /// The path's last segment.
         pub last: U(c.widths.segment),
         /// L: the path's length.

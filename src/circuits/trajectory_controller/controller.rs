@@ -10,7 +10,7 @@
 
 use super::error_feedback::FeedbackGains;
 use super::model_state::ModelGains;
-use super::path_point::{AXIS_NAMES, of_axes};
+use super::path_point::{AXIS_NAMES, PathWrite, of_axes};
 use super::point_sequencer::{RADIUS, STEADY_RADIUS};
 use super::servo_arithmetic::ServoGains;
 use super::vector_correction::Correction;
@@ -20,7 +20,7 @@ use super::{
     path_point, period_join, reference_model,
 };
 use crate::circuits::blocks::{
-    DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, difference_column,
+    DifferenceEngine, EnableCounter, RecordMemory, RecordSequencer, RecordWrite, difference_column,
     difference_engine, enable_counter, record_memory, record_sequencer,
 };
 use crate::hdl::prelude::*;
@@ -158,14 +158,8 @@ impl TrajectoryController {
 signals! { for TrajectoryController as c;
     /// Ports in.
     pub struct In {
-        /// Writes a word of the free profile record; not taken unless `ready`.
-        pub write: Bit,
-        /// Number of the word.
-        pub write_word: U(5),
-        /// Its data.
-        pub write_data: U(c.widths.data) as Hex,
-        /// The free profile record is complete; not taken unless `ready`.
-        pub push: Bit,
+        /// Records of the profile.
+        pub record: RecordWrite(&c.widths.data) as Flat,
         /// Begins to move along the path.
         pub start: Bit,
         /// Ends the movement where it is.
@@ -173,18 +167,8 @@ signals! { for TrajectoryController as c;
         /// Another path, at rest: its segments may be written from the next beginning of a period
         /// up to `start`. The servo controls hold the machine meanwhile.
         pub restart: Bit,
-        /// Writes where a segment of the path begins.
-        pub write_begin: Bit,
-        /// The segment.
-        pub begin_segment: U(c.widths.segment),
-        /// The length at which it begins.
-        pub begin_length: U(c.widths.point),
-        /// Writes a word of a segment.
-        pub write_path: Bit,
-        /// The segment, and in the lowest bits the number of its word.
-        pub path_address: U(c.point(RADIUS).widths.address()) as Hex,
-        /// Its data.
-        pub path_data: U(c.widths.data) as Hex,
+        /// The path's segments.
+        pub path: PathWrite(&c.point(RADIUS).widths) as Flat,
         /// The path's last segment.
         pub last: U(c.widths.segment),
         /// L: the path's length.
@@ -300,10 +284,7 @@ impl Circuit for TrajectoryController {
             .period_counter
             .settle(enable_counter::In { period: i.period });
         let memory = p.memory.settle(record_memory::In {
-            write: i.write,
-            write_word: i.write_word,
-            write_data: i.write_data,
-            push: i.push,
+            record: i.record,
             take: p.sequencer.q.take,
             kind: p.sequencer.q.kind,
             flush: i.halt,
@@ -346,12 +327,7 @@ impl Circuit for TrajectoryController {
             start,
             length,
             last: i.last,
-            write_begin: i.write_begin,
-            begin_segment: i.begin_segment,
-            begin_length: i.begin_length,
-            write: i.write_path,
-            write_address: i.path_address,
-            write_data: i.path_data,
+            path: i.path.clone(),
         };
         let distribution = p.distribution.settle(point(fresh, command.w.clamped));
         // The prior art knows where the command is, not where the response is.

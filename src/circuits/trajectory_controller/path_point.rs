@@ -4,7 +4,7 @@
 //!                      ┌──────────────────────────────┐
 //!  start, length ─────▶│ search ▶ store ▶ sequencer   ├──▶ points, segment
 //!  last ──────────────▶│   ▶ arc_angle ▶ cordic       ├──▶ done, busy
-//!  write, write_… ────▶│   ▶ length_powers            │
+//!  write_path, … ─────▶│   ▶ length_powers            │
 //!                      │   ▶ rows of x, y, z, w       │
 //!                      └──────────────────────────────┘
 //! ```
@@ -87,6 +87,24 @@ impl PathPoint {
     }
 }
 
+signals! { for PointWidths as c;
+    /// Segments of a path, as the control computer writes them.
+    pub struct PathWrite {
+        /// Writes where a segment of the path begins.
+        pub write_begin: Bit,
+        /// The segment.
+        pub begin_segment: U(c.segment),
+        /// The length at which it begins.
+        pub begin_length: U(c.point),
+        /// Writes a word of a segment.
+        pub write_path: Bit,
+        /// The segment, and in the lowest bits the number of its word.
+        pub path_address: U(c.address()) as Hex,
+        /// Its data.
+        pub path_data: U(c.data) as Hex,
+    }
+}
+
 signals! { for PathPoint as c;
     /// Ports in.
     pub struct In {
@@ -97,18 +115,8 @@ signals! { for PathPoint as c;
         pub length: U(c.widths.point),
         /// The path's last segment.
         pub last: U(c.widths.segment),
-        /// Writes where a segment begins.
-        pub write_begin: Bit,
-        /// The segment.
-        pub begin_segment: U(c.widths.segment),
-        /// The length at which it begins.
-        pub begin_length: U(c.widths.point),
-        /// Writes a word of a segment.
-        pub write: Bit,
-        /// The segment, and in the lowest bits the number of its word.
-        pub write_address: U(c.inner().address()) as Hex,
-        /// Its data.
-        pub write_data: U(c.widths.data) as Hex,
+        /// The path's segments, as they are written.
+        pub path: PathWrite(&c.inner()) as Flat,
     }
     /// The blocks.
     pub struct Parts {
@@ -156,14 +164,14 @@ impl Circuit for PathPoint {
             start: p.sequencer.q.search,
             length: i.length,
             last: i.last,
-            write: i.write_begin,
-            write_segment: i.begin_segment,
-            write_begin: i.begin_length,
+            write: i.path.write_begin,
+            write_segment: i.path.begin_segment,
+            write_begin: i.path.begin_length,
         });
         let store = p.store.settle(segment_store::In {
-            write: i.write,
-            write_address: i.write_address,
-            write_data: i.write_data,
+            write: i.path.write_path,
+            write_address: i.path.path_address,
+            write_data: i.path.path_data,
             fetch: p.sequencer.q.fetch,
             segment: search.q.segment,
         });

@@ -114,13 +114,7 @@ impl<'a> Bench<'a> {
         self.quiet = self.started && !start && !record.write;
         self.given = [start, record.push];
         generator::In {
-            segments: generator::Segments {
-                write: record.write,
-                write_word: record.word,
-                write_data: record.data,
-                push: record.push,
-                start,
-            },
+            segments: generator::Segments { record, start },
             halt: false,
             sample_period: self.sample_ticks,
         }

@@ -207,7 +207,7 @@ impl<'a> Host<'a> {
         self.arc_words(&mut i.arcs);
         self.trajectory(&mut i.trajectory);
         self.lift(&mut i.lift);
-        self.pushed = [i.arcs.push, i.trajectory.push];
+        self.pushed = [i.arcs.record.push, i.trajectory.record.push];
         match self.stage {
             Stage::Write if self.path.is_done() && self.lift_words > 2 => {
                 self.stage = self.turn_to(0);
@@ -224,11 +224,11 @@ impl<'a> Host<'a> {
             i.pulse.command,
             i.pulse.port.write,
             i.lines.push,
-            i.arcs.write,
+            i.arcs.record.write,
             i.arcs.start,
-            i.trajectory.write,
+            i.trajectory.record.write,
             i.trajectory.start,
-            i.trajectory.write_path,
+            i.trajectory.path.write_path,
             i.lift.write_target,
             i.lift.run,
         ];
@@ -287,30 +287,15 @@ impl<'a> Host<'a> {
     }
 
     fn arc_words(&mut self, i: &mut Segments<Value>) {
-        let written = self.arcs.write_up_to(self.arcs_due);
-        *i = Segments {
-            write: written.write,
-            write_word: written.word,
-            write_data: written.data,
-            push: written.push,
-            start: false,
-        };
+        let record = self.arcs.write_up_to(self.arcs_due);
+        let start = false;
+        *i = Segments { record, start };
     }
 
     fn trajectory(&mut self, i: &mut ports::Trajectory<Value>) {
-        let written = self.profile.write_up_to(self.profile_due);
-        i.write = written.write;
-        i.write_word = written.word;
-        i.write_data = written.data;
-        i.push = written.push;
+        i.record = self.profile.write_up_to(self.profile_due);
         i.start = false;
-        let path = self.path.write();
-        i.write_begin = path.write_begin;
-        i.begin_segment = path.segment;
-        i.begin_length = path.begin;
-        i.write_path = path.write;
-        i.path_address = path.address;
-        i.path_data = path.data;
+        i.path = self.path.write();
     }
 
     fn lift(&mut self, i: &mut ports::Lift<Value>) {

@@ -77,19 +77,10 @@ impl<'a> Host<'a> {
         let start = !self.started && self.path.is_done() && self.records.written() == waiting;
         self.started |= start;
         i.start = start;
-        let record = self.records.write();
-        i.write = record.write;
-        i.write_word = record.word;
-        i.write_data = record.data;
-        i.push = record.push;
-        let path = self.path.write();
-        i.write_begin = path.write_begin;
-        i.begin_segment = path.segment;
-        i.begin_length = path.begin;
-        i.write_path = path.write;
-        i.path_address = path.address;
-        i.path_data = path.data;
-        self.quiet = self.started && !start && !record.write && self.path.is_done() && !path.write;
+        i.record = self.records.write();
+        i.path = self.path.write();
+        let writes = i.record.write || i.path.write_path;
+        self.quiet = self.started && !start && !writes && self.path.is_done();
         for ((a, b), given) in i.a.iter_mut().zip(&mut i.b).zip(channels) {
             (*a, *b) = given;
         }

@@ -288,7 +288,7 @@ pub fn play(
         let drives = see.each(|axis| simulator.get(axis.drive));
         let step = |motors: &mut Motors<'_>| motors.step(drives);
         host.drive(&mut i, motors.step(step));
-        let (starts, pushed) = (i.start, i.push);
+        let (starts, pushed) = (i.start, i.record.push);
         if starts {
             played.start = played.ticks;
             motors.plants.now.start = Some(0);

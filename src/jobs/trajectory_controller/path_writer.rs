@@ -1,8 +1,9 @@
 //! What a control computer gives to the segment stores: the path, a word a tick.
 
 use super::program::Program;
-use crate::circuits::trajectory_controller::path_point::AXES;
+use crate::circuits::trajectory_controller::path_point::{AXES, PathWrite};
 use crate::circuits::trajectory_controller::{Widths, segment_store};
+use crate::hdl::Value;
 use crate::input::COORDINATES;
 
 /// Words of a segment that are looked at, and of one with a third coordinate.
@@ -21,23 +22,6 @@ pub(crate) struct PathWriter<'a> {
     words: [u64; MOST_WORDS],
     /// How many of them are written.
     count: usize,
-}
-
-/// What stands at the controller's ports in a tick.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct PathWord {
-    /// A word is written.
-    pub(crate) write: bool,
-    /// Where the segment begins is written.
-    pub(crate) write_begin: bool,
-    /// The segment.
-    pub(crate) segment: u64,
-    /// The length at which it begins.
-    pub(crate) begin: u64,
-    /// The segment, and below it the number of the word.
-    pub(crate) address: u64,
-    /// Its data.
-    pub(crate) data: u64,
 }
 
 impl<'a> PathWriter<'a> {
@@ -83,19 +67,19 @@ impl<'a> PathWriter<'a> {
     }
 
     /// The word of this tick.
-    pub(crate) fn write(&mut self) -> PathWord {
+    pub(crate) fn write(&mut self) -> PathWrite<Value> {
         let (segment, word) = (self.segment, self.word);
         let widths = Widths::FULL.point().of_axes(self.program.gains.len());
         let writing = self.program.path.stretches.get(segment);
-        let given = PathWord {
-            write: writing.is_some(),
+        let given = PathWrite {
+            write_path: writing.is_some(),
             write_begin: writing.is_some() && word == 0,
-            segment: segment as u64,
-            begin: writing.map_or(0, |stretch| stretch.begin),
-            address: (segment << widths.word | word) as u64,
-            data: self.words[word],
+            begin_segment: segment as u64,
+            begin_length: writing.map_or(0, |stretch| stretch.begin),
+            path_address: (segment << widths.word | word) as u64,
+            path_data: self.words[word],
         };
-        if given.write {
+        if given.write_path {
             self.word += 1;
             if self.word == self.count {
                 self.word = 0;

@@ -2,13 +2,14 @@
 
 use super::program::{rotated, wrap};
 use motion_rtl::circuits::arc_generator::axis_terms::AXIS_WORD;
-use motion_rtl::circuits::arc_generator::generator::{In, Segments};
+use motion_rtl::circuits::arc_generator::generator::In;
 use motion_rtl::circuits::arc_generator::matrix_element::{self, Sign};
 use motion_rtl::circuits::arc_generator::sine_words::{self, FINE};
 use motion_rtl::circuits::arc_generator::vector_row::{self, VECTOR_WORD};
 use motion_rtl::circuits::arc_generator::{
     Conventional, MatrixElement, Rounding, SineWords, VectorRow, Widths,
 };
+use motion_rtl::circuits::blocks::RecordWrite;
 use motion_rtl::circuits::blocks::cordic_state::GAIN;
 use motion_rtl::hdl::{Simulator, zero};
 use motion_rtl::jobs::arc_generator::beside::{play, records};
@@ -297,12 +298,11 @@ fn a_halt_leaves_nothing_behind() {
         };
         let words = arc.iter().flat_map(|record| record.words.iter().zip(0..));
         for (data, word) in words {
-            i.segments = Segments {
+            i.segments.record = RecordWrite {
                 write: true,
                 write_word: word,
                 write_data: *data,
                 push: word == 31,
-                start: false,
             };
             simulator.step_with(&i, |_| ());
         }

@@ -2,6 +2,7 @@
 
 use motion_rtl::circuits::arc_generator::ArcGenerator;
 use motion_rtl::circuits::arc_generator::generator::{In, Segments};
+use motion_rtl::circuits::blocks::RecordWrite;
 use motion_rtl::hdl::Simulator;
 
 /// Words that are not 0: from rest to 64 counts, on to 128, to rest at 192.
@@ -39,10 +40,12 @@ fn the_path_of_the_note() {
             .map_or(0, |(_, data)| *data);
         let i = In {
             segments: Segments {
-                write: words.is_some(),
-                write_word: word as u64,
-                write_data: data as u64,
-                push: words.is_some() && word == 31,
+                record: RecordWrite {
+                    write: words.is_some(),
+                    write_word: word as u64,
+                    write_data: data as u64,
+                    push: words.is_some() && word == 31,
+                },
                 start: tick == 96,
             },
             halt: false,

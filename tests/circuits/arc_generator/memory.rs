@@ -2,8 +2,8 @@
 
 use super::below;
 use motion_rtl::check::Random;
-use motion_rtl::circuits::blocks::RecordMemory;
 use motion_rtl::circuits::blocks::record_memory::{In, RECORD};
+use motion_rtl::circuits::blocks::{RecordMemory, RecordWrite};
 use motion_rtl::hdl::{Simulator, Value};
 use std::collections::VecDeque;
 
@@ -39,10 +39,10 @@ impl Program {
         if matches!(self.bus, Some((31, _))) {
             self.waiting.pop_front();
         }
-        if ready && i.write {
-            self.free[i.write_word as usize] = i.write_data;
+        if ready && i.record.write {
+            self.free[i.record.write_word as usize] = i.record.write_data;
         }
-        if ready && i.push {
+        if ready && i.record.push {
             self.waiting.push_back(self.free);
         }
         if i.flush {
@@ -73,11 +73,14 @@ fn it_is_a_queue_of_records() {
             true => chance(&mut random, 2),
             false => written >= RECORD as u64 - 1 && write && chance(&mut random, 8),
         };
-        let i = In {
+        let record = RecordWrite {
             write,
             write_word: word,
             write_data: below(&mut random, 256),
             push,
+        };
+        let i = In {
+            record,
             take: chance(&mut random, 16),
             kind: below(&mut random, 3),
             flush: chance(&mut random, 3000),
@@ -114,11 +117,14 @@ fn it_is_a_queue_of_records() {
 fn a_record_takes_its_latency() {
     let mut simulator = Simulator::new(&MEMORY).unwrap();
     for tick in 0..200 {
-        let i = In {
+        let record = RecordWrite {
             write: tick < 32,
             write_word: tick,
             write_data: tick * 7,
             push: tick == 31,
+        };
+        let i = In {
+            record,
             take: tick == 50,
             kind: 0,
             flush: false,

@@ -4,9 +4,9 @@ use super::below;
 use super::engine::quartic;
 use super::program::{differences, rotated, wrap};
 use motion_rtl::check::Random;
-use motion_rtl::circuits::arc_generator::generator::{In, Segments};
+use motion_rtl::circuits::arc_generator::generator::In;
 use motion_rtl::circuits::arc_generator::{ArcGenerator, Blend, Rounding};
-use motion_rtl::hdl::{Simulator, Value};
+use motion_rtl::hdl::{Simulator, Value, zero};
 
 const FULL: ArcGenerator = ArcGenerator::new(Rounding::Nearest, Blend::Differences);
 const GUARD: u32 = 16;
@@ -138,24 +138,18 @@ struct Host<'a> {
 
 impl Host<'_> {
     fn ports(&mut self, ready: bool, period: u64) -> In<Value> {
-        let mut segments = Segments {
-            write: false,
-            write_word: 0,
-            write_data: 0,
-            push: false,
-            start: false,
-        };
+        let mut segments = zero(&ArcGenerator::default()).segments;
         if self.segment == self.segments.len().min(self.start_with) && !self.started {
             self.started = true;
             segments.start = true;
         }
         if let Some(segment) = self.segments.get(self.segment).filter(|_| ready) {
-            segments.write = true;
-            segments.write_word = self.word as u64;
-            segments.write_data = segment.record[self.word] as u64;
+            segments.record.write = true;
+            segments.record.write_word = self.word as u64;
+            segments.record.write_data = segment.record[self.word] as u64;
             self.word += 1;
             if self.word == 32 {
-                segments.push = true;
+                segments.record.push = true;
                 (self.word, self.segment) = (0, self.segment + 1);
             }
         }
@@ -191,7 +185,7 @@ fn run(segments: &[Segment], rounding: Rounding, period: u64, start_with: usize)
         let tick = simulator.tick();
         assert!(tick < 1_000_000, "no end");
         let i = host.ports(ready, period);
-        let pushed = i.segments.push;
+        let pushed = i.segments.record.push;
         let (now, sampled, busy, free) = simulator.step_with(&i, |now| {
             let w = now.w;
             let command = [w.x, w.y, w.z].map(i128::from);
@@ -323,7 +317,7 @@ fn halt_leaves_the_commands_where_they_are() {
         for tick in 0..1_500 {
             let mut i = host.ports(ready, 100);
             i.halt = tick == halted;
-            let pushed = i.segments.push;
+            let pushed = i.segments.record.push;
             let (free, command, sampled, busy) = simulator.step_with(&i, |now| {
                 let w = now.w;
                 (w.ready, [w.x, w.y, w.z], w.sampled, w.busy)
@@ -351,7 +345,7 @@ fn halt_leaves_the_commands_where_they_are() {
         ready = true;
         for _ in 0..1_500 {
             let i = host.ports(ready, 100);
-            let pushed = i.segments.push;
+            let pushed = i.segments.record.push;
             let (free, command, sampled) = simulator.step_with(&i, |now| {
                 let command = [now.w.x, now.w.y, now.w.z].map(i128::from);
                 (now.w.ready, command, now.w.sampled)
@@ -383,12 +377,12 @@ fn a_path_that_begins_right_after_a_halt_is_that_of_its_record() {
         for tick in 0..halted + 500 {
             let mut i = host.ports(true, 100);
             if (200..232).contains(&tick) {
-                i.segments.write = true;
-                i.segments.write_word = tick - 200;
-                i.segments.write_data = behind.record[tick as usize - 200] as u64;
+                i.segments.record.write = true;
+                i.segments.record.write_word = tick - 200;
+                i.segments.record.write_data = behind.record[tick as usize - 200] as u64;
             }
             i.halt = tick == halted;
-            i.segments.push |= tick == halted + 1;
+            i.segments.record.push |= tick == halted + 1;
             i.segments.start |= tick == halted + 2;
             was_rotating |= tick == halted && simulator.see(|s| s.p.rotation.p.control.q.busy);
             let (command, sampled) = simulator.step_with(&i, |now| {

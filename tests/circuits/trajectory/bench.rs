@@ -1,8 +1,10 @@
 //! A trajectory controller of any widths without motors: a path and a profile in, points out.
 
+use motion_rtl::circuits::blocks::RecordWrite;
 use motion_rtl::circuits::trajectory_controller::controller::In;
 use motion_rtl::circuits::trajectory_controller::error_feedback::FeedbackGains;
 use motion_rtl::circuits::trajectory_controller::model_state::ModelGains;
+use motion_rtl::circuits::trajectory_controller::path_point::PathWrite;
 use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use motion_rtl::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
 use motion_rtl::hdl::{At, Simulator, Value, zero};
@@ -113,13 +115,16 @@ impl Bench {
         let mut begin = 0;
         for (index, (length, words)) in (0u64..).zip(path) {
             for (word, &data) in (0u64..).zip(words) {
-                writes.push(In {
+                let path = PathWrite {
                     write_begin: word == 0,
                     begin_segment: index,
                     begin_length: begin,
                     write_path: true,
                     path_address: index << 4 | word,
                     path_data: data,
+                };
+                writes.push(In {
+                    path,
                     ..idle.clone()
                 });
             }
@@ -127,11 +132,14 @@ impl Bench {
         }
         for record in profile {
             for (word, &data) in (0u64..).zip(record) {
-                writes.push(In {
+                let record = RecordWrite {
                     write: true,
                     write_word: word,
                     write_data: data,
                     push: word == 31,
+                };
+                writes.push(In {
+                    record,
                     ..idle.clone()
                 });
             }

@@ -1,7 +1,7 @@
 //! Points on paths of lines, arcs, helices and splines in space, against sine, cosine and powers.
 
 use motion_rtl::circuits::blocks::cordic_state::GAIN;
-use motion_rtl::circuits::trajectory_controller::path_point::In;
+use motion_rtl::circuits::trajectory_controller::path_point::{In, PathWrite};
 use motion_rtl::circuits::trajectory_controller::point_sequencer::RADIUS;
 use motion_rtl::circuits::trajectory_controller::widths::PointWidths;
 use motion_rtl::circuits::trajectory_controller::{PathPoint, Widths};
@@ -153,12 +153,14 @@ fn idle(last: u64) -> In<Value> {
         start: false,
         length: 0,
         last,
-        write_begin: false,
-        begin_segment: 0,
-        begin_length: 0,
-        write: false,
-        write_address: 0,
-        write_data: 0,
+        path: PathWrite {
+            write_begin: false,
+            begin_segment: 0,
+            begin_length: 0,
+            write_path: false,
+            path_address: 0,
+            path_data: 0,
+        },
     }
 }
 
@@ -179,15 +181,15 @@ proptest! {
             let begin = begins[index as usize];
             begins.push(begin + segment.length);
             for (word, data) in (0u64..).zip(segment.words()) {
-                let i = In {
+                let path = PathWrite {
                     write_begin: word == 0,
                     begin_segment: index,
                     begin_length: begin,
-                    write: true,
-                    write_address: index << 4 | word,
-                    write_data: data,
-                    ..idle(last)
+                    write_path: true,
+                    path_address: index << 4 | word,
+                    path_data: data,
                 };
+                let i = In { path, ..idle(last) };
                 simulator.step_with(&i, |_| ());
             }
         }
