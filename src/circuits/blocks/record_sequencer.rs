@@ -206,7 +206,7 @@ impl Specified for RecordSequencer {
                     let words = 1 << self.samples;
                     let left = (now.q.remaining + words - u64::from(steps)) % words;
                     let counted = header || next.q.remaining == left;
-                    let right = now.w.advance == (steps && !arc)
+                    let right = now.see(|s| s.w.advance) == (steps && !arc)
                         && next.q.rotate == (steps && (arc || self.waits));
                     require(right && counted, ["remaining", "advance", "rotate"], || {
                         format!("{left} left")
@@ -217,7 +217,7 @@ impl Specified for RecordSequencer {
                 "a command with a sample where the point is ready, nowhere else",
                 |now, next| {
                     let due = now.i.sample && now.q.state == READY && !now.i.halt;
-                    let right = now.w.present == due && next.q.sampled == due;
+                    let right = now.see(|s| s.w.present) == due && next.q.sampled == due;
                     require(right, ["present", "sampled"], || "not so".into())
                 },
             )

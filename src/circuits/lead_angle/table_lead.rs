@@ -214,10 +214,10 @@ impl Specified for TableLead {
             "the lead is on the line between the words around the speed, rounded down",
             move |now| {
                 let half = leads.len() as i128 / 2 * spacing;
-                let speed = i128::from(now.p.detector.q.speed).clamp(-half, half - 1);
+                let speed = i128::from(now.see(|s| s.p.detector.q.speed)).clamp(-half, half - 1);
                 let word = speed.div_euclid(spacing).rem_euclid(leads.len() as i128) as usize;
                 let grown = (increments[word] * speed.rem_euclid(spacing)).div_euclid(spacing);
-                let lead = i128::from(now.w.lead);
+                let lead = i128::from(now.see(|s| s.w.lead));
                 let right = (leads[word] + grown - lead).rem_euclid(range) == 0;
                 require(right, ["lead"], || format!("{lead} at {speed}"))
             },

@@ -195,9 +195,9 @@ impl Specified for TrackingLoop {
                 move |now, next| {
                     let over = now.q.settled == conversions;
                     let settled = now.q.settled + u64::from(now.i.done && !over);
-                    let right = now.w.take == (now.i.done && over)
+                    let right = now.see(|s| s.w.take) == (now.i.done && over)
                         && next.q.settled == settled
-                        && now.w.fault == (4 * now.i.in_phase < 1 << self.angle);
+                        && now.see(|s| s.w.fault) == (4 * now.i.in_phase < 1 << self.angle);
                     require(right, ["take", "settled", "fault"], || {
                         format!("{settled} conversions")
                     })

@@ -221,7 +221,7 @@ impl Specified for Group {
                         && after.sequencer.q.address == p.sequencer.q.address
                         && after.sequencer.q.state == p.sequencer.q.state;
                     let signals = ["unit_time.active", "sequencer.address", "sequencer.state"];
-                    require(kept && words || now.w.unit_rst, signals, || {
+                    require(kept && words || now.see(|s| s.w.unit_rst), signals, || {
                         "changed in mid-unit".into()
                     })
                 },
@@ -246,7 +246,9 @@ impl Specified for Group {
                     .axes
                     .iter()
                     .all(|axis| axis.p.memory.q.half_period == 0 && !axis.p.sync.q.step);
-                require(quiet || now.w.busy, ["busy", "step_x"], || "a pulse".into())
+                require(quiet || now.see(|s| s.w.busy), ["busy", "step_x"], || {
+                    "a pulse".into()
+                })
             })
     }
 
