@@ -59,12 +59,9 @@ fn whole(make: &mut dyn FnMut() -> (usize, Vec<Setting>)) -> Result<Design, Wron
     })
 }
 
-/// Makes the module of a circuit; returns its number and its settings.
-pub(super) fn module<C: Circuit>(
-    circuit: &C,
-    path: String,
-    more: More<'_>,
-) -> (usize, Vec<Setting>) {
+/// Makes the module of a circuit, with ports in that it does not look at; returns its number and its
+/// settings.
+pub fn module<C: Circuit>(circuit: &C, path: String, more: More<'_>) -> (usize, Vec<Setting>) {
     let site = declared([
         <C::In<Wire> as Walk<Wire>>::SITE,
         <C::Reg<Wire> as Walk<Wire>>::SITE,

@@ -390,41 +390,6 @@ macro_rules! hdl_records {
     };
 }
 
-/// What is made of a circuit's records, compiled where the circuit is.
-#[macro_export]
-#[doc(hidden)]
-macro_rules! hdl_made {
-    () => {
-        $crate::hdl_made! {
-            make_module module(
-                path: ::std::string::String,
-                more: $crate::hdl::More<'_>,
-            ) -> (usize, ::std::vec::Vec<$crate::hdl::netlist::Setting>);
-            make_shapes shapes(role: $crate::hdl::Role, source: &mut dyn $crate::hdl::Source) -> ();
-            make_places places(source: &mut dyn $crate::hdl::Source) -> $crate::hdl::Signals<Self>;
-            make_inputs inputs(
-                source: &mut dyn $crate::hdl::Source,
-            ) -> Self::In<$crate::hdl::Value>;
-            make_registers registers(
-                source: &mut dyn $crate::hdl::Source,
-            ) -> Self::Reg<$crate::hdl::Value>;
-            make_nets nets(source: &mut dyn $crate::hdl::Source) -> Self::Net<$crate::hdl::Value>;
-            make_parts parts(
-                source: &mut dyn $crate::hdl::Source,
-            ) -> Self::Parts<$crate::hdl::Value>;
-            make_kept kept(source: &mut dyn $crate::hdl::Source) -> $crate::hdl::Registers<Self>;
-        }
-    };
-    ($( $name:ident $made:ident($($given:ident: $kind:ty),* $(,)?) -> $makes:ty; )+) => {
-        $(
-            #[inline(never)]
-            fn $name(&self, $($given: $kind),*) -> $makes {
-                $crate::hdl::made::$made(self, $($given),*)
-            }
-        )+
-    };
-}
-
 /// Declares a choice between circuits, of which one is inside another: an enum of the circuits, and
 /// a record for the `Parts` around it. Its scope is called as its field is, whichever it is.
 #[macro_export]

@@ -2,17 +2,10 @@
 //! of the circuit for each, so that it is compiled with the circuit, and not again in every crate
 //! that runs it.
 
-use super::elaborate;
-use super::netlist::Setting;
+pub use super::elaborate::module;
 use super::record::{Record, Source};
 use super::view::{self, Shapes, Value};
-use super::{Circuit, More, Registers, Role, Signals};
-
-/// Makes the module of a circuit, with ports in that it does not look at; returns its number and its
-/// settings.
-pub fn module<C: Circuit>(circuit: &C, path: String, more: More<'_>) -> (usize, Vec<Setting>) {
-    elaborate::module(circuit, path, more)
-}
+use super::{Circuit, Registers, Role, Signals};
 
 /// Walks over the ports in of a circuit, over all its registers, or over all its nets.
 pub fn shapes<C: Circuit>(circuit: &C, role: Role, source: &mut dyn Source) {
@@ -58,4 +51,39 @@ pub fn kept<C: Circuit>(circuit: &C, source: &mut dyn Source) -> Registers<C> {
     let q = C::Reg::make(circuit, view::role(Role::Register), source);
     let p = C::Parts::make(circuit, view::role(Role::Register), source);
     Registers { q, p }
+}
+
+/// What is made of a circuit's records, compiled where the circuit is.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! hdl_made {
+    () => {
+        $crate::hdl_made! {
+            make_module module(
+                path: ::std::string::String,
+                more: $crate::hdl::More<'_>,
+            ) -> (usize, ::std::vec::Vec<$crate::hdl::netlist::Setting>);
+            make_shapes shapes(role: $crate::hdl::Role, source: &mut dyn $crate::hdl::Source) -> ();
+            make_places places(source: &mut dyn $crate::hdl::Source) -> $crate::hdl::Signals<Self>;
+            make_inputs inputs(
+                source: &mut dyn $crate::hdl::Source,
+            ) -> Self::In<$crate::hdl::Value>;
+            make_registers registers(
+                source: &mut dyn $crate::hdl::Source,
+            ) -> Self::Reg<$crate::hdl::Value>;
+            make_nets nets(source: &mut dyn $crate::hdl::Source) -> Self::Net<$crate::hdl::Value>;
+            make_parts parts(
+                source: &mut dyn $crate::hdl::Source,
+            ) -> Self::Parts<$crate::hdl::Value>;
+            make_kept kept(source: &mut dyn $crate::hdl::Source) -> $crate::hdl::Registers<Self>;
+        }
+    };
+    ($( $name:ident $made:ident($($given:ident: $kind:ty),* $(,)?) -> $makes:ty; )+) => {
+        $(
+            #[inline(never)]
+            fn $name(&self, $($given: $kind),*) -> $makes {
+                $crate::hdl::made::$made(self, $($given),*)
+            }
+        )+
+    };
 }
