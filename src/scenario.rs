@@ -111,6 +111,19 @@ impl Scenario {
         }
     }
 
+    /// True if what the circuit is compared with is played too.
+    pub fn beside(&self) -> bool {
+        match self {
+            Scenario::PulseInterpolator(scenario) => scenario.beside,
+            Scenario::LinearInterpolator(scenario) => scenario.beside,
+            Scenario::LeadAngle(scenario) => scenario.beside,
+            Scenario::ArcGenerator(scenario) => scenario.beside,
+            Scenario::TrajectoryController(scenario) => scenario.beside,
+            // Its machines are both its own.
+            Scenario::Machine(_) => false,
+        }
+    }
+
     /// The most ticks that go into the VCD unless a window is asked for.
     pub fn vcd_ticks(&self) -> u64 {
         match self {

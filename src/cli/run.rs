@@ -14,6 +14,9 @@ use std::path::PathBuf;
 /// Ticks between two looks at the progress bar.
 const PROGRESS: u64 = 1 << 18;
 
+/// The key that `--beside` sets.
+const BESIDE: &str = "beside=true";
+
 /// What to run, and what to write.
 #[derive(Debug, Default, Args)]
 pub struct Arguments {
@@ -43,6 +46,9 @@ pub struct Arguments {
     /// Writes how the circuit was run, as `plan` shows it, with how often each block ran.
     #[arg(long)]
     pub(super) plan: bool,
+    /// Plays what the circuit is compared with too, as `--set beside=true` does.
+    #[arg(long)]
+    beside: bool,
     /// Prints every segment, arc, positioning or signal, not the worst or the last alone (not of
     /// the pulse interpolator).
     #[arg(long)]
@@ -54,7 +60,11 @@ pub struct Arguments {
 
 /// Runs a job.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = Source::read(&arguments.input)?;
+    let mut input = arguments.input.clone();
+    input
+        .sets
+        .extend(arguments.beside.then(|| BESIDE.to_owned()));
+    let source = Source::read(&input)?;
     match &source.loaded.scenario {
         Scenario::PulseInterpolator(scenario) if !scenario.pattern.is_empty() => {
             let scenario = scenario.clone();

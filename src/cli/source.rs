@@ -12,7 +12,7 @@ use motion_rtl::scenario::{Loaded, Runnable, Scenario};
 use std::path::{Path, PathBuf};
 
 /// What to run.
-#[derive(Debug, Default, Args)]
+#[derive(Debug, Clone, Default, Args)]
 pub struct Input {
     /// Scenario (.toml), HPGL drawing, G-code program or position log (.csv); without it the
     /// scenario that ships with the crate.

@@ -63,6 +63,9 @@ pub struct Scenario {
     pub arm: Option<ArmKeys>,
     /// An elastic mechanism under the commands.
     pub mechanism: Option<MechanismKeys>,
+    /// Plays what the circuit is compared with too: its arcs on the conventional circuit.
+    #[serde(default)]
+    pub beside: bool,
     /// The most ticks that go into the VCD unless a window is asked for.
     #[serde(default = "default::vcd_ticks")]
     pub vcd_ticks: u64,

@@ -148,6 +148,9 @@ pub struct Scenario {
     /// Part of its torque that the brake loses with each braking.
     #[serde(default = "default::brake_fade")]
     pub brake_fade: f64,
+    /// Plays what the circuit is compared with too: the same steps by other leads.
+    #[serde(default)]
+    pub beside: bool,
     /// The most ticks that go into the VCD unless a window is asked for.
     #[serde(default = "default::vcd_ticks")]
     pub vcd_ticks: u64,

@@ -81,6 +81,9 @@ pub struct Scenario {
     /// Friction of motor and load, at the motor.
     #[serde(default = "default::friction", deserialize_with = "exactly")]
     pub friction_nm: [f64; 2],
+    /// Plays what the circuit is compared with too: another master axis and the conventional system.
+    #[serde(default)]
+    pub beside: bool,
     /// The most ticks that go into the VCD unless a window is asked for.
     #[serde(default = "default::vcd_ticks")]
     pub vcd_ticks: u64,

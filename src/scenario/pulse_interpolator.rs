@@ -70,6 +70,9 @@ pub struct Scenario {
     pub dir_hold_ticks: u32,
     /// Step motors on the drivers, alike on all axes.
     pub motor: Option<MotorKeys>,
+    /// Plays what the circuit is compared with too: the conventional device, and searches for the least T.
+    #[serde(default)]
+    pub beside: bool,
     /// The most ticks that go into the VCD unless a window is asked for.
     #[serde(default = "default::vcd_ticks")]
     pub vcd_ticks: u64,

@@ -109,6 +109,9 @@ pub struct Scenario {
     /// The same of each axis by itself.
     #[serde(default)]
     pub axis: Vec<TwoMassParameters>,
+    /// Plays what the circuit is compared with too: the other corrections.
+    #[serde(default)]
+    pub beside: bool,
     /// The most ticks that go into the VCD unless a window is asked for.
     #[serde(default = "default::vcd_ticks")]
     pub vcd_ticks: u64,

@@ -12,7 +12,7 @@ const MECHANISM: &str = "[mechanism]\nfrequency_hz = 8\n";
 const EVEN: u32 = 158;
 
 fn rows(text: &str) -> [Value; 3] {
-    let summary = with(text).json(&["run", "s.toml", "--no-vcd"]);
+    let summary = with(text).json(&["run", "s.toml", "--no-vcd", "--beside"]);
     let rows = list(&summary, "speed_changes").to_vec();
     let rows: [Value; 3] = rows.try_into().unwrap();
     let names = ["patent", "conventional", "conventional, without ramps"];

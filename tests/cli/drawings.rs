@@ -288,7 +288,7 @@ const SHAPE: &str = "G1 X10 F1200\nG3 X10 Y10 I0 J5\nG1 X0\n";
 fn the_conventional_device_runs_the_same_program() {
     let bench = Bench::with("l.ngc", SHAPE);
     let set = ["--set", "arc_unit_ticks=700"];
-    let summary = bench.json(&[&["run", "l.ngc", "--no-vcd"], &set[..]].concat());
+    let summary = bench.json(&[&["run", "l.ngc", "--no-vcd", "--beside"], &set[..]].concat());
     bench.succeed(&[&["table", "l.ngc", "--out", "t.csv"], &set[..]].concat());
     assert_eq!(summary["complaints"], json!([]));
     let [own, other] = list(&summary, "circuits") else {
@@ -355,7 +355,7 @@ fn a_unit_time_that_is_too_short_for_the_conventional_device_has_every_unit_late
     let bench = Bench::with("l.ngc", SHAPE);
     let at = |period: &str| {
         let set = format!("line_unit_ticks={period}");
-        bench.json(&["run", "l.ngc", "--no-vcd", "--set", &set])
+        bench.json(&["run", "l.ngc", "--no-vcd", "--beside", "--set", &set])
     };
     for (period, late) in [("111", false), ("110", true)] {
         let summary = at(period);
@@ -369,7 +369,7 @@ fn a_unit_time_that_is_too_short_for_the_conventional_device_has_every_unit_late
         let expected = if late { whole(other, "/units") - 1 } else { 0 };
         assert_eq!(whole(other, "/late_units"), expected, "{period}");
     }
-    let text = bench.succeed(&["run", "l.ngc", "--no-vcd"]);
+    let text = bench.succeed(&["run", "l.ngc", "--no-vcd", "--beside"]);
     let rows = text
         .lines()
         .filter(|line| line.contains("pulse_interpolator  "));

@@ -46,7 +46,7 @@ fn a_ramp_that_is_no_whole_number_of_scans_is_told() {
 #[test]
 fn ten_millimetres_are_a_hundred_and_thirty_four_scans() {
     // 2000 counts at 20 a scan, a third of 100 % speed: 34 scans each to get there and to rest.
-    let summary = summary("line.hpgl", LINE, &[]);
+    let summary = summary("line.hpgl", LINE, &["--beside"]);
     let expected = [
         "circuit",
         "clock_hz",
@@ -175,7 +175,7 @@ fn a_slow_feed_is_reached() {
 #[test]
 fn the_path_of_the_conventional_system_bends_and_ours_does_not() {
     // 40 mm by 3, where the conventional system with the same settings goes Y as fast as X.
-    let summary = summary("flat.ngc", "G1 X40 Y3 F6018\nG0 X0 Y0\n", &[]);
+    let summary = summary("flat.ngc", "G1 X40 Y3 F6018\nG0 X0 Y0\n", &["--beside"]);
     assert_eq!(summary["exact"], true);
     let lsb = |system: &str, segment| {
         let pointer = format!("/{system}/deviation_lsb");
@@ -383,7 +383,8 @@ fn two_runs_write_the_same_bytes() {
 #[test]
 fn the_picture_says_what_it_shows() {
     let bench = Bench::with("z.hpgl", zigzag(5));
-    bench.succeed(&run("z.hpgl", &["--set", "position_gain_per_s=[40, 30]"]));
+    let gains = ["--beside", "--set", "position_gain_per_s=[40, 30]"];
+    bench.succeed(&run("z.hpgl", &gains));
     let svg = bench.read("waves/z.svg");
     for text in [
         "z: linear interpolator",

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 fn another_master_axis_runs_beside_and_makes_a_longer_slave_accelerate() {
     // 10 mm along X, 100 mm along Y.
     let bench = Bench::with("steep.hpgl", "PD400,4000;");
-    let longer = bench.json(&run("steep.hpgl", &[]));
+    let longer = bench.json(&run("steep.hpgl", &["--beside"]));
     assert_eq!(
         (&longer["master"], &longer["other_master"]),
         (&json!("longer"), &json!("x"))
@@ -33,7 +33,7 @@ fn another_master_axis_runs_beside_and_makes_a_longer_slave_accelerate() {
     assert_eq!(other["end_position"], json!([2000, 20_000]));
     assert!(other["deviation_max_lsb"].as_f64().unwrap() < 1.0);
 
-    let fixed = bench.json(&run("steep.hpgl", &["--set", "master=x"]));
+    let fixed = bench.json(&run("steep.hpgl", &["--beside", "--set", "master=x"]));
     assert_eq!(
         (&fixed["master"], &fixed["other_master"]),
         (&json!("x"), &json!("longer"))
@@ -50,7 +50,7 @@ fn another_master_axis_runs_beside_and_makes_a_longer_slave_accelerate() {
 fn a_line_too_steep_for_a_fixed_master_is_told_or_refused() {
     // 5 counts along X, 40,000 along Y.
     let bench = Bench::with("steep.hpgl", "PD1,8000;");
-    let summary = bench.json(&run("steep.hpgl", &[]));
+    let summary = bench.json(&run("steep.hpgl", &["--beside"]));
     assert_eq!(summary["interpolator_other_master"], Value::Null);
     assert_eq!(summary["segments"][0]["other_master"], Value::Null);
     expect![[r#"["steep.hpgl: not drawn with x as the master axis for comparison: line 1: feed 6000 mm/min: allowed are 58593.8 and more in this direction"]"#]].assert_eq(&summary["warnings"].to_string());

@@ -7,7 +7,7 @@ const KEYS: &str = "one of `circuit`, `input`, `program`, `variant`, `master`, `
      `counts_per_mm`, `feed_mm_per_min`, `rapid_mm_per_min`, `full_speed_mm_per_min`, `acceleration_ms`, \
      `deceleration_ms`, `short_moves`, `chord_tolerance_mm`, `exact_stop`, \
      `in_position_counts`, `position_gain_per_s`, `rated_speed_rev_per_min`, `counts_per_rev`, \
-     `velocity_loop_ms`, `inertia_kg_m2`, `max_torque_nm`, `friction_nm`, `vcd_ticks`";
+     `velocity_loop_ms`, `inertia_kg_m2`, `max_torque_nm`, `friction_nm`, `beside`, `vcd_ticks`";
 
 #[test]
 fn the_table_is_refused() {

@@ -7,6 +7,7 @@ mod arc_files;
 mod arc_mechanism;
 mod arc_products;
 mod arc_refusals;
+mod beside;
 mod check_parts;
 mod checks;
 mod compare;

@@ -272,7 +272,7 @@ fn bad_scenarios_are_refused_with_their_line() {
         `variant`, `clock_hz`, `steps_per_mm`, \
          `feed_mm_per_min`, `rapid_mm_per_min`, `corner_mm_per_min`, `acceleration_mm_per_s2`, \
          `line_unit_ticks`, `arc_unit_ticks`, `step_high_ticks`, `step_low_ticks`, \
-         `dir_setup_ticks`, `dir_hold_ticks`, `motor`, `vcd_ticks`";
+         `dir_setup_ticks`, `dir_hold_ticks`, `motor`, `beside`, `vcd_ticks`";
     let missing = "s.toml: circuit: missing; allowed: a value for it: it has no default";
     let drawing = "the path of an HPGL drawing or a G-code program";
     // What follows the first line, which names the circuit.

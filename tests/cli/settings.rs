@@ -64,7 +64,7 @@ fn bad_overrides_are_refused() {
          `program`, `variant`, `clock_hz`, \
          `steps_per_mm`, `feed_mm_per_min`, `rapid_mm_per_min`, `corner_mm_per_min`, \
          `acceleration_mm_per_s2`, `line_unit_ticks`, `arc_unit_ticks`, `step_high_ticks`, \
-         `step_low_ticks`, `dir_setup_ticks`, `dir_hold_ticks`, `motor`, `vcd_ticks`";
+         `step_low_ticks`, `dir_setup_ticks`, `dir_hold_ticks`, `motor`, `beside`, `vcd_ticks`";
     const KEY_VALUE: &str = "allowed: key=value with a key of the scenario";
     const STEPS: &str = "allowed: 0.000001 to 1000000000, or the negative of that";
     let range = |text: &str| format!("is {text}");

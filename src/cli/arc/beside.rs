@@ -173,23 +173,29 @@ impl Row {
     }
 }
 
-/// Both circuits; nothing where the path has no arc.
+/// The circuit, and where it is compared the conventional one; nothing where the path has no arc, or
+/// one that is not compared.
 pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, RunError> {
     let beside = &figures.beside;
-    if beside.arcs.is_empty() {
+    let compared = job.loaded.scenario.beside();
+    if figures.arcs.is_empty() || compared && beside.arcs.is_empty() {
         return Ok(Vec::new());
     }
     let rounding = job.settings.rounding;
     let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let own = figures.measured.as_ref().map_or(0.0, |m| m.largest_error);
     let own = [own, most(&mut bounds(job, figures).into_iter())];
+    let own = Row::of(&hdl::model(&arc_generator(&job.settings))?, played, own);
+    if !compared {
+        return Ok(vec![own]);
+    }
     let arcs = &beside.arcs;
     let other = [
         most(&mut arcs.iter().map(|arc| arc.error)),
         most(&mut arcs.iter().map(|arc| arc.bound)),
     ];
     Ok(vec![
-        Row::of(&hdl::model(&arc_generator(&job.settings))?, played, own),
+        own,
         Row::of(
             &hdl::model(&Conventional::new(rounding))?,
             &beside.played,

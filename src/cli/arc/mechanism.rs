@@ -25,9 +25,10 @@ pub struct Row {
 }
 
 /// The path on the arc generator, and its arcs by the conventional method with and without ramps:
-/// each from rest to rest, the worst of them; nothing where there are none.
+/// each from rest to rest, the worst of them, where they are compared; nothing where there are none.
 pub fn rows(job: &Job, figures: &Figures) -> Vec<Row> {
-    if figures.beside.arcs.is_empty() {
+    let compared = job.loaded.scenario.beside();
+    if figures.arcs.is_empty() || compared && figures.beside.arcs.is_empty() {
         return Vec::new();
     }
     fn arcs(beside: &Beside) -> Vec<&[Point]> {

@@ -65,14 +65,14 @@ const OVERVIEW: [&str; 23] = [
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (played, mut files) = simulate(arguments, job, &options)?;
-    let figures = Figures::of(
-        job,
-        &played,
-        [
+    let beside = match job.loaded.scenario.beside() {
+        true => [
             Beside::run(job, Method::new)?,
             Beside::run(job, Method::even)?,
         ],
-    );
+        false => Default::default(),
+    };
+    let figures = Figures::of(job, &played, beside);
     files.write("svg", &draw(job, &figures))?;
     let summary = Summary::new(job, &played, &figures)?;
     conclude(arguments, &options, files, summary)

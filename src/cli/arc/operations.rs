@@ -37,7 +37,7 @@ pub struct Row {
     pub ticks: Option<u64>,
 }
 
-/// Of each method; nothing where the path has no arc.
+/// Of the circuit, and where it is compared of each method; nothing where the path has no arc.
 pub fn rows(job: &Job) -> Vec<Row> {
     let mut arcs = job.prepared.pieces.iter();
     let found = arcs.find_map(|piece| Some((piece, piece.arc?)));
@@ -53,14 +53,17 @@ pub fn rows(job: &Job) -> Vec<Row> {
     let [from, to] = piece.between_blends();
     let (_, rotation) = rotation(&matrix, &mut from.clone(), arc.circle.centre);
     let (_, quartic) = blend(&blend_terms(piece.from, piece.from, to), 0.5);
-    let mut rows = vec![
-        ("conventional, arc", cost(run.ramp + 1), None),
-        ("conventional, accelerating", cost(1), None),
+    let mut rows = Vec::new();
+    if job.loaded.scenario.beside() {
+        rows.push(("conventional, arc", cost(run.ramp + 1), None));
+        rows.push(("conventional, accelerating", cost(1), None));
+    }
+    rows.extend([
         ("patent, arc", rotation, None),
         ("patent, blend", quartic, None),
         // Nine products at once, a bit of the coefficients a tick.
         ("circuit, arc", rotation, Some(ROTATION_TICKS)),
-    ];
+    ]);
     let (blends, ticks) = match job.settings.blend {
         Blend::Differences => (difference_engines(), 1),
         Blend::Products => (products(), PRODUCT_TICKS),

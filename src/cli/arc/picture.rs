@@ -200,8 +200,10 @@ fn off_arc(job: &Job, figures: &Figures, arc: &ArcFigures) -> Option<Panel> {
             })
             .take_while(|(way, _)| *way <= most)
             .collect();
-        let curve = Curve::new("conventional", conventional);
-        panel = panel.curve(curve.colour("#cc79a7").width(0.9));
+        if !conventional.is_empty() {
+            let curve = Curve::new("conventional", conventional);
+            panel = panel.curve(curve.colour("#cc79a7").width(0.9));
+        }
     }
     let jump = arc.report.direction_jump.to_degrees();
     Some(

@@ -54,8 +54,10 @@ pub struct ArcRow {
     pub end_error_um: f64,
     /// What neither may exceed: rotation and rounding to counts.
     pub bound_um: f64,
-    /// Largest radius error of the conventional method, rounded to counts too.
-    pub conventional_radius_error_um: f64,
+    /// Largest radius error of the conventional method, rounded to counts too; none where it is not
+    /// compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub conventional_radius_error_um: Option<f64>,
     /// A⁺ and C⁻.
     pub ends: Vec<EndRow>,
 }
@@ -146,6 +148,7 @@ fn arc_row(
     let errors = &figures.radius_errors;
     let squares: f64 = errors.iter().map(|error| error * error).sum();
     let conventional = figures.conventional.iter().map(|(_, error)| error.abs());
+    let compared = job.loaded.scenario.beside();
     ArcRow {
         piece: figures.piece,
         line: piece.line,
@@ -166,7 +169,7 @@ fn arc_row(
         radius_error_rms_um: (squares / errors.len().max(1) as f64).sqrt() * 1e3,
         end_error_um: arc.end_error * 1e3,
         bound_um: bound(job, figures) * 1e3,
-        conventional_radius_error_um: conventional.fold(0.0, f64::max) * 1e3,
+        conventional_radius_error_um: compared.then(|| conventional.fold(0.0, f64::max) * 1e3),
         ends: ends(job, measured, figures),
     }
 }

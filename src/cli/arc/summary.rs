@@ -62,10 +62,10 @@ pub struct Summary {
     pub products: Option<Products>,
     /// What a sample costs.
     pub operations: Vec<operations::Row>,
-    /// The circuit, and that of the conventional method.
+    /// The circuit, and where it is compared that of the conventional method.
     pub circuits: Vec<beside::Row>,
     /// Changes of speed, and what they make of the mechanism, beside those of the conventional
-    /// method.
+    /// method where that is compared.
     pub speed_changes: Vec<mechanism::Row>,
     /// The joints of the arm, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -255,29 +255,25 @@ impl Summary {
 }
 
 fn radius_errors(text: &mut String, rows: &[&ArcRow]) -> fmt::Result {
-    let heads = [
+    let compared = rows
+        .iter()
+        .any(|row| row.conventional_radius_error_um.is_some());
+    let mut heads = vec![
         ("radius error um: piece", 0),
         ("least", 7),
         ("largest", 7),
         ("rms", 7),
         ("at C-", 7),
         ("bound", 7),
-        ("conventional", 0),
     ];
+    heads.extend(compared.then_some(("conventional", 0)));
     let cells = rows.iter().map(|row| {
         let [least, largest] = row.radius_error_um;
         let (rms, end) = (row.radius_error_rms_um, row.end_error_um);
-        let [least, largest, rms, end, bound, conventional] = [
-            least,
-            largest,
-            rms,
-            end,
-            row.bound_um,
-            row.conventional_radius_error_um,
-        ]
-        .map(|um| fixed(um, 3));
-        let piece = row.piece.to_string();
-        [piece, least, largest, rms, end, bound, conventional]
+        let own = [least, largest, rms, end, row.bound_um];
+        let all = own.into_iter().chain(row.conventional_radius_error_um);
+        let piece = std::iter::once(row.piece.to_string());
+        piece.chain(all.map(|um| fixed(um, 3))).collect::<Vec<_>>()
     });
     table(text, heads, cells)?;
     text.push('\n');

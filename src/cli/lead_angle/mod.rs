@@ -72,6 +72,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let shown = systems.iter().find(|system| system.own);
     let shown = shown.map_or(&job.settings, |system| &system.settings);
     let (own, mut files) = simulate(arguments, job, shown, &options)?;
+    if !job.loaded.scenario.beside() {
+        systems.retain(|system| system.own);
+    }
     let none = systems.iter().find(|system| system.name == NONE);
     let none = none.map(alone).transpose()?.unwrap_or_default();
     systems.iter_mut().for_each(|system| system.set_up(&none));

@@ -5,6 +5,7 @@ use super::Job;
 use super::summary::{code_travel, error_name, of};
 use super::systems::{LEARNING, LITERAL, System};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
+use motion_rtl::jobs::lead_angle::settings::LeadBy;
 use motion_rtl::picture::{Curve, Panel, Picture};
 
 const COLOURS: [&str; 11] = [
@@ -25,11 +26,14 @@ pub fn draw(job: &Job, played: &[(System, Played)]) -> String {
     if let Some(learning) = of(played, LEARNING) {
         picture = picture.panel(errors_in_codes(job, learning));
     }
-    for (name, title) in [
-        (LEARNING, "lead time, learning"),
-        (LITERAL, "lead time, literal sign"),
-    ] {
+    // Where nothing is compared, the scenario's own lead times are all that there are.
+    let alone = match played {
+        [(own, _)] if own.settings.lead == LeadBy::Time => own.name,
+        _ => LEARNING,
+    };
+    for name in [alone, LITERAL].into_iter().take(played.len()) {
         if let Some(run) = of(played, name) {
+            let title = format!("lead time, {name}");
             let lead_ms = |one: &Positioning| settings.lead_ms(one.code);
             let panel = Panel::new(title, AXIS, "ms");
             let panel = by_step(panel, job, run, lead_ms);

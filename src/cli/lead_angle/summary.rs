@@ -49,8 +49,9 @@ pub struct Summary {
     /// All systems with their errors.
     pub systems: Vec<SystemSummary>,
     /// The system whose lead times are shown: the scenario's own where it learns, or else the one
-    /// that does.
-    pub lead_times_of: &'static str,
+    /// that does, or where nothing is compared its own, if its lead is a time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lead_times_of: Option<&'static str>,
     /// The steps before the load change and after it.
     pub phases: Vec<Phase>,
     /// Every positioning, with the errors of all systems.
@@ -105,15 +106,32 @@ pub struct StepSummary {
     pub last_error_counts: Vec<i64>,
     /// Whether the time of that positioning was over before the body stood still, for each system.
     pub last_timed_out: Vec<bool>,
-    /// Lead time of its last positioning in the phase of `lead_times_of`, in milliseconds.
-    pub lead_ms: f64,
-    /// What one code is worth there, in counts.
-    pub code_travel_counts: f64,
-    /// After how many positionings of the phase `lead_times_of` stays within a code's travel;
-    /// `null` where it never does.
+    /// Of `lead_times_of`.
+    #[serde(flatten)]
+    pub lead: Option<StepLead>,
+}
+
+/// What became of a step in a phase by a lead that is a time.
+#[derive(Debug, Serialize)]
+pub struct StepLead {
+    /// That of the last positioning.
+    #[serde(flatten)]
+    pub last: Lead,
+    /// After how many positionings of the phase the stops stay within a code's travel; `null` where
+    /// they never do.
     pub settled_after: Option<usize>,
-    /// The same for learning to either order.
-    pub settled_by_order: ByOrder,
+    /// The same for learning to either order, where these are compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settled_by_order: Option<ByOrder>,
+}
+
+/// The lead time of a positioning.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Lead {
+    /// In milliseconds.
+    pub lead_ms: f64,
+    /// Distance that one code is worth there, in counts.
+    pub code_travel_counts: f64,
 }
 
 /// After how many positionings learning stays within a code's travel; `null` where it never does.
@@ -144,10 +162,9 @@ pub struct Row {
     /// Speed at which the body still turned when it was complete, for each system, in counts a
     /// second.
     pub end_speed_counts_per_s: Vec<f64>,
-    /// Lead time of `lead_times_of`, in milliseconds.
-    pub lead_ms: f64,
-    /// What one code is worth there, in counts.
-    pub code_travel_counts: f64,
+    /// Lead time of `lead_times_of`.
+    #[serde(flatten)]
+    pub lead: Option<Lead>,
 }
 
 /// Counts that a body goes in one step of the code that a positioning used.
@@ -182,9 +199,14 @@ impl Summary {
         let settings = &job.settings;
         let own = played.iter().find(|(system, _)| system.own);
         let ticks = own.map_or(0, |(_, run)| run.ticks);
-        let lead_times_of = match settings.learn {
+        let learner = match settings.learn {
             true => learner(settings.sign, settings.function),
             false => LEARNING,
+        };
+        let own_name = own.map(|(system, _)| system.name);
+        let lead_times_of = match of(played, learner) {
+            Some(_) => Some(learner),
+            None => own_name.filter(|_| settings.lead == LeadBy::Time),
         };
         let mut summary = Summary {
             outcome: Outcome {
@@ -209,9 +231,16 @@ impl Summary {
             phases: Vec::new(),
             positionings: Vec::new(),
         };
-        if let Some(learner) = of(played, lead_times_of) {
-            summary.positionings = rows(settings, played, learner);
-            summary.phases = phases(settings, played, learner);
+        let shown = lead_times_of.and_then(|name| of(played, name));
+        if let Some(run) = shown.or(own.map(|(_, run)| run)) {
+            let shown = Shown {
+                settings,
+                played,
+                run,
+                leads: lead_times_of.is_some(),
+            };
+            summary.positionings = shown.rows();
+            summary.phases = shown.phases();
         }
         summary.outcome.warnings = warnings(&summary);
         summary
@@ -256,72 +285,90 @@ fn of_all<T: Default>(
     played.iter().map(|(_, run)| one(run)).collect()
 }
 
-fn rows(settings: &Settings, played: &[(System, Played)], learner: &Played) -> Vec<Row> {
-    let positionings = learner.positionings.iter().enumerate();
-    positionings
-        .map(|(number, one)| Row {
-            positioning: number,
-            step: one.step,
-            loaded: loaded(settings, number),
-            error_counts: of_all(played, number, |one| one.error),
-            position_error_counts: of_all(played, number, |one| one.position_error_counts),
-            timed_out: of_all(played, number, |one| one.timed_out),
-            end_speed_counts_per_s: of_all(played, number, |one| one.end_speed_counts_per_s),
-            lead_ms: settings.lead_ms(one.code),
-            code_travel_counts: code_travel(settings, one),
+/// All runs, and the one whose positionings and lead times are shown.
+struct Shown<'a> {
+    settings: &'a Settings,
+    played: &'a [(System, Played)],
+    run: &'a Played,
+    /// Its lead is a time.
+    leads: bool,
+}
+
+impl Shown<'_> {
+    fn rows(&self) -> Vec<Row> {
+        let (settings, played) = (self.settings, self.played);
+        let positionings = self.run.positionings.iter().enumerate();
+        positionings
+            .map(|(number, one)| Row {
+                positioning: number,
+                step: one.step,
+                loaded: loaded(settings, number),
+                error_counts: of_all(played, number, |one| one.error),
+                position_error_counts: of_all(played, number, |one| one.position_error_counts),
+                timed_out: of_all(played, number, |one| one.timed_out),
+                end_speed_counts_per_s: of_all(played, number, |one| one.end_speed_counts_per_s),
+                lead: self.lead(one),
+            })
+            .collect()
+    }
+
+    fn lead(&self, one: &Positioning) -> Option<Lead> {
+        self.leads.then(|| Lead {
+            lead_ms: self.settings.lead_ms(one.code),
+            code_travel_counts: code_travel(self.settings, one),
         })
-        .collect()
-}
+    }
 
-fn phases(settings: &Settings, played: &[(System, Played)], learner: &Played) -> Vec<Phase> {
-    let all = learner.positionings.len();
-    let change = settings.load_change_after.map(|after| after as usize);
-    let change = change.filter(|after| *after < all);
-    let bounds = match change {
-        Some(change) => vec![(0, change), (change, all)],
-        None => vec![(0, all)],
-    };
-    let phase = |(from, to): (usize, usize)| {
-        let steps = 0..settings.steps.len();
-        Phase {
-            from,
-            to,
-            loaded: loaded(settings, from),
-            steps: steps
-                .filter_map(|step| step_summary(settings, played, learner, step, from..to))
-                .collect(),
-        }
-    };
-    bounds.into_iter().map(phase).collect()
-}
+    fn phases(&self) -> Vec<Phase> {
+        let (settings, all) = (self.settings, self.run.positionings.len());
+        let change = settings.load_change_after.map(|after| after as usize);
+        let change = change.filter(|after| *after < all);
+        let bounds = match change {
+            Some(change) => vec![(0, change), (change, all)],
+            None => vec![(0, all)],
+        };
+        let phase = |(from, to): (usize, usize)| {
+            let steps = 0..settings.steps.len();
+            Phase {
+                from,
+                to,
+                loaded: loaded(settings, from),
+                steps: steps.filter_map(|step| self.step(step, from..to)).collect(),
+            }
+        };
+        bounds.into_iter().map(phase).collect()
+    }
 
-/// What became of a step in a phase; none where the phase is over before it.
-fn step_summary(
-    settings: &Settings,
-    played: &[(System, Played)],
-    learner: &Played,
-    step: usize,
-    phase: Range<usize>,
-) -> Option<StepSummary> {
-    let all = &learner.positionings;
-    let numbers: Vec<usize> = phase.filter(|number| all[*number].step == step).collect();
-    let last = *numbers.last()?;
-    let order = |name| of(played, name).and_then(|run| settled_after(settings, run, &numbers));
-    Some(StepSummary {
-        step,
-        target: settings.steps[step].target,
-        speed_counts_per_s: settings.steps[step].speed_counts_per_s,
-        positionings: numbers.len(),
-        last_error_counts: of_all(played, last, |one| one.error),
-        last_timed_out: of_all(played, last, |one| one.timed_out),
-        lead_ms: settings.lead_ms(all[last].code),
-        code_travel_counts: code_travel(settings, &all[last]),
-        settled_after: settled_after(settings, learner, &numbers),
-        settled_by_order: ByOrder {
-            first: order(LEARNING),
-            second: order(SECOND_ORDER),
-        },
-    })
+    /// What became of a step in a phase; none where the phase is over before it.
+    fn step(&self, step: usize, phase: Range<usize>) -> Option<StepSummary> {
+        let (settings, played) = (self.settings, self.played);
+        let all = &self.run.positionings;
+        let numbers: Vec<usize> = phase.filter(|number| all[*number].step == step).collect();
+        let last = *numbers.last()?;
+        let after = |run| settled_after(settings, run, &numbers);
+        // Where nothing is compared, one of them is missing.
+        let orders = [LEARNING, SECOND_ORDER].map(|name| of(played, name));
+        let by_order = match orders {
+            [Some(first), Some(second)] => Some(ByOrder {
+                first: after(first),
+                second: after(second),
+            }),
+            _ => None,
+        };
+        Some(StepSummary {
+            step,
+            target: settings.steps[step].target,
+            speed_counts_per_s: settings.steps[step].speed_counts_per_s,
+            positionings: numbers.len(),
+            last_error_counts: of_all(played, last, |one| one.error),
+            last_timed_out: of_all(played, last, |one| one.timed_out),
+            lead: self.lead(&all[last]).map(|last| StepLead {
+                last,
+                settled_after: after(self.run),
+                settled_by_order: by_order,
+            }),
+        })
+    }
 }
 
 /// After how many of these positionings a system stays within a code's travel.
@@ -389,7 +436,8 @@ fn warnings(summary: &Summary) -> Vec<String> {
         let settled = |after| after <= SETTLED_WITHIN;
         // With fewer there is nothing to be said yet.
         let late = |step: &&StepSummary| {
-            step.positionings >= SETTLED_WITHIN && !step.settled_after.is_some_and(settled)
+            let after = step.lead.as_ref().and_then(|lead| lead.settled_after);
+            step.positionings >= SETTLED_WITHIN && !after.is_some_and(settled)
         };
         all.extend(phase.steps.iter().filter(late).map(|step| {
             format!(

@@ -1,6 +1,6 @@
 //! The summary for people.
 
-use super::summary::{ByOrder, Phase, Summary, SystemSummary, error_name};
+use super::summary::{ByOrder, Lead, Phase, StepSummary, Summary, SystemSummary, error_name};
 use crate::cli::report::{Outcome, Report};
 use motion_rtl::jobs::lead_angle::settings::{Action, Detector, LeadBy, LeadForm};
 use std::fmt::Write;
@@ -12,6 +12,14 @@ const SHORTEST: usize = 8;
 fn name(value: impl serde::Serialize) -> String {
     let json = serde_json::to_value(value).unwrap_or_default();
     json.as_str().unwrap_or_default().to_owned()
+}
+
+/// A lead time and its code below their heads.
+fn columns(lead: &Lead) -> String {
+    format!(
+        "  {:>5.1} ms  {:>8.1}",
+        lead.lead_ms, lead.code_travel_counts
+    )
 }
 
 impl Report for Summary {
@@ -120,7 +128,7 @@ impl Summary {
     fn phase(&self, text: &mut String, phase: &Phase) -> std::fmt::Result {
         writeln!(
             text,
-            "positionings {} to {}{}: {} of the last of each step; lead of {}",
+            "positionings {} to {}{}: {} of the last of each step{}",
             phase.from,
             phase.to.saturating_sub(1),
             if phase.loaded {
@@ -129,12 +137,27 @@ impl Summary {
                 ""
             },
             error_name(self.action),
-            self.lead_times_of
+            match self.lead_times_of {
+                Some(name) => format!("; lead of {name}"),
+                None => String::new(),
+            }
         )?;
+        let compared = |step: &StepSummary| {
+            let lead = step.lead.as_ref();
+            lead.is_some_and(|lead| lead.settled_by_order.is_some())
+        };
         writeln!(
             text,
-            "step    target   speed{}      lead  one code  settled after  1st, 2nd order",
-            self.heads()
+            "step    target   speed{}{}{}",
+            self.heads(),
+            match self.lead_times_of {
+                Some(_) => "      lead  one code  settled after",
+                None => "",
+            },
+            match phase.steps.iter().any(compared) {
+                true => "  1st, 2nd order",
+                false => "",
+            }
         )?;
         for step in &phase.steps {
             write!(
@@ -149,15 +172,15 @@ impl Summary {
                 Some(after) => after.to_string(),
                 None => "never".to_owned(),
             };
-            let ByOrder { first, second } = step.settled_by_order;
-            writeln!(
-                text,
-                "  {:>5.1} ms  {:>8.1}  {:>13}  {:>14}",
-                step.lead_ms,
-                step.code_travel_counts,
-                after(step.settled_after),
-                format!("{}, {}", after(first), after(second))
-            )?;
+            if let Some(lead) = &step.lead {
+                let settled = after(lead.settled_after);
+                write!(text, "{}  {settled:>13}", columns(&lead.last))?;
+                if let Some(ByOrder { first, second }) = lead.settled_by_order {
+                    let both = format!("{}, {}", after(first), after(second));
+                    write!(text, "  {both:>14}")?;
+                }
+            }
+            text.push('\n');
         }
         text.push('\n');
         Ok(())
@@ -166,18 +189,21 @@ impl Summary {
     fn every_positioning(&self, text: &mut String) -> std::fmt::Result {
         writeln!(
             text,
-            "positioning  step{}      lead  one code",
-            self.heads()
+            "positioning  step{}{}",
+            self.heads(),
+            match self.lead_times_of {
+                Some(_) => "      lead  one code",
+                None => "",
+            }
         )?;
         for row in &self.positionings {
             writeln!(
                 text,
-                "{:>11}  {:>4}{}  {:>5.1} ms  {:>8.1}",
+                "{:>11}  {:>4}{}{}",
                 row.positioning,
                 row.step,
                 self.errors(&row.error_counts, &row.timed_out),
-                row.lead_ms,
-                row.code_travel_counts
+                row.lead.as_ref().map(columns).unwrap_or_default()
             )?;
         }
         text.push('\n');

@@ -21,8 +21,9 @@ pub struct Job {
     pub settings: Settings,
     /// The cycles.
     pub compiled: Targets,
-    /// The same with another axis as the master, or why they cannot be had.
-    pub other: Other,
+    /// The same with another axis as the master, or why they cannot be had; none where nothing is
+    /// compared.
+    pub other: Option<Other>,
     /// The scenario it came from.
     pub loaded: Loaded,
 }
@@ -55,8 +56,10 @@ impl Job {
     /// The cycles with the longer axis as the master, of which the conventional systems are made. It
     /// goes at least as fast as a fixed one: where that can be had, so can this.
     pub fn longer(&self) -> &Targets {
-        match (self.settings.master, &self.other.compiled) {
-            (MasterAxis::X | MasterAxis::Y, Ok(longer)) => longer,
+        let other = self.other.as_ref();
+        let other = other.and_then(|other| other.compiled.as_ref().ok());
+        match (self.settings.master, other) {
+            (MasterAxis::X | MasterAxis::Y, Some(longer)) => longer,
             _ => &self.compiled,
         }
     }
@@ -67,7 +70,8 @@ impl Job {
         let spinner = compiling();
         let refused = |error| fault(&source.loaded, &drawing, &settings, error);
         let compiled = compile(&drawing, &settings).map_err(refused)?;
-        let other = Other::of(&drawing, &settings);
+        let beside = source.loaded.scenario.beside();
+        let other = beside.then(|| Other::of(&drawing, &settings));
         drop(spinner);
         let Source { stem, loaded, .. } = source;
         Ok(Job {

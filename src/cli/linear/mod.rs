@@ -14,6 +14,7 @@ use super::report::conclude;
 use super::run::{Arguments, Progress, options};
 use super::traces::{Focus, Traces};
 use super::{Failure, threads};
+use job::Other;
 use motion_rtl::circuits::linear_interpolator::Controller;
 use motion_rtl::hdl::{Model, RunError, Without, model_beside};
 use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
@@ -49,8 +50,8 @@ pub struct Runs {
     pub interpolator: Played,
     /// The same with another master axis, if the job can be had so.
     pub other: Option<Played>,
-    /// The conventional system of Fig. 3, in each of its ways.
-    pub conventional: [Played; 2],
+    /// The conventional system of Fig. 3, in each of its ways, where the scenario asks for it.
+    pub conventional: Option<[Played; 2]>,
 }
 
 /// Runs a job.
@@ -61,36 +62,56 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     // Before the others run, as what it refuses would wait for them.
     let traces = Traces::begin((&model, &circuit), arguments, scenario, &options, ticks)?;
-    let conventional = |way: Way| {
-        let targets = way.targets(&job.longer().targets, &job.settings);
-        play(&conventional(), &targets, &job.settings, &mut ())
-    };
-    let other = || match &job.other.compiled {
-        Err(_) => Ok(None),
-        Ok(compiled) => {
-            let settings = &job.other.settings;
-            let circuit = plotter(settings);
-            play(&circuit, &compiled.targets, settings, &mut ()).map(Some)
+    let (runs, mut files) = match &job.other {
+        None => {
+            let (interpolator, files) = simulate((&circuit, &model), job, traces)?;
+            let runs = Runs {
+                interpolator,
+                other: None,
+                conventional: None,
+            };
+            (runs, files)
         }
-    };
-    let (interpolator, mut files, conventional, other) = thread::scope(|scope| {
-        let start = |way| threads::beside(scope, move || conventional(way));
-        let [same, inverse] = Way::ALL;
-        let others = [start(same)?, start(inverse)?];
-        let other = threads::beside(scope, other)?;
-        let (interpolator, files) = simulate((&circuit, &model), job, traces)?;
-        let [same, inverse] = others.map(threads::joined);
-        let other = threads::joined(other);
-        Ok::<_, Failure>((interpolator, files, [same?, inverse?], other?))
-    })?;
-    let runs = Runs {
-        interpolator,
-        other,
-        conventional,
+        Some(other) => compared((&circuit, &model), job, other, traces)?,
     };
     files.write("svg", &draw(job, &runs))?;
     let summary = Summary::new(job, &runs);
     conclude(arguments, &options, files, summary)
+}
+
+/// Plays the job with its waves, and what it is compared with beside it.
+fn compared(
+    shown: (&Controller, &Model),
+    job: &Job,
+    other: &Other,
+    traces: Traces<'_>,
+) -> Result<(Runs, Files), Failure> {
+    let conventional = |way: Way| {
+        let targets = way.targets(&job.longer().targets, &job.settings);
+        play(&conventional(), &targets, &job.settings, &mut ())
+    };
+    let other = || match &other.compiled {
+        Err(_) => Ok(None),
+        Ok(compiled) => {
+            let settings = &other.settings;
+            let circuit = plotter(settings);
+            play(&circuit, &compiled.targets, settings, &mut ()).map(Some)
+        }
+    };
+    thread::scope(|scope| {
+        let start = |way| threads::beside(scope, move || conventional(way));
+        let [same, inverse] = Way::ALL;
+        let others = [start(same)?, start(inverse)?];
+        let other = threads::beside(scope, other)?;
+        let (interpolator, files) = simulate(shown, job, traces)?;
+        let [same, inverse] = others.map(threads::joined);
+        let runs = Runs {
+            interpolator,
+            other: threads::joined(other)?,
+            conventional: Some([same?, inverse?]),
+        };
+        Ok((runs, files))
+    })
 }
 
 /// Plays the job on the linear interpolator, with its waves.

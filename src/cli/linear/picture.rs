@@ -17,14 +17,13 @@ const OTHER: &str = "#009e73";
 /// The picture as SVG.
 pub fn draw(job: &Job, runs: &Runs) -> String {
     let settings = &job.settings;
-    let [same, inverse] = &runs.conventional;
-    let systems = [
-        ("linear interpolator", &runs.interpolator),
-        ("conventional, same settings", same),
-        ("conventional, in proportion", inverse),
-    ];
+    let mut systems = vec![("linear interpolator", &runs.interpolator)];
+    if let Some([same, inverse]) = &runs.conventional {
+        systems.push(("conventional, same settings", same));
+        systems.push(("conventional, in proportion", inverse));
+    }
     let mut picture = Picture::new(format!("{}: linear interpolator", job.stem));
-    for (name, played) in systems {
+    for &(name, played) in &systems {
         let largest = largest_error(job, played);
         let factor = magnification(largest, size(&runs.interpolator, settings));
         picture = picture.panel(path(job, name, played, factor));

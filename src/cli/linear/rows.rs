@@ -32,11 +32,14 @@ pub struct Row {
     /// The linear interpolator.
     pub interpolator: Figures,
     /// The same with another master axis.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub other_master: Option<Figures>,
     /// The conventional system, both axes with the same settings.
-    pub conventional: Figures,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub conventional: Option<Figures>,
     /// The conventional system, speeds in proportion to the distances, times inverse to them.
-    pub conventional_in_proportion: Figures,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub conventional_in_proportion: Option<Figures>,
 }
 
 /// What one system made of a cycle.
@@ -86,23 +89,23 @@ pub struct Segments {
     /// Those with another master axis.
     pub other: Option<Vec<Segment>>,
     /// Those of the conventional system, in each of its ways.
-    pub conventional: [Vec<Segment>; 2],
+    pub conventional: Option<[Vec<Segment>; 2]>,
 }
 
 impl Segments {
     /// Those of these runs.
     pub fn of(job: &Job, runs: &Runs) -> Self {
         let measured = |played: &Played| played.segments(job.settings.counts_per_mm);
-        let [same, inverse] = &runs.conventional;
+        let both = runs.conventional.as_ref();
         Segments {
             ours: measured(&runs.interpolator),
             other: runs.other.as_ref().map(measured),
-            conventional: [measured(same), measured(inverse)],
+            conventional: both.map(|both| both.each_ref().map(measured)),
         }
     }
 }
 
-/// Every cycle that all systems have played.
+/// Every cycle that all systems of a run have played.
 pub fn rows(job: &Job, runs: &Runs, segments: &Segments) -> Vec<Row> {
     let scan_s = job.settings.scan_s();
     let targets = job.compiled.targets.iter();
@@ -110,32 +113,33 @@ pub fn rows(job: &Job, runs: &Runs, segments: &Segments) -> Vec<Row> {
     let Segments {
         ours,
         other,
-        conventional: [same, inverse],
+        conventional,
     } = segments;
-    let other = |segment: usize| Some(Figures::new(other.as_ref()?.get(segment)?, scan_s));
-    let segments = ours.iter().zip(same).zip(inverse);
+    let figures = |of: &[Segment], segment: usize| Some(Figures::new(of.get(segment)?, scan_s));
+    let other = |segment: usize| figures(other.as_ref()?, segment);
+    let way = |way: usize, segment: usize| figures(&conventional.as_ref()?[way], segment);
+    let ways = conventional.iter().flatten();
+    let played = ways.map(Vec::len).fold(ours.len(), usize::min);
     targets
         .zip(cycles)
-        .zip(segments)
+        .zip(&ours[..played])
         .enumerate()
-        .map(
-            |(segment, ((target, cycle), ((ours, same), inverse)))| Row {
-                segment,
-                line: target.line,
-                rapid: target.rapid,
-                from: cycle.from,
-                to: cycle.to,
-                delta: ours.delta,
-                master: AXIS_NAMES[ours.master],
-                speed_counts_per_scan: target.profiles[0].counts_per_scan(),
-                speed_asked_mm_per_min: target.feed_mm_per_min,
-                speed_reached_mm_per_min: reached(job, target, ours),
-                interpolator: Figures::new(ours, scan_s),
-                other_master: other(segment),
-                conventional: Figures::new(same, scan_s),
-                conventional_in_proportion: Figures::new(inverse, scan_s),
-            },
-        )
+        .map(|(segment, ((target, cycle), ours))| Row {
+            segment,
+            line: target.line,
+            rapid: target.rapid,
+            from: cycle.from,
+            to: cycle.to,
+            delta: ours.delta,
+            master: AXIS_NAMES[ours.master],
+            speed_counts_per_scan: target.profiles[0].counts_per_scan(),
+            speed_asked_mm_per_min: target.feed_mm_per_min,
+            speed_reached_mm_per_min: reached(job, target, ours),
+            interpolator: Figures::new(ours, scan_s),
+            other_master: other(segment),
+            conventional: way(0, segment),
+            conventional_in_proportion: way(1, segment),
+        })
         .collect()
 }
 

@@ -31,13 +31,17 @@ pub struct Summary {
     /// The linear interpolator.
     pub interpolator: SystemSummary,
     /// Which axis leads in the run with another one.
-    pub other_master: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub other_master: Option<&'static str>,
     /// That run; none where the drawing cannot be had so.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolator_other_master: Option<SystemSummary>,
     /// The conventional system of Fig. 3, both axes with the same settings.
-    pub conventional: SystemSummary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub conventional: Option<SystemSummary>,
     /// The same, speeds in proportion to the distances, times inverse to them.
-    pub conventional_in_proportion: SystemSummary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub conventional_in_proportion: Option<SystemSummary>,
     /// Every cycle.
     pub segments: Vec<Row>,
 }
@@ -107,7 +111,6 @@ impl SystemSummary {
 impl Summary {
     /// The summary of a job that was played.
     pub fn new(job: &Job, runs: &Runs) -> Self {
-        let [same, inverse] = &runs.conventional;
         let all = Segments::of(job, runs);
         let complaints = complaints(job, runs, &all);
         let rows = rows(job, runs, &all);
@@ -116,8 +119,13 @@ impl Summary {
         let interpolator = system(&runs.interpolator, |row| Some(row.interpolator));
         let other = runs.other.as_ref();
         let other = other.map(|played| system(played, |row| row.other_master));
-        let conventional = system(same, |row| Some(row.conventional));
-        let in_proportion = system(inverse, |row| Some(row.conventional_in_proportion));
+        let (conventional, in_proportion) = match &runs.conventional {
+            None => (None, None),
+            Some([same, inverse]) => (
+                Some(system(same, |row| row.conventional)),
+                Some(system(inverse, |row| row.conventional_in_proportion)),
+            ),
+        };
         Summary {
             exact: complaints.is_empty(),
             outcome: Outcome {
@@ -132,7 +140,7 @@ impl Summary {
             },
             variant: job.settings.rule.name(),
             master: job.settings.master.name(),
-            other_master: job.other.settings.master.name(),
+            other_master: job.other.as_ref().map(|other| other.settings.master.name()),
             interpolator_other_master: other,
             scan_ticks: job.settings.scan_ticks,
             scans: interpolator.scans,
@@ -164,8 +172,10 @@ fn warnings(job: &Job, played: &Played) -> Vec<String> {
             "{file}: {many} points left out that have the counts of the point before"
         )),
     }
-    if let Err(error) = &job.other.compiled {
-        let master = job.other.settings.master.name();
+    if let Some(other) = &job.other
+        && let Err(error) = &other.compiled
+    {
+        let master = other.settings.master.name();
         warnings.push(format!(
             "{file}: not drawn with {master} as the master axis for comparison: {error}"
         ));

@@ -31,18 +31,16 @@ impl Report for Summary {
             "system"
         )?;
         totals(text, "interpolator", &self.interpolator)?;
-        if let Some(other) = &self.interpolator_other_master {
-            totals(
-                text,
-                &format!("interpolator, master {}", self.other_master),
-                other,
-            )?;
+        if let (Some(master), Some(other)) = (self.other_master, &self.interpolator_other_master) {
+            totals(text, &format!("interpolator, master {master}"), other)?;
         }
         for (way, system) in Way::ALL
             .iter()
             .zip([&self.conventional, &self.conventional_in_proportion])
         {
-            totals(text, &format!("conventional, {}", way.name()), system)?;
+            if let Some(system) = system {
+                totals(text, &format!("conventional, {}", way.name()), system)?;
+            }
         }
         text.push('\n');
         if !self.segments.is_empty() {
@@ -54,17 +52,27 @@ impl Report for Summary {
 
 impl Summary {
     fn table(&self, text: &mut String, all: bool) -> std::fmt::Result {
-        writeln!(
+        let others = match self.conventional {
+            None => &[][..],
+            Some(_) => &["conventional, same settings", "in proportion"],
+        };
+        write!(
             text,
-            "{:44}  {:^17}  {:^35}  {:^36}  {:^36}",
-            "", "speed in mm/min", "interpolator", "conventional, same settings", "in proportion"
+            "{:44}  {:^17}  {:^35}",
+            "", "speed in mm/min", "interpolator"
         )?;
-        let figures = "scans    deviation  contour error";
-        writeln!(
+        for name in others {
+            write!(text, "  {name:^36}")?;
+        }
+        let figures = "    scans    deviation  contour error";
+        write!(
             text,
-            "segment  line   pen      dx       dy  master     asked   reached    {figures}     \
-             {figures}     {figures}"
+            "\nsegment  line   pen      dx       dy  master     asked   reached{figures}"
         )?;
+        for _ in others {
+            write!(text, " {figures}")?;
+        }
+        text.push('\n');
         let mut rows: Vec<&Row> = self.segments.iter().collect();
         if !all {
             // What is drawn matters more.
@@ -75,9 +83,9 @@ impl Summary {
             rows.truncate(SHOWN);
         }
         for row in &rows {
-            writeln!(
+            write!(
                 text,
-                "{:>7}  {:>4}  {:>4}  {:>6}  {:>7}  {:>6}  {:>8.1}  {:>8.1}  {}  {}  {}",
+                "{:>7}  {:>4}  {:>4}  {:>6}  {:>7}  {:>6}  {:>8.1}  {:>8.1}  {}",
                 row.segment,
                 row.line,
                 if row.rapid { "up" } else { "down" },
@@ -87,9 +95,12 @@ impl Summary {
                 row.speed_asked_mm_per_min,
                 row.speed_reached_mm_per_min,
                 columns(&row.interpolator),
-                columns(&row.conventional),
-                columns(&row.conventional_in_proportion),
             )?;
+            let others = [&row.conventional, &row.conventional_in_proportion];
+            for figures in others.into_iter().flatten() {
+                write!(text, "  {}", columns(figures))?;
+            }
+            text.push('\n');
         }
         let more = self.segments.len() - rows.len();
         if more > 0 {

@@ -14,9 +14,10 @@ pub fn complaints(job: &Job, runs: &Runs, segments: &Segments) -> Vec<String> {
     let targets = &job.compiled.targets;
     let rule = Some(job.settings.rule);
     let mut all = of_system(&runs.interpolator, &segments.ours, targets, rule);
-    if let (Some(played), Some(segments)) = (&runs.other, &segments.other) {
+    if let (Some(played), Some(segments), Some(other)) = (&runs.other, &segments.other, &job.other)
+    {
         let texts = of_system(played, segments, targets, rule);
-        let name = job.other.settings.master.name();
+        let name = other.settings.master.name();
         all.extend(
             texts
                 .into_iter()
@@ -24,8 +25,8 @@ pub fn complaints(job: &Job, runs: &Runs, segments: &Segments) -> Vec<String> {
         );
     }
     // That its path bends is what the conventional system is there to show.
-    let ways = Way::ALL.iter().zip(&runs.conventional);
-    for ((way, played), segments) in ways.zip(&segments.conventional) {
+    let ways = Way::ALL.iter().zip(runs.conventional.iter().flatten());
+    for ((way, played), segments) in ways.zip(segments.conventional.iter().flatten()) {
         let texts = of_system(played, segments, targets, None);
         let name = way.name();
         all.extend(

@@ -1,4 +1,4 @@
-//! The same program on the conventional device of Fig. 5, and what both devices come to.
+//! What the device comes to, and the same program on the conventional device of Fig. 5.
 
 use super::Job;
 use super::summary::Minima;
@@ -11,7 +11,7 @@ use motion_rtl::jobs::pulse_interpolator::{UnitDemand, demanded};
 use serde::Serialize;
 
 /// A device.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct Row {
     /// Its circuit.
     pub circuit: &'static str,
@@ -19,8 +19,9 @@ pub struct Row {
     pub units: usize,
     /// Unit times without pulses among them, because the next one was not there yet.
     pub late_units: u64,
-    /// The shortest T in ticks in which the next unit time is there.
-    pub unit_ticks_least: u64,
+    /// The shortest T in ticks in which the next unit time is there, where it was looked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit_ticks_least: Option<u64>,
     /// Largest distance of a pulse from where an even motion through its unit time has it.
     pub jitter_ticks_max: f64,
     /// Largest distance from the exact demand at the end of a unit time.
@@ -63,8 +64,33 @@ fn end_error(demands: &[UnitDemand], positions: &[i32], axes: usize) -> f64 {
     errors.fold(0.0, f64::max)
 }
 
+/// Largest of some values, or 0.
+fn most(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, f64::max)
+}
+
+/// The device as it played a job, without the search for its least T.
+pub fn own(job: &Job, played: &Played, end_error: f64) -> Result<Row, Failure> {
+    let model = hdl::model(&group(&job.table, job.variant.into())).map_err(RunError::from)?;
+    let kept = |minima: Minima| minima.too_short(&job.settings.timing).next().is_none();
+    let row = Row {
+        circuit: "",
+        units: played.positions.len() / job.table.axes(),
+        late_units: played.idle_units,
+        unit_ticks_least: None,
+        jitter_ticks_max: most(played.axes.iter().map(|axis| axis.jitter)),
+        end_error_steps_max: end_error,
+        timing_kept: played.axes.iter().all(|axis| kept(axis.minima.into())),
+        adders: 0,
+        adder_bits: 0,
+        flip_flops: 0,
+        memory_bits: 0,
+    };
+    Ok(row.costing(&model))
+}
+
 /// Both devices, and what is wrong with the run of the conventional one; empty where nothing is.
-pub fn compare(job: &Job, played: &Played) -> Result<(Vec<Row>, Vec<String>), Failure> {
+pub fn compare(job: &Job, own: Row) -> Result<(Vec<Row>, Vec<String>), Failure> {
     let (table, timing) = (&job.table, &job.settings.timing);
     let axes = table.axes();
     let demands = demanded(&job.drawing, &job.settings, table, job.path_units())
@@ -72,33 +98,22 @@ pub fn compare(job: &Job, played: &Played) -> Result<(Vec<Row>, Vec<String>), Fa
     let orders = orders(&demands, timing);
     let circuit = device(axes, &orders);
     let beside = play(&circuit, &orders)?;
-    let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let kept = |minima: Minima| minima.too_short(timing).next().is_none();
-    let row = Row {
-        circuit: "",
-        units: played.positions.len() / axes,
-        late_units: played.idle_units,
-        unit_ticks_least: least_period(table, job.variant.into())?.into(),
-        jitter_ticks_max: most(&mut played.axes.iter().map(|axis| axis.jitter)),
-        end_error_steps_max: end_error(&demands, &played.positions, axes),
-        timing_kept: played.axes.iter().all(|axis| kept(axis.minima.into())),
-        adders: 0,
-        adder_bits: 0,
-        flip_flops: 0,
-        memory_bits: 0,
+    let model = hdl::model(&circuit).map_err(RunError::from)?;
+    let own = Row {
+        unit_ticks_least: Some(least_period(table, job.variant.into())?.into()),
+        ..own
     };
     let other = Row {
         units: orders.len(),
         late_units: beside.late_units,
-        unit_ticks_least: beside.needed,
-        jitter_ticks_max: most(&mut beside.jitter.iter().copied()),
+        unit_ticks_least: Some(beside.needed),
+        jitter_ticks_max: most(beside.jitter.iter().copied()),
         end_error_steps_max: end_error(&demands, &beside.positions, axes),
         timing_kept: beside.minima.iter().all(|minima| kept((*minima).into())),
-        ..row
+        ..own
     };
-    let own = hdl::model(&group(table, job.variant.into())).map_err(RunError::from)?;
-    let model = hdl::model(&circuit).map_err(RunError::from)?;
-    let rows = vec![row.costing(&own), other.costing(&model)];
+    let rows = vec![own, other.costing(&model)];
     let ends = beside.positions.iter().rev().take(axes).rev();
     let astray = ends.zip(&job.report.axes).zip(AXIS_NAMES);
     let astray = astray.filter_map(|((end, report), name)| {

@@ -70,7 +70,11 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     )?;
     let following =
         Following::new(job, &played).map_err(|error| Failure::Check(error.to_string()))?;
-    let (circuits, astray) = beside::compare(job, &played)?;
+    let own = beside::own(job, &played, following.end_error)?;
+    let (circuits, astray) = match job.loaded.scenario.beside() {
+        true => beside::compare(job, own)?,
+        false => (vec![own], Vec::new()),
+    };
     let summary = Summary::new(job, &played, &following.largest, (circuits, astray));
     files.write("svg", &draw(job, &played, &following))?;
     conclude(arguments, &options, files, summary)

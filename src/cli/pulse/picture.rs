@@ -16,6 +16,8 @@ const CHORDS: u32 = 180;
 pub struct Following {
     /// The largest of each axis, X first.
     pub largest: Vec<FollowingError>,
+    /// The largest at the end of a unit time, of all axes, in steps.
+    pub end_error: f64,
     /// Time in seconds and error in steps, for each axis.
     curves: Vec<Points>,
     /// Of every unit time, whether a rapid move was under way at its end.
@@ -31,14 +33,18 @@ impl Following {
         let (drawing, settings, table) = (&job.drawing, &job.settings, &job.table);
         let mut curves = vec![Points::expecting(table.units()); job.report.axes.len()];
         let mut rapid = Vec::with_capacity(table.units());
+        let mut end_error = 0.0f64;
         let largest = follow(drawing, settings, table, &played.positions, |end| {
             rapid.push(end.rapid);
+            let errors = end.end_errors.iter().map(|error| error.abs());
+            end_error = errors.fold(end_error, f64::max);
             for (curve, error) in curves.iter_mut().zip(end.errors) {
                 curve.push((end.time_s, error));
             }
         })?;
         Ok(Following {
             largest,
+            end_error,
             curves,
             rapid,
         })

@@ -32,7 +32,7 @@ pub struct Summary {
     pub table: TableSummary,
     /// Unit times without pulses between two patterns of the memory.
     pub idle_units: u64,
-    /// The device, and the conventional one at the same program.
+    /// The device, and where it is compared the conventional one at the same program.
     pub circuits: Vec<Row>,
 }
 

@@ -6,6 +6,9 @@ use crate::cli::report::{Outcome, Report};
 use crate::cli::rows::{fixed, or_dash, table};
 use std::fmt::Write;
 
+/// The column of the least T, where that was looked for.
+const LEAST_T: usize = 3;
+
 /// Columns of the shortest times.
 pub fn timing(minima: &Minima) -> String {
     let Minima {
@@ -68,31 +71,43 @@ impl Report for Summary {
 }
 
 impl Summary {
-    fn circuits(&self, text: &mut String) -> std::fmt::Result {
-        let name = |circuit: &str| format!("{circuit:<31}");
-        let heads = [
+    /// How well each device played the program, with the least T where it was looked for.
+    fn played(&self, text: &mut String, name: impl Fn(&str) -> String) -> std::fmt::Result {
+        let rows = self.circuits.iter();
+        let searched = rows.clone().any(|row| row.unit_ticks_least.is_some());
+        let mut heads = vec![
             ("at this program                ", 0),
             ("unit times", 0),
             ("late", 4),
-            ("least T", 0),
             ("jitter ticks", 0),
             ("error steps", 0),
             ("driver's times", 0),
         ];
-        let cells = self.circuits.iter().map(|row| {
+        if searched {
+            heads.insert(LEAST_T, ("least T", 0));
+        }
+        let cells = rows.map(|row| {
             let kept = if row.timing_kept { "kept" } else { "not kept" };
-            [
+            let mut cells = vec![
                 name(row.circuit),
                 row.units.to_string(),
                 row.late_units.to_string(),
-                row.unit_ticks_least.to_string(),
                 fixed(row.jitter_ticks_max, 3),
                 fixed(row.end_error_steps_max, 3),
                 kept.to_owned(),
-            ]
+            ];
+            if searched {
+                cells.insert(LEAST_T, or_dash(row.unit_ticks_least));
+            }
+            cells
         });
+        table(text, heads, cells)
+    }
+
+    fn circuits(&self, text: &mut String) -> std::fmt::Result {
+        let name = |circuit: &str| format!("{circuit:<31}");
         text.push('\n');
-        table(text, heads, cells)?;
+        self.played(text, name)?;
         text.push('\n');
         let heads = [
             ("a circuit has                  ", 0),

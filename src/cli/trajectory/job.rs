@@ -27,7 +27,7 @@ pub struct Job {
     pub settings: Settings,
     /// The path and the words.
     pub program: Program,
-    /// The same path at full feed, where a contour tolerance limits it.
+    /// The same path at full feed, where a contour tolerance limits it and it is compared.
     pub full_feed: Option<Program>,
     /// Motor and load of each axis.
     pub machines: Vec<TwoMassParameters>,
@@ -82,7 +82,8 @@ impl Job {
             })
         };
         let program = plan(&settings)?;
-        let full_feed = settings.contour_tolerance_mm.map(|_| Settings {
+        let limited = scenario.beside && settings.contour_tolerance_mm.is_some();
+        let full_feed = limited.then(|| Settings {
             contour_tolerance_mm: None,
             ..settings.clone()
         });

@@ -74,8 +74,8 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     conclude(arguments, &options, files, summary)
 }
 
-/// Plays the path by every correction, that of the scenario with its waves; by the vector at full feed
-/// too where a contour tolerance limits it.
+/// Plays the path by the correction of the scenario, with its waves; and where that is compared by
+/// every other, and by the vector at full feed too where a contour tolerance limits it.
 fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Files), Failure> {
     let traced = job.settings.correction;
     let circuit = controller(job.axes(), traced, job.settings.rounding);
@@ -83,6 +83,12 @@ fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Fil
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     // Before the others run, as what it refuses would wait for them.
     let traces = Traces::begin((&model, &circuit), arguments, scenario, options, ticks)?;
+    if !job.loaded.scenario.beside() {
+        let (own, files) = simulate((&circuit, &model), job, traces)?;
+        let own = Run::of(&job.program, traced, &own);
+        let runs = own.into_iter().collect();
+        return Ok((Runs { runs, traced }, files));
+    }
     thread::scope(|scope| {
         let mut others = Vec::new();
         for correction in CORRECTIONS {

@@ -117,9 +117,9 @@ pub struct SegmentRow {
     pub entry_mm_per_s: f64,
     /// The highest planned speed within it.
     pub speed_mm_per_s: f64,
-    /// Largest distance of the loads from the path next to it, by each correction; without a period
-    /// there none.
-    pub contour_um: [Option<f64>; 4],
+    /// Largest distance of the loads from the path next to it, by each correction of the summary but
+    /// the one at full feed; without a period there none.
+    pub contour_um: Vec<Option<f64>>,
 }
 
 /// By each correction.
@@ -206,24 +206,25 @@ pub fn segments(job: &Job, runs: &Runs) -> Vec<SegmentRow> {
                 entry_limit_mm_per_s: span.entry.min(span.speed).min(before) / unit,
                 entry_mm_per_s: speeds.at(begin) / unit,
                 speed_mm_per_s: speeds.highest(begin, begin + stretch.length as f64) / unit,
-                contour_um: std::array::from_fn(|k| errors[k][number]),
+                contour_um: errors.iter().map(|of| of[number]).collect(),
             }
         })
         .collect()
 }
 
 /// Largest contour error of the loads next to each segment, in um, by each correction.
-fn errors_of_segments(job: &Job, runs: &Runs) -> [Vec<Option<f64>>; 4] {
+fn errors_of_segments(job: &Job, runs: &Runs) -> Vec<Vec<Option<f64>>> {
     let (path, unit) = (&job.program.path, job.program.motion.units_per_mm);
-    std::array::from_fn(|k| {
+    let largest = |run: &Run| {
         let mut largest = vec![None; path.stretches.len()];
-        let deviations = runs.runs.get(k).map(|run| &run.measured.load.deviations);
-        for deviation in deviations.into_iter().flatten() {
+        for deviation in &run.measured.load.deviations {
             let of = &mut largest[path.index(deviation.length_mm * unit)];
             *of = Some(of.unwrap_or(0.0f64).max(deviation.contour_mm * 1e3));
         }
         largest
-    })
+    };
+    let own = runs.runs.iter().filter(|run| !run.full_feed);
+    own.map(largest).collect()
 }
 
 /// The planned speed by the length along the path.

@@ -96,15 +96,16 @@ impl Summary {
     /// What the feed is limited to, and what that costs.
     fn tolerance(&self, text: &mut String) -> fmt::Result {
         let full = self.corrections.iter().find(|row| row.full_feed);
-        let (Some(mm), Some(full)) = (self.contour_tolerance_mm, full) else {
+        let Some(mm) = self.contour_tolerance_mm else {
             return Ok(());
         };
-        let (own, full) = (self.plan.seconds, full.planned_seconds);
+        let full = full.map(|full| format!(", at full feed {:.3} s", full.planned_seconds));
         writeln!(
             text,
-            "feed limited to a contour error of {} um without correction: {own:.3} s, at full feed \
-             {full:.3} s",
-            mm * 1e3
+            "feed limited to a contour error of {} um without correction: {:.3} s{}",
+            mm * 1e3,
+            self.plan.seconds,
+            full.unwrap_or_default()
         )
     }
 
@@ -217,9 +218,16 @@ impl Summary {
 
     fn segments(&self, text: &mut String, all: bool) -> fmt::Result {
         let shown = self.corrections.iter().position(|row| row.in_waves);
-        let error = |row: &SegmentRow| row.contour_um[shown.unwrap_or(0)].unwrap_or(-1.0);
+        let error = |row: &SegmentRow| {
+            let shown = row.contour_um.get(shown.unwrap_or(0));
+            shown.copied().flatten().unwrap_or(-1.0)
+        };
         let (rows, left) = worst(&self.segments, all, error);
-        let heads = [
+        let own = self.corrections.iter().filter(|row| !row.full_feed);
+        let names: Vec<_> = own.map(|row| row.name).collect();
+        let first = names.first().map(|name| format!("load um: {name}"));
+        let first = first.unwrap_or_default();
+        let mut heads = vec![
             ("segment", 0),
             ("line", 4),
             ("kind", 5),
@@ -228,15 +236,11 @@ impl Summary {
             ("mm/s", 8),
             ("wanted", 8),
             ("entry", 8),
-            ("load um: none", 0),
-            ("steady", 8),
-            ("feedback", 8),
-            ("vector", 8),
+            (first.as_str(), 0),
         ];
+        heads.extend(names.iter().skip(1).map(|name| (*name, 8)));
         let cells = rows.into_iter().map(|row| {
-            let [none, steady, feedback, vector] =
-                row.contour_um.map(|um| or_dash(um.map(|um| fixed(um, 3))));
-            [
+            let mut cells = vec![
                 row.segment.to_string(),
                 or_dash(row.line),
                 row.kind.to_owned(),
@@ -245,11 +249,10 @@ impl Summary {
                 fixed(row.speed_mm_per_s, 3),
                 fixed(row.speed_wanted_mm_per_s, 3),
                 fixed(row.entry_mm_per_s, 3),
-                none,
-                steady,
-                feedback,
-                vector,
-            ]
+            ];
+            let errors = row.contour_um.iter();
+            cells.extend(errors.map(|um| or_dash(um.map(|um| fixed(um, 3)))));
+            cells
         });
         table(text, heads, cells)?;
         more(text, left, "of smaller contour error")

@@ -22,6 +22,7 @@ const SMALL: &str = "\
 circuit = \"lead_angle\"
 clock_hz = 200_000
 ck_ticks = 20
+beside = true
 positionings = 6
 load_change_after = 4
 load_inertia_factor = 2

@@ -7,7 +7,7 @@ use super::*;
 #[ignore = "takes long"]
 fn the_acceleration_is_told_in_other_ways() {
     let bench = with("[[piece]]\nto_mm = [8, 6, 0]\n");
-    let run = ["run", "s.toml", "--no-vcd", "--set"];
+    let run = ["run", "--beside", "s.toml", "--no-vcd", "--set"];
     for (set, acceleration) in [
         ("rapid_mm_per_s=300", 2000.0),
         ("acceleration_time_ms=50", 1000.0),
@@ -31,7 +31,14 @@ fn the_acceleration_is_told_in_other_ways() {
 #[ignore = "takes long"]
 fn each_axis_may_have_its_own_gains() {
     let bench = with("[[piece]]\nto_mm = [24, 18, 0]\n");
-    let run = ["run", "s.toml", "--no-vcd", "--set", "k1_per_s=[50,40]"];
+    let run = [
+        "run",
+        "--beside",
+        "s.toml",
+        "--no-vcd",
+        "--set",
+        "k1_per_s=[50,40]",
+    ];
     let summary = bench.json(&run);
     assert_eq!(summary["k1_per_s"], json!([50.0, 40.0]));
     assert_eq!(summary["k2_per_s"], json!(200.0));
@@ -49,7 +56,7 @@ fn each_axis_may_have_its_own_gains() {
 #[ignore = "takes long"]
 fn a_torque_from_outside_is_not_corrected() {
     let bench = with("[[piece]]\nto_mm = [40, 0, 0]\n");
-    let run = ["run", "s.toml", "--no-vcd", "--set"];
+    let run = ["run", "--beside", "s.toml", "--no-vcd", "--set"];
     let set = |value| [&run[..], &[value]].concat();
     let torque = "load_torque=[{axis=\"y\",torque_nm=0.5,from_s=0.3}]";
     let summary = bench.json(&set(torque));
@@ -84,7 +91,7 @@ fn a_torque_from_outside_is_not_corrected() {
 fn a_torque_that_is_not_enough_is_said() {
     let weak = MACHINE.replace("max_torque_nm = 10", "max_torque_nm = 1");
     let text = format!("{LINE}[machine]\n{weak}");
-    let done = with(&text).run(&["run", "s.toml", "--no-vcd"]);
+    let done = with(&text).run(&["run", "--beside", "s.toml", "--no-vcd"]);
     let warning = "warning: vector: in ";
     let line = done.stdout.lines().find(|line| line.starts_with(warning));
     let line = line.unwrap_or_else(|| panic!("{}", done.stdout));

@@ -12,7 +12,7 @@ fn splines_of_a_program_are_run_as_curves() {
          G1 Y20\nM2\n";
     let bench = with("input = \"l.ngc\"\nacceleration_mm_per_s2 = 2000\ncorner_mm_per_s = 1\n");
     bench.write("l.ngc", program);
-    let summary = bench.json(&["run", "s.toml", "--out", "o"]);
+    let summary = bench.json(&["run", "--beside", "s.toml", "--out", "o"]);
     assert_eq!(summary["complaints"], json!([]));
     assert_eq!(summary["warnings"], json!([]));
     assert_eq!(summary["plan"]["stops"], 0);
@@ -61,7 +61,7 @@ fn taught_points_are_joined_by_one_curve_in_space() {
         text.push_str(&format!("[[piece]]\nto_mm = {to:?}\nspline = true\n"));
     }
     let bench = with(&format!("start_mm = [20, -10, 5]\n{text}"));
-    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    let summary = bench.json(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert_eq!(summary["complaints"], json!([]));
     assert_eq!(summary["axes"], 3);
     let segments = list(&summary, "segments");
@@ -101,7 +101,7 @@ fn a_helix_is_a_segment_a_turn() {
     let program = "G17 G21 G90\nG1 X20 F6000\nG3 X20 Z4 I0 J10 P2\nG1 X40\nM2\n";
     let bench = with("input = \"l.ngc\"\n");
     bench.write("l.ngc", program);
-    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    let summary = bench.json(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert_eq!(
         (&summary["complaints"], &summary["axes"]),
         (&json!([]), &json!(3))

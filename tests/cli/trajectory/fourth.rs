@@ -20,7 +20,7 @@ const PIECES: &str = "[[piece]]\nto_mm = [3, 0, 0, 4]\n\
 #[ignore = "takes long"]
 fn w_is_an_axis_as_the_others() {
     let bench = four(PIECES);
-    let summary = bench.json(&["run", "s.toml", "--out", "o", "--to", "9000"]);
+    let summary = bench.json(&["run", "--beside", "s.toml", "--out", "o", "--to", "9000"]);
     assert_eq!(summary["complaints"], json!([]));
     assert_eq!(whole(&summary, "/axes"), 4);
     assert_eq!(whole(&summary, "/period_ticks"), 404);
@@ -49,7 +49,7 @@ fn w_is_an_axis_as_the_others() {
     assert!(wave.contains("$scope module w $end") && wave.contains(" torque_w "));
     let svg = bench.read("o/s.svg");
     assert!(svg.contains("path from above"), "from above");
-    let text = bench.succeed(&["run", "s.toml", "--no-vcd"]);
+    let text = bench.succeed(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert!(text.contains("(vector, nearest): 4 axes, "), "{text}");
 
     // The same as a part program: figures are the same.
@@ -58,7 +58,7 @@ fn w_is_an_axis_as_the_others() {
         "p.ngc",
         "G17 G21 G90\nG1 X3 W4 F3000\nG3 X3 Y10 J5 W6\nG1 W9\nX0 Y4 Z2 W2\n",
     );
-    let program = same.json(&["run", "s.toml", "--no-vcd"]);
+    let program = same.json(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert_eq!(program["corrections"], summary["corrections"]);
     assert_eq!(program["plan"]["seconds"], summary["plan"]["seconds"]);
 }
@@ -82,7 +82,7 @@ fn contour_errors_have_w_in_them() {
         0.01,
     );
     let turned = "load_torque=[{axis=\"w\",torque_nm=0.5,from_s=0.3}]";
-    let pushed = bench.json(&["run", "s.toml", "--no-vcd", "--set", turned]);
+    let pushed = bench.json(&["run", "--beside", "s.toml", "--no-vcd", "--set", turned]);
     let off = |summary: &Value, axis: usize| {
         number(of(summary, "none"), &format!("/axes/{axis}/off_model_um"))
     };
@@ -93,7 +93,7 @@ fn contour_errors_have_w_in_them() {
     );
     // Its own acceleration, as 18 of 30 mm.
     let set = "axis_acceleration_mm_per_s2=[1e5,1e5,1e5,300]";
-    let slow = bench.json(&["run", "s.toml", "--no-vcd", "--set", set]);
+    let slow = bench.json(&["run", "--beside", "s.toml", "--no-vcd", "--set", set]);
     close(number(&slow, "/plan/acceleration_mm_per_s2"), 500.0, 1e-6);
 }
 
@@ -139,10 +139,10 @@ fn w_at_fault_is_refused_with_its_line() {
     ] {
         let bench = four(text);
         bench.write("p.ngc", "G1 X3 W4 F600\n");
-        bench.refuse(&["run", "s.toml", "--no-vcd"], &refusal);
+        bench.refuse(&["run", "--beside", "s.toml", "--no-vcd"], &refusal);
     }
     let bench = four("[[piece]]\nto_mm = [3, 0, 0, 4]\n");
-    let set = |set| ["run", "s.toml", "--no-vcd", "--set", set];
+    let set = |set| ["run", "--beside", "s.toml", "--no-vcd", "--set", set];
     bench.refuse(
         &set("clock_hz=400000"),
         "s.toml:4: period_ms: is 1: 400 ticks; allowed: 404 ticks or more for 4 axes",
@@ -156,7 +156,7 @@ fn w_at_fault_is_refused_with_its_line() {
     let bench = with("input = \"p.ngc\"\n");
     bench.write("p.ngc", "G1 X3 F600\nX4 W5\n");
     bench.refuse(
-        &["run", "s.toml", "--no-vcd"],
+        &["run", "--beside", "s.toml", "--no-vcd"],
         "p.ngc:2: W: 5: a fourth axis; allowed: W at 0; any with axes = 4 of the trajectory \
          controller",
     );

@@ -183,7 +183,7 @@ fn in_shorter_periods_the_continuous_forms_hold() {
          stiffness_nm_per_rad = 5000\ndamping_nm_s_per_rad = 0.2\n\
          counts_per_rev = 20_000\nmm_per_rev = 10\n";
     let bench = Bench::with("s.toml", text);
-    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    let summary = bench.json(&["run", "--beside", "s.toml", "--no-vcd"]);
     let [plain, corrected] = closed_forms(10.0, 100.0, [50.0, 200.0]);
     for (correction, form) in [("none", plain), ("vector", corrected)] {
         let model = number(of(&summary, correction), "/circle/model_um");
@@ -195,7 +195,7 @@ fn in_shorter_periods_the_continuous_forms_hold() {
 #[ignore = "takes long"]
 fn a_straight_path_needs_no_correction() {
     let bench = with("[[piece]]\nto_mm = [8, 6, 0]\n");
-    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    let summary = bench.json(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert_eq!(summary["complaints"], json!([]));
     near(number(&summary, "/path/length_mm"), 10.0, 1e-6);
     for row in list(&summary, "corrections") {
@@ -221,7 +221,7 @@ fn a_straight_path_needs_no_correction() {
         );
     }
     assert_eq!(summary["plan"]["slowest_joint"], Value::Null);
-    let text = bench.succeed(&["run", "s.toml", "--no-vcd"]);
+    let text = bench.succeed(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert!(
         text.starts_with("s on trajectory_controller (vector, nearest): 2 axes, "),
         "{text}"
@@ -240,7 +240,7 @@ fn the_correction_of_the_waves_is_chosen() {
     let only = "trajectory_controller.x.corrector.correction";
     for correction in ["none", "steady", "feedback", "vector"] {
         let bench = with(&format!("correction = \"{correction}\"\n{quarter}"));
-        let run = bench.json(&["run", "s.toml", "--only", only, "--out", "o"]);
+        let run = bench.json(&["run", "--beside", "s.toml", "--only", only, "--out", "o"]);
         assert_eq!(run["correction"], correction);
         let shown = list(&run, "corrections").iter();
         let shown: Vec<_> = shown
@@ -268,9 +268,9 @@ fn the_worst_segments_are_shown_or_all() {
     let piece = |k: u32| format!("[[piece]]\nto_mm = [{}, {}, 0]\n", k / 2, k.div_ceil(2));
     let pieces: String = (1..=9).map(piece).collect();
     let bench = with(&pieces);
-    let text = bench.succeed(&["run", "s.toml", "--no-vcd"]);
+    let text = bench.succeed(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert!(text.contains("and 3 more, of smaller contour error: --segments shows all\n"));
-    let text = bench.succeed(&["run", "s.toml", "--no-vcd", "--segments"]);
+    let text = bench.succeed(&["run", "--beside", "s.toml", "--no-vcd", "--segments"]);
     assert!(!text.contains(" more, "));
     let rows = text.lines().skip_while(|line| !line.starts_with("segment"));
     let rows = rows.skip(1).take_while(|line| !line.is_empty());
@@ -311,7 +311,7 @@ fn the_pocket_moves_three_axes() {
 #[ignore = "takes long"]
 fn the_files_of_a_run() {
     let bench = with(LINE);
-    let summary = bench.json(&["run", "s.toml", "--to", "3000", "--out", "o"]);
+    let summary = bench.json(&["run", "--beside", "s.toml", "--to", "3000", "--out", "o"]);
     assert_eq!(summary["files"], json!(["o/s.vcd", "o/s.gtkw", "o/s.svg"]));
     assert_eq!(summary["vcd_window"], json!([0, 3000]));
     assert_eq!(
@@ -331,11 +331,19 @@ fn the_files_of_a_run() {
         assert!(svg.contains(&format!("\n{title}\n")), "{title}");
     }
     let only = "trajectory_controller.tangential";
-    let summary = bench.json(&["run", "s.toml", "--only", only, "--out", "o"]);
+    let summary = bench.json(&["run", "--beside", "s.toml", "--only", only, "--out", "o"]);
     assert_eq!(summary["vcd_window"], json!([0, whole(&summary, "/ticks")]));
     let wide = bench.read("o/s.vcd");
     assert!(wide.contains("$scope module tangential") && !wide.contains("distribution"));
-    let verilog = bench.json(&["run", "s.toml", "--no-vcd", "--verilog", "--out", "o"]);
+    let verilog = bench.json(&[
+        "run",
+        "--beside",
+        "s.toml",
+        "--no-vcd",
+        "--verilog",
+        "--out",
+        "o",
+    ]);
     let files = list(&verilog, "files");
     assert!(files.contains(&json!("o/trajectory_controller.v")));
     assert!(files.contains(&json!("o/trajectory_controller.stimulus")));
@@ -361,7 +369,7 @@ fn every_key_of_a_scenario_is_taken() {
          mm_per_rev = 5\ndamping_nm_s_per_rad = 0.02\n";
     let bench = Bench::with("all.toml", format!("{text}{axis}{axis}"));
     bench.write("l.ngc", "G0 X1\nG1 Y1\nG3 X0 Y2 I-1\nG1 X-1 F600\n");
-    let summary = bench.json(&["run", "all.toml"]);
+    let summary = bench.json(&["run", "--beside", "all.toml"]);
     assert_eq!(summary["complaints"], json!([]));
     assert_eq!(summary["rounding"], "floor");
     assert_eq!(summary["correction"], "none");
@@ -412,7 +420,7 @@ fn every_key_of_a_scenario_is_taken() {
         "load_torque=[{axis=\"y\",torque_nm=0.1,to_s=0.2}]",
         "rounding=nearest",
     ] {
-        let changed = bench.json(&["run", "all.toml", "--no-vcd", "--set", set]);
+        let changed = bench.json(&["run", "--beside", "all.toml", "--no-vcd", "--set", set]);
         assert_ne!(figures(&changed), figures(&summary), "{set}");
     }
 

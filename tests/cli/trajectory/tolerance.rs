@@ -8,9 +8,9 @@ const HALF: &str = "[[piece]]\nvia_mm = [4, 4, 0]\nto_mm = [8, 0, 0]\n";
 #[ignore = "takes long"]
 fn a_tolerance_costs_time() {
     let bench = with(HALF);
-    let limited = ["run", "s.toml", "--out", "o", "--to", "1000"];
+    let limited = ["run", "--beside", "s.toml", "--out", "o", "--to", "1000"];
     let limited = [&limited[..], &["--set", "contour_tolerance_mm=0.02"]].concat();
-    let full = bench.json(&["run", "s.toml", "--no-vcd"]);
+    let full = bench.json(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert_eq!(full["contour_tolerance_mm"], Value::Null);
     assert_eq!(list(&full, "corrections").len(), 4);
     let summary = bench.json(&limited);

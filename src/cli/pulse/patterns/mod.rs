@@ -48,6 +48,11 @@ impl Job {
             let problem = "given beside [[pattern]]".to_owned();
             return Err(loaded.fault("input", problem, "one of both".into()).into());
         }
+        if scenario.beside {
+            let problem = "given beside [[pattern]]".to_owned();
+            let allowed = "a drawing, which the conventional device plays too".to_owned();
+            return Err(loaded.fault("beside", problem, allowed).into());
+        }
         let mut patterns = Vec::new();
         for (index, keys) in scenario.pattern.iter().enumerate() {
             let refuse = |key, problem: String, allowed: &str| {

@@ -22,6 +22,8 @@ pub struct UnitErrors {
     /// Demand less position of each axis in steps, where in the unit it is farthest from 0; 0 for
     /// the axes not driven.
     pub errors: [f64; COORDINATES],
+    /// The same at its end.
+    pub end_errors: [f64; COORDINATES],
 }
 
 /// Where a path demands the axes at the end of a unit time, in steps from where they begin; 0 for the
@@ -69,6 +71,7 @@ impl Follower<'_, '_> {
             line: last.line,
             rapid: last.rapid,
             errors: [0.0; COORDINATES],
+            end_errors: [0.0; COORDINATES],
         };
         for (axis, (word, to)) in words.iter().zip(positions).enumerate() {
             let from = std::mem::replace(&mut self.positions[axis], to);
@@ -105,6 +108,7 @@ impl Follower<'_, '_> {
                 }
             }
             see(end_s, &last, to);
+            unit.end_errors[axis] = (last.steps[axis] - Steps::from_num(to)).to_num();
         }
         self.turns = turns;
         self.ticks = end;
