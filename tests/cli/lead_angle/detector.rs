@@ -9,6 +9,7 @@ fn an_absolute_encoder_has_an_incremental_one_beside_it() {
     let bench = small();
     let run = [
         "run",
+        "--beside",
         "s.toml",
         "--to",
         "3000",
@@ -20,7 +21,7 @@ fn an_absolute_encoder_has_an_incremental_one_beside_it() {
     assert_eq!(list(&summary, "systems").len(), 10);
     let [learning, counted] = ["learning", "incremental"].map(|name| system(&summary, name));
     assert_eq!(counted, 9);
-    let other = small().json(&["run", "s.toml", "--no-vcd"]);
+    let other = small().json(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert_eq!(other["detector"], "incremental");
     let rows = list(&summary, "positionings").iter();
     for (row, other) in rows.zip(list(&other, "positionings")) {
@@ -45,7 +46,7 @@ fn an_absolute_encoder_has_an_incremental_one_beside_it() {
 fn a_log_is_seen_by_the_detectors_of_places() {
     for (detector, most) in [("absolute", 4.0), ("phase_shift", 6.0), ("resolver", 6.0)] {
         let set = format!("detector={detector}");
-        let run = ["run", "s.toml", "--no-vcd", "--set", &set];
+        let run = ["run", "--beside", "s.toml", "--no-vcd", "--set", &set];
         let [places, counted] = [&run[..], &run[..3]].map(|run| log().json(run));
         let signals = |summary: &Value| list(summary, "signals").to_vec();
         assert_eq!(signals(&places).len(), 2);
@@ -70,7 +71,11 @@ const PHASE_SHIFT: [&str; 6] = [
 #[ignore = "takes long"]
 fn a_phase_shift_transducer_has_an_incremental_encoder_beside_it() {
     let bench = small();
-    let run = [&["run", "s.toml", "--to", "3000"][..], &PHASE_SHIFT].concat();
+    let run = [
+        &["run", "--beside", "s.toml", "--to", "3000"][..],
+        &PHASE_SHIFT,
+    ]
+    .concat();
     let summary = bench.json(&run);
     assert_eq!(summary["detector"], "phase_shift");
     let [learning, counted] = ["learning", "incremental"].map(|name| system(&summary, name));
@@ -134,6 +139,7 @@ fn a_resolver_has_an_incremental_encoder_beside_it() {
     let bench = small();
     let run = [
         "run",
+        "--beside",
         "s.toml",
         "--to",
         "9000",

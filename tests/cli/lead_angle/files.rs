@@ -6,7 +6,7 @@ use super::*;
 fn the_files_are_those_that_are_said_and_the_same_twice() {
     let once = || {
         let bench = small();
-        let text = bench.succeed(&["run", "s.toml", "--to", "3000", "--out", "a"]);
+        let text = bench.succeed(&["run", "--beside", "s.toml", "--to", "3000", "--out", "a"]);
         assert_eq!(
             bench.names(),
             ["a/", "a/s.gtkw", "a/s.svg", "a/s.vcd", "s.toml"]
@@ -43,7 +43,9 @@ fn the_files_are_those_that_are_said_and_the_same_twice() {
 fn waves_have_the_window_and_the_scopes_that_are_asked_for() {
     let bench = small();
     let only = "compensator.lead_source.history";
-    let run = ["run", "s.toml", "--from", "500", "--to", "3000", "--only"];
+    let run = [
+        "run", "--beside", "s.toml", "--from", "500", "--to", "3000", "--only",
+    ];
     let summary = bench.json(&[&run[..], &[only]].concat());
     assert_eq!(summary["vcd_window"], json!([500, 3000]));
     let save = bench.read("waves/s.gtkw");
@@ -54,7 +56,9 @@ fn waves_have_the_window_and_the_scopes_that_are_asked_for() {
     let ticks = whole(&summary, "/ticks");
     let most = format!("{ticks}");
     bench.refuse(
-        &["run", "s.toml", "--from", &most, "--out", "new/deep"],
+        &[
+            "run", "--beside", "s.toml", "--from", &most, "--out", "new/deep",
+        ],
         &format!(
             "--from: is {ticks}; allowed: 0 to {}, the last tick of the run",
             ticks - 1
@@ -66,7 +70,7 @@ fn waves_have_the_window_and_the_scopes_that_are_asked_for() {
 fn files_that_cannot_be_written_leave_nothing() {
     const WRITABLE: &str = "allowed: a directory that can be written";
     for bench in [small(), log()] {
-        let out = |out| ["run", "s.toml", "--to", "3000", "--out", out];
+        let out = |out| ["run", "--beside", "s.toml", "--to", "3000", "--out", out];
         let text = format!("--out: s.toml: File exists (os error 17); {WRITABLE}");
         bench.refuse(&out("s.toml"), &text);
         bench.write("o/s.svg/inside", "");

@@ -8,11 +8,11 @@ use super::*;
 #[ignore = "takes long"]
 fn a_form_has_that_of_the_figures_beside_it() {
     let bench = small();
-    let drawn = small().json(&["run", "s.toml", "--no-vcd"]);
+    let drawn = small().json(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert_eq!(drawn["form"], "embodiment");
     for form in ["divided_time", "products", "early_difference"] {
         let set = format!("form={form}");
-        let run = ["run", "s.toml", "--to", "3000", "--set", &set];
+        let run = ["run", "--beside", "s.toml", "--to", "3000", "--set", &set];
         let summary = bench.json(&run);
         assert_eq!(summary["form"], form);
         let [own, other] = ["learning", "embodiment"].map(|name| system(&summary, name));
@@ -44,6 +44,7 @@ fn a_fixed_ratio_has_every_time() {
     let bench = small();
     let run = [
         "run",
+        "--beside",
         "s.toml",
         "--no-vcd",
         "--set",

@@ -22,7 +22,6 @@ const SMALL: &str = "\
 circuit = \"lead_angle\"
 clock_hz = 200_000
 ck_ticks = 20
-beside = true
 positionings = 6
 load_change_after = 4
 load_inertia_factor = 2
@@ -178,9 +177,10 @@ fn the_literal_sign_drives_the_lead_times_to_their_ends() {
 #[test]
 fn the_second_order_is_a_system_beside_the_first_and_can_be_the_own_one() {
     let bench = small();
-    let first = bench.json(&["run", "s.toml", "--no-vcd"]);
+    let first = bench.json(&["run", "--beside", "s.toml", "--no-vcd"]);
     let second = bench.json(&[
         "run",
+        "--beside",
         "s.toml",
         "--no-vcd",
         "--set",
@@ -217,7 +217,7 @@ fn the_second_order_is_a_system_beside_the_first_and_can_be_the_own_one() {
 
 #[test]
 fn the_summary_has_these_keys() {
-    let summary = small().json(&["run", "s.toml", "--no-vcd"]);
+    let summary = small().json(&["run", "--beside", "s.toml", "--no-vcd"]);
     let expected = [
         "action",
         "circuit",
@@ -275,7 +275,7 @@ fn the_summary_has_these_keys() {
 
 #[test]
 fn people_see_the_last_of_each_step_or_every_positioning() {
-    let text = small().succeed(&["run", "s.toml", "--no-vcd", "--segments"]);
+    let text = small().succeed(&["run", "--beside", "s.toml", "--no-vcd", "--segments"]);
     expect![[r#"
         s on lead_angle: 6 positionings, 225442 ticks, 1.127 s at 200000 Hz, CK of 20 ticks
         history shift_register, lead on position, comparing crossing, complete by standstill, learning to first order, sign converging
@@ -311,7 +311,7 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
 
         wrote waves/s.svg
     "#]].assert_eq(&text);
-    let short = small().succeed(&["run", "s.toml", "--no-vcd"]);
+    let short = small().succeed(&["run", "--beside", "s.toml", "--no-vcd"]);
     let (start, end) = text.split_at(text.find("positioning  step").unwrap());
     let files = &end[end.find("wrote").unwrap()..];
     assert_eq!(short, start.to_owned() + files);
@@ -358,10 +358,10 @@ fn displaced_switches_stand_as_far_off_as_the_first_stops_went() {
 #[ignore = "takes long"]
 fn the_conventional_system_can_be_in_the_waves() {
     let bench = small();
-    let other = small().json(&["run", "s.toml", "--no-vcd"]);
+    let other = small().json(&["run", "--beside", "s.toml", "--no-vcd"]);
     for (lead, name) in [("speed", "by speed"), ("table", "by table")] {
         let set = format!("lead={lead}");
-        let run = ["run", "s.toml", "--to", "3000", "--set", &set];
+        let run = ["run", "--beside", "s.toml", "--to", "3000", "--set", &set];
         let summary = bench.json(&run);
         assert_eq!(summary["lead"], lead);
         let systems = list(&summary, "systems").iter();
@@ -386,7 +386,7 @@ fn the_conventional_system_can_be_in_the_waves() {
 fn a_ram_gives_the_same() {
     let summary = |history: &str| {
         let set = format!("history={history}");
-        let mut summary = small().json(&["run", "s.toml", "--no-vcd", "--set", &set]);
+        let mut summary = small().json(&["run", "--beside", "s.toml", "--no-vcd", "--set", &set]);
         assert_eq!(summary["history"], history);
         summary["history"] = Value::Null;
         summary

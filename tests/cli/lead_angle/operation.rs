@@ -69,7 +69,14 @@ fn an_operation_in_passing_has_its_effect_at_the_target() {
 #[test]
 fn an_operation_on_a_log_is_learned_from() {
     let bench = log();
-    let run = ["run", "s.toml", "--no-vcd", "--set", "action=operate"];
+    let run = [
+        "run",
+        "--beside",
+        "s.toml",
+        "--no-vcd",
+        "--set",
+        "action=operate",
+    ];
     let summary = bench.json(&run);
     for (signal, lead_ms) in list(&summary, "signals").iter().zip([10.0, 40.0]) {
         let late = 10.0 * (20.0 - lead_ms);

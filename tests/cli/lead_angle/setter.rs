@@ -6,7 +6,7 @@ use super::*;
 #[test]
 fn a_setter_gives_the_same_summary_as_a_rom() {
     let bench = small();
-    let run = ["run", "s.toml", "--to", "3000"];
+    let run = ["run", "--beside", "s.toml", "--to", "3000"];
     let mut setter = bench.json(&[&run[..], &["--set", "time_source=setter"]].concat());
     let vcd = bench.read("waves/s.vcd");
     let mut rom = small().json(&run);
@@ -22,7 +22,7 @@ fn a_setter_gives_the_same_summary_as_a_rom() {
 fn times_for_another_load_are_told_with_their_step() {
     let prepared = SMALL.replace("lead_ms = 15\n", "lead_ms = 15\nload_lead_ms = 38.8\n");
     let bench = Bench::with("s.toml", &prepared);
-    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    let summary = bench.json(&["run", "--beside", "s.toml", "--no-vcd"]);
     let own = system(&summary, "learning");
     let rows = list(&summary, "positionings");
     assert_eq!(number(&rows[5], "/lead_ms"), 38.8);
@@ -31,7 +31,7 @@ fn times_for_another_load_are_told_with_their_step() {
             .as_i64()
             .unwrap()
     };
-    let other = small().json(&["run", "s.toml", "--no-vcd"]);
+    let other = small().json(&["run", "--beside", "s.toml", "--no-vcd"]);
     // On the way to speed a time is not all there is to it.
     let [set, kept] = [&summary, &other].map(|summary| error(summary).abs());
     assert!(2 * set < kept, "{set}, {kept}");

@@ -70,6 +70,7 @@ fn contour_errors_have_w_in_them() {
     let bench = four("start_mm = [1, 0, 0, -4]\n[[piece]]\nto_mm = [1, 24, 0, 14]\n");
     let summary = bench.json(&[
         "run",
+        "--beside",
         "s.toml",
         "--no-vcd",
         "--set",
