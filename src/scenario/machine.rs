@@ -2,7 +2,7 @@
 
 use super::exactly::exactly;
 use super::{Program, Runnable, VCD_TICKS};
-use crate::jobs::machine::settings::{Correction, Settings};
+use crate::jobs::machine::settings::{Correction, History, Settings};
 use crate::jobs::pulse_interpolator::StepTiming;
 use crate::plan::MotionLimits;
 use crate::plant::{BodyParameters, TwoMassParameters};
@@ -74,6 +74,8 @@ pub struct Scenario {
     pub lift_counts_per_s: u32,
     /// Lead of the lift's brake before anything is learned.
     pub lift_lead_ms: f64,
+    /// Memory of the lift's past positions.
+    pub lift_history: History,
     /// Drive, body, brake and encoder of the lift.
     pub lift: BodyParameters,
     /// The most ticks that go into the VCD unless a window is asked for.
@@ -116,6 +118,7 @@ impl Default for Scenario {
             pen_down_counts: settings.pen_down_counts,
             lift_counts_per_s: settings.lift_counts_per_s,
             lift_lead_ms: settings.lift_lead_ms,
+            lift_history: settings.lift_history,
             lift: settings.lift,
             vcd_ticks: VCD_TICKS,
         }
@@ -158,6 +161,7 @@ impl Scenario {
             pen_down_counts: self.pen_down_counts,
             lift_counts_per_s: self.lift_counts_per_s,
             lift_lead_ms: self.lift_lead_ms,
+            lift_history: self.lift_history,
             lift: self.lift,
         }
     }

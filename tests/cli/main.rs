@@ -26,6 +26,7 @@ mod linear_master;
 mod linear_refusals;
 mod log_columns;
 mod machine;
+mod machine_waves;
 #[cfg(target_os = "linux")]
 mod memory;
 mod mutate;

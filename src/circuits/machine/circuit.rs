@@ -38,9 +38,10 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// The circuits' own widths, with paths of up to 256 segments; the servos' commands are
-    /// corrected so, and `lead_times` are those of the pen lift's steps in CKs.
-    pub fn new(correction: Correction, lead_times: Image) -> Self {
+    /// Builds a machine of the circuits' own widths, with paths of up to 256 segments.
+    /// `correction` is that of the servos' commands, `history` the memory of the pen lift's
+    /// positions; `lead_times` are those of its steps in CKs.
+    pub fn new(correction: Correction, history: Memory, lead_times: Image) -> Self {
         let widths = trajectory_controller::Widths {
             segment: 8,
             ..trajectory_controller::Widths::FULL
@@ -57,7 +58,7 @@ impl Machine {
             ),
             lead_angle: Compensator {
                 widths: Default::default(),
-                lead_from: LeadFrom::Time(Memory::Ram, LeadForm::Embodiment),
+                lead_from: LeadFrom::Time(history, LeadForm::Embodiment),
                 variant: Default::default(),
                 rom: lead_times,
             },

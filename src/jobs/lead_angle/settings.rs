@@ -4,6 +4,7 @@ mod detector;
 mod lead;
 
 use super::job::WIDTHS;
+use crate::circuits::lead_angle::Memory;
 use crate::circuits::lead_angle::codes::LARGEST;
 pub use crate::circuits::lead_angle::{Comparing, Detector, Function, LeadForm, Placement, Sign};
 use crate::plant::{BodyParameters, Load, ResolverParameters};
@@ -36,6 +37,17 @@ pub enum History {
     ShiftRegister,
     /// A RAM with a moving address.
     Ram,
+}
+
+impl History {
+    /// The memory that it is.
+    #[must_use]
+    pub fn memory(self) -> Memory {
+        match self {
+            History::ShiftRegister => Memory::ShiftRegister,
+            History::Ram => Memory::Ram,
+        }
+    }
 }
 
 /// Where the lead of the scenario's own system comes from.

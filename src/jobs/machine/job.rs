@@ -21,7 +21,11 @@ pub fn machine(settings: &Settings) -> Machine {
         .iter()
         .map(|step| lift.code(step.lead_ms).unwrap_or(0));
     let lead_times = Image::of(widths.step, widths.time(), codes);
-    Machine::new(settings.correction, lead_times)
+    Machine::new(
+        settings.correction,
+        settings.lift_history.memory(),
+        lead_times,
+    )
 }
 
 /// Where everything is at a sampling time of the servos, from where the job begins.

@@ -2,6 +2,7 @@
 
 use crate::jobs::arc_generator::settings::{self as arcs, ShortPieces};
 use crate::jobs::lead_angle::settings as lift;
+pub use crate::jobs::lead_angle::settings::History;
 use crate::jobs::linear_interpolator::targets::{LATENCY_TICKS, LONGEST_RAMP};
 use crate::jobs::pulse_interpolator::{self as pulse, StepTiming};
 use crate::jobs::trajectory_controller::settings as trajectory;
@@ -67,6 +68,8 @@ pub struct Settings {
     pub lift_counts_per_s: u32,
     /// Lead of the lift's brake before anything is learned.
     pub lift_lead_ms: f64,
+    /// Memory of the lift's past positions.
+    pub lift_history: History,
     /// Drive, body, brake and encoder of the lift.
     pub lift: BodyParameters,
 }
@@ -102,6 +105,7 @@ impl Default for Settings {
             pen_down_counts: 4000,
             lift_counts_per_s: 20_000,
             lift_lead_ms: 25.0,
+            lift_history: History::default(),
             lift: lift_body(),
         }
     }
@@ -259,6 +263,7 @@ impl Settings {
             ck_ticks: self.ck_ticks,
             steps: vec![step(self.pen_down_counts), step(0)],
             seed_ms: self.lift_lead_ms,
+            history: self.lift_history,
             body: self.lift,
             ..lift::Settings::default()
         }

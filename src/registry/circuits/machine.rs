@@ -1,10 +1,12 @@
 //! The machine of all circuits, and what it has besides them.
 
+use crate::circuits::lead_angle::Memory;
 use crate::circuits::machine::{CommandJoin, Enables, Machine};
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::hdl::Image;
 use crate::registry::Entry;
-use crate::registry::entry::{entry, nothing};
+use crate::registry::circuits::make::only;
+use crate::registry::entry::entry;
 
 /// Lead time of the pen lift's brake, down and up, in CKs of 0.1 ms.
 const LEAD_TIMES: [u64; 2] = [250; 2];
@@ -28,15 +30,24 @@ pub(super) const CIRCUITS: &[Entry] = &[
     ),
     entry!(
         Machine, "system",
-        full: machine,
+        full: || machine(Memory::ShiftRegister),
         widths: [],
-        from: "nothing", |given| nothing(machine(), given),
-        with: nothing,
+        from: "0 for the pen lift's positions in a shift register or 1 in a RAM", chosen,
+        with: |_, given| chosen(given),
         proved: none,
     ),
 ];
 
-/// The machine as its default settings have it.
-fn machine() -> Machine {
-    Machine::new(Correction::default(), Image::of(4, 11, LEAD_TIMES))
+/// The memories of the pen lift's positions.
+const MEMORIES: &[Memory] = &[Memory::ShiftRegister, Memory::Ram];
+
+/// The machine with the memory of this number.
+fn chosen(given: &[u64]) -> Option<Machine> {
+    only(given, MEMORIES).map(machine)
+}
+
+/// The machine of its default settings, with this history of the pen lift.
+fn machine(history: Memory) -> Machine {
+    let lead_times = Image::of(4, 11, LEAD_TIMES);
+    Machine::new(Correction::default(), history, lead_times)
 }

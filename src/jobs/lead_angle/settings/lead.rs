@@ -3,7 +3,7 @@
 use super::{History, LeadBy, Placement, SettingError, Settings};
 use crate::circuits::lead_angle::codes::{Code, LARGEST, STAGES, code, neighbours};
 use crate::circuits::lead_angle::grid::history;
-use crate::circuits::lead_angle::{Division, Form, LeadFrom, Memory};
+use crate::circuits::lead_angle::{Division, Form, LeadFrom};
 use crate::jobs::lead_angle::lead_table::lead_table;
 use crate::settings::Place;
 
@@ -11,13 +11,10 @@ impl Settings {
     /// Where the lead of their compensator comes from.
     #[must_use]
     pub fn lead_from(&self) -> LeadFrom {
-        match (self.lead, self.history) {
-            (LeadBy::Speed, _) => LeadFrom::Speed,
-            (LeadBy::Table, _) => LeadFrom::Table(lead_table(self)),
-            (LeadBy::Time, History::ShiftRegister) => {
-                LeadFrom::Time(Memory::ShiftRegister, self.form)
-            }
-            (LeadBy::Time, History::Ram) => LeadFrom::Time(Memory::Ram, self.form),
+        match self.lead {
+            LeadBy::Speed => LeadFrom::Speed,
+            LeadBy::Table => LeadFrom::Table(lead_table(self)),
+            LeadBy::Time => LeadFrom::Time(self.history.memory(), self.form),
         }
     }
 
