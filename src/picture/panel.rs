@@ -1,5 +1,6 @@
 use super::points::Points;
 use super::scale::{Scale, range};
+use std::ops::Range;
 use svg::node::element::path::Data;
 use svg::node::element::{Circle, Group, Line, Path, Rectangle, Text};
 
@@ -13,6 +14,11 @@ const MARGIN: (f64, f64, f64, f64) = (80.0, 20.0, 34.0, 52.0);
 const FREE_HEIGHT: f64 = 150.0;
 /// The frame of a panel with equal scales is not higher than this.
 const EQUAL_HEIGHT: f64 = 760.0;
+
+/// Height of a row of the legend.
+const ROW: f64 = 18.0;
+/// Room of a sample and the gaps beside a name in the legend: at least, at most.
+const NAME_ROOM: (f64, f64) = (16.0, 44.0);
 
 /// A curve of a panel.
 #[derive(Debug, Clone)]
@@ -90,6 +96,11 @@ fn text(words: &str, x: f64, y: f64) -> Text {
         .set("fill", "#333")
 }
 
+/// Pixels of a curve's name in the legend.
+fn name_width(curve: &Curve) -> f64 {
+    6.8 * curve.name.chars().count() as f64
+}
+
 fn hundredths(pixel: f64) -> f32 {
     ((pixel * 100.0).round() / 100.0) as f32
 }
@@ -156,6 +167,8 @@ impl Panel {
     /// The panel from `top` down, and its height.
     pub(super) fn draw(&self, width: f64, top: f64) -> (Group, f64) {
         let (left, right, above, below) = MARGIN;
+        let legend = self.legend_rows(width, left);
+        let above = above + ROW * (legend.len().max(1) - 1) as f64;
         let (mut across, mut down) = (width - left - right, FREE_HEIGHT);
         let points = || self.curves.iter().flat_map(|curve| &curve.points);
         let margin_x = if self.equal { 0.04 } else { 0.0 };
@@ -168,7 +181,7 @@ impl Panel {
         }
         let x = Scale::new(x_least, x_most, left, across);
         let y = Scale::new(y_least, y_most, top + above + down, -down);
-        let mut group = self.frame(x, y, across, down, top);
+        let mut group = self.frame(x, y, across, down, [top, top + above]);
         for (curve, colour) in self.curves.iter().zip(self.colours()) {
             let mut path = Path::new()
                 .set("d", curve.data(x, y))
@@ -199,7 +212,11 @@ impl Panel {
             };
             group = group.add(dot).add(words);
         }
-        (self.legend(group, left, across, top), above + down + below)
+        for (row, names) in legend.into_iter().enumerate() {
+            let top = top + ROW * row as f64;
+            group = self.legend(group, names, left, across, top);
+        }
+        (group, above + down + below)
     }
 
     fn colours(&self) -> impl Iterator<Item = &str> {
@@ -210,9 +227,9 @@ impl Panel {
         })
     }
 
-    fn frame(&self, x: Scale, y: Scale, across: f64, down: f64, top: f64) -> Group {
-        let (left, _, above, _) = MARGIN;
-        let frame = top + above;
+    /// Title at `top`, the rest from `frame` on.
+    fn frame(&self, x: Scale, y: Scale, across: f64, down: f64, [top, frame]: [f64; 2]) -> Group {
+        let left = MARGIN.0;
         let line = |x1: f64, y1: f64, x2: f64, y2: f64| {
             Line::new()
                 .set("x1", hundredths(x1))
@@ -253,16 +270,46 @@ impl Panel {
         group.add(border).add(x_label).add(y_label).add(title)
     }
 
-    /// The names of the curves, to the right of the title.
-    fn legend(&self, mut group: Group, left: f64, across: f64, top: f64) -> Group {
-        let width = |curve: &Curve| 6.8 * curve.name.chars().count() as f64;
-        let mut at = left + 7.5 * self.title.chars().count() as f64 + 30.0;
+    /// Where the names of the curves begin, to the right of the title.
+    fn legend_begin(&self, left: f64) -> f64 {
+        left + 7.5 * self.title.chars().count() as f64 + 30.0
+    }
+
+    /// The curves whose names stand in each row.
+    fn legend_rows(&self, width: f64, left: f64) -> Vec<Range<usize>> {
+        let begin = self.legend_begin(left);
+        let (mut rows, mut at) = (Vec::<Range<usize>>::new(), begin);
+        for (index, curve) in self.curves.iter().enumerate() {
+            at += NAME_ROOM.0 + name_width(curve);
+            match rows.last_mut() {
+                Some(row) if at <= width => row.end = index + 1,
+                _ => {
+                    at = begin + NAME_ROOM.0 + name_width(curve);
+                    rows.push(index..index + 1);
+                }
+            }
+        }
+        rows
+    }
+
+    /// The names of some curves, from left to right.
+    fn legend(
+        &self,
+        mut group: Group,
+        names: Range<usize>,
+        left: f64,
+        across: f64,
+        top: f64,
+    ) -> Group {
+        let mut at = self.legend_begin(left);
+        let curves = &self.curves[names.clone()];
         // Many names stand closer.
-        let names: f64 = self.curves.iter().map(width).sum();
-        let room = (left + across - at - names) / self.curves.len().max(1) as f64;
-        let room = room.clamp(16.0, 44.0);
+        let widths: f64 = curves.iter().map(name_width).sum();
+        let room = (left + across - at - widths) / curves.len().max(1) as f64;
+        let room = room.clamp(NAME_ROOM.0, NAME_ROOM.1);
         let (sample_width, gap) = (room * 24.0 / 44.0, room * 20.0 / 44.0);
-        for (curve, colour) in self.curves.iter().zip(self.colours()) {
+        let colours = self.colours().skip(names.start);
+        for (curve, colour) in curves.iter().zip(colours) {
             let mut sample = Line::new()
                 .set("x1", hundredths(at))
                 .set("x2", hundredths(at + sample_width))
@@ -279,8 +326,31 @@ impl Panel {
                 .set("font-size", 12)
                 .set("fill", "#333");
             group = group.add(sample).add(name);
-            at += room + width(curve);
+            at += room + name_width(curve);
         }
         group
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_legend_too_long_for_a_row_goes_on_in_the_next() {
+        let panel = |curves: usize| {
+            let curve = |number| Curve::new(format!("curve number {number:02}"), vec![(0.0, 0.0)]);
+            let panel = Panel::new("title", "x", "y");
+            (0..curves).fold(panel, |panel, number| panel.curve(curve(number)))
+        };
+        let height = |curves| panel(curves).draw(1000.0, 0.0).1;
+        // A name of 15 characters takes 118 pixels of the 852 from 147 on.
+        let rows = |curves| panel(curves).legend_rows(1000.0, 80.0);
+        assert_eq!(rows(0), []);
+        assert_eq!(rows(7), [0..7]);
+        assert_eq!(rows(8), [0..7, 7..8]);
+        assert_eq!(rows(15), [0..7, 7..14, 14..15]);
+        assert_eq!(height(0), height(7));
+        assert_eq!(height(15), height(7) + 2.0 * ROW);
     }
 }

@@ -10,13 +10,29 @@
 //!
 //! Error 27, position register 30 and overrun 31, the arithmetic 28 with a sequential
 //! multiplier-divider, and the [grid] for the result, which is that of the ratio logic unless
-//! N is fixed at 1. To second order the [refinement] has it divided twice.
+//! N is fixed at 1. To second order the [refinement] has it divided twice; by the
+//! [exact relation](exact_relation) it is divided once, by another divisor.
 
 use super::grid::{self, Grid, GridPart};
-use super::{CorrectionArithmetic, Division, Function, Refinement, Sign, StopError};
-use super::{correction_arithmetic, refinement, stop_error};
+use super::{CorrectionArithmetic, Division, ExactRelation, Refinement, Sign, StopError};
+use super::{correction_arithmetic, exact_relation, refinement, stop_error};
 use crate::circuits::blocks::{MulDiv, mul_div};
 use crate::hdl::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Δtd that the correction 28 makes of error and overrun.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Function {
+    /// Δtd = Δt1·d2/d1.
+    #[default]
+    FirstOrder,
+    /// Δtd = (Δt1 + Δt1·d2/d1)·d2/d1 where |d2| < |d1|, or else the first order.
+    SecondOrder,
+    /// Δtd = Δt1·d2/(d1 − d2), so Δt2 = Δt1·d1/(d1 − d2), where d1 − d2 has the direction of d1, or
+    /// else the first order.
+    Exact,
+}
 
 /// Correction 23.
 ///
@@ -49,6 +65,10 @@ impl Correction {
         self.function == Function::SecondOrder
     }
 
+    fn exact(&self) -> bool {
+        self.function == Function::Exact
+    }
+
     fn arithmetic(&self) -> CorrectionArithmetic {
         CorrectionArithmetic {
             stages: self.stages,
@@ -59,6 +79,12 @@ impl Correction {
     fn refinement(&self) -> Refinement {
         Refinement {
             time: self.arithmetic().time(),
+            position: self.position,
+        }
+    }
+
+    fn exact_relation(&self) -> ExactRelation {
+        ExactRelation {
             position: self.position,
         }
     }
@@ -101,6 +127,8 @@ signals! { for Correction as c;
         pub arithmetic: Part<CorrectionArithmetic>(c.arithmetic()),
         /// Has it divided twice, to second order.
         pub refinement: [Part<Refinement>(c.refinement()); usize::from(c.second_order())],
+        /// Chooses what is divided by, of the exact relation.
+        pub exact_relation: [Part<ExactRelation>(c.exact_relation()); usize::from(c.exact())],
         /// The divider.
         pub mul_div: Part<MulDiv>(c.mul_div()),
         /// Puts the result on the grid.
@@ -134,6 +162,7 @@ impl Circuit for Correction {
         match self.function {
             Function::FirstOrder => Self::NAME,
             Function::SecondOrder => "second_order_correction",
+            Function::Exact => "exact_correction",
         }
     }
 
@@ -141,6 +170,7 @@ impl Circuit for Correction {
         match self.function {
             Function::FirstOrder => Self::ABOUT,
             Function::SecondOrder => "learns the lead time of a step to second order",
+            Function::Exact => "learns the lead time of a step by the exact relation",
         }
     }
 
@@ -193,6 +223,15 @@ impl Circuit for Correction {
                 addend: refined.w.addend.resize(word),
                 divisor: refined.w.divide_by.resize(word),
             };
+        }
+        if let Some(part) = p.exact_relation.into_iter().next() {
+            let exact = part.settle(exact_relation::In {
+                overrun: stop_error.w.overrun,
+                error: stop_error.w.error,
+            });
+            let word = w.divisor.width();
+            divided.divisor = exact.w.divide_by.resize(word);
+            divided.addend = exact.w.addend.resize(word);
         }
         p.mul_div.settle(divided);
         let grid = p.grid.settle(arithmetic.q.raw);

@@ -16,18 +16,6 @@
 //! series that this begins does not converge, so the first division stands: the first order.
 
 use crate::hdl::prelude::*;
-use serde::{Deserialize, Serialize};
-
-/// What the correction 28 makes of error and overrun.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Function {
-    /// Δtd = Δt1·d2/d1.
-    #[default]
-    FirstOrder,
-    /// Δtd = (Δt1 + Δt1·d2/d1)·d2/d1 where |d2| < |d1|, or else the first order.
-    SecondOrder,
-}
 
 /// Names of the states.
 const STATES: &[&str] = &["idle", "first", "second"];

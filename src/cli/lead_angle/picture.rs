@@ -8,9 +8,9 @@ use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::LeadBy;
 use motion_rtl::picture::{Curve, Panel, Picture};
 
-const COLOURS: [&str; 11] = [
+const COLOURS: [&str; 13] = [
     "#8c8c8c", "#8c564b", "#cc79a7", "#009e73", "#b5a900", "#0072b2", "#d55e00", "#e69f00",
-    "#56b4e9", "#9467bd", "#444444",
+    "#17becf", "#56b4e9", "#9467bd", "#444444", "#e377c2",
 ];
 const TIMED_OUT: &str = "#000000";
 const MARK: &str = "#b0b0b0";

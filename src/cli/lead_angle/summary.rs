@@ -1,7 +1,7 @@
 //! What a run came to.
 
 use super::Job;
-use super::systems::{LEARNING, SECOND_ORDER, System, learner};
+use super::systems::{EXACT, LEARNING, SECOND_ORDER, System, learner};
 use crate::cli::report::Outcome;
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
@@ -120,9 +120,9 @@ pub struct StepLead {
     /// After how many positionings of the phase the stops stay within a code's travel; `null` where
     /// they never do.
     pub settled_after: Option<usize>,
-    /// The same for learning to either order, where these are compared.
+    /// The same for learning by each function of error and overrun, where these are compared.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub settled_by_order: Option<ByOrder>,
+    pub settled_by_function: Option<ByFunction>,
 }
 
 /// The lead time of a positioning.
@@ -136,11 +136,13 @@ pub struct Lead {
 
 /// After how many positionings learning stays within a code's travel; `null` where it never does.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub struct ByOrder {
+pub struct ByFunction {
     /// To first order.
-    pub first: Option<usize>,
+    pub first_order: Option<usize>,
     /// To second order.
-    pub second: Option<usize>,
+    pub second_order: Option<usize>,
+    /// By the exact relation.
+    pub exact: Option<usize>,
 }
 
 /// One positioning.
@@ -347,11 +349,12 @@ impl Shown<'_> {
         let last = *numbers.last()?;
         let after = |run| settled_after(settings, run, &numbers);
         // Where nothing is compared, one of them is missing.
-        let orders = [LEARNING, SECOND_ORDER].map(|name| of(played, name));
-        let by_order = match orders {
-            [Some(first), Some(second)] => Some(ByOrder {
-                first: after(first),
-                second: after(second),
+        let functions = [LEARNING, SECOND_ORDER, EXACT].map(|name| of(played, name));
+        let by_function = match functions {
+            [Some(first), Some(second), Some(exact)] => Some(ByFunction {
+                first_order: after(first),
+                second_order: after(second),
+                exact: after(exact),
             }),
             _ => None,
         };
@@ -365,7 +368,7 @@ impl Shown<'_> {
             lead: self.lead(&all[last]).map(|last| StepLead {
                 last,
                 settled_after: after(self.run),
-                settled_by_order: by_order,
+                settled_by_function: by_function,
             }),
         })
     }

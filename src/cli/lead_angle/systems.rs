@@ -1,10 +1,10 @@
 //! What a run is compared with: the same steps without a lead, with switches that stand a distance
 //! before their targets, by speed with one parameter, with one for each step that is tuned to the
 //! nominal load, and with a memory of the leads that this load asks for, with a fixed lead, with a
-//! lead that is learned, learned to second order, and learned with the text's sign; where the
-//! scenario has positionings complete by a fixed time, learned at standstills too; where it has
-//! another detector, its own system with an incremental one; where it has another form of the lead,
-//! its own system in the form of the figures.
+//! lead that is learned, learned to second order, learned by the exact relation, and learned with
+//! the text's sign; where the scenario has positionings complete by a fixed time, learned at
+//! standstills too; where it has another detector, its own system with an incremental one; where it
+//! has another form of the lead, its own system in the form of the figures.
 
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning};
 use motion_rtl::jobs::lead_angle::settings::{
@@ -15,6 +15,8 @@ use motion_rtl::jobs::lead_angle::settings::{
 pub const LEARNING: &str = "learning";
 /// Name of the system that learns with the sign that converges, to second order.
 pub const SECOND_ORDER: &str = "second order";
+/// Name of the system that learns with the sign that converges, by the exact relation.
+pub const EXACT: &str = "exact relation";
 /// Name of the system that learns with the text's sign.
 pub const LITERAL: &str = "literal sign";
 /// Name of the system that learns where the body has stopped, though the scenario has a fixed time.
@@ -52,6 +54,7 @@ pub fn learner(sign: Sign, function: Function) -> &'static str {
     match (sign, function) {
         (Sign::Converging, Function::FirstOrder) => LEARNING,
         (Sign::Converging, Function::SecondOrder) => SECOND_ORDER,
+        (Sign::Converging, Function::Exact) => EXACT,
         (Sign::Literal, _) => LITERAL,
     }
 }
@@ -95,7 +98,7 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         settings,
         own: name == own,
     };
-    let (first, second) = (Function::FirstOrder, Function::SecondOrder);
+    let converging = |function| learning(Sign::Converging, function);
     let mut all = vec![
         system(NONE, none.clone()),
         system(SWITCH, none),
@@ -103,12 +106,13 @@ pub fn systems(settings: &Settings) -> Vec<System> {
         system(TUNED, by_speed),
         system(BY_TABLE, by_table),
         system(FIXED, fixed),
-        system(LEARNING, learning(Sign::Converging, first)),
-        system(SECOND_ORDER, learning(Sign::Converging, second)),
+        system(LEARNING, converging(Function::FirstOrder)),
+        system(SECOND_ORDER, converging(Function::SecondOrder)),
+        system(EXACT, converging(Function::Exact)),
         system(LITERAL, learning(Sign::Literal, function)),
     ];
     if settings.completion == Completion::FixedTime {
-        let mut stopped = learning(Sign::Converging, function);
+        let mut stopped = converging(function);
         stopped.completion = Completion::Standstill;
         stopped.time_out_ms = stopped.time_out_ms.max(Settings::default().time_out_ms);
         all.push(system(STANDSTILL, stopped));

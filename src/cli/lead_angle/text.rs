@@ -1,8 +1,8 @@
 //! The summary for people.
 
-use super::summary::{ByOrder, Lead, Phase, StepSummary, Summary, SystemSummary, error_name};
+use super::summary::{ByFunction, Lead, Phase, StepSummary, Summary, SystemSummary, error_name};
 use crate::cli::report::{Outcome, Report};
-use motion_rtl::jobs::lead_angle::settings::{Action, Detector, LeadBy, LeadForm};
+use motion_rtl::jobs::lead_angle::settings::{Action, Detector, Function, LeadBy, LeadForm};
 use std::fmt::Write;
 
 /// Characters of a column of stop errors at least.
@@ -59,8 +59,12 @@ impl Report for Summary {
             match (self.lead, self.learn) {
                 (LeadBy::Speed | LeadBy::Table, _) => format!("lead by {}", name(self.lead)),
                 (LeadBy::Time, true) => format!(
-                    "learning to {}, sign {}",
-                    name(self.function).replace('_', " "),
+                    "learning {}, sign {}",
+                    match self.function {
+                        Function::FirstOrder => "to first order",
+                        Function::SecondOrder => "to second order",
+                        Function::Exact => "by the exact relation",
+                    },
                     name(self.sign)
                 ),
                 (LeadBy::Time, false) => "not learning".to_owned(),
@@ -144,7 +148,7 @@ impl Summary {
         )?;
         let compared = |step: &StepSummary| {
             let lead = step.lead.as_ref();
-            lead.is_some_and(|lead| lead.settled_by_order.is_some())
+            lead.is_some_and(|lead| lead.settled_by_function.is_some())
         };
         writeln!(
             text,
@@ -155,7 +159,7 @@ impl Summary {
                 None => "",
             },
             match phase.steps.iter().any(compared) {
-                true => "  1st, 2nd order",
+                true => "  1st, 2nd, exact",
                 false => "",
             }
         )?;
@@ -175,9 +179,9 @@ impl Summary {
             if let Some(lead) = &step.lead {
                 let settled = after(lead.settled_after);
                 write!(text, "{}  {settled:>13}", columns(&lead.last))?;
-                if let Some(ByOrder { first, second }) = lead.settled_by_order {
-                    let both = format!("{}, {}", after(first), after(second));
-                    write!(text, "  {both:>14}")?;
+                if let Some(by) = lead.settled_by_function {
+                    let each = [by.first_order, by.second_order, by.exact].map(after);
+                    write!(text, "  {:>15}", each.join(", "))?;
                 }
             }
             text.push('\n');

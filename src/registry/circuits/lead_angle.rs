@@ -3,11 +3,11 @@ mod makers;
 use super::make::FLAGS;
 use crate::circuits::lead_angle::{
     AbsoluteDetector, Comparator, Comparing, Compensator, CompletionDetector, Correction,
-    CorrectionArithmetic, DifferenceHistory, DividedTime, Function, GrayReceiver, Lead, LeadFrom,
-    LeadPlacement, LeadProducts, LeadTable, Memory, PhaseCounter, PhaseDetector, Placement,
-    PositionHistory, RamHistory, RatioLogic, Refinement, ResolverDetector, Sign, SpeedDetector,
-    SpeedLead, StepSequencer, StopError, TableLead, TargetSetter, TimeData, TimeLead, TimeLimit,
-    TouchProbe, TrackingConverter, TrackingLoop, Unwrapper, Widths,
+    CorrectionArithmetic, DifferenceHistory, DividedTime, ExactRelation, Function, GrayReceiver,
+    Lead, LeadFrom, LeadPlacement, LeadProducts, LeadTable, Memory, PhaseCounter, PhaseDetector,
+    Placement, PositionHistory, RamHistory, RatioLogic, Refinement, ResolverDetector, Sign,
+    SpeedDetector, SpeedLead, StepSequencer, StopError, TableLead, TargetSetter, TimeData,
+    TimeLead, TimeLimit, TouchProbe, TrackingConverter, TrackingLoop, Unwrapper, Widths,
 };
 use crate::registry::Entry;
 use crate::registry::entry::entry;
@@ -264,6 +264,13 @@ pub(super) const CIRCUITS: &[Entry] = &[
         proved: 2,
     ),
     entry!(
+        ExactRelation, "JPH0646367B2 28, exact relation",
+        full: || ExactRelation { position: 24 },
+        widths: [position],
+        by: "width", |position| ExactRelation { position },
+        proved: 4,
+    ),
+    entry!(
         Correction, "JPH0646367B2 23 = 27, 28, 30, 31",
         full: || correction(Function::FirstOrder, 199, 24),
         widths: [stages, position],
@@ -287,6 +294,19 @@ pub(super) const CIRCUITS: &[Entry] = &[
         },
         proved: none,
         named: "second_order_correction", "learns the lead time of a step to second order",
+    ),
+    entry!(
+        Correction, "JPH0646367B2 23 = 27, 28, 30, 31, exact relation",
+        full: || correction(Function::Exact, 199, 24),
+        widths: [stages, position],
+        by: "width of positions (3 stages for 4, 15 for 8), 0 for the converging sign or 1 for \
+             the literal one",
+        |position, sign of SIGNS| Correction {
+            sign,
+            ..correction(Function::Exact, stages(position), position)
+        },
+        proved: none,
+        named: "exact_correction", "learns the lead time of a step by the exact relation",
     ),
     entry!(
         StepSequencer, "JPH0646367B2, step numbers",

@@ -93,6 +93,7 @@ pub const FAR: &[(&str, u32)] = &[
     ("correction_arithmetic.divisor", 24),
     ("correction_arithmetic.addend", 23),
     ("refinement.addend", 23),
+    ("exact_relation.addend", 23),
     ("lead_arithmetic.factor", 4),
     ("speed_lead.factor", 14),
     // Times in CKs.
@@ -256,6 +257,7 @@ pub const NEVER: &[(&str, u32)] = &[
     ("correction_arithmetic.divisor", 8),
     ("correction_arithmetic.addend", 7),
     ("refinement.addend", 7),
+    ("exact_relation.addend", 7),
     ("lead_arithmetic.factor", 4),
     ("speed_lead.factor", 14),
     // As above.
@@ -326,6 +328,7 @@ pub const JOBS: &[&str] = &[
     "ram_time_lead",
     "correction",
     "second_order_correction",
+    "exact_correction",
     "compensator",
     "ram_compensator",
     "conventional_compensator",

@@ -88,7 +88,7 @@ fn the_turntable_shows_what_the_circuit_is_for() {
     let learning = system(summary, "learning");
     let phases = list(summary, "phases");
     assert_eq!(phases.len(), 2);
-    let mut orders = Vec::new();
+    let mut functions = Vec::new();
     for (phase, loaded) in phases.iter().zip([false, true]) {
         assert_eq!(phase["loaded"], loaded);
         assert_eq!(list(phase, "steps").len(), 4);
@@ -104,14 +104,14 @@ fn the_turntable_shows_what_the_circuit_is_for() {
             let after = (0..6).find(|&from| within[from..].iter().all(|&one| one));
             assert_eq!(step["settled_after"], json!(after), "{within:?}");
             assert!(after.is_some_and(|after| after > 0), "{step}");
-            let by_order = &step["settled_by_order"];
-            assert_eq!(by_order["first"], step["settled_after"]);
-            orders.push(json!([by_order["first"], by_order["second"]]));
+            let by = &step["settled_by_function"];
+            assert_eq!(by["first_order"], step["settled_after"]);
+            functions.push(json!([by["first_order"], by["second_order"], by["exact"]]));
         }
     }
-    // To first and to second order, step by step, with either load.
+    // To first order, to second order and by the exact relation, step by step, with either load.
     assert_eq!(
-        json!(orders),
+        json!(functions),
         json!([
             [3, 2],
             [1, 1],
@@ -175,37 +175,35 @@ fn the_literal_sign_drives_the_lead_times_to_their_ends() {
 }
 
 #[test]
-fn the_second_order_is_a_system_beside_the_first_and_can_be_the_own_one() {
+fn each_function_is_a_system_and_can_be_the_own_one() {
     let bench = small();
     let first = bench.json(&["run", "--beside", "s.toml", "--no-vcd"]);
-    let second = bench.json(&[
-        "run",
-        "--beside",
-        "s.toml",
-        "--no-vcd",
-        "--set",
-        "function=second_order",
-    ]);
+    let [second, exact] = ["second_order", "exact"].map(|function| {
+        let set = format!("function={function}");
+        bench.json(&["run", "--beside", "s.toml", "--no-vcd", "--set", &set])
+    });
     for (summary, function, own) in [
         (&first, "first_order", "learning"),
         (&second, "second_order", "second order"),
+        (&exact, "exact", "exact relation"),
     ] {
         assert_eq!(summary["function"], function);
         assert_eq!(summary["lead_times_of"], own);
         let systems = list(summary, "systems");
         let of = |name: &str| &systems[system(summary, name)]["own"];
-        assert_eq!((of(own) == true, systems.len()), (true, 9));
+        assert_eq!((of(own) == true, systems.len()), (true, 10));
         let owns = systems.iter().filter(|system| system["own"] == true);
         assert_eq!(owns.count(), 1);
     }
     // What the systems come to does not depend on which of them is in the waves; the last, with the
-    // literal sign, is of the scenario's order.
+    // literal sign, is of the scenario's function.
     let errors = |summary: &Value| {
         let rows = list(summary, "positionings").iter();
-        let errors = rows.map(|row| list(row, "error_counts")[..8].to_vec());
+        let errors = rows.map(|row| list(row, "error_counts")[..9].to_vec());
         errors.collect::<Vec<_>>()
     };
     assert_eq!(errors(&first), errors(&second));
+    assert_eq!(errors(&first), errors(&exact));
     let leads = |summary: &Value| {
         let rows = list(summary, "positionings").iter();
         rows.map(|row| number(row, "/lead_ms")).collect::<Vec<_>>()
@@ -213,6 +211,11 @@ fn the_second_order_is_a_system_beside_the_first_and_can_be_the_own_one() {
     // The third positioning is the first that can have learned.
     assert_eq!(leads(&first)[..2], leads(&second)[..2]);
     assert!(leads(&first)[2] < leads(&second)[2]);
+    assert!(leads(&second)[2] < leads(&exact)[2]);
+    // How each learns is said.
+    let text = bench.succeed(&["run", "s.toml", "--no-vcd", "--set", "function=exact"]);
+    let said = "complete by standstill, learning by the exact relation, sign converging\n";
+    assert!(text.contains(said), "{text}");
 }
 
 #[test]

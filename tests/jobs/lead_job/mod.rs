@@ -11,7 +11,8 @@ use motion_rtl::input::position_log::{Columns, PositionLog, read};
 use motion_rtl::jobs::lead_angle::job::{Played, Positioning, play, positioner};
 use motion_rtl::jobs::lead_angle::replay::{replay, settings_for};
 use motion_rtl::jobs::lead_angle::settings::{
-    Action, Comparing, Detector, History, LeadBy, Placement, Settings, Sign, Step, Targets,
+    Action, Comparing, Detector, Function, History, LeadBy, Placement, Settings, Sign, Step,
+    Targets,
 };
 use motion_rtl::scenario::{Loaded, Scenario};
 use std::fmt::Write;
@@ -84,6 +85,54 @@ fn learning_is_within_a_codes_travel_after_six_positionings_and_after_the_load_c
             assert_eq!(Some(next.code), one.learned, "{number}");
         }
     }
+}
+
+/// What each function makes of the first stop of each step, and where learning ends before the load
+/// changes.
+#[test]
+fn the_exact_relation_knows_the_lead_after_a_stop_of_each_step() {
+    let settings = turntable();
+    let played = |function| {
+        let settings = Settings {
+            function,
+            ..settings.clone()
+        };
+        with_lead(&settings).positionings
+    };
+    let first = played(Function::FirstOrder);
+    let ways =
+        |one: &Positioning| [one.trigger_position, one.target].map(|from| one.stopped - from);
+    let stops: Vec<_> = first[..4].iter().map(|one| (one.code, ways(one))).collect();
+    let measured = [
+        (250, [366, -134]),
+        (250, [1209, 86]),
+        (250, [3795, 1549]),
+        (250, [-2477, -731]),
+    ];
+    assert_eq!(stops, measured);
+    let codes = |all: &[Positioning]| all.iter().map(|one| one.code).collect::<Vec<_>>();
+    for (function, after_one, after_two) in [
+        (
+            Function::FirstOrder,
+            [158, 268, 352, 324],
+            [180, 270, 410, 352],
+        ),
+        (
+            Function::SecondOrder,
+            [192, 270, 394, 346],
+            [184, 270, 425, 356],
+        ),
+        (Function::Exact, [183, 270, 420, 356], [184, 270, 425, 354]),
+    ] {
+        let all = played(function);
+        assert_eq!(
+            all[..4].iter().map(ways).collect::<Vec<_>>(),
+            measured.map(|(_, ways)| ways)
+        );
+        assert_eq!(codes(&all[4..8]), after_one, "{function:?}");
+        assert_eq!(codes(&all[8..12]), after_two, "{function:?}");
+    }
+    assert_eq!(codes(&first[20..24]), [184, 270, 425, 356]);
 }
 
 /// The other systems stay as far off as their lead is wrong.

@@ -29,12 +29,14 @@ const DETECTORS: &[Detector] = &[
 ];
 pub(super) const SIGNS: &[Sign] = &[Sign::Converging, Sign::Literal];
 
-/// Either sign, then either sign to second order.
+/// Either sign to first order, then to second order, then by the exact relation.
 const LEARNINGS: &[(Sign, Function)] = &[
     (Sign::Converging, Function::FirstOrder),
     (Sign::Literal, Function::FirstOrder),
     (Sign::Converging, Function::SecondOrder),
     (Sign::Literal, Function::SecondOrder),
+    (Sign::Converging, Function::Exact),
+    (Sign::Literal, Function::Exact),
 ];
 
 /// The numbers of placement, comparing, learning, detector and form, then the times of the ROM, one in

@@ -1,0 +1,88 @@
+//! Exact relation of the correction 28: divides by the distance that the lead gave.
+//!
+//! ```text
+//!                    ┌────────────────┐
+//!  overrun, error ──▶│ exact relation ├──▶ divide_by, addend
+//!                    └────────────────┘
+//! ```
+//!
+//! A body that comes at a constant speed v goes d1 − d2 = v·Δt1 from the control signal to the
+//! target, and its overrun does not depend on the lead. So the right time is Δt1·d1/(d1 − d2), which
+//! is Δt1 + Δt1·d2/(d1 − d2): the division of the first order with another divisor.
+//!
+//! Departure: the text names an accurate function and gives none. Where the body is at the target
+//! or past it when the control signal comes, d1 − d2 says nothing of the speed. Then |d1| divides:
+//! the first order, which at least doubles the time.
+
+use crate::hdl::prelude::*;
+
+/// Divisor of the exact relation.
+#[derive(Debug, Clone)]
+pub struct ExactRelation {
+    /// Width of a position.
+    pub position: usize,
+}
+
+signals! { for ExactRelation as c;
+    /// Ports in.
+    pub struct In {
+        /// d1.
+        pub overrun: I(c.position),
+        /// d2.
+        pub error: I(c.position),
+    }
+    /// Nets.
+    pub struct Net {
+        /// d1 − d2: the way from the control signal to the target.
+        distance: I(c.position + 1),
+        /// The target was ahead, in the direction of the overrun.
+        ahead: Bit,
+        /// Divisor: |d1 − d2| of a target ahead, |d1| otherwise.
+        pub divide_by: U(c.position),
+        /// Half of it: the quotient is rounded to the nearest.
+        pub addend: U(c.position),
+    }
+}
+
+impl Circuit for ExactRelation {
+    const NAME: &'static str = "exact_relation";
+    const ABOUT: &'static str = "divides a correction by the distance that the lead gave";
+    records!(In, Nothing, Net);
+
+    fn tick(&self, i: In, _: Nothing, _: Nothing) -> (Net, Nothing) {
+        let distance = i.overrun.minus(i.error);
+        let opposed = distance.is_negative() ^ i.overrun.is_negative();
+        let ahead = !opposed & !distance.is_zero();
+        let overrun = i.overrun.resize(self.position + 1);
+        // No two positions are 2^W apart.
+        let divide_by = ahead.mux(distance, overrun).magnitude();
+        let divide_by = divide_by.resize(self.position);
+        let net = Net {
+            distance,
+            ahead,
+            divide_by,
+            addend: divide_by.shift_right(1),
+        };
+        (net, Nothing)
+    }
+}
+
+impl Specified for ExactRelation {
+    fn invariants(&self) -> Invariants<'_, Self> {
+        Invariants::<Self>::new().always(
+            "the divisor is the distance of a target ahead, the overrun otherwise",
+            |now| {
+                let (overrun, error, w) = (now.i.overrun, now.i.error, now.w);
+                let ahead = match overrun {
+                    0.. => overrun > error,
+                    _ => overrun < error,
+                };
+                let divisor = if ahead { overrun - error } else { overrun };
+                let right = w.divide_by == divisor.unsigned_abs() && w.addend == w.divide_by / 2;
+                require(right, ["divide_by", "addend"], || {
+                    format!("{} where {divisor} is expected", w.divide_by)
+                })
+            },
+        )
+    }
+}
