@@ -1,6 +1,6 @@
 //! The summary for people.
 
-use super::summary::{ByFunction, Lead, Phase, StepSummary, Summary, SystemSummary, error_name};
+use super::summary::{Lead, Phase, StepSummary, Summary, SystemSummary, error_name};
 use crate::cli::report::{Outcome, Report};
 use motion_rtl::jobs::lead_angle::settings::{Action, Detector, Function, LeadBy, LeadForm};
 use std::fmt::Write;

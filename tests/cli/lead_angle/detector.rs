@@ -18,9 +18,9 @@ fn an_absolute_encoder_has_an_incremental_one_beside_it() {
     ];
     let summary = bench.json(&run);
     assert_eq!(summary["detector"], "absolute");
-    assert_eq!(list(&summary, "systems").len(), 10);
+    assert_eq!(list(&summary, "systems").len(), 11);
     let [learning, counted] = ["learning", "incremental"].map(|name| system(&summary, name));
-    assert_eq!(counted, 9);
+    assert_eq!(counted, 10);
     let other = small().json(&["run", "--beside", "s.toml", "--no-vcd"]);
     assert_eq!(other["detector"], "incremental");
     let rows = list(&summary, "positionings").iter();

@@ -16,7 +16,7 @@ fn a_form_has_that_of_the_figures_beside_it() {
         let summary = bench.json(&run);
         assert_eq!(summary["form"], form);
         let [own, other] = ["learning", "embodiment"].map(|name| system(&summary, name));
-        assert_eq!((other, list(&summary, "systems").len()), (9, 10));
+        assert_eq!((other, list(&summary, "systems").len()), (10, 11));
         assert_eq!(summary["systems"][own]["own"], true);
         for (row, before) in list(&summary, "positionings")
             .iter()
@@ -53,7 +53,7 @@ fn a_fixed_ratio_has_every_time() {
         "history=ram",
     ];
     let summary = bench.json(&run);
-    assert_eq!(system(&summary, "embodiment"), 9);
+    assert_eq!(system(&summary, "embodiment"), 10);
     // 212 CKs on the way to 213; of 8 counts each at 40000 counts/s, where N = 2 has two of them.
     let row = &list(&summary, "positionings")[3];
     assert!(
@@ -62,7 +62,7 @@ fn a_fixed_ratio_has_every_time() {
     );
     let odd = "step=[{target=3000,speed_counts_per_s=20000,lead_ms=20.1},{target=0,speed_counts_per_s=9000}]";
     let summary = bench.json(&[&run[..], &["--set", odd]].concat());
-    assert_eq!(list(&summary, "systems").len(), 9);
+    assert_eq!(list(&summary, "systems").len(), 10);
     assert_eq!(
         refusal(&bench, &["s.toml", "--set", odd]),
         "error: --set: step 0: lead_ms: is 20.1; allowed: 20 or 20.2\n"

@@ -113,14 +113,14 @@ fn the_turntable_shows_what_the_circuit_is_for() {
     assert_eq!(
         json!(functions),
         json!([
-            [3, 2],
-            [1, 1],
-            [3, 2],
-            [3, 2],
-            [2, 1],
-            [2, 2],
-            [3, 2],
-            [3, 2]
+            [3, 2, 1],
+            [1, 1, 1],
+            [3, 2, 1],
+            [3, 2, 1],
+            [2, 1, 1],
+            [2, 2, 1],
+            [3, 2, 1],
+            [3, 2, 1]
         ])
     );
     // The last of each step, by a limit that does not come from the summary: a code at 90000
@@ -292,25 +292,26 @@ fn people_see_the_last_of_each_step_or_every_positioning() {
         fixed lead                 955     464.6       0          0
         learning                   569     299.4       0          0  in the waves
         second order               545     285.7       0          0
+        exact relation             545     284.4       0          0
         literal sign              1429     678.8       0          0
 
         positionings 0 to 3: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  displaced switch  by speed     tuned  by table  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
-           0      3000   20000       366                 0      -134         0         0          66        12             2           120   17.7 ms       2.0          never        never, 1
-           1         0   40000      1010                 4        10         0         0         410       160            66           652   21.2 ms       8.0          never    never, never
+        step    target   speed   no lead  displaced switch  by speed     tuned  by table  fixed lead  learning  second order  exact relation  literal sign      lead  one code  settled after  1st, 2nd, exact
+           0      3000   20000       366                 0      -134         0         0          66        12             2               0           120   17.7 ms       2.0          never      never, 1, 1
+           1         0   40000      1010                 4        10         0         0         410       160            66               0           652   21.2 ms       8.0          never  never, never, 1
 
         positionings 4 to 5, with the other load: stop error of the last of each step; lead of learning
-        step    target   speed   no lead  displaced switch  by speed     tuned  by table  fixed lead  learning  second order  literal sign      lead  one code  settled after  1st, 2nd order
-           0      3000   20000       504               138         4       138       138         204       138           138           338   18.3 ms       2.0          never    never, never
-           1         0   40000      1555               549       555       549       545         955       569           545          1429   24.6 ms       8.0          never    never, never
+        step    target   speed   no lead  displaced switch  by speed     tuned  by table  fixed lead  learning  second order  exact relation  literal sign      lead  one code  settled after  1st, 2nd, exact
+           0      3000   20000       504               138         4       138       138         204       138           138             138           338   18.3 ms       2.0          never  never, never, never
+           1         0   40000      1555               549       555       549       545         955       569           545             545          1429   24.6 ms       8.0          never  never, never, never
 
-        positioning  step   no lead  displaced switch  by speed     tuned  by table  fixed lead  learning  second order  literal sign      lead  one code
-                  0     0       366                 0      -134         0         0          66        66            66            66   15.0 ms       2.0
-                  1     1      1006                 0         6         0         0         406       406           406           406   15.0 ms       4.0
-                  2     0       366                 0      -134         0         0          66        12             2           120   17.7 ms       2.0
-                  3     1      1010                 4        10         0         0         410       160            66           652   21.2 ms       8.0
-                  4     0       504               138         4       138       138         204       138           138           338   18.3 ms       2.0
-                  5     1      1555               549       555       549       545         955       569           545          1429   24.6 ms       8.0
+        positioning  step   no lead  displaced switch  by speed     tuned  by table  fixed lead  learning  second order  exact relation  literal sign      lead  one code
+                  0     0       366                 0      -134         0         0          66        66            66              66            66   15.0 ms       2.0
+                  1     1      1006                 0         6         0         0         406       406           406             406           406   15.0 ms       4.0
+                  2     0       366                 0      -134         0         0          66        12             2               0           120   17.7 ms       2.0
+                  3     1      1010                 4        10         0         0         410       160            66               0           652   21.2 ms       8.0
+                  4     0       504               138         4       138       138         204       138           138             138           338   18.3 ms       2.0
+                  5     1      1555               549       555       549       545         955       569           545             545          1429   24.6 ms       8.0
 
         wrote waves/s.svg
     "#]].assert_eq(&text);

@@ -92,8 +92,8 @@ fn settings_are_checked_and_named_with_their_line() {
     );
     assert_eq!(
         refused("function = \"quadratic\"\n"),
-        "error: s.toml:2: function: unknown variant `quadratic`; allowed: `first_order`, \
-         `second_order` or `exact`\n"
+        "error: s.toml:2: function: unknown variant `quadratic`; allowed: one of `first_order`, \
+         `second_order`, `exact`\n"
     );
     let bench = small();
     let one = "step=[{target=9000,speed_counts_per_s=20000}]";
