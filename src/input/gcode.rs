@@ -5,8 +5,9 @@
 //! G0, G1, arcs (G2, G3, full circles, helices, P turns; centres by I, J, K, relative or by G90.1,
 //! or R) in the planes G17, G18 and G19, the splines G5 and G5.1, the NURBS G5.2 to G5.3 and G6.2,
 //! probing (G38.2 to G38.5, which goes to its end as if nothing was touched), drilling (G73, G81 to
-//! G86 and G89 with G98 and G99, L or K times), and G28 and G30 by way of their axis words. G80 with
-//! another motion in its line yields to it.
+//! G86 and G89 with G98 and, in force at the start, G99, L or K times), and G28 and G30 by way of
+//! their axis words, or straight by letters without a number. G80 with another motion in its line
+//! yields to it.
 //! With [`Options::fourth`] W is an axis beside the three, in millimetres or inches, from the machine's
 //! zero: with G0 to G3 and G38 it goes linearly with the length. No offset and no reference point is
 //! of it.
@@ -29,8 +30,9 @@
 //! Moves are in the machine's coordinates. The offsets of G54 to G59.3 are those of
 //! [`Options::zeros`], zero by default, until G10 L2 or L20 sets them; G92, G92.1 to G92.3, G52 and
 //! G53 act. The reference points of G28 and G30 are likewise the machine's zero until G28.1 or G30.1
-//! sets them. Tool lengths (G43, G43.1) are taken for zero. M70 and M73 keep what is in force, M72
-//! and the end of the call bring it back.
+//! sets them; axis words in their line move on from there. G43.1 is a tool length by X, Y and Z, and
+//! G43, G44 and G43.2 are those that G10 L1 has set, or else zero; G49 ends them. M70 and M73 keep
+//! what is in force, M72 and the end of the call bring it back.
 //!
 //! # Parameters and O-words
 //!
@@ -41,20 +43,29 @@
 //! `endwhile`, `do`, `repeat`, `endrepeat`, `break` and `continue`; M98 P and M99 with programs of
 //! the file itself. Calls nest 10 deep. [`Options::most_lines`] bounds a run.
 //!
+//! # Exponents
+//!
+//! In brackets, behind `=` and with E a number may have an exponent. In another word an E directly
+//! behind the number, before a whole number, is an exponent if the line has one more E. Else it may
+//! be an axis, as in the compact form of printers, and is refused if that gives another number.
+//!
 //! # What is skipped
 //!
 //! With one warning a kind: M0, M1, M3 to M9, S, T, O numbers, G4, G61 and G64. So are, unless
 //! [`Options::strict`] refuses them: other M words whose meaning is known and that neither move nor
-//! change offsets or scales (heaters, fans, displays, switches, settings of printers), with what
-//! else is in their line; E, H and D; A, B, C, U, V and, where it is no axis, W at 0; `$` lines; the
-//! `/` of optional lines, which are run; G61.1, P, Q and R of G64, G43, G96, G97, G10 for tools, G10
-//! and G11 of printers, G29, G34.
+//! change offsets or scales (heaters, fans, displays, switches, settings of printers), with the
+//! letters that belong to them; E, D, and H at 0; A, B, C, U, V and, where it is no axis, W at 0;
+//! `$` lines that show or set; the `/` of optional lines, which are run; G61.1, P, Q and R of G64,
+//! G96, G97, G43 and G44 of tools whose length the program has not set, G10 for tools but its L1,
+//! G10 and G11 of printers, G29, G34.
 //!
 //! # What is refused
 //!
-//! What would change the path otherwise: other rotary positions, cutter compensation (G41, G42),
-//! scaling, mirroring, rotation, polar coordinates, diameters (G7), feeds per turn (G95), turning
-//! and threading cycles, macro calls, calls into other files, unknown words.
+//! What would change the path otherwise: M words and `$` commands that move or stop a machine, read
+//! or write other files or bring back positions on some controls; axis words and parameters that
+//! may belong to either of two words of their line; other rotary positions, cutter compensation
+//! (G41, G42), scaling, mirroring, rotation, polar coordinates, diameters (G7), feeds per turn
+//! (G95), turning and threading cycles, macro calls, calls into other files, unknown words.
 //!
 //! # Text
 //!
@@ -72,6 +83,7 @@ mod cycle;
 mod expression;
 mod flow;
 mod kept;
+mod m_words;
 mod machine;
 mod mark;
 mod modal;
@@ -82,6 +94,7 @@ mod parameters;
 mod problem;
 mod runner;
 mod text;
+mod tools;
 
 use super::{Drawing, Fault, Options};
 use runner::Runner;

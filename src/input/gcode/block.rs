@@ -28,20 +28,43 @@ pub(super) struct Block {
     pub(super) extruder: bool,
     /// It has a word, N apart.
     pub(super) any: bool,
+    /// Letters that stand without a number, a bit each.
+    bare: u32,
+    /// An E behind a number that may be its exponent or a word of its own.
+    unclear: Option<Problem>,
+    extruders: usize,
 }
 
 impl Block {
     /// Reads a cleaned line into itself.
     ///
+    /// An E directly behind the number of a word, before a whole number, is an exponent or an axis.
+    /// Where there is a second E, which no axis has, it is an exponent. Else it is read as an axis,
+    /// and [`Block::take_unclear`] tells of it.
+    ///
     /// # Errors
     ///
     /// What is no word, and values that cannot be computed.
     pub(super) fn read(&mut self, line: &[u8], values: &dyn Values) -> Result<(), Problem> {
+        let read = self.read_words(line, values, false);
+        if self.unclear.is_some() && self.extruders > 1 {
+            return self.read_words(line, values, true);
+        }
+        read
+    }
+
+    fn read_words(
+        &mut self,
+        line: &[u8],
+        values: &dyn Values,
+        exponents: bool,
+    ) -> Result<(), Problem> {
         self.g.clear();
         self.m.clear();
         self.sets.clear();
         self.letters = [None; 26];
         (self.extruder, self.any) = (false, false);
+        (self.bare, self.unclear, self.extruders) = (0, None, 0);
         let mut scanner = Scanner::new(line);
         self.optional = line_start(&mut scanner)?;
         while let Some(letter) = scanner.next_word() {
@@ -54,7 +77,7 @@ impl Block {
             scanner.bump();
             let read = match letter {
                 b'#' => self.set(&mut scanner, values),
-                b'A'..=b'Z' => self.word(letter, &mut scanner, values),
+                b'A'..=b'Z' => self.word(letter, &mut scanner, values, exponents),
                 _ => {
                     let field = format!("{}{}", char::from(letter), scanner.rest_text());
                     Err(Problem::new(brief(&field), "not a word", WORDS))
@@ -72,7 +95,7 @@ impl Block {
             let allowed = "#1=2";
             return Err(Problem::new(name.to_string(), "without =", allowed));
         }
-        let value = scanner.value(values)?;
+        let value = scanner.value_with_exponent(values)?;
         self.sets.push((name, value));
         Ok(())
     }
@@ -82,13 +105,16 @@ impl Block {
         letter: u8,
         scanner: &mut Scanner<'_>,
         values: &dyn Values,
+        exponents: bool,
     ) -> Result<(), Problem> {
         let field = char::from(letter);
+        let begin = scanner.at();
         match scanner.next_word() {
             Some(b'0'..=b'9' | b'.' | b'+' | b'-' | b'#' | b'[') => {}
             Some(b'A'..=b'Z') if function(scanner.rest()) => {}
             // Printers take a letter alone for a flag, as in G28 X.
             _ if self.flags(letter) => {
+                self.bare |= bit(letter);
                 return self.put(letter, 0.0);
             }
             _ => {
@@ -96,7 +122,13 @@ impl Block {
                 return Err(Problem::new(field, problem, WORDS));
             }
         }
-        let value = scanner.value(values).map_err(|problem| Problem {
+        // A second axis E there cannot be.
+        let exponents = letter == b'E' || (exponents && has_exponent(letter));
+        let value = match exponents {
+            true => scanner.value_with_exponent(values),
+            false => scanner.value(values),
+        };
+        let value = value.map_err(|problem| Problem {
             field: if problem.field == "number" {
                 field.into()
             } else {
@@ -108,17 +140,45 @@ impl Block {
             let problem = format!("{} is out of range", brief(&value.to_string()));
             return Err(Problem::new(field, problem, "-1000000000 to 1000000000"));
         }
+        self.look_for_exponent(letter, begin, value, scanner);
         match letter {
             b'G' => self.g.push(code(field, value)?),
             b'M' => self.m.push(code(field, value)?),
             b'N' => {}
             b'E' => {
                 self.extruder = true;
+                self.extruders += 1;
                 return self.put(letter, value);
             }
             _ => return self.put(letter, value),
         }
         Ok(())
+    }
+
+    /// Keeps in mind an E behind a number that makes another value of it if it is an exponent.
+    fn look_for_exponent(&mut self, letter: u8, begin: usize, value: f64, scanner: &Scanner<'_>) {
+        let written = scanner.since(begin);
+        let literal = written
+            .bytes()
+            .all(|byte| matches!(byte, b'0'..=b'9' | b'.' | b'+' | b'-'));
+        let Some(length) = scanner.exponent().filter(|_| literal) else {
+            return;
+        };
+        let exponent = scanner.rest().get(..length).unwrap_or_default();
+        let exponent = String::from_utf8_lossy(exponent);
+        let zero = exponent.bytes().all(|byte| !matches!(byte, b'1'..=b'9'));
+        if has_exponent(letter) && value != 0.0 && !zero && self.unclear.is_none() {
+            let field = char::from(letter);
+            let problem = format!("{written}{exponent}: an exponent, or an axis E");
+            let allowed = format!("{field}{written} {exponent}, or a number without an exponent");
+            let at = begin..begin + written.len() + length;
+            self.unclear = Some(Problem::new(field, problem, allowed).at(at));
+        }
+    }
+
+    /// Takes out what is wrong with an E that may be an exponent.
+    pub(super) fn take_unclear(&mut self) -> Option<Problem> {
+        self.unclear.take()
     }
 
     fn put(&mut self, letter: u8, value: f64) -> Result<(), Problem> {
@@ -174,7 +234,31 @@ impl Block {
     /// Forgets all letters.
     pub(super) fn clear_letters(&mut self) {
         self.letters = [None; 26];
+        self.unclear = None;
     }
+
+    /// True if a letter stands without a number.
+    pub(super) fn is_bare(&self, letter: u8) -> bool {
+        self.bare & bit(letter) != 0
+    }
+
+    /// Forgets the letters that stand without a number.
+    pub(super) fn clear_bare(&mut self) {
+        for letter in b'A'..=b'Z' {
+            if self.is_bare(letter) {
+                self.take(letter);
+            }
+        }
+    }
+}
+
+fn bit(letter: u8) -> u32 {
+    1 << (letter.wrapping_sub(b'A') % 32)
+}
+
+/// True if the number of a word may have an exponent: that of a code has none.
+fn has_exponent(letter: u8) -> bool {
+    !matches!(letter, b'G' | b'M' | b'N' | b'O' | b'T')
 }
 
 /// Steps over `/` and the line number; true where there was a `/`.

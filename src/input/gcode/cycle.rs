@@ -5,6 +5,7 @@ use super::machine::{Machine, Piece};
 use super::modal::Plane;
 use super::problem::Problem;
 use crate::input::{Course, Point};
+use crate::settings::tidy;
 
 /// How far G73 lifts, and how far above the last depth G83 stops its rapid, in millimetres.
 const LIFT_MM: f64 = 0.254;
@@ -33,7 +34,12 @@ impl Cycle {
 
 impl Machine<'_> {
     /// Drills the holes of a line; says how many.
-    pub(super) fn drill(&mut self, block: &mut Block, code: u32) -> Result<u64, Problem> {
+    pub(super) fn drill(
+        &mut self,
+        line: usize,
+        block: &mut Block,
+        code: u32,
+    ) -> Result<u64, Problem> {
         let field = format!("G{code}");
         if self.modal.plane != Plane::Xy {
             return Err(Problem::new(
@@ -64,13 +70,14 @@ impl Machine<'_> {
             return Err(Problem::new(field, "without Z", "Z with the first hole"));
         };
         if bottom > r {
-            let problem = format!("R is below Z by {} mm", bottom - r);
+            let problem = format!("R is below Z by {} mm", tidy(bottom - r));
             return Err(Problem::new(field, problem, "R at Z or above"));
         }
-        if let Some(q) = block.take(b'Q') {
+        if let (73 | 83, Some(q)) = (code, block.letter(b'Q')) {
+            block.take(b'Q');
             self.cycle.q = Some(q * units);
         }
-        // A dwell says nothing about the path; I, J and K are shifts of other cycles.
+        // A dwell says nothing about the path.
         block.take(b'P');
         let times = block.take(b'L').or_else(|| block.take(b'K')).unwrap_or(1.0);
         if !(0.0..=1.0e6).contains(&times) || times.fract() != 0.0 {
@@ -88,6 +95,10 @@ impl Machine<'_> {
             }
             _ => f64::INFINITY,
         };
+        if !self.modal.end_chosen {
+            let text = || "neither G98 nor G99: the cycle ends at R, as by G99".to_owned();
+            self.note("cycle", line, text);
+        }
         self.made_by(field);
         let mut count = 0;
         for _ in 0..times as u64 {

@@ -48,11 +48,17 @@ pub(super) trait Values {
 pub(super) struct Scanner<'a> {
     line: &'a [u8],
     at: usize,
+    /// Numbers may have exponents: in brackets, where no word E can stand, and where asked for.
+    exponents: bool,
 }
 
 impl<'a> Scanner<'a> {
     pub(super) fn new(line: &'a [u8]) -> Self {
-        Self { line, at: 0 }
+        Self {
+            line,
+            at: 0,
+            exponents: false,
+        }
     }
 
     /// The next character, where a comment was skipped over.
@@ -78,6 +84,12 @@ impl<'a> Scanner<'a> {
 
     pub(super) fn rest(&self) -> &'a [u8] {
         self.line.get(self.at..).unwrap_or_default()
+    }
+
+    /// The text from a place before.
+    pub(super) fn since(&self, begin: usize) -> String {
+        let text = self.line.get(begin..self.at).unwrap_or_default();
+        String::from_utf8_lossy(text).into_owned()
     }
 
     pub(super) fn rest_text(&self) -> String {
@@ -150,13 +162,41 @@ impl<'a> Scanner<'a> {
         if self.peek() == Some(b'<') {
             return Ok(Name::Text(self.angled()?));
         }
-        let number = self.operand(values, depth + 1)?;
+        let number = self.with_exponents(false, |scanner| scanner.operand(values, depth + 1))?;
         let whole = number.round();
         if (number - whole).abs() > EQUAL || !(1.0..=99_999.0).contains(&whole) {
             let problem = format!("{number} is not the number of a parameter");
             return Err(Problem::new("#", problem, "1 to 5602"));
         }
         Ok(Name::Number(whole as u32))
+    }
+
+    /// A value as [`Scanner::value`] reads it, whose number may have an exponent.
+    ///
+    /// # Errors
+    ///
+    /// None is next, or it cannot be computed.
+    pub(super) fn value_with_exponent(&mut self, values: &dyn Values) -> Result<f64, Problem> {
+        self.with_exponents(true, |scanner| scanner.value(values))
+    }
+
+    fn with_exponents<T>(&mut self, exponents: bool, read: impl FnOnce(&mut Self) -> T) -> T {
+        let before = std::mem::replace(&mut self.exponents, exponents);
+        let read = read(self);
+        self.exponents = before;
+        read
+    }
+
+    /// The length of an exponent that is next: E and a whole number. A decimal one belongs to a word.
+    pub(super) fn exponent(&self) -> Option<usize> {
+        let digits = match self.rest() {
+            [b'E', b'+' | b'-', digits @ ..] | [b'E', digits @ ..] => digits,
+            _ => return None,
+        };
+        let end = digits.iter().position(|byte| !byte.is_ascii_digit());
+        let count = end.unwrap_or(digits.len());
+        let whole = count > 0 && digits.get(count) != Some(&b'.');
+        whole.then(|| self.rest().len() - digits.len() + count)
     }
 
     fn operand(&mut self, values: &dyn Values, depth: usize) -> Result<f64, Problem> {
@@ -190,7 +230,13 @@ impl<'a> Scanner<'a> {
 
     /// An unsigned decimal number.
     pub(super) fn number(&mut self) -> Result<f64, Problem> {
-        let text = self.run(|byte| byte.is_ascii_digit() || byte == b'.');
+        let begin = self.at;
+        self.run(|byte| byte.is_ascii_digit() || byte == b'.');
+        if self.exponents {
+            self.at += self.exponent().unwrap_or(0);
+        }
+        let text = self.line.get(begin..self.at).unwrap_or_default();
+        let text = std::str::from_utf8(text).unwrap_or_default();
         text.parse().map_err(|_| {
             let problem = format!("{} is not a number", brief(text));
             Problem::new("number", problem, "a decimal number")
@@ -202,7 +248,7 @@ impl<'a> Scanner<'a> {
         if !self.take("[") {
             return Err(Problem::new("[", "no bracket", VALUES));
         }
-        let value = self.operation(values, depth + 1, 0)?;
+        let value = self.with_exponents(true, |scanner| scanner.operation(values, depth + 1, 0))?;
         self.next_word();
         if self.take("]") {
             return Ok(value);

@@ -21,6 +21,7 @@ impl Machine<'_> {
                 Some(offset.get(axis as usize).map_or(0.0, |mm| mm / units))
             }
             5400 => Some(self.tool),
+            5401..=5409 => Some(pick(self.modal.tool, 5401)),
             5428 => Some(self.w() / units),
             5420..=5427 => Some(pick(self.here(), 5420)),
             _ => None,

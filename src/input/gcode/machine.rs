@@ -1,12 +1,13 @@
 //! What the words of a line do, given the lines before it.
 
 use super::block::{Block, Code, name};
-use super::codes::{self, Kind};
+use super::codes;
 use super::cycle::Cycle;
 use super::modal::{Modal, Motion, Plane};
 use super::nurbs::Nurbs;
 use super::offsets::{Offsets, Own};
 use super::problem::Problem;
+use super::tools::{Length, Tools};
 use crate::input::track::Track;
 use crate::input::{Course, Drawing, Fault, Move, Options, Point};
 
@@ -15,7 +16,6 @@ const MM_PER_INCH: f64 = 25.4;
 pub(super) const G_CODES: &str = "G0 to G5 G5.1 to G5.3 G6.2 G8 G10 G11 G15 G17 to G21 G28 G30 G38.2 to G38.5 \
                                   G40 G43 G49 G52 to G59.3 G61 G64 G69 G73 G80 to G86 G89 to G94 \
                                   G97 to G99";
-const M_CODES: &str = "M words that neither move nor change the path";
 
 /// A piece of the move of a line.
 #[derive(Debug, Clone, Copy)]
@@ -36,8 +36,9 @@ pub(super) struct Machine<'a> {
     w: [f64; 2],
     fourth: bool,
     pub(super) modal: Modal,
-    saved: Option<Modal>,
+    pub(super) saved: Option<Modal>,
     pub(super) offsets: Offsets,
+    pub(super) tools: Tools,
     pub(super) cycle: Cycle,
     /// The end control point of a G5 from its end, for the one that follows.
     pub(super) last_control: Option<[f64; 2]>,
@@ -50,7 +51,7 @@ pub(super) struct Machine<'a> {
     pub(super) feed_word: Option<f64>,
     pub(super) spindle: f64,
     pub(super) tool: f64,
-    strict: bool,
+    pub(super) strict: bool,
     /// G5 and G5.1 are no chords.
     pub(super) splines: bool,
 }
@@ -65,6 +66,7 @@ impl<'a> Machine<'a> {
             modal: Modal::default(),
             saved: None,
             offsets: Offsets::new(options.zeros),
+            tools: Tools::default(),
             cycle: Cycle::default(),
             last_control: None,
             nurbs: None,
@@ -170,6 +172,9 @@ impl<'a> Machine<'a> {
         }
         self.m_words(line, block)?;
         let words = self.g_words(line, block)?;
+        if let Some(problem) = block.take_unclear() {
+            return Err(problem);
+        }
         self.feed(block)?;
         if let Some(spindle) = block.take(b'S') {
             self.spindle = spindle;
@@ -179,9 +184,17 @@ impl<'a> Machine<'a> {
             self.tool = tool;
             self.skip("T", line);
         }
+        if let Some((code, length)) = words.length {
+            self.tool_length(line, block, code, length)?;
+        }
         for letter in [b'E', b'H', b'D'] {
-            if block.take(letter).is_some() {
-                self.say_nothing(&char::from(letter).to_string(), line)?;
+            match block.take(letter) {
+                None => {}
+                Some(value) if letter == b'H' && value != 0.0 => {
+                    let problem = "without G43; some controls move to a switch by it";
+                    return Err(Problem::new('H', problem, "H with G43, G44 or G43.2; H0"));
+                }
+                Some(_) => self.say_nothing(&char::from(letter).to_string(), line)?,
             }
         }
         self.still_axes(line, block)?;
@@ -251,41 +264,6 @@ impl<'a> Machine<'a> {
         Ok(())
     }
 
-    fn m_words(&mut self, line: usize, block: &mut Block) -> Result<(), Problem> {
-        for index in 0..block.m.len() {
-            let Some(&code) = block.m.get(index) else {
-                break;
-            };
-            let word = name('M', code);
-            match codes::m_word(code) {
-                Kind::Known => match code.0 {
-                    70 => self.saved = Some(self.modal),
-                    72 => {
-                        let nothing = || Problem::new(&word, "without M70 before", "M70 first");
-                        self.modal = self.saved.ok_or_else(nothing)?;
-                    }
-                    _ => {}
-                },
-                Kind::Skipped => self.skip(&word, line),
-                Kind::Harmless => {
-                    self.say_nothing(&word, line)?;
-                    if block.g.is_empty() {
-                        block.clear_letters();
-                    } else {
-                        for letter in [b'P', b'Q', b'L', b'E', b'S', b'R'] {
-                            block.take(letter);
-                        }
-                    }
-                }
-                Kind::Refused => {
-                    let problem = "not known to leave the path as it is";
-                    return Err(Problem::new(word, problem, M_CODES));
-                }
-            }
-        }
-        Ok(())
-    }
-
     fn g_words(&mut self, line: usize, block: &mut Block) -> Result<Words, Problem> {
         let mut words = Words::default();
         let (mut plane, mut units, mut distance) = (None, None, None);
@@ -324,7 +302,7 @@ impl<'a> Machine<'a> {
                 (59, 0..=3) => choose(&mut system, code, 5 + code.1 as usize)?,
                 (53, 0) => words.machine = true,
                 // What is so anyway: no compensation, diameter, scaling, rotation or polar axes.
-                (8 | 15 | 40 | 49 | 50 | 69 | 97, 0) | (50, 1) | (69, 1) => {
+                (8 | 15 | 40 | 50 | 69 | 97, 0) | (50, 1) | (69, 1) => {
                     if code.0 == 50 && block.axes().iter().any(Option::is_some) {
                         let problem = "sets coordinates, as controls of lathes do";
                         return Err(Problem::new("G50", problem, "G50 alone; G92"));
@@ -340,17 +318,11 @@ impl<'a> Machine<'a> {
                 (61 | 64, 0) => self.skip(&name('G', code), line),
                 (61, 1) => self.say_nothing("G61.1", line)?,
                 (96, 0) => self.say_nothing("G96", line)?,
-                (43 | 44, 0) => {
-                    let text = || "tool lengths are taken for 0".to_owned();
-                    if self.strict {
-                        self.say_nothing(&name('G', code), line)?;
-                    }
-                    self.note("length", line, text);
-                }
-                (43, 1 | 2) => {
-                    self.say_nothing(&name('G', code), line)?;
-                    block.clear_letters();
-                }
+                (49, 0) => choose(&mut words.length, code, Length::Cancel)?,
+                (43, 0) => choose(&mut words.length, code, Length::Of { sign: 1.0 })?,
+                (44, 0) => choose(&mut words.length, code, Length::Of { sign: -1.0 })?,
+                (43, 2) => choose(&mut words.length, code, Length::Add)?,
+                (43, 1) => choose(&mut words.own, code, Own::Length)?,
                 (10, 0) if block.letter(b'L').is_some() => choose(&mut words.own, code, Own::Set)?,
                 // Printers take filament back, and level their bed.
                 (10 | 11 | 29 | 34, 0) if block.given().next().is_none() => {
@@ -385,6 +357,7 @@ impl<'a> Machine<'a> {
         set(&mut modal.relative, distance);
         set(&mut modal.centres_absolute, centres);
         set(&mut modal.system, system);
+        modal.end_chosen |= ends.is_some();
         set(&mut modal.ends_at_r, ends);
         if let Some((_, inverse)) = feeds {
             modal.inverse_time = inverse;
@@ -412,6 +385,8 @@ pub(super) struct Words {
     pub(super) motion: Option<(Code, Motion)>,
     /// An instruction that takes the axis words for itself.
     pub(super) own: Option<(Code, Own)>,
+    /// A tool length from the table of tools.
+    length: Option<(Code, Length)>,
     cancels: bool,
     /// G53.
     pub(super) machine: bool,

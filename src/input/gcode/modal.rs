@@ -1,5 +1,8 @@
 //! What stays in force from line to line.
 
+use super::block::{Code, name};
+use crate::input::Point;
+
 /// How axis words make a move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Motion {
@@ -25,20 +28,25 @@ pub(super) enum Motion {
 }
 
 impl Motion {
-    pub(super) fn name(self) -> String {
+    /// The G word that chooses it; of a probe G38.
+    pub(super) fn code(self) -> Code {
         match self {
-            Self::Rapid => "G0".to_owned(),
-            Self::Line => "G1".to_owned(),
-            Self::Arc { clockwise: true } => "G2".to_owned(),
-            Self::Arc { clockwise: false } => "G3".to_owned(),
-            Self::Cubic => "G5".to_owned(),
-            Self::Quadratic => "G5.1".to_owned(),
-            Self::Nurbs => "G5.2".to_owned(),
-            Self::NurbsEnd => "G5.3".to_owned(),
-            Self::KnottedNurbs => "G6.2".to_owned(),
-            Self::Probe => "G38".to_owned(),
-            Self::Cycle(code) => format!("G{code}"),
+            Self::Rapid => (0, 0),
+            Self::Line => (1, 0),
+            Self::Arc { clockwise: true } => (2, 0),
+            Self::Arc { clockwise: false } => (3, 0),
+            Self::Cubic => (5, 0),
+            Self::Quadratic => (5, 1),
+            Self::Nurbs => (5, 2),
+            Self::NurbsEnd => (5, 3),
+            Self::KnottedNurbs => (6, 2),
+            Self::Probe => (38, 0),
+            Self::Cycle(code) => (code, 0),
         }
+    }
+
+    pub(super) fn name(self) -> String {
+        name('G', self.code())
     }
 }
 
@@ -75,6 +83,10 @@ pub(super) struct Modal {
     pub(super) inverse_time: bool,
     /// Cycles end at R (G99).
     pub(super) ends_at_r: bool,
+    /// The program has chosen where cycles end.
+    pub(super) end_chosen: bool,
+    /// Length of the tool.
+    pub(super) tool: Point,
     /// The coordinate system, from 0 for G54.
     pub(super) system: usize,
 }
@@ -89,7 +101,9 @@ impl Default for Modal {
             mm_per_unit: 1.0,
             feed_mm_per_min: None,
             inverse_time: false,
-            ends_at_r: false,
+            ends_at_r: true,
+            end_chosen: false,
+            tool: [0.0; 3],
             system: 0,
         }
     }

@@ -72,7 +72,7 @@ impl Machine<'_> {
         }
         let mut holes = None;
         match motion {
-            Motion::Cycle(code) => holes = Some(self.drill(block, code)?),
+            Motion::Cycle(code) => holes = Some(self.drill(line, block, code)?),
             _ => {
                 let (from, to) = (self.at, self.target(block, words.machine));
                 if !matches!(motion, Motion::Cubic | Motion::Quadratic) {
@@ -104,9 +104,6 @@ impl Machine<'_> {
     fn made(&mut self, block: &mut Block, holes: Option<u64>) -> Result<u64, Problem> {
         if self.modal.inverse_time && self.pieces.iter().any(|piece| !piece.rapid) {
             self.needs_feed()?;
-        }
-        for letter in [b'X', b'Y', b'Z', b'I', b'J', b'K', b'R'] {
-            block.take(letter);
         }
         self.leftover(block)?;
         // Holes and chords count as if each had been written.

@@ -16,6 +16,8 @@ pub(super) enum Own {
     Keep(usize),
     /// G92.
     Shift,
+    /// G43.1.
+    Length,
     /// G52.
     Local,
     /// G92.1.
@@ -66,8 +68,8 @@ impl Machine<'_> {
     pub(super) fn zero(&self) -> Point {
         let system = self.offsets.system(self.modal.system);
         let mut zero = self.offsets.shift;
-        for (zero, system) in zero.iter_mut().zip(system) {
-            *zero += system;
+        for ((zero, system), tool) in zero.iter_mut().zip(system).zip(self.modal.tool) {
+            *zero += system + tool;
         }
         zero
     }
@@ -90,12 +92,13 @@ impl Machine<'_> {
         moves: bool,
     ) -> Result<(), Problem> {
         let axes = block.axes();
-        let shifts = !matches!(own, Own::Forget | Own::Suspend | Own::Resume);
-        if shifts && block.letter(b'W').is_some() {
+        // The axis words are its own, not those of a motion.
+        let takes = !matches!(own, Own::Forget | Own::Suspend | Own::Resume | Own::Keep(_));
+        if takes && block.letter(b'W').is_some() {
             let problem = format!("with {}", name('G', code));
             return Err(Problem::new('W', problem, "X, Y and Z: W has no offsets"));
         }
-        if moves && shifts {
+        if moves && takes {
             // G0 G28 X0 is common; what goes is G28.
             if !matches!(own, Own::Go(_) | Own::Shift | Own::Set) {
                 let problem = "together with a motion in one line";
@@ -107,6 +110,15 @@ impl Machine<'_> {
         match own {
             Own::Set => self.set_offsets(line, block, words)?,
             Own::Go(number) => self.go_home(block, number, words, name('G', code)),
+            Own::Length => {
+                if let Some(h) = block.letter(b'H') {
+                    let problem = format!("{h} with G43.1");
+                    return Err(Problem::new('H', problem, "X, Y and Z with G43.1; G43 H"));
+                }
+                for (tool, word) in self.modal.tool.iter_mut().zip(words) {
+                    *tool = word.unwrap_or(*tool);
+                }
+            }
             Own::Keep(number) => {
                 let at = self.at;
                 if let Some(place) = self.offsets.zeros.references.get_mut(number) {
@@ -114,22 +126,23 @@ impl Machine<'_> {
                 }
             }
             Own::Shift if !given => {
+                let system = self.offsets.system(self.modal.system);
+                let places = self.offsets.shift.iter_mut().zip(self.at).zip(system);
+                let places = places.zip(self.modal.tool);
                 // Printers reset their extruder with G92 E0; G92 alone means all axes.
                 if block.given().next().is_none() && !block.extruder {
-                    let system = self.offsets.system(self.modal.system);
-                    for ((shift, at), system) in
-                        self.offsets.shift.iter_mut().zip(self.at).zip(system)
-                    {
-                        *shift = at - system;
+                    for (((shift, at), system), tool) in places {
+                        *shift = at - system - tool;
                     }
                 }
             }
             Own::Shift => {
                 let system = self.offsets.system(self.modal.system);
                 let places = self.offsets.shift.iter_mut().zip(self.at).zip(system);
-                for (((shift, at), system), word) in places.zip(words) {
+                let places = places.zip(self.modal.tool);
+                for ((((shift, at), system), tool), word) in places.zip(words) {
                     if let Some(word) = word {
-                        *shift = at - system - word;
+                        *shift = at - system - tool - word;
                     }
                 }
             }
@@ -147,7 +160,7 @@ impl Machine<'_> {
             }
             Own::Resume => self.offsets.shift = self.offsets.suspended,
         }
-        if shifts {
+        if takes {
             for letter in [b'X', b'Y', b'Z'] {
                 block.take(letter);
             }
@@ -155,7 +168,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// G10: offsets of coordinate systems; tables of tools are passed over.
+    /// G10: offsets of coordinate systems, lengths of tools.
     fn set_offsets(
         &mut self,
         line: usize,
@@ -169,7 +182,7 @@ impl Machine<'_> {
             for letter in [b'I', b'J', b'Q'] {
                 block.take(letter);
             }
-            return self.say_nothing("G10 tool table", line);
+            return self.set_tool(line, (what, number), words, turn.is_some());
         }
         if what != 2.0 && what != 20.0 {
             let allowed = "L2 and L20; L1, L10 and L11 are skipped";
@@ -185,7 +198,10 @@ impl Machine<'_> {
                 .find(|&n| n as f64 == number)
                 .map(|n| n - 1),
         };
-        let shift = self.offsets.shift;
+        let mut shift = self.offsets.shift;
+        for (shift, tool) in shift.iter_mut().zip(self.modal.tool) {
+            *shift += tool;
+        }
         let place = system.and_then(|system| self.offsets.zeros.systems.get_mut(system));
         let Some(place) = place else {
             let problem = format!("the coordinate system P{number}");
@@ -199,20 +215,25 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// To a reference point by way of the axis words; without any, all axes go there.
+    /// To a reference point by way of the axis words; without any, all axes go there. A letter
+    /// without a number is an axis that goes there straight.
     fn go_home(&mut self, block: &mut Block, number: usize, words: [Option<f64>; 3], by: String) {
         let zero = self.zero();
         let reference = self.offsets.reference(number);
         let all = words.iter().all(Option::is_none);
         let (mut by_way, mut home) = (self.at, self.at);
+        let letters = [b'X', b'Y', b'Z'];
+        let bare = |axis: usize| letters.get(axis).is_some_and(|&of| block.is_bare(of));
         for axis in 0..3 {
             let (Some(way), Some(home)) = (by_way.get_mut(axis), home.get_mut(axis)) else {
                 continue;
             };
             let at = |point: &Point| point.get(axis).copied().unwrap_or(0.0);
             if let Some(word) = words.get(axis).copied().flatten() {
-                let from = if self.modal.relative { *way } else { at(&zero) };
-                *way = from + word;
+                if !bare(axis) {
+                    let from = if self.modal.relative { *way } else { at(&zero) };
+                    *way = from + word;
+                }
             } else if !all {
                 continue;
             }
@@ -230,6 +251,6 @@ impl Machine<'_> {
         self.pieces.push(rapid(home));
         self.at = home;
         self.made_by(by);
-        block.clear_letters();
+        block.clear_bare();
     }
 }

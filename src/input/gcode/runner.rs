@@ -154,6 +154,15 @@ impl<'a> Runner<'a> {
         };
         let texts = ["M115", "M117", "M118", "M486", "M862"];
         let what = match text.first() {
+            Some(b'$') if !is_setting(text) => {
+                let text = brief(&String::from_utf8_lossy(text));
+                let problem = "a command of a control that may move";
+                return Err(Problem::new(
+                    text,
+                    problem,
+                    "$ and settings such as $110=500",
+                ));
+            }
             Some(b'$') => "$",
             Some(b'M' | b'm') => match texts.iter().find(|code| display(code.as_bytes())) {
                 Some(code) => code,
@@ -175,13 +184,22 @@ impl<'a> Runner<'a> {
             return Ok(false);
         }
         let name = String::from_utf8_lossy(name).to_ascii_uppercase();
-        let harmless = ["EXCLUDE_OBJECT", "SET_", "TIMELAPSE_"];
-        if harmless.iter().any(|start| name.starts_with(start)) && name != "SET_GCODE_OFFSET" {
+        let harmless = ["EXCLUDE_OBJECT_", "SET_", "TIMELAPSE_"];
+        let moves = [
+            "SET_GCODE_OFFSET",
+            "SET_KINEMATIC_POSITION",
+            "SET_SKEW",
+            "SET_DUAL_CARRIAGE",
+            "SET_STEPPER_CARRIAGES",
+            "SET_Z_THERMAL_ADJUST",
+        ];
+        if harmless.iter().any(|start| name.starts_with(start)) && !moves.contains(&&*name) {
             self.machine.say_nothing(&brief(&name), line)?;
             return Ok(true);
         }
         let problem = "a macro of a control, which may move";
-        let allowed = "words, and macros EXCLUDE_OBJECT_..., SET_... and TIMELAPSE_...";
+        let allowed =
+            "words, and macros EXCLUDE_OBJECT_..., TIMELAPSE_... and SET_... without a move";
         Err(Problem::new(brief(&name), problem, allowed))
     }
 
@@ -225,8 +243,9 @@ impl<'a> Runner<'a> {
         if keeps && let Some(frame) = self.frames.last_mut() {
             frame.modal = Some(self.machine.modal());
         }
-        if returns {
-            block.take(b'P');
+        if returns && block.letter(b'P').is_some() {
+            let problem = "with M99: a jump to a line number, which is not understood";
+            return Err(Problem::new('P', problem, "M99 alone"));
         }
         let repeats = self.machine.run(line, block)?;
         self.count(repeats)?;
@@ -270,4 +289,13 @@ impl<'a> Runner<'a> {
             (at, line) = (next, line + 1);
         }
     }
+}
+
+/// True if a line with `$` shows or sets what a control has; `$H`, `$J` and others move.
+fn is_setting(text: &[u8]) -> bool {
+    let name = text.get(1..).unwrap_or_default().trim_ascii();
+    let name = name.split(|byte| *byte == b'=').next().unwrap_or_default();
+    let number = name.strip_prefix(b"N").or_else(|| name.strip_prefix(b"n"));
+    number.unwrap_or(name).iter().all(u8::is_ascii_digit)
+        || matches!(name, b"$" | b"#" | b"G" | b"g" | b"I" | b"i" | b"X" | b"x")
 }

@@ -31,7 +31,8 @@ pub(super) fn line_at(text: &[u8], offset: usize) -> Option<(&[u8], usize)> {
 }
 
 /// Copies a line in capitals without blanks, which stand anywhere in RS274. A comment leaves one
-/// blank, which keeps apart what is on either side of it. A NUL is a blank.
+/// blank, which keeps apart what is on either side of it, as do blanks between a digit and an E,
+/// which is then no exponent. A NUL is a blank.
 ///
 /// # Errors
 ///
@@ -48,6 +49,8 @@ pub(super) fn clean(line: &[u8], into: &mut Vec<u8>) -> Result<(), Problem> {
 /// As [`clean`].
 pub(super) fn each(line: &[u8], mut keep: impl FnMut(usize, u8)) -> Result<(), Problem> {
     let mut depth = 0_usize;
+    // Blanks are before it; the last character that was kept; it is in the name of a parameter.
+    let (mut blank, mut last, mut named) = (false, b' ', false);
     for (at, &byte) in line.iter().enumerate() {
         match (byte, depth) {
             (b';', 0) => break,
@@ -57,8 +60,18 @@ pub(super) fn each(line: &[u8], mut keep: impl FnMut(usize, u8)) -> Result<(), P
                 keep(at, b' ');
             }
             (b')', 2..) => depth -= 1,
-            (b' ' | b'\t' | 0, 0) | (_, 1..) => {}
-            (b'!'..=b'~', 0) => keep(at, byte.to_ascii_uppercase()),
+            (b' ' | b'\t' | 0, 0) => blank = true,
+            (_, 1..) => {}
+            (b'!'..=b'~', 0) => {
+                let byte = byte.to_ascii_uppercase();
+                let digit = last.is_ascii_digit() || last == b'.';
+                if byte == b'E' && blank && digit && !named {
+                    keep(at, b' ');
+                }
+                keep(at, byte);
+                named = byte == b'<' || (named && byte != b'>');
+                (blank, last) = (false, byte);
+            }
             _ => return Err(stranger(line)),
         }
     }

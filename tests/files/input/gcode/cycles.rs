@@ -2,14 +2,14 @@
 
 use motion_rtl::input::gcode::read;
 
-use crate::input::common::{accept, moves, refuse};
+use crate::input::common::{accept, moves, refuse, warnings};
 
 #[test]
 fn holes_and_their_moves() {
     let cases: &[(&str, &[&str])] = &[
         // Back to where Z was, then to R alone.
         (
-            "F60 G0 Z5\nG81 X1 R2 Z-3\nX2",
+            "F60 G98 G0 Z5\nG81 X1 R2 Z-3\nX2",
             &[
                 "rapid to 0 0 5",
                 "rapid to 1 0 5",
@@ -73,7 +73,7 @@ fn holes_and_their_moves() {
         ),
         // Repeated in steps; R from where Z was, Z from R.
         (
-            "F60 G0 Z4\nG91 G81 X1 R-3 Z-2 L2",
+            "F60 G0 Z4\nG98 G91 G81 X1 R-3 Z-2 L2",
             &[
                 "rapid to 0 0 4",
                 "rapid to 1 0 4",
@@ -88,10 +88,26 @@ fn holes_and_their_moves() {
                 "rapid to 2 0 4",
             ],
         ),
+        // Without G98 or G99 to R, as LinuxCNC.
+        (
+            "F60 G0 Z5\nG81 X1 R2 Z-3\nG80 G0 X[#<_retract_r_plane> * 9]",
+            &[
+                "rapid to 0 0 5",
+                "rapid to 1 0 5",
+                "rapid to 1 0 2",
+                "line to 1 0 -3 F60",
+                "rapid to 1 0 2",
+                "rapid to 9 0 2",
+            ],
+        ),
     ];
     for (text, expected) in cases {
         assert_eq!(moves(&accept(read, text)), *expected, "{text}");
     }
+    let told = "t:2: neither G98 nor G99: the cycle ends at R, as by G99".to_owned();
+    let warned = |text| warnings(&accept(read, text)).contains(&told);
+    assert!(warned("F60 G0 Z5\nG81 X1 R2 Z-3"));
+    assert!(!warned("F60 G99 G0 Z5\nG81 X1 R2 Z-3"));
 }
 
 #[test]

@@ -55,12 +55,68 @@ fn offsets_and_where_they_lead() {
                 "rapid to 5 0 0",
             ],
         ),
+        // G28.1 and G30.1 keep the place before the move of their line.
+        (
+            "G0 X3\nG28.1 X7\nX20\nG28",
+            &[
+                "rapid to 3 0 0",
+                "rapid to 7 0 0",
+                "rapid to 20 0 0",
+                "rapid to 3 0 0",
+            ],
+        ),
+        ("F60 G1 G30.1 X1", &["line to 1 0 0 F60"]),
+        // A letter alone goes to the reference point straight, wherever the zero is.
+        (
+            "G0 X5\nG92 X8\nG28 X",
+            &["rapid to 5 0 0", "rapid to 0 0 0"],
+        ),
     ];
     for (text, expected) in cases {
         assert_eq!(moves(&accept(read, text)), *expected, "{text}");
     }
+    let none = refuse(read, "G28.1 X1");
+    assert!(none.starts_with("t:1: X, Y, Z: no G0"), "{none}");
     assert!(refuse(read, "G10 L2 P10 X1").starts_with("t:1: G10 P: "));
     assert!(refuse(read, "G52 G1 X1").starts_with("t:1: G52: together with a motion"));
+}
+
+#[test]
+fn tool_lengths_shift_the_path() {
+    // As rs274 of LinuxCNC has them.
+    let cases: &[(&str, &[&str])] = &[
+        (
+            "G0 Z5\nG43.1 Z2.5\nG0 Z5\nG91 Z1\nG90 G53 Z0\nZ1\nG49\nZ1",
+            &[
+                "rapid to 0 0 5",
+                "rapid to 0 0 7.5",
+                "rapid to 0 0 8.5",
+                "rapid to 0 0 0",
+                "rapid to 0 0 3.5",
+                "rapid to 0 0 1",
+            ],
+        ),
+        ("G43.1 Z1\nG43.1 X2\nG0 X0 Z0", &["rapid to 2 0 1"]),
+        ("G91 G43.1 Z1\nG43.1 Z1\nG90 G0 Z0", &["rapid to 0 0 1"]),
+        ("G20 G43.1 Z1\nG21 G0 Z0", &["rapid to 0 0 25.4"]),
+        ("G43.1 X1 Y2\nG92 X0\nG0 X0 Y0", &["rapid to 0 2 0"]),
+        ("G43.1 X1\nG92\nG0 X1 Y1", &["rapid to 1 1 0"]),
+        ("G43.1 Y2\nG10 L20 P1 Y9\nG49\nG0 Y0", &["rapid to 0 -11 0"]),
+        (
+            "G0 Z1\nG43.1 Z3\nG92 Z0\nG49\nG0 Z0",
+            &["rapid to 0 0 1", "rapid to 0 0 -2"],
+        ),
+        ("G43.1 Z4\nG43 H0\nG0 Z1", &["rapid to 0 0 1"]),
+        ("M70\nG43.1 Z2\nM72\nG0 Z1", &["rapid to 0 0 1"]),
+        (
+            "G10 L1 P1 Z5\nG10 L1 P1 X3\nG43 H1\nG0 X1 Z1\nG43.2 H1\nX1 Z1\nG44 H1\nX1 Z1",
+            &["rapid to 4 0 6", "rapid to 7 0 11", "rapid to -2 0 -4"],
+        ),
+        ("G43.1 Z4\nG0 X#5403 Z[#5422]", &["rapid to 4 0 0"]),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(moves(&accept(read, text)), *expected, "{text}");
+    }
 }
 
 #[test]

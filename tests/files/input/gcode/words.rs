@@ -30,14 +30,18 @@ const NOTHING: &[(&str, &[&str])] = &[
     ("G1 E5", &["E"]),
     ("G92 E0", &["E"]),
     ("G1 A0 C0", &["A", "C"]),
-    ("D1 H2", &["H", "D"]),
-    ("$H", &["$"]),
+    ("D1 H0", &["H", "D"]),
+    ("$110=500", &["$"]),
+    ("$$", &["$"]),
+    ("M201 X500 Y500 E5000", &["M201"]),
+    ("M201X500E5000", &["M201"]),
+    ("M67 E0 Q5", &["M67"]),
     ("/ G90", &["/"]),
     ("G61.1", &["G61.1"]),
     ("G43 H1", &["G43"]),
-    ("G43.1 Z5", &["G43.1"]),
     ("G64 P0.02 Q0.1", &["G64"]),
-    ("G10 L1 P1 Z5", &["G10 tool table"]),
+    ("G10 L1 P1 R5", &["G10 tool table"]),
+    ("G10 L10 P1 Z5", &["G10 tool table"]),
     ("G10", &["G10"]),
     ("G11", &["G11"]),
     ("G29", &["G29"]),
@@ -96,6 +100,35 @@ fn what_may_change_the_path_is_refused() {
         ("G1 A5", "A"),
         ("G1 U1", "U"),
         ("G53 G2 X2 I1", "G53"),
+        ("G1 X2 H1", "H"),
+        ("$H", "$H"),
+        ("$J=G91 X10 F100", "$J=G91 X10 F100"),
+        ("$SD/Run=a.nc", "$SD/Run=a.nc"),
+        ("X2 M106 S9", "X"),
+        ("M207 Z1", "Z"),
+        ("M240 X5", "X"),
+        ("M28 a", "M28"),
+        ("M121", "M121"),
+        ("M402", "M402"),
+        ("M524", "M524"),
+        ("M99 P10", "P"),
+        ("G83 X1 Z-1 R1 Q1 M67 E0", "Q"),
+        ("F60 G2 X2 I1 P2 M62", "P"),
+        ("F60 G81 X1 Z-1 R1 I1", "I"),
+        ("F60 G81 X1 Z-1 R1 Q1", "Q"),
+        ("G28 R3", "R"),
+        ("G30 P3", "P"),
+        ("G43.1 H1", "H"),
+        ("G43.1 Z1 I2", "I"),
+        ("G0 G43.1 Z1", "G43.1"),
+        ("G43 G49", "G49"),
+        ("G10 L10 P1 Z1\nG43 H1", "H"),
+        ("G10 L1 P1 Z1\nG43", "G43"),
+        ("M70\nM71\nM72", "M72"),
+        ("G43.1 Z2\nM70\nG49\nM72", "M72"),
+        ("SET_KINEMATIC_POSITION X=0", "SET_KINEMATIC_POSITI..."),
+        ("SET_SKEW XY=140", "SET_SKEW"),
+        ("EXCLUDE_OBJECT NAME=a", "EXCLUDE_OBJECT"),
         ("START_PRINT BED=60", "START_PRINT"),
         ("SET_GCODE_OFFSET Z=1", "SET_GCODE_OFFSET"),
         ("Q1", "Q"),
@@ -103,7 +136,81 @@ fn what_may_change_the_path_is_refused() {
         ("F0", "F"),
     ] {
         let refused = refuse(read, &format!("G0 X1\n{line}"));
-        assert!(refused.starts_with(&format!("t:2: {field}: ")), "{refused}");
+        let last = line.lines().count() + 1;
+        let expected = format!("t:{last}: {field}: ");
+        assert!(refused.starts_with(&expected), "{refused}");
+    }
+}
+
+#[test]
+fn axis_words_beside_m_words_move() {
+    // As rs274 of LinuxCNC does; printers' words keep theirs.
+    for (text, expected) in [
+        (
+            "G0 X1\nX5 M67 E0 Q5",
+            &["rapid to 1 0 0", "rapid to 5 0 0"][..],
+        ),
+        ("G0 X1\nM19 R90 X5", &["rapid to 1 0 0", "rapid to 5 0 0"]),
+        ("G0 X1\nX5 M50 P1", &["rapid to 1 0 0", "rapid to 5 0 0"]),
+        ("G0 X1\nM92 X80 Y80", &["rapid to 1 0 0"]),
+        (
+            "F60 G0 Z5\nG81 X1 Z-1 R2\nG80\nG81 X2 Z-1 R4 M62 P0",
+            &[
+                "rapid to 0 0 5",
+                "rapid to 1 0 5",
+                "rapid to 1 0 2",
+                "line to 1 0 -1 F60",
+                "rapid to 1 0 2",
+                "rapid to 1 0 4",
+                "rapid to 2 0 4",
+                "line to 2 0 -1 F60",
+                "rapid to 2 0 4",
+            ],
+        ),
+    ] {
+        assert_eq!(moves(&accept(read, text)), expected, "{text}");
+    }
+}
+
+#[test]
+fn an_exponent_is_read_whole_or_refused() {
+    // In brackets and behind `=` no axis E can stand, nor twice in a line.
+    for (text, expected) in [
+        ("G0 X[1e1] Y[2.5E-1*4]", "rapid to 10 1 0"),
+        ("#1=1.5e+1\nG0 X#1", "rapid to 15 0 0"),
+        ("G0 X2.5e1 Y1 E0.5", "rapid to 25 1 0"),
+        ("G0 X-1E-1Y2e0", "rapid to -0.1 2 0"),
+        ("G0 X1 E5E-2", "rapid to 1 0 0"),
+        // An axis: a blank, a comment, a decimal number, a value that no exponent has.
+        ("G0 X1 Y2 E3", "rapid to 1 2 0"),
+        ("G0X1Y2(a)E3", "rapid to 1 2 0"),
+        ("G0X1Y2E3.5", "rapid to 1 2 0"),
+        ("G0X1Y2E-.5", "rapid to 1 2 0"),
+        ("G0X1Y2E[3]", "rapid to 1 2 0"),
+        ("G92E0\nG0X1Y0E3", "rapid to 1 0 0"),
+        ("G1E5X1", "line to 1 0 0"),
+        ("#<a1 e5>=7\nG0 X#<a1e5>", "rapid to 7 0 0"),
+        ("#1=1\nG0 X#1E3", "rapid to 1 0 0"),
+        ("G0 X[1 EQ 1]", "rapid to 1 0 0"),
+    ] {
+        assert_eq!(moves(&accept(read, text)), [expected], "{text}");
+    }
+    for (text, fault) in [
+        (
+            "G0 X-2.2e-16 Y5",
+            "t:1: X: -2.2E-16: an exponent, or an axis E; allowed: X-2.2 E-16, or a number \
+             without an exponent",
+        ),
+        ("G2 X5 I2.5 J1.2e-15", "t:1: J: 1.2E-15: an exponent"),
+        ("G1 X5 F3000E-5", "t:1: F: 3000E-5: an exponent"),
+        ("G1 X1E5", "t:1: X: 1E5: an exponent"),
+        ("G0 X[1 E5]", "t:1: expression: no operator at 'E5]'"),
+        ("G0 X[1e]", "t:1: expression: no operator at 'E]'"),
+        ("G0 X1e", "t:1: E: a letter without its number"),
+        ("#[1e0]=5\n#1e0=5", "t:2: #1: without ="),
+    ] {
+        let refused = refuse(read, text);
+        assert!(refused.starts_with(fault), "{text}: {refused}");
     }
 }
 
