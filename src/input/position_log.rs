@@ -3,15 +3,20 @@
 //! ```text
 //! time,   leftEncoder,   rightEncoder        a header is optional
 //! 7170,   0,             0
-//! 7175,   12,            11                  times rise, counts are whole
+//! 7175,   12,            11                  times do not fall, counts are whole
 //! ```
 //!
 //! Fields stand between commas. Blank lines and lines that begin with `#` are skipped. What column
-//! has what [`Columns`] says, or else the log itself: see there.
+//! has what [`Columns`] says, or else the log itself: see there. Times are in the unit that
+//! [`Columns::time_unit_s`] gives, else in the one that the header has, as in `Time [s]` or
+//! `time_ms`, else in the one of s, ms, us and ns in which the median step between two times lies
+//! between 10 us and 1 s. Of equal times the last count holds.
 
 mod columns;
+mod times;
 
 pub use columns::{Columns, Place};
+pub use times::{Unit, UnitFrom};
 
 use super::{Fault, Faults, LARGEST_FILE, read_bytes};
 use columns::Survey;
@@ -19,6 +24,7 @@ use csv::{ByteRecord, Reader, ReaderBuilder, Trim};
 use std::iter;
 use std::ops::RangeInclusive;
 use std::path::Path;
+use times::{Time, unit_by_steps, unit_of};
 
 /// Counts that are accepted.
 pub const COUNTS_RANGE: RangeInclusive<i64> = -(1 << 31)..=1 << 31;
@@ -44,9 +50,11 @@ pub struct PositionLog {
     pub file: String,
     /// The column that the times are from.
     pub time: Place,
+    /// The unit that the times are in.
+    pub unit: Unit,
     /// The column that the counts are from.
     pub counts: Place,
-    /// The samples, two or more, in the order of time.
+    /// The samples, two or more, at times that rise.
     pub samples: Vec<Sample>,
 }
 
@@ -106,8 +114,8 @@ pub fn read_path(path: &Path, columns: &Columns) -> Result<PositionLog, Fault> {
 /// # Errors
 ///
 /// A text that is not UTF-8, a column that is not there or cannot be what it is to be, a field that
-/// is no number, a count outside [`COUNTS_RANGE`], a time that does not rise, fewer than two samples
-/// or more than [`MOST_SAMPLES`].
+/// is no number, a count outside [`COUNTS_RANGE`], a time that falls, times whose unit is not known,
+/// fewer than two samples at different times or more than [`MOST_SAMPLES`].
 pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, Fault> {
     let log = Log { file: name, text };
     log.check_text()?;
@@ -127,14 +135,20 @@ pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, F
     let mut samples: Vec<Sample> = Vec::new();
     let mut faults = Faults::default();
     let mut sample = |line, fields: &[&str], samples: &mut Vec<Sample>| {
-        let at = log.number(line, &time, fields)?;
-        let seconds = (at - *first.get_or_insert(at)) * columns.time_unit_s;
+        let at = log.time(line, &time, fields)?;
+        // In the unit of the log, which its steps may say.
+        let since = at.since(*first.get_or_insert(at));
         let counts = log.counts(line, &counts, fields)?;
-        if let Some(before) = samples.last()
-            && !(seconds > before.seconds && seconds.is_finite())
-        {
-            let problem = format!("{at} does not rise above line {}", before.line);
-            return Err(log.fault_at(line, &time, problem, "times that rise"));
+        if let Some(before) = samples.last_mut() {
+            if since < before.seconds || !since.is_finite() {
+                let written = log.field(line, &time, fields)?;
+                let problem = format!("{written} falls below line {}", before.line);
+                return Err(log.fault_at(line, &time, problem, "times that do not fall"));
+            }
+            if since == before.seconds {
+                (before.counts, before.line) = (counts, line);
+                return Ok(());
+            }
         }
         if samples.len() == MOST_SAMPLES {
             let problem = format!("more than {MOST_SAMPLES} samples");
@@ -142,7 +156,7 @@ pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, F
             return Err(log.fault(line, "file", problem, &allowed));
         }
         samples.push(Sample {
-            seconds,
+            seconds: since,
             counts,
             line,
         });
@@ -161,9 +175,14 @@ pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, F
         if samples.len() < 2 {
             return Err(log.too_short(samples.len()));
         }
+        let unit = log.unit(columns, &survey, &time, &samples)?;
+        for sample in &mut samples {
+            sample.seconds = unit.seconds_of(sample.seconds);
+        }
         Ok(PositionLog {
             file: name.to_owned(),
             time,
+            unit,
             counts,
             samples,
         })
@@ -255,22 +274,60 @@ impl Log<'_> {
         })
     }
 
-    fn number(&self, line: usize, place: &Place, fields: &[&str]) -> Result<f64, Fault> {
+    fn time(&self, line: usize, place: &Place, fields: &[&str]) -> Result<Time, Fault> {
         let field = self.field(line, place, fields)?;
-        let number = field.parse().ok().filter(|number: &f64| number.is_finite());
-        number.ok_or_else(|| self.fault_at(line, place, format!("is '{field}'"), "a number"))
+        let time = Time::read(field);
+        time.ok_or_else(|| self.fault_at(line, place, format!("is '{field}'"), "a number"))
+    }
+
+    /// The unit of the times, given the samples at times in it.
+    fn unit(
+        &self,
+        columns: &Columns,
+        survey: &Survey,
+        time: &Place,
+        samples: &[Sample],
+    ) -> Result<Unit, Fault> {
+        if let Some(seconds) = columns.time_unit_s {
+            let from = UnitFrom::Given;
+            return Ok(Unit { seconds, from });
+        }
+        let allowed = "a unit in the header, as in time_ms, or by log_time_unit_ms";
+        let refuse = |problem: String| self.fault(survey.line(), &time.name, problem, allowed);
+        match survey.name(time.index).map_or(Ok(None), unit_of) {
+            Ok(Some(unit)) => return Ok(unit),
+            Ok(None) => {}
+            Err(unit) => return Err(refuse(format!("is in '{unit}', which is no unit of time"))),
+        }
+        let steps = samples.windows(2);
+        let mut steps: Vec<f64> = steps.map(|two| two[1].seconds - two[0].seconds).collect();
+        unit_by_steps(&mut steps).map_err(|(median, units)| {
+            refuse(match units.is_empty() {
+                true => format!("without a unit, and its median step, {median}, is of none"),
+                false => format!(
+                    "without a unit, and its median step may be {}",
+                    units.join(" or ")
+                ),
+            })
+        })
     }
 
     fn counts(&self, line: usize, place: &Place, fields: &[&str]) -> Result<i64, Fault> {
         let field = self.field(line, place, fields)?;
-        let number = field.parse().ok();
-        let counts = number.filter(|number| COUNTS_RANGE.contains(number));
-        counts.ok_or_else(|| {
+        whole(field).ok_or_else(|| {
             let (least, most) = (COUNTS_RANGE.start(), COUNTS_RANGE.end());
             let allowed = format!("a whole number, {least} to {most}");
             self.fault_at(line, place, format!("is '{field}'"), &allowed)
         })
     }
+}
+
+/// Counts: a whole number in range, which may be written as 12.0.
+fn whole(field: &str) -> Option<i64> {
+    let number: f64 = field.parse().ok()?;
+    let whole = number.fract() == 0.0 && number.abs() <= i64::MAX as f64;
+    let counts = whole.then_some(number as i64);
+    counts.filter(|counts| COUNTS_RANGE.contains(counts))
 }
 
 /// The line a record begins in. What it was read from begins with what was skipped before it.
@@ -285,127 +342,4 @@ fn line_of(text: &[u8], record: &ByteRecord) -> usize {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn accept(text: &str) -> PositionLog {
-        read("l.csv", text.as_bytes(), &Columns::default()).unwrap()
-    }
-
-    fn refuse(text: &str, columns: &Columns) -> String {
-        read("l.csv", text.as_bytes(), columns)
-            .unwrap_err()
-            .to_string()
-    }
-
-    /// Counts and lines of the samples.
-    fn samples(log: &PositionLog) -> Vec<(i64, usize)> {
-        let of = |sample: &Sample| (sample.counts, sample.line);
-        log.samples.iter().map(of).collect()
-    }
-
-    #[test]
-    fn a_log_is_read_with_header_and_without() {
-        let plain = accept("7170,0\n7175,12\n7180,-30\n");
-        assert_eq!(samples(&plain), [(0, 1), (12, 2), (-30, 3)]);
-        let seconds: Vec<f64> = plain.samples.iter().map(|s| s.seconds).collect();
-        assert_eq!(seconds, [0.0, 0.005, 0.01]);
-        assert_eq!(plain.seconds(), 0.01);
-
-        let text = "\u{feff}time,   left\r\n# rest\r\n\r\n 7170,   0 \r\n\n7175,\t12,9\r\n  \n\
-                    #\n7180,\"-30\"";
-        let log = accept(text);
-        assert_eq!(samples(&log), [(0, 4), (12, 6), (-30, 9)]);
-        let bare = |log: &PositionLog| log.samples.iter().map(|s| s.seconds).collect::<Vec<_>>();
-        assert_eq!(bare(&log), bare(&plain));
-    }
-
-    #[test]
-    fn positions_are_interpolated() {
-        let log = accept("0,0\n10,40\n20,-60\n");
-        for (ms, position) in [
-            (-5.0, 0.0),
-            (0.0, 0.0),
-            (2.5, 10.0),
-            (10.0, 40.0),
-            (15.0, -10.0),
-            (20.0, -60.0),
-            (99.0, -60.0),
-        ] {
-            let seen = log.position_at(ms * 1e-3);
-            assert!((seen - position).abs() < 1e-9, "{ms}: {seen}");
-        }
-        let (speed, line) = log.fastest();
-        assert!((speed - 1e4).abs() < 1e-6);
-        assert_eq!(line, 3);
-    }
-
-    #[test]
-    fn what_cannot_be_used_is_refused_with_its_line() {
-        let none = Columns::default();
-        let cases = [
-            (
-                "",
-                "l.csv: file: 0 samples in it; allowed: a log of 2 samples or more",
-            ),
-            (
-                "t,c\n1,2\n",
-                "l.csv: file: 1 samples in it; allowed: a log of 2 samples or more",
-            ),
-            (
-                "7\n8\n",
-                "l.csv:1: file: only one column; allowed: a column of times and one of \
-              counts, with a comma between them",
-            ),
-            (
-                "1,x\n",
-                "l.csv:1: counts (column 2): is 'x'; allowed: a whole number, -2147483648 to 2147483648",
-            ),
-            (
-                "t,c\n1,2\n\n2,3.5\n",
-                "l.csv:4: c: is '3.5'; allowed: a whole number, -2147483648 to \
-              2147483648",
-            ),
-            (
-                "1,2\n2,2147483649\n",
-                "l.csv:2: counts (column 2): is '2147483649'; allowed: a whole number, \
-              -2147483648 to 2147483648",
-            ),
-            (
-                "t,c\n1,2\n#\nnan,3\n",
-                "l.csv:4: t: is 'nan'; allowed: a number",
-            ),
-            (
-                "1,2\n2\n",
-                "l.csv:2: counts (column 2): the line has only 1 of its fields; allowed: a number",
-            ),
-            (
-                "1,2\n2,3\n2,4\n",
-                "l.csv:3: time (column 1): 2 does not rise above line 2; allowed: times that \
-              rise",
-            ),
-        ];
-        for (text, message) in cases {
-            assert_eq!(refuse(text, &none), message, "{text:?}");
-        }
-        let fault = read("l.csv", b"1,2\n2,\xff\n", &none).unwrap_err();
-        assert_eq!(
-            fault.to_string(),
-            "l.csv:2: file: not UTF-8; allowed: a position log in CSV"
-        );
-        let fault = read_path(Path::new("/nowhere/l.csv"), &none).unwrap_err();
-        assert_eq!(fault.allowed, "a readable file");
-    }
-
-    #[test]
-    fn there_is_a_most_of_samples() {
-        let mut text = String::new();
-        for k in 0..=MOST_SAMPLES {
-            text.push_str(&format!("{k},1\n"));
-        }
-        assert_eq!(
-            refuse(&text, &Columns::default()),
-            "l.csv:4000001: file: more than 4000000 samples; allowed: at most 4000000"
-        );
-    }
-}
+mod tests;

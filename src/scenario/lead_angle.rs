@@ -22,9 +22,8 @@ pub struct Scenario {
     pub log_column: Option<String>,
     /// Column of the log that has the times.
     pub log_time_column: Option<String>,
-    /// Unit of the log's times.
-    #[serde(default = "default::log_time_unit")]
-    pub log_time_unit_ms: f64,
+    /// Unit of the log's times; without it the log says the unit.
+    pub log_time_unit_ms: Option<f64>,
     /// Reference clock in Hz.
     #[serde(default = "default::clock_hz")]
     pub clock_hz: u64,
@@ -246,23 +245,20 @@ impl Scenario {
         Columns {
             time: self.log_time_column.clone(),
             counts: self.log_column.clone(),
-            time_unit_s: self.log_time_unit_ms / 1e3,
+            time_unit_s: self.log_time_unit_ms.map(|ms| ms / 1e3),
         }
     }
 }
 
 /// What a key is worth that is not given: what the settings are by default.
 mod default {
-    use super::{BodyParameters, Columns, Settings};
+    use super::{BodyParameters, Settings};
 
     fn settings() -> Settings {
         Settings::default()
     }
     fn body() -> BodyParameters {
         BodyParameters::default()
-    }
-    pub(super) fn log_time_unit() -> f64 {
-        Columns::default().time_unit_s * 1e3
     }
     pub(super) fn load_factor() -> f64 {
         1.0

@@ -140,7 +140,7 @@ fn all_faults_of_a_log_are_told() {
               |
             3 | 1,x
               |   ^
-            error: l.csv:5: time: 0.5 does not rise above line 4; allowed: times that rise
+            error: l.csv:5: time: 0.5 falls below line 4; allowed: times that do not fall
               |
             5 | 0.5,3
               | ^^^

@@ -30,9 +30,16 @@ fn an_index_and_fractions_are_not_taken_for_counts() {
             (signal["position_after"].as_f64().unwrap() - 1000.0).abs() < 2.0,
             "{signal}"
         );
+        assert_eq!(summary["time_unit"], "ms");
+        let from = if time == "ms" {
+            "header"
+        } else {
+            "median step"
+        };
+        assert_eq!(summary["time_unit_from"], from);
         let text = bench.succeed(&run);
         let said = format!(
-            "\ntimes from {time}, counts from {counts}, the first that fits; --set \
+            "\ntimes from {time} in ms, by {from}; counts from {counts}, the first that fits; --set \
              log_column=NAME takes another\n"
         );
         assert!(text.contains(&said), "{text}");
@@ -44,13 +51,13 @@ fn a_column_that_is_asked_for_is_taken_or_refused_by_name() {
     let bench = Bench::with("l.csv", log("n,time,mm,counts\n"));
     let text = bench.succeed(&["run", "l.csv", "--no-vcd"]);
     assert!(
-        text.contains("\ntimes from time, counts from counts\n"),
+        text.contains("\ntimes from time in ms, by median step; counts from counts\n"),
         "{text}"
     );
     let run = |column: &'static str| ["run", "l.csv", "--no-vcd", "--set", column];
     let text = bench.succeed(&run("log_column=n"));
     assert!(
-        text.contains("\ntimes from time, counts from n\n"),
+        text.contains("\ntimes from time in ms, by median step; counts from n\n"),
         "{text}"
     );
     bench.refuse(
@@ -68,7 +75,8 @@ fn a_column_that_is_asked_for_is_taken_or_refused_by_name() {
     assert_eq!(json["counts_column"], "counts (column 2)");
     bench.refuse(
         &run("log_column=\"3\""),
-        "l.csv:2: counts (column 3): 1800000 counts/s since the sample before; allowed: up to \
+        "l.csv:2: counts (column 3): 1800000 counts/s since the sample before, with times in ms \
+         (log_time_unit_ms); allowed: up to \
          1000000, one count per tick",
     );
 }

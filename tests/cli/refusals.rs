@@ -155,10 +155,10 @@ fn a_path_that_takes_too_long_is_refused() {
 
 #[test]
 fn a_run_of_more_ticks_than_can_be_counted_is_refused() {
-    let bench = Bench::with("log.csv", "t,x\n0,0\n1e30,10\n");
+    let bench = Bench::with("log.csv", "t_ms,x\n0,0\n1e30,10\n");
     bench.refuse(
         &["run", "log.csv", "--no-vcd"],
-        "log.csv:3: t: is 1000000000000000000000000000 s after the first; allowed: less than \
+        "log.csv:3: t_ms: is 1000000000000000000000000000 s after the first; allowed: less than \
          18446744073710 s, 2^64 ticks of 1000000 Hz",
     );
     // Some 600 ways of 2 * 10^9 counts, each at a count per scan of 2^24 ticks.

@@ -34,8 +34,9 @@ impl Job {
     pub fn prepare(source: Source, settings: Settings, columns: &Columns) -> Result<Self, Failure> {
         let loaded = &source.loaded;
         let refuse = |error| loaded.refuse(error);
-        let time_unit_ms = columns.time_unit_s * 1e3;
-        within("log_time_unit_ms", time_unit_ms, &TIME_UNITS_MS).map_err(refuse)?;
+        if let Some(seconds) = columns.time_unit_s {
+            within("log_time_unit_ms", seconds * 1e3, &TIME_UNITS_MS).map_err(refuse)?;
+        }
         let log = source.log(columns)?;
         if let Some(log) = &log {
             check_log(loaded, log, &settings)?;
@@ -116,7 +117,11 @@ fn check_log(loaded: &Loaded, log: &PositionLog, settings: &Settings) -> Result<
     let (speed, line) = log.fastest();
     let fastest = settings.followed_counts_per_s();
     if speed > fastest {
-        let problem = format!("{speed:.0} counts/s since the sample before");
+        let unit = &log.unit;
+        let problem = format!(
+            "{speed:.0} counts/s since the sample before, with times in {unit} \
+             (log_time_unit_ms)"
+        );
         let allowed = match settings.detector {
             Detector::Incremental => format!("up to {fastest}, one count per tick"),
             Detector::Absolute => format!("up to {fastest:.0}, a quarter of a turn per CK"),

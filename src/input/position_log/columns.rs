@@ -1,35 +1,25 @@
 //! Which columns of a log have the times and the counts.
 
-use super::{COUNTS_RANGE, Log};
+use super::{Log, whole};
 use crate::input::Fault;
 
 /// What to take from a log.
 ///
 /// A column is given by its name, or by its number from 1. Without one, the times are in the column
 /// `time` and the counts in the column `counts`. Where there is no such column, the log is looked
-/// through: times rise from line to line, counts are whole numbers, and neither is an index, a column
-/// that rises by one from line to line or one without a name among named ones, if there is another.
-/// Of what is left the first is taken, the counts on the right of the times; on their left only
-/// if one of the two is given or called so.
-#[derive(Debug, Clone, PartialEq)]
+/// through: times rise from line to line or at least do not fall, counts are whole numbers, written
+/// without a point if there are such, and neither is an index, a column that rises by one from line
+/// to line or one without a name among named ones, if there is another. Of what is left the first is
+/// taken, the counts on the right of the times; on their left only if one of the two is given or
+/// called so.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Columns {
     /// The column of times.
     pub time: Option<String>,
     /// The column of counts.
     pub counts: Option<String>,
-    /// Seconds in a unit of time.
-    pub time_unit_s: f64,
-}
-
-impl Default for Columns {
-    /// The default columns, time in milliseconds.
-    fn default() -> Self {
-        Columns {
-            time: None,
-            counts: None,
-            time_unit_s: 1e-3,
-        }
-    }
+    /// Seconds in a unit of time; without it the log says the unit.
+    pub time_unit_s: Option<f64>,
 }
 
 /// A column of a log.
@@ -49,38 +39,54 @@ const MOST_LOOKED_THROUGH: usize = 256;
 /// What a column has in all lines.
 #[derive(Debug, Clone, Copy)]
 struct Column {
+    first: Option<f64>,
     last: Option<f64>,
     /// Finite numbers.
     numeric: bool,
     /// Whole numbers in range.
     whole: bool,
-    rises: bool,
+    /// Written without a point.
+    plain: bool,
+    falls: bool,
+    /// A number is equal to the one before.
+    stands: bool,
     /// Every number is one above the one before.
     by_ones: bool,
 }
 
 impl Column {
     const EMPTY: Self = Column {
+        first: None,
         last: None,
         numeric: true,
         whole: true,
-        rises: true,
+        plain: true,
+        falls: false,
+        stands: false,
         by_ones: true,
     };
 
     fn add(&mut self, field: Option<&&str>) {
         let number = field.and_then(|field| field.parse::<f64>().ok());
         let Some(number) = number.filter(|number| number.is_finite()) else {
-            (self.numeric, self.whole) = (false, false);
+            (self.numeric, self.whole, self.plain) = (false, false, false);
             return;
         };
-        // As the counts are read: without a point or an exponent.
-        let counts = field.and_then(|field| field.parse::<i64>().ok());
-        self.whole &= counts.is_some_and(|counts| COUNTS_RANGE.contains(&counts));
+        self.whole &= field.is_some_and(|field| whole(field).is_some());
+        self.plain &= field.is_some_and(|field| field.parse::<i64>().is_ok());
+        self.first.get_or_insert(number);
         if let Some(last) = self.last.replace(number) {
-            self.rises &= number > last;
+            self.falls |= number < last;
+            self.stands |= number == last;
             self.by_ones &= number == last + 1.0;
         }
+    }
+}
+
+impl Column {
+    /// Times as they may be: of a coarse clock some are equal.
+    fn rises(&self) -> bool {
+        self.numeric && !self.falls && self.first < self.last
     }
 }
 
@@ -120,7 +126,13 @@ impl Survey {
         self.header.is_some() && line == self.line
     }
 
-    fn name(&self, index: usize) -> Option<&str> {
+    /// The line of the first record.
+    pub(super) fn line(&self) -> usize {
+        self.line
+    }
+
+    /// The name of a column.
+    pub(super) fn name(&self, index: usize) -> Option<&str> {
         let name = self.header.as_ref()?.get(index)?;
         Some(name.as_str()).filter(|name| !name.is_empty())
     }
@@ -202,7 +214,7 @@ impl Columns {
 fn best(survey: &Survey, time: Option<usize>, counts: Option<usize>) -> (usize, usize) {
     let columns = &survey.columns[..survey.columns.len().min(MOST_LOOKED_THROUGH)];
     let unfit = |time_at: usize, counts_at: usize| {
-        let fit_time = time.is_some() || (columns[time_at].numeric && columns[time_at].rises);
+        let fit_time = time.is_some() || columns[time_at].rises();
         let fit_counts = counts.is_some() || columns[counts_at].whole;
         !(fit_time && fit_counts)
     };
@@ -217,6 +229,8 @@ fn best(survey: &Survey, time: Option<usize>, counts: Option<usize>) -> (usize, 
                 unfit(time_at, counts_at),
                 survey.is_index(counts_at),
                 survey.is_index(time_at),
+                columns[time_at].stands,
+                !columns[counts_at].plain,
                 counts_at < time_at,
                 time_at,
                 counts_at,
@@ -254,21 +268,21 @@ mod tests {
 
     #[test]
     fn columns_are_found_by_name_or_number() {
-        let text = "left, mode, time, counts\n1, 2, 30, 4\n5, 6, 70, 8\n";
+        let text = "left, mode, time, counts\n1, 2, 30, 4\n5, 6, 35, 8\n";
         let read = |columns: &Columns| {
             let log = accept(text, columns);
             let counts: Vec<_> = log.samples.iter().map(|s| s.counts).collect();
             (log.seconds(), counts)
         };
-        assert_eq!(read(&Columns::default()), (0.04, vec![4, 8]));
-        assert_eq!(read(&with("", "left")), (0.04, vec![1, 5]));
+        assert_eq!(read(&Columns::default()), (0.005, vec![4, 8]));
+        assert_eq!(read(&with("", "left")), (0.005, vec![1, 5]));
         assert_eq!(read(&with("left", "mode")), (0.004, vec![2, 6]));
-        assert_eq!(read(&with("3", "1")), (0.04, vec![1, 5]));
+        assert_eq!(read(&with("3", "1")), (0.005, vec![1, 5]));
         let seconds = Columns {
-            time_unit_s: 1.0,
+            time_unit_s: Some(1.0),
             ..with("", "mode")
         };
-        assert_eq!(read(&seconds), (40.0, vec![2, 6]));
+        assert_eq!(read(&seconds), (5.0, vec![2, 6]));
         let plain = accept("1,2,3\n4,5,7\n", &with("2", "3"));
         assert_eq!((plain.time.index, plain.counts.index), (1, 2));
         assert_eq!(plain.counts.name, "counts (column 3)");
@@ -376,12 +390,12 @@ mod tests {
             (
                 "0,5\n9,10\n8,15\n",
                 Columns::default(),
-                "l.csv:3: time (column 1): 8 does not rise above line 2; allowed: times that rise",
+                "l.csv:3: time (column 1): 8 falls below line 2; allowed: times that do not fall",
             ),
             (
                 "left,right\n1,2\n1,2\n",
                 Columns::default(),
-                "l.csv:3: left: 1 does not rise above line 2; allowed: times that rise",
+                "l.csv: file: 1 samples in it; allowed: a log of 2 samples or more",
             ),
         ] {
             assert_eq!(refuse(text, &columns), fault, "{text:?}");

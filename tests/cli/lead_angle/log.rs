@@ -35,7 +35,7 @@ fn the_text_of_a_log_has_its_signals() {
     let text = log().succeed(&["run", "s.toml", "--no-vcd"]);
     expect![[r#"
         log.csv on lead_angle: 501 samples, 500001 ticks, 0.500 s at 1000000 Hz, CK of 100 ticks
-        times from time, counts from right
+        times from time in ms, by median step; counts from right
 
         prediction error in counts   largest       rms
         with the lead                    0.0       0.0
@@ -101,7 +101,8 @@ fn a_log_is_read_and_checked() {
     );
     assert_eq!(
         of("fast"),
-        "error: fast.csv:2: counts (column 2): 2000000 counts/s since the sample before; allowed: up to \
+        "error: fast.csv:3: c: 2000000 counts/s since the sample before, with times in ms \
+         (log_time_unit_ms); allowed: up to \
          1000000, one count per tick\n"
     );
     assert_eq!(

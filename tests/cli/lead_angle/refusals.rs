@@ -16,7 +16,7 @@ pub(super) fn refused(keys: &str) -> String {
     let good = STEPS.replace("39.9", "40");
     let bench = Bench::with("s.toml", format!("circuit = \"lead_angle\"\n{keys}{good}"));
     bench.write("slow.csv", "ms, a, b\n0, 0, 0\n5, 100, 1\n");
-    bench.write("fast.csv", "0,0\n0.001,2\n");
+    bench.write("fast.csv", "ms,c\n0,0\n0.001,2\n");
     bench.write("word.csv", "time,counts\n0,0\n\n5,many\n");
     bench.write("back.csv", "0,0\n5,1\n4,2\n");
     bench.write("short.csv", "time,counts\n0,0\n5\n");

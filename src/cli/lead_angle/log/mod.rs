@@ -10,7 +10,7 @@ use crate::cli::report::{Outcome, conclude};
 use crate::cli::run::{Arguments, Progress};
 use crate::cli::traces::{Traces, no_such_tick};
 use motion_rtl::hdl::{RunError, model_beside};
-use motion_rtl::input::position_log::PositionLog;
+use motion_rtl::input::position_log::{PositionLog, UnitFrom};
 use motion_rtl::jobs::lead_angle::job::positioner;
 use motion_rtl::jobs::lead_angle::replay::{Replayed, Signal, replay, settings_for};
 use motion_rtl::jobs::lead_angle::settings::Settings;
@@ -25,6 +25,9 @@ struct Summary {
     outcome: Outcome,
     /// The columns of the log that were taken.
     time_column: String,
+    /// The unit of the times, and what says so.
+    time_unit: String,
+    time_unit_from: &'static str,
     counts_column: String,
     /// The counts' column was asked for, or is called so.
     #[serde(skip)]
@@ -122,6 +125,12 @@ fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summa
             ..Outcome::new("lead_angle", &log.file, settings.clock_hz, replayed.ticks)
         },
         time_column: log.time.name.clone(),
+        time_unit: log.unit.to_string(),
+        time_unit_from: match log.unit.from {
+            UnitFrom::Given => "log_time_unit_ms",
+            UnitFrom::Header => "header",
+            UnitFrom::Step => "median step",
+        },
         counts_column: log.counts.name.clone(),
         counts_named: log.counts.named,
         samples: log.samples.len(),

@@ -27,8 +27,8 @@ impl Report for Summary {
         };
         writeln!(
             text,
-            "times from {}, counts from {}{others}\n",
-            self.time_column, self.counts_column
+            "times from {} in {}, by {}; counts from {}{others}\n",
+            self.time_column, self.time_unit, self.time_unit_from, self.counts_column
         )?;
         self.predictions(text)?;
         self.signals(text, all)?;
