@@ -19,6 +19,16 @@ pub const IN_POSITION_RANGE: RangeInclusive<u32> = 1..=1_000_000;
 /// not exact in binary.
 const WHOLE: f64 = 1e-9;
 
+/// A number for people, without the rounding of floating point in its last digits; of 12 digits,
+/// or as it is from 10^9 on.
+#[must_use]
+pub fn tidy(value: f64) -> f64 {
+    match value.abs() < 1e9 {
+        true => format!("{value:.11e}").parse().unwrap_or(value),
+        false => value,
+    }
+}
+
 /// Where a setting stands that is not by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
@@ -196,6 +206,18 @@ impl WholeTime {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::path::circle::CircleError;
+
+    #[test]
+    fn rounding_of_floating_point_is_not_shown() {
+        assert_eq!(tidy(99.999_999_999_999_99), 100.0);
+        assert_eq!(tidy(-0.1 - 0.2), -0.3);
+        assert_eq!(tidy(1e9 + 0.01), 1e9 + 0.01);
+        assert!(tidy(f64::NAN).is_nan());
+        let rise = 99.999_999_999_999_99;
+        let error = CircleError::Helix { rise };
+        assert_eq!(error.to_string(), "climbs 100 mm along its axis: a helix");
+    }
 
     #[test]
     fn what_is_refused_is_told_with_its_place() {

@@ -1,6 +1,6 @@
 //! What a circuit is made of, as `list` prints it.
 
-use motion_rtl::hdl::Shape;
+use motion_rtl::hdl::{Kind, Shape};
 use motion_rtl::verilog;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -24,10 +24,13 @@ struct Part {
     outputs: Vec<Signal>,
 }
 
+/// A signal by its name.
 #[derive(Debug, Serialize)]
-struct Signal {
+pub struct Signal {
     name: String,
     width: usize,
+    /// A two's complement word.
+    signed: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -38,15 +41,21 @@ struct Connection {
 }
 
 impl Signal {
-    fn of((name, shape): (String, Shape)) -> Self {
-        let width = shape.width;
-        Signal { name, width }
+    /// A signal of that shape.
+    pub fn of((name, shape): (String, Shape)) -> Self {
+        Signal {
+            name,
+            width: shape.width,
+            signed: shape.kind == Kind::Signed,
+        }
     }
 
-    fn text(&self) -> String {
-        match self.width {
-            1 => self.name.clone(),
-            width => format!("{}[{width}]", self.name),
+    /// The name, with the width of a word.
+    pub fn text(&self) -> String {
+        match (self.width, self.signed) {
+            (width, true) => format!("{}[{width}, signed]", self.name),
+            (1, false) => self.name.clone(),
+            (width, false) => format!("{}[{width}]", self.name),
         }
     }
 }

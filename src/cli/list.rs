@@ -1,7 +1,7 @@
 //! `list`: circuits with ports and widths, and scenarios; or one circuit with its parts.
 
 use super::check::entry;
-use super::connections::Connections;
+use super::connections::{Connections, Signal};
 use super::shipped::SHIPPED;
 use super::{Failure, print, print_json};
 use clap::Args;
@@ -46,9 +46,9 @@ struct Circuit {
 
 #[derive(Debug, Serialize)]
 struct Port {
-    name: String,
-    width: usize,
-    about: &'static str,
+    #[serde(flatten)]
+    signal: Signal,
+    about: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -91,9 +91,8 @@ fn circuit(entry: &Entry) -> Circuit {
     let declarations = entry.declarations();
     let leaves = &declarations.leaves;
     let port = |(name, leaf): (String, &Declaration)| Port {
-        name,
-        width: leaf.shape.width,
-        about: leaf.field.doc.trim(),
+        signal: Signal::of((name, leaf.shape)),
+        about: leaf.field.plain_doc(),
     };
     let own = declarations.own().into_iter();
     let own = own.map(|(index, name)| (name, &leaves[index]));
@@ -150,9 +149,6 @@ fn text(listing: &Listing) -> String {
 }
 
 fn ports(ports: &[Port]) -> String {
-    let port = |port: &Port| match port.width {
-        1 => port.name.clone(),
-        width => format!("{}[{width}]", port.name),
-    };
-    ports.iter().map(port).collect::<Vec<_>>().join(", ")
+    let ports = ports.iter().map(|port| port.signal.text());
+    ports.collect::<Vec<_>>().join(", ")
 }

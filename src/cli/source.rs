@@ -9,6 +9,7 @@ use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::table::read;
 use motion_rtl::plan::{FEED_RANGE, PlanError};
 use motion_rtl::scenario::{Loaded, Runnable, Scenario};
+use motion_rtl::settings::tidy;
 use std::path::{Path, PathBuf};
 
 /// What to run.
@@ -215,7 +216,13 @@ pub fn plan_fault(loaded: &Loaded, drawing: &Drawing, error: PlanError) -> Fault
         PlanError::Feed { line, value } => {
             let (least, most) = (FEED_RANGE.start(), FEED_RANGE.end());
             let allowed = format!("{least} to {most} mm/min");
-            drawing_fault(drawing, line, "F", format!("is {value} mm/min"), allowed)
+            drawing_fault(
+                drawing,
+                line,
+                "F",
+                format!("is {} mm/min", tidy(value)),
+                allowed,
+            )
         }
         PlanError::Coordinate {
             line,
@@ -223,7 +230,8 @@ pub fn plan_fault(loaded: &Loaded, drawing: &Drawing, error: PlanError) -> Fault
             value,
             reach,
         } => {
-            let (problem, allowed) = (format!("is {value} mm"), format!("-{reach} to {reach} mm"));
+            let problem = format!("is {} mm", tidy(value));
+            let allowed = format!("-{reach} to {reach} mm");
             drawing_fault(drawing, line, coordinate, problem, allowed)
         }
         PlanError::Spline { line } => {
@@ -231,7 +239,7 @@ pub fn plan_fault(loaded: &Loaded, drawing: &Drawing, error: PlanError) -> Fault
             drawing_fault(drawing, line, "G5", problem, allowed)
         }
         PlanError::Radius { line, radius_mm } => {
-            let problem = format!("has a radius of {radius_mm} mm");
+            let problem = format!("has a radius of {} mm", tidy(radius_mm));
             drawing_fault(drawing, line, "arc", problem, "a radius above 0".to_owned())
         }
     }

@@ -1,6 +1,6 @@
 //! Times of a scenario that are taken as whole numbers of periods.
 
-use motion_rtl::settings::WholeTime;
+use motion_rtl::settings::{WholeTime, tidy};
 
 /// Says what is taken for a time, which is a number of `period`s and holds `place`, where that is
 /// not the time itself.
@@ -12,9 +12,4 @@ pub fn rounded(time: &WholeTime, period: &str, place: &str) -> Option<String> {
             "{field}: {wanted} ms taken as {taken} ms{place} ({period} of {length} ms × {periods})"
         )
     })
-}
-
-/// Without the rounding of floating point in the last digits.
-fn tidy(ms: f64) -> f64 {
-    format!("{ms:.8e}").parse().unwrap_or(ms)
 }

@@ -181,8 +181,8 @@ impl Declarations {
         self.leaves.iter().enumerate().filter_map(name).collect()
     }
 
-    /// Whether a register or a port in stands in a struct that is neither a memory nor a block, whose
-    /// other signals would stand beside it.
+    /// True if a signal stands in a struct that is neither a memory nor a block, whose signals of
+    /// other roles would stand beside it.
     fn is_bundled(&self, index: usize) -> bool {
         let leaf = &self.leaves[index];
         let is_word = |memory: &MemoryDeclaration| {
@@ -191,9 +191,7 @@ impl Declarations {
         let of_a_block = |other: &Declaration| {
             other.role != leaf.role && other.scopes.starts_with(&leaf.scopes[..])
         };
-        leaf.role != Role::Net
-            && !self.memories.iter().any(is_word)
-            && !self.leaves.iter().any(of_a_block)
+        !self.memories.iter().any(is_word) && !self.leaves.iter().any(of_a_block)
     }
 }
 

@@ -63,6 +63,29 @@ impl Field {
         }
     }
 
+    /// Its doc comment as plain text: in one line, links by their names alone.
+    pub fn plain_doc(&self) -> String {
+        let mut text = String::new();
+        let mut rest = self.doc;
+        while let Some((before, link)) = rest.split_once("[`") {
+            text.push_str(before);
+            let Some((path, behind)) = link.split_once("`]") else {
+                text.push_str("[`");
+                rest = link;
+                continue;
+            };
+            let records = ["In", "Reg", "Net", "Self", "self", "super", "crate"];
+            let names = path.split("::").filter(|name| !records.contains(name));
+            let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+            let names: Vec<&str> = names.iter().rev().map(String::as_str).collect();
+            text.push_str(&names.join(" of "));
+            let target = behind.strip_prefix('(').and_then(|it| it.split_once(')'));
+            rest = target.map_or(behind, |(_, behind)| behind);
+        }
+        text.push_str(rest);
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
     /// The name of element `index` where this field is an array.
     pub fn element(&self, index: usize) -> Cow<'static, str> {
         match self.format {
@@ -90,4 +113,23 @@ pub struct Shape {
     pub kind: Kind,
     /// Width in bits.
     pub width: usize,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_doc_is_one_line_without_links() {
+        let of = |doc| {
+            Field {
+                doc,
+                ..Field::named("f")
+            }
+            .plain_doc()
+        };
+        assert_eq!(of(" By [`GAIN`](state::GAIN);\n two. "), "By `GAIN`; two.");
+        assert_eq!(of("see [`loop::In::gain`]."), "see `gain` of `loop`.");
+        assert_eq!(of("[`a::In`] and x[1], [`b"), "`a` and x[1], [`b");
+    }
 }

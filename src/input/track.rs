@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::{Course, Drawing, Fault, Move, Point, REACH_MM, Warning, ZERO_MM};
+use crate::settings::tidy;
 
 /// The moves read so far and where the last one ended.
 pub(super) struct Track<'a> {
@@ -114,7 +115,7 @@ impl<'a> Track<'a> {
         Err(self.fault(
             line,
             field,
-            format!("{what} would be {mm} mm"),
+            format!("{what} would be {} mm", tidy(mm)),
             format!("-{REACH_MM} to {REACH_MM} mm"),
         ))
     }

@@ -2,6 +2,7 @@
 
 use super::vector::{add, cross, distance, dot, norm, scale, sub, unit};
 use crate::input::{COORDINATES, Point, ZERO_MM};
+use crate::settings::tidy;
 use std::f64::consts::{PI, TAU};
 
 /// Three points are on a line where the middle one is off it by less than this part of the
@@ -37,7 +38,11 @@ pub enum CircleError {
         points: [&'static str; 2],
     },
     /// The three points are on a line.
-    #[error("the point via is only {off} mm off the line from start to end, {chord} mm long")]
+    #[error(
+        "the point via is only {} mm off the line from start to end, {} mm long",
+        tidy(*off),
+        tidy(*chord)
+    )]
     Collinear {
         /// Distance of B from the line through A and C.
         off: f64,
@@ -45,13 +50,13 @@ pub enum CircleError {
         chord: f64,
     },
     /// Start and end are not at the same height along the axis.
-    #[error("climbs {rise} mm along its axis: a helix")]
+    #[error("climbs {} mm along its axis: a helix", tidy(*rise))]
     Helix {
         /// Difference in height of start and end.
         rise: f64,
     },
     /// No centre near the given one has the same radius to both ends.
-    #[error("the radius is {from} mm at the start and {to} mm at the end")]
+    #[error("the radius is {} mm at the start and {} mm at the end", tidy(*from), tidy(*to))]
     Radii {
         /// Distance of the start from the centre.
         from: f64,

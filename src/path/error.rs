@@ -3,6 +3,7 @@
 use super::arm::Pose;
 use super::circle::CircleError;
 use crate::plan::digits::{round_down, round_up};
+use crate::settings::tidy;
 use std::fmt;
 
 /// A piece that cannot be generated.
@@ -38,7 +39,7 @@ pub enum Reason {
     #[error("missing")]
     NoSpeed,
     /// The speed is none.
-    #[error("is {speed} mm/s")]
+    #[error("is {} mm/s", tidy(*speed))]
     Speed {
         /// In mm/s.
         speed: f64,
@@ -69,13 +70,18 @@ pub enum Reason {
     #[error("is a spline along which W moves")]
     Climb,
     /// The arc or spline does not begin or end where the path does.
-    #[error("the curve is {gap} mm off the path's points")]
+    #[error("the curve is {} mm off the path's points", tidy(*gap))]
     Gap {
         /// Distance in mm.
         gap: f64,
     },
     /// A blend would reach farther around the arc than 60°.
-    #[error("at {speed} mm/s a blend reaches {chord} mm along an arc of {radius} mm radius")]
+    #[error(
+        "at {} mm/s a blend reaches {} mm along an arc of {} mm radius",
+        tidy(*speed),
+        tidy(*chord),
+        tidy(*radius)
+    )]
     Tight {
         /// The wanted speed.
         speed: f64,
@@ -87,7 +93,11 @@ pub enum Reason {
         most: f64,
     },
     /// The blends at both ends overlap.
-    #[error("at {speed} mm/s the blends at its ends take more than the piece, {length} mm")]
+    #[error(
+        "at {} mm/s the blends at its ends take more than the piece, {} mm",
+        tidy(*speed),
+        tidy(*length)
+    )]
     Overlap {
         /// The wanted speed.
         speed: f64,
@@ -97,7 +107,7 @@ pub enum Reason {
         most: f64,
     },
     /// The speed is too slow for the fraction that the linear interpolator has of it.
-    #[error("at {speed} mm/s the axis with the longer way goes too few counts in a scan")]
+    #[error("at {} mm/s the axis with the longer way goes too few counts in a scan", tidy(*speed))]
     Slow {
         /// The wanted speed.
         speed: f64,
@@ -105,7 +115,7 @@ pub enum Reason {
         least: f64,
     },
     /// More samples than a record can hold.
-    #[error("takes {samples} samples at {speed} mm/s")]
+    #[error("takes {} samples at {} mm/s", tidy(*samples), tidy(*speed))]
     Samples {
         /// The wanted speed.
         speed: f64,
@@ -125,7 +135,7 @@ pub enum Reason {
         needed: usize,
     },
     /// The arm cannot be in a pose that the piece needs, or is too near to one.
-    #[error("{time_s} s from the start {pose}")]
+    #[error("{} s from the start {pose}", tidy(*time_s))]
     Pose {
         /// When, in seconds.
         time_s: f64,
@@ -133,7 +143,7 @@ pub enum Reason {
         pose: Pose,
     },
     /// The path leaves the plane of two axes.
-    #[error("leaves the plane of x and y by {off} mm")]
+    #[error("leaves the plane of x and y by {} mm", tidy(*off))]
     Plane {
         /// How far, in mm.
         off: f64,

@@ -23,7 +23,7 @@ pub use profile::{Plan, Segment};
 pub use sampler::{Sample, Sampler};
 
 use crate::input::REACH_MM;
-use crate::settings::{SettingError, within};
+use crate::settings::{SettingError, tidy, within};
 
 /// Slowest and fastest feed that is accepted, in mm/min.
 pub const FEED_RANGE: std::ops::RangeInclusive<f64> = 1e-3..=1e7;
@@ -91,7 +91,8 @@ pub enum PlanError {
     Setting(#[from] SettingError),
     /// A move's own feed is outside its range.
     #[error(
-        "line {line}: feed {value} mm/min: allowed are {} to {}",
+        "line {line}: feed {} mm/min: allowed are {} to {}",
+        tidy(*value),
         FEED_RANGE.start(),
         FEED_RANGE.end()
     )]
@@ -102,7 +103,7 @@ pub enum PlanError {
         value: f64,
     },
     /// A coordinate is not a number or out of reach. Line 0 is the start of the drawing.
-    #[error("line {line}: {coordinate} = {value} mm: allowed are -{reach} to {reach}")]
+    #[error("line {line}: {coordinate} = {} mm: allowed are -{reach} to {reach}", tidy(*value))]
     Coordinate {
         /// Line of the input.
         line: usize,
@@ -120,7 +121,7 @@ pub enum PlanError {
         line: usize,
     },
     /// An arc starts or ends at its centre.
-    #[error("line {line}: arc of radius {radius_mm} mm: allowed is any above 0")]
+    #[error("line {line}: arc of radius {} mm: allowed is any above 0", tidy(*radius_mm))]
     Radius {
         /// Line of the input.
         line: usize,

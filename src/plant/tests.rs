@@ -11,6 +11,12 @@ fn servo(parameters: &ServoParameters) -> ServoAxis {
 }
 
 #[test]
+fn the_default_motor_has_a_hundred_thousand_counts_a_second() {
+    let rated = ServoParameters::default().rated_counts_per_s();
+    assert_eq!(rated.round(), 100_000.0);
+}
+
+#[test]
 fn a_step_of_the_reference_is_followed_with_the_time_constant() {
     for velocity_loop_s in [0.002, 0.02] {
         let parameters = ServoParameters {

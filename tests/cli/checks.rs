@@ -168,7 +168,33 @@ fn the_list_has_every_circuit_with_ports_and_widths() {
         assert!(!ports(circuit, "outputs").is_empty(), "{circuit}");
         assert!(!circuit["about"].as_str().unwrap().is_empty());
     }
+    // Signed words, and ports out that stand in a bundle.
+    let interpolator = &find("circular_interpolator")["outputs"];
+    let order: Vec<_> = interpolator.as_array().unwrap().iter().collect();
+    let order = order.iter().filter_map(|port| {
+        let name = port["name"].as_str().unwrap().strip_prefix("next_order.")?;
+        Some((
+            name,
+            port["width"].as_u64().unwrap(),
+            port["signed"] == true,
+        ))
+    });
+    assert_eq!(
+        order.collect::<Vec<_>>(),
+        [
+            ("command", 1, false),
+            ("delta_x", 17, true),
+            ("delta_y", 17, true),
+            ("units", 16, false),
+            ("period", 24, false),
+        ]
+    );
     let text = bench.succeed(&["list"]);
+    assert!(text.contains("next_order.delta_x[17, signed], "), "{text}");
+    for circuit in circuits {
+        let ports = ["inputs", "outputs"].map(|way| circuit[way].to_string());
+        assert!(!ports.concat().contains("[`"), "{circuit}");
+    }
     for name in names {
         assert!(text.contains(&format!("\n  {name} (")), "{name}");
     }
@@ -187,7 +213,7 @@ fn a_circuit_is_listed_with_what_drives_its_parts() {
     assert_eq!(memory["parameters"]["AXIS"], 0);
     let half_period = &connections["parts"][1]["inputs"][0];
     let expected = serde_json::json!({
-        "name": "half_period", "width": 16, "driver": "memory.half_period"
+        "name": "half_period", "width": 16, "signed": false, "driver": "memory.half_period"
     });
     assert_eq!(*half_period, expected);
     assert_eq!(connections["outputs"][0]["driver"], "sync.step");

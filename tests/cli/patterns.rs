@@ -77,6 +77,53 @@ fn stored_patterns_are_chosen_by_command_and_never_rewritten() {
 }
 
 #[test]
+fn a_scaled_ring_closes_where_its_counts_do() {
+    let bench = Bench::new();
+    let waves = concat!(env!("CARGO_MANIFEST_DIR"), "/waves/");
+    let text = std::fs::read_to_string(format!("{waves}patterns.toml")).unwrap();
+    let text = text.replace("table = \"", &format!("table = \"{waves}"));
+    for (scale, ends) in [("1/2", [0, 0]), ("3/2", [2, -1]), ("2", [0, 2])] {
+        let text = text.replace("\"3/2\"", &format!("\"{scale}\""));
+        bench.write("scaled.toml", text);
+        let summary = bench.json(&["run", "scaled.toml", "--no-vcd"]);
+        assert_eq!(summary["patterns"][2]["end_steps"], json!(ends), "{scale}");
+    }
+}
+
+#[test]
+fn the_summary_has_the_axes_in_the_order_of_the_ends() {
+    let axes = ["x", "y", "z", "a", "b"];
+    let columns = axes.map(|axis| format!(",{axis}_half_period_ticks,{axis}_down"));
+    let row = axes.map(|_| ",10,0");
+    let bench = Bench::with("s.toml", ONE);
+    bench.write(
+        "t.csv",
+        format!(
+            "unit,period_ticks{}\n0,100{}\n",
+            columns.concat(),
+            row.concat()
+        ),
+    );
+    for run in [
+        &["run", "s.toml", "--no-vcd"][..],
+        &["run", "s.toml", "--no-vcd", "--json"],
+    ] {
+        let text = bench.succeed(run);
+        let text = text
+            .split_once("axis")
+            .or(text.split_once("\"axes\""))
+            .unwrap()
+            .1;
+        let place = |axis: &str| {
+            let json = text.find(&format!("\"{axis}\""));
+            json.or_else(|| text.find(&format!("\n{axis}    ")))
+                .expect(axis)
+        };
+        assert!(axes.map(place).is_sorted(), "{text}");
+    }
+}
+
+#[test]
 fn a_table_is_played_as_the_drawing_that_it_was_made_from() {
     let bench = Bench::with("l.ngc", "G1 X10 F1200\nG3 X10 Y10 I0 J5\nG1 X0\n");
     bench.write("s.toml", ONE);

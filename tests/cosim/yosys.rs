@@ -11,7 +11,9 @@ use std::path::Path;
 #[track_caller]
 fn yosys(circuit: &dyn AnyModel, script: impl Fn(&str) -> String) -> String {
     let directory = tempfile::tempdir().unwrap();
-    let modules = write(directory.path(), &circuit.verilog().unwrap());
+    let mut modules = write(directory.path(), &circuit.verilog().unwrap());
+    // What Yosys makes depends on the order of the files: that of their names, as of `*.v`.
+    modules.sort();
     let script = script(&modules.join(" "));
     run(directory.path(), "yosys", &["-p", &script])
 }

@@ -9,6 +9,7 @@ use motion_rtl::jobs::linear_interpolator::targets::{
     MOST_TARGETS, REACH_COUNTS, TargetError, Targets, compile,
 };
 use motion_rtl::scenario::Loaded;
+use motion_rtl::settings::tidy;
 
 /// An input ready to be run.
 #[derive(Debug)]
@@ -106,7 +107,8 @@ fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TargetE
         TargetError::Setting(error) => loaded.refuse(error),
         TargetError::Drawing(error) => plan_fault(loaded, drawing, error),
         TargetError::Feed { line, value, most } => {
-            let problem = format!("is {value} mm/min");
+            let problem = format!("is {} mm/min", tidy(value));
+            let most = tidy(most);
             let allowed = format!("up to {most} mm/min: 100 % speed (full_speed_mm_per_min)");
             drawing_fault(drawing, line, "F", problem, allowed)
         }
@@ -118,6 +120,7 @@ fn fault(loaded: &Loaded, drawing: &Drawing, settings: &Settings, error: TargetE
                 Some(step) if !step.rapid => "feed_mm_per_min",
                 _ => "rapid_mm_per_min",
             };
+            let value = tidy(value);
             let problem =
                 format!("at {value} mm/min the master axis goes too few counts in a scan");
             let allowed =

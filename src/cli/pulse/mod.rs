@@ -1,6 +1,7 @@
 //! `run` of the pulse interpolator: its job, waves, summary and picture.
 
 mod beside;
+mod by_axis;
 mod job;
 pub mod patterns;
 mod picture;

@@ -1,17 +1,16 @@
 //! Step rates of each axis in the summary, and what its motor made of them.
 
+use super::by_axis::ByAxis;
 use crate::cli::rows::{fixed, or_dash, table};
-use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::motors::MotorReport;
 use motion_rtl::jobs::pulse_interpolator::rates::step_rates;
 use serde::Serialize;
-use std::collections::BTreeMap;
 use std::fmt;
 
-/// The axes by their names.
-pub type Rows = BTreeMap<&'static str, Row>;
+/// The axes of a run.
+pub type Rows = ByAxis<Row>;
 
 /// Step rates of an axis.
 #[derive(Debug, Serialize)]
@@ -59,7 +58,7 @@ pub fn rows(table: &Table, played: &Played) -> Rows {
         change_unit: rates.change_unit,
         motor: played.motors.get(axis).map(MotorRow::from),
     });
-    AXIS_NAMES.into_iter().zip(rows).collect()
+    rows.collect()
 }
 
 /// The motors that are not where their drivers are.

@@ -2,15 +2,14 @@
 
 use super::Job;
 use super::beside::Row;
+use super::by_axis::ByAxis;
 use super::rates::{self, Rows};
 use super::verdict::complaints;
 use crate::cli::report::Outcome;
-use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::step_dir::TimingMinima;
 use motion_rtl::jobs::pulse_interpolator::{FollowingError, Remedy, StepTiming};
 use serde::Serialize;
-use std::collections::BTreeMap;
 
 /// The summary of a run.
 #[derive(Debug, Serialize)]
@@ -23,8 +22,8 @@ pub struct Summary {
     /// Whether every unit time has the pulses that its word makes, and every axis ended where it
     /// should and kept the driver's timing.
     pub exact: bool,
-    /// Each axis by its name.
-    pub axes: BTreeMap<&'static str, AxisSummary>,
+    /// The axes.
+    pub axes: ByAxis<AxisSummary>,
     /// Step rates of each axis, and its motor.
     pub step_rates: Rows,
     /// The table.
@@ -163,24 +162,20 @@ impl Summary {
         errors: &[FollowingError],
         (circuits, astray): (Vec<Row>, Vec<String>),
     ) -> Self {
-        let axes: BTreeMap<_, _> = job
+        let axes = job
             .report
             .axes
             .iter()
             .zip(&played.axes)
             .zip(errors)
-            .zip(AXIS_NAMES)
-            .map(|(((report, axis), error), name)| {
-                let summary = AxisSummary {
-                    steps_demanded: report.steps_demanded,
-                    pulses_emitted: axis.position(),
-                    pulses_up: axis.pulses_up,
-                    pulses_down: axis.pulses_down,
-                    end_position: i64::from(report.start_position) + axis.position(),
-                    following_error_max: *error,
-                    timing_min_ticks: axis.minima.into(),
-                };
-                (name, summary)
+            .map(|((report, axis), error)| AxisSummary {
+                steps_demanded: report.steps_demanded,
+                pulses_emitted: axis.position(),
+                pulses_up: axis.pulses_up,
+                pulses_down: axis.pulses_down,
+                end_position: i64::from(report.start_position) + axis.position(),
+                following_error_max: *error,
+                timing_min_ticks: axis.minima.into(),
             })
             .collect();
         let mut complaints = complaints(job, played);

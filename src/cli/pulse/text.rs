@@ -40,7 +40,7 @@ impl Report for Summary {
             "axis  steps demanded  pulses emitted      up    down  end position  following error \
              (unit, line)  high   low setup  hold (min ticks)"
         )?;
-        for (name, axis) in &self.axes {
+        for (name, axis) in self.axes.iter() {
             let error = axis.following_error_max;
             writeln!(
                 text,

@@ -6,6 +6,7 @@ use crate::cli::report::{Outcome, Report};
 use crate::cli::rows::{fixed, more, or_dash, table, worst};
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
 use motion_rtl::jobs::trajectory_controller::each_axis::EachAxis;
+use motion_rtl::settings::tidy;
 use std::fmt::{self, Write};
 
 /// Width of the column that says what a row is of.
@@ -31,7 +32,7 @@ impl Report for Summary {
             text,
             "a period of {} ms in {} ticks, of which the circuit needs {}; K1 = {}/s, K2 = {}/s; a \
              count is {:.3} um",
-            self.period_ms,
+            tidy(self.period_ms),
             self.period_ticks,
             self.period_ticks_needed,
             self.k1_per_s,
@@ -103,7 +104,7 @@ impl Summary {
         writeln!(
             text,
             "feed limited to a contour error of {} um without correction: {:.3} s{}",
-            mm * 1e3,
+            tidy(mm * 1e3),
             self.plan.seconds,
             full.unwrap_or_default()
         )

@@ -9,7 +9,7 @@ use crate::circuits::linear_interpolator::{LinearInterpolator, MasterAxis, Rule,
 use crate::input::{Drawing, Point};
 use crate::plan::digits::round_up;
 use crate::plan::{PlanError, check, chords};
-use crate::settings::SettingError;
+use crate::settings::{SettingError, tidy};
 
 /// Ticks that the dividers need within a scan.
 pub const LATENCY_TICKS: u32 = {
@@ -75,7 +75,7 @@ pub enum TargetError {
     #[error(transparent)]
     Drawing(#[from] PlanError),
     /// A feed at which an encoder makes more than one count per tick, or above 100 % speed.
-    #[error("line {line}: feed {value} mm/min: allowed are up to {most}")]
+    #[error("line {line}: feed {} mm/min: allowed are up to {}", tidy(*value), tidy(*most))]
     Feed {
         /// Line of the input.
         line: usize,
@@ -86,7 +86,10 @@ pub enum TargetError {
     },
     /// A feed at which the master axis goes so slowly that the fraction of its speed is too coarse,
     /// or that the cycle has too many scans.
-    #[error("line {line}: feed {value} mm/min: allowed are {least} and more in this direction")]
+    #[error(
+        "line {line}: feed {} mm/min: allowed are {least} and more in this direction",
+        tidy(*value)
+    )]
     Slow {
         /// Line of the input; 0 for the way to a start that is not the origin.
         line: usize,

@@ -17,7 +17,7 @@ use crate::path::error::{PathError, Reason};
 use crate::path::pieces::Piece;
 use crate::path::record::Record;
 use crate::plant::TwoMassParameters;
-use crate::settings::{Place, SettingError};
+use crate::settings::{Place, SettingError, tidy};
 
 /// How far the counts of a millimetre on the path and at the encoder may be apart, as a part.
 const SAME: f64 = 1e-9;
@@ -123,10 +123,14 @@ impl Program {
             servo[axis] = ServoGains::of(settings, axis, parameters, widths)?;
             let (own, path) = (parameters.counts_per_mm(), settings.counts_per_mm);
             if (own / path - 1.0).abs() > SAME {
-                let problem = format!("is {}: {own} counts a millimetre", parameters.mm_per_rev);
+                let problem = format!(
+                    "is {}: {} counts a millimetre",
+                    parameters.mm_per_rev,
+                    tidy(own)
+                );
                 let allowed = format!(
                     "{}: {path}, as counts_per_mm",
-                    parameters.counts_per_rev / path
+                    tidy(parameters.counts_per_rev / path)
                 );
                 let error = SettingError::new("mm_per_rev", problem, allowed);
                 return Err(error.at(Place::Row("axis", axis)).into());

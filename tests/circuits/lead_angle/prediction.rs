@@ -80,6 +80,16 @@ fn predicted(time: u64, count: i64, position: impl Fn(i64) -> i64) -> i64 {
 
 /// The same of another circuit.
 fn predicted_by(circuit: &TimeLead, time: u64, count: i64, position: impl Fn(i64) -> i64) -> i64 {
+    predictions(circuit, time, [count, 1], position)[0]
+}
+
+/// Predictions at the last CKs of so many, CK 0 the last.
+fn predictions(
+    circuit: &TimeLead,
+    time: u64,
+    [count, last]: [i64; 2],
+    position: impl Fn(i64) -> i64,
+) -> Vec<i64> {
     let mut simulator = Simulator::new(circuit).unwrap();
     let mut i: time_lead::In<Value> = time_lead::In {
         ck: true,
@@ -87,16 +97,22 @@ fn predicted_by(circuit: &TimeLead, time: u64, count: i64, position: impl Fn(i64
         position: 0,
         lead_time: time,
     };
+    let mut seen = Vec::new();
     for ck in 1 - count..=0 {
         i.position = position(ck);
+        i.ck = true;
         simulator.step_with(&i, |_| ());
+        if ck <= -last {
+            continue;
+        }
+        i.ck = false;
+        let [present, lead] = simulator.step_with(&i, |now| {
+            assert!(now.w.enough && now.w.fresh);
+            [now.w.present, now.w.lead]
+        });
+        seen.push(wrap(present + lead, 24));
     }
-    i.ck = false;
-    let [present, lead] = simulator.step_with(&i, |now| {
-        assert!(now.w.enough && now.w.fresh);
-        [now.w.present, now.w.lead]
-    });
-    wrap(present + lead, 24)
+    seen
 }
 
 proptest! {
@@ -168,14 +184,30 @@ fn a_long_memory_with_n_fixed_at_one_is_further_off_in_acceleration() {
     };
     // 40,000 counts/s² at a CK of 0.1 ms.
     let at = |ck: i64| ck * ck / 5_000;
-    let error = |predicted: i64, time: u64| predicted - at(time as i64);
-    let compared = [199, 398, 995, 1990].map(|time| {
-        let short = error(predicted(time, 2_000, at), time);
-        [short, error(predicted_by(&long, time, 2_000, at), time)]
-    });
-    // −(aΔt²/2)(1 + 1/N), with N of 1, 2, 5 and 10 against 1.
-    assert_eq!(
-        compared,
-        [[-14, -14], [-45, -62], [-233, -396], [-862, -1584]]
-    );
+    let short = TimeLead::new(199, 24, Memory::ShiftRegister);
+    // The root of the mean square over a hundred CKs in a row, in which N has all its phases.
+    let rms = |circuit: &TimeLead, time: u64| {
+        let seen = predictions(circuit, time, [2_100, 100], at);
+        let errors = seen.iter().zip(-99..).map(|(predicted, ck)| {
+            let error = predicted - at(ck + time as i64);
+            (error * error) as f64
+        });
+        (errors.sum::<f64>() / 100.0).sqrt()
+    };
+    // As the note has them.
+    for (time, n, noted) in [
+        (199, 1, [15.6, 15.6]),
+        (398, 2, [47.2, 63.1]),
+        (995, 5, [236.9, 395.8]),
+        (1990, 10, [870.0, 1583.8]),
+    ] {
+        for ((circuit, n), noted) in [(&short, n), (&long, 1)].into_iter().zip(noted) {
+            // (aΔt²/2)(1 + 1/N), and what counts cut off.
+            let wanted = (time * time) as f64 / 5_000.0 * (1.0 + 1.0 / f64::from(n));
+            let found = rms(circuit, time);
+            println!("{time} CKs, N = {n}: {found:.1} counts, {wanted:.1} in theory");
+            let right = (found - wanted).abs() < 1.5 && (found - noted).abs() < 0.06;
+            assert!(right, "{time}, {n}: {found}, not {wanted}, {noted}");
+        }
+    }
 }

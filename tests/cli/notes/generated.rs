@@ -3,7 +3,7 @@
 //!
 //! `UPDATE_NOTES=1 cargo test --release --test cli notes` writes them anew.
 
-use super::{axes, blends, connections, expect_none, miscounts, notes, rotations};
+use super::{axes, blends, connections, expect_none, miscounts, notes, rotations, states};
 use motion_rtl::circuits::pulse_interpolator::counts;
 use motion_rtl::hdl::{Declaration, Format, Kind, MemoryDeclaration, Role};
 use motion_rtl::registry::{CATALOGUE, Entry, ProofSearch, Verdict, find};
@@ -69,6 +69,19 @@ fn regenerate(text: &str, long: bool) -> Result<String, String> {
         }
     }
     Ok(fresh)
+}
+
+#[test]
+fn states_that_are_never_held_are_those_that_nothing_makes() {
+    let of = |name, register, names| states::unreached(find(name).unwrap(), register, names);
+    assert_eq!(of("mul_div", "state", 3), [3]);
+    assert_eq!(of("trapezoid", "state", 7), [7]);
+    assert_eq!(of("blend_weight", "pass", 3), [3]);
+    assert_eq!(of("sequencer", "state", 6), [6, 7]);
+    assert_eq!(of("step_sequencer", "state", 7), [7]);
+    // A state that something makes, and a number that comes from outside.
+    assert_eq!(of("mul_div", "state", 2), [0; 0]);
+    assert_eq!(of("record_sequencer", "kind", 3), [0; 0]);
 }
 
 #[test]
@@ -185,10 +198,18 @@ fn signals(entry: &Entry) -> String {
             (Role::Net, false) => "net",
         };
         let states = match field.format {
-            Format::States(names) => format!(" States: {}.", names.join(", ")),
+            Format::States(names) => {
+                let nameless = states::unreached(entry, name, names.len());
+                let nameless: Vec<_> = nameless.iter().map(u64::to_string).collect();
+                let nameless = match nameless.is_empty() {
+                    true => String::new(),
+                    false => format!("; never {}", nameless.join(" or ")),
+                };
+                format!(" States: {}{nameless}.", names.join(", "))
+            }
             _ => String::new(),
         };
-        let doc = cell(field.doc);
+        let doc = cell(&field.plain_doc());
         let power_on = power_on(leaf);
         let _ = writeln!(
             text,
@@ -200,15 +221,14 @@ fn signals(entry: &Entry) -> String {
 
 /// A doc comment as a cell of a table.
 fn cell(doc: &str) -> String {
-    let words: Vec<_> = doc.split_whitespace().collect();
-    words.join(" ").replace('|', "\\|")
+    doc.replace('|', "\\|")
 }
 
 fn memory_row(memory: &MemoryDeclaration) -> String {
     let MemoryDeclaration {
         name, words, width, ..
     } = memory;
-    let doc = cell(memory.field.doc);
+    let doc = cell(&memory.field.plain_doc());
     format!("| `{name}` | {words} × {width} | memory | contents | {doc} |\n")
 }
 
@@ -287,7 +307,10 @@ fn offers() -> String {
     );
     for period in [16, 64, 256, 1000, 4096, 10_000, 100_000] {
         let first = (0..).find(|&count| !counts::attainable(count, period));
-        let exact = (1..).take_while(|&count| counts::recipe_is_exact(count, period));
+        let exact = (1..).take_while(|&count| {
+            let half_period = counts::recipe(count, period);
+            half_period.is_some_and(|n| counts::pulses(n, period) == count)
+        });
         let _ = writeln!(
             text,
             "| {period} | {} | {:.1} | {} | {} | {} |",

@@ -9,6 +9,7 @@ mod generated;
 mod keys;
 mod miscounts;
 mod rotations;
+mod states;
 
 use std::fs;
 use std::path::{Path, PathBuf};

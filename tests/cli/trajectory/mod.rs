@@ -493,3 +493,27 @@ fn the_overview_is_whole() {
     // Twenty, and two states by name.
     assert_eq!(rows.count(), 22, "{overview}");
 }
+
+/// As the note on errors that are fed back has it.
+#[test]
+#[ignore = "takes long"]
+fn a_gain_that_the_corner_does_not_bear() {
+    let run = Bench::new().run(&[
+        "run",
+        "waves/corner.toml",
+        "--no-vcd",
+        "--set",
+        "correction=feedback",
+        "--set",
+        "tangential_gain=0",
+        "--set",
+        "normal_gain=12",
+        "--set",
+        "beside=false",
+    ]);
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    let all = run.stdout + &run.stderr;
+    assert!(all.contains(", 1963 periods, "), "{all}");
+    let limited = "feedback: in 1161 periods x asks for more than 10 Nm";
+    assert!(all.contains(limited), "{all}");
+}

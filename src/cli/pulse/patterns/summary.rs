@@ -1,6 +1,7 @@
 //! What came of patterns that were played.
 
 use super::Job;
+use crate::cli::pulse::by_axis::ByAxis;
 use crate::cli::pulse::rates::{self, Rows};
 use crate::cli::pulse::summary::Minima;
 use crate::cli::pulse::text::timing;
@@ -11,7 +12,6 @@ use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use serde::Serialize;
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// What came of patterns that were played.
@@ -31,7 +31,7 @@ pub struct Summary {
     /// Words of an axis that patterns take in the memory, and how many there are.
     memory_words: [u64; 2],
     patterns: Vec<PatternSummary>,
-    axes: BTreeMap<&'static str, AxisSummary>,
+    axes: ByAxis<AxisSummary>,
     /// Step rates of each axis, and its motor.
     step_rates: Rows,
     /// Unit times played.
@@ -83,7 +83,7 @@ impl Summary {
     pub fn new(job: &Job, played: &Played) -> Self {
         let stored = &job.stored;
         let mut complaints = Vec::new();
-        let mut axes = BTreeMap::new();
+        let mut axes = Vec::new();
         for (axis, (name, seen)) in AXIS_NAMES.into_iter().zip(&played.axes).enumerate() {
             let minima = Minima::from(seen.minima);
             let miscounted = miscount(&stored.played, played, axis);
@@ -96,7 +96,7 @@ impl Summary {
                 end_position: seen.position(),
                 timing_min_ticks: minima,
             };
-            axes.insert(name, summary);
+            axes.push(summary);
         }
         let patterns = job.patterns.iter().zip(&stored.places);
         let patterns = patterns.map(|(pattern, place)| PatternSummary {
@@ -130,7 +130,7 @@ impl Summary {
                 1 << stored.group.widths.address,
             ],
             patterns: patterns.collect(),
-            axes,
+            axes: axes.into_iter().collect(),
             step_rates,
             units: stored.played.units(),
             idle_units: played.idle_units,
@@ -201,7 +201,7 @@ impl Report for Summary {
             text,
             "\naxis      up    down  end position   high   low setup  hold (min ticks)"
         )?;
-        for (name, axis) in &self.axes {
+        for (name, axis) in self.axes.iter() {
             writeln!(
                 text,
                 "{name:<4}  {:>6}  {:>6}  {:>12}  {}",

@@ -1,0 +1,28 @@
+//! Rows of a summary for each axis, in the order of the axes.
+
+use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
+use serde::{Serialize, Serializer};
+
+/// A row for each axis; in JSON an object with their names.
+#[derive(Debug)]
+pub struct ByAxis<T>(Vec<(&'static str, T)>);
+
+impl<T> ByAxis<T> {
+    /// Names and rows.
+    pub fn iter(&self) -> impl Iterator<Item = &(&'static str, T)> {
+        self.0.iter()
+    }
+}
+
+impl<T> FromIterator<T> for ByAxis<T> {
+    /// The rows of the axes from X on.
+    fn from_iter<I: IntoIterator<Item = T>>(rows: I) -> Self {
+        Self(AXIS_NAMES.into_iter().zip(rows).collect())
+    }
+}
+
+impl<T: Serialize> Serialize for ByAxis<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, row)| (name, row)))
+    }
+}
