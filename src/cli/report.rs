@@ -2,7 +2,7 @@
 
 use super::files::Files;
 use super::run::Arguments;
-use super::{Failure, print, print_json};
+use super::{Failure, print, print_json, progress};
 use motion_rtl::trace::Options;
 use serde::Serialize;
 use std::fmt::{self, Write as _};
@@ -100,6 +100,7 @@ pub fn conclude(
     let outcome = summary.outcome();
     let window = [start, end.min(outcome.ticks).max(start)];
     outcome.vcd_window = (!arguments.no_vcd).then_some(window);
+    progress::end();
     outcome.files = files.commit()?;
     match arguments.json {
         true => print_json(&summary)?,

@@ -2,17 +2,11 @@
 
 use super::source::{Input, Source};
 use super::traces::Format;
-use super::{Failure, arc, lead_angle, linear, machine, pulse, trajectory};
+use super::{Failure, arc, lead_angle, linear, machine, progress, pulse, trajectory};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
-use motion_rtl::hdl::{Circuit, Observer, RunError, Sample};
 use motion_rtl::scenario::{Loaded, Scenario};
 use motion_rtl::trace::{Clock, Options};
-use std::ops::ControlFlow;
 use std::path::PathBuf;
-
-/// Ticks between two looks at the progress bar.
-const PROGRESS: u64 = 1 << 18;
 
 /// The key that `--beside` sets.
 const BESIDE: &str = "beside=true";
@@ -60,6 +54,13 @@ pub struct Arguments {
 
 /// Runs a job.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    progress::begin();
+    let done = play(arguments);
+    progress::end();
+    done
+}
+
+fn play(arguments: &Arguments) -> Result<(), Failure> {
     let mut input = arguments.input.clone();
     input
         .sets
@@ -115,6 +116,18 @@ pub(super) fn options(arguments: &Arguments, most: u64) -> Result<Options, Failu
     })
 }
 
+/// How many of so many ticks go into the waves.
+pub(super) fn in_waves(arguments: &Arguments, options: &Options, ticks: u64) -> u64 {
+    match arguments.no_vcd {
+        true => 0,
+        false => options
+            .ticks
+            .end
+            .min(ticks)
+            .saturating_sub(options.ticks.start),
+    }
+}
+
 /// The clock of the waves, in which the last tick must have a time; ticks that do not fit their
 /// counter are given as its largest number.
 pub(super) fn clock(
@@ -146,41 +159,4 @@ pub(super) fn clock(
         return Err(refuse(problem, allowed.into()).into());
     }
     Ok(clock)
-}
-
-/// A bar on standard error, where that is a terminal.
-pub(super) struct Progress {
-    bar: ProgressBar,
-    /// The tick at which it is looked at again.
-    due: u64,
-}
-
-impl Progress {
-    pub(super) fn new(ticks: u64) -> Self {
-        let bar = ProgressBar::new(ticks).with_finish(ProgressFinish::AndClear);
-        let style =
-            ProgressStyle::with_template("{bar:40} {percent:>3} %  {human_pos} ticks  {eta}");
-        if let Ok(style) = style {
-            bar.set_style(style);
-        }
-        Progress { bar, due: 0 }
-    }
-}
-
-impl<C: Circuit> Observer<C> for Progress {
-    fn next_look(&self, tick: u64) -> u64 {
-        tick.max(self.due)
-    }
-
-    fn needs_all(&self) -> bool {
-        false
-    }
-
-    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
-        if Observer::<C>::looks(self, now.tick) {
-            self.bar.set_position(now.tick);
-            self.due = now.tick + PROGRESS;
-        }
-        Ok(ControlFlow::Continue(()))
-    }
 }

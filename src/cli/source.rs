@@ -2,7 +2,6 @@
 
 use super::shipped::{self, SHIPPED, Shipped};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressFinish};
 use motion_rtl::input::position_log::{self, Columns, PositionLog};
 use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
 use motion_rtl::jobs::pulse_interpolator::Table;
@@ -166,16 +165,6 @@ pub fn drawing_fault(
     allowed: String,
 ) -> Fault {
     Fault::new(&drawing.file, line, field, problem, allowed)
-}
-
-/// Says on a terminal that the input is being compiled, until it is dropped.
-pub fn compiling() -> ProgressBar {
-    let spinner = ProgressBar::new_spinner()
-        .with_message("compiling")
-        .with_finish(ProgressFinish::AndClear);
-    // Once: a thread that ticks may not be had.
-    spinner.tick();
-    spinner
 }
 
 fn read(input: &Input) -> Result<(Loaded, Origin, PathBuf), Fault> {

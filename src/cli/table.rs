@@ -152,7 +152,7 @@ fn csv(table: &Table) -> String {
     // Writing to a string does not fail.
     for (unit, (period, words)) in table.iter().enumerate() {
         let _ = write!(text, "{unit},{period}");
-        for word in words {
+        for word in words.iter() {
             let _ = write!(
                 text,
                 ",{},{}",

@@ -1,4 +1,4 @@
-//! What a run with waves takes of memory does not depend on its length.
+//! Memory of a run: with waves it does not depend on the length, without them hardly.
 
 use super::support::{Bench, PROGRAM};
 use std::fs;
@@ -9,6 +9,8 @@ use std::time::Duration;
 /// In kilobytes: what every run with waves keeps to, and what a longer one may take more.
 const MOST: u64 = 64 * 1024;
 const MORE: u64 = 4 * 1024;
+/// In kilobytes: what an hour of machine time takes more, without waves.
+const HOUR: u64 = 16 * 1024;
 
 /// Draws a line of so many millimetres; returns the most memory it had, in kilobytes, and the
 /// bytes of its waves.
@@ -20,20 +22,24 @@ fn peak(millimetres: u32, format: &str) -> (u64, u64) {
         "feed_mm_per_min=600",
     ];
     let settings = settings.iter().flat_map(|setting| ["--set", setting]);
+    let window = ["--to", "100000000", "--format", format];
+    let arguments: Vec<_> = ["run", "l.hpgl", "--out", "o"]
+        .into_iter()
+        .chain(window)
+        .chain(settings)
+        .collect();
+    let most = most_of(&bench, &arguments);
+    let waves = fs::metadata(bench.path(&format!("o/l.{format}"))).unwrap();
+    (most, waves.len())
+}
+
+/// The most memory that the program had, in kilobytes.
+fn most_of(bench: &Bench, arguments: &[&str]) -> u64 {
     let mut child = Command::new(PROGRAM)
         .current_dir(bench.path(""))
-        .args([
-            "run",
-            "l.hpgl",
-            "--out",
-            "o",
-            "--to",
-            "100000000",
-            "--format",
-            format,
-        ])
-        .args(settings)
+        .args(arguments)
         .stdout(Stdio::null())
+        .stderr(Stdio::null())
         .spawn()
         .unwrap();
     let status = format!("/proc/{}/status", child.id());
@@ -46,8 +52,45 @@ fn peak(millimetres: u32, format: &str) -> (u64, u64) {
         sleep(Duration::from_millis(2));
     }
     assert!(child.wait().unwrap().success());
-    let waves = fs::metadata(bench.path(&format!("o/l.{format}"))).unwrap();
-    (most, waves.len())
+    most
+}
+
+/// A millimetre a minute: 6000 s, which are as many unit times of a millisecond.
+#[test]
+#[ignore = "takes long"]
+fn the_slowest_feed_keeps_to_little() {
+    let bench = Bench::with("f.ngc", "G21\nG1 X100 F1\nM2\n");
+    let most = most_of(&bench, &["run", "f.ngc", "--no-vcd"]);
+    assert!((1024..MOST).contains(&most), "{most} kB");
+}
+
+/// From 2 minutes of machine time on, when pictures are thinned, to 7: a twelfth of an hour.
+#[test]
+#[ignore = "takes long"]
+fn an_hour_of_machine_time_takes_little_more() {
+    let circuits: [&[&str]; 3] = [
+        &["clock_hz=20000", "line_unit_ticks=20"],
+        &[
+            "circuit=linear_interpolator",
+            "clock_hz=200000",
+            "scan_ticks=200",
+        ],
+        &["circuit=trajectory_controller", "clock_hz=400000"],
+    ];
+    for settings in circuits {
+        let settings: Vec<_> = settings.iter().flat_map(|set| ["--set", set]).collect();
+        let [short, long] = [120, 420].map(|seconds| {
+            let bench = Bench::with("l.ngc", format!("G1 X{seconds} F60\n"));
+            most_of(
+                &bench,
+                &[&["run", "l.ngc", "--no-vcd"], &settings[..]].concat(),
+            )
+        });
+        assert!(
+            12 * long.saturating_sub(short) < HOUR,
+            "{settings:?}: {short} and {long} kB"
+        );
+    }
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! What a run of the arc generator begins with: a path as segments and as records.
 
-use crate::cli::Failure;
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
+use crate::cli::{Failure, progress};
 use motion_rtl::circuits::arc_generator::{Blend, Widths};
 use motion_rtl::input::{Drawing, Point};
 use motion_rtl::jobs::arc_generator::joints::{Followed, follow};
@@ -63,6 +63,7 @@ impl Job {
         };
         let (drawing, start, pieces) = pieces(&source, scenario.start_mm, &taught, keys)?;
         let refuse = |error: PathError| fault(loaded, drawing.as_ref(), keys, &error);
+        progress::stage("planning the path");
         let prepared = prepare(start, &pieces, &timing).map_err(refuse)?;
         let (scale, rounding) = (settings.counts_per_mm, settings.rounding);
         let records = match settings.blend {
@@ -70,6 +71,9 @@ impl Job {
             Blend::Products => products::records(&prepared, scale, &widths, rounding),
         };
         let records = records.map_err(refuse)?;
+        if arm.is_some() {
+            progress::stage("the arm's joints");
+        }
         let followed = arm.map(|arm| {
             let commands = match settings.blend {
                 Blend::Differences => reference::commands(&records, &widths, rounding),

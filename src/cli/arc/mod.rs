@@ -18,8 +18,9 @@ pub use job::Job;
 
 use super::Failure;
 use super::files::Files;
+use super::progress::{self, Part, Work};
 use super::report::conclude;
-use super::run::{Arguments, Progress, options};
+use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
 use beside::Beside;
 use figures::Figures;
@@ -30,6 +31,9 @@ use motion_rtl::jobs::arc_generator::joints::Joints;
 use motion_rtl::trace::Options;
 use picture::draw;
 use summary::Summary;
+
+/// About how long a sample takes.
+const SAMPLE_S: f64 = 1e-6;
 
 /// Samples that the save file's window shows, with the change into the rotation in its middle.
 const SAMPLES_SHOWN: u64 = 12;
@@ -65,6 +69,7 @@ const OVERVIEW: [&str; 23] = [
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (played, mut files) = simulate(arguments, job, &options)?;
+    progress::stage("the arcs by the conventional method");
     let beside = match job.loaded.scenario.beside() {
         true => [
             Beside::run(job, Method::new)?,
@@ -73,6 +78,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         false => Default::default(),
     };
     let figures = Figures::of(job, &played, beside);
+    progress::stage("summary and picture");
     files.write("svg", &draw(job, &figures))?;
     let summary = Summary::new(job, &played, &figures)?;
     conclude(arguments, &options, files, summary)
@@ -93,7 +99,21 @@ fn simulate(
     };
     let shown = shown.map_err(RunError::from)?;
     let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
-    let mut progress = Progress::new(ticks);
+    let in_waves = in_waves(arguments, options, ticks);
+    let subject = job
+        .drawing
+        .as_ref()
+        .map_or(&job.stem, |drawing| &drawing.file);
+    progress::run(
+        subject,
+        Work {
+            ticks,
+            runs: 1,
+            seconds: job.prepared.samples() as f64 * SAMPLE_S,
+            in_waves,
+        },
+    );
+    let mut progress = Part::default();
     let files = (
         traces.waves.as_mut(),
         traces.stimulus.as_mut(),
@@ -107,7 +127,6 @@ fn simulate(
         joints,
         &mut observers,
     )?;
-    drop(progress);
     let ticks_shown = SAMPLES_SHOWN * u64::from(job.sample_ticks);
     // Where the first segment ends and the second begins.
     let change = job

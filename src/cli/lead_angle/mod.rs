@@ -12,8 +12,9 @@ pub use job::Job;
 
 use super::Failure;
 use super::files::Files;
+use super::progress::{self, Part, Work};
 use super::report::conclude;
-use super::run::{Arguments, Progress, options};
+use super::run::{Arguments, in_waves, options};
 use super::threads;
 use super::traces::{Focus, Traces};
 use motion_rtl::hdl::{RunError, model_beside};
@@ -24,6 +25,9 @@ use motion_rtl::trace::Options;
 use rayon::prelude::*;
 use summary::Summary;
 use systems::{NONE, System, systems};
+
+/// About how long a tick takes, with the body.
+const TICK_S: f64 = 50e-9;
 
 /// CKs that the save file's window shows.
 const CKS_SHOWN: u64 = 400;
@@ -69,6 +73,16 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     }
     threads::start()?;
     let mut systems = systems(&job.settings);
+    let (ticks, runs) = (job.ticks_at_least(), systems.len() as u64);
+    progress::run(
+        &job.stem,
+        Work {
+            ticks,
+            runs,
+            seconds: ticks as f64 * runs as f64 * TICK_S,
+            in_waves: in_waves(arguments, &options, ticks),
+        },
+    );
     let shown = systems.iter().find(|system| system.own);
     let shown = shown.map_or(&job.settings, |system| &system.settings);
     let (own, mut files) = simulate(arguments, job, shown, &options)?;
@@ -87,6 +101,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         Ok((system, played))
     });
     let played = played.collect::<Result<Vec<_>, Failure>>()?;
+    progress::stage("summary and picture");
     files.write("svg", &picture::draw(job, &played))?;
     let summary = Summary::new(job, &played);
     conclude(arguments, &options, files, summary)
@@ -99,7 +114,7 @@ fn alone(system: &System) -> Result<Played, Failure> {
         history: History::ShiftRegister,
         ..system.settings.clone()
     };
-    Ok(play(&positioner(settings), settings, &mut ())?)
+    Ok(play(&positioner(settings), settings, &mut Part::default())?)
 }
 
 /// Plays the settings' own system with its waves.
@@ -113,11 +128,10 @@ fn simulate(
     let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
-    let mut progress = Progress::new(ticks);
+    let mut progress = Part::default();
     let (waves, stimulus) = (traces.waves.as_mut(), traces.stimulus.as_mut());
     let files = (waves, stimulus, traces.noted.as_mut());
     let played = play(&circuit, settings, &mut (files, &mut progress))?;
-    drop(progress);
     let first = played.positionings.first();
     let focus = focus(settings, first.map_or(0, |positioning| positioning.fired));
     let files = traces.finish(&shown, &focus, played.ticks)?;

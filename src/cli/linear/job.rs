@@ -1,7 +1,7 @@
 //! What a run of the linear interpolator begins with: settings and cycles.
 
-use crate::cli::Failure;
-use crate::cli::source::{Source, compiling, drawing_fault, plan_fault};
+use crate::cli::source::{Source, drawing_fault, plan_fault};
+use crate::cli::{Failure, progress};
 use motion_rtl::circuits::linear_interpolator::MasterAxis;
 use motion_rtl::input::{Drawing, Fault};
 use motion_rtl::jobs::linear_interpolator::settings::Settings;
@@ -68,12 +68,11 @@ impl Job {
     /// Compiles an input.
     pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
         let drawing = source.drawing()?;
-        let spinner = compiling();
+        progress::stage("planning the path");
         let refused = |error| fault(&source.loaded, &drawing, &settings, error);
         let compiled = compile(&drawing, &settings).map_err(refused)?;
         let beside = source.loaded.scenario.beside();
         let other = beside.then(|| Other::of(&drawing, &settings));
-        drop(spinner);
         let Source { stem, loaded, .. } = source;
         Ok(Job {
             stem,

@@ -3,6 +3,7 @@
 mod job;
 mod picture;
 mod rows;
+mod runs;
 mod summary;
 mod text;
 mod verdict;
@@ -10,20 +11,27 @@ mod verdict;
 pub use job::Job;
 
 use super::files::Files;
+use super::progress::{self, Part, Work};
 use super::report::conclude;
-use super::run::{Arguments, Progress, options};
+use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
 use super::{Failure, threads};
 use job::Other;
 use motion_rtl::circuits::linear_interpolator::Controller;
 use motion_rtl::hdl::{Model, RunError, Without, model_beside};
-use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
-use motion_rtl::jobs::linear_interpolator::measure::Played;
+use motion_rtl::jobs::linear_interpolator::job::{conventional, play_each, plotter};
+use motion_rtl::jobs::linear_interpolator::measure::Seen;
+use motion_rtl::jobs::linear_interpolator::settings::Settings;
+use motion_rtl::jobs::linear_interpolator::targets::Target;
 use motion_rtl::jobs::linear_interpolator::ways::Way;
 use motion_rtl::plant::waves::Axes;
 use picture::draw;
+use runs::{Run, Runs, UnderWay};
 use std::thread;
 use summary::Summary;
+
+/// About how long a tick takes, with both motors.
+const TICK_S: f64 = 50e-9;
 
 /// Scans that the save file's window shows.
 const SCANS_SHOWN: u64 = 60;
@@ -43,17 +51,6 @@ const OVERVIEW: [&str; 11] = [
     "reference_y",
 ];
 
-/// The systems that play a job.
-#[derive(Debug)]
-pub struct Runs {
-    /// The linear interpolator.
-    pub interpolator: Played,
-    /// The same with another master axis, if the job can be had so.
-    pub other: Option<Played>,
-    /// The conventional system of Fig. 3, in each of its ways, where the scenario asks for it.
-    pub conventional: Option<[Played; 2]>,
-}
-
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
@@ -62,6 +59,16 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     // Before the others run, as what it refuses would wait for them.
     let traces = Traces::begin((&model, &circuit), arguments, scenario, &options, ticks)?;
+    let runs = if job.other.is_some() { 4 } else { 1 };
+    progress::run(
+        &job.drawing.file,
+        Work {
+            ticks,
+            runs,
+            seconds: ticks as f64 * runs as f64 * TICK_S,
+            in_waves: in_waves(arguments, &options, ticks),
+        },
+    );
     let (runs, mut files) = match &job.other {
         None => {
             let (interpolator, files) = simulate((&circuit, &model), job, traces)?;
@@ -74,6 +81,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         }
         Some(other) => compared((&circuit, &model), job, other, traces)?,
     };
+    progress::stage("summary and picture");
     files.write("svg", &draw(job, &runs))?;
     let summary = Summary::new(job, &runs);
     conclude(arguments, &options, files, summary)
@@ -88,14 +96,13 @@ fn compared(
 ) -> Result<(Runs, Files), Failure> {
     let conventional = |way: Way| {
         let targets = way.targets(&job.longer().targets, &job.settings);
-        play(&conventional(), &targets, &job.settings, &mut ())
+        alone(&conventional(), job, &targets, &job.settings)
     };
     let other = || match &other.compiled {
         Err(_) => Ok(None),
         Ok(compiled) => {
             let settings = &other.settings;
-            let circuit = plotter(settings);
-            play(&circuit, &compiled.targets, settings, &mut ()).map(Some)
+            alone(&plotter(settings), job, &compiled.targets, settings).map(Some)
         }
     };
     thread::scope(|scope| {
@@ -114,26 +121,41 @@ fn compared(
     })
 }
 
+/// Plays cycles without waves.
+fn alone<const N: usize>(
+    circuit: &Controller,
+    job: &Job,
+    targets: &[Target<N>],
+    settings: &Settings,
+) -> Result<Run, Failure> {
+    let mut run = UnderWay::new(job);
+    let each = &mut |seen: &Seen<'_>| run.take(seen);
+    let played = play_each(circuit, targets, settings, &mut Part::default(), each)?;
+    Ok(run.finish(played))
+}
+
 /// Plays the job on the linear interpolator, with its waves.
 fn simulate(
     (circuit, model): (&Controller, &Model),
     job: &Job,
     mut traces: Traces<'_>,
-) -> Result<(Played, Files), Failure> {
+) -> Result<(Run, Files), Failure> {
     let (targets, settings) = (&job.compiled.targets, &job.settings);
-    let mut progress = Progress::new(job.ticks_at_least());
+    let mut progress = Part::default();
     let stimulus = traces.stimulus.as_mut().map(Without);
     let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-    let played = play(circuit, targets, settings, &mut (files, &mut progress))?;
-    drop(progress);
+    let mut run = UnderWay::new(job);
+    let each = &mut |seen: &Seen<'_>| run.take(seen);
+    let observer = &mut (files, &mut progress);
+    let played = play_each(circuit, targets, settings, observer, each)?;
+    let run = run.finish(played);
     let scan = u64::from(settings.scan_ticks);
-    let first = played.cycles.first().map_or(0, |cycle| cycle.scans.start);
     let focus = Focus {
-        action: played.records.get(first).map_or(0, |record| record.tick),
+        action: run.begun,
         before: 2 * scan,
         shown: SCANS_SHOWN * scan,
         overview: &OVERVIEW,
     };
-    let files = traces.finish(model, &focus, played.ticks)?;
-    Ok((played, files))
+    let files = traces.finish(model, &focus, run.played.ticks)?;
+    Ok((run, files))
 }

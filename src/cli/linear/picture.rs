@@ -1,7 +1,8 @@
 //! The picture of a run: the paths of all systems with their errors magnified, the contour error
 //! and the speed over time.
 
-use super::{Job, Runs};
+use super::Job;
+use super::runs::{Run, Runs, Shown};
 use crate::cli::magnification::magnification;
 use motion_rtl::jobs::linear_interpolator::measure::{Cycle, Played, ScanRecord};
 use motion_rtl::jobs::linear_interpolator::settings::Settings;
@@ -23,18 +24,18 @@ pub fn draw(job: &Job, runs: &Runs) -> String {
         systems.push(("conventional, in proportion", inverse));
     }
     let mut picture = Picture::new(format!("{}: linear interpolator", job.stem));
-    for &(name, played) in &systems {
-        let largest = largest_error(job, played);
-        let factor = magnification(largest, size(&runs.interpolator, settings));
-        picture = picture.panel(path(job, name, played, factor));
+    let size = size(&runs.interpolator.played, settings);
+    for &(name, run) in &systems {
+        let factor = magnification(run.largest_drawn_mm, size);
+        picture = picture.panel(path(job, name, run, factor));
     }
     let mut error = Panel::new("contour error", "time in s", "error in um");
     let mut speed = Panel::new("path speed", "time in s", "speed in mm/s");
     // The interpolator's curves lie on top.
-    for ((name, played), colour) in systems.into_iter().zip([COMMANDED, MOTORS, OTHER]).rev() {
-        let curve = Curve::thinned(name, errors(played, settings));
+    for ((name, run), colour) in systems.into_iter().zip([COMMANDED, MOTORS, OTHER]).rev() {
+        let curve = Curve::thinned(name, errors(run, settings));
         error = error.curve(curve.colour(colour).width(0.8));
-        let curve = Curve::thinned(name, speeds(played, settings));
+        let curve = Curve::thinned(name, speeds(run, settings));
         speed = speed.curve(curve.colour(colour).width(0.8));
     }
     picture.panel(error).panel(speed).render()
@@ -55,43 +56,35 @@ fn size(played: &Played, settings: &Settings) -> f64 {
     x.hypot(y)
 }
 
-/// The largest distance of a command or a motor from a line that is drawn, in millimetres.
-fn largest_error(job: &Job, played: &Played) -> f64 {
-    let scale = job.settings.counts_per_mm;
-    let cycles = played.cycles.iter().zip(&job.compiled.targets).enumerate();
-    cycles
-        .filter(|(_, (_, target))| !target.rapid)
-        .flat_map(|(number, (cycle, _))| {
-            let records = played.records_of(number).iter();
-            records.flat_map(move |record| {
-                let command = record.command.map(|counts| counts as f64);
-                [record.motor, command].map(|point| cycle.contour_error(point, scale).abs())
-            })
-        })
-        .fold(0.0, f64::max)
+/// The scans of each cycle, and of the wait after it.
+fn by_cycle(run: &Run) -> Vec<Vec<&Shown>> {
+    let mut all = vec![Vec::new(); run.played.cycles.len()];
+    for shown in run.shown.iter() {
+        if let Some(cycle) = shown.cycle {
+            all[cycle].push(shown);
+        }
+    }
+    all
 }
 
-fn path(job: &Job, name: &str, played: &Played, factor: f64) -> Panel {
+fn path(job: &Job, name: &str, run: &Run, factor: f64) -> Panel {
     let scale = job.settings.counts_per_mm;
-    let cycles = played.cycles.len();
-    let scans = || Points::expecting(played.records.len() + 2 * cycles);
+    let cycles = run.played.cycles.len();
+    let scans = || Points::expecting(run.shown.iter().count() + 2 * cycles);
     let mut ideal = [0, 1].map(|_| Points::expecting(3 * cycles));
     let mut commanded = scans();
     let mut motors = [scans(), scans()];
-    let cycles = played.cycles.iter().zip(&job.compiled.targets).enumerate();
-    for (number, (cycle, target)) in cycles {
+    let cycles = run.played.cycles.iter().zip(&job.compiled.targets);
+    for ((cycle, target), shown) in cycles.zip(by_cycle(run)) {
         let ends = [cycle.from, cycle.to].map(|end| end.map(|counts| counts as f64));
         let kind = usize::from(target.rapid);
         ideal[kind].extend(ends.map(|end| (end[0] / scale[0], end[1] / scale[1])));
         ideal[kind].push(GAP);
         let magnified = |point: [f64; 2]| magnify(cycle, point, scale, factor);
-        let records = played.records_of(number);
-        motors[kind].extend(records.iter().map(|record| magnified(record.motor)));
+        motors[kind].extend(shown.iter().map(|one| magnified(one.record.motor)));
         motors[kind].push(GAP);
         if !target.rapid {
-            let commands = records
-                .iter()
-                .map(|record| record.command.map(|c| c as f64));
+            let commands = shown.iter().map(|one| one.record.command.map(|c| c as f64));
             commanded.push(magnified(ends[0]));
             commanded.extend(commands.map(magnified));
             commanded.push(GAP);
@@ -140,25 +133,18 @@ fn time(record: &ScanRecord, settings: &Settings) -> f64 {
 }
 
 /// The contour error over time, in micrometres.
-fn errors(played: &Played, settings: &Settings) -> Points {
-    let mut points = Points::expecting(played.records.len());
-    for (number, cycle) in played.cycles.iter().enumerate() {
-        points.extend(played.records_of(number).iter().map(|record| {
-            let error = cycle.contour_error(record.motor, settings.counts_per_mm);
-            (time(record, settings), error * 1e3)
-        }));
-    }
+fn errors(run: &Run, settings: &Settings) -> Points {
+    let mut points = Points::expecting(run.shown.iter().count());
+    let shown = run.shown.iter().filter(|one| one.cycle.is_some());
+    points.extend(shown.map(|one| (time(&one.record, settings), one.contour_mm * 1e3)));
     points
 }
 
 /// The speed of the motors along their path over time, in mm/s.
-fn speeds(played: &Played, settings: &Settings) -> Points {
-    let mut points = Points::expecting(played.records.len());
-    points.extend(played.records.windows(2).map(|pair| {
-        let [x, y] = [0, 1]
-            .map(|axis| (pair[1].motor[axis] - pair[0].motor[axis]) / settings.counts_per_mm[axis]);
-        (time(&pair[1], settings), x.hypot(y) / settings.scan_s())
-    }));
+fn speeds(run: &Run, settings: &Settings) -> Points {
+    let mut points = Points::expecting(run.shown.iter().count());
+    let shown = run.shown.iter().skip(1);
+    points.extend(shown.map(|one| (time(&one.record, settings), one.speed)));
     points
 }
 

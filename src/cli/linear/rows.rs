@@ -1,7 +1,8 @@
 //! The figures of a run, cycle by cycle.
 
-use super::{Job, Runs};
-use motion_rtl::jobs::linear_interpolator::measure::{Played, Segment};
+use super::Job;
+use super::runs::{Run, Runs};
+use motion_rtl::jobs::linear_interpolator::measure::Segment;
 use motion_rtl::jobs::linear_interpolator::settings::AXIS_NAMES;
 use motion_rtl::jobs::linear_interpolator::targets::Target;
 use serde::Serialize;
@@ -82,44 +83,21 @@ impl Figures {
     }
 }
 
-/// The measures of all systems, cycle by cycle.
-pub struct Segments {
-    /// Those of the linear interpolator.
-    pub ours: Vec<Segment>,
-    /// Those with another master axis.
-    pub other: Option<Vec<Segment>>,
-    /// Those of the conventional system, in each of its ways.
-    pub conventional: Option<[Vec<Segment>; 2]>,
-}
-
-impl Segments {
-    /// Those of these runs.
-    pub fn of(job: &Job, runs: &Runs) -> Self {
-        let measured = |played: &Played| played.segments(job.settings.counts_per_mm);
-        let both = runs.conventional.as_ref();
-        Segments {
-            ours: measured(&runs.interpolator),
-            other: runs.other.as_ref().map(measured),
-            conventional: both.map(|both| both.each_ref().map(measured)),
-        }
-    }
-}
-
 /// Every cycle that all systems of a run have played.
-pub fn rows(job: &Job, runs: &Runs, segments: &Segments) -> Vec<Row> {
+pub fn rows(job: &Job, runs: &Runs) -> Vec<Row> {
     let scan_s = job.settings.scan_s();
     let targets = job.compiled.targets.iter();
-    let cycles = runs.interpolator.cycles.iter();
-    let Segments {
-        ours,
-        other,
-        conventional,
-    } = segments;
-    let figures = |of: &[Segment], segment: usize| Some(Figures::new(of.get(segment)?, scan_s));
-    let other = |segment: usize| figures(other.as_ref()?, segment);
-    let way = |way: usize, segment: usize| figures(&conventional.as_ref()?[way], segment);
-    let ways = conventional.iter().flatten();
-    let played = ways.map(Vec::len).fold(ours.len(), usize::min);
+    let cycles = runs.interpolator.played.cycles.iter();
+    let ours = &runs.interpolator.segments;
+    let figures = |run: &Run, segment: usize| {
+        let segment = run.segments.get(segment)?;
+        Some(Figures::new(segment, scan_s))
+    };
+    let other = |segment: usize| figures(runs.other.as_ref()?, segment);
+    let way = |way: usize, segment: usize| figures(&runs.conventional.as_ref()?[way], segment);
+    let ways = runs.conventional.iter().flatten();
+    let ways = ways.map(|run| run.segments.len());
+    let played = ways.fold(ours.len(), usize::min);
     targets
         .zip(cycles)
         .zip(&ours[..played])

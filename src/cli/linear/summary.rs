@@ -1,8 +1,9 @@
 //! What a run came to.
 
-use super::rows::{Figures, Row, Segments, rows};
+use super::Job;
+use super::rows::{Figures, Row, rows};
+use super::runs::{Run, Runs};
 use super::verdict::complaints;
-use super::{Job, Runs};
 use crate::cli::report::Outcome;
 use crate::cli::times::rounded;
 use motion_rtl::jobs::linear_interpolator::measure::Played;
@@ -73,7 +74,8 @@ pub struct SystemSummary {
 }
 
 impl SystemSummary {
-    fn new(job: &Job, played: &Played, rows: &[Row], of: impl Fn(&Row) -> Option<Figures>) -> Self {
+    fn new(job: &Job, run: &Run, rows: &[Row], of: impl Fn(&Row) -> Option<Figures>) -> Self {
+        let played = &run.played;
         let accelerated = |value: fn(Figures) -> u64| {
             let all = rows.iter().filter_map(&of).map(value);
             all.max().unwrap_or(0)
@@ -89,11 +91,8 @@ impl SystemSummary {
         SystemSummary {
             ticks: played.ticks,
             seconds: played.ticks as f64 / job.settings.clock_hz as f64,
-            scans: played.records.len(),
-            end_position: played
-                .records
-                .last()
-                .map_or([0; 2], |record| record.command),
+            scans: run.shown.count(),
+            end_position: run.end_position,
             master_acceleration_max_counts_per_scan2: accelerated(|figures| {
                 figures.master_acceleration_counts_per_scan2
             }),
@@ -111,14 +110,12 @@ impl SystemSummary {
 impl Summary {
     /// The summary of a job that was played.
     pub fn new(job: &Job, runs: &Runs) -> Self {
-        let all = Segments::of(job, runs);
-        let complaints = complaints(job, runs, &all);
-        let rows = rows(job, runs, &all);
-        let system =
-            |played, of: fn(&Row) -> Option<Figures>| SystemSummary::new(job, played, &rows, of);
+        let complaints = complaints(job, runs);
+        let rows = rows(job, runs);
+        let system = |run, of: fn(&Row) -> Option<Figures>| SystemSummary::new(job, run, &rows, of);
         let interpolator = system(&runs.interpolator, |row| Some(row.interpolator));
         let other = runs.other.as_ref();
-        let other = other.map(|played| system(played, |row| row.other_master));
+        let other = other.map(|run| system(run, |row| row.other_master));
         let (conventional, in_proportion) = match &runs.conventional {
             None => (None, None),
             Some([same, inverse]) => (
@@ -130,7 +127,7 @@ impl Summary {
             exact: complaints.is_empty(),
             outcome: Outcome {
                 complaints,
-                warnings: warnings(job, &runs.interpolator),
+                warnings: warnings(job, &runs.interpolator.played),
                 ..Outcome::new(
                     "linear_interpolator",
                     &job.drawing.file,

@@ -1,7 +1,7 @@
 //! Whether a run did what its targets say.
 
-use super::rows::Segments;
-use super::{Job, Runs};
+use super::Job;
+use super::runs::Runs;
 use crate::cli::report::first;
 use motion_rtl::circuits::linear_interpolator::Rule;
 use motion_rtl::jobs::linear_interpolator::measure::{Played, Segment};
@@ -10,13 +10,17 @@ use motion_rtl::jobs::linear_interpolator::targets::Target;
 use motion_rtl::jobs::linear_interpolator::ways::Way;
 
 /// What is wrong with a run; empty where nothing is.
-pub fn complaints(job: &Job, runs: &Runs, segments: &Segments) -> Vec<String> {
+pub fn complaints(job: &Job, runs: &Runs) -> Vec<String> {
     let targets = &job.compiled.targets;
     let rule = Some(job.settings.rule);
-    let mut all = of_system(&runs.interpolator, &segments.ours, targets, rule);
-    if let (Some(played), Some(segments), Some(other)) = (&runs.other, &segments.other, &job.other)
-    {
-        let texts = of_system(played, segments, targets, rule);
+    let mut all = of_system(
+        &runs.interpolator.played,
+        &runs.interpolator.segments,
+        targets,
+        rule,
+    );
+    if let (Some(run), Some(other)) = (&runs.other, &job.other) {
+        let texts = of_system(&run.played, &run.segments, targets, rule);
         let name = other.settings.master.name();
         all.extend(
             texts
@@ -26,8 +30,8 @@ pub fn complaints(job: &Job, runs: &Runs, segments: &Segments) -> Vec<String> {
     }
     // That its path bends is what the conventional system is there to show.
     let ways = Way::ALL.iter().zip(runs.conventional.iter().flatten());
-    for ((way, played), segments) in ways.zip(segments.conventional.iter().flatten()) {
-        let texts = of_system(played, segments, targets, None);
+    for (way, run) in ways {
+        let texts = of_system(&run.played, &run.segments, targets, None);
         let name = way.name();
         all.extend(
             texts

@@ -1,9 +1,9 @@
 //! What a run of the machine begins with: a job for all circuits, prepared.
 
-use crate::cli::Failure;
 use crate::cli::pieces::{SpeedKeys, fault};
 use crate::cli::pulse::table_fault;
-use crate::cli::source::{Source, compiling};
+use crate::cli::source::Source;
+use crate::cli::{Failure, progress};
 use motion_rtl::input::{Drawing, Fault};
 use motion_rtl::jobs::machine::program::ProgramError;
 use motion_rtl::jobs::machine::{Program, Settings};
@@ -32,10 +32,9 @@ impl Job {
     /// Prepares an input for all circuits.
     pub fn prepare(source: Source, settings: Settings) -> Result<Self, Failure> {
         let drawing = source.drawing()?;
-        let spinner = compiling();
+        progress::stage("planning the path");
         let program = Program::of(&drawing, &settings)
             .map_err(|error| refuse(&source.loaded, &drawing, &settings, error))?;
-        drop(spinner);
         let Source { stem, loaded, .. } = source;
         Ok(Job {
             stem,

@@ -11,8 +11,9 @@ pub use job::Job;
 
 use super::Failure;
 use super::files::Files;
+use super::progress::{self, Part, Work};
 use super::report::conclude;
-use super::run::{Arguments, Progress, options};
+use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
 use motion_rtl::hdl::{RunError, Without, model_beside};
 use motion_rtl::jobs::machine::job::{Played, machine, play};
@@ -20,6 +21,9 @@ use motion_rtl::jobs::machine::measure::Measured;
 use motion_rtl::jobs::machine::waves::Plants;
 use motion_rtl::trace::Options;
 use summary::Summary;
+
+/// About how long a tick takes, with all motors.
+const TICK_S: f64 = 150e-9;
 
 /// Sampling times that the save file's window shows, and those of them before the first signal
 /// that stops the pen lift.
@@ -64,6 +68,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let (played, mut files) = simulate(arguments, job, &options)?;
     let measured = Measured::of(&job.drawing, &job.program, &job.settings, &played)
         .map_err(|error| Failure::Check(error.to_string()))?;
+    progress::stage("summary and picture");
     files.write("svg", &picture::draw(job, &played, &measured))?;
     let summary = Summary::new(job, &played, &measured);
     conclude(arguments, &options, files, summary)
@@ -80,7 +85,16 @@ fn simulate(
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     let model = model_beside(&circuit, &Plants).map_err(RunError::from)?;
     let mut traces = Traces::begin((&model, &circuit), arguments, scenario, options, ticks)?;
-    let mut progress = Progress::new(ticks);
+    progress::run(
+        &job.drawing.file,
+        Work {
+            ticks,
+            runs: 1,
+            seconds: ticks as f64 * TICK_S,
+            in_waves: in_waves(arguments, options, ticks),
+        },
+    );
+    let mut progress = Part::default();
     let played = {
         let stimulus = traces.stimulus.as_mut().map(Without);
         let mut observer = (
@@ -91,7 +105,6 @@ fn simulate(
         );
         play(&circuit, program, settings, &mut observer)?
     };
-    drop(progress);
     let sample = u64::from(settings.sample_ticks);
     let fired = played.liftings.first().map(|lifting| lifting.fired);
     let begun = played.moves.first().map_or(0, |timed| timed.begun);

@@ -75,7 +75,7 @@ pub fn own(job: &Job, played: &Played, end_error: f64) -> Result<Row, Failure> {
     let kept = |minima: Minima| minima.too_short(&job.settings.timing).next().is_none();
     let row = Row {
         circuit: "",
-        units: played.positions.len() / job.table.axes(),
+        units: played.positions.units,
         late_units: played.idle_units,
         unit_ticks_least: None,
         jitter_ticks_max: most(played.axes.iter().map(|axis| axis.jitter)),

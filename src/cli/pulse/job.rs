@@ -1,7 +1,7 @@
 //! A drawing compiled for the pulse interpolator.
 
-use crate::cli::Failure;
-use crate::cli::source::{Source, compiling, drawing_fault, plan_fault};
+use crate::cli::source::{Source, drawing_fault, plan_fault};
+use crate::cli::{Failure, progress};
 use motion_rtl::input::{DRAWINGS, Drawing, Fault};
 use motion_rtl::jobs::pulse_interpolator::motors::Motors;
 use motion_rtl::jobs::pulse_interpolator::{Report, Settings, Table, TableError, compile};
@@ -75,10 +75,9 @@ impl Job {
         let variant = scenario.variant;
         let vcd_ticks = scenario.vcd_ticks;
         let settings = scenario.settings(&drawing);
-        let spinner = compiling();
+        progress::stage("planning the path");
         let (table, report) = compile(&drawing, &settings)
             .map_err(|error| table_fault(&source.loaded, &drawing, &settings, error))?;
-        drop(spinner);
         let motors = scenario
             .motors(table.axes())
             .map_err(|error| source.loaded.refuse(error))?;

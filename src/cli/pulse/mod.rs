@@ -15,8 +15,9 @@ pub use summary::{TableSummary, warnings};
 
 use super::Failure;
 use super::files::Files;
+use super::progress::{self, Part, Work};
 use super::report::conclude;
-use super::run::{Arguments, Progress, options};
+use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
 use motion_rtl::circuits::pulse_interpolator::Group;
 use motion_rtl::hdl::{RunError, Without, model, model_beside};
@@ -29,6 +30,10 @@ use motion_rtl::scenario::Loaded;
 use motion_rtl::trace::Options;
 use picture::{Following, draw};
 use summary::Summary;
+
+/// About how long a unit time takes where idle ticks are gone over, and a tick where they are not.
+const UNIT_S: f64 = 0.5e-6;
+const TICK_S: f64 = 20e-9;
 
 /// Unit times that the save file's window shows.
 const UNITS_SHOWN: u64 = 6;
@@ -69,15 +74,20 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         &options,
         (&mut |pending| computer.drive(pending), job.motors.clone()),
     )?;
+    progress::stage("following errors");
     let following =
         Following::new(job, &played).map_err(|error| Failure::Check(error.to_string()))?;
     let own = beside::own(job, &played, following.end_error)?;
     let (circuits, astray) = match job.loaded.scenario.beside() {
-        true => beside::compare(job, own)?,
+        true => {
+            progress::stage("the conventional device, and the least T");
+            beside::compare(job, own)?
+        }
         false => (vec![own], Vec::new()),
     };
     let summary = Summary::new(job, &played, &following.largest, (circuits, astray));
-    files.write("svg", &draw(job, &played, &following))?;
+    progress::stage("summary and picture");
+    files.write("svg", &draw(job, following))?;
     conclude(arguments, &options, files, summary)
 }
 
@@ -108,7 +118,20 @@ fn simulate(
     };
     let shown = shown.map_err(RunError::from)?;
     let mut traces = Traces::begin((&shown, group), arguments, scenario, options, ticks)?;
-    let mut progress = Progress::new(ticks);
+    let in_waves = in_waves(arguments, options, ticks);
+    let idle = motors.is_none() && traces.is_empty();
+    let seconds = match idle {
+        true => table.units() as f64 * UNIT_S,
+        false => ticks as f64 * TICK_S,
+    };
+    let work = Work {
+        ticks,
+        runs: 1,
+        seconds,
+        in_waves,
+    };
+    progress::run(scenario.1, work);
+    let mut progress = Part::default();
     // Where nobody has to see every tick, idle ones are gone over.
     let played = match (traces.is_empty(), motors) {
         (true, None) => fast_forward_by(group, table, computer, &mut progress),
@@ -122,7 +145,6 @@ fn simulate(
             }
         }
     }?;
-    drop(progress);
     let unit = u64::from(table.patterns().first().map_or(1, |first| first.period));
     let focus = Focus {
         action: played.first_step.unwrap_or(played.begun),

@@ -2,7 +2,7 @@
 
 use super::Job;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
-use motion_rtl::input::Course;
+use motion_rtl::input::{COORDINATES, Course};
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::{FollowingError, TableError, follow};
 use motion_rtl::picture::{Curve, Panel, Picture, Points};
@@ -20,8 +20,8 @@ pub struct Following {
     pub end_error: f64,
     /// Time in seconds and error in steps, for each axis.
     curves: Vec<Points>,
-    /// Of every unit time, whether a rapid move was under way at its end.
-    rapid: Vec<bool>,
+    /// Where the pulses took the axes, in millimetres.
+    pulsed: Pair,
 }
 
 impl Following {
@@ -32,10 +32,13 @@ impl Following {
     pub fn new(job: &Job, played: &Played) -> Result<Self, TableError> {
         let (drawing, settings, table) = (&job.drawing, &job.settings, &job.table);
         let mut curves = vec![Points::expecting(table.units()); job.report.axes.len()];
-        let mut rapid = Vec::with_capacity(table.units());
+        let mut pulsed = Pair::expecting(table.units());
+        let mut at = pulsed_point(job, &[0; COORDINATES]);
         let mut end_error = 0.0f64;
         let largest = follow(drawing, settings, table, &played.positions, |end| {
-            rapid.push(end.rapid);
+            let to = pulsed_point(job, &end.positions);
+            pulsed.of(end.rapid, at).push(to);
+            at = to;
             let errors = end.end_errors.iter().map(|error| error.abs());
             end_error = errors.fold(end_error, f64::max);
             for (curve, error) in curves.iter_mut().zip(end.errors) {
@@ -46,15 +49,15 @@ impl Following {
             largest,
             end_error,
             curves,
-            rapid,
+            pulsed,
         })
     }
 }
 
 /// The picture as SVG.
-pub fn draw(job: &Job, played: &Played, following: &Following) -> String {
+pub fn draw(job: &Job, following: Following) -> String {
     let (drawn, rapid) = commanded(job);
-    let (pulsed, pulsed_rapid) = pulsed(job, played, &following.rapid);
+    let (pulsed, pulsed_rapid) = following.pulsed.points();
     let path = Panel::new("path", "x in mm", "y in mm")
         .equal_scales()
         .curve(
@@ -75,46 +78,28 @@ pub fn draw(job: &Job, played: &Played, following: &Following) -> String {
         )
         .curve(Curve::thinned("as pulsed", pulsed).colour("#0072b2"));
     let picture = Picture::new(format!("{}: pulse interpolator", job.stem)).panel(path);
-    let curves = following.curves.iter().zip(AXIS_NAMES);
+    let curves = following.curves.into_iter().zip(AXIS_NAMES);
     curves
         .fold(picture, |picture, (curve, name)| {
             let title = format!("largest following error of {name} in each unit time");
             let panel = Panel::new(title, "time in s", "error in steps");
-            picture.panel(
-                panel.curve(
-                    Curve::thinned(name, curve.clone())
-                        .colour("#0072b2")
-                        .width(0.6),
-                ),
-            )
+            picture.panel(panel.curve(Curve::thinned(name, curve).colour("#0072b2").width(0.6)))
         })
         .render()
 }
 
-/// Where the pulses took the axes at the end of each unit time, in millimetres: on moves that
-/// draw, and on rapid ones.
-fn pulsed(job: &Job, played: &Played, rapid: &[bool]) -> (Points, Points) {
-    let axes = job.report.axes.len();
-    let coordinate = |axis: usize, position: i32| {
-        let steps = f64::from(job.report.axes[axis].start_position) + f64::from(position);
-        steps / job.settings.steps_per_mm[axis]
+/// Where a position is, in millimetres.
+fn pulsed_point(job: &Job, positions: &[i32]) -> (f64, f64) {
+    let coordinate = |axis: usize| {
+        let of = job.report.axes.get(axis)?;
+        let steps = f64::from(of.start_position) + f64::from(positions[axis]);
+        Some(steps / job.settings.steps_per_mm[axis])
     };
-    let point = |unit: &[i32]| {
-        let y = unit.get(1).map_or(0.0, |y| coordinate(1, *y));
-        (coordinate(0, unit[0]), y)
-    };
-    let mut strokes = Pair::expecting(rapid.len());
-    let mut at = point(&vec![0; axes]);
-    for (unit, rapid) in played.positions.chunks_exact(axes).zip(rapid) {
-        let to = point(unit);
-        strokes.of(*rapid, at).push(to);
-        at = to;
-    }
-    (strokes.drawn.points, strokes.rapid.points)
+    (coordinate(0).unwrap_or(0.0), coordinate(1).unwrap_or(0.0))
 }
 
 /// A curve with gaps.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Strokes {
     points: Points,
     /// Interrupted, or not begun.
@@ -129,6 +114,7 @@ impl Strokes {
 }
 
 /// Strokes that draw and strokes that do not, one going on where the other stops.
+#[derive(Debug, Clone)]
 struct Pair {
     drawn: Strokes,
     rapid: Strokes,
@@ -145,6 +131,11 @@ impl Pair {
             drawn: strokes(),
             rapid: strokes(),
         }
+    }
+
+    /// Those that draw, and those that do not.
+    fn points(self) -> (Points, Points) {
+        (self.drawn.points, self.rapid.points)
     }
 
     /// The strokes of one kind, which go on at `at`; the other kind is interrupted.
@@ -179,5 +170,5 @@ fn commanded(job: &Job) -> (Points, Points) {
         }
         at = step.to;
     }
-    (strokes.drawn.points, strokes.rapid.points)
+    strokes.points()
 }

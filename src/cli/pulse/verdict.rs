@@ -3,9 +3,9 @@
 use super::Job;
 use super::summary::Minima;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
-use motion_rtl::circuits::pulse_interpolator::counts::pulses;
+use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
-use motion_rtl::jobs::pulse_interpolator::{Table, Word};
+use motion_rtl::jobs::pulse_interpolator::positions::steps_of;
 
 /// What is wrong with a run, axis by axis; empty where nothing is.
 pub fn complaints(job: &Job, played: &Played) -> Vec<String> {
@@ -30,33 +30,22 @@ pub fn complaints(job: &Job, played: &Played) -> Vec<String> {
 
 /// The first unit time with another count than its word makes.
 pub fn miscount(table: &Table, played: &Played, axis: usize) -> Option<String> {
-    let (mut before, mut tick) = (0, played.begun);
-    let units = table
-        .iter()
-        .zip(played.positions.chunks_exact(table.axes()));
-    for (unit, ((period, words), positions)) in units.enumerate() {
-        let counted = i64::from(positions[axis]) - before;
-        let due = count(words[axis], period);
-        if counted != due {
-            let n = words[axis].half_period();
-            let end = tick + u64::from(period);
-            let place = match played.idle_units {
-                0 => format!(", ticks {tick} to {end}"),
-                _ => String::new(),
-            };
-            return Some(format!(
-                "unit time {unit}{place}: {counted} steps counted where half-period {n} and \
-                 T = {period} make {due}"
-            ));
-        }
-        before = i64::from(positions[axis]);
-        tick += u64::from(period);
-    }
-    None
-}
-
-/// The steps that a word makes in `period` ticks.
-pub fn count(word: Word, period: u32) -> i64 {
-    let steps = i64::from(pulses(word.half_period(), period));
-    if word.negative() { -steps } else { steps }
+    let mut miscounts = played.positions.miscounts.iter();
+    let other = miscounts.find(|other| usize::from(other.axis) == axis)?;
+    let unit = other.unit as usize;
+    let (mut tick, mut periods) = (played.begun, table.iter());
+    let before = periods.by_ref().take(unit);
+    before.for_each(|(period, _)| tick += u64::from(period));
+    let (period, words) = periods.next()?;
+    let due = steps_of(words[axis], period);
+    let (n, counted) = (words[axis].half_period(), due + i64::from(other.steps));
+    let end = tick + u64::from(period);
+    let place = match played.idle_units {
+        0 => format!(", ticks {tick} to {end}"),
+        _ => String::new(),
+    };
+    Some(format!(
+        "unit time {unit}{place}: {counted} steps counted where half-period {n} and \
+         T = {period} make {due}"
+    ))
 }

@@ -1,8 +1,8 @@
 //! What a run of the trajectory controller begins with: a path, planned, and its machine.
 
-use crate::cli::Failure;
 use crate::cli::pieces::{SpeedKeys, fault, pieces};
 use crate::cli::source::Source;
+use crate::cli::{Failure, progress};
 use motion_rtl::circuits::trajectory_controller::Widths;
 use motion_rtl::input::Drawing;
 use motion_rtl::jobs::trajectory_controller::job::controller;
@@ -73,6 +73,7 @@ impl Job {
         let in_z = pieces.iter().any(|piece| piece.to[2] != start[2]);
         let axes = scenario.axes(in_z).map_err(refuse)?;
         let machines = scenario.machines(axes).map_err(refuse)?;
+        progress::stage("planning the path");
         let plan = |settings: &Settings| {
             let (of, full) = (fourth.as_ref(), &Widths::FULL);
             let program = Program::with_fourth(start, &pieces, of, settings, &machines, full);
@@ -124,9 +125,29 @@ impl Job {
         self.rapid.get(piece).copied().unwrap_or(false)
     }
 
-    /// Ticks that the path takes, for the progress bar.
+    /// Ticks that the path takes, and about those until the models are at rest, for the progress.
     pub fn ticks_at_least(&self) -> u64 {
-        let periods = (self.program.profile.duration / self.period_s()).ceil() as u64;
-        periods.saturating_mul(u64::from(self.program.period_ticks))
+        let periods = self.program.profile.duration / self.period_s() + self.settling_periods();
+        let ticks = u64::from(self.program.period_ticks);
+        (periods.ceil() as u64).saturating_mul(ticks)
+    }
+
+    /// Periods in which the slowest decay of the models brings them from where they are behind to
+    /// within half a count.
+    fn settling_periods(&self) -> f64 {
+        let program = &self.program;
+        let unit = program.motion.units_per_mm;
+        let fastest = program.profile.pieces.iter().map(|piece| piece.v);
+        let speed = fastest.fold(0.0, f64::max) / unit;
+        let settling = program.gains.iter().map(|gains| {
+            let [k1, k2] = gains.parts(&Widths::FULL);
+            let root = (k2 * k2 - 4.0 * k1 * k2).max(0.0).sqrt();
+            let decay = (k2 - root) / 2.0;
+            let behind_mm = speed * self.period_s() / decay;
+            let behind_mm = behind_mm.min(program.path.length as f64 / unit);
+            let counts = behind_mm * self.settings.counts_per_mm;
+            (2.0 * counts).max(1.0).ln() / decay
+        });
+        settling.fold(0.0, f64::max)
     }
 }

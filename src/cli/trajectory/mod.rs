@@ -11,13 +11,14 @@ mod verdict;
 pub use job::Job;
 
 use super::files::Files;
+use super::progress::{self, Part, Work};
 use super::report::conclude;
-use super::run::{Arguments, Progress, options};
+use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
 use super::{Failure, threads};
 use motion_rtl::circuits::trajectory_controller::TrajectoryController;
 use motion_rtl::hdl::{Model, RunError, Without, model_beside};
-use motion_rtl::jobs::trajectory_controller::job::{Played, controller, play};
+use motion_rtl::jobs::trajectory_controller::job::{Period, controller, play_each};
 use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::plant::TwoMassAxis;
@@ -25,13 +26,15 @@ use motion_rtl::plant::waves::Machine;
 use motion_rtl::settings::JobError;
 use motion_rtl::trace::Options;
 use picture::draw;
-use runs::{Run, Runs};
+use runs::{Run, Runs, UnderWay};
 use std::thread;
 use summary::Summary;
 
-/// Periods that the save file's window shows, and the one in motion that is the second of them.
+/// About how long a tick takes, with a motor and its load on each axis.
+const TICK_S: f64 = 100e-9;
+
+/// Periods that the save file's window shows.
 const PERIODS_SHOWN: u64 = 4;
-const IN_MOTION: usize = 200;
 
 /// What the save file begins with: from the length along the path to the loads.
 const OVERVIEW: [&str; 20] = [
@@ -69,6 +72,7 @@ const CORRECTIONS: [Correction; 4] = [
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
     let (runs, mut files) = all(arguments, job, &options)?;
+    progress::stage("summary and picture");
     files.write("svg", &draw(job, &runs))?;
     let summary = Summary::new(job, &runs);
     conclude(arguments, &options, files, summary)
@@ -83,9 +87,26 @@ fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Fil
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     // Before the others run, as what it refuses would wait for them.
     let traces = Traces::begin((&model, &circuit), arguments, scenario, options, ticks)?;
+    let runs = match (job.loaded.scenario.beside(), &job.full_feed) {
+        (false, _) => 1,
+        (true, None) => CORRECTIONS.len() as u64,
+        (true, Some(_)) => CORRECTIONS.len() as u64 + 1,
+    };
+    let subject = job
+        .drawing
+        .as_ref()
+        .map_or(&job.stem, |drawing| &drawing.file);
+    progress::run(
+        subject,
+        Work {
+            ticks,
+            runs,
+            seconds: ticks as f64 * runs as f64 * TICK_S,
+            in_waves: in_waves(arguments, options, ticks),
+        },
+    );
     if !job.loaded.scenario.beside() {
         let (own, files) = simulate((&circuit, &model), job, traces)?;
-        let own = Run::of(&job.program, traced, &own);
         let runs = own.into_iter().collect();
         return Ok((Runs { runs, traced }, files));
     }
@@ -106,22 +127,19 @@ fn all(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Runs, Fil
             .map(|other| other.map(threads::joined))
             .collect();
         let full_feed = full_feed.map(threads::joined).transpose();
-        let (own, files) = own?;
-        let mut own = Some(own);
+        let (mut own, files) = own?;
         let mut runs = Vec::new();
-        for (correction, other) in CORRECTIONS.into_iter().zip(others) {
-            let played = match other {
-                Some(played) => Some(played?),
+        for other in others {
+            runs.extend(match other {
+                Some(run) => run?,
                 None => own.take(),
-            };
-            runs.extend(played.and_then(|played| Run::of(&job.program, correction, &played)));
+            });
         }
-        if let (Some(program), Some(played)) = (&job.full_feed, full_feed?) {
-            let run = Run::of(program, Correction::Vector, &played);
-            runs.extend(run.map(|run| Run {
+        if let Some(Some(run)) = full_feed? {
+            runs.push(Run {
                 full_feed: true,
                 ..run
-            }));
+            });
         }
         Ok((Runs { runs, traced }, files))
     })
@@ -136,9 +154,12 @@ fn plants(job: &Job) -> Result<Vec<TwoMassAxis>, Failure> {
 }
 
 /// Plays the path without waves.
-fn untraced(job: &Job, program: &Program, correction: Correction) -> Result<Played, Failure> {
+fn untraced(job: &Job, program: &Program, correction: Correction) -> Result<Option<Run>, Failure> {
     let circuit = controller(job.axes(), correction, job.settings.rounding);
-    Ok(play(&circuit, program, plants(job)?, &mut ())?)
+    let mut run = UnderWay::new(job, program, correction);
+    let each = &mut |period: &Period| run.take(period);
+    let played = play_each(&circuit, program, plants(job)?, &mut Part::default(), each)?;
+    Ok(run.finish(&played))
 }
 
 /// Plays the path with its waves.
@@ -146,23 +167,23 @@ fn simulate(
     (circuit, model): (&TrajectoryController, &Model),
     job: &Job,
     mut traces: Traces<'_>,
-) -> Result<(Played, Files), Failure> {
+) -> Result<(Option<Run>, Files), Failure> {
     let plants = plants(job)?;
-    let mut progress = Progress::new(job.ticks_at_least());
+    let mut progress = Part::default();
     let stimulus = traces.stimulus.as_mut().map(Without);
     let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-    let played = play(circuit, &job.program, plants, &mut (files, &mut progress))?;
-    drop(progress);
+    let mut run = UnderWay::new(job, &job.program, job.settings.correction);
+    let each = &mut |period: &Period| run.take(period);
+    let observer = &mut (files, &mut progress);
+    let played = play_each(circuit, &job.program, plants, observer, each)?;
+    let run = run.finish(&played);
     let shown = PERIODS_SHOWN * u64::from(job.program.period_ticks);
     let focus = Focus {
-        action: played
-            .periods
-            .get(IN_MOTION)
-            .map_or(played.start, |period| period.tick),
+        action: run.as_ref().map_or(played.start, |run| run.in_motion),
         before: shown / PERIODS_SHOWN,
         shown,
         overview: &OVERVIEW,
     };
     let files = traces.finish(model, &focus, played.ticks)?;
-    Ok((played, files))
+    Ok((run, files))
 }

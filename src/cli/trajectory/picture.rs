@@ -9,7 +9,7 @@ use motion_rtl::jobs::trajectory_controller::measure::Deviation;
 use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::path::vector::{distance, sub};
-use motion_rtl::picture::{Curve, Panel, Picture};
+use motion_rtl::picture::{Curve, Panel, Picture, Points as Thinning};
 
 const GAP: (f64, f64) = (f64::NAN, f64::NAN);
 
@@ -59,7 +59,7 @@ pub fn draw(job: &Job, runs: &Runs) -> String {
 }
 
 fn path(job: &Job, runs: &Runs) -> Panel {
-    let factor = magnification(largest(job, runs), size(job));
+    let factor = magnification(largest(runs), size(job));
     let view = match job.axes() {
         2 => "path",
         _ => "path from above",
@@ -77,7 +77,7 @@ fn path(job: &Job, runs: &Runs) -> Panel {
         panel = panel.curve(curve.dashed());
     }
     for run in &runs.runs {
-        panel = panel.curve(curve(run, magnified(job, run, factor)));
+        panel = panel.curve(curve(run, magnified(run, factor)));
     }
     panel
 }
@@ -98,22 +98,10 @@ fn size(job: &Job) -> f64 {
     (most[0] - least[0]).hypot(most[1] - least[1])
 }
 
-/// Whether a deviation is on a rapid move.
-fn is_rapid(job: &Job, length_mm: f64) -> bool {
-    let path = &job.program.path;
-    let index = path.index(length_mm * job.program.motion.units_per_mm);
-    job.is_rapid(path.stretches[index].piece)
-}
-
-fn drawn<'a>(job: &'a Job, run: &'a Run) -> impl Iterator<Item = &'a Deviation> {
-    let all = run.measured.load.deviations.iter();
-    all.filter(|one| !is_rapid(job, one.length_mm))
-}
-
 /// The largest error that is drawn, in mm.
-fn largest(job: &Job, runs: &Runs) -> f64 {
-    let all = runs.runs.iter().flat_map(|run| drawn(job, run));
-    all.map(|one| one.contour_mm).fold(0.0, f64::max)
+fn largest(runs: &Runs) -> f64 {
+    let all = runs.runs.iter().map(|run| run.largest_drawn_mm);
+    all.fold(0.0, f64::max)
 }
 
 /// The path in the plane: what is drawn, and rapid moves.
@@ -143,13 +131,14 @@ fn ideal(job: &Job) -> [Points; 2] {
 }
 
 /// Where the loads were, their distance from the path multiplied.
-fn magnified(job: &Job, run: &Run, factor: f64) -> Points {
-    let points = run.measured.load.deviations.iter().map(|one| {
-        if is_rapid(job, one.length_mm) {
+fn magnified(run: &Run, factor: f64) -> Points {
+    let points = run.shown.iter().map(|one| {
+        if one.rapid {
             return GAP;
         }
-        let off: Point = sub(one.actual, one.nearest);
-        let [x, y] = [0, 1].map(|axis| one.nearest[axis] + factor * off[axis]);
+        let (actual, nearest) = (one.load.actual, one.load.nearest);
+        let off: Point = sub(actual, nearest);
+        let [x, y] = [0, 1].map(|axis| nearest[axis] + factor * off[axis]);
         (x, y)
     });
     points.collect()
@@ -159,7 +148,7 @@ fn magnified(job: &Job, run: &Run, factor: f64) -> Points {
 fn over_time(runs: &Runs, title: &str, unit: &str, of: fn(&Deviation) -> f64) -> Panel {
     let mut panel = Panel::new(title, "time in s", unit);
     for run in &runs.runs {
-        let all = run.measured.load.deviations.iter();
+        let all = run.shown.iter().map(|one| &one.load);
         let points = all.map(|one| (one.time_s, of(one))).collect();
         panel = panel.curve(curve(run, points));
     }
@@ -169,23 +158,18 @@ fn over_time(runs: &Runs, title: &str, unit: &str, of: fn(&Deviation) -> f64) ->
 /// The planned speed, and that of the loads in the run with waves.
 fn speed(job: &Job, runs: &Runs) -> Panel {
     let (run, period) = (runs.traced(), job.period_s());
-    let deviations = &run.measured.load.deviations;
+    let periods = run.shown.count();
     let planned = |program: &Program, name: &str| {
         let unit = program.motion.units_per_mm;
-        let points = (0..deviations.len()).map(|sample| {
+        let mut points = Thinning::expecting(periods);
+        points.extend((0..periods).map(|sample| {
             let t = sample as f64 * period;
             (t, program.profile.at(t)[1] / unit)
-        });
-        let curve = Curve::new(name, points.collect());
+        }));
+        let curve = Curve::thinned(name, points);
         curve.colour(PLANNED).dashed()
     };
-    // Positions are taken when the lookups are done: on arcs later in the period than on lines.
-    let loads = deviations.windows(2).zip(run.taken.windows(2));
-    let loads = loads.map(|(pair, taken)| {
-        let way = distance(pair[1].actual, pair[0].actual).hypot(pair[1].w_mm - pair[0].w_mm);
-        let time = (taken[1] - taken[0]) as f64 / job.settings.clock_hz as f64;
-        (f64::midpoint(pair[0].time_s, pair[1].time_s), way / time)
-    });
+    let loads = run.shown.iter().filter_map(|one| one.speed);
     let name = format!("loads, {}", run.correction.name());
     let mut panel = Panel::new("speed", "time in s", "mm/s")
         .curve(Curve::new(name, loads.collect()).colour(LOADS))

@@ -1,9 +1,9 @@
 //! The figures of a run: by each correction, of each axis, of each segment.
 
 use super::Job;
-use super::runs::{CircleError, Run, Runs};
+use super::runs::{Run, Runs};
 use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
-use motion_rtl::jobs::trajectory_controller::closed::Variants;
+use motion_rtl::jobs::trajectory_controller::closed::{Steady, Variants};
 use motion_rtl::jobs::trajectory_controller::measure::Errors;
 use motion_rtl::jobs::trajectory_controller::profile::Profile;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
@@ -136,7 +136,10 @@ pub fn corrections(job: &Job, runs: &Runs) -> Vec<CorrectionRow> {
         motor: error_row(&run.measured.motor),
         load: error_row(&run.measured.load),
         axes: axes(job, run),
-        circle: run.circle.map(|circle| circle_row(run.correction, &circle)),
+        circle: run
+            .circle
+            .as_ref()
+            .map(|circle| circle_row(run.correction, circle)),
     };
     runs.runs.iter().map(row).collect()
 }
@@ -166,7 +169,7 @@ fn axes(job: &Job, run: &Run) -> Vec<AxisRow> {
         .collect()
 }
 
-fn circle_row(correction: Correction, circle: &CircleError) -> CircleRow {
+fn circle_row(correction: Correction, circle: &Steady) -> CircleRow {
     let um = |forms: &Variants| forms.of(correction) * 1e3;
     CircleRow {
         radius_mm: circle.forms.radius_mm,
@@ -184,7 +187,8 @@ pub fn segments(job: &Job, runs: &Runs) -> Vec<SegmentRow> {
     let (path, motion) = (&job.program.path, &job.program.motion);
     let unit = motion.units_per_mm;
     let spans = spans(path, motion);
-    let errors = errors_of_segments(job, runs);
+    let runs = runs.runs.iter().filter(|run| !run.full_feed);
+    let errors: Vec<_> = runs.map(|run| &run.segments).collect();
     let speeds = Speeds::of(&job.program.profile);
     let stretches = path.stretches.iter().zip(&spans).enumerate();
     stretches
@@ -210,21 +214,6 @@ pub fn segments(job: &Job, runs: &Runs) -> Vec<SegmentRow> {
             }
         })
         .collect()
-}
-
-/// Largest contour error of the loads next to each segment, in um, by each correction.
-fn errors_of_segments(job: &Job, runs: &Runs) -> Vec<Vec<Option<f64>>> {
-    let (path, unit) = (&job.program.path, job.program.motion.units_per_mm);
-    let largest = |run: &Run| {
-        let mut largest = vec![None; path.stretches.len()];
-        for deviation in &run.measured.load.deviations {
-            let of = &mut largest[path.index(deviation.length_mm * unit)];
-            *of = Some(of.unwrap_or(0.0f64).max(deviation.contour_mm * 1e3));
-        }
-        largest
-    };
-    let own = runs.runs.iter().filter(|run| !run.full_feed);
-    own.map(largest).collect()
 }
 
 /// The planned speed by the length along the path.

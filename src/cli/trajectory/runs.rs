@@ -1,12 +1,18 @@
 //! What a path came to by each correction.
 
+use super::Job;
+use crate::cli::thinned::Thinned;
 use motion_rtl::circuits::trajectory_controller::path_point::AXES;
-use motion_rtl::jobs::trajectory_controller::closed::{ClosedForms, Steady};
-use motion_rtl::jobs::trajectory_controller::job::Played;
-use motion_rtl::jobs::trajectory_controller::measure::{Measured, apart};
+use motion_rtl::jobs::trajectory_controller::closed::{Steady, SteadySearch};
+use motion_rtl::jobs::trajectory_controller::job::{Period, Played};
+use motion_rtl::jobs::trajectory_controller::measure::{Deviation, Measured, Measuring, apart};
 use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
+use motion_rtl::path::vector::distance;
 use std::array::from_fn;
+
+/// The period whose tick the save file's window begins with.
+const IN_MOTION: usize = 200;
 
 /// What the run at full feed is called.
 const FULL_FEED: &str = "vector, full feed";
@@ -44,8 +50,8 @@ pub struct Run {
     pub start: u64,
     /// Interpolation periods.
     pub periods: usize,
-    /// The tick in which positions were taken, of each.
-    pub taken: Vec<u64>,
+    /// The tick of a period in motion.
+    pub in_motion: u64,
     /// Largest distance of a command from the path's exact point, in mm.
     pub command_error_mm: f64,
     /// Distance of the last command from the path's end, in mm.
@@ -55,7 +61,13 @@ pub struct Run {
     /// Measured.
     pub measured: Measured,
     /// On a circle at constant speed.
-    pub circle: Option<CircleError>,
+    pub circle: Option<Steady>,
+    /// Largest contour error of the loads on what is drawn, in mm.
+    pub largest_drawn_mm: f64,
+    /// Largest contour error of the loads next to each segment, in um; without a period there none.
+    pub segments: Vec<Option<f64>>,
+    /// The periods, thinned for the picture.
+    pub shown: Thinned<Shown, 5>,
     /// A period began before the one before was over.
     pub late: bool,
     /// The profile ended in motion.
@@ -66,55 +78,130 @@ pub struct Run {
     pub settled: bool,
 }
 
-/// Contour error on a circle, inwards positive, in mm: means of the steady part.
+/// A period as the picture shows it: the loads.
 #[derive(Debug, Clone, Copy)]
-pub struct CircleError {
-    /// Closed forms.
-    pub forms: ClosedForms,
-    /// Periods of the steady part.
-    pub periods: usize,
-    /// Of the models.
-    pub model_mm: f64,
-    /// Of the loads.
-    pub load_mm: f64,
+pub struct Shown {
+    /// Where they were.
+    pub load: Deviation,
+    /// It is on a rapid move.
+    pub rapid: bool,
+    /// Their speed since the period before, in mm/s, and the time in the middle of both, in s.
+    pub speed: Option<(f64, f64)>,
 }
 
-impl Run {
-    /// Of what was played; none where there is no period.
-    pub fn of(program: &Program, correction: Correction, played: &Played) -> Option<Self> {
-        let measured = Measured::of(program, played)?;
-        let last = played.periods.last()?;
-        let circle = Steady::of(program, played).map(|steady| CircleError {
-            forms: steady.forms,
-            periods: steady.periods.len(),
-            model_mm: steady.mean_mm(&measured.model),
-            load_mm: steady.mean_mm(&measured.load),
-        });
-        // Commands are from where the path begins.
-        let off = |command: [i64; AXES], length: f64| {
-            let at = from_fn(|axis| program.origin[axis] as f64 + command[axis] as f64);
-            apart(at, program.path.place(length)) / program.motion.units_per_mm
-        };
-        let commands = played.periods.iter();
-        let errors = commands.map(|period| off(period.command, period.length as f64));
-        Some(Run {
+impl Shown {
+    /// The numbers whose extremes a picture shows.
+    fn numbers(&self) -> [f64; 5] {
+        let [x, y, _] = self.load.actual;
+        let speed = self.speed.map_or(f64::NAN, |(_, speed)| speed);
+        [x, y, self.load.contour_mm, self.load.following_mm, speed]
+    }
+}
+
+/// A run while it goes on.
+#[derive(Debug)]
+pub struct UnderWay<'j> {
+    job: &'j Job,
+    program: &'j Program,
+    correction: Correction,
+    measuring: Measuring<'j>,
+    steady: SteadySearch,
+    last: Option<(Period, Deviation)>,
+    in_motion: Option<u64>,
+    command_error_mm: f64,
+    largest_drawn_mm: f64,
+    segments: Vec<Option<f64>>,
+    shown: Thinned<Shown, 5>,
+}
+
+impl<'j> UnderWay<'j> {
+    /// One that begins.
+    pub fn new(job: &'j Job, program: &'j Program, correction: Correction) -> Self {
+        UnderWay {
+            job,
+            program,
             correction,
+            measuring: Measuring::new(program, job.axes()),
+            steady: SteadySearch::new(program),
+            last: None,
+            in_motion: None,
+            command_error_mm: 0.0,
+            largest_drawn_mm: 0.0,
+            segments: vec![None; program.path.stretches.len()],
+            shown: Thinned::by(Shown::numbers),
+        }
+    }
+
+    /// Takes the next period.
+    pub fn take(&mut self, period: &Period) {
+        let (path, unit) = (&self.program.path, self.program.motion.units_per_mm);
+        let [model, _, load] = self.measuring.take(period);
+        let contour_mm = [model.contour_mm, load.contour_mm];
+        self.steady.take(period.length, contour_mm);
+        let off = self.off(period.command, period.length as f64);
+        self.command_error_mm = self.command_error_mm.max(off);
+        if self.shown.count() == IN_MOTION {
+            self.in_motion = Some(period.tick);
+        }
+        let number = path.index(load.length_mm * unit);
+        let of = &mut self.segments[number];
+        *of = Some(of.unwrap_or(0.0f64).max(load.contour_mm * 1e3));
+        let rapid = self.job.is_rapid(path.stretches[number].piece);
+        if !rapid {
+            self.largest_drawn_mm = self.largest_drawn_mm.max(load.contour_mm);
+        }
+        // Positions are taken when the lookups are done: on arcs later in the period than on lines.
+        let speed = self.last.as_ref().map(|(before, was)| {
+            let way = distance(load.actual, was.actual).hypot(load.w_mm - was.w_mm);
+            let time = (period.tick - before.tick) as f64 / self.job.settings.clock_hz as f64;
+            (f64::midpoint(was.time_s, load.time_s), way / time)
+        });
+        self.shown.push(Shown { load, rapid, speed });
+        self.last = Some((*period, load));
+    }
+
+    /// Distance of a command from a place on the path, in mm; commands are from where the path begins.
+    fn off(&self, command: [i64; AXES], length: f64) -> f64 {
+        let program = self.program;
+        let at = from_fn(|axis| program.origin[axis] as f64 + command[axis] as f64);
+        apart(at, program.path.place(length)) / program.motion.units_per_mm
+    }
+
+    /// What it came to; none where there was no period.
+    pub fn finish(self, played: &Played) -> Option<Run> {
+        let (last, _) = self.last?;
+        let end_mm = self.off(last.command, self.program.path.length as f64);
+        Some(Run {
+            correction: self.correction,
             full_feed: false,
-            planned_s: program.profile.duration,
+            planned_s: self.program.profile.duration,
             ticks: played.ticks,
             start: played.start,
-            periods: played.periods.len(),
-            taken: played.periods.iter().map(|period| period.tick).collect(),
-            command_error_mm: errors.fold(0.0, f64::max),
-            end_mm: off(last.command, program.path.length as f64),
+            periods: self.shown.count(),
+            in_motion: self.in_motion.unwrap_or(played.start),
+            command_error_mm: self.command_error_mm,
+            end_mm,
             end_counts: last.motor[..played.axes].to_vec(),
-            measured,
-            circle,
+            measured: self.measuring.finish()?,
+            circle: self.steady.finish(),
+            largest_drawn_mm: self.largest_drawn_mm,
+            segments: self.segments,
+            shown: self.shown,
             late: played.late,
             starved: played.starved,
             lost: played.lost,
             settled: played.settled,
         })
+    }
+}
+
+impl Run {
+    /// Of what was played; none where there is no period.
+    #[cfg(test)]
+    pub fn of(job: &Job, correction: Correction, played: &Played) -> Option<Self> {
+        let mut run = UnderWay::new(job, &job.program, correction);
+        played.periods.iter().for_each(|period| run.take(period));
+        run.finish(played)
     }
 
     /// What it is called.

@@ -121,7 +121,7 @@ mod tests {
     }
 
     fn judged(job: &Job, played: &Played) -> Vec<String> {
-        let run = |correction| Run::of(&job.program, correction, played);
+        let run = |correction| Run::of(job, correction, played);
         let runs = Runs {
             runs: CORRECTIONS.into_iter().filter_map(run).collect(),
             traced: Correction::Vector,

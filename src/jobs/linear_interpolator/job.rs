@@ -1,7 +1,7 @@
 //! A drawing's cycles through the controller, with a motor on each axis: on the linear interpolator,
 //! and on the conventional system.
 
-use super::measure::{Cycle, Played, ScanRecord};
+use super::measure::{Cycle, Played, ScanRecord, Seen};
 use super::profile::Profile;
 use super::settings::{AxisSettings, Settings};
 use super::targets::Target;
@@ -92,6 +92,9 @@ impl See {
 /// The control computer: gives targets, and writes down what comes of them.
 struct Bench<'a, const N: usize> {
     targets: &'a [Target<N>],
+    /// Scans so far, and what is told of each.
+    scans: usize,
+    each: &'a mut dyn FnMut(&Seen<'_>),
     master: MasterAxis,
     pushed: usize,
     /// A push stood in the tick before.
@@ -141,19 +144,24 @@ impl<const N: usize> Bench<'_, N> {
         }
         if now.get(see.scan) {
             self.idle += 1;
-            let at = played.records.len();
-            played.records.push(ScanRecord {
-                tick: now.tick,
-                command: command(),
-                motor,
-            });
-            if let Some(cycle) = self.fresh.take() {
+            let (at, fresh) = (self.scans, self.fresh.take());
+            self.scans += 1;
+            if let Some(cycle) = fresh {
                 let scans = &mut played.cycles[cycle].scans;
                 *scans = match scans.len() {
                     0 => at..at + 1,
                     _ => scans.start..at + 1,
                 };
             }
+            (self.each)(&Seen {
+                record: ScanRecord {
+                    tick: now.tick,
+                    command: command(),
+                    motor,
+                },
+                fresh,
+                cycles: &played.cycles,
+            });
             for axis in 0..2 {
                 played.saturated_scans[axis] += u64::from(now.get(see.saturated[axis]));
             }
@@ -211,6 +219,23 @@ pub fn play<const N: usize>(
     settings: &Settings,
     observer: &mut dyn Observer<Controller>,
 ) -> Result<Played, JobError> {
+    let mut records = Vec::new();
+    let each = &mut |seen: &Seen<'_>| records.push(seen.record);
+    let played = play_each(circuit, targets, settings, observer, each)?;
+    Ok(Played { records, ..played })
+}
+
+/// Does what [`play`] does, but tells every scan to `each` as it comes and keeps no records.
+///
+/// # Errors
+/// As [`play`].
+pub fn play_each<const N: usize>(
+    circuit: &Controller,
+    targets: &[Target<N>],
+    settings: &Settings,
+    observer: &mut dyn Observer<Controller>,
+    each: &mut dyn FnMut(&Seen<'_>),
+) -> Result<Played, JobError> {
     settings.validate()?;
     let tick_s = 1.0 / settings.clock_hz as f64;
     let [x, y] = &settings.axes;
@@ -229,6 +254,8 @@ pub fn play<const N: usize>(
     };
     let mut bench = Bench {
         targets,
+        scans: 0,
+        each,
         master: match &circuit.source {
             CommandSource::Linear(interpolator) => interpolator.master,
             CommandSource::Conventional(_) => MasterAxis::Longer,

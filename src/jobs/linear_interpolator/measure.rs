@@ -14,6 +14,17 @@ pub struct ScanRecord {
     pub motor: [f64; 2],
 }
 
+/// A scan as it comes.
+#[derive(Debug)]
+pub struct Seen<'a> {
+    /// What it is.
+    pub record: ScanRecord,
+    /// The cycle whose new command stands in it.
+    pub fresh: Option<usize>,
+    /// The cycles so far.
+    pub cycles: &'a [Cycle],
+}
+
 /// One positioning cycle of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cycle {
@@ -34,7 +45,7 @@ pub struct Cycle {
 pub struct Played {
     /// Ticks of the run.
     pub ticks: u64,
-    /// Every scan.
+    /// Every scan; none of [`play_each`](super::job::play_each).
     pub records: Vec<ScanRecord>,
     /// Every cycle, in order.
     pub cycles: Vec<Cycle>,
@@ -74,24 +85,141 @@ impl Played {
 
     fn segment(&self, number: usize, counts_per_mm: [f64; 2]) -> Segment {
         let cycle = &self.cycles[number];
+        let mut measuring = CycleMeasuring::new(cycle, counts_per_mm);
+        let behind = cycle.scans.len();
+        for (place, record) in self.records_of(number).iter().enumerate() {
+            measuring.take(cycle, record, place < behind);
+        }
+        measuring.finish(cycle)
+    }
+}
+
+/// Measures all cycles of a run while it goes on.
+#[derive(Debug)]
+pub struct Measuring {
+    counts_per_mm: [f64; 2],
+    segments: Vec<Segment>,
+    /// The cycle under way.
+    latest: Option<CycleMeasuring>,
+}
+
+impl Measuring {
+    /// None yet; `counts_per_mm` is that of X and Y.
+    #[must_use]
+    pub fn new(counts_per_mm: [f64; 2]) -> Self {
+        Measuring {
+            counts_per_mm,
+            segments: Vec::new(),
+            latest: None,
+        }
+    }
+
+    /// Takes the next scan; returns the cycle that it belongs to, if there is one.
+    pub fn take(&mut self, seen: &Seen<'_>) -> Option<usize> {
+        if let Some(cycle) = seen.fresh
+            && (self.latest.is_none() || cycle != self.segments.len())
+        {
+            self.close(seen.cycles, cycle);
+            self.latest = Some(CycleMeasuring::new(&seen.cycles[cycle], self.counts_per_mm));
+        }
+        let cycle = self.segments.len();
+        let latest = self.latest.as_mut()?;
+        latest.take(&seen.cycles[cycle], &seen.record, seen.fresh.is_some());
+        Some(cycle)
+    }
+
+    /// Ends the cycles before one.
+    fn close(&mut self, cycles: &[Cycle], until: usize) {
+        if let Some(latest) = self.latest.take() {
+            let ended = latest.finish(&cycles[self.segments.len()]);
+            self.segments.push(ended);
+        }
+        // Of one without a scan there is nothing.
+        for cycle in &cycles[self.segments.len()..until] {
+            let none = CycleMeasuring::new(cycle, self.counts_per_mm);
+            self.segments.push(none.finish(cycle));
+        }
+    }
+
+    /// The measures of every cycle, once the run is over.
+    #[must_use]
+    pub fn finish(mut self, cycles: &[Cycle]) -> Vec<Segment> {
+        self.close(cycles, cycles.len());
+        self.segments
+    }
+}
+
+/// Measures a cycle while it goes on.
+#[derive(Debug)]
+struct CycleMeasuring {
+    counts_per_mm: [f64; 2],
+    /// Scans from the first command to the last.
+    scans: usize,
+    off: u128,
+    /// Commands since the last new one: they belong to the cycle if another one comes.
+    waiting: Vec<[i64; 2]>,
+    /// The two commands before the next.
+    before: [[i64; 2]; 2],
+    acceleration: [u64; 2],
+    contour: [f64; 2],
+}
+
+impl CycleMeasuring {
+    fn new(cycle: &Cycle, counts_per_mm: [f64; 2]) -> Self {
+        CycleMeasuring {
+            counts_per_mm,
+            scans: 0,
+            off: 0,
+            waiting: Vec::new(),
+            before: [cycle.from; 2],
+            acceleration: [0; 2],
+            contour: [0.0; 2],
+        }
+    }
+
+    /// Takes a scan, in which a new command stands or not.
+    fn take(&mut self, cycle: &Cycle, record: &ScanRecord, fresh: bool) {
+        for (largest, scale) in self.contour.iter_mut().zip([[1.0; 2], self.counts_per_mm]) {
+            *largest = largest.max(cycle.contour_error(record.motor, scale).abs());
+        }
+        self.waiting.push(record.command);
+        if fresh {
+            for command in std::mem::take(&mut self.waiting) {
+                self.scans += 1;
+                self.off = self.off.max(cycle.off(command));
+                self.accelerate(command);
+            }
+        }
+    }
+
+    /// Takes the second difference with the next command.
+    fn accelerate(&mut self, command: [i64; 2]) {
+        let [first, second] = self.before;
+        for (axis, most) in self.acceleration.iter_mut().enumerate() {
+            let change = first[axis] - 2 * second[axis] + command[axis];
+            *most = change.unsigned_abs().max(*most);
+        }
+        self.before = [second, command];
+    }
+
+    fn finish(mut self, cycle: &Cycle) -> Segment {
         let (master, slave) = (cycle.master, 1 - cycle.master);
         let delta = cycle.delta();
-        let commands = self.records.get(cycle.scans.clone()).unwrap_or(&[]);
-        let off = commands.iter().map(|record| cycle.off(record.command));
-        let off = off.max().unwrap_or(0);
+        if self.scans > 0 {
+            // From rest to rest.
+            let [_, last] = self.before;
+            self.accelerate(last);
+            self.accelerate(last);
+        }
+        let off = self.off;
         let divisor = delta[master].unsigned_abs();
         let length = (delta[master] as f64).hypot(delta[slave] as f64);
-        let largest = |scale: [f64; 2]| {
-            let motors = self.records_of(number).iter();
-            motors
-                .map(|record| cycle.contour_error(record.motor, scale).abs())
-                .fold(0.0, f64::max)
-        };
+        let [contour_counts, contour_mm] = self.contour;
         Segment {
             delta,
-            acceleration: cycle.acceleration(commands),
+            acceleration: self.acceleration,
             master,
-            scans: commands.len(),
+            scans: self.scans,
             end_error: [0, 1].map(|axis| cycle.end[axis] - cycle.to[axis]),
             deviation: Deviation {
                 numerator: off,
@@ -102,8 +230,8 @@ impl Played {
             } else {
                 0.0
             },
-            contour_counts: largest([1.0; 2]),
-            contour_um: largest(counts_per_mm) * 1e3,
+            contour_counts,
+            contour_um: contour_mm * 1e3,
         }
     }
 }
@@ -113,22 +241,6 @@ impl Cycle {
     #[must_use]
     pub fn delta(&self) -> [i64; 2] {
         [0, 1].map(|axis| self.to[axis] - self.from[axis])
-    }
-
-    /// The largest second difference of commands that begin and end at rest.
-    fn acceleration(&self, commands: &[ScanRecord]) -> [u64; 2] {
-        let Some(last) = commands.last() else {
-            return [0; 2];
-        };
-        let stands = |at| std::iter::repeat_n(at, 2);
-        let course = commands.iter().map(|record| record.command);
-        let course = stands(self.from).chain(course).chain(stands(last.command));
-        let course: Vec<[i64; 2]> = course.collect();
-        [0, 1].map(|axis| {
-            let second = |three: &[[i64; 2]]| three[0][axis] - 2 * three[1][axis] + three[2][axis];
-            let changes = course.windows(3).map(|three| second(three).unsigned_abs());
-            changes.max().unwrap_or(0)
-        })
     }
 
     /// |Δm·(s − s0) − Δs·(m − m0)|: |Δm| times the deviation of a point along the slave axis, and

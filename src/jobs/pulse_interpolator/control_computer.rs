@@ -6,7 +6,7 @@
 //! time T begins a new pattern. Where the computer does not keep up, unit times without pulses
 //! stand between two patterns; no pulse is lost.
 
-use super::table::{Table, Word};
+use super::table::Table;
 use crate::circuits::pulse_interpolator::Group;
 use crate::circuits::pulse_interpolator::group::In;
 use crate::circuits::pulse_interpolator::pattern_memory::WritePort;
@@ -28,7 +28,7 @@ pub struct ControlComputer<'t> {
     half: usize,
     /// All outputs low.
     quiet: In<Value>,
-    words: &'t [Word],
+    table: &'t Table,
     chunks: Vec<Chunk>,
     /// The chunk that is being written, or waits to be.
     chunk: usize,
@@ -52,7 +52,7 @@ impl<'t> ControlComputer<'t> {
             axes: table.axes(),
             half,
             quiet: zero(group),
-            words: table.words(),
+            table,
             chunks: chunks.collect(),
             chunk: 0,
             written: 0,
@@ -77,7 +77,7 @@ impl<'t> ControlComputer<'t> {
                 return None;
             }
             let (unit, axis) = (self.written / self.axes, self.written % self.axes);
-            let word = self.words[(chunk.first + unit) * self.axes + axis];
+            let word = self.table.word(chunk.first + unit, axis);
             self.written += 1;
             return Some(In {
                 port: WritePort {

@@ -2,6 +2,7 @@
 //! computer, and counted at the motor drivers.
 
 use super::motors::{MotorReport, Motors, StepMotors};
+use super::positions::{Counted, Positions};
 use super::spread::Paced;
 use super::step_dir::TimingMinima;
 use super::{ControlComputer, Table};
@@ -24,9 +25,8 @@ pub struct Played {
     pub idle_units: u64,
     /// Each axis, X first.
     pub axes: Vec<PlayedAxis>,
-    /// Positions at the end of every unit time of the table in steps from where the axes began,
-    /// X first, unit after unit.
-    pub positions: Vec<i32>,
+    /// Positions at the end of every unit time of the table.
+    pub positions: Positions,
     /// What became of the motors, if there were some.
     pub motors: Vec<MotorReport>,
 }
@@ -62,6 +62,7 @@ struct See {
 
 /// Drivers on all axes, and where they are when a unit time ends.
 struct Bench<'o> {
+    counted: Counted<'o>,
     see: See,
     observer: &'o mut dyn Observer<Group>,
     /// The run ends in pieces: with every tick in which a command can be taken.
@@ -71,7 +72,6 @@ struct Bench<'o> {
     axes: Vec<Paced>,
     /// The first tick of the unit time under way.
     unit_begun: u64,
-    positions: Vec<i32>,
     units: usize,
     begun: Option<u64>,
     first_step: Option<u64>,
@@ -101,7 +101,7 @@ impl Observer<Group> for Bench<'_> {
             self.begun = Some(now.tick);
         }
         self.last_tick = now.tick;
-        self.over = self.positions.len() == self.units * self.axes.len() && !busy;
+        self.over = self.counted.positions.units == self.units && !busy;
         self.over |= self.observer.sample(now)?.is_break();
         Ok(if self.over || taken {
             ControlFlow::Break(())
@@ -114,7 +114,7 @@ impl Observer<Group> for Bench<'_> {
 impl Bench<'_> {
     /// The unit time of the table that is under way.
     fn unit(&self) -> usize {
-        let ended = self.positions.len() / self.axes.len();
+        let ended = self.counted.positions.units;
         ended.min(self.units.saturating_sub(1))
     }
 
@@ -124,9 +124,9 @@ impl Bench<'_> {
         }
         self.unit_begun = end;
         if busy {
-            let positions = self.axes.iter().map(|axis| axis.driver.position() as i32);
-            self.positions.extend(positions);
-        } else if self.begun.is_some() && self.positions.len() < self.units * self.axes.len() {
+            let positions = self.axes.iter().map(|axis| axis.driver.position());
+            self.counted.unit(positions);
+        } else if self.begun.is_some() && self.counted.positions.units < self.units {
             self.idle_units += 1;
         }
     }
@@ -305,7 +305,7 @@ fn played(
         over: false,
         axes: vec![Paced::default(); group.axes],
         unit_begun: 0,
-        positions: Vec::with_capacity(table.units() * group.axes),
+        counted: Counted::new(table),
         units: table.units(),
         begun: None,
         first_step: None,
@@ -328,7 +328,7 @@ fn played(
         first_step: bench.first_step,
         idle_units: bench.idle_units,
         axes: axes.collect(),
-        positions: bench.positions,
+        positions: bench.counted.positions,
         motors,
     })
 }

@@ -5,6 +5,7 @@ pub mod beside;
 pub mod control_computer;
 pub mod job;
 pub mod motors;
+pub mod positions;
 pub mod rates;
 pub mod spread;
 pub mod step_dir;

@@ -92,7 +92,7 @@ impl Stored {
                     room,
                 });
             }
-            for (index, word) in table.words().iter().enumerate() {
+            for (index, word) in table.words().enumerate() {
                 let contents = &mut memories[index % axes];
                 let address = base + index / axes;
                 contents

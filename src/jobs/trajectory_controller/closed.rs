@@ -12,8 +12,7 @@
 //! | τ | 1/K1 | (1/K1 − 1)·Δt |
 //! | X | G | G(1 − d(1 − 1/z)), seen d periods before the model's step is over |
 
-use super::job::{Played, Program, controller};
-use super::measure::Errors;
+use super::job::{Program, controller};
 use super::segments::Segment;
 use super::settings::Correction;
 use crate::circuits::trajectory_controller::{Rounding, Widths};
@@ -145,29 +144,55 @@ impl Fed {
 /// The part of a run in which a circle is run at constant speed, and what was before is forgotten.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steady {
-    /// The periods.
-    pub periods: Range<usize>,
+    /// How many periods it has.
+    pub periods: usize,
+    /// Mean contour error of the models, in mm.
+    pub model_mm: f64,
+    /// Mean contour error of the loads, in mm.
+    pub load_mm: f64,
     /// What the closed forms say.
     pub forms: ClosedForms,
 }
 
-impl Steady {
-    /// The longest such part; none where there is no period of one, or the models of the axes differ,
-    /// so that a circle becomes none.
+/// Lengths between which a circle is run at constant speed, and what was seen there.
+#[derive(Debug)]
+struct Stretch {
+    from: f64,
+    to: f64,
+    forms: ClosedForms,
+    /// Periods within it.
+    periods: usize,
+    /// Sums of the contour errors of models and loads when what was before is forgotten.
+    sums: [f64; 2],
+}
+
+/// Looks for the longest [`Steady`] part of a run while it goes on.
+#[derive(Debug)]
+pub struct SteadySearch {
+    /// Periods in which what was before is forgotten.
+    wait: usize,
+    stretches: Vec<Stretch>,
+    /// The first that is not over.
+    next: usize,
+}
+
+impl SteadySearch {
+    /// Finds the stretches of a program; none where the models of the axes differ, so that a circle
+    /// becomes none.
     #[must_use]
-    pub fn of(program: &Program, played: &Played) -> Option<Self> {
-        if program
-            .gains
-            .iter()
-            .any(|gains| *gains != program.tangential)
-        {
-            return None;
-        }
+    pub fn new(program: &Program) -> Self {
         let motion = &program.motion;
         let [k1, k2] = program.tangential.parts(&Widths::FULL);
         let root = (k2 * k2 - 4.0 * k1 * k2).max(0.0).sqrt();
         let wait = (FORGOTTEN / ((k2 - root) / 2.0)).ceil() as usize;
-        let mut longest: Option<Steady> = None;
+        let mut stretches = Vec::new();
+        let mut gains = program.gains.iter();
+        let alike = gains.all(|gains| *gains == program.tangential);
+        let circles = if alike { circles(program) } else { Vec::new() };
+        let (mm, fed) = (1.0 / motion.units_per_mm, Fed::of(program));
+        let gains = [k1, k2].map(|gain| gain / motion.period);
+        let c = program.tangential.radial_s2(&Widths::FULL, motion.period);
+        let mut first = 0;
         for (index, piece) in program.profile.pieces.iter().enumerate() {
             let next = program.profile.pieces.get(index + 1);
             let until = next.map_or(program.profile.duration, |next| next.t);
@@ -175,33 +200,70 @@ impl Steady {
                 continue;
             }
             let ends = [piece.t, until].map(|t| program.profile.at(t)[0]);
-            for (circle, radius) in circles(program) {
+            // Pieces and circles both come in the order of the lengths.
+            first += circles[first..].partition_point(|(circle, _)| (circle.end as f64) < ends[0]);
+            for (circle, radius) in &circles[first..] {
                 let from = (circle.start as f64).max(ends[0]);
                 let to = (circle.end as f64).min(ends[1]);
-                let inside = |length: i64| (from..=to).contains(&(length as f64));
-                let first = played.periods.partition_point(|p| (p.length as f64) < from);
-                let behind = &played.periods[first..];
-                let count = behind.iter().take_while(|p| inside(p.length)).count();
-                let periods = first + wait..first + count;
-                let longer = longest.as_ref().map_or(0, |steady| steady.periods.len());
-                if periods.len() > longer {
-                    let mm = 1.0 / motion.units_per_mm;
-                    let gains = [k1, k2].map(|gain| gain / motion.period);
-                    let c = program.tangential.radial_s2(&Widths::FULL, motion.period);
-                    let (speed, fed) = (piece.v * mm, Fed::of(program));
-                    let forms = ClosedForms::of(radius * mm, speed, gains, motion.period, c, fed);
-                    longest = Some(Steady { periods, forms });
+                if from > to {
+                    break;
                 }
+                let speed = piece.v * mm;
+                stretches.push(Stretch {
+                    from,
+                    to,
+                    forms: ClosedForms::of(radius * mm, speed, gains, motion.period, c, fed),
+                    periods: 0,
+                    sums: [0.0; 2],
+                });
+            }
+        }
+        SteadySearch {
+            wait,
+            stretches,
+            next: 0,
+        }
+    }
+
+    /// Takes the next period: its length, which never falls, and the contour errors of models and
+    /// loads in mm.
+    pub fn take(&mut self, length: i64, contour_mm: [f64; 2]) {
+        let length = length as f64;
+        let over = |stretch: &Stretch| stretch.to < length;
+        self.next += self.stretches[self.next..]
+            .iter()
+            .take_while(|of| over(of))
+            .count();
+        // One ends where another begins.
+        let under_way = self.stretches[self.next..].iter_mut();
+        for stretch in under_way.take_while(|stretch| stretch.from <= length) {
+            if stretch.periods >= self.wait {
+                for (sum, mm) in stretch.sums.iter_mut().zip(contour_mm) {
+                    *sum += mm;
+                }
+            }
+            stretch.periods += 1;
+        }
+    }
+
+    /// The longest part; none where there is no period of one.
+    #[must_use]
+    pub fn finish(self) -> Option<Steady> {
+        let wait = self.wait;
+        let mut longest: Option<Steady> = None;
+        for stretch in self.stretches {
+            let periods = stretch.periods.saturating_sub(wait);
+            if periods > longest.as_ref().map_or(0, |steady| steady.periods) {
+                let [model_mm, load_mm] = stretch.sums.map(|sum| sum / periods as f64);
+                longest = Some(Steady {
+                    periods,
+                    model_mm,
+                    load_mm,
+                    forms: stretch.forms,
+                });
             }
         }
         longest
-    }
-
-    /// Mean contour error in these periods, in mm.
-    #[must_use]
-    pub fn mean_mm(&self, errors: &Errors) -> f64 {
-        let own = &errors.deviations[self.periods.clone()];
-        own.iter().map(|one| one.contour_mm).sum::<f64>() / own.len() as f64
     }
 }
 

@@ -63,7 +63,7 @@ pub struct Period {
 pub struct Played {
     /// How many axes there are.
     pub axes: usize,
-    /// The periods from the path's start on, its first length 0.
+    /// The periods from the path's start on, its first length 0; none of [`play_each`].
     pub periods: Vec<Period>,
     /// The tick in which the path was started: before it, it was written.
     pub start: u64,
@@ -259,6 +259,23 @@ pub fn play(
     plants: Vec<TwoMassAxis>,
     observer: &mut dyn Observer<TrajectoryController>,
 ) -> Result<Played, JobError> {
+    let mut periods = Vec::new();
+    let each = &mut |period: &Period| periods.push(*period);
+    let played = play_each(circuit, program, plants, observer, each)?;
+    Ok(Played { periods, ..played })
+}
+
+/// Does what [`play`] does, but gives every period to `each` as it comes and keeps none.
+///
+/// # Errors
+/// As [`play`].
+pub fn play_each(
+    circuit: &TrajectoryController,
+    program: &Program,
+    plants: Vec<TwoMassAxis>,
+    observer: &mut dyn Observer<TrajectoryController>,
+    each: &mut dyn FnMut(&Period),
+) -> Result<Played, JobError> {
     let (segments, most) = (program.path.stretches.len(), circuit.widths.most_segments());
     if segments > most {
         let allowed = format!("up to {most}");
@@ -276,7 +293,7 @@ pub fn play(
     };
     let (all, beside) = (observer.needs_all(), Machine { axes });
     let (mut simulator, see) = Simulator::watching_beside(circuit, &beside, all, See::of)?;
-    let mut compared = None;
+    let (mut compared, mut last) = (None, None);
     let (mut rests, mut calm, patience) = (0, 0, patience(program));
     let unit = (Widths::FULL.guard() as f64).exp2();
     let mut motors = Ahead::new(Motors {
@@ -316,12 +333,13 @@ pub fn play(
             {
                 period.torque = see.each(|axis| now.get(axis.torque));
                 period.saturated = see.each(|axis| now.get(axis.saturated));
-                played.periods.push(period);
+                each(&period);
+                last = Some(period);
                 ended = !now.get(see.busy);
             }
         };
         let ((), flow) = simulator.look(&i, &mut *observer, take)?;
-        if let Some(period) = played.periods.last()
+        if let Some(period) = &last
             && ended
             && !starts
         {

@@ -46,9 +46,9 @@ pub struct Peak {
 }
 
 /// What was between the path and models, motors or loads.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Errors {
-    /// Period by period.
+    /// Period by period; none of [`Measuring`].
     pub deviations: Vec<Deviation>,
     /// Largest contour error.
     pub contour: Peak,
@@ -83,89 +83,148 @@ impl Measured {
     /// Measures a run; `None` of one without periods.
     #[must_use]
     pub fn of(program: &Program, played: &Played) -> Option<Self> {
-        played.periods.first()?;
-        let model = |period: &Period, axis: usize| period.model[axis] as f64;
-        let motor = |period: &Period, axis: usize| period.motor[axis] as f64 * COUNT;
-        let load = |period: &Period, axis: usize| period.load[axis] * COUNT;
-        let each = |axis: usize| played.periods.iter().map(move |period| (period, axis));
-        let torque = |(period, axis): (&Period, usize)| period.torque[axis].abs();
-        let limited = |(period, axis): &(&Period, usize)| period.saturated[*axis];
+        let mut measuring = Measuring::new(program, played.axes);
+        let mut deviations = [const { Vec::new() }; 3];
+        for period in &played.periods {
+            for (all, one) in deviations.iter_mut().zip(measuring.take(period)) {
+                all.push(one);
+            }
+        }
+        let mut measured = measuring.finish()?;
+        let errors = [&mut measured.model, &mut measured.motor, &mut measured.load];
+        for (errors, deviations) in errors.into_iter().zip(deviations) {
+            errors.deviations = deviations;
+        }
+        Some(measured)
+    }
+}
+
+/// Measures a run while it goes on.
+#[derive(Debug)]
+pub struct Measuring<'p> {
+    program: &'p Program,
+    /// Periods so far.
+    periods: usize,
+    /// Of models, motors and loads.
+    errors: [Errors; 3],
+    torque: Vec<i64>,
+    saturated: Vec<usize>,
+    off_model: Vec<f64>,
+}
+
+impl<'p> Measuring<'p> {
+    /// Measures a run of `program` on so many axes.
+    #[must_use]
+    pub fn new(program: &'p Program, axes: usize) -> Self {
+        Measuring {
+            program,
+            periods: 0,
+            errors: from_fn(|_| Errors::default()),
+            torque: vec![0; axes],
+            saturated: vec![0; axes],
+            off_model: vec![0.0; axes],
+        }
+    }
+
+    /// Takes the next period; returns the deviations of models, motors and loads.
+    pub fn take(&mut self, period: &Period) -> [Deviation; 3] {
+        for axis in 0..self.torque.len() {
+            self.torque[axis] = self.torque[axis].max(period.torque[axis].abs());
+            self.saturated[axis] += usize::from(period.saturated[axis]);
+            let off = period.motor[axis] as f64 * COUNT - period.model[axis] as f64;
+            self.off_model[axis] = self.off_model[axis].max(off.abs());
+        }
+        let positions = [
+            period.model.map(|units| units as f64),
+            period.motor.map(|counts| counts as f64 * COUNT),
+            period.load.map(|counts| counts * COUNT),
+        ];
+        let index = self.periods;
+        self.periods += 1;
+        from_fn(|k| {
+            let (deviation, end_mm) = deviation(self.program, period, index, positions[k]);
+            self.errors[k].add(&deviation, end_mm, index, period.tick);
+            deviation
+        })
+    }
+
+    /// Measures of all of them, without the single deviations; `None` without periods.
+    #[must_use]
+    pub fn finish(self) -> Option<Measured> {
+        let periods = Some(self.periods).filter(|periods| *periods > 0)? as f64;
+        let rms = |errors: Errors| Errors {
+            contour_rms_mm: (errors.contour_rms_mm / periods).sqrt(),
+            following_rms_mm: (errors.following_rms_mm / periods).sqrt(),
+            ..errors
+        };
+        let [model, motor, load] = self.errors.map(rms);
+        let mm = |off: f64| off / self.program.motion.units_per_mm;
         Some(Measured {
-            model: errors(program, played, model),
-            motor: errors(program, played, motor),
-            load: errors(program, played, load),
-            torque: (0..played.axes)
-                .map(|axis| each(axis).map(torque).max().unwrap_or(0))
-                .collect(),
-            saturated: (0..played.axes)
-                .map(|axis| each(axis).filter(limited).count())
-                .collect(),
-            off_model_mm: (0..played.axes)
-                .map(|axis| {
-                    let off = |period: &Period| motor(period, axis) - model(period, axis);
-                    let all = played.periods.iter().map(|period| off(period).abs());
-                    all.fold(0.0, f64::max) / program.motion.units_per_mm
-                })
-                .collect(),
+            model,
+            motor,
+            load,
+            torque: self.torque,
+            saturated: self.saturated,
+            off_model_mm: self.off_model.into_iter().map(mm).collect(),
         })
     }
 }
 
-fn errors(program: &Program, played: &Played, position: impl Fn(&Period, usize) -> f64) -> Errors {
-    let path = &program.path;
-    let (mm, end) = (1.0 / program.motion.units_per_mm, path.length as f64);
-    let place = |from_start: &dyn Fn(usize) -> f64| -> [f64; AXES] {
-        from_fn(|axis| program.origin[axis] as f64 + from_start(axis))
-    };
-    let in_space = |[x, y, z, _]: [f64; AXES]| scale([x, y, z], mm);
-    let mut final_mm = 0.0;
-    let deviations = played.periods.iter().enumerate().map(|(index, period)| {
-        let actual = place(&|axis| position(period, axis));
-        let command = place(&|axis| period.command[axis] as f64);
-        let following = apart(actual, command);
-        // It is about where the tangential response is. What is nearer is within twice the way to
-        // there; beyond that the path may come by again.
-        let answered = period.answered as f64;
-        let reach = 2.0 * apart(actual, path.place(answered)) + COUNT;
-        let (length, nearest) = path.nearest(actual, [answered - reach, answered + reach]);
-        final_mm = mm * apart(actual, path.place(end));
-        Deviation {
-            time_s: index as f64 * program.motion.period,
-            length_mm: mm * length,
-            actual: in_space(actual),
-            nearest: in_space(nearest),
-            w_mm: mm * actual[COORDINATES],
-            contour_mm: mm * apart(actual, nearest),
-            following_mm: mm * following,
-        }
-    });
-    let deviations: Vec<_> = deviations.collect();
-    let largest = |error: fn(&Deviation) -> f64| {
-        let mut peak = Peak::default();
-        for (period, deviation) in deviations.iter().enumerate() {
-            if error(deviation) > peak.mm {
-                peak = Peak {
-                    mm: error(deviation),
+impl Errors {
+    /// Adds a period. The means are sums of squares as long as they are not finished.
+    fn add(&mut self, deviation: &Deviation, end_mm: f64, period: usize, tick: u64) {
+        let (contour, following) = (deviation.contour_mm, deviation.following_mm);
+        self.contour_rms_mm += contour.powi(2);
+        self.following_rms_mm += following.powi(2);
+        for (peak, mm) in [
+            (&mut self.contour, contour),
+            (&mut self.following, following),
+        ] {
+            if mm > peak.mm {
+                *peak = Peak {
+                    mm,
                     period,
-                    tick: played.periods[period].tick,
+                    tick,
                     length_mm: deviation.length_mm,
                 };
             }
         }
-        peak
-    };
-    let rms = |error: fn(&Deviation) -> f64| {
-        let squares: f64 = deviations.iter().map(|one| error(one).powi(2)).sum();
-        (squares / deviations.len() as f64).sqrt()
-    };
-    Errors {
-        contour: largest(|deviation| deviation.contour_mm),
-        contour_rms_mm: rms(|deviation| deviation.contour_mm),
-        following: largest(|deviation| deviation.following_mm),
-        following_rms_mm: rms(|deviation| deviation.following_mm),
-        final_mm,
-        deviations,
+        self.final_mm = end_mm;
     }
+}
+
+/// Deviation of a position in a period, both from where the path begins, and its distance from the
+/// path's end in mm.
+fn deviation(
+    program: &Program,
+    period: &Period,
+    index: usize,
+    position: [f64; AXES],
+) -> (Deviation, f64) {
+    let path = &program.path;
+    let (mm, end) = (1.0 / program.motion.units_per_mm, path.length as f64);
+    let place = |from_start: [f64; AXES]| -> [f64; AXES] {
+        from_fn(|axis| program.origin[axis] as f64 + from_start[axis])
+    };
+    let in_space = |[x, y, z, _]: [f64; AXES]| scale([x, y, z], mm);
+    let actual = place(position);
+    let command = place(period.command.map(|units| units as f64));
+    let following = apart(actual, command);
+    // It is about where the tangential response is. What is nearer is within twice the way to
+    // there; beyond that the path may come by again.
+    let answered = period.answered as f64;
+    let reach = 2.0 * apart(actual, path.place(answered)) + COUNT;
+    let (length, nearest) = path.nearest(actual, [answered - reach, answered + reach]);
+    let deviation = Deviation {
+        time_s: index as f64 * program.motion.period,
+        length_mm: mm * length,
+        actual: in_space(actual),
+        nearest: in_space(nearest),
+        w_mm: mm * actual[COORDINATES],
+        contour_mm: mm * apart(actual, nearest),
+        following_mm: mm * following,
+    };
+    (deviation, mm * apart(actual, path.place(end)))
 }
 
 /// Distance of two points, with W.

@@ -6,8 +6,9 @@ mod text;
 use super::{Job, focus};
 use crate::cli::Failure;
 use crate::cli::files::Files;
+use crate::cli::progress::{self, Part, Work};
 use crate::cli::report::{Outcome, conclude};
-use crate::cli::run::{Arguments, Progress};
+use crate::cli::run::{Arguments, in_waves};
 use crate::cli::traces::{Traces, no_such_tick};
 use motion_rtl::hdl::{RunError, model_beside};
 use motion_rtl::input::position_log::{PositionLog, UnitFrom};
@@ -77,6 +78,7 @@ pub fn run(
     let ticks = ticks(log, settings.clock_hz);
     no_such_tick(options, ticks)?;
     let (replayed, mut files) = simulate(arguments, job, &settings, log, options)?;
+    progress::stage("summary and picture");
     files.write("svg", &picture::draw(job, log, &settings, &replayed))?;
     let summary = summary(log, &settings, &replayed);
     conclude(arguments, options, files, summary)
@@ -95,11 +97,21 @@ fn simulate(
     let ticks = ticks(log, settings.clock_hz);
     let scenario = (&job.loaded, job.stem.as_str());
     let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
-    let mut progress = Progress::new(ticks);
+    let in_waves = in_waves(arguments, options, ticks);
+    let seconds = ticks as f64 * super::TICK_S;
+    progress::run(
+        &log.file,
+        Work {
+            ticks,
+            runs: 1,
+            seconds,
+            in_waves,
+        },
+    );
+    let mut progress = Part::default();
     let (waves, stimulus) = (traces.waves.as_mut(), traces.stimulus.as_mut());
     let files = (waves, stimulus, traces.noted.as_mut());
     let replayed = replay(&circuit, settings, log, &mut (files, &mut progress))?;
-    drop(progress);
     let action = replayed.signals.first().map_or(0, |signal| signal.tick);
     let files = traces.finish(&shown, &focus(settings, action), replayed.ticks)?;
     Ok((replayed, files))

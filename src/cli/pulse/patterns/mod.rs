@@ -190,22 +190,18 @@ pub fn run(arguments: &Arguments, source: Source, scenario: &Scenario) -> Result
 /// The positions at the end of every unit time: Y over X, and each axis over time.
 fn draw(job: &Job, played: &Played) -> String {
     let axes = job.stored.group.axes;
-    let mut path = Points::expecting(played.positions.len() / axes);
-    let mut curves = vec![Points::expecting(played.positions.len() / axes); axes];
+    let mut path = Points::expecting(played.positions.units);
+    let mut curves = vec![Points::expecting(played.positions.units); axes];
     let mut ticks = 0;
-    let units = job
-        .stored
-        .played
-        .iter()
-        .zip(played.positions.chunks_exact(axes));
-    for ((period, _), at) in units {
+    let table = &job.stored.played;
+    for ((period, _), at) in table.iter().zip(played.positions.of(table)) {
         ticks += u64::from(period);
         let seconds = ticks as f64 / job.scenario.clock_hz as f64;
-        for (curve, position) in curves.iter_mut().zip(at) {
+        for (curve, position) in curves.iter_mut().zip(at.iter()) {
             curve.push((seconds, f64::from(*position)));
         }
-        if let [x, y, ..] = at {
-            path.push((f64::from(*x), f64::from(*y)));
+        if let [x, y, ..] = *at {
+            path.push((f64::from(x), f64::from(y)));
         }
     }
     let mut picture = Picture::new(format!("{}: pulse interpolator, patterns", job.stem));

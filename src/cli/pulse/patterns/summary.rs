@@ -5,12 +5,13 @@ use crate::cli::pulse::by_axis::ByAxis;
 use crate::cli::pulse::rates::{self, Rows};
 use crate::cli::pulse::summary::Minima;
 use crate::cli::pulse::text::timing;
-use crate::cli::pulse::verdict::{count, miscount};
+use crate::cli::pulse::verdict::miscount;
 use crate::cli::report::{Outcome, Report};
 use crate::cli::table::AxisDeviation;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
+use motion_rtl::jobs::pulse_interpolator::positions::steps_of;
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -72,8 +73,8 @@ struct AxisSummary {
 fn steps(table: &Table) -> Vec<i64> {
     let mut steps = vec![0; table.axes()];
     for (period, words) in table.iter() {
-        for (sum, word) in steps.iter_mut().zip(words) {
-            *sum += count(*word, period);
+        for (sum, word) in steps.iter_mut().zip(words.iter()) {
+            *sum += steps_of(*word, period);
         }
     }
     steps

@@ -263,7 +263,8 @@ impl<'s> Compiler<'s> {
             return false;
         };
         let place = last.unit * self.axes.len() + k;
-        self.table.words[place] = Word::new(half_period, axis.negative);
+        let word = Word::new(half_period, axis.negative);
+        self.table.words.set(place, word);
         true
     }
 

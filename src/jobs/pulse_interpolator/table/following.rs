@@ -6,6 +6,7 @@ use super::report::FollowingError;
 use super::settings::Settings;
 use super::words::{Table, Word};
 use crate::input::{COORDINATES, Drawing};
+use crate::jobs::pulse_interpolator::positions::Positions;
 use crate::plan::Plan;
 
 /// A unit time that is over.
@@ -24,6 +25,8 @@ pub struct UnitErrors {
     pub errors: [f64; COORDINATES],
     /// The same at its end.
     pub end_errors: [f64; COORDINATES],
+    /// Positions at its end in steps from where the axes began; 0 for the axes not driven.
+    pub positions: [i32; COORDINATES],
 }
 
 /// Where a path demands the axes at the end of a unit time, in steps from where they begin; 0 for the
@@ -72,6 +75,7 @@ impl Follower<'_, '_> {
             rapid: last.rapid,
             errors: [0.0; COORDINATES],
             end_errors: [0.0; COORDINATES],
+            positions: [0; COORDINATES],
         };
         for (axis, (word, to)) in words.iter().zip(positions).enumerate() {
             let from = std::mem::replace(&mut self.positions[axis], to);
@@ -159,8 +163,7 @@ impl Staircase {
 /// Compares where a run of `table` had the axes with where `drawing` demands them: tells `each` of
 /// every unit time, and returns the largest error of each axis, at whatever time.
 ///
-/// `positions` are those of all axes after each unit time, in steps from the start. Within a unit the
-/// steps are where the half-period has them.
+/// Within a unit the steps are where the half-period has them.
 ///
 /// # Errors
 ///
@@ -169,17 +172,21 @@ pub fn follow(
     drawing: &Drawing,
     settings: &Settings,
     table: &Table,
-    positions: &[i32],
+    positions: &Positions,
     mut each: impl FnMut(&UnitErrors),
 ) -> Result<Vec<FollowingError>, TableError> {
     let axes = table.axes();
     let plan = Plan::new(drawing, &settings.motion)?;
     let mut follower = follower(&plan, settings, axes)?;
     let start = follower.positions.clone();
-    for ((period, words), positions) in table.iter().zip(positions.chunks_exact(axes)) {
-        let positions = start.iter().zip(positions);
+    for ((period, words), at) in table.iter().zip(positions.of(table)) {
+        let positions = start.iter().zip(at.iter());
         let positions = positions.map(|(start, &steps)| start + i64::from(steps));
-        each(&follower.unit(period, words, positions)?);
+        let mut unit = follower.unit(period, &words, positions)?;
+        for (position, at) in unit.positions.iter_mut().zip(at.iter()) {
+            *position = *at;
+        }
+        each(&unit);
     }
     Ok(follower.largest)
 }
@@ -225,14 +232,14 @@ pub(super) fn of_table(
 ) -> Result<Vec<FollowingError>, TableError> {
     let mut follower = follower(plan, settings, table.axes())?;
     for (period, words) in table.iter() {
-        let pairs = follower.positions.iter().zip(words);
+        let pairs = follower.positions.iter().zip(words.iter());
         let positions: Vec<i64> = pairs
             .map(|(from, word)| {
                 let steps = Staircase::new(period, *word);
                 from + steps.signed(steps.count)
             })
             .collect();
-        follower.unit(period, words, positions.into_iter())?;
+        follower.unit(period, &words, positions.into_iter())?;
     }
     Ok(follower.largest)
 }

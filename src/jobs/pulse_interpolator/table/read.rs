@@ -126,7 +126,6 @@ mod tests {
         let table = read("t.csv", text, 1000).unwrap();
         let words: Vec<_> = table
             .words()
-            .iter()
             .map(|w| (w.half_period(), w.negative()))
             .collect();
         let expected = [

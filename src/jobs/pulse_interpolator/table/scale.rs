@@ -1,6 +1,7 @@
 //! Scaling a drawing by multiplying the data in the memory (paragraph 0031).
 
 use super::error::TableError;
+use super::packed::PackedWords;
 use super::words::{Table, Word};
 use crate::circuits::pulse_interpolator::{AXIS_NAMES, counts::pulses};
 use crate::settings::SettingError;
@@ -64,7 +65,7 @@ impl Table {
             let value = format!("{num}/{den}");
             return Err(SettingError::value("ratio", value, "both above 0").into());
         }
-        let mut words = Vec::with_capacity(self.words.len());
+        let mut words = PackedWords::default();
         let mut sums = vec![Deviation::default(); self.axes];
         for (unit, (period, old)) in self.iter().enumerate() {
             for (k, word) in old.iter().enumerate() {
@@ -154,6 +155,10 @@ mod tests {
         table
     }
 
+    fn words(table: &Table) -> Vec<Word> {
+        table.words().collect()
+    }
+
     /// Every unit time up to 160, every half-period, every ratio of small numbers: the deviation
     /// reported, against the bounds the documentation states.
     #[test]
@@ -168,7 +173,7 @@ mod tests {
                 let exact = n * num % den == 0;
                 assert_eq!(axis.rounded_units, usize::from(!exact));
                 assert_eq!(axis.drift.abs(), axis.largest_deviation);
-                let after = scaled.table.words()[0].half_period();
+                let after = scaled.table.word(0, 0).half_period();
                 let counted = f64::from(pulses(after, period)) - f64::from(pulses(n, period)) / r;
                 assert!((axis.drift - counted).abs() < 1e-9);
                 let mut bound = 0.5 + 0.5 / r;
@@ -202,7 +207,7 @@ mod tests {
     fn direction_is_kept_and_signs_the_drift() {
         let scaled = unit(3, 10, true).scaled(Ratio { num: 3, den: 1 }).unwrap();
         // Two pulses become one, where two thirds of one would be right.
-        assert_eq!(scaled.table.words(), [Word::new(9, true)]);
+        assert_eq!(words(&scaled.table), [Word::new(9, true)]);
         assert!((scaled.axes[0].drift + 1.0 / 3.0).abs() < 1e-12);
     }
 
@@ -210,11 +215,11 @@ mod tests {
     fn half_periods_that_leave_the_unit_or_the_word() {
         let twice = Ratio { num: 2, den: 1 };
         assert_eq!(
-            unit(5, 10, false).scaled(twice).unwrap().table.words(),
+            words(&unit(5, 10, false).scaled(twice).unwrap().table),
             [Word::new(0, false)]
         );
         assert_eq!(
-            unit(0, 10, true).scaled(twice).unwrap().table.words(),
+            words(&unit(0, 10, true).scaled(twice).unwrap().table),
             [Word::new(0, true)]
         );
         let error = unit(40_000, 100_000, false)
@@ -230,7 +235,7 @@ mod tests {
             den: 1,
         };
         assert_eq!(
-            unit(5, 10, false).scaled(most).unwrap().table.words(),
+            words(&unit(5, 10, false).scaled(most).unwrap().table),
             [Word::new(0, false)]
         );
         assert!(unit(5, 10, false).scaled(Ratio { num: 1, den: 0 }).is_err());

@@ -1,8 +1,10 @@
 //! The memory of the interpolator: a word per axis and unit time.
 
 use super::error::TableError;
+use super::packed::{PackedWords, UnitWords};
 
-/// The most unit times a table may have: 400 MB of words for three axes.
+/// The most unit times a table may have: 100 MB of words for three axes, or several times as many
+/// where more than 256 differ.
 pub const MAX_UNITS: usize = 1 << 25;
 
 /// A memory word: bit 31 is the direction (1 = negative), the rest the half-period in ticks
@@ -57,7 +59,7 @@ pub struct Table {
     pub(super) clock_hz: u64,
     pub(super) axes: usize,
     pub(super) half_period_bits: u32,
-    pub(super) words: Vec<Word>,
+    pub(super) words: PackedWords,
     pub(super) patterns: Vec<Pattern>,
 }
 
@@ -67,7 +69,7 @@ impl Table {
             clock_hz,
             axes,
             half_period_bits,
-            words: Vec::new(),
+            words: PackedWords::default(),
             patterns: Vec::new(),
         }
     }
@@ -113,7 +115,7 @@ impl Table {
     ) -> Result<(), TableError> {
         for (period, words) in other.iter() {
             self.open_unit(period)?;
-            self.words.extend(words);
+            words.iter().for_each(|word| self.push(*word));
         }
         Ok(())
     }
@@ -147,15 +149,19 @@ impl Table {
     }
 
     /// All words: those of unit 0 (X first), those of unit 1, and so on.
-    #[must_use]
-    pub fn words(&self) -> &[Word] {
-        &self.words
+    pub fn words(&self) -> impl Iterator<Item = Word> {
+        (0..self.words.len()).map(|place| self.words.at(place))
+    }
+
+    /// The word of an axis in a unit that there is.
+    pub(in crate::jobs::pulse_interpolator) fn word(&self, unit: usize, axis: usize) -> Word {
+        self.words.at(unit * self.axes + axis)
     }
 
     /// The words of one unit, X first; `None` beyond the end.
     #[must_use]
-    pub fn unit(&self, unit: usize) -> Option<&[Word]> {
-        self.words.chunks_exact(self.axes).nth(unit)
+    pub fn unit(&self, unit: usize) -> Option<UnitWords> {
+        (unit < self.units()).then(|| UnitWords::of(&self.words, unit, self.axes))
     }
 
     /// The patterns, in order; neighbours differ in their unit time.
@@ -165,12 +171,13 @@ impl Table {
     }
 
     /// Every unit in order: its unit time in ticks and its words.
-    pub fn iter(&self) -> impl Iterator<Item = (u32, &[Word])> {
+    pub fn iter(&self) -> impl Iterator<Item = (u32, UnitWords)> {
         let periods = self
             .patterns
             .iter()
             .flat_map(|p| std::iter::repeat_n(p.period, p.length));
-        periods.zip(self.words.chunks_exact(self.axes))
+        let unit = |unit| UnitWords::of(&self.words, unit, self.axes);
+        periods.zip((0..self.units()).map(unit))
     }
 
     /// Length of the whole table in ticks.
@@ -217,10 +224,10 @@ mod tests {
         assert_eq!(patterns, [(10, 0, 2), (7, 2, 1), (10, 3, 1)]);
         assert_eq!((table.units(), table.total_ticks()), (4, 37));
         assert_eq!(
-            table.unit(2),
+            table.unit(2).as_deref(),
             Some(&[Word::new(7, false), Word::new(0, true)][..])
         );
-        assert_eq!(table.unit(4), None);
+        assert!(table.unit(4).is_none());
         assert!(
             table
                 .iter()

@@ -1,0 +1,200 @@
+//! How far a run is, on standard error: before it starts how long it takes, if that is long; while it
+//! goes on a bar on a terminal, and elsewhere a line now and then.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use motion_rtl::hdl::{Circuit, Observer, RunError, Sample};
+use std::io::{IsTerminal, Write, stderr};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{LazyLock, Mutex, PoisonError};
+use std::thread::{self, sleep};
+use std::time::{Duration, Instant};
+
+/// A run that is estimated to take less is not announced.
+const LONG_S: f64 = 2.0;
+/// Time from one line to the next where there is no terminal, and between two looks at a bar.
+const LINES: Duration = Duration::from_secs(10);
+const LOOKS: Duration = Duration::from_millis(200);
+/// Ticks between two looks at how far a run is.
+const PROGRESS: u64 = 1 << 18;
+/// Nanoseconds that a tick takes longer in the waves.
+const WAVES_NS: f64 = 300.0;
+
+/// What is done.
+struct Stage {
+    name: &'static str,
+    /// Ticks of all runs together; 0 where there are none.
+    ticks: u64,
+}
+
+static STAGE: Mutex<Stage> = Mutex::new(Stage { name: "", ticks: 0 });
+/// Ticks of them that are over.
+static DONE: AtomicU64 = AtomicU64::new(0);
+static BAR: LazyLock<ProgressBar> = LazyLock::new(ProgressBar::new_spinner);
+
+fn set(stage: Stage) {
+    DONE.store(0, Ordering::Relaxed);
+    let style = match stage.ticks {
+        0 => ProgressStyle::with_template("{spinner} {msg}  {elapsed}"),
+        ticks => {
+            BAR.set_length(ticks);
+            ProgressStyle::with_template(
+                "{bar:40} {percent:>3} % of {human_len} ticks  {eta}  {msg}",
+            )
+        }
+    };
+    if let Ok(style) = style {
+        BAR.set_style(style);
+    }
+    BAR.set_message(stage.name);
+    BAR.set_position(0);
+    *STAGE.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+}
+
+/// Begins to tell, until the program ends or [`end`].
+pub fn begin() {
+    set(Stage {
+        name: "reading",
+        ticks: 0,
+    });
+    let began = Instant::now();
+    let terminal = stderr().is_terminal();
+    // Without a thread it is not told between two ticks.
+    let _ = thread::Builder::new()
+        .name("progress".into())
+        .spawn(move || {
+            loop {
+                sleep(if terminal { LOOKS } else { LINES });
+                let line = {
+                    let stage = STAGE.lock().unwrap_or_else(PoisonError::into_inner);
+                    if stage.name.is_empty() {
+                        return;
+                    }
+                    BAR.set_position(DONE.load(Ordering::Relaxed));
+                    line(&stage, DONE.load(Ordering::Relaxed), began.elapsed())
+                };
+                match terminal {
+                    true => BAR.tick(),
+                    // Where standard error is gone, there is nobody to tell.
+                    false => drop(writeln!(stderr(), "{line}")),
+                }
+            }
+        });
+}
+
+fn line(stage: &Stage, done: u64, after: Duration) -> String {
+    let (name, seconds) = (stage.name, after.as_secs());
+    match stage.ticks {
+        0 => format!("{seconds} s: {name}"),
+        ticks => {
+            // A run may take some ticks more than it was thought to.
+            let percent = (100.0 * done as f64 / ticks as f64).min(99.0).floor();
+            format!("{seconds} s: {name}, {percent} % of {ticks} ticks")
+        }
+    }
+}
+
+/// Says what is done from now on, where that is no run.
+pub fn stage(name: &'static str) {
+    set(Stage { name, ticks: 0 });
+}
+
+/// What runs take.
+#[derive(Debug, Clone, Copy)]
+pub struct Work {
+    /// Ticks of one run.
+    pub ticks: u64,
+    /// How many runs there are, each with about so many.
+    pub runs: u64,
+    /// About how long they take, in s, without waves.
+    pub seconds: f64,
+    /// Ticks that go into the waves.
+    pub in_waves: u64,
+}
+
+/// Says that runs begin, and where they are long how many ticks they have and about how long they
+/// take.
+pub fn run(subject: &str, work: Work) {
+    let Work {
+        ticks,
+        runs,
+        seconds,
+        in_waves,
+    } = work;
+    let seconds = seconds + in_waves as f64 * WAVES_NS * 1e-9;
+    if seconds >= LONG_S {
+        let all = match runs {
+            1 => String::new(),
+            runs => format!(" in each of {runs} runs"),
+        };
+        let about = about(seconds);
+        // Where standard error is gone, there is nobody to tell.
+        let _ = writeln!(stderr(), "{subject}: {ticks} ticks{all}, about {about}");
+    }
+    set(Stage {
+        name: "running",
+        ticks: ticks.saturating_mul(runs).max(1),
+    });
+}
+
+/// A time for people.
+fn about(seconds: f64) -> String {
+    match seconds {
+        ..120.0 => format!("{seconds:.0} s"),
+        ..7200.0 => format!("{:.0} min", seconds / 60.0),
+        _ => format!("{:.0} h", seconds / 3600.0),
+    }
+}
+
+/// Tells no more.
+pub fn end() {
+    STAGE.lock().unwrap_or_else(PoisonError::into_inner).name = "";
+    BAR.finish_and_clear();
+}
+
+/// One of the runs.
+#[derive(Debug, Default)]
+pub struct Part {
+    /// The tick up to which it is counted.
+    counted: u64,
+    /// The tick at which it is looked at again.
+    due: u64,
+}
+
+impl<C: Circuit> Observer<C> for Part {
+    fn next_look(&self, tick: u64) -> u64 {
+        tick.max(self.due)
+    }
+
+    fn needs_all(&self) -> bool {
+        false
+    }
+
+    fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
+        if now.tick >= self.due {
+            DONE.fetch_add(now.tick - self.counted, Ordering::Relaxed);
+            self.counted = now.tick;
+            self.due = now.tick + PROGRESS;
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_says_what_is_done_and_how_far_it_is() {
+        let at = |ticks, done| {
+            let name = "running";
+            line(&Stage { name, ticks }, done, Duration::from_secs(30))
+        };
+        assert_eq!(at(0, 0), "30 s: running");
+        assert_eq!(at(1000, 0), "30 s: running, 0 % of 1000 ticks");
+        assert_eq!(at(1000, 519), "30 s: running, 51 % of 1000 ticks");
+        assert_eq!(at(1000, 1200), "30 s: running, 99 % of 1000 ticks");
+        let times = [2.0, 119.4, 120.0, 7199.0, 7200.0].map(about);
+        assert_eq!(times, ["2 s", "119 s", "2 min", "120 min", "2 h"]);
+    }
+}

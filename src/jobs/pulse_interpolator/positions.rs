@@ -1,0 +1,104 @@
+//! Positions at the end of every unit time of a table.
+
+use super::Table;
+use crate::circuits::pulse_interpolator::AXES_MAX;
+use crate::circuits::pulse_interpolator::counts::pulses;
+use crate::jobs::pulse_interpolator::Word;
+use std::ops::Deref;
+
+/// The steps that a word makes in `period` ticks.
+#[must_use]
+pub fn steps_of(word: Word, period: u32) -> i64 {
+    let steps = i64::from(pulses(word.half_period(), period));
+    if word.negative() { -steps } else { steps }
+}
+
+/// A unit time in which an axis made other steps than its word says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Miscount {
+    /// The unit time, from 0.
+    pub unit: u32,
+    /// The axis, from 0.
+    pub axis: u8,
+    /// Steps that it made beyond those of the word.
+    pub steps: i32,
+}
+
+/// Positions at the end of every unit time of a table in steps from where the axes began. What the
+/// words say takes no memory; what was counted otherwise does.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Positions {
+    /// Unit times that are over.
+    pub units: usize,
+    /// The unit times that are otherwise, in order.
+    pub miscounts: Vec<Miscount>,
+}
+
+/// Positions of all axes, X first.
+#[derive(Debug, Clone, Copy)]
+pub struct UnitPositions {
+    at: [i32; AXES_MAX],
+    axes: usize,
+}
+
+impl Deref for UnitPositions {
+    type Target = [i32];
+
+    fn deref(&self) -> &[i32] {
+        &self.at[..self.axes]
+    }
+}
+
+impl Positions {
+    /// The positions unit after unit of a run of `table`.
+    pub fn of<'a>(&'a self, table: &'a Table) -> impl Iterator<Item = UnitPositions> + 'a {
+        let (mut miscounts, axes) = (self.miscounts.iter().peekable(), table.axes());
+        let mut at = [0i64; AXES_MAX];
+        let units = table.iter().take(self.units).enumerate();
+        units.map(move |(unit, (period, words))| {
+            for (at, word) in at.iter_mut().zip(words.iter()) {
+                *at += steps_of(*word, period);
+            }
+            while let Some(other) = miscounts.next_if(|other| other.unit as usize == unit) {
+                at[usize::from(other.axis)] += i64::from(other.steps);
+            }
+            let at = at.map(|at| at as i32);
+            UnitPositions { at, axes }
+        })
+    }
+}
+
+/// Positions in the making.
+pub(super) struct Counted<'t> {
+    units: Box<dyn Iterator<Item = (u32, super::table::UnitWords)> + 't>,
+    /// Where each axis was at the end of the unit time before.
+    before: [i64; AXES_MAX],
+    pub(super) positions: Positions,
+}
+
+impl<'t> Counted<'t> {
+    pub(super) fn new(table: &'t Table) -> Self {
+        Counted {
+            units: Box::new(table.iter()),
+            before: [0; AXES_MAX],
+            positions: Positions::default(),
+        }
+    }
+
+    /// A unit time of the table is over, with the axes at these positions.
+    pub(super) fn unit(&mut self, at: impl Iterator<Item = i64>) {
+        let unit = self.units.next();
+        for (axis, (at, before)) in at.zip(&mut self.before).enumerate() {
+            let due = unit.map_or(0, |(period, words)| steps_of(words[axis], period));
+            let beyond = at - std::mem::replace(before, at) - due;
+            if beyond != 0 {
+                self.positions.miscounts.push(Miscount {
+                    unit: self.positions.units as u32,
+                    axis: axis as u8,
+                    steps: beyond as i32,
+                });
+            }
+        }
+        self.positions.units += 1;
+    }
+}
