@@ -33,6 +33,7 @@ mod mutate;
 mod notes;
 mod patterns;
 mod plan;
+mod progress;
 mod readme;
 mod refusals;
 mod runs;

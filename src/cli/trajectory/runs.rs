@@ -135,8 +135,9 @@ impl<'j> UnderWay<'j> {
     /// Takes the next period.
     pub fn take(&mut self, period: &Period) {
         let (path, unit) = (&self.program.path, self.program.motion.units_per_mm);
-        let [model, _, load] = self.measuring.take(period);
-        let contour_mm = [model.contour_mm, load.contour_mm];
+        let deviations = self.measuring.take(period);
+        let contour_mm = deviations.map(|deviation| deviation.contour_mm);
+        let [_, _, load] = deviations;
         self.steady.take(period.length, contour_mm);
         let off = self.off(period.command, period.length as f64);
         self.command_error_mm = self.command_error_mm.max(off);

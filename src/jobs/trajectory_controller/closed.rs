@@ -148,6 +148,8 @@ pub struct Steady {
     pub periods: usize,
     /// Mean contour error of the models, in mm.
     pub model_mm: f64,
+    /// Mean contour error of the motors, in mm.
+    pub motor_mm: f64,
     /// Mean contour error of the loads, in mm.
     pub load_mm: f64,
     /// What the closed forms say.
@@ -162,8 +164,8 @@ struct Stretch {
     forms: ClosedForms,
     /// Periods within it.
     periods: usize,
-    /// Sums of the contour errors of models and loads when what was before is forgotten.
-    sums: [f64; 2],
+    /// Sums of the contour errors of models, motors and loads when what was before is forgotten.
+    sums: [f64; 3],
 }
 
 /// Looks for the longest [`Steady`] part of a run while it goes on.
@@ -214,7 +216,7 @@ impl SteadySearch {
                     to,
                     forms: ClosedForms::of(radius * mm, speed, gains, motion.period, c, fed),
                     periods: 0,
-                    sums: [0.0; 2],
+                    sums: [0.0; 3],
                 });
             }
         }
@@ -225,9 +227,9 @@ impl SteadySearch {
         }
     }
 
-    /// Takes the next period: its length, which never falls, and the contour errors of models and
-    /// loads in mm.
-    pub fn take(&mut self, length: i64, contour_mm: [f64; 2]) {
+    /// Takes the next period: its length, which never falls, and the contour errors of models, motors
+    /// and loads in mm.
+    pub fn take(&mut self, length: i64, contour_mm: [f64; 3]) {
         let length = length as f64;
         let over = |stretch: &Stretch| stretch.to < length;
         self.next += self.stretches[self.next..]
@@ -254,10 +256,11 @@ impl SteadySearch {
         for stretch in self.stretches {
             let periods = stretch.periods.saturating_sub(wait);
             if periods > longest.as_ref().map_or(0, |steady| steady.periods) {
-                let [model_mm, load_mm] = stretch.sums.map(|sum| sum / periods as f64);
+                let [model_mm, motor_mm, load_mm] = stretch.sums.map(|sum| sum / periods as f64);
                 longest = Some(Steady {
                     periods,
                     model_mm,
+                    motor_mm,
                     load_mm,
                     forms: stretch.forms,
                 });

@@ -7,9 +7,9 @@ mod runs;
 
 use motion_rtl::circuits::linear_interpolator::{MasterAxis, Rule};
 use motion_rtl::input::read_text;
-use motion_rtl::jobs::linear_interpolator::job::{conventional, play, plotter};
+use motion_rtl::jobs::linear_interpolator::job::{conventional, play, play_each, plotter};
 use motion_rtl::jobs::linear_interpolator::measure::{
-    Cycle, Deviation, Played, ScanRecord, Segment,
+    Cycle, Deviation, Measuring, Played, ScanRecord, Seen, Segment,
 };
 use motion_rtl::jobs::linear_interpolator::profile::{Profile, SPEED_ONE};
 use motion_rtl::jobs::linear_interpolator::reference::{self, Integrator, Pattern};

@@ -275,3 +275,32 @@ fn a_setting_that_is_no_number_is_refused() {
         "{error}"
     );
 }
+
+/// A fold over the scans as they come measures what the records do.
+#[test]
+fn a_run_is_measured_while_it_goes_on() {
+    let targets = [
+        target(300, 120, 20, [5, 5]),
+        target(250, -40, 30, [3, 8]),
+        target(250, 500, 20, [5, 5]),
+        target(0, 0, 20, [50, 50]),
+    ];
+    for exact_stop in [false, true] {
+        let settings = Settings {
+            exact_stop,
+            ..short_scans()
+        };
+        let circuit = plotter(&settings);
+        let played = play(&circuit, &targets, &settings, &mut ()).unwrap();
+        let scale = [200.0, 150.0];
+        let (mut measuring, mut cycles) = (Measuring::new(scale), Vec::new());
+        let each = &mut |seen: &Seen<'_>| cycles.extend(measuring.take(seen));
+        let other = play_each(&circuit, &targets, &settings, &mut (), each).unwrap();
+        assert_eq!(other.cycles, played.cycles);
+        assert!(other.records.is_empty());
+        assert_eq!(measuring.finish(&other.cycles), played.segments(scale));
+        let counts = (0..targets.len()).map(|cycle| played.records_of(cycle).len());
+        let seen = (0..targets.len()).map(|cycle| cycles.iter().filter(|of| **of == cycle).count());
+        assert!(counts.eq(seen));
+    }
+}

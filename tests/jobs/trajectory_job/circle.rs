@@ -1,7 +1,8 @@
 //! A circle at constant speed: contour errors against closed forms, and the loads against physics.
 
 use super::*;
-use motion_rtl::jobs::trajectory_controller::closed::Steady;
+use motion_rtl::jobs::trajectory_controller::closed::{Steady, SteadySearch};
+use motion_rtl::jobs::trajectory_controller::measure::Measured;
 use std::f64::consts::TAU;
 
 /// Contour errors of a circle of 10 mm by the models' recursion, run until it is steady: with a turn a
@@ -63,7 +64,7 @@ fn in_periods_of_a_millisecond() {
             correction,
         );
         let (measured, steady) = (run.measured(), run.steady());
-        let model = steady.mean_mm(&measured.model);
+        let model = steady.model_mm;
         let forms = steady.forms;
         close(forms.radius_mm, 10.0, 1e-6);
         close(forms.speed_mm_per_s, 100.0, 1e-6);
@@ -81,10 +82,7 @@ fn in_periods_of_a_millisecond() {
         let turn = 1000.0 * TAU / axis.mm_per_rev;
         let twist = turn * axis.load_inertia_kg_m2 / axis.stiffness_nm_per_rad;
         let load = (signed - twist * axis.mm_per_rev / TAU).abs();
-        let (motors, loads) = (
-            steady.mean_mm(&measured.motor),
-            steady.mean_mm(&measured.load),
-        );
+        let (motors, loads) = (steady.motor_mm, steady.load_mm);
         assert!((motors - size).abs() < 7e-4, "{motors}, not {size}");
         assert!((loads - load).abs() < 7e-4, "{loads}, not {load}");
         // All the way the motors are within 10 counts of their models.
@@ -128,7 +126,7 @@ fn in_short_periods_as_the_continuous_forms_say() {
         let (k1, k2) = (164.0 / 3.2768, 659.0 / 3.2768);
         let form = continuous(correction, 10.0, k1, k2);
         close(steady.forms.continuous.of(correction), form, 1e-6);
-        let mean = steady.mean_mm(&run.measured().model);
+        let mean = steady.model_mm;
         close(mean, steady.forms.sampled.of(correction), 0.005);
         println!("{mean} {form}");
         close(mean, form, 0.02);
@@ -149,7 +147,15 @@ fn continuous(correction: Correction, omega: f64, k1: f64, k2: f64) -> f64 {
 
 impl Run {
     pub fn steady(&self) -> Steady {
-        Steady::of(&self.program, &self.played).unwrap()
+        let mut search = SteadySearch::new(&self.program);
+        let Measured {
+            model, motor, load, ..
+        } = self.measured();
+        for (k, period) in self.played.periods.iter().enumerate() {
+            let errors = [&model, &motor, &load].map(|errors| errors.deviations[k].contour_mm);
+            search.take(period.length, errors);
+        }
+        search.finish().unwrap()
     }
 
     /// How far motors and loads were off their models at most, in counts.

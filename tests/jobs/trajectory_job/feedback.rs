@@ -37,7 +37,7 @@ fn a_circle_by_the_closed_form() {
         let form = recursion(tangential, normal, Fed::of(&run.program).lead);
         assert!((form - um).abs() < 0.001, "{form}, not {um}");
         // The motors are off their models by what the period's torque is late.
-        let mean = 1e3 * steady.mean_mm(&run.measured().model);
+        let mean = 1e3 * steady.model_mm;
         let off = mean - um.abs();
         assert!(off.abs() < 0.5 + 0.01 * um.abs(), "{mean}, not {um}");
     }
