@@ -71,7 +71,9 @@ fn play(arguments: &Arguments) -> Result<(), Failure> {
             let scenario = scenario.clone();
             pulse::patterns::run(arguments, source, &scenario)
         }
-        Scenario::PulseInterpolator(_) => pulse::run(arguments, &pulse::Job::prepare(source)?),
+        Scenario::PulseInterpolator(_) => {
+            pulse::run(arguments, &pulse::Job::prepare(source, true)?)
+        }
         Scenario::LinearInterpolator(scenario) => {
             let settings = scenario.settings();
             linear::run(arguments, &linear::Job::prepare(source, settings)?)

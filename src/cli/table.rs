@@ -63,7 +63,7 @@ impl From<&AxisScaling> for AxisDeviation {
 
 /// Compiles.
 pub fn table(arguments: &Arguments) -> Result<(), Failure> {
-    let job = Job::prepare(Source::read(&arguments.input)?)?;
+    let job = Job::prepare(Source::read(&arguments.input)?, false)?;
     if let Some(path) = &arguments.out {
         spare_inputs(path, arguments, &job)?;
     }

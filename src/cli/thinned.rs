@@ -35,7 +35,8 @@ impl<T: Copy, const K: usize> Thinned<T, K> {
 
     /// Adds one.
     pub fn push(&mut self, record: T) {
-        if self.interval > 1 && self.count.is_multiple_of(self.interval) {
+        let ended = self.interval > 1 && self.count.is_multiple_of(self.interval);
+        if ended && self.latest < self.kept.len() {
             let latest = self.kept.split_off(self.latest);
             self.kept.extend(self.chosen(&latest));
             self.latest = self.kept.len();

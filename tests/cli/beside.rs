@@ -54,7 +54,7 @@ fn runs() -> Vec<(Vec<&'static str>, &'static str, [usize; 2])> {
     vec![
         (pulse, "circuits", [1, 2]),
         (linear.to_vec(), "", [0, 0]),
-        (vec!["steps.toml"], "systems", [1, 9]),
+        (vec!["steps.toml"], "systems", [1, 10]),
         (vec!["arc.toml"], "circuits", [1, 2]),
         (vec!["path.toml"], "corrections", [1, 5]),
     ]

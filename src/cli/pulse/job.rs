@@ -4,7 +4,9 @@ use crate::cli::source::{Source, drawing_fault, plan_fault};
 use crate::cli::{Failure, progress};
 use motion_rtl::input::{DRAWINGS, Drawing, Fault};
 use motion_rtl::jobs::pulse_interpolator::motors::Motors;
-use motion_rtl::jobs::pulse_interpolator::{Report, Settings, Table, TableError, compile};
+use motion_rtl::jobs::pulse_interpolator::{
+    Report, Settings, Table, TableError, compile, compile_unfollowed,
+};
 use motion_rtl::scenario::pulse_interpolator::VariantName;
 use motion_rtl::scenario::{Loaded, Scenario};
 
@@ -32,8 +34,8 @@ pub struct Job {
 }
 
 impl Job {
-    /// Compiles an input; one of another circuit has no table.
-    pub fn prepare(source: Source) -> Result<Self, Failure> {
+    /// Compiles an input, for its table or for a run; one of another circuit has no table.
+    pub fn prepare(source: Source, is_for_run: bool) -> Result<Self, Failure> {
         let scenario = match &source.loaded.scenario {
             Scenario::PulseInterpolator(scenario) => Ok(scenario),
             Scenario::LinearInterpolator(_) => Err("linear interpolator"),
@@ -76,8 +78,12 @@ impl Job {
         let vcd_ticks = scenario.vcd_ticks;
         let settings = scenario.settings(&drawing);
         progress::stage("planning the path");
-        let (table, report) = compile(&drawing, &settings)
-            .map_err(|error| table_fault(&source.loaded, &drawing, &settings, error))?;
+        let compiled = match is_for_run {
+            true => compile_unfollowed(&drawing, &settings),
+            false => compile(&drawing, &settings),
+        };
+        let (table, report) =
+            compiled.map_err(|error| table_fault(&source.loaded, &drawing, &settings, error))?;
         let motors = scenario
             .motors(table.axes())
             .map_err(|error| source.loaded.refuse(error))?;

@@ -17,5 +17,5 @@ pub use stored::{Stored, StoredError};
 pub use table::{
     AxisReport, AxisScaling, CountTable, FollowingError, PulseLimits, Ratio, Remedy, Report,
     Scaled, Settings, StepTiming, Table, TableError, UnitDemand, UnitErrors, Word, compile,
-    demanded, follow,
+    compile_unfollowed, demanded, follow,
 };

@@ -28,13 +28,27 @@ use crate::plan::Plan;
 /// [`TableError`] where a setting or the drawing is outside what is allowed, a position does not
 /// fit 32 bits, or the path is too long for a table.
 pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<(Table, Report), TableError> {
-    settings.validate()?;
+    let (table, mut report) = compile_unfollowed(drawing, settings)?;
     let plan = Plan::new(drawing, &settings.motion)?;
-    let (table, mut report) = compile_plan(&plan, settings)?;
     let errors = following::of_table(&plan, settings, &table)?;
     for (axis, error) in report.axes.iter_mut().zip(errors) {
         axis.following_error = error;
     }
+    Ok((table, report))
+}
+
+/// Does what [`compile`] does, but leaves the following errors at 0: for a table that is played, and
+/// whose run is [followed](super::follow).
+///
+/// # Errors
+/// As [`compile`].
+pub fn compile_unfollowed(
+    drawing: &Drawing,
+    settings: &Settings,
+) -> Result<(Table, Report), TableError> {
+    settings.validate()?;
+    let plan = Plan::new(drawing, &settings.motion)?;
+    let (table, mut report) = compile_plan(&plan, settings)?;
     report.undriven = undriven(drawing, settings.steps_per_mm.len());
     if report.unattainable_units > 0 {
         report.remedy = remedy::find(&plan, settings)?;

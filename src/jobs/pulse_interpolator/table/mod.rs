@@ -18,7 +18,7 @@ mod scale;
 mod settings;
 mod words;
 
-pub use compile::compile;
+pub use compile::{compile, compile_unfollowed};
 pub use count_table::{CountTable, Offer, PulseLimits, choose_half_period};
 pub use error::TableError;
 pub use following::{UnitDemand, UnitErrors, demanded, follow};
