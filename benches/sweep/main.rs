@@ -62,7 +62,8 @@ fn side_by_side(bencher: divan::Bencher<'_, '_>, threads: usize) {
 
 fn main() {
     // What tests the benches has no use for a comparison that takes minutes.
-    if std::env::args().any(|argument| argument == "--bench") {
+    let asked = |wanted| std::env::args().any(|argument| argument == wanted);
+    if asked("--bench") && !asked("--test") {
         match verilated::is_installed() {
             true => verilated::beside(),
             false => println!("no verilator on PATH: without the Verilated circuit"),

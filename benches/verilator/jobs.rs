@@ -1,7 +1,6 @@
 //! The circuits at the widths of jobs, and what goes into them during the jobs that ship with the
 //! crate.
 
-use super::ours::{Outputs, Port};
 use super::stimulus::{Recorder, Stimulus};
 use motion_rtl::circuits::arc_generator::{self, ArcGenerator};
 use motion_rtl::circuits::lead_angle::Compensator;
@@ -10,7 +9,7 @@ use motion_rtl::circuits::machine::Machine;
 use motion_rtl::circuits::pulse_interpolator::pattern_memory::WritePort;
 use motion_rtl::circuits::pulse_interpolator::{Group, Variant, Widths, group};
 use motion_rtl::circuits::trajectory_controller::{self, TrajectoryController};
-use motion_rtl::hdl::{Simulator, State, Watcher, zero};
+use motion_rtl::hdl::{Simulator, State, zero};
 use motion_rtl::input::{Drawing, read_path};
 use motion_rtl::jobs;
 use motion_rtl::jobs::arc_generator::job::arc_generator;
@@ -84,20 +83,6 @@ fn drawing(scenario: &Scenario) -> Drawing {
     read_path(input).expect("a good drawing")
 }
 
-macro_rules! outputs {
-    ($circuit:ty: $($port:ident)*) => {
-        impl Outputs for $circuit {
-            fn outputs(watch: &Watcher<'_, Self>) -> Vec<usize> {
-                let mut leaves = Vec::new();
-                $(watch.w.$port.leaves(watch, &mut leaves);)*
-                leaves
-            }
-        }
-    };
-}
-
-outputs!(Group: step dir unit_rst ready busy);
-
 /// The bracket on two axes.
 pub fn bracket(ticks: u64, clock: Clock) -> Job<Group> {
     let whole = scenario("bracket", clock);
@@ -164,10 +149,6 @@ pub fn eight_axes(ticks: u64) -> Job<Group> {
     Job { circuit, stimulus }
 }
 
-outputs!(Controller:
-    scan command_x command_y feedback_x feedback_y reference_x reference_y start load ready busy
-    late refused lost_x lost_y);
-
 /// The plotter's drawing.
 pub fn plotting(ticks: u64, clock: Clock) -> Job<Controller> {
     let whole = scenario("plotter", clock);
@@ -184,10 +165,6 @@ pub fn plotting(ticks: u64, clock: Clock) -> Job<Controller> {
     Job { circuit, stimulus }
 }
 
-outputs!(Compensator:
-    ck position predicted target lead_time step busy drive reverse speed fire brake complete
-    timed_out overrun error learned learned_time refused lost);
-
 /// The turntable's positionings.
 pub fn turntable(ticks: u64, clock: Clock) -> Job<Compensator> {
     let Scenario::LeadAngle(scenario) = scenario("turntable", clock) else {
@@ -200,8 +177,6 @@ pub fn turntable(ticks: u64, clock: Clock) -> Job<Compensator> {
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
 }
-
-outputs!(ArcGenerator: x y z sampled ready busy kind late starved);
 
 /// The weld seam.
 pub fn weld(ticks: u64, clock: Clock) -> Job<ArcGenerator> {
@@ -223,9 +198,6 @@ pub fn weld(ticks: u64, clock: Clock) -> Job<ArcGenerator> {
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
 }
-
-outputs!(TrajectoryController:
-    torque position lost ready busy sampled fresh late profile_late starved);
 
 /// The pocket on three axes.
 pub fn pocket(ticks: u64, clock: Clock) -> Job<TrajectoryController> {
@@ -251,11 +223,6 @@ pub fn pocket(ticks: u64, clock: Clock) -> Job<TrajectoryController> {
     let stimulus = recorder.finish();
     Job { circuit, stimulus }
 }
-
-outputs!(Machine:
-    step_x step_y dir_x dir_y pulse_ready pulse_busy counts_x counts_y lines_ready lines_busy
-    arcs_ready arcs_busy profile_ready profile_busy torque_x torque_y position_x position_y drive
-    reverse speed brake lift_busy fault);
 
 /// The bracket on all five circuits.
 pub fn machine(ticks: u64, clock: Clock) -> Job<Machine> {

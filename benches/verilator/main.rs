@@ -11,7 +11,9 @@
 //! inputs on both sides, so neither folds them. Waves are those of every signal and of `clk`; words
 //! of memories with more than 256 are in ours only.
 //!
-//! It needs Verilator, a C++ compiler and make. `--alone` is without it: the model alone. `--quick` runs each once over few ticks; a word is looked for in the names of the circuits.
+//! It needs Verilator, a C++ compiler and make. `--alone` measures the model alone. `--quick` checks that
+//! everything works: one run of few ticks each, Verilated code unoptimised. A word selects the circuits
+//! whose names contain it.
 
 mod jobs;
 mod ours;
@@ -19,11 +21,11 @@ mod stimulus;
 mod theirs;
 
 use jobs::{Clock, Job};
-use motion_rtl::hdl::Simulator;
-use ours::{Ours, Outputs, Waves, Way};
+use motion_rtl::hdl::{Circuit, Simulator};
+use ours::{Ours, Waves, Way};
 use std::time::{Duration, Instant};
 use stimulus::Stimulus;
-use theirs::{Build, Verilated};
+use theirs::{Build, Builds, Verilated};
 
 /// Outputs that are read now and then are read in every so many ticks.
 const SELDOM: u64 = 1024;
@@ -43,6 +45,8 @@ struct Asked {
     alone: bool,
     /// The circuits whose names contain this.
     only: Option<String>,
+    /// Circuits compiled by Verilator.
+    builds: Builds,
 }
 
 impl Asked {
@@ -102,14 +106,14 @@ impl Times {
 }
 
 /// Measures a circuit at both clocks.
-fn circuit<C: Outputs>(asked: &Asked, name: &str, job: impl Fn(u64, Clock) -> Job<C>) {
+fn circuit<C: Circuit>(asked: &Asked, name: &str, job: impl Fn(u64, Clock) -> Job<C>) {
     measure(asked, name, |ticks| job(ticks, Clock::Shipped));
     let fast = format!("{name}, 10 MHz");
     measure(asked, &fast, |ticks| job(ticks, Clock::Fast));
 }
 
 /// Measures a job: untraced over all of the stimulus, with waves over its end.
-fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C>) {
+fn measure<C: Circuit>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C>) {
     if asked.only.as_ref().is_some_and(|only| !name.contains(only)) {
         return;
     }
@@ -119,13 +123,12 @@ fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
         alone(asked, name, circuit, stimulus);
         return;
     }
-    let directory = tempfile::tempdir().expect("room");
-    let path = directory.path();
+    let builds = &asked.builds;
     let traced = asked.ticks(TRACED).min(stimulus.ticks);
     let from = stimulus.ticks - traced;
-    let build = |what, name| Verilated::new(circuit, stimulus, from, what, &path.join(name));
+    let build = |what| Verilated::new(builds, circuit, stimulus, from, what);
     {
-        let mut theirs = build(Build::Untraced, "untraced");
+        let mut theirs = build(Build::Untraced);
         let ticks = stimulus.ticks;
         let compiled = Ours::new(circuit, stimulus, Way::Compiled);
         let interpreted = Ours::new(circuit, stimulus, Way::Interpreted);
@@ -143,8 +146,8 @@ fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
         let held = Times::measure(asked, ticks, || theirs.run(1), run);
         held.print(name, "idle ticks gone over");
     }
-    let (a, b) = (&path.join("a"), &path.join("b"));
-    let mut theirs = build(Build::Vcd, "vcd");
+    let (a, b) = (&builds.path("a"), &builds.path("b"));
+    let mut theirs = build(Build::Vcd);
     for (waves, what) in [
         (Waves::Vcd, "VCD, one thread"),
         (Waves::VcdBehind, "VCD, two threads"),
@@ -153,7 +156,7 @@ fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
         let dump = || theirs.dump(b);
         Times::measure(asked, traced, dump, run).print(name, what);
     }
-    let mut theirs = build(Build::Fst, "fst");
+    let mut theirs = build(Build::Fst);
     let run = || ours::dump(circuit, stimulus, from, Waves::Fst, a);
     let dump = || theirs.dump(b);
     Times::measure(asked, traced, dump, run).print(name, "FST");
@@ -161,9 +164,10 @@ fn measure<C: Outputs>(asked: &Asked, name: &str, job: impl FnOnce(u64) -> Job<C
 
 /// The model without Verilator: how long it takes to elaborate, plan and compile it, and medians of
 /// all ways to run it.
-fn alone<C: Outputs>(asked: &Asked, name: &str, circuit: &C, stimulus: &Stimulus) {
+fn alone<C: Circuit>(asked: &Asked, name: &str, circuit: &C, stimulus: &Stimulus) {
     let begun = Instant::now();
-    let (mut simulator, _) = Simulator::watching(circuit, false, C::outputs).expect("a netlist");
+    let (mut simulator, _) =
+        Simulator::watching(circuit, false, |watch| watch.ports_out()).expect("a netlist");
     simulator.compile();
     let ready = begun.elapsed().as_secs_f64() * 1e3;
     let times = [Way::Compiled, Way::Interpreted, Way::Forward].map(|way| {
@@ -178,19 +182,21 @@ fn alone<C: Outputs>(asked: &Asked, name: &str, circuit: &C, stimulus: &Stimulus
 }
 
 fn main() {
-    let mut asked = Asked {
-        quick: false,
-        alone: false,
-        only: None,
-    };
+    let (mut quick, mut alone, mut only) = (false, false, None);
     for argument in std::env::args().skip(1) {
         match argument.as_str() {
-            "--quick" => asked.quick = true,
-            "--alone" => asked.alone = true,
+            "--quick" => quick = true,
+            "--alone" => alone = true,
             "--bench" => {}
-            _ => asked.only = Some(argument),
+            _ => only = Some(argument),
         }
     }
+    let asked = Asked {
+        quick,
+        alone,
+        only,
+        builds: Builds::new(quick),
+    };
     let asked = &asked;
     if asked.alone {
         let columns = ["ready ms", "compiled", "interpreted", "gone over"];

@@ -2,35 +2,12 @@
 
 use super::stimulus::{Replay, Stimulus};
 use super::theirs::ROTATION;
-use motion_rtl::hdl::{At, Circuit, Observer, RunError, Sample, Simulator, Watcher};
+use motion_rtl::hdl::{Circuit, Observer, RunError, Sample, Simulator};
 use motion_rtl::trace::{Clock, Fst, Options, Vcd, VcdBehind};
 use std::fs::File;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
-
-/// A circuit whose outputs can be read.
-pub trait Outputs: Circuit {
-    /// The leaves that they are, in the order of the ports, which are watched.
-    fn outputs(watch: &Watcher<'_, Self>) -> Vec<usize>;
-}
-
-/// A port out, or some.
-pub trait Port {
-    fn leaves<C: Circuit>(&self, watch: &Watcher<'_, C>, leaves: &mut Vec<usize>);
-}
-
-impl<T> Port for At<T> {
-    fn leaves<C: Circuit>(&self, watch: &Watcher<'_, C>, leaves: &mut Vec<usize>) {
-        leaves.push(watch.at(*self).leaf());
-    }
-}
-
-impl<P: Port> Port for Vec<P> {
-    fn leaves<C: Circuit>(&self, watch: &Watcher<'_, C>, leaves: &mut Vec<usize>) {
-        self.iter().for_each(|port| port.leaves(watch, leaves));
-    }
-}
 
 /// One word that all outputs have a part in.
 pub fn word<C: Circuit>(outputs: &[usize], now: &Sample<'_, C>) -> u64 {
@@ -79,7 +56,7 @@ impl<'o> Checksum<'o> {
     }
 }
 
-impl<C: Outputs> Observer<C> for Checksum<'_> {
+impl<C: Circuit> Observer<C> for Checksum<'_> {
     fn needs_all(&self) -> bool {
         false
     }
@@ -103,16 +80,16 @@ pub enum Way {
 }
 
 /// A circuit that is ready to run.
-pub struct Ours<C: Outputs> {
+pub struct Ours<C: Circuit> {
     simulator: Simulator<C>,
     outputs: Vec<usize>,
     way: Way,
 }
 
-impl<C: Outputs> Ours<C> {
+impl<C: Circuit> Ours<C> {
     /// Elaborates and plans it; a first run over the stimulus has it compiled.
     pub fn new(circuit: &C, stimulus: &Stimulus, way: Way) -> Self {
-        let watched = Simulator::watching(circuit, false, C::outputs);
+        let watched = Simulator::watching(circuit, false, |watch| watch.ports_out());
         let (mut simulator, outputs) = watched.expect("a netlist");
         if way == Way::Interpreted {
             simulator.interpret();
@@ -157,7 +134,7 @@ pub enum Waves {
 }
 
 /// A run with waves from a tick on: how long these take, behind their head, and the checksum.
-pub fn dump<C: Outputs>(
+pub fn dump<C: Circuit>(
     circuit: &C,
     stimulus: &Stimulus,
     from: u64,
@@ -194,14 +171,14 @@ pub fn dump<C: Outputs>(
 
 /// A run with an observer from a tick on: when that began, and the checksum over the outputs of
 /// every tick.
-fn seen<C: Outputs>(
+fn seen<C: Circuit>(
     circuit: &C,
     stimulus: &Stimulus,
     from: u64,
     observer: impl Observer<C>,
 ) -> (Instant, u64) {
     let mut replay = Replay::new(stimulus);
-    let watched = Simulator::watching(circuit, true, C::outputs);
+    let watched = Simulator::watching(circuit, true, |watch| watch.ports_out());
     let (mut simulator, outputs) = watched.expect("a netlist");
     let mut sum = Checksum::new(&outputs, 1);
     let before = simulator.run_changes(from, |at| replay.tick(at), &mut sum);

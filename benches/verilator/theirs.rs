@@ -2,13 +2,15 @@
 
 use super::stimulus::Stimulus;
 use motion_rtl::hdl::{Circuit, Role};
-use motion_rtl::verilog::Verilog;
+use motion_rtl::verilog::{SourceFile, Verilog};
+use std::cell::RefCell;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::{BufRead, BufReader, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Duration;
+use tempfile::TempDir;
 
 /// Whether `verilator` is found and starts.
 pub fn is_installed() -> bool {
@@ -24,44 +26,63 @@ pub enum Build {
     Fst,
 }
 
-/// A Verilated circuit that waits for commands.
-pub struct Verilated {
-    child: Child,
-    commands: Option<ChildStdin>,
-    answers: BufReader<ChildStdout>,
+/// Programs that Verilator made. Circuits with the same Verilog share one, as a circuit at two clocks
+/// often does.
+pub struct Builds {
+    directory: TempDir,
+    /// What the C++ compiler is asked for.
+    level: &'static str,
+    /// What each was made from, and its directory.
+    built: RefCell<Vec<(Build, Vec<SourceFile>, PathBuf)>>,
 }
 
-/// Bits by which the ports of a checksum are rotated against each other.
-pub const ROTATION: u32 = 7;
+impl Builds {
+    /// None yet. Those that are run shortly are unoptimised.
+    pub fn new(quick: bool) -> Self {
+        Builds {
+            directory: tempfile::tempdir().expect("room"),
+            level: if quick { "-O0" } else { "-O3" },
+            built: RefCell::default(),
+        }
+    }
 
-impl Verilated {
-    /// Exports, compiles and starts a circuit; waves are those from tick `traced_from` on.
-    pub fn new<C: Circuit>(
-        circuit: &C,
-        stimulus: &Stimulus,
-        traced_from: u64,
-        build: Build,
-        directory: &Path,
-    ) -> Self {
-        fs::create_dir(directory).expect("a new directory");
+    /// A place for a file.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    /// The directory of the program for a circuit, built where that is not done.
+    fn program<C: Circuit>(&self, circuit: &C, build: Build) -> PathBuf {
         let verilog = Verilog::of(circuit).expect("a circuit that can be printed");
+        let sources = verilog.sources();
+        let mut built = self.built.borrow_mut();
+        let same = built
+            .iter()
+            .find(|(of, from, _)| *of == build && *from == sources);
+        if let Some((_, _, directory)) = same {
+            return directory.clone();
+        }
+        let directory = self.path(&built.len().to_string());
+        self.verilate(circuit.name(), &verilog, build, &directory);
+        built.push((build, sources, directory.clone()));
+        directory
+    }
+
+    fn verilate(&self, top: &str, verilog: &Verilog, build: Build, directory: &Path) {
+        fs::create_dir(directory).expect("a new directory");
         let mut files = vec!["harness.cpp".to_owned()];
         for source in verilog.sources() {
-            fs::write(
-                directory.join(&source.name),
-                shift_in_one_block(&source.text),
-            )
-            .expect("room");
+            let text = shift_in_one_block(&source.text);
+            fs::write(directory.join(&source.name), text).expect("room");
             if source.name.ends_with(".v") {
                 files.push(source.name);
             }
         }
         fs::write(directory.join("harness.cpp"), include_str!("harness.cpp")).expect("room");
-        fs::write(directory.join("ports.h"), ports(&verilog)).expect("room");
-        stimulus.write(&directory.join("stimulus")).expect("room");
+        fs::write(directory.join("ports.h"), ports(verilog)).expect("room");
         let mut options: Vec<String> = OPTIONS.map(str::to_owned).to_vec();
-        options.extend(["--top-module".to_owned(), circuit.name().to_owned()]);
-        let flags = format!("-O3 -DSELDOM={}", super::SELDOM);
+        options.extend(["--top-module".to_owned(), top.to_owned()]);
+        let flags = format!("{} -DSELDOM={}", self.level, super::SELDOM);
         options.extend(["-CFLAGS".to_owned(), flags]);
         match build {
             Build::Untraced => {}
@@ -75,8 +96,33 @@ impl Verilated {
             Command::new("verilator").args(options).args(files),
             directory,
         );
+        let levels = LEVELS.map(|name| format!("{name}={}", self.level));
         let make = ["-C", "obj_dir", "-f", "Vtop.mk", "-j", "2"];
-        command(Command::new("make").args(make).args(LEVELS), directory);
+        command(Command::new("make").args(make).args(levels), directory);
+    }
+}
+
+/// A Verilated circuit that waits for commands.
+pub struct Verilated {
+    child: Child,
+    commands: Option<ChildStdin>,
+    answers: BufReader<ChildStdout>,
+}
+
+/// Bits by which the ports of a checksum are rotated against each other.
+pub const ROTATION: u32 = 7;
+
+impl Verilated {
+    /// Exports, compiles and starts a circuit; waves are those from tick `traced_from` on.
+    pub fn new<C: Circuit>(
+        builds: &Builds,
+        circuit: &C,
+        stimulus: &Stimulus,
+        traced_from: u64,
+        build: Build,
+    ) -> Self {
+        let directory = builds.program(circuit, build);
+        stimulus.write(&directory.join("stimulus")).expect("room");
         let mut child = Command::new(directory.join("obj_dir/Vtop"))
             .arg("stimulus")
             .args([stimulus.ticks, traced_from].map(|tick| tick.to_string()))
@@ -149,7 +195,7 @@ const OPTIONS: [&str; 13] = [
 ];
 
 /// `verilated.mk` has `-Os` of its own behind what `-CFLAGS` says.
-const LEVELS: [&str; 3] = ["OPT_FAST=-O3", "OPT_SLOW=-O3", "OPT_GLOBAL=-O3"];
+const LEVELS: [&str; 3] = ["OPT_FAST", "OPT_SLOW", "OPT_GLOBAL"];
 
 /// The stages of a shift register are dumped, as ours are; larger memories are in our waves only.
 const TRACE: [&str; 3] = ["--trace", "--trace-max-array", "256"];

@@ -66,6 +66,7 @@ impl<C: Circuit> fmt::Debug for Simulator<C> {
 /// Chooses what is watched; see [`Simulator::watching`].
 pub struct Watcher<'a, C: Circuit> {
     signals: &'a Signals<C>,
+    model: &'a Model,
     watched: RefCell<Vec<usize>>,
 }
 
@@ -79,6 +80,13 @@ impl<C: Circuit> Watcher<'_, C> {
     /// What is at several places is watched.
     pub fn each<T>(&self, places: &[At<T>]) -> Vec<At<T>> {
         places.iter().map(|at| self.at(*at)).collect()
+    }
+
+    /// Watches every port out and returns their leaves in the order of the Verilog's ports.
+    pub fn ports_out(&self) -> Vec<usize> {
+        let ports = self.model.ports_out();
+        self.watched.borrow_mut().extend(&ports);
+        ports
     }
 }
 
@@ -148,6 +156,7 @@ impl<C: Circuit> Simulator<C> {
         let signals = known.signals();
         let watcher = Watcher {
             signals,
+            model,
             watched: RefCell::default(),
         };
         let chosen = choose(&watcher);

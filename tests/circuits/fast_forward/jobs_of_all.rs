@@ -1,10 +1,10 @@
 //! The jobs of all circuits: the ports out of every tick, stepped one by one, run, and gone over.
 
 use super::jobs::{self, Clock, Job};
-use super::ours::{Outputs, word};
+use super::ours::word;
 use super::registers;
 use super::stimulus::Replay;
-use motion_rtl::hdl::{Observer, RunError, Sample, Simulator};
+use motion_rtl::hdl::{Circuit, Observer, RunError, Sample, Simulator};
 use std::ops::ControlFlow;
 
 /// A word of the ports out for every tick; where a tick is not seen they are held.
@@ -27,7 +27,7 @@ impl<'o> Words<'o> {
     }
 }
 
-impl<C: Outputs> Observer<C> for Words<'_> {
+impl<C: Circuit> Observer<C> for Words<'_> {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         self.hold(now.tick);
         self.words.push(word(self.outputs, now));
@@ -36,10 +36,11 @@ impl<C: Outputs> Observer<C> for Words<'_> {
 }
 
 /// Runs a job tick by tick on the interpreter, where all nets are watched, and in all other ways.
-fn same<C: Outputs>(job: Job<C>) {
+fn same<C: Circuit>(job: Job<C>) {
     let Job { circuit, stimulus } = job;
     let ticks = stimulus.ticks;
-    let watching = |all| Simulator::watching(&circuit, all, C::outputs).expect("a netlist");
+    let watching =
+        |all| Simulator::watching(&circuit, all, |watch| watch.ports_out()).expect("a netlist");
     let ((whole, outputs), (ports, _)) = (watching(true), watching(false));
     let interpreted = |simulator: &Simulator<C>| {
         let mut simulator = simulator.clone();
@@ -92,7 +93,7 @@ enum Way {
 }
 
 /// At the clock of the scenario and at a fast one, in which most ticks are idle.
-fn both<C: Outputs>(job: impl Fn(u64, Clock) -> Job<C>) {
+fn both<C: Circuit>(job: impl Fn(u64, Clock) -> Job<C>) {
     same(job(100_000, Clock::Shipped));
     same(job(400_000, Clock::Fast));
 }
