@@ -10,6 +10,8 @@ mod arc_refusals;
 mod beside;
 mod check_parts;
 mod checks;
+#[cfg(unix)]
+mod commands;
 mod compare;
 mod compare_names;
 mod compare_refusals;
