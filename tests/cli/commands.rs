@@ -138,17 +138,18 @@ fn is_command(span: &str) -> bool {
 /// A folder with the files of a checkout that commands read.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let waves = folder.path().join("waves");
-    fs::create_dir(&waves).unwrap();
-    for entry in fs::read_dir(Path::new(CHECKOUT).join("waves")).unwrap() {
-        let entry = entry.unwrap();
-        let name = entry.file_name();
-        let generated = [".vcd", ".fst", ".svg", ".plan.txt"];
-        let generated = generated
-            .iter()
-            .any(|end| name.to_string_lossy().ends_with(end));
-        if entry.file_type().unwrap().is_file() && !generated {
-            fs::copy(entry.path(), waves.join(name)).unwrap();
+    for (from, ends) in [
+        ("rtl_notes", &[".md"][..]),
+        ("waves", &[".csv", ".gtkw", ".hpgl", ".ngc", ".toml"]),
+    ] {
+        let to = folder.path().join(from);
+        fs::create_dir(&to).unwrap();
+        for entry in fs::read_dir(Path::new(CHECKOUT).join(from)).unwrap() {
+            let entry = entry.unwrap();
+            let name = entry.file_name().into_string().unwrap();
+            if ends.iter().any(|end| name.ends_with(end)) {
+                fs::copy(entry.path(), to.join(name)).unwrap();
+            }
         }
     }
     folder
