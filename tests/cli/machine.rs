@@ -52,6 +52,7 @@ fn both_machines_end_at_the_same_point() {
             "exact",
             "files",
             "input",
+            "left_by_correction",
             "lifts",
             "pieces",
             "pulses",
@@ -244,6 +245,61 @@ fn the_files_of_a_run() {
             dump.contains(&format!("$scope module {scope} $end")),
             "{scope}"
         );
+    }
+}
+
+/// The widened arc begins and ends beside the path, and the job goes on to its end.
+#[test]
+fn what_the_steady_correction_leaves_is_told() {
+    let bench = with(&format!("{GAINS}correction = \"steady\"\n"), SHORT);
+    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    assert_eq!(summary["complaints"], json!([]));
+    assert_eq!(summary["left_by_correction"], json!([0, 0]));
+    // A line up to an arc of 1 mm to the left of it, which is widened to the right.
+    let pieces = list(&summary, "pieces");
+    let left = |piece: usize| pieces[piece]["left_by_correction"].clone();
+    let [x, y] = [0, 1].map(|axis| left(0)[axis].as_i64().unwrap());
+    assert!(x == 0 && (-60..=-10).contains(&y), "{x} {y}");
+    // At a joint the segment that begins is in force: the arc ends where the line home begins.
+    assert_eq!((left(1), left(2)), (json!([0, 0]), json!([0, 0])));
+    let text = bench.succeed(&["run", "s.toml", "--no-vcd"]);
+    let said = format!(
+        "\nleft by the correction: 0 and {y} counts at the end of piece 0, line 1, the most\n"
+    );
+    assert!(text.contains(&said), "{text}");
+
+    // A job that ends on the arc ends beside it.
+    let short = "G1 X1 F1500\nG3 X2 Y1 I0 J1\n";
+    bench.write("p.ngc", short);
+    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    assert_eq!(
+        (&summary["complaints"], &summary["exact"]),
+        (&json!([]), &json!(true))
+    );
+    assert_eq!(summary["left_by_correction"], json!([-y, 0]));
+    let encoders = list(&summary, "ends")[2].clone();
+    assert_eq!(encoders["wanted"], json!([2000, 1000]));
+    for (axis, wanted) in [(0, 2000 - y), (1, 1000)] {
+        let position = encoders["position"][axis].as_i64().unwrap();
+        assert!((position - wanted).abs() <= 1, "{encoders}");
+    }
+    let text = bench.succeed(&["run", "s.toml", "--no-vcd"]);
+    let said = format!(
+        "steppers and commands end on the step and the count nearest to the job's end; left by the \
+         correction: {} and 0 counts\n",
+        -y
+    );
+    assert!(text.contains(&said), "{text}");
+
+    // The other corrections leave nothing.
+    for correction in ["none", "vector"] {
+        let set = format!("correction={correction}");
+        let summary = bench.json(&["run", "s.toml", "--no-vcd", "--set", &set]);
+        assert_eq!(summary["exact"], true);
+        assert_eq!(summary["left_by_correction"], json!([0, 0]));
+        for piece in list(&summary, "pieces") {
+            assert_eq!(piece["left_by_correction"], json!([0, 0]));
+        }
     }
 }
 

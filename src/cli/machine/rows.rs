@@ -7,6 +7,8 @@ use motion_rtl::path::pieces::Course;
 use serde::Serialize;
 use std::ops::RangeInclusive;
 
+/// What the ends call the motors of the servos.
+pub const ENCODERS: &str = "encoders";
 /// What the ends call the first machine.
 pub const STEPPERS: &str = "steppers";
 
@@ -36,6 +38,8 @@ pub struct PieceRow {
     pub motor_um: Option<f64>,
     /// The loads.
     pub load: Option<FarthestRow>,
+    /// Counts that the correction left the motors beside the piece's end.
+    pub left_by_correction: Option<[i64; 2]>,
     /// Time that the servos took, until their motors were in position.
     pub servos_s: Option<f64>,
 }
@@ -101,6 +105,7 @@ fn row(job: &Job, one: &PieceMeasured) -> PieceRow {
         model_um: servos.map(|servos| servos.model_mm * 1e3),
         motor_um: servos.map(|servos| servos.motor_mm * 1e3),
         load: servos.map(|servos| servos.load.into()),
+        left_by_correction: servos.map(|servos| servos.left_counts),
         servos_s: servos.map(|servos| seconds(&servos.ticks)),
     }
 }
@@ -141,7 +146,7 @@ pub fn ends(ends: &Ends) -> [EndRow; 3] {
             "counts",
         ),
         row(
-            "encoders",
+            ENCODERS,
             ends.motor_mm,
             ends.motor_counts,
             wanted_counts,

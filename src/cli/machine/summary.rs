@@ -39,6 +39,8 @@ pub struct Summary {
     pub end_mm: [f64; 2],
     /// Where everything ended.
     pub ends: [EndRow; 3],
+    /// Counts that the correction left the motors beside the job's end.
+    pub left_by_correction: [i64; 2],
     /// Distance of steppers and commands at the end.
     pub apart_um: f64,
     /// Every piece of the path.
@@ -105,6 +107,7 @@ impl Summary {
             },
             end_mm: ends.wanted_mm,
             ends: rows::ends(ends),
+            left_by_correction: ends.left_counts,
             apart_um: x.hypot(y) * 1e3,
             pieces: rows::pieces(job, measured),
             lifts: rows::lifts(job, played),

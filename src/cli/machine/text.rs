@@ -86,7 +86,13 @@ impl Summary {
             ]
         });
         table(text, heads, std::iter::once(job).chain(rows))?;
+        let [x, y] = self.left_by_correction;
         match (self.exact, self.apart_um < SAME_UM) {
+            (true, _) if [x, y] != [0; 2] => writeln!(
+                text,
+                "steppers and commands end on the step and the count nearest to the job's end; left by \
+                 the correction: {x} and {y} counts\n"
+            ),
             (true, true) => writeln!(text, "both machines end at the same point, exactly\n"),
             (true, false) => writeln!(
                 text,
@@ -148,7 +154,25 @@ impl Summary {
             ]
         });
         table(text, heads, cells)?;
-        more(text, left, "of smaller distance")
+        more(text, left, "of smaller distance")?;
+        self.left_by_correction(text)
+    }
+
+    /// The piece at whose end the correction left the motors farthest.
+    fn left_by_correction(&self, text: &mut String) -> fmt::Result {
+        let left = |row: &PieceRow| row.left_by_correction.unwrap_or_default();
+        let most = |row: &&PieceRow| left(row).map(i64::unsigned_abs).into_iter().max();
+        let Some(row) = self.pieces.iter().rev().max_by_key(most) else {
+            return Ok(());
+        };
+        match left(row) {
+            [0, 0] => Ok(()),
+            [x, y] => writeln!(
+                text,
+                "left by the correction: {x} and {y} counts at the end of piece {}, line {}, the most\n",
+                row.piece, row.line
+            ),
+        }
     }
 
     fn lifts(&self, text: &mut String, all: bool) -> fmt::Result {

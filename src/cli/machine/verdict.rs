@@ -16,7 +16,11 @@ pub fn complaints(job: &Job, played: &Played, ends: &Ends) -> Vec<String> {
     let cut_off = steppers_cut_off(job, played);
     for end in rows::ends(ends) {
         let (position, wanted) = (end.position, end.wanted);
-        let excused = cut_off && end.what == rows::STEPPERS;
+        let excused = match end.what {
+            rows::STEPPERS => cut_off,
+            rows::ENCODERS => ends.motor_at_rest,
+            _ => false,
+        };
         if position != wanted && !excused {
             let (what, unit) = (end.what, end.unit);
             all.push(format!("{what} end at {position:?} {unit}, not {wanted:?}"));

@@ -267,7 +267,7 @@ pub fn play(
     settings: &Settings,
     observer: &mut dyn Observer<Compensator>,
 ) -> Result<Played, JobError> {
-    settings.validate()?;
+    settings.validate_driven()?;
     let clock = settings.clock_hz as f64;
     let mut body = BrakedBody::new(&settings.body, 1.0 / clock)?;
     let mut bench = Bench {

@@ -88,7 +88,8 @@ pub fn settings_for(log: &PositionLog, settings: &Settings) -> Settings {
     settings
 }
 
-/// Checks settings that a log is replayed with: of its body no stop is known, and so no lead by it.
+/// Checks settings that a log is replayed with: of its body no stop is known, and so no lead by it,
+/// and its way is given, so that targets may be as near as one likes.
 ///
 /// # Errors
 /// Names the first field at fault, its value and what is allowed.
@@ -97,7 +98,7 @@ pub fn validate(settings: &Settings) -> Result<(), SettingError> {
         let allowed = "time or speed with a log, of whose body no stop is known";
         return Err(SettingError::value("lead", "table", allowed));
     }
-    settings.validate()
+    settings.validate_fields()
 }
 
 /// Counts of the first sample.

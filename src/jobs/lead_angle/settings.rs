@@ -2,6 +2,7 @@
 
 mod detector;
 mod lead;
+mod passing;
 
 use super::job::WIDTHS;
 use crate::circuits::lead_angle::Memory;
@@ -307,12 +308,25 @@ impl Settings {
         u64::from(word).min(self.followed_counts_per_s() as u64) as u32
     }
 
-    /// Checks every field.
+    /// Checks every field. A body that operates in passing comes to each target after its step is
+    /// armed, its lead before it.
     ///
     /// # Errors
     ///
     /// Names the first field at fault, its value and what is allowed.
     pub fn validate(&self) -> Result<(), SettingError> {
+        self.validate_fields()?;
+        self.validate_passing(|index| self.own_leads_s(index))
+    }
+
+    /// Checks what a run needs, whatever its leads are: in passing, a body does not turn back.
+    pub(super) fn validate_driven(&self) -> Result<(), SettingError> {
+        self.validate_fields()?;
+        self.validate_passing(|_| [0.0; 2])
+    }
+
+    /// Checks every field by itself.
+    pub(super) fn validate_fields(&self) -> Result<(), SettingError> {
         within("clock_hz", self.clock_hz, &CLOCK_RANGE_HZ)?;
         within("ck_ticks", self.ck_ticks, &CK_RANGE_TICKS)?;
         let count = self.steps.len();

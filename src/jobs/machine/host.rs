@@ -6,10 +6,11 @@
 //! to arc generator and trajectory controller as they find room.
 
 use super::program::{Program, Way};
-use super::settings::Settings;
+use super::settings::{Correction, Settings};
 use crate::circuits::arc_generator::generator::Segments;
 use crate::circuits::machine::circuit::In;
 use crate::circuits::machine::{Machine, enables, ports};
+use crate::circuits::trajectory_controller::Widths;
 use crate::circuits::trajectory_controller::model_state::ModelGains;
 use crate::hdl::{At, Sample, State, Value, Watcher, zero};
 use crate::jobs::lead_angle::settings::{self as lead_angle, SPEED_UNIT_COUNTS_PER_S};
@@ -44,6 +45,9 @@ pub(super) enum Stage {
     Done,
 }
 
+/// Bits of a guard unit's count.
+const GUARD: usize = Widths::FULL.guard();
+
 /// Gives a target for a line, or none.
 fn give_line(i: &mut ports::Lines<Value>, push: bool, target: [i64; 2], speed: u64, ramp: u64) {
     (i.push, [i.target_x, i.target_y]) = (push, target);
@@ -65,6 +69,8 @@ struct See {
     lift_busy: At<bool>,
     sample: At<bool>,
     counts: [At<i64>; 2],
+    /// Corrected commands, in guard units.
+    corrected: [At<i64>; 2],
     position: [At<i64>; 2],
 }
 
@@ -81,6 +87,9 @@ impl See {
             lift_busy: watch.at(w.lift_busy),
             sample: watch.at(p.enables.w.sample),
             counts: [w.counts_x, w.counts_y].map(|counts| watch.at(counts)),
+            corrected: [0, 1].map(|axis: usize| {
+                watch.at(p.trajectory_controller.p.axes[axis].p.corrector.q.corrected)
+            }),
             position: [w.position_x, w.position_y].map(|position| watch.at(position)),
         }
     }
@@ -346,7 +355,8 @@ impl<'a> Host<'a> {
         };
     }
 
-    /// Both motors within the window for some sampling times: the move is over.
+    /// Both motors within the window of where their corrected commands end for some sampling times:
+    /// the move is over.
     fn settle(&mut self, now: &Sample<'_, Machine>) -> Stage {
         if !now.get(self.see.sample) {
             return Stage::Settle;
@@ -360,9 +370,15 @@ impl<'a> Host<'a> {
         };
         let counts = self.see.counts.map(|axis| now.get(axis));
         let position = self.see.position.map(|axis| now.get(axis));
-        let near = [0, 1]
-            .iter()
-            .all(|&axis: &usize| counts[axis].abs_diff(position[axis]) <= window);
+        let near = match self.settings.correction {
+            // It ends beside the command, between counts.
+            Correction::Steady => {
+                let corrected = self.see.corrected.map(|axis| now.get(axis));
+                let window = window.max(1) << GUARD;
+                (0..2).all(|axis| (position[axis] << GUARD).abs_diff(corrected[axis]) <= window)
+            }
+            _ => (0..2).all(|axis| counts[axis].abs_diff(position[axis]) <= window),
+        };
         self.calm = if near { self.calm + 1 } else { 0 };
         if self.calm < CALM {
             return Stage::Settle;

@@ -5,6 +5,7 @@ mod servos;
 mod steppers;
 
 pub use ends::Ends;
+use ends::left_counts;
 
 use super::job::Played;
 use super::program::Program;
@@ -90,6 +91,8 @@ pub struct Servos {
     pub motor_mm: f64,
     /// The loads, where they are farthest.
     pub load: Farthest,
+    /// Counts by which the corrected command ends beside the piece's end.
+    pub left_counts: [i64; 2],
 }
 
 /// A piece of the path by both machines.
@@ -206,6 +209,9 @@ impl Measured {
                     .farthest(&path, step.piece, frames)
                     .map(|servos| Servos {
                         ticks: timed.begun..=timed.ended,
+                        left_counts: frames
+                            .last()
+                            .map_or([0; 2], |frame| left_counts(settings, frame, step.to)),
                         ..servos
                     });
         }

@@ -65,6 +65,60 @@ fn an_operation_in_passing_has_its_effect_at_the_target() {
     );
 }
 
+/// Targets nearer than the body goes in an operation and a rest, however the steps come in.
+#[test]
+fn operations_that_are_too_near_are_refused_with_the_least_distance() {
+    let head = "circuit = \"lead_angle\"\naction = \"operate\"\nlearn = false\nclock_hz = 200_000\n\
+                ck_ticks = 20\nrest_ms = 10\n";
+    let steps = |second: &str| {
+        format!(
+            "{head}[[step]]\ntarget = 30_000\nspeed_counts_per_s = 50_000\nlead_ms = 20\n\
+             [[step]]\ntarget = {second}\nspeed_counts_per_s = 50_000\nlead_ms = 20\n"
+        )
+    };
+    let bench = Bench::with("s.toml", steps("30_500"));
+    bench.refuse_with(&["run", "s.toml", "--no-vcd"], |said| {
+        let start = "error: s.toml:12: step 1: target: is 30500: 500 counts from the target of step 0, \
+                     which the body passes at 50000 counts/s; allowed: at least ";
+        assert!(said.starts_with(start), "{said}");
+    });
+    // 20 ms of delay and 10 of rest, 5 CKs and some ticks.
+    let least = 1556;
+    bench.write("s.toml", steps(&(30_000 + least).to_string()));
+    let summary = bench.json(&["run", "s.toml", "--no-vcd"]);
+    assert_eq!(summary["warnings"], json!([]));
+    bench.write("s.toml", steps(&(30_000 + least - 1).to_string()));
+    let text = format!(
+        "at least {least} counts with action = \"operate\", as target = {}, or a lower speed, \
+         operation_delay_s or rest_ms",
+        30_000 + least
+    );
+    bench.refuse_with(&["run", "s.toml", "--no-vcd"], |said| {
+        assert!(said.contains(&text), "{said}");
+    });
+    // Turn after turn, given on the command line.
+    let run = |target: i64| {
+        let set = format!("step=[{{target={target},speed_counts_per_s=50000,lead_ms=20}}]");
+        let sets = ["targets=relative", &set, "counts_per_rev=10000"];
+        let sets = sets
+            .map(|set| ["--set".to_owned(), set.to_owned()])
+            .concat();
+        let mut run = vec!["run".to_owned(), "s.toml".to_owned(), "--no-vcd".to_owned()];
+        run.extend(sets);
+        run
+    };
+    let refused = run(-1500);
+    let refused: Vec<&str> = refused.iter().map(String::as_str).collect();
+    bench.refuse_with(&refused, |said| {
+        let start =
+            "error: --set: step 0: target: is -1500: 1500 counts from the target of step 0, ";
+        assert!(said.starts_with(start), "{said}");
+    });
+    let fast = run(-5000);
+    let fast: Vec<&str> = fast.iter().map(String::as_str).collect();
+    assert_eq!(bench.json(&fast)["warnings"], json!([]));
+}
+
 /// On a log too, with a column for where it took effect.
 #[test]
 fn an_operation_on_a_log_is_learned_from() {

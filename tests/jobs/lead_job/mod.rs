@@ -4,6 +4,7 @@
 mod detector;
 mod forms;
 mod logs;
+mod passing;
 mod setter;
 
 use motion_rtl::circuits::lead_angle::codes::LARGEST;

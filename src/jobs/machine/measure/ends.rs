@@ -1,9 +1,10 @@
 //! Where both machines ended.
 
+use crate::circuits::trajectory_controller::Widths;
 use crate::input::Drawing;
-use crate::jobs::machine::job::Played;
+use crate::jobs::machine::job::{Frame, Played};
 use crate::jobs::machine::program::Program;
-use crate::jobs::machine::settings::Settings;
+use crate::jobs::machine::settings::{Correction, Settings};
 
 /// Where both machines ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +23,12 @@ pub struct Ends {
     pub command_counts: [[i64; 2]; 2],
     /// The motors in counts.
     pub motor_counts: [i64; 2],
-    /// Everything is on the step or count that is nearest to the job's end.
+    /// Counts by which the corrected command ends beside the job's end.
+    pub left_counts: [i64; 2],
+    /// The motors are where the corrected command ends.
+    pub motor_at_rest: bool,
+    /// Everything is on the step or count that is nearest to the job's end, the motors beside it by
+    /// what the correction leaves.
     pub exact: bool,
 }
 
@@ -47,6 +53,11 @@ impl Ends {
         let wanted_steps = axes.map(|axis| steps(end[axis], axis));
         let wanted_counts = axes.map(|axis| counts(end[axis]));
         let mm = |at: [i64; 2]| at.map(|counts| counts as f64 / settings.counts_per_mm);
+        let left_counts = match (played.frames.last(), program.moves.last()) {
+            (Some(frame), Some(step)) => left_counts(settings, frame, step.to),
+            _ => [0; 2],
+        };
+        let motor_at_rest = at_rest(settings, wanted_counts, left_counts, motor);
         Ends {
             wanted_mm: [end[0], end[1]],
             stepper_mm: axes.map(|axis| stepper[axis] as f64 / settings.steps_per_mm[axis]),
@@ -55,7 +66,27 @@ impl Ends {
             stepper_steps: [stepper, wanted_steps],
             command_counts: [command, wanted_counts],
             motor_counts: motor,
-            exact: stepper == wanted_steps && command == wanted_counts && motor == wanted_counts,
+            left_counts,
+            motor_at_rest,
+            exact: stepper == wanted_steps && command == wanted_counts && motor_at_rest,
         }
     }
+}
+
+/// Counts by which the corrected command stands beside a place. Only the steady correction ends
+/// beside the command.
+pub(super) fn left_counts(settings: &Settings, frame: &Frame, place: [i64; 2]) -> [i64; 2] {
+    let count = (1u64 << Widths::FULL.guard()) as f64;
+    match settings.correction {
+        Correction::Steady => [0, 1]
+            .map(|axis: usize| (frame.corrected[axis] as f64 / count).round() as i64 - place[axis]),
+        _ => [0; 2],
+    }
+}
+
+/// True if the motors are where the corrected command ends. That of the steady correction ends
+/// between counts.
+fn at_rest(settings: &Settings, wanted: [i64; 2], left: [i64; 2], motor: [i64; 2]) -> bool {
+    let most = u64::from(settings.correction == Correction::Steady);
+    (0..2).all(|axis| motor[axis].abs_diff(wanted[axis] + left[axis]) <= most)
 }

@@ -97,6 +97,7 @@ impl Servo {
             model_mm: largest(Self::model),
             motor_mm: largest(Self::motor),
             load: farthest(worst.tick, load, shares),
+            left_counts: [0; 2],
         })
     }
 }
