@@ -2,7 +2,10 @@
 
 use super::check::entry;
 use super::connections::{Connections, Signal};
-use super::shipped::SHIPPED;
+use super::job::Job;
+use super::shipped::{SHIPPED, Shipped};
+use super::source::Source;
+use super::waves_of::System;
 use super::{Failure, print, print_json};
 use clap::Args;
 use motion_rtl::hdl::{Declaration, Role, RunError};
@@ -55,6 +58,21 @@ struct Port {
 struct Scenario {
     file: &'static str,
     about: &'static str,
+    /// Names of its systems for `run --waves-of`.
+    systems: Vec<String>,
+}
+
+impl Scenario {
+    fn of(shipped: &'static Shipped) -> Result<Self, Failure> {
+        let mut source = Source::shipped(shipped)?;
+        source.compares = true;
+        let job = Job::prepare(source)?;
+        Ok(Scenario {
+            file: shipped.file,
+            about: shipped.about,
+            systems: job.systems().iter().map(System::key).collect(),
+        })
+    }
 }
 
 /// Lists.
@@ -62,13 +80,7 @@ pub fn list(arguments: &Arguments) -> Result<(), Failure> {
     let listing = match &arguments.circuit {
         None => Listing {
             circuits: CATALOGUE.iter().map(circuit).collect(),
-            scenarios: SHIPPED
-                .iter()
-                .map(|shipped| Scenario {
-                    file: shipped.file,
-                    about: shipped.about,
-                })
-                .collect(),
+            scenarios: SHIPPED.iter().map(Scenario::of).collect::<Result<_, _>>()?,
         },
         Some(name) => {
             let entry = entry(name)?;
@@ -144,6 +156,7 @@ fn text(listing: &Listing) -> String {
     text.push_str("\nscenarios\n\n");
     for scenario in &listing.scenarios {
         let _ = writeln!(text, "  {}: {}", scenario.file, scenario.about);
+        let _ = writeln!(text, "    waves of  {}", scenario.systems.join(", "));
     }
     text
 }

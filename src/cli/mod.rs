@@ -7,6 +7,7 @@ pub mod compare;
 mod connections;
 mod faults;
 mod files;
+mod job;
 mod lead_angle;
 mod linear;
 pub mod list;
@@ -30,6 +31,7 @@ mod times;
 mod traces;
 mod trajectory;
 pub mod verilog;
+mod waves_of;
 
 use motion_rtl::hdl::RunError;
 use motion_rtl::input::{Fault, LISTED, SHOWN, shown};

@@ -1,10 +1,12 @@
 //! `run`: a job on its circuit, with waves, save file and picture.
 
+use super::Failure;
+use super::job::Job;
+use super::progress;
 use super::source::{Input, Source};
 use super::traces::Format;
-use super::{Failure, arc, lead_angle, linear, machine, progress, pulse, trajectory};
 use clap::Args;
-use motion_rtl::scenario::{Loaded, Scenario};
+use motion_rtl::scenario::Loaded;
 use motion_rtl::trace::{Clock, Options};
 use std::path::PathBuf;
 
@@ -43,6 +45,10 @@ pub struct Arguments {
     /// Plays what the circuit is compared with too, as `--set beside=true` does.
     #[arg(long)]
     beside: bool,
+    /// Writes the waves of this system of the summary, to STEM_NAME.vcd, and plays it alone; `list`
+    /// has the names.
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["no_vcd", "beside", "segments"])]
+    pub(super) waves_of: Option<String>,
     /// Prints every segment, arc, positioning or signal, not the worst or the last alone (not of
     /// the pulse interpolator).
     #[arg(long)]
@@ -65,39 +71,9 @@ fn play(arguments: &Arguments) -> Result<(), Failure> {
     input
         .sets
         .extend(arguments.beside.then(|| BESIDE.to_owned()));
-    let source = Source::read(&input)?;
-    match &source.loaded.scenario {
-        Scenario::PulseInterpolator(scenario) if !scenario.pattern.is_empty() => {
-            let scenario = scenario.clone();
-            pulse::patterns::run(arguments, source, &scenario)
-        }
-        Scenario::PulseInterpolator(_) => {
-            pulse::run(arguments, &pulse::Job::prepare(source, true)?)
-        }
-        Scenario::LinearInterpolator(scenario) => {
-            let settings = scenario.settings();
-            linear::run(arguments, &linear::Job::prepare(source, settings)?)
-        }
-        Scenario::LeadAngle(scenario) => {
-            let (settings, columns) = (scenario.settings(), scenario.columns());
-            lead_angle::run(
-                arguments,
-                &lead_angle::Job::prepare(source, settings, &columns)?,
-            )
-        }
-        Scenario::ArcGenerator(scenario) => {
-            let scenario = scenario.clone();
-            arc::run(arguments, &arc::Job::prepare(source, &scenario)?)
-        }
-        Scenario::TrajectoryController(scenario) => {
-            let scenario = scenario.clone();
-            trajectory::run(arguments, &trajectory::Job::prepare(source, &scenario)?)
-        }
-        Scenario::Machine(scenario) => {
-            let settings = scenario.settings();
-            machine::run(arguments, &machine::Job::prepare(source, settings)?)
-        }
-    }
+    let mut source = Source::read(&input)?;
+    source.compares |= arguments.waves_of.is_some();
+    Job::prepare(source)?.run(arguments)
 }
 
 /// The window and the signals that are asked for.

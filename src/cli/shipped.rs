@@ -58,7 +58,7 @@ macro_rules! embedded {
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 15] = [
+pub const SHIPPED: [Shipped; 18] = [
     shipped!(
         "waves/machine.toml",
         "a bracket in G-code on steppers, servos and a pen lift, by all five circuits; runs by default",
@@ -73,6 +73,21 @@ pub const SHIPPED: [Shipped; 15] = [
         "waves/patterns.toml",
         "patterns in the memory, chosen by command and never rewritten, on the pulse interpolator",
         tables: ["waves/ring.csv", "waves/stroke.csv"]
+    ),
+    shipped!(
+        "waves/rewrite.toml",
+        "a pattern whose T is rewritten while it is played, on the pulse interpolator",
+        tables: ["waves/stroke.csv"]
+    ),
+    shipped!(
+        "waves/arc.toml",
+        "an X-Y table round an arc, also by the conventional device, which computes it",
+        input: "waves/arc.ngc"
+    ),
+    shipped!(
+        "waves/link.toml",
+        "lines and arcs as moves of the conventional device, beside the pulse interpolator",
+        input: "waves/link.ngc"
     ),
     shipped!(
         "waves/rosette.toml",

@@ -59,6 +59,8 @@ pub struct Source {
     pub loaded: Loaded,
     /// What its files are called.
     pub stem: String,
+    /// True if what the circuit is compared with is prepared too.
+    pub compares: bool,
     origin: Origin,
     options: Options,
 }
@@ -77,17 +79,28 @@ enum Origin {
 impl Source {
     /// Reads the scenario.
     pub fn read(input: &Input) -> Result<Self, Fault> {
-        let (loaded, origin, name) = read(input)?;
+        Source::of(read(input)?, input)
+    }
+
+    fn of((loaded, origin, name): (Loaded, Origin, PathBuf), input: &Input) -> Result<Self, Fault> {
         let stem = name.file_stem().map_or_else(
             || "run".to_owned(),
             |stem| stem.to_string_lossy().into_owned(),
         );
         Ok(Source {
             options: input.options(&loaded)?,
+            compares: loaded.scenario.beside(),
             loaded,
             stem,
             origin,
         })
+    }
+
+    /// A scenario that ships with the crate, without regard to files of its name.
+    pub fn shipped(shipped: &'static Shipped) -> Result<Self, Fault> {
+        let loaded = shipped.load(&[])?;
+        let path = Path::new(shipped.file).to_owned();
+        Source::of((loaded, Origin::Crate(shipped), path), &Input::default())
     }
 
     /// Reads the input of a circuit that needs a drawing.

@@ -4,10 +4,11 @@
 use super::Failure;
 use super::files::Files;
 use super::plan::{Noted, of_job};
+use super::progress::Part;
 use super::run::{Arguments, clock};
 use clap::ValueEnum;
 use motion_rtl::files::AtomicFile;
-use motion_rtl::hdl::{Described, RunError};
+use motion_rtl::hdl::{Circuit, Described, Model, Observer, RunError, Without};
 use motion_rtl::scenario::Loaded;
 use motion_rtl::trace::{Clock, LayoutError, Options, StimulusFile, WaveFile, WaveFormat, gtkw};
 use motion_rtl::verilog::Verilog;
@@ -63,6 +64,7 @@ impl Format {
 }
 
 /// What the save file's window shows.
+#[derive(Debug, Clone, Copy)]
 pub struct Focus {
     /// The tick that matters.
     pub action: u64,
@@ -115,6 +117,27 @@ impl<'a> Traces<'a> {
     /// Whether nothing of the run is written.
     pub fn is_empty(&self) -> bool {
         self.waves.is_none() && self.stimulus.is_none() && self.noted.is_none()
+    }
+
+    /// Plays a circuit, seen by all of them, and closes them; `end`
+    /// gives the window of the save file and the ticks of the run.
+    pub fn play<C: Circuit, T>(
+        mut self,
+        model: &Model,
+        play: impl FnOnce(&mut dyn Observer<C>) -> Result<T, Failure>,
+        end: impl FnOnce(&T) -> (Focus, u64),
+    ) -> Result<(T, Files), Failure> {
+        let mut progress = Part::default();
+        let stimulus = self.stimulus.as_mut().map(Without);
+        let played = play(&mut (
+            self.waves.as_mut(),
+            stimulus,
+            self.noted.as_mut(),
+            &mut progress,
+        ))?;
+        let (focus, ticks) = end(&played);
+        let files = self.finish(model, &focus, ticks)?;
+        Ok((played, files))
     }
 
     /// Closes them after so many ticks, and writes the save file; refuses a window of which the run

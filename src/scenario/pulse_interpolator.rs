@@ -4,7 +4,7 @@ use super::{Program, Runnable};
 use crate::circuits::pulse_interpolator::Variant;
 use crate::input::Drawing;
 use crate::jobs::pulse_interpolator::motors::Motors;
-use crate::jobs::pulse_interpolator::{Settings, StepTiming};
+use crate::jobs::pulse_interpolator::{Rewrite, Settings, StepTiming};
 use crate::plan::MotionLimits;
 use crate::plant::StepMotorParameters;
 use crate::settings::{Place, SettingError};
@@ -24,9 +24,15 @@ pub struct Scenario {
     pub pattern: Vec<PatternKeys>,
     /// The names of patterns in the order in which they are played; without it each once.
     pub play: Option<Vec<String>>,
+    /// T written by the control computer while patterns are played.
+    #[serde(default)]
+    pub rewrite: Vec<RewriteKeys>,
     /// Whether the pattern is played without a control computer.
     #[serde(default)]
     pub standalone: bool,
+    /// How the control computer of the conventional device gives it the drawing.
+    #[serde(default)]
+    pub conventional_moves: ConventionalMoves,
     /// Where the zeros of a part program are.
     #[serde(default)]
     pub program: Program,
@@ -113,6 +119,15 @@ impl Scenario {
         motors.map_err(|error| error.at(Place::Table("motor")))
     }
 
+    /// T that is written while patterns are played.
+    pub fn rewrites(&self) -> Vec<Rewrite> {
+        let rewrites = self.rewrite.iter().map(|keys| Rewrite {
+            unit: keys.unit,
+            period: keys.unit_ticks,
+        });
+        rewrites.collect()
+    }
+
     /// What the motor drivers ask for.
     pub fn timing(&self) -> StepTiming {
         StepTiming {
@@ -169,6 +184,27 @@ pub struct PatternKeys {
     pub table: PathBuf,
     /// What its half-periods are multiplied by, as 3/2.
     pub scale: Option<String>,
+}
+
+/// A table `[[rewrite]]`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RewriteKeys {
+    /// The unit time of the run in whose middle T is written, from 0.
+    pub unit: usize,
+    /// T in ticks from the next unit time on, up to the end of the pattern.
+    pub unit_ticks: u32,
+}
+
+/// Moves that the computer 7 gives the conventional device of Fig. 5.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ConventionalMoves {
+    /// One for every unit time of the planned path.
+    #[default]
+    UnitTimes,
+    /// One for each line and each arc, by its parameters (¶0003–0004).
+    Pieces,
 }
 
 /// The variant by its name.

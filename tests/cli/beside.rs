@@ -40,7 +40,7 @@ lead_ms = 15
 
 /// The arguments of a short run of each circuit that is compared with something, the summary's key
 /// with the rows of all systems, and how many these are without a comparison and with it.
-fn runs() -> Vec<(Vec<&'static str>, &'static str, [usize; 2])> {
+pub fn runs() -> Vec<(Vec<&'static str>, &'static str, [usize; 2])> {
     let pulse = [&["l.hpgl"], &SHORT[..]].concat();
     let linear = [
         "l.hpgl",
@@ -60,7 +60,7 @@ fn runs() -> Vec<(Vec<&'static str>, &'static str, [usize; 2])> {
     ]
 }
 
-fn bench() -> Bench {
+pub fn bench() -> Bench {
     let bench = Bench::with("l.hpgl", LINE);
     bench.write("arc.toml", ARC);
     bench.write("path.toml", PATH);

@@ -50,3 +50,4 @@ mod tables;
 mod trajectory;
 mod trajectory_refusals;
 mod verilog;
+mod waves_of;

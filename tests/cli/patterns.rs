@@ -1,6 +1,6 @@
 //! Patterns that stand in the memory: tables in CSV, played by command or alone.
 
-use super::support::{Bench, list, whole};
+use super::support::{Bench, LINE, list, whole, words};
 use serde_json::json;
 use std::fmt::Write as _;
 
@@ -342,4 +342,106 @@ fn data_that_break_the_limits_of_the_driver_are_complained_of() {
         "{}",
         done.stderr
     );
+}
+
+/// Pulses of half-period `n` in `period` ticks, by the text's own counting.
+fn pulses(n: u64, period: u64) -> i64 {
+    match n {
+        0 => 0,
+        n => (((period - 1) / n + 1) / 2) as i64,
+    }
+}
+
+#[test]
+fn t_is_rewritten_while_a_pattern_is_played() {
+    let bench = Bench::new();
+    let summary = bench.json(&["run", "waves/rewrite.toml"]);
+    assert_eq!(
+        (&summary["exact"], whole(&summary, "/rewrites")),
+        (&json!(true), 2)
+    );
+    assert_eq!(whole(&summary, "/commands"), 1);
+    // In force from the unit time behind the one in which it is written.
+    let period = |unit: usize| match unit {
+        0..=20 => 800,
+        21..=45 => 1200,
+        _ => 400,
+    };
+    let stroke = include_str!("../../waves/stroke.csv");
+    let mut ends = [0; 2];
+    let mut periods = vec![800];
+    for row in stroke.lines().skip(1) {
+        let cells: Vec<u64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let period = period(cells[0] as usize);
+        periods.push(period as i64);
+        for (axis, end) in ends.iter_mut().enumerate() {
+            let way = pulses(cells[2 + 2 * axis], period);
+            *end += if cells[3 + 2 * axis] == 1 { -way } else { way };
+        }
+    }
+    let found = ["x", "y"].map(|axis| whole(&summary, &format!("/axes/{axis}/end_position")));
+    assert_eq!(found, ends);
+    assert_ne!(found, [480, 200]);
+    let paths = [
+        "pulse_interpolator.unit_rst",
+        "pulse_interpolator.write_period",
+    ];
+    let ticks = words(&bench.read("waves/rewrite.vcd"), &paths);
+    let at = |signal: usize| {
+        let high = ticks
+            .iter()
+            .enumerate()
+            .filter(move |(_, row)| row[signal] == 1);
+        high.map(|(tick, _)| tick as i64 + 1).collect::<Vec<_>>()
+    };
+    let resets = at(0);
+    let lengths = resets.iter().scan(0, |before, end| {
+        let length = end - *before;
+        *before = *end;
+        Some(length)
+    });
+    assert_eq!(lengths.collect::<Vec<_>>()[..periods.len()], periods);
+    assert_eq!(at(1).len(), 2);
+    // Without waves idle ticks are not gone over, and the result is the same.
+    let without = bench.json(&["run", "waves/rewrite.toml", "--no-vcd"]);
+    assert_eq!(
+        (&without["axes"], &without["ticks"]),
+        (&summary["axes"], &summary["ticks"])
+    );
+    let text = bench.succeed(&["run", "waves/rewrite.toml", "--no-vcd"]);
+    assert!(
+        text.contains("none rewritten; 1 command, T rewritten 2 times\n"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_rewritten_t_without_effect_is_refused() {
+    let rows = rows(5);
+    let refused = |keys: &str, text: &str| {
+        let bench = Bench::with("t.csv", &rows);
+        bench.write("s.toml", format!("{ONE}{keys}"));
+        bench.refuse(&["run", "s.toml"], text);
+    };
+    let allowed = "allowed: unit times in order, each of 4 ticks or more and not the last of its \
+                   pattern; unit_ticks 1 to 16777215";
+    let rewrite =
+        |unit: usize, ticks: u32| format!("[[rewrite]]\nunit = {unit}\nunit_ticks = {ticks}\n");
+    for (keys, line, place, unit) in [
+        (rewrite(4, 50), 6, 0, 4),
+        (rewrite(9, 50), 6, 0, 9),
+        (rewrite(0, 0), 6, 0, 0),
+        (rewrite(0, 1 << 24), 6, 0, 0),
+        (rewrite(2, 50) + &rewrite(2, 60), 9, 1, 2),
+        (rewrite(1, 3) + &rewrite(2, 60), 9, 1, 2),
+    ] {
+        refused(
+            &keys,
+            &format!("s.toml:{line}: rewrite {place}: unit: is {unit}; {allowed}"),
+        );
+    }
+    let bench = Bench::with("l.hpgl", LINE);
+    let run = ["run", "l.hpgl", "--set", "rewrite=[{unit=1,unit_ticks=9}]"];
+    let text = "--set: rewrite: without [[pattern]]; allowed: the command run, with [[pattern]] and no input";
+    bench.refuse(&run, text);
 }

@@ -14,6 +14,7 @@ use motion_rtl::jobs::arc_generator::job::{Played, arc_generator};
 use motion_rtl::jobs::arc_generator::prepare::Timing;
 use motion_rtl::jobs::arc_generator::prepared::Shape;
 use motion_rtl::path::circle::Circle;
+use motion_rtl::path::record::Record;
 use motion_rtl::path::vector::distance;
 use serde::Serialize;
 
@@ -28,6 +29,39 @@ pub struct Beside {
     pub played: Played,
     /// The first piece whose arc is not run, since it does not fit.
     pub left: Option<usize>,
+}
+
+/// An arc from rest to rest at a speed.
+pub type Run = fn(&Circle, f64, &Timing) -> Method;
+
+/// An arc of a path by the conventional method.
+pub struct Planned {
+    segment: usize,
+    piece: usize,
+    radius: f64,
+    method: Method,
+}
+
+/// Every arc of a path, as `run` has an arc of its speed, and the records of all; or the first piece
+/// whose arc does not fit.
+pub fn runs(job: &Job, run: Run) -> Result<(Vec<Planned>, Vec<Record>), usize> {
+    let (mut arcs, mut all) = (Vec::new(), Vec::new());
+    for (index, segment) in job.prepared.segments.iter().enumerate() {
+        let Shape::Arc { circle, .. } = segment.shape else {
+            continue;
+        };
+        let wanted = job.prepared.pieces[segment.piece].wanted;
+        let method = run(&circle, wanted, &job.prepared.timing);
+        let records = records(&method, job.settings.counts_per_mm, &Widths::FULL);
+        all.extend(records.ok_or(segment.piece)?);
+        arcs.push(Planned {
+            segment: index,
+            piece: segment.piece,
+            radius: circle.radius,
+            method,
+        });
+    }
+    Ok((arcs, all))
 }
 
 /// An arc from rest to rest.
@@ -47,30 +81,29 @@ pub struct Arc {
 
 impl Beside {
     /// Runs every arc of a path, as `method` has an arc of this speed.
-    pub fn run(job: &Job, method: fn(&Circle, f64, &Timing) -> Method) -> Result<Self, Failure> {
+    pub fn run(job: &Job, method: Run) -> Result<Self, Failure> {
         let per_mm = job.settings.counts_per_mm;
-        let (mut methods, mut all) = (Vec::new(), Vec::new());
-        for (index, segment) in job.prepared.segments.iter().enumerate() {
-            let Shape::Arc { circle, .. } = segment.shape else {
-                continue;
-            };
-            let wanted = job.prepared.pieces[segment.piece].wanted;
-            let method = method(&circle, wanted, &job.prepared.timing);
-            let Some(records) = records(&method, per_mm, &Widths::FULL) else {
+        let (planned, all) = match runs(job, method) {
+            Ok(all) => all,
+            Err(left) => {
                 return Ok(Beside {
-                    left: Some(segment.piece),
+                    left: Some(left),
                     ..Beside::default()
                 });
-            };
-            all.extend(records);
-            methods.push((index, segment.piece, circle.radius, method));
-        }
+            }
+        };
         let circuit = Conventional::new(job.settings.rounding);
-        let played = play(&circuit, &all, job.sample_ticks)?;
-        let samples = |method: &Method| 1 + 2 * method.ramp + method.samples;
-        let samples = methods.iter().map(|(.., method)| samples(method)).sum();
+        let played = play(&circuit, &all, job.sample_ticks, &[], &mut ())?;
+        let samples = |arc: &Planned| 1 + 2 * arc.method.ramp + arc.method.samples;
+        let samples = planned.iter().map(samples).sum();
         let mut commands = played.commands.iter();
-        let arcs = methods.into_iter().map(|(segment, piece, radius, method)| {
+        let arcs = planned.into_iter().map(|arc| {
+            let Planned {
+                segment,
+                piece,
+                radius,
+                method,
+            } = arc;
             let pairs = method.samples().zip(commands.by_ref());
             let (mut points, mut error) = (Vec::new(), 0f64);
             for ((exact, _), command) in pairs {

@@ -13,12 +13,14 @@ mod summary;
 mod text;
 mod verdict;
 mod view;
+mod waves;
 
 pub use job::Job;
+pub use waves::systems;
 
 use super::Failure;
 use super::files::Files;
-use super::progress::{self, Part, Work};
+use super::progress::{self, Work};
 use super::report::conclude;
 use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
@@ -98,7 +100,7 @@ fn simulate(
         false => model_beside(&circuit, &Joints),
     };
     let shown = shown.map_err(RunError::from)?;
-    let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
+    let traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
     let in_waves = in_waves(arguments, options, ticks);
     let subject = job
         .drawing
@@ -113,36 +115,31 @@ fn simulate(
             in_waves,
         },
     );
-    let mut progress = Part::default();
-    let files = (
-        traces.waves.as_mut(),
-        traces.stimulus.as_mut(),
-        traces.noted.as_mut(),
-    );
-    let mut observers = (files, &mut progress);
-    let played = play_arm(
-        &circuit,
-        &job.records,
-        job.sample_ticks,
-        joints,
-        &mut observers,
-    )?;
-    let ticks_shown = SAMPLES_SHOWN * u64::from(job.sample_ticks);
-    // Where the first segment ends and the second begins.
-    let change = job
-        .prepared
-        .segments
-        .first()
-        .map_or(0, |first| first.samples as usize);
-    let focus = Focus {
-        action: played
-            .commands
-            .get(change)
-            .map_or(0, |command| command.tick),
-        before: ticks_shown / 2,
-        shown: ticks_shown,
-        overview: &OVERVIEW,
-    };
-    let files = traces.finish(&shown, &focus, played.ticks)?;
-    Ok((played, files))
+    traces.play(
+        &shown,
+        |observer| {
+            let (records, sample_ticks) = (&job.records, job.sample_ticks);
+            Ok(play_arm(&circuit, records, sample_ticks, joints, observer)?)
+        },
+        |played: &Played| (focus(job, played), played.ticks),
+    )
+}
+
+/// A window around the change from the first segment to the second.
+fn focus(job: &Job, played: &Played) -> Focus {
+    let first = job.prepared.segments.first();
+    let change = first.map_or(0, |first| first.samples as usize);
+    window(job, played, change, &OVERVIEW)
+}
+
+/// A window around a sample.
+fn window(job: &Job, played: &Played, sample: usize, overview: &'static [&'static str]) -> Focus {
+    let shown = SAMPLES_SHOWN * u64::from(job.sample_ticks);
+    let command = played.commands.get(sample);
+    Focus {
+        action: command.map_or(0, |command| command.tick),
+        before: shown / 2,
+        shown,
+        overview,
+    }
 }

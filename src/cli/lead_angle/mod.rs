@@ -7,6 +7,7 @@ mod picture;
 mod summary;
 mod systems;
 mod text;
+pub mod waves;
 
 pub use job::Job;
 
@@ -127,15 +128,16 @@ fn simulate(
     let circuit = positioner(settings);
     let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
-    let mut progress = Part::default();
-    let (waves, stimulus) = (traces.waves.as_mut(), traces.stimulus.as_mut());
-    let files = (waves, stimulus, traces.noted.as_mut());
-    let played = play(&circuit, settings, &mut (files, &mut progress))?;
-    let first = played.positionings.first();
-    let focus = focus(settings, first.map_or(0, |positioning| positioning.fired));
-    let files = traces.finish(&shown, &focus, played.ticks)?;
-    Ok((played, files))
+    let traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
+    traces.play(
+        &shown,
+        |observer| Ok(play(&circuit, settings, observer)?),
+        |played: &Played| {
+            let first = played.positionings.first();
+            let fired = first.map_or(0, |positioning| positioning.fired);
+            (focus(settings, fired), played.ticks)
+        },
+    )
 }
 
 /// A window with that tick in its middle.

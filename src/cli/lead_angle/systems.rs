@@ -143,6 +143,11 @@ pub fn systems(settings: &Settings) -> Vec<System> {
 }
 
 impl System {
+    /// True if [`set_up`](Self::set_up) does something to it.
+    pub fn is_set_up(&self) -> bool {
+        [SWITCH, TUNED].contains(&self.name)
+    }
+
     /// Sets it up as one does who tries the machine without a lead first, at the nominal load.
     pub fn set_up(&mut self, without_lead: &Played) {
         match self.name {

@@ -71,8 +71,7 @@ impl Job {
         progress::stage("planning the path");
         let refused = |error| fault(&source.loaded, &drawing, &settings, error);
         let compiled = compile(&drawing, &settings).map_err(refused)?;
-        let beside = source.loaded.scenario.beside();
-        let other = beside.then(|| Other::of(&drawing, &settings));
+        let other = source.compares.then(|| Other::of(&drawing, &settings));
         let Source { stem, loaded, .. } = source;
         Ok(Job {
             stem,

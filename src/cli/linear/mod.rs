@@ -15,13 +15,14 @@ use super::progress::{self, Part, Work};
 use super::report::conclude;
 use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
+use super::waves_of::{Ending, System};
 use super::{Failure, threads};
 use job::Other;
 use motion_rtl::circuits::linear_interpolator::Controller;
-use motion_rtl::hdl::{Model, RunError, Without, model_beside};
+use motion_rtl::hdl::{Model, Observer, RunError, model_beside};
 use motion_rtl::jobs::linear_interpolator::job::{conventional, play_each, plotter};
 use motion_rtl::jobs::linear_interpolator::measure::Seen;
-use motion_rtl::jobs::linear_interpolator::settings::Settings;
+use motion_rtl::jobs::linear_interpolator::settings::{AXIS_NAMES, Settings};
 use motion_rtl::jobs::linear_interpolator::targets::Target;
 use motion_rtl::jobs::linear_interpolator::ways::Way;
 use motion_rtl::plant::waves::Axes;
@@ -43,6 +44,21 @@ const OVERVIEW: [&str; 11] = [
     "interpolator.pattern.trapezoid.level",
     "interpolator.integrator.integral",
     "interpolator.integrator.remainder",
+    "command_x",
+    "command_y",
+    "feedback_x",
+    "feedback_y",
+    "reference_x",
+    "reference_y",
+];
+
+/// The same of the conventional system.
+const CONVENTIONAL_OVERVIEW: [&str; 11] = [
+    "scan",
+    "interpolator.pattern_x.trapezoid.phase",
+    "interpolator.pattern_x.trapezoid.level",
+    "interpolator.pattern_y.trapezoid.phase",
+    "interpolator.pattern_y.trapezoid.level",
     "command_x",
     "command_y",
     "feedback_x",
@@ -138,24 +154,95 @@ fn alone<const N: usize>(
 fn simulate(
     (circuit, model): (&Controller, &Model),
     job: &Job,
-    mut traces: Traces<'_>,
+    traces: Traces<'_>,
 ) -> Result<(Run, Files), Failure> {
     let (targets, settings) = (&job.compiled.targets, &job.settings);
-    let mut progress = Part::default();
-    let stimulus = traces.stimulus.as_mut().map(Without);
-    let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-    let mut run = UnderWay::new(job);
-    let each = &mut |seen: &Seen<'_>| run.take(seen);
-    let observer = &mut (files, &mut progress);
-    let played = play_each(circuit, targets, settings, observer, each)?;
-    let run = run.finish(played);
+    traces.play(
+        model,
+        |observer| {
+            let mut run = UnderWay::new(job);
+            let each = &mut |seen: &Seen<'_>| run.take(seen);
+            let played = play_each(circuit, targets, settings, observer, each)?;
+            Ok(run.finish(played))
+        },
+        |run: &Run| (focus(settings, run.begun, &OVERVIEW), run.played.ticks),
+    )
+}
+
+/// A window that begins shortly before the first command.
+fn focus(settings: &Settings, begun: u64, overview: &'static [&'static str]) -> Focus {
     let scan = u64::from(settings.scan_ticks);
-    let focus = Focus {
-        action: run.begun,
+    Focus {
+        action: begun,
         before: 2 * scan,
         shown: SCANS_SHOWN * scan,
-        overview: &OVERVIEW,
+        overview,
+    }
+}
+
+/// The systems of the summary.
+pub fn systems(job: &Job) -> Vec<System<'_>> {
+    let interpolator = |name, settings, targets| {
+        system(job, name, settings, move || {
+            (plotter(settings), targets, &OVERVIEW)
+        })
     };
-    let files = traces.finish(model, &focus, run.played.ticks)?;
-    Ok((run, files))
+    let (settings, targets) = (&job.settings, job.compiled.targets.clone());
+    let mut systems = vec![interpolator("interpolator".to_owned(), settings, targets)];
+    if let Some(other) = &job.other
+        && let Ok(compiled) = &other.compiled
+    {
+        let name = other_name(other.settings.master.name());
+        systems.push(interpolator(
+            name,
+            &other.settings,
+            compiled.targets.clone(),
+        ));
+    }
+    systems.extend(Way::ALL.map(|way| {
+        system(job, way_name(way), settings, move || {
+            let targets = way.targets(&job.longer().targets, settings);
+            (conventional(), targets, &CONVENTIONAL_OVERVIEW)
+        })
+    }));
+    systems
+}
+
+/// A system by the circuit, the targets and the rows of its save file's overview.
+fn system<'a, const N: usize, const R: usize>(
+    job: &'a Job,
+    name: String,
+    settings: &'a Settings,
+    make: impl FnOnce() -> (Controller, Vec<Target<N>>, &'static [&'static str; R]) + 'a,
+) -> System<'a> {
+    System::new(name, job.ticks_at_least(), move || {
+        let (circuit, targets, overview) = make();
+        let model = model_beside(&circuit, &Axes).map_err(RunError::from)?;
+        let run = move |circuit: &Controller, observer: &mut dyn Observer<Controller>| {
+            let mut last = [0; 2];
+            let mut begun = None;
+            let each = &mut |seen: &Seen<'_>| {
+                last = seen.record.command;
+                begun.get_or_insert(seen.record.tick);
+            };
+            let played = play_each(circuit, &targets, settings, observer, each)?;
+            Ok(Ending {
+                ticks: played.ticks,
+                focus: focus(settings, begun.unwrap_or(0), overview),
+                position: AXIS_NAMES.into_iter().zip(last).collect(),
+                unit: "counts",
+            })
+        };
+        Ok((circuit, model, run))
+    })
+}
+
+/// Name of the run with another master axis.
+fn other_name(master: &str) -> String {
+    format!("interpolator, master {master}")
+}
+
+/// Name of the conventional system.
+fn way_name(way: Way) -> String {
+    format!("conventional, {}", way.name())
 }

@@ -2,6 +2,7 @@
 
 use super::rows::{Figures, Row};
 use super::summary::{Summary, SystemSummary};
+use super::{other_name, way_name};
 use crate::cli::report::{Outcome, Report};
 use motion_rtl::jobs::linear_interpolator::ways::Way;
 use std::fmt::Write;
@@ -32,14 +33,14 @@ impl Report for Summary {
         )?;
         totals(text, "interpolator", &self.interpolator)?;
         if let (Some(master), Some(other)) = (self.other_master, &self.interpolator_other_master) {
-            totals(text, &format!("interpolator, master {master}"), other)?;
+            totals(text, &other_name(master), other)?;
         }
         for (way, system) in Way::ALL
             .iter()
             .zip([&self.conventional, &self.conventional_in_proportion])
         {
             if let Some(system) = system {
-                totals(text, &format!("conventional, {}", way.name()), system)?;
+                totals(text, &way_name(*way), system)?;
             }
         }
         text.push('\n');

@@ -11,11 +11,14 @@ pub use job::Job;
 
 use super::Failure;
 use super::files::Files;
-use super::progress::{self, Part, Work};
+use super::progress::{self, Work};
 use super::report::conclude;
 use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
-use motion_rtl::hdl::{RunError, Without, model_beside};
+use super::waves_of::{Ending, System};
+use motion_rtl::circuits::machine::Machine;
+use motion_rtl::hdl::{Circuit, Observer, RunError, model_beside};
+use motion_rtl::jobs::machine::Settings;
 use motion_rtl::jobs::machine::job::{Played, machine, play};
 use motion_rtl::jobs::machine::measure::Measured;
 use motion_rtl::jobs::machine::waves::Plants;
@@ -84,7 +87,7 @@ fn simulate(
     let circuit = machine(settings);
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
     let model = model_beside(&circuit, &Plants).map_err(RunError::from)?;
-    let mut traces = Traces::begin((&model, &circuit), arguments, scenario, options, ticks)?;
+    let traces = Traces::begin((&model, &circuit), arguments, scenario, options, ticks)?;
     progress::run(
         &job.drawing.file,
         Work {
@@ -94,26 +97,42 @@ fn simulate(
             in_waves: in_waves(arguments, options, ticks),
         },
     );
-    let mut progress = Part::default();
-    let played = {
-        let stimulus = traces.stimulus.as_mut().map(Without);
-        let mut observer = (
-            traces.waves.as_mut(),
-            stimulus,
-            traces.noted.as_mut(),
-            &mut progress,
-        );
-        play(&circuit, program, settings, &mut observer)?
-    };
+    traces.play(
+        &model,
+        |observer| Ok(play(&circuit, program, settings, observer)?),
+        |played: &Played| (focus(settings, played), played.ticks),
+    )
+}
+
+/// A window around the first signal that stops the pen lift, or where there is none the first move.
+fn focus(settings: &Settings, played: &Played) -> Focus {
     let sample = u64::from(settings.sample_ticks);
     let fired = played.liftings.first().map(|lifting| lifting.fired);
     let begun = played.moves.first().map_or(0, |timed| timed.begun);
-    let focus = Focus {
+    Focus {
         action: fired.unwrap_or(begun),
         before: SAMPLES_BEFORE * sample,
         shown: SAMPLES_SHOWN * sample,
         overview: &OVERVIEW,
-    };
-    let files = traces.finish(&model, &focus, played.ticks)?;
-    Ok((played, files))
+    }
+}
+
+/// The one system of the summary: all machines that it compares are in the circuit.
+pub fn systems(job: &Job) -> Vec<System<'_>> {
+    let (program, settings) = (&job.program, &job.settings);
+    let system = System::new(Machine::NAME, job.ticks_at_least(), move || {
+        let circuit = machine(settings);
+        let model = model_beside(&circuit, &Plants).map_err(RunError::from)?;
+        let run = move |circuit: &Machine, observer: &mut dyn Observer<Machine>| {
+            let played = play(circuit, program, settings, observer)?;
+            Ok(Ending {
+                ticks: played.ticks,
+                focus: focus(settings, &played),
+                position: ["x", "y"].into_iter().zip(played.motor).collect(),
+                unit: "counts",
+            })
+        };
+        Ok((circuit, model, run))
+    });
+    vec![system]
 }

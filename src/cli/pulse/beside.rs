@@ -3,11 +3,14 @@
 use super::Job;
 use super::summary::Minima;
 use crate::cli::Failure;
+use crate::cli::source::drawing_fault;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
 use motion_rtl::hdl::{self, RunError};
 use motion_rtl::jobs::pulse_interpolator::beside::{device, least_period, orders, play};
 use motion_rtl::jobs::pulse_interpolator::job::{Played, group};
+use motion_rtl::jobs::pulse_interpolator::moves::{self, MoveError, Moves};
 use motion_rtl::jobs::pulse_interpolator::{UnitDemand, demanded};
+use motion_rtl::scenario::pulse_interpolator::ConventionalMoves;
 use serde::Serialize;
 
 /// A device.
@@ -89,15 +92,41 @@ pub fn own(job: &Job, played: &Played, end_error: f64) -> Result<Row, Failure> {
     Ok(row.costing(&model))
 }
 
+/// The moves of the conventional device, and where the axes are to be at the end of their unit times.
+pub fn moves(job: &Job) -> Result<Moves, Failure> {
+    if job.conventional_moves == ConventionalMoves::Pieces {
+        let refuse = |error| match error {
+            MoveError::Move {
+                line,
+                field,
+                problem,
+                allowed,
+            } => drawing_fault(&job.drawing, line, field, problem, allowed).into(),
+            MoveError::Scales => {
+                let problem = "of X and Y differ, and the conventional device is given arcs";
+                let allowed = "the same of both, or conventional_moves = \"unit_times\"";
+                let (problem, allowed) = (problem.to_owned(), allowed.to_owned());
+                job.loaded.fault("steps_per_mm", problem, allowed).into()
+            }
+            MoveError::Run(error) => Failure::Run(error),
+        };
+        return moves::moves(&job.drawing, &job.settings).map_err(refuse);
+    }
+    let demands = demanded(&job.drawing, &job.settings, &job.table, job.path_units());
+    let demands = demands.map_err(|error| Failure::Check(error.to_string()))?;
+    Ok(Moves {
+        orders: orders(&demands, &job.settings.timing),
+        demands,
+    })
+}
+
 /// Both devices, and what is wrong with the run of the conventional one; empty where nothing is.
 pub fn compare(job: &Job, own: Row) -> Result<(Vec<Row>, Vec<String>), Failure> {
     let (table, timing) = (&job.table, &job.settings.timing);
     let axes = table.axes();
-    let demands = demanded(&job.drawing, &job.settings, table, job.path_units())
-        .map_err(|error| Failure::Check(error.to_string()))?;
-    let orders = orders(&demands, timing);
+    let Moves { orders, demands } = moves(job)?;
     let circuit = device(axes, &orders);
-    let beside = play(&circuit, &orders)?;
+    let beside = play(&circuit, &orders, None, &mut ())?;
     let kept = |minima: Minima| minima.too_short(timing).next().is_none();
     let model = hdl::model(&circuit).map_err(RunError::from)?;
     let own = Row {
@@ -105,7 +134,7 @@ pub fn compare(job: &Job, own: Row) -> Result<(Vec<Row>, Vec<String>), Failure> 
         ..own
     };
     let other = Row {
-        units: orders.len(),
+        units: beside.positions.len() / axes,
         late_units: beside.late_units,
         unit_ticks_least: Some(beside.needed),
         jitter_ticks_max: most(beside.jitter.iter().copied()),

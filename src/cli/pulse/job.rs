@@ -7,7 +7,7 @@ use motion_rtl::jobs::pulse_interpolator::motors::Motors;
 use motion_rtl::jobs::pulse_interpolator::{
     Report, Settings, Table, TableError, compile, compile_unfollowed,
 };
-use motion_rtl::scenario::pulse_interpolator::VariantName;
+use motion_rtl::scenario::pulse_interpolator::{ConventionalMoves, VariantName};
 use motion_rtl::scenario::{Loaded, Scenario};
 
 /// An input ready to be run on the pulse interpolator.
@@ -21,6 +21,8 @@ pub struct Job {
     pub drawing: Drawing,
     /// What RST clears.
     pub variant: VariantName,
+    /// Moves of the conventional device.
+    pub conventional_moves: ConventionalMoves,
     /// The most ticks that go into the VCD unless a window is asked for.
     pub vcd_ticks: u64,
     /// Its settings.
@@ -59,6 +61,7 @@ impl Job {
         for (key, given) in [
             ("pattern", !scenario.pattern.is_empty()),
             ("play", scenario.play.is_some()),
+            ("rewrite", !scenario.rewrite.is_empty()),
             ("standalone", scenario.standalone),
         ] {
             if given {
@@ -75,6 +78,7 @@ impl Job {
         }
         let drawing = source.drawing()?;
         let variant = scenario.variant;
+        let conventional_moves = scenario.conventional_moves;
         let vcd_ticks = scenario.vcd_ticks;
         let settings = scenario.settings(&drawing);
         progress::stage("planning the path");
@@ -93,6 +97,7 @@ impl Job {
             stem,
             drawing,
             variant,
+            conventional_moves,
             vcd_ticks,
             settings,
             table,

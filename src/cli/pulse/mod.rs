@@ -9,24 +9,27 @@ mod rates;
 mod summary;
 mod text;
 mod verdict;
+mod waves;
 
 pub use job::{Job, table_fault};
 pub use summary::{TableSummary, warnings};
+pub use waves::{own, systems};
 
 use super::Failure;
 use super::files::Files;
-use super::progress::{self, Part, Work};
+use super::progress::{self, Work};
 use super::report::conclude;
 use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
 use motion_rtl::circuits::pulse_interpolator::Group;
-use motion_rtl::hdl::{RunError, Without, model, model_beside};
+use motion_rtl::hdl::{Observer, RunError, model, model_beside};
 use motion_rtl::jobs::pulse_interpolator::job::{
     Computer, Played, fast_forward_by, group, play_by, play_motors,
 };
 use motion_rtl::jobs::pulse_interpolator::motors::{Motors, StepMotors};
 use motion_rtl::jobs::pulse_interpolator::{ControlComputer, Table};
 use motion_rtl::scenario::Loaded;
+use motion_rtl::settings::JobError;
 use motion_rtl::trace::Options;
 use picture::{Following, draw};
 use summary::Summary;
@@ -73,6 +76,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         (&group, &job.table),
         &options,
         (&mut |pending| computer.drive(pending), job.motors.clone()),
+        true,
     )?;
     progress::stage("following errors");
     let following =
@@ -103,13 +107,15 @@ fn has_no_segments(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Has a computer play a table on the pulse interpolator, with its waves.
+/// Has a computer play a table on the pulse interpolator, with its waves; one that need not be asked
+/// in every tick `skips` idle ones.
 fn simulate(
     arguments: &Arguments,
     scenario: (&Loaded, &str),
     (group, table): (&Group, &Table),
     options: &Options,
     (computer, motors): (&mut Computer<'_>, Option<Motors>),
+    skips: bool,
 ) -> Result<(Played, Files), Failure> {
     let ticks = table.total_ticks();
     let shown = match &motors {
@@ -117,9 +123,10 @@ fn simulate(
         Some(_) => model_beside(group, &StepMotors { axes: group.axes }),
     };
     let shown = shown.map_err(RunError::from)?;
-    let mut traces = Traces::begin((&shown, group), arguments, scenario, options, ticks)?;
+    let traces = Traces::begin((&shown, group), arguments, scenario, options, ticks)?;
     let in_waves = in_waves(arguments, options, ticks);
-    let idle = motors.is_none() && traces.is_empty();
+    // Where nobody has to see every tick, idle ones are gone over.
+    let idle = skips && motors.is_none() && traces.is_empty();
     let seconds = match idle {
         true => table.units() as f64 * UNIT_S,
         false => ticks as f64 * TICK_S,
@@ -131,27 +138,38 @@ fn simulate(
         in_waves,
     };
     progress::run(scenario.1, work);
-    let mut progress = Part::default();
-    // Where nobody has to see every tick, idle ones are gone over.
-    let played = match (traces.is_empty(), motors) {
-        (true, None) => fast_forward_by(group, table, computer, &mut progress),
-        (_, motors) => {
-            let stimulus = traces.stimulus.as_mut().map(Without);
-            let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-            let mut observers = (files, &mut progress);
-            match motors {
-                None => play_by(group, table, computer, &mut observers),
-                Some(motors) => play_motors(group, table, computer, motors, &mut observers),
-            }
-        }
-    }?;
+    traces.play(
+        &shown,
+        |observer| {
+            Ok(match idle {
+                true => fast_forward_by(group, table, computer, observer)?,
+                false => play_on(group, table, (computer, motors), observer)?,
+            })
+        },
+        |played: &Played| (focus(table, played), played.ticks),
+    )
+}
+
+/// Plays a table with motors, if there are some.
+fn play_on(
+    group: &Group,
+    table: &Table,
+    (computer, motors): (&mut Computer<'_>, Option<Motors>),
+    observer: &mut dyn Observer<Group>,
+) -> Result<Played, JobError> {
+    match motors {
+        None => play_by(group, table, computer, observer),
+        Some(motors) => play_motors(group, table, computer, motors, observer),
+    }
+}
+
+/// A window that begins a unit time before the first step.
+fn focus(table: &Table, played: &Played) -> Focus {
     let unit = u64::from(table.patterns().first().map_or(1, |first| first.period));
-    let focus = Focus {
+    Focus {
         action: played.first_step.unwrap_or(played.begun),
         before: unit,
         shown: UNITS_SHOWN * unit,
         overview: &OVERVIEW,
-    };
-    let files = traces.finish(&shown, &focus, played.ticks)?;
-    Ok((played, files))
+    }
 }

@@ -83,7 +83,7 @@ impl Job {
             })
         };
         let program = plan(&settings)?;
-        let limited = scenario.beside && settings.contour_tolerance_mm.is_some();
+        let limited = source.compares && settings.contour_tolerance_mm.is_some();
         let full_feed = limited.then(|| Settings {
             contour_tolerance_mm: None,
             ..settings.clone()

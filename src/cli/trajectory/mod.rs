@@ -15,10 +15,12 @@ use super::progress::{self, Part, Work};
 use super::report::conclude;
 use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
+use super::waves_of::{Ending, System};
 use super::{Failure, threads};
 use motion_rtl::circuits::trajectory_controller::TrajectoryController;
-use motion_rtl::hdl::{Model, RunError, Without, model_beside};
-use motion_rtl::jobs::trajectory_controller::job::{Period, controller, play_each};
+use motion_rtl::circuits::trajectory_controller::path_point::AXIS_NAMES;
+use motion_rtl::hdl::{Model, Observer, RunError, model_beside};
+use motion_rtl::jobs::trajectory_controller::job::{Period, Played, controller, play_each};
 use motion_rtl::jobs::trajectory_controller::program::Program;
 use motion_rtl::jobs::trajectory_controller::settings::Correction;
 use motion_rtl::plant::TwoMassAxis;
@@ -26,7 +28,7 @@ use motion_rtl::plant::waves::Machine;
 use motion_rtl::settings::JobError;
 use motion_rtl::trace::Options;
 use picture::draw;
-use runs::{Run, Runs, UnderWay};
+use runs::{FULL_FEED, IN_MOTION, Run, Runs, UnderWay};
 use std::thread;
 use summary::Summary;
 
@@ -166,24 +168,75 @@ fn untraced(job: &Job, program: &Program, correction: Correction) -> Result<Opti
 fn simulate(
     (circuit, model): (&TrajectoryController, &Model),
     job: &Job,
-    mut traces: Traces<'_>,
+    traces: Traces<'_>,
 ) -> Result<(Option<Run>, Files), Failure> {
     let plants = plants(job)?;
-    let mut progress = Part::default();
-    let stimulus = traces.stimulus.as_mut().map(Without);
-    let files = (traces.waves.as_mut(), stimulus, traces.noted.as_mut());
-    let mut run = UnderWay::new(job, &job.program, job.settings.correction);
-    let each = &mut |period: &Period| run.take(period);
-    let observer = &mut (files, &mut progress);
-    let played = play_each(circuit, &job.program, plants, observer, each)?;
-    let run = run.finish(&played);
-    let shown = PERIODS_SHOWN * u64::from(job.program.period_ticks);
-    let focus = Focus {
-        action: run.as_ref().map_or(played.start, |run| run.in_motion),
+    let ((run, _), files) = traces.play(
+        model,
+        |observer| {
+            let mut run = UnderWay::new(job, &job.program, job.settings.correction);
+            let each = &mut |period: &Period| run.take(period);
+            let played = play_each(circuit, &job.program, plants, observer, each)?;
+            Ok((run.finish(&played), played))
+        },
+        |(run, played): &(Option<Run>, Played)| {
+            let begun = run.as_ref().map_or(played.start, |run| run.in_motion);
+            (focus(&job.program, begun), played.ticks)
+        },
+    )?;
+    Ok((run, files))
+}
+
+/// A window that begins with a period in motion.
+fn focus(program: &Program, action: u64) -> Focus {
+    let shown = PERIODS_SHOWN * u64::from(program.period_ticks);
+    Focus {
+        action,
         before: shown / PERIODS_SHOWN,
         shown,
         overview: &OVERVIEW,
-    };
-    let files = traces.finish(model, &focus, played.ticks)?;
-    Ok((run, files))
+    }
+}
+
+/// The systems of the summary: every correction, and the vector at full feed.
+pub fn systems(job: &Job) -> Vec<System<'_>> {
+    let by = CORRECTIONS.map(|correction| (correction.name(), correction, &job.program));
+    let full = job.full_feed.as_ref();
+    let full = full.map(|program| (FULL_FEED, Correction::Vector, program));
+    by.into_iter()
+        .chain(full)
+        .map(|of| system(job, of))
+        .collect()
+}
+
+/// A system by its name, its correction and the plan of its path.
+fn system<'a>(
+    job: &'a Job,
+    (name, correction, program): (&str, Correction, &'a Program),
+) -> System<'a> {
+    System::new(name, job.ticks_at_least(), move || {
+        let circuit = controller(job.axes(), correction, job.settings.rounding);
+        let model =
+            model_beside(&circuit, &Machine { axes: job.axes() }).map_err(RunError::from)?;
+        let plants = plants(job)?;
+        let run = move |circuit: &TrajectoryController,
+                        observer: &mut dyn Observer<TrajectoryController>| {
+            let (mut seen, mut begun) = (0, None);
+            let each = &mut |period: &Period| {
+                if seen == IN_MOTION {
+                    begun = Some(period.tick);
+                }
+                seen += 1;
+            };
+            let played = play_each(circuit, program, plants, observer, each)?;
+            let names = AXIS_NAMES[..job.axes()].iter().copied();
+            Ok(Ending {
+                ticks: played.ticks,
+                focus: focus(program, begun.unwrap_or(played.start)),
+                position: names.zip(played.motor).collect(),
+                unit: "counts",
+            })
+        };
+        Ok((circuit, model, run))
+    })
 }

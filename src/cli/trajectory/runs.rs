@@ -12,10 +12,10 @@ use motion_rtl::path::vector::distance;
 use std::array::from_fn;
 
 /// The period whose tick the save file's window begins with.
-const IN_MOTION: usize = 200;
+pub const IN_MOTION: usize = 200;
 
 /// What the run at full feed is called.
-const FULL_FEED: &str = "vector, full feed";
+pub const FULL_FEED: &str = "vector, full feed";
 
 /// The runs of a path.
 #[derive(Debug)]
@@ -182,7 +182,7 @@ impl<'j> UnderWay<'j> {
             in_motion: self.in_motion.unwrap_or(played.start),
             command_error_mm: self.command_error_mm,
             end_mm,
-            end_counts: last.motor[..played.axes].to_vec(),
+            end_counts: played.motor[..played.axes].to_vec(),
             measured: self.measuring.finish()?,
             circle: self.steady.finish(),
             largest_drawn_mm: self.largest_drawn_mm,

@@ -7,7 +7,8 @@ use crate::circuits::arc_generator::axis_terms::AXIS_WORD;
 use crate::circuits::arc_generator::vector_row::VECTOR_WORD;
 use crate::circuits::arc_generator::{Conventional, Widths};
 use crate::circuits::blocks::record_memory::ARC;
-use crate::hdl::{RunError, Simulator};
+use crate::hdl::{Observer, RunError};
+use crate::path::arm::JOINTS;
 use crate::path::record::{Record, WORDS, coordinate_word};
 use crate::path::vector::scale;
 use std::f64::consts::TAU;
@@ -90,27 +91,20 @@ fn record(
 }
 
 /// Plays the records of arcs on `circuit`, a sample every `sample_ticks` ticks or as soon as there is
-/// one.
+/// one, seen by `observer` too, with the joints of an arm beside it as
+/// [`play_arm`](super::job::play_arm) has them.
 ///
 /// # Errors
-/// The circuit is none.
+/// What `observer` objects to.
 pub fn play(
     circuit: &Conventional,
     records: &[Record],
     sample_ticks: u32,
+    joints: &[[i64; JOINTS]],
+    observer: &mut dyn Observer<Conventional>,
 ) -> Result<Played, RunError> {
-    let mut bench = Bench::new(records, sample_ticks);
-    let (mut simulator, see) = Simulator::watching(circuit, false, |watch| {
+    let bench = Bench::new(records, sample_ticks);
+    bench.play(circuit, joints, observer, |watch| {
         See::of(watch, &watch.p.sequencer.q, &watch.w)
-    })?;
-    while !bench.over() {
-        let i = bench.ports();
-        let ((), _) = simulator.look(&i, (), |now| bench.take(now, &see))?;
-        let most = match bench.stands() {
-            true => simulator.unseen(&()),
-            false => 1,
-        };
-        simulator.go_on(most);
-    }
-    Ok(bench.played)
+    })
 }

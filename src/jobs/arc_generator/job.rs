@@ -78,7 +78,7 @@ pub(super) struct Bench<'a> {
     /// The sampling time whose next point is made, and whether a segment is fetched for it.
     making: Option<(u64, bool)>,
     over: bool,
-    pub(super) played: Played,
+    played: Played,
 }
 
 impl<'a> Bench<'a> {
@@ -96,18 +96,13 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Whether the path is over.
-    pub(super) fn over(&self) -> bool {
-        self.over
-    }
-
     /// Whether it gives in the tick to come what it gave in this one, and takes nothing down, if what
     /// it looks at does not change.
-    pub(super) fn stands(&self) -> bool {
+    fn stands(&self) -> bool {
         self.quiet && !self.over && self.records.stands(usize::MAX)
     }
 
-    pub(super) fn ports(&mut self) -> generator::In<Value> {
+    fn ports(&mut self) -> generator::In<Value> {
         let start = !self.started && self.records.written() == self.waiting;
         self.started |= start;
         let record = self.records.write();
@@ -121,7 +116,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Takes down a tick.
-    pub(super) fn take<C: Circuit>(&mut self, now: &Sample<'_, C>, see: &See) {
+    fn take<C: Circuit>(&mut self, now: &Sample<'_, C>, see: &See) {
         let [started, pushed] = self.given;
         let (state, sampled) = (now.get(see.state), now.get(see.sampled));
         self.records.free = now.get(see.ready) && !pushed;
@@ -198,7 +193,7 @@ pub fn play(
 }
 
 /// The same with the joints of an arm beside the circuit, in counts: those of each command, from the
-/// tick after it on. Without any nothing stands beside it.
+/// tick after it on, with which the run ends. Without any nothing stands beside it.
 ///
 /// # Errors
 /// What `observer` objects to.
@@ -209,31 +204,46 @@ pub fn play_arm(
     joints: &[[i64; JOINTS]],
     observer: &mut dyn Observer<ArcGenerator>,
 ) -> Result<Played, RunError> {
-    let mut bench = Bench::new(records, sample_ticks);
-    let all = observer.needs_all();
-    let look = |watch: &Watcher<'_, ArcGenerator>| See::of(watch, &watch.p.sequencer.q, &watch.w);
-    let (mut simulator, see) = match joints.is_empty() {
-        true => Simulator::watching(circuit, all, look)?,
-        false => Simulator::watching_beside(circuit, &Joints, all, look)?,
-    };
-    let mut shown = None;
-    let mut stopped = false;
-    while !bench.over() && !stopped {
-        let i = bench.ports();
-        let made = bench.played.commands.len().saturating_sub(1);
-        if shown != Some(made)
-            && let Some(joints) = joints.get(made)
-        {
-            simulator.show::<Joints>(&JointSignals::of(*joints));
-            shown = Some(made);
-        }
-        let ((), flow) = simulator.look(&i, &mut *observer, |now| bench.take(now, &see))?;
-        stopped = flow.is_break();
-        let most = match bench.stands() && !stopped {
-            true => simulator.unseen(&observer),
-            false => 1,
+    let bench = Bench::new(records, sample_ticks);
+    bench.play(circuit, joints, observer, |watch| {
+        See::of(watch, &watch.p.sequencer.q, &watch.w)
+    })
+}
+
+impl Bench<'_> {
+    /// Plays its records on a circuit.
+    pub(super) fn play<C: Circuit<In<Value> = generator::In<Value>>>(
+        mut self,
+        circuit: &C,
+        joints: &[[i64; JOINTS]],
+        observer: &mut dyn Observer<C>,
+        look: impl FnOnce(&Watcher<'_, C>) -> See,
+    ) -> Result<Played, RunError> {
+        let all = observer.needs_all();
+        let (mut simulator, see) = match joints.is_empty() {
+            true => Simulator::watching(circuit, all, look)?,
+            false => Simulator::watching_beside(circuit, &Joints, all, look)?,
         };
-        simulator.go_on(most);
+        // Joints that have been shown, with those from before the first command.
+        let mut shown = 0;
+        let mut stopped = false;
+        while !stopped && (!self.over || shown < joints.len().min(self.played.commands.len())) {
+            let i = self.ports();
+            let made = self.played.commands.len().max(1);
+            if shown != made
+                && let Some(joints) = joints.get(made - 1)
+            {
+                simulator.show::<Joints>(&JointSignals::of(*joints));
+                shown = made;
+            }
+            let ((), flow) = simulator.look(&i, &mut *observer, |now| self.take(now, &see))?;
+            stopped = flow.is_break();
+            let most = match self.stands() && !stopped {
+                true => simulator.unseen(&observer),
+                false => 1,
+            };
+            simulator.go_on(most);
+        }
+        Ok(self.played)
     }
-    Ok(bench.played)
 }

@@ -86,6 +86,8 @@ pub struct Positioning {
 pub struct Played {
     /// Ticks.
     pub ticks: u64,
+    /// Dx of the last tick, from the start on as targets are.
+    pub position: i64,
     /// Positionings in order.
     pub positionings: Vec<Positioning>,
     /// The encoder was too fast.
@@ -239,6 +241,7 @@ impl Bench<'_> {
             if current.learned.is_none() && now.get(see.learned) {
                 current.learned = Some(now.get(see.learned_time));
             }
+            self.played.position = unwrapped(now.get(see.position), current.target);
             let way = body.position_counts() - current.target as f64;
             let way = if current.upward { way } else { -way };
             let step = self.settings.steps.get(current.step);

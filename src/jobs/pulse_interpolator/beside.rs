@@ -2,25 +2,42 @@
 //!
 //! Its computer 7 gives a move for every unit time, since the demand of each is another: how far the
 //! path goes in it, rounded. A unit time has as many steps as the driver's shortest pulse lets it
-//! have; what is above comes with the next.
+//! have; what is above comes with the next. Or it gives each line and arc as one [move](super::moves).
 
 use super::job::{fast_forward, group};
+use super::motors::{Motors, StepMotors};
 use super::spread::Paced;
 use super::step_dir::TimingMinima;
 use super::table::{StepTiming, Table, UnitDemand};
+use crate::circuits::pulse_interpolator::circular_interpolator::ArcMove;
 use crate::circuits::pulse_interpolator::motor_controller::{ConventionalWidths, Move};
 use crate::circuits::pulse_interpolator::{Conventional, Variant, conventional};
-use crate::hdl::{At, RunError, Sample, Simulator, Value};
+use crate::hdl::{At, Observer, RunError, Sample, Simulator, Value, Watcher, zero};
 use crate::input::COORDINATES;
 use crate::settings::JobError;
 
-/// A move of one unit time.
+/// A move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Order {
-    /// Steps of each axis, X first; 0 for those not driven.
+    /// Steps of each axis, X first; 0 for those not driven, and on an arc.
     pub delta: [i64; COORDINATES],
+    /// Unit times that it takes.
+    pub units: u32,
     /// T in ticks.
     pub period: u32,
+    /// Parameters of an arc of X and Y; none of a line.
+    pub arc: Option<Arc>,
+}
+
+/// Parameters of an arc, as words of [`ArcMove`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Arc {
+    /// Its radius.
+    pub radius: u64,
+    /// Where it begins.
+    pub angle: u64,
+    /// Turn of a unit time.
+    pub turn: u64,
 }
 
 /// The moves that bring the axes where a path demands them at the end of every unit time, for a
@@ -47,19 +64,24 @@ pub fn orders(demands: &[UnitDemand], timing: &StepTiming) -> Vec<Order> {
             *delta = (to - *given).clamp(-most, most);
             *given += *delta;
         }
-        let period = demand.period;
-        orders.push(Order { delta, period });
+        orders.push(Order {
+            delta,
+            units: 1,
+            period: demand.period,
+            arc: None,
+        });
     }
 }
 
-/// The conventional device for so many axes; T of the first move is in force at power-on.
+/// The conventional device for so many axes, which takes arcs where there are some; T of the first move
+/// is in force at power-on.
 #[must_use]
 pub fn device(axes: usize, orders: &[Order]) -> Conventional {
     Conventional {
         axes,
         widths: ConventionalWidths::default(),
         period: orders.first().map_or(1, |first| first.period.into()),
-        arcs: false,
+        arcs: orders.iter().any(|order| order.arc.is_some()),
     }
 }
 
@@ -68,6 +90,8 @@ pub fn device(axes: usize, orders: &[Order]) -> Conventional {
 pub struct Beside {
     /// Ticks of the run.
     pub ticks: u64,
+    /// The tick of the first step on any axis.
+    pub first_step: Option<u64>,
     /// Unit times without pulses, because the next of a move was not prepared.
     pub late_units: u64,
     /// Most ticks from an RST until the next unit time is prepared: the shortest T in which it is.
@@ -93,9 +117,27 @@ struct See {
     prepared: At<bool>,
 }
 
+impl See {
+    fn of(watch: &Watcher<'_, Conventional>) -> Self {
+        See {
+            step: watch.each(&watch.w.step),
+            dir: watch.each(&watch.w.dir),
+            unit_rst: watch.at(watch.w.unit_rst),
+            busy: watch.at(watch.w.busy),
+            late: watch.at(watch.w.late),
+            ready: watch.at(watch.w.ready),
+            prepared: watch.at(watch.p.controller.w.prepared),
+        }
+    }
+}
+
 /// The computer 7, and drivers on all axes.
 struct Bench<'o> {
     orders: &'o [Order],
+    /// Unit times of all moves.
+    units: usize,
+    /// The port of an arc when none is given, where the device takes arcs.
+    no_arcs: Vec<ArcMove<Value>>,
     given: usize,
     /// A move may be given with the tick to come.
     ready: bool,
@@ -109,7 +151,12 @@ struct Bench<'o> {
 
 impl Bench<'_> {
     fn over(&self) -> bool {
-        self.seen.positions.len() == self.orders.len() * self.axes.len()
+        self.unit() == self.units
+    }
+
+    /// The unit time of a move that is under way.
+    fn unit(&self) -> usize {
+        self.seen.positions.len() / self.axes.len()
     }
 
     /// The ports in of the tick to come, and whether they are such for this tick only.
@@ -117,23 +164,30 @@ impl Bench<'_> {
         let order = self.orders.get(self.given).filter(|_| self.ready);
         self.given += usize::from(order.is_some());
         self.ready = false;
-        let order = order.map_or_else(
-            || Move {
+        let Some(order) = order else {
+            let order = Move {
                 command: false,
                 delta: vec![0; self.axes.len()],
                 units: 0,
                 period: 0,
-            },
-            |order| Move {
-                command: true,
-                delta: order.delta[..self.axes.len()].to_vec(),
-                units: 1,
-                period: order.period.into(),
-            },
-        );
-        let given = order.command;
-        let arcs = Vec::new();
-        (conventional::In { order, arcs }, given)
+            };
+            let arcs = self.no_arcs.clone();
+            return (conventional::In { order, arcs }, false);
+        };
+        let arc = order.arc.map(|arc| ArcMove {
+            circular: true,
+            radius: arc.radius,
+            angle: arc.angle,
+            turn: arc.turn,
+        });
+        let arcs = arc.map_or_else(|| self.no_arcs.clone(), |arc| vec![arc]);
+        let order = Move {
+            command: true,
+            delta: order.delta[..self.axes.len()].to_vec(),
+            units: order.units.into(),
+            period: order.period.into(),
+        };
+        (conventional::In { order, arcs }, true)
     }
 
     /// Takes down a tick, in which a move is given or not.
@@ -141,6 +195,9 @@ impl Bench<'_> {
         let tick = now.tick;
         for (axis, paced) in self.axes.iter_mut().enumerate() {
             paced.sample(tick, now.get(see.step[axis]), now.get(see.dir[axis]));
+        }
+        if self.seen.first_step.is_none() && see.step.iter().any(|step| now.get(*step)) {
+            self.seen.first_step = Some(tick);
         }
         let (rst, prepared) = (now.get(see.unit_rst), now.get(see.prepared));
         if prepared && let Some(since) = self.since.take() {
@@ -168,22 +225,26 @@ impl Bench<'_> {
     }
 }
 
-/// Plays moves on the conventional device.
+/// Plays moves on the conventional device, seen by `observer` too; step motors on its drivers stand in
+/// the waves beside it ([`StepMotors`]).
 ///
 /// # Errors
-/// The circuit is none.
-pub fn play(circuit: &Conventional, orders: &[Order]) -> Result<Beside, RunError> {
-    let (mut simulator, see) = Simulator::watching(circuit, false, |watch| See {
-        step: watch.each(&watch.w.step),
-        dir: watch.each(&watch.w.dir),
-        unit_rst: watch.at(watch.w.unit_rst),
-        busy: watch.at(watch.w.busy),
-        late: watch.at(watch.w.late),
-        ready: watch.at(watch.w.ready),
-        prepared: watch.at(watch.p.controller.w.prepared),
-    })?;
+/// What `observer` objects to.
+pub fn play(
+    circuit: &Conventional,
+    orders: &[Order],
+    mut motors: Option<Motors>,
+    observer: &mut dyn Observer<Conventional>,
+) -> Result<Beside, RunError> {
+    let (all, beside) = (observer.needs_all(), StepMotors { axes: circuit.axes });
+    let (mut simulator, see) = match motors {
+        None => Simulator::watching(circuit, all, See::of),
+        Some(_) => Simulator::watching_beside(circuit, &beside, all, See::of),
+    }?;
     let mut bench = Bench {
         orders,
+        units: orders.iter().map(|order| order.units as usize).sum(),
+        no_arcs: zero::<Conventional>(circuit).arcs,
         given: 0,
         ready: true,
         axes: vec![Paced::default(); circuit.axes],
@@ -191,11 +252,27 @@ pub fn play(circuit: &Conventional, orders: &[Order]) -> Result<Beside, RunError
         since: None,
         seen: Beside::default(),
     };
-    while !bench.over() {
+    let mut stopped = false;
+    while !bench.over() && !stopped {
         let (i, given) = bench.ports();
-        let ((), _) = simulator.look(&i, (), |now| bench.take(now, &see, given))?;
+        if let Some(motors) = &motors
+            && observer.looks(simulator.tick())
+        {
+            simulator.show::<StepMotors>(&motors.signals());
+        }
+        let take = |now: &Sample<'_, _>| bench.take(now, &see, given);
+        let ((), flow) = simulator.look(&i, &mut *observer, take)?;
+        stopped = flow.is_break();
+        if let Some(motors) = &mut motors {
+            let positions = bench.axes.iter().map(|axis| axis.driver.position());
+            motors.step(bench.unit(), positions);
+        }
         let more = bench.ready && bench.given < orders.len();
-        simulator.go_on(if given || more { 1 } else { u64::MAX });
+        let most = match given || more || stopped || motors.is_some() {
+            true => 1,
+            false => simulator.unseen(&observer),
+        };
+        simulator.go_on(most);
     }
     let axes = &bench.axes;
     Ok(Beside {
@@ -235,7 +312,7 @@ mod tests {
     }
 
     fn run(axes: usize, orders: &[Order]) -> Beside {
-        play(&device(axes, orders), orders).unwrap()
+        play(&device(axes, orders), orders, None, &mut ()).unwrap()
     }
 
     #[test]

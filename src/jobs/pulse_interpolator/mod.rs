@@ -5,6 +5,7 @@ pub mod beside;
 pub mod control_computer;
 pub mod job;
 pub mod motors;
+pub mod moves;
 pub mod positions;
 pub mod rates;
 pub mod spread;
@@ -13,7 +14,7 @@ pub mod stored;
 pub mod table;
 
 pub use control_computer::ControlComputer;
-pub use stored::{Stored, StoredError};
+pub use stored::{Rewrite, Stored, StoredError};
 pub use table::{
     AxisReport, AxisScaling, CountTable, FollowingError, PulseLimits, Ratio, Remedy, Report,
     Scaled, Settings, StepTiming, Table, TableError, UnitDemand, UnitErrors, Word, compile,

@@ -18,7 +18,23 @@ pub struct Stored {
     pub played: Table,
     /// The commands of the control computer; none where the group plays by itself.
     pub commands: Vec<Pattern>,
+    /// The unit time behind each pattern of the memory that is played.
+    ends: Vec<usize>,
+    /// Ticks in which the control computer writes T, each with the T.
+    pub writes: Vec<(u64, u32)>,
 }
+
+/// T written while patterns are played (¶0016).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rewrite {
+    /// The unit time of the run in whose middle it is written, from 0.
+    pub unit: usize,
+    /// T in ticks: in force from the next RST on, until another pattern begins.
+    pub period: u32,
+}
+
+/// The shortest unit time in whose middle T can be written: its first ticks are those of a command.
+const SHORTEST: u32 = 4;
 
 /// Why patterns cannot be stored or played; they are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -48,6 +64,14 @@ pub enum StoredError {
     Alone {
         /// As many commands it would take.
         commands: usize,
+    },
+    /// T is written where that has no effect, or is none.
+    #[error("rewrite {rewrite} at unit time {unit}")]
+    Rewrite {
+        /// The rewrite, from 0.
+        rewrite: usize,
+        /// Its unit time.
+        unit: usize,
     },
     /// Nothing is played.
     #[error("nothing to play")]
@@ -103,11 +127,12 @@ impl Stored {
             places.push([base as u64, (base + units - 1) as u64]);
             base += units;
         }
-        let (mut played, mut commands) = (first.empty(), Vec::new());
+        let (mut played, mut commands, mut ends) = (first.empty(), Vec::new(), Vec::new());
         for &pattern in order {
             let (table, [base, _]) = (patterns[pattern], places[pattern]);
             played.append(table).map_err(|_| StoredError::TooLong)?;
             commands.extend(table.patterns().iter().map(|part| {
+                ends.push(ends.last().copied().unwrap_or(0) + part.length);
                 let base = base + part.first_unit as u64;
                 Pattern {
                     base,
@@ -134,15 +159,64 @@ impl Stored {
             places,
             played,
             commands,
+            ends,
+            writes: Vec::new(),
         })
     }
 
+    /// Has the control computer write T while the patterns are played.
+    ///
+    /// # Errors
+    /// [`StoredError::Rewrite`] where they are not one after the other, a unit time is the last of its
+    /// pattern, where the next one brings its own T, or shorter than 4 ticks, or T is no word.
+    pub fn rewritten(mut self, rewrites: &[Rewrite]) -> Result<Self, StoredError> {
+        // A pattern brings its T along.
+        let mut periods: Vec<u32> = self.played.iter().map(|(period, _)| period).collect();
+        let mut next = 0;
+        for (index, rewrite) in rewrites.iter().enumerate() {
+            let Rewrite { unit, period } = *rewrite;
+            let refused = StoredError::Rewrite {
+                rewrite: index,
+                unit,
+            };
+            let end = self.ends.iter().copied().find(|end| unit < *end);
+            let end = end.filter(|end| unit >= next && unit + 1 < *end);
+            let fits = period > 0 && u64::from(period) >> self.group.widths.period == 0;
+            let (Some(end), true) = (
+                end,
+                fits && periods.get(unit).is_some_and(|period| *period >= SHORTEST),
+            ) else {
+                return Err(refused);
+            };
+            periods[unit + 1..end].fill(period);
+            next = unit + 1;
+            // Before the first unit time one is silent.
+            let begin: u64 = periods[..unit].iter().copied().map(u64::from).sum();
+            let tick = self.group.period + begin + u64::from(periods[unit] / 2);
+            self.writes.push((tick, period));
+        }
+        let played = self.played.with_periods(&periods);
+        self.played = played.map_err(|_| StoredError::TooLong)?;
+        Ok(self)
+    }
+
     /// What the control computer gives, for [`play_by`](super::job::play_by): the next command as
-    /// soon as none waits.
+    /// soon as none waits, and T in the ticks in which it is written. Where it is, the computer is to be
+    /// asked in every tick.
     pub fn computer(&self) -> impl FnMut(bool) -> Option<In<Value>> {
         let quiet = zero(&self.group);
         let mut commands = self.commands.iter();
+        let mut writes = self.writes.iter().peekable();
+        let mut tick = 0;
         move |pending: bool| {
+            tick += 1;
+            if let Some((_, period)) = writes.next_if(|(at, _)| at + 1 == tick) {
+                return Some(In {
+                    write_period: true,
+                    period: (*period).into(),
+                    ..quiet.clone()
+                });
+            }
             let pattern = (!pending).then(|| commands.next()).flatten()?;
             Some(In {
                 command: true,

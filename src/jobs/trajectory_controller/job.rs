@@ -65,6 +65,8 @@ pub struct Played {
     pub axes: usize,
     /// The periods from the path's start on, its first length 0; none of [`play_each`].
     pub periods: Vec<Period>,
+    /// Of the motors in the last tick, in encoder counts.
+    pub motor: [i64; AXES],
     /// The tick in which the path was started: before it, it was written.
     pub start: u64,
     /// The ticks of the run.
@@ -333,6 +335,7 @@ pub fn play_each(
             {
                 period.torque = see.each(|axis| now.get(axis.torque));
                 period.saturated = see.each(|axis| now.get(axis.saturated));
+                played.motor = see.each(|axis| now.get(axis.motor));
                 each(&period);
                 last = Some(period);
                 ended = !now.get(see.busy);

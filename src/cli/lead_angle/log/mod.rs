@@ -6,11 +6,13 @@ mod text;
 use super::{Job, focus};
 use crate::cli::Failure;
 use crate::cli::files::Files;
-use crate::cli::progress::{self, Part, Work};
+use crate::cli::progress::{self, Work};
 use crate::cli::report::{Outcome, conclude};
 use crate::cli::run::{Arguments, in_waves};
-use crate::cli::traces::{Traces, no_such_tick};
-use motion_rtl::hdl::{RunError, model_beside};
+use crate::cli::traces::{Focus, Traces, no_such_tick};
+use crate::cli::waves_of::{Ending, System};
+use motion_rtl::circuits::lead_angle::Compensator;
+use motion_rtl::hdl::{Circuit, Observer, RunError, model_beside};
 use motion_rtl::input::position_log::{PositionLog, UnitFrom};
 use motion_rtl::jobs::lead_angle::job::positioner;
 use motion_rtl::jobs::lead_angle::replay::{Replayed, Signal, replay, settings_for};
@@ -18,6 +20,7 @@ use motion_rtl::jobs::lead_angle::settings::Settings;
 use motion_rtl::plant::waves::Body;
 use motion_rtl::trace::Options;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The summary of a log.
 #[derive(Debug, Serialize)]
@@ -96,7 +99,7 @@ fn simulate(
     let shown = model_beside(&circuit, &Body).map_err(RunError::from)?;
     let ticks = ticks(log, settings.clock_hz);
     let scenario = (&job.loaded, job.stem.as_str());
-    let mut traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
+    let traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
     let in_waves = in_waves(arguments, options, ticks);
     let seconds = ticks as f64 * super::TICK_S;
     progress::run(
@@ -108,13 +111,39 @@ fn simulate(
             in_waves,
         },
     );
-    let mut progress = Part::default();
-    let (waves, stimulus) = (traces.waves.as_mut(), traces.stimulus.as_mut());
-    let files = (waves, stimulus, traces.noted.as_mut());
-    let replayed = replay(&circuit, settings, log, &mut (files, &mut progress))?;
-    let action = replayed.signals.first().map_or(0, |signal| signal.tick);
-    let files = traces.finish(&shown, &focus(settings, action), replayed.ticks)?;
-    Ok((replayed, files))
+    traces.play(
+        &shown,
+        |observer| Ok(replay(&circuit, settings, log, observer)?),
+        |replayed: &Replayed| (window(settings, replayed), replayed.ticks),
+    )
+}
+
+/// A window with the first signal in its middle.
+fn window(settings: &Settings, replayed: &Replayed) -> Focus {
+    focus(
+        settings,
+        replayed.signals.first().map_or(0, |signal| signal.tick),
+    )
+}
+
+/// The circuit with the log, as a system.
+pub fn system<'a>(job: &'a Job, log: &'a PositionLog) -> System<'a> {
+    let settings = settings_for(log, &job.settings);
+    let ticks = ticks(log, settings.clock_hz);
+    System::new(Compensator::NAME, ticks, move || {
+        let circuit = positioner(&settings);
+        let model = model_beside(&circuit, &Body).map_err(RunError::from)?;
+        let run = move |circuit: &Compensator, observer: &mut dyn Observer<Compensator>| {
+            let replayed = replay(circuit, &settings, log, observer)?;
+            Ok(Ending {
+                ticks: replayed.ticks,
+                focus: window(&settings, &replayed),
+                position: BTreeMap::new(),
+                unit: "counts",
+            })
+        };
+        Ok((circuit, model, run))
+    })
 }
 
 fn summary(log: &PositionLog, settings: &Settings, replayed: &Replayed) -> Summary {

@@ -2,12 +2,13 @@
 
 mod summary;
 
-use super::{has_no_segments, simulate};
+use super::{has_no_segments, own, simulate};
 use crate::cli::Failure;
 use crate::cli::report::conclude;
 use crate::cli::run::{Arguments, options};
 use crate::cli::source::Source;
 use crate::cli::table::ratio;
+use crate::cli::waves_of::System;
 use motion_rtl::circuits::pulse_interpolator::{AXIS_NAMES, Widths};
 use motion_rtl::input::Fault;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
@@ -20,9 +21,11 @@ use motion_rtl::scenario::pulse_interpolator::{PatternKeys, Scenario};
 use summary::Summary;
 
 /// Patterns ready to be played.
-struct Job {
-    loaded: Loaded,
-    stem: String,
+pub struct Job {
+    /// The scenario they came from.
+    pub loaded: Loaded,
+    /// Stem of the names of its files.
+    pub stem: String,
     scenario: Scenario,
     timing: StepTiming,
     patterns: Vec<Pattern>,
@@ -42,7 +45,8 @@ struct Pattern {
 }
 
 impl Job {
-    fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
+    /// Reads the tables of the patterns and puts them into the memory.
+    pub fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
         let loaded = &source.loaded;
         if scenario.input.is_some() {
             let problem = "given beside [[pattern]]".to_owned();
@@ -100,6 +104,7 @@ impl Job {
             scenario.variant.into(),
             scenario.standalone,
         )
+        .and_then(|stored| stored.rewritten(&scenario.rewrites()))
         .map_err(|error| stored_fault(loaded, error))?;
         let motors = scenario.motors(stored.group.axes);
         let motors = motors.map_err(|error| loaded.refuse(error))?;
@@ -160,6 +165,12 @@ fn stored_fault(loaded: &Loaded, error: StoredError) -> Fault {
             let allowed = "one pattern of one T, played once".to_owned();
             loaded.fault("standalone", problem, allowed)
         }
+        StoredError::Rewrite { rewrite, unit } => {
+            let problem = format!("is {unit}");
+            let allowed = "unit times in order, each of 4 ticks or more and not the last of its \
+                           pattern; unit_ticks 1 to 16777215";
+            loaded.table_fault(("rewrite", rewrite), "unit", problem, allowed.to_owned())
+        }
         StoredError::Nothing => {
             loaded.fault("play", "is empty".into(), "the name of a pattern".into())
         }
@@ -170,11 +181,17 @@ fn stored_fault(loaded: &Loaded, error: StoredError) -> Fault {
     }
 }
 
+/// The one system of the summary.
+pub fn systems(job: &Job) -> Vec<System<'_>> {
+    let (stored, motors) = (&job.stored, job.motors.clone());
+    let (group, table) = (stored.group.clone(), &stored.played);
+    vec![own(group, table, motors, move |_| stored.computer())]
+}
+
 /// Plays patterns.
-pub fn run(arguments: &Arguments, source: Source, scenario: &Scenario) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     has_no_segments(arguments)?;
-    let job = Job::prepare(source, scenario)?;
-    let options = options(arguments, scenario.vcd_ticks)?;
+    let options = options(arguments, job.scenario.vcd_ticks)?;
     let stored = &job.stored;
     let (played, mut files) = simulate(
         arguments,
@@ -182,9 +199,10 @@ pub fn run(arguments: &Arguments, source: Source, scenario: &Scenario) -> Result
         (&stored.group, &stored.played),
         &options,
         (&mut stored.computer(), job.motors.clone()),
+        stored.writes.is_empty(),
     )?;
-    files.write("svg", &draw(&job, &played))?;
-    conclude(arguments, &options, files, Summary::new(&job, &played))
+    files.write("svg", &draw(job, &played))?;
+    conclude(arguments, &options, files, Summary::new(job, &played))
 }
 
 /// The positions at the end of every unit time: Y over X, and each axis over time.

@@ -29,6 +29,8 @@ pub struct Summary {
     standalone: bool,
     /// Commands that it gave.
     commands: usize,
+    /// Times that it wrote T while patterns were played.
+    rewrites: usize,
     /// Words of an axis that patterns take in the memory, and how many there are.
     memory_words: [u64; 2],
     patterns: Vec<PatternSummary>,
@@ -126,6 +128,7 @@ impl Summary {
             variant: job.scenario.variant.name(),
             standalone: job.scenario.standalone,
             commands: stored.commands.len(),
+            rewrites: stored.writes.len(),
             memory_words: [
                 stored.places.last().map_or(0, |[_, last]| last + 1),
                 1 << stored.group.widths.address,
@@ -161,6 +164,11 @@ impl Report for Summary {
             (true, _) => "no control computer".to_owned(),
             (false, 1) => "1 command".to_owned(),
             (false, commands) => format!("{commands} commands"),
+        };
+        let by = match self.rewrites {
+            0 => by,
+            1 => format!("{by}, T rewritten once"),
+            times => format!("{by}, T rewritten {times} times"),
         };
         writeln!(
             text,

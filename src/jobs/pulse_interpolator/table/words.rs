@@ -108,6 +108,19 @@ impl Table {
         }
     }
 
+    /// The same words, each unit with the T of its place.
+    pub(in crate::jobs::pulse_interpolator) fn with_periods(
+        &self,
+        periods: &[u32],
+    ) -> Result<Self, TableError> {
+        let mut table = self.empty();
+        for ((_, words), period) in self.iter().zip(periods) {
+            table.open_unit(*period)?;
+            words.iter().for_each(|word| table.push(*word));
+        }
+        Ok(table)
+    }
+
     /// The units of another follow.
     pub(in crate::jobs::pulse_interpolator) fn append(
         &mut self,
