@@ -348,7 +348,7 @@ fn data_that_break_the_limits_of_the_driver_are_complained_of() {
 fn pulses(n: u64, period: u64) -> i64 {
     match n {
         0 => 0,
-        n => (((period - 1) / n + 1) / 2) as i64,
+        n => ((period - 1) / n).div_ceil(2) as i64,
     }
 }
 

@@ -16,21 +16,19 @@ use motion_rtl::path::arm::JOINTS;
 use motion_rtl::path::record::Record;
 
 /// What the save file of the conventional generator shows on top.
-const CONVENTIONAL_OVERVIEW: [&str; 14] = [
+const CONVENTIONAL_OVERVIEW: [&str; 12] = [
     "sampled",
     "kind",
     "sequencer.state",
     "memory.word",
-    "angle.nearest",
+    "engine.nearest",
+    "cordic.turning.iteration",
     "x",
     "y",
     "z",
     "arm.base",
     "arm.shoulder",
     "arm.elbow",
-    "",
-    "",
-    "",
 ];
 
 /// Names of the coordinates.
