@@ -165,7 +165,7 @@ impl<'j> UnderWay<'j> {
     fn off(&self, command: [i64; AXES], length: f64) -> f64 {
         let program = self.program;
         let at = from_fn(|axis| program.origin[axis] as f64 + command[axis] as f64);
-        apart(at, program.path.place(length)) / program.motion.units_per_mm
+        apart(at, program.path.looked_up(length, self.correction)) / program.motion.units_per_mm
     }
 
     /// What it came to; none where there was no period.

@@ -181,6 +181,7 @@ fn warnings(job: &Job, runs: &Runs) -> Vec<String> {
         1 => warnings.push("1 piece left out that has no length".to_owned()),
         many => warnings.push(format!("{many} pieces left out that have no length")),
     }
+    warnings.extend(other_feeds(job));
     for run in &runs.runs {
         if compared(run, runs) && !run.settled {
             warnings.push(format!("feedback: {NOT_SETTLED}, with these gains"));
@@ -197,4 +198,21 @@ fn warnings(job: &Job, runs: &Runs) -> Vec<String> {
         }
     }
     warnings
+}
+
+/// Feeds that an acceleration time also goes for, where that could be taken for the time to
+/// `feed_mm_per_s` alone.
+fn other_feeds(job: &Job) -> Option<String> {
+    let time_ms = job.settings.acceleration_time_ms?;
+    let feed = job.settings.feed_mm_per_s?;
+    let stretches = job.program.path.stretches.iter();
+    let others = stretches.map(|stretch| stretch.speed);
+    let other = others.filter(|&speed| speed != feed).reduce(f64::min)?;
+    Some(format!(
+        "acceleration_time_ms = {time_ms} is the time from rest to each feed: to {feed} mm/s with {} \
+         mm/s2, to {other} mm/s with {} mm/s2; acceleration_mm_per_s2 = {} is the same for all",
+        1e3 * feed / time_ms,
+        1e3 * other / time_ms,
+        1e3 * feed / time_ms,
+    ))
 }

@@ -136,7 +136,7 @@ impl<'a> Host<'a> {
             settings,
             pulses: ControlComputer::new(&circuit.pulse_interpolator, &program.table),
             no_pulse: zero(circuit).pulse,
-            path: PathWriter::new(&program.path),
+            path: PathWriter::new(&program.path, Correction::None),
             arcs: RecordWriter::new(&program.arcs),
             profile: RecordWriter::new(&program.profile),
             pushed: [false; 2],

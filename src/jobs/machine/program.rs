@@ -274,6 +274,7 @@ fn length_in_time(begin: u64, length: u64, speed: f64, ramp_s: f64) -> Profile {
     };
     let slope = Slope {
         acceleration: span.speed / ramp_s,
+        time_constant: 0.0,
         jerk_time: 0.0,
     };
     let mut profile = plan(&[span], slope);

@@ -104,6 +104,7 @@ pub(super) fn beside(
         length: 0,
         directions: [[0.0; COORDINATES]; 2],
         speed: piece.speed,
+        wider: 0.0,
         radius: None,
         piece: index,
         line: piece.line,

@@ -8,6 +8,7 @@ use crate::circuits::trajectory_controller::controller::In;
 use crate::circuits::trajectory_controller::error_feedback::FeedbackGains;
 use crate::circuits::trajectory_controller::model_state::ModelGains;
 use crate::circuits::trajectory_controller::path_point::AXES;
+use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::hdl::{Value, zero};
 use crate::path::record_writer::RecordWriter;
 
@@ -26,10 +27,10 @@ pub(super) struct Host<'a> {
 
 impl<'a> Host<'a> {
     /// Of a program that is to be written from its first word on.
-    pub(super) fn new(program: &'a Program) -> Self {
+    pub(super) fn new(program: &'a Program, correction: Correction) -> Self {
         Host {
             program,
-            path: PathWriter::new(program),
+            path: PathWriter::new(program, correction),
             records: RecordWriter::new(&program.records),
             started: false,
             quiet: false,

@@ -287,7 +287,7 @@ pub fn play_each(
     if plants.len() != axes {
         return Err(SettingError::value("axes", plants.len(), axes.to_string()).into());
     }
-    let mut host = Host::new(program);
+    let mut host = Host::new(program, circuit.correction);
     let mut i = host.standing(circuit);
     let mut played = Played {
         axes,

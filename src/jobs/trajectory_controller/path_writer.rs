@@ -2,6 +2,7 @@
 
 use super::program::Program;
 use crate::circuits::trajectory_controller::path_point::{AXES, PathWrite};
+use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::{Widths, segment_store};
 use crate::hdl::Value;
 use crate::input::COORDINATES;
@@ -16,6 +17,7 @@ const MOST_WORDS: usize = Widths::FULL.point().of_axes(AXES).words();
 #[derive(Debug)]
 pub(crate) struct PathWriter<'a> {
     program: &'a Program,
+    correction: Correction,
     /// The segment and the word of it that are written next, and the segment's words.
     segment: usize,
     word: usize,
@@ -25,10 +27,11 @@ pub(crate) struct PathWriter<'a> {
 }
 
 impl<'a> PathWriter<'a> {
-    /// Of a program that is to be written from its first word on.
-    pub(crate) fn new(program: &'a Program) -> Self {
+    /// Of a program that is to be written from its first word on, to a controller with this correction.
+    pub(crate) fn new(program: &'a Program, correction: Correction) -> Self {
         let mut writer = PathWriter {
             program,
+            correction,
             segment: 0,
             word: 0,
             words: [0; MOST_WORDS],
@@ -48,7 +51,7 @@ impl<'a> PathWriter<'a> {
         let Some(stretch) = self.program.path.stretches.get(self.segment) else {
             return;
         };
-        let mut segment = stretch.segment;
+        let mut segment = stretch.segment_for(self.correction);
         let origin = self.program.origin;
         for (base, origin) in segment.base.iter_mut().zip(origin) {
             *base -= origin;

@@ -141,6 +141,11 @@ impl Program {
         }
         let per_mm = settings.counts_per_mm;
         let mut path = Path::with_fourth(start, pieces, fourth, per_mm, widths)?;
+        let speeds = path.stretches.iter().map(|stretch| stretch.speed);
+        let fastest = speeds.fold(0.0, f64::max);
+        if let Some(acceleration) = settings.acceleration_to(fastest)? {
+            motion.slope.acceleration = acceleration * motion.units_per_mm;
+        }
         let along = axis_limits::along(&path, &motion.axis_acceleration);
         let most = along * motion.units_per_mm;
         motion.slope.acceleration = motion.slope.acceleration.min(most);

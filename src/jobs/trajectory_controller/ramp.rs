@@ -9,13 +9,17 @@
 //! ```
 //!
 //! Below |Δv| = a·t_j there is no time for the whole acceleration: it rises as steeply, and falls at
-//! once. With t_j = 0 it is constant.
+//! once. With t_j = 0 it is constant. With a time constant τ a is the higher speed over τ, so from
+//! rest every speed is reached in the same time.
 
 /// Acceleration and jerk time: what ramps are made with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slope {
     /// a: largest acceleration, above 0.
     pub acceleration: f64,
+    /// τ: time from rest to any speed, but for t_j, where `acceleration` allows it; 0 for a ramp with
+    /// `acceleration` to all of them.
+    pub time_constant: f64,
     /// t_j: time in which it comes and goes, 0 or more.
     pub jerk_time: f64,
 }
@@ -40,7 +44,11 @@ impl Slope {
     #[must_use]
     pub fn ramp(&self, one: f64, other: f64) -> Ramp {
         let (low, high) = (one.min(other), one.max(other));
-        let (change, a, t_j) = (high - low, self.acceleration, self.jerk_time);
+        let (change, t_j) = (high - low, self.jerk_time);
+        let a = match self.time_constant > 0.0 && high > 0.0 {
+            true => self.acceleration.min(high / self.time_constant),
+            false => self.acceleration,
+        };
         let (rise, flat, peak) = match change >= a * t_j {
             true => (t_j, change / a - t_j, a),
             false => {

@@ -29,6 +29,7 @@ use crate::circuits::blocks::cordic_state::GAIN;
 use crate::circuits::trajectory_controller::Widths;
 use crate::circuits::trajectory_controller::path_point::AXES;
 use crate::circuits::trajectory_controller::segment_store::WORDS;
+use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::input::{COORDINATES, Point};
 use crate::path::circle::Circle;
 use crate::path::error::{PathError, Reason};
@@ -184,10 +185,22 @@ pub struct Stretch {
     pub speed: f64,
     /// Radius of curvature of an arc or a helix in mm; of a spline the least, where it is bent.
     pub radius: Option<f64>,
+    /// c·v² of a spline in the square of guard units, by which [`Path::widen`] widens it.
+    pub wider: f64,
     /// The piece it comes from.
     pub piece: usize,
     /// Line of the input that stands in.
     pub line: Option<usize>,
+}
+
+impl Stretch {
+    /// The segment whose words a controller with this correction is given.
+    pub(super) fn segment_for(&self, correction: Correction) -> Segment {
+        match correction {
+            Correction::Steady => self.segment.widened(self.wider),
+            _ => self.segment,
+        }
+    }
 }
 
 /// A path by its length.
@@ -298,17 +311,19 @@ impl Path {
         })
     }
 
-    /// Widens the radius of each arc by c·v²/r, v being the speed on its span; to twice the radius
-    /// at most, where the series that this is the first of is long worthless, and half of it at
-    /// least.
+    /// Widens each arc and each spline by c·v²/r, v being the speed on its span and r its radius of
+    /// curvature at every point; to twice the radius at most, where the series that this is the first
+    /// of is long worthless, and half of it at least. Of a spline the least radius limits it.
     pub fn widen(&mut self, spans: &[Span], c: f64) {
         for (stretch, span) in self.stretches.iter_mut().zip(spans) {
+            let by = c * span.speed * span.speed;
+            stretch.wider = stretch.segment.most_wider(stretch.length as f64, by);
             if let Some(arc) = &mut stretch.segment.arc {
                 // Of the speed of a helix a part goes up, and one to a fourth axis.
                 let beside = stretch.segment.fourth.map_or(0.0, |fourth| fourth.along);
                 let third = stretch.segment.third;
                 let flat = 1.0 - dot(third, third) - beside * beside;
-                let by = c * span.speed * span.speed * flat / arc.radius;
+                let by = by * flat / arc.radius;
                 arc.widened = arc.radius + by.clamp(-arc.radius / 2.0, arc.radius);
             }
         }
@@ -327,6 +342,16 @@ impl Path {
     pub fn point(&self, length: f64) -> Point {
         let [x, y, z, _] = self.place(length);
         [x, y, z]
+    }
+
+    /// The point that a controller looks up for its command, with W: that of the path, but on splines
+    /// with the steady correction, which is in their words.
+    #[must_use]
+    pub fn looked_up(&self, length: f64, correction: Correction) -> [f64; AXES] {
+        let length = length.clamp(0.0, self.length as f64);
+        let stretch = &self.stretches[self.index(length)];
+        let segment = stretch.segment_for(correction);
+        segment.place(length - stretch.begin as f64)
     }
 
     /// The same with W; 0 where there is none.
@@ -379,6 +404,7 @@ fn made(from: Point, piece: &Piece, index: usize, [unit, count]: [f64; 2]) -> Ve
         directions: piece.course.directions(from, piece.to),
         speed: piece.speed,
         radius,
+        wider: 0.0,
         piece: index,
         line: piece.line,
     };

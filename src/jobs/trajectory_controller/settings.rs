@@ -47,7 +47,7 @@ pub struct Settings {
     /// Largest acceleration along the path; [`ACCELERATION_MM_PER_S2`] without it, and without
     /// [`Settings::acceleration_time_ms`].
     pub acceleration_mm_per_s2: Option<f64>,
-    /// The time from rest to [`Settings::feed_mm_per_s`], but for the jerk time, in its place.
+    /// The time from rest to each feed and to the rapid speed, but for the jerk time, in its place.
     pub acceleration_time_ms: Option<f64>,
     /// Largest acceleration of the axes; none where they are not asked.
     pub axis_acceleration_mm_per_s2: Option<EachAxis>,
@@ -240,7 +240,7 @@ impl Settings {
         for (field, speed) in feed.into_iter().chain([rapid]) {
             within(field, speed, &SPEED_RANGE_MM_PER_S)?;
         }
-        let acceleration = self.acceleration()?;
+        let (acceleration, time_constant) = self.acceleration()?;
         let normal = self.normal_acceleration_mm_per_s2;
         within("normal_acceleration_mm_per_s2", normal, &ACCELERATION_RANGE)?;
         let axis_acceleration = self.axis_accelerations()?;
@@ -253,6 +253,7 @@ impl Settings {
             period,
             slope: Slope {
                 acceleration: acceleration * units_per_mm,
+                time_constant,
                 jerk_time: self.jerk_time_ms / 1e3,
             },
             normal_acceleration: normal,
@@ -289,13 +290,13 @@ impl Settings {
         Ok(mm / first.radial_s2(widths, self.period_s(widths)?))
     }
 
-    /// Acceleration along the path, in mm/s².
-    fn acceleration(&self) -> Result<f64, SettingError> {
+    /// Largest acceleration along the path in mm/s², and the time constant in s, 0 without one.
+    fn acceleration(&self) -> Result<(f64, f64), SettingError> {
         let Some(time_ms) = self.acceleration_time_ms else {
             let told = self.acceleration_mm_per_s2;
             let acceleration = told.unwrap_or(ACCELERATION_MM_PER_S2);
             within("acceleration_mm_per_s2", acceleration, &ACCELERATION_RANGE)?;
-            return Ok(acceleration);
+            return Ok((acceleration, 0.0));
         };
         let field = "acceleration_time_ms";
         if self.acceleration_mm_per_s2.is_some() {
@@ -303,22 +304,31 @@ impl Settings {
             return Err(SettingError::new(field, problem, "one of both"));
         }
         within(field, time_ms, &ACCELERATION_TIME_RANGE_MS)?;
-        let Some(feed) = self.feed_mm_per_s else {
-            let problem = format!("is {time_ms} without feed_mm_per_s");
-            return Err(SettingError::new(field, problem, "the time to that feed"));
+        let feed = self.feed_mm_per_s.unwrap_or(0.0);
+        let acceleration = self.acceleration_to(feed.max(self.rapid_mm_per_s))?;
+        Ok((
+            acceleration.unwrap_or(ACCELERATION_MM_PER_S2),
+            time_ms / 1e3,
+        ))
+    }
+
+    /// Acceleration with which a speed is reached in [`Settings::acceleration_time_ms`], in mm/s²; none
+    /// where an acceleration is told.
+    ///
+    /// # Errors
+    /// A time in which it would be out of its range.
+    pub(super) fn acceleration_to(&self, speed: f64) -> Result<Option<f64>, SettingError> {
+        let Some(time_ms) = self.acceleration_time_ms else {
+            return Ok(None);
         };
-        let acceleration = feed / (time_ms / 1e3);
-        if !ACCELERATION_RANGE.contains(&acceleration) {
-            let problem = format!("is {time_ms}: {acceleration} mm/s² to {feed} mm/s");
-            let [most, least] = [ACCELERATION_RANGE.start(), ACCELERATION_RANGE.end()]
-                .map(|acceleration| feed / acceleration * 1e3);
-            return Err(SettingError::new(
-                field,
-                problem,
-                format!("{least} to {most}"),
-            ));
+        let acceleration = speed / (time_ms / 1e3);
+        let most = *ACCELERATION_RANGE.end();
+        if acceleration > most {
+            let problem = format!("is {time_ms}: {acceleration} mm/s² to {speed} mm/s");
+            let allowed = format!("{} or more", speed / most * 1e3);
+            return Err(SettingError::new("acceleration_time_ms", problem, allowed));
         }
-        Ok(acceleration)
+        Ok(Some(acceleration))
     }
 
     /// Largest acceleration of each axis, in mm/s².

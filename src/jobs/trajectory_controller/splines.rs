@@ -102,6 +102,39 @@ fn part(cubic: &Cubic, [from, to]: [f64; 2], unit_per_mm: f64, deviation: f64) -
 }
 
 impl Segment {
+    /// The spline whose points are `by` times the second derivative further out: by/r along the normal,
+    /// r being the radius of curvature there. It is a cubic of the same length.
+    pub(super) fn widened(&self, by: f64) -> Segment {
+        let Some(bits) = self.powers else {
+            return *self;
+        };
+        let longest = f64::from(bits).exp2();
+        let begin = scale(self.across, 2.0 * by / longest);
+        let along = scale(self.third, 6.0 * by / (longest * longest));
+        let base = self.base.map(|units| units as f64);
+        Segment {
+            base: sub(base, begin).map(|units| units.round() as i64),
+            along: sub(self.along, along),
+            ..*self
+        }
+    }
+
+    /// How much of `by` a spline of this length may be [widened](Self::widened) by: to twice its least
+    /// radius and half of it, with coefficients that are words; 0 of what is none.
+    pub(super) fn most_wider(&self, length: f64, by: f64) -> f64 {
+        let (Some(bits), Some(radius)) = (self.powers, self.least_radius(length)) else {
+            return 0.0;
+        };
+        let longest = f64::from(bits).exp2();
+        let bend = self
+            .third
+            .iter()
+            .fold(0.0, |most: f64, one| most.max(one.abs()));
+        let word = (LARGEST - 1.0) * longest * longest / (6.0 * bend);
+        by.clamp(-radius * radius / 2.0, radius * radius)
+            .clamp(-word, word)
+    }
+
     /// First and second derivative by the length, at a length on a spline of so many bits.
     pub(super) fn derivatives(&self, bits: u32, offset: f64) -> [Point; 2] {
         let longest = f64::from(bits).exp2();

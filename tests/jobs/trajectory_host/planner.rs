@@ -42,6 +42,7 @@ fn check(profile: &Profile, spans: &[Span], slope: Slope) -> Result<(), TestCase
     let Slope {
         acceleration,
         jerk_time,
+        ..
     } = slope;
     let fastest = spans.iter().map(|span| span.speed).fold(0.0, f64::max);
     let jerk = match jerk_time > 0.0 {
@@ -153,12 +154,36 @@ proptest! {
 
     #[test]
     fn a_trapezoid_is_as_fast_as_can_be(spans in spans(1..30), acceleration in 2.0..6.0f64) {
-        let slope = Slope { acceleration: 10f64.powf(acceleration), jerk_time: 0.0 };
+        let slope = Slope { acceleration: 10f64.powf(acceleration), time_constant: 0.0, jerk_time: 0.0 };
         let profile = plan(&spans, slope);
         check(&profile, &spans, slope)?;
         let least = least_time(&spans, slope.acceleration);
         let ratio = profile.duration / least;
         prop_assert!((1.0 - 1e-6..1.0 + 1e-3).contains(&ratio), "{}", ratio);
+    }
+
+    #[test]
+    fn with_a_time_constant_every_ramp_has_its_part_of_it(
+        spans in spans(1..30),
+        acceleration in 2.0..6.0f64,
+        time_constant in -3.0..2.0f64,
+    ) {
+        let time_constant = 10f64.powf(time_constant);
+        let slope = Slope { acceleration: 10f64.powf(acceleration), time_constant, jerk_time: 0.0 };
+        let profile = plan(&spans, slope);
+        check(&profile, &spans, slope)?;
+        let ends = profile.pieces.iter().skip(1).map(|piece| piece.t);
+        let pieces = profile.pieces.iter().zip(ends.chain([profile.duration]));
+        for (piece, end) in pieces.filter(|(piece, _)| piece.a != 0.0) {
+            let last = piece.at(end)[1];
+            let (high, low) = (piece.v.max(last), piece.v.min(last));
+            let longest = time_constant.max(high / slope.acceleration);
+            let time = longest * (1.0 - low / high);
+            prop_assert!(
+                (end - piece.t - time).abs() <= 1e-6 * time + 1e-12 * profile.duration,
+                "{} to {} in {}, not {}", piece.v, last, end - piece.t, time
+            );
+        }
     }
 
     #[test]
@@ -168,7 +193,7 @@ proptest! {
         jerk_time in -4.0..1.0f64,
     ) {
         let (acceleration, jerk_time) = (10f64.powf(acceleration), 10f64.powf(jerk_time));
-        let slope = Slope { acceleration, jerk_time };
+        let slope = Slope { acceleration, time_constant: 0.0, jerk_time };
         let profile = plan(&spans, slope);
         check(&profile, &spans, slope)?;
         // Each span may take two ramps, and a short ramp longer than its acceleration.
@@ -333,6 +358,7 @@ fn a_hundred_thousand_segments_keep_their_limits() {
                 .collect();
             let slope = Slope {
                 acceleration: 6e10,
+                time_constant: 0.0,
                 jerk_time,
             };
             let profile = plan(&spans, slope);

@@ -85,7 +85,7 @@ proptest! {
         acceleration in 3.0..6.0f64,
         jerk_time in prop_oneof![Just(0.0), 1e-3..1.0f64],
     ) {
-        let slope = Slope { acceleration: 10f64.powf(acceleration), jerk_time };
+        let slope = Slope { acceleration: 10f64.powf(acceleration), time_constant: 0.0, jerk_time };
         let profile = plan(&spans, slope);
         check(&profile, profile.duration / 10f64.powf(samples))?;
     }
@@ -106,6 +106,7 @@ fn the_longest_path_and_the_slowest_ramp() {
         for jerk_time in [0.0, 5.0] {
             let slope = Slope {
                 acceleration,
+                time_constant: 0.0,
                 jerk_time,
             };
             check(&plan(&spans, slope), period).unwrap();
@@ -123,6 +124,7 @@ fn where_the_piece_changes_there_is_a_line() {
     }];
     let slope = Slope {
         acceleration: 10.0,
+        time_constant: 0.0,
         jerk_time: 0.0,
     };
     let profile = plan(&spans, slope);

@@ -8,6 +8,7 @@ mod measure;
 mod paths;
 mod refusals;
 mod servo;
+mod splines;
 mod tolerance;
 mod unequal;
 
