@@ -58,7 +58,7 @@ macro_rules! embedded {
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 18] = [
+pub const SHIPPED: [Shipped; 19] = [
     shipped!(
         "waves/machine.toml",
         "a bracket in G-code on steppers, servos and a pen lift, by all five circuits; runs by default",
@@ -119,6 +119,10 @@ pub const SHIPPED: [Shipped; 18] = [
     shipped!(
         "waves/circle.toml",
         "a circle of 10 mm at 100 mm/s, on the trajectory controller"
+    ),
+    shipped!(
+        "waves/feed.toml",
+        "two turns of a circle whose feed changes, on the trajectory controller"
     ),
     shipped!(
         "waves/corner.toml",

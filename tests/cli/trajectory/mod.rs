@@ -7,7 +7,7 @@ mod fourth;
 mod plant;
 mod tolerance;
 
-use super::scenarios::{CIRCLE, POCKET, runs_exactly};
+use super::scenarios::{CIRCLE, FEED, POCKET, runs_exactly};
 use super::support::{Bench, keys, list, near, number, whole};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -169,6 +169,107 @@ fn the_circle_is_what_closed_forms_say() {
             assert!(torque > 1.8 && torque < 5.0, "{axis}");
         }
     }
+}
+
+/// The figures of the README and the note: each correction by the feed of a quarter.
+#[test]
+#[ignore = "takes long"]
+fn where_the_feed_changes_the_vector_is_not_right() {
+    let (_, summary) = runs_exactly(FEED);
+    let names: Vec<_> = list(&summary, "corrections")
+        .iter()
+        .map(|one| one["correction"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["none", "steady", "feedback", "vector"]);
+    let loads: Vec<Vec<f64>> = list(&summary, "segments")
+        .iter()
+        .map(|segment| {
+            let each = list(segment, "contour_um").iter();
+            each.map(|um| (um.as_f64().unwrap() * 10.0).round() / 10.0)
+                .collect()
+        })
+        .collect();
+    let expected = [
+        // From rest, braking from 100 mm/s to 40, at 40, from 40 to 100.
+        [97.6, 80.9, 6.9, 33.6],
+        [97.5, 27.1, 6.4, 28.8],
+        [35.4, 43.1, 5.5, 28.2],
+        [97.6, 53.4, 7.1, 30.0],
+        // All at 100 mm/s; the other three as before, but for the rest at the end.
+        [97.5, 0.4, 0.3, 3.8],
+        [97.5, 26.9, 6.5, 28.8],
+        [35.5, 43.4, 5.5, 28.2],
+        [97.6, 98.7, 20.2, 32.7],
+    ];
+    assert_eq!(loads, expected);
+    let rms = |correction: &str| number(of(&summary, correction), "/load/contour_rms_um");
+    for (correction, um) in [
+        ("none", 65.1),
+        ("steady", 27.3),
+        ("feedback", 2.4),
+        ("vector", 10.8),
+    ] {
+        near(rms(correction), um, 0.05);
+    }
+}
+
+/// A piece of another feed than `feed_mm_per_s` takes the same time to it.
+#[test]
+fn an_acceleration_time_is_that_to_each_feed() {
+    // The same way at the same feed, with and without a second piece of another one.
+    let slow = "[[piece]]\nto_mm = [10, 0, 0]\nspeed_mm_per_s = 20\n";
+    let run = [
+        "run",
+        "s.toml",
+        "--no-vcd",
+        "--set",
+        "acceleration_time_ms=50",
+    ];
+    let summary = with(slow).json(&run);
+    // Up and down in 50 ms each, and 9 mm between.
+    close(number(&summary, "/plan/seconds"), 0.1 + 0.45, 1e-6);
+    close(
+        number(&summary, "/plan/acceleration_mm_per_s2"),
+        400.0,
+        1e-6,
+    );
+    let told = "acceleration_time_ms = 50 is the time from rest to each feed: to 50 mm/s with 1000 \
+                mm/s2, to 20 mm/s with 400 mm/s2; acceleration_mm_per_s2 = 1000 is the same for all";
+    assert_eq!(summary["warnings"], json!([told]));
+    // From 50 mm/s to 20 in 3/5 of the time, from 20 to rest in all of it.
+    let summary = with(&format!(
+        "{LINE}[[piece]]\nto_mm = [20, 0, 0]\nspeed_mm_per_s = 20\n"
+    ))
+    .json(&run);
+    let fast = 0.05 + 0.03 + (10.0 - 1.25 - 1.05) / 50.0;
+    close(
+        number(&summary, "/plan/seconds"),
+        fast + 0.05 + 9.5 / 20.0,
+        1e-6,
+    );
+    let summary = with(LINE).json(&run);
+    assert_eq!(summary["warnings"], json!([]));
+    close(
+        number(&summary, "/plan/acceleration_mm_per_s2"),
+        1000.0,
+        1e-6,
+    );
+    // Feeds in F need no feed_mm_per_s.
+    let bench = Bench::new();
+    bench.write("p.ngc", "G21 G17 G90\nG1 X10 F1200\nG1 X20 F3000\nM2\n");
+    let head = HEAD.replace(
+        "feed_mm_per_s = 50\n",
+        "input = \"p.ngc\"\nacceleration_time_ms = 50\n",
+    );
+    bench.write("f.toml", format!("{head}[machine]\n{MACHINE}"));
+    let summary = bench.json(&["run", "f.toml", "--no-vcd"]);
+    assert_eq!(summary["warnings"], json!([]));
+    let fast = 0.05 + 0.03 + (10.0 - 1.25 - 1.05) / 50.0;
+    close(
+        number(&summary, "/plan/seconds"),
+        fast + 0.05 + 9.5 / 20.0,
+        1e-6,
+    );
 }
 
 #[test]
