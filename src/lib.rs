@@ -134,11 +134,11 @@
 //!     let (a, b) = ((tick + 4) / 8 % 2 == 1, tick / 8 % 2 == 1);
 //!     let way = meter.step_with(&In { a, b, gate: 100 }, |now| {
 //!         now.p.gate_counter.w.enable.then(|| now.w.way)
-//!     });
+//!     })?;
 //!     ways.extend(way);
 //! }
 //! assert_eq!(ways[1..], [25, 25, 25]);
-//! # Ok::<(), motion_rtl::engine::EngineError>(())
+//! # Ok::<(), motion_rtl::hdl::RunError>(())
 //! ```
 //!
 //! # A golden model for my HDL
@@ -196,6 +196,12 @@ pub mod verilog;
 #[allow(rustdoc::invalid_codeblock_attributes, reason = "charts stand in it")]
 #[doc = include_str!("../rtl_notes/conventions.md")]
 pub struct Conventions;
+
+/// The code in the note on the golden model is compiled as a test.
+#[cfg(doctest)]
+#[allow(rustdoc::invalid_codeblock_attributes, reason = "charts stand in it")]
+#[doc = include_str!("../rtl_notes/golden_model.md")]
+pub struct GoldenModel;
 
 /// The code in the README is compiled and run as a test.
 #[cfg(doctest)]

@@ -104,7 +104,7 @@ impl Display for SettingError {
 }
 
 /// Why a job cannot be played.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 pub enum JobError {
     /// A setting that a circuit or a plant does not take.
     #[error(transparent)]
@@ -116,6 +116,8 @@ pub enum JobError {
     #[error(transparent)]
     Engine(#[from] EngineError),
 }
+
+crate::hdl::debug_as_display!(JobError);
 
 /// Refuses a value that is out of range or not a number.
 ///

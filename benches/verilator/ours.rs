@@ -14,7 +14,7 @@ pub fn word<C: Circuit>(outputs: &[usize], now: &Sample<'_, C>) -> u64 {
     let engine = now.engine();
     let mut place = 0;
     outputs.iter().fold(0, |word, &leaf| {
-        let turned = engine.leaf(leaf).rotate_left(place);
+        let turned = engine.leaf(leaf).unwrap_or(0).rotate_left(place);
         place = (place + ROTATION) % 64;
         word ^ turned
     })

@@ -69,7 +69,7 @@ impl Recorder {
 impl<C: Circuit> Observer<C> for Recorder {
     fn sample(&mut self, now: &Sample<'_, C>) -> Result<ControlFlow<()>, RunError> {
         for (port, word) in self.words.iter_mut().enumerate() {
-            let value = now.engine().port(port);
+            let value = now.engine().port(port).expect("the circuit's own");
             if *word != value {
                 *word = value;
                 self.stimulus.changes.push(Change {
@@ -101,20 +101,20 @@ impl<'a> Replay<'a> {
 
     /// Sets what changes at the tick to come; for how many ticks it is held. That tick is in those
     /// held before, or the one after them.
-    pub fn held<C: Circuit>(&mut self, at: &mut Simulator<C>) -> u64 {
+    pub fn held<C: Circuit>(&mut self, at: &mut Simulator<C>) -> Result<u64, RunError> {
         while let Some((change, rest)) = self.changes.split_first() {
             let to_come = u64::from(change.tick) - at.tick();
             if to_come > 0 {
-                return to_come;
+                return Ok(to_come);
             }
-            at.set_port(change.port as usize, change.value);
+            at.set_port(change.port as usize, change.value)?;
             self.changes = rest;
         }
-        u64::MAX
+        Ok(u64::MAX)
     }
 
     /// The same for one tick.
-    pub fn tick<C: Circuit>(&mut self, at: &mut Simulator<C>) -> u64 {
-        self.held(at).min(1)
+    pub fn tick<C: Circuit>(&mut self, at: &mut Simulator<C>) -> Result<u64, RunError> {
+        Ok(self.held(at)?.min(1))
     }
 }

@@ -106,10 +106,10 @@ fn table(model: &Model, inputs: &[Vec<u64>], at_fault: &[String]) -> String {
     let first = inputs.len().saturating_sub(TICKS);
     let mut columns = Vec::new();
     for (tick, i) in inputs.iter().enumerate() {
-        engine.inputs(i);
+        engine.drive_all(i);
         engine.settle();
         if tick >= first {
-            let values = (0..leaves.len()).map(|leaf| engine.leaf(leaf));
+            let values = (0..leaves.len()).map(|leaf| engine.word(leaf));
             columns.push(values.collect::<Vec<_>>());
         }
         engine.edge();
@@ -129,7 +129,7 @@ fn table(model: &Model, inputs: &[Vec<u64>], at_fault: &[String]) -> String {
         let mut row = vec![format!("{} {path}", if marked { '*' } else { ' ' })];
         row.extend(columns.iter().map(|values| text(leaf, values[index])));
         row.push(match leaf.role {
-            Role::Register => text(leaf, engine.leaf(index)),
+            Role::Register => text(leaf, engine.word(index)),
             Role::Input | Role::Net => String::new(),
         });
         rows.push((!marked, row));

@@ -101,7 +101,7 @@ impl Coverage {
             let mut see = |leaf: u32| {
                 if let Some(shown) = view.shown(leaf) {
                     let signal = self.of_leaf[shown as usize];
-                    self.seen[signal].see(engine.leaf(leaf as usize));
+                    self.seen[signal].see(engine.word(leaf as usize));
                 }
             };
             match watched.memory.map(|memory| memory as usize) {

@@ -15,7 +15,7 @@ pub struct TooWide {
 }
 
 /// Why a circuit cannot be checked.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CheckError {
     /// There is too much to enumerate.
     #[error(transparent)]
@@ -24,6 +24,8 @@ pub enum CheckError {
     #[error(transparent)]
     Engine(#[from] EngineError),
 }
+
+crate::hdl::debug_as_display!(CheckError);
 
 impl TooWide {
     /// That so many bits are at most `most`.

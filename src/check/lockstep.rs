@@ -198,7 +198,7 @@ impl<A: Circuit, B: Circuit> Observer<Pair<A, B>> for Lockstep {
 /// A leaf of the pair behind its ports in, as a number.
 fn value(engine: &Engine, (leaf, shape): (usize, Shape)) -> i128 {
     let first = engine.flat().part(Role::Register).start;
-    number(shape, engine.leaf(first + leaf))
+    number(shape, engine.word(first + leaf))
 }
 
 fn ports_out<C: Circuit>(circuit: &C) -> Vec<String> {

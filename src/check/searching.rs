@@ -84,7 +84,7 @@ impl Searching<'_> {
                     continue;
                 }
                 search.transitions += 1;
-                one.engine.inputs(words);
+                one.engine.drive_all(words);
                 one.engine.settle();
                 // The edge is another engine's, so that the registers stay for the next inputs.
                 after.restore(one.engine.slab());
@@ -207,7 +207,7 @@ impl One<'_> {
             self.states.unpack(state, &mut self.engine);
             self.state = Some(state);
         }
-        self.engine.inputs(ports);
+        self.engine.drive_all(ports);
         self.engine.settle();
         self.judge.check(depth, &self.engine, (state, input), next)
     }
@@ -239,7 +239,7 @@ impl Packing {
     }
 
     fn pack(&self, engine: &Engine) -> u64 {
-        let words = self.0.iter().map(|&(leaf, bit)| engine.leaf(leaf) << bit);
+        let words = self.0.iter().map(|&(leaf, bit)| engine.word(leaf) << bit);
         words.fold(0, |state, word| state | word)
     }
 

@@ -67,7 +67,7 @@ impl Stimulus {
         let mut ports = self.ports();
         for port in 0..engine.flat().inputs.len() {
             let width = engine.flat().inputs[port];
-            engine.input(port, ports.port(width.into()));
+            engine.drive(port, ports.port(width.into()));
         }
     }
 

@@ -289,7 +289,7 @@ impl<'a, W: Law> Cases<'a, W> {
     fn run(&self, engine: &mut Engine, index: u64) -> Vec<u64> {
         let ports = input_widths(self.law);
         let case: W::In<Value> = hdl::inputs(self.law, bits_of(index));
-        engine.inputs(&words(&case, &ports));
+        engine.drive_all(&words(&case, &ports));
         for tick in 0..self.law.ticks() {
             if tick > 0 {
                 engine.edge();
@@ -298,7 +298,7 @@ impl<'a, W: Law> Cases<'a, W> {
         }
         let leaves = engine.leaves();
         let seen = leaves - self.seen.len()..leaves;
-        seen.map(|leaf| engine.leaf(leaf)).collect()
+        seen.map(|leaf| engine.word(leaf)).collect()
     }
 }
 

@@ -49,7 +49,8 @@ pub fn plan(arguments: &Arguments) -> Result<(), Failure> {
 pub(super) fn of_job(circuit: &impl Described, inputs: &Inputs) -> Result<String, Failure> {
     let model = circuit.described().map_err(RunError::from)?;
     let mut engine = counting(&model);
-    inputs.play(&mut engine);
+    let played = inputs.play(&mut engine);
+    played.map_err(|error| Failure::Check(error.to_string()))?;
     Ok(text(&model, &engine, inputs.ticks()))
 }
 

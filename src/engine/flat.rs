@@ -203,7 +203,7 @@ impl fmt::Debug for Instance {
 }
 
 /// What cannot be run.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum EngineError {
     /// Something is wrong with the circuit.
     #[error(transparent)]
@@ -238,6 +238,8 @@ pub enum EngineError {
     #[error("a design without modules")]
     Empty,
 }
+
+crate::hdl::debug_as_display!(EngineError);
 
 /// All bits of a word of so many.
 #[inline]

@@ -36,8 +36,6 @@ pub struct Plan {
 pub struct Block {
     /// The instance.
     pub instance: u32,
-    /// Its place among the levels.
-    pub level: u32,
     /// What it computes, in order.
     pub steps: Vec<Step>,
     /// What of it stands where others read it: from, to.

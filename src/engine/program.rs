@@ -1,4 +1,4 @@
-use super::flat::{EngineError, Flat};
+use super::flat::Flat;
 use super::passes;
 use super::plan::Plan;
 use crate::hdl::netlist::Design;
@@ -29,15 +29,6 @@ pub enum Watch<'w> {
 }
 
 impl Program {
-    /// Plans a design.
-    ///
-    /// # Errors
-    /// The design is not what [`elaborate`](crate::hdl::elaborate()) makes.
-    pub fn of(design: &Design, watch: Watch<'_>) -> Result<Program, EngineError> {
-        let flat = Arc::new(Flat::of(design)?);
-        Ok(Program::planned(&flat, watch, &ports_out(design)))
-    }
-
     /// Plans a netlist; `held` are leaves that idle ticks leave as they are.
     pub(crate) fn planned(flat: &Arc<Flat>, watch: Watch<'_>, held: &[usize]) -> Program {
         let mut wanted = vec![watch == Watch::All; flat.leaves.len() + flat.properties.len()];

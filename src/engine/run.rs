@@ -1,4 +1,5 @@
-use super::flat::{Flat, Op, Place};
+use super::flat::{Flat, Op, Place, mask};
+use super::input::InputError;
 use super::interpreter::{self, Counts};
 use super::layout::Spot;
 use super::lines::Lines;
@@ -79,7 +80,7 @@ impl Pause {
 
 impl Engine {
     /// At power-on, all ports in low.
-    pub fn new(program: Arc<Program>) -> Self {
+    pub(crate) fn new(program: Arc<Program>) -> Self {
         Engine {
             slab: program.plan.layout.power_on(),
             tier: Tier::new(&program.plan),
@@ -101,13 +102,57 @@ impl Engine {
 
     /// What runs.
     #[inline]
-    pub fn program(&self) -> &Program {
+    pub(crate) fn program(&self) -> &Program {
         &self.program
     }
 
-    /// Sets a port in, by its number.
+    /// Sets a port in by its number, counted from 0, to the bits of `word`.
+    ///
+    /// # Errors
+    /// There is no such port, or the word is wider than it; nothing is set then.
+    pub fn input(&mut self, port: usize, word: u64) -> Result<(), InputError> {
+        self.check(port, word)?;
+        self.drive(port, word);
+        Ok(())
+    }
+
+    /// Sets all ports in to the bits of `words`.
+    ///
+    /// # Errors
+    /// The number of words is not that of the ports, or a word is wider than its port; nothing is
+    /// set then.
+    pub fn inputs(&mut self, words: &[u64]) -> Result<(), InputError> {
+        let ports = self.ports();
+        if words.len() != ports {
+            let words = words.len();
+            return Err(InputError::Count { words, ports });
+        }
+        for (port, &word) in words.iter().enumerate() {
+            self.check(port, word)?;
+        }
+        self.drive_all(words);
+        Ok(())
+    }
+
+    fn check(&self, port: usize, word: u64) -> Result<(), InputError> {
+        match self.flat().inputs.get(port) {
+            Some(&width) if word & !mask(width) == 0 => Ok(()),
+            Some(&width) => Err(InputError::bits(port.to_string(), word, width.into())),
+            None => {
+                let ports = self.ports();
+                Err(InputError::Port { port, ports })
+            }
+        }
+    }
+
+    /// Number of ports in.
+    pub fn ports(&self) -> usize {
+        self.flat().inputs.len()
+    }
+
+    /// Sets a port in to a word that fits it.
     #[inline]
-    pub fn input(&mut self, port: usize, word: u64) {
+    pub(crate) fn drive(&mut self, port: usize, word: u64) {
         let layout = &self.program.plan.layout;
         let Some(&slot) = layout.inputs.get(port) else {
             return;
@@ -118,19 +163,19 @@ impl Engine {
         }
     }
 
-    /// Sets all ports in.
+    /// Sets the first ports in to words that fit them.
     #[inline]
-    pub fn inputs(&mut self, words: &[u64]) {
+    pub(crate) fn drive_all(&mut self, words: &[u64]) {
         for (port, &word) in words.iter().enumerate() {
-            self.input(port, word);
+            self.drive(port, word);
         }
     }
 
-    /// What a port in is.
+    /// Bits that stand at a port in; `None` if there is no such port.
     #[inline]
-    pub fn port(&self, port: usize) -> u64 {
+    pub fn port(&self, port: usize) -> Option<u64> {
         let slot = self.program.plan.layout.inputs.get(port);
-        slot.map_or(0, |&slot| self.slab[slot as usize])
+        slot.map(|&slot| self.slab[slot as usize])
     }
 
     /// Settles the nets.
@@ -169,7 +214,7 @@ impl Engine {
 
     /// Up to so many times an edge and a settling with ports in as they are; ends where a watched
     /// leaf has changed. Returns how often.
-    pub fn advance(&mut self, ticks: u64) -> u64 {
+    pub(crate) fn advance(&mut self, ticks: u64) -> u64 {
         self.begin();
         let event = self.program.plan.layout.event as usize;
         let mut done = 0;
@@ -183,14 +228,14 @@ impl Engine {
     }
 
     /// Whether something watched has changed since the tick before.
-    pub fn has_changed(&self) -> bool {
+    pub(crate) fn has_changed(&self) -> bool {
         self.slab[self.program.plan.layout.event as usize] != 0
     }
 
     /// Goes over idle ticks, of this settled one and at most `most` in all, ports in as they are.
     /// Returns how many, 0 where it is not idle or none are looked for yet; the one behind them is
     /// yet to settle. In none of them, the first aside, has a port out changed.
-    pub fn forward(&mut self, most: u64) -> u64 {
+    pub(crate) fn forward(&mut self, most: u64) -> u64 {
         if self.pause.left > 0 || most < 2 {
             return 0;
         }
@@ -216,7 +261,7 @@ impl Engine {
     }
 
     /// For how many ticks it is not asked again whether they are idle.
-    pub fn pause(&self) -> u64 {
+    pub(crate) fn pause(&self) -> u64 {
         self.pause.left.max(1)
     }
 
@@ -225,9 +270,14 @@ impl Engine {
         self.program.plan.layout.leaves.len()
     }
 
-    /// A leaf of the walk. A net needs a settled tick.
+    /// Bits of a leaf of the walk; `None` if there is no such leaf. A net needs a settled tick.
+    pub fn leaf(&self, leaf: usize) -> Option<u64> {
+        (leaf < self.leaves()).then(|| self.word(leaf))
+    }
+
+    /// Bits of a leaf that is there.
     #[inline]
-    pub fn leaf(&self, leaf: usize) -> u64 {
+    pub(crate) fn word(&self, leaf: usize) -> u64 {
         match self.program.plan.layout.leaves.get(leaf) {
             Some(Spot::Slot(slot)) => self.slab[*slot as usize],
             Some(spot) => self.spot(*spot, leaf),
@@ -252,7 +302,7 @@ impl Engine {
     }
 
     /// Whether a property holds.
-    pub fn property(&self, property: usize) -> bool {
+    pub(crate) fn property(&self, property: usize) -> bool {
         let spot = self.program.plan.layout.properties.get(property);
         let leaf = self.leaves() + property;
         spot.is_none_or(|&spot| self.spot(spot, leaf) != 0)
@@ -299,7 +349,7 @@ impl Engine {
     /// Calls `see` with the place in [`Layout::watched`](super::Layout::watched) of all that has
     /// changed since the tick before.
     #[inline]
-    pub fn changed(&self, mut see: impl FnMut(usize)) {
+    pub(crate) fn changed(&self, mut see: impl FnMut(usize)) {
         let layout = &self.program.plan.layout;
         for word in 0..layout.changed_words as usize {
             let mut bits = self.slab[layout.changed as usize + word];
@@ -384,7 +434,7 @@ impl Engine {
     }
 
     /// How often each block has run, as far as it was counted.
-    pub fn counts(&self) -> &Counts {
+    pub(crate) fn counts(&self) -> &Counts {
         self.tier.counts()
     }
 
@@ -403,7 +453,7 @@ impl Engine {
 
     /// Netlist that it was made from.
     #[inline]
-    pub fn flat(&self) -> &Flat {
+    pub(crate) fn flat(&self) -> &Flat {
         self.program.flat()
     }
 }

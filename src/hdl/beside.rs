@@ -6,6 +6,10 @@ use std::ops::ControlFlow;
 
 /// Signals that stand in the waves beside a circuit without being part of it: what a motor does,
 /// say.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not stand beside a circuit",
+    note = "implement `Beside` with the scope of its signals and a record from `signals!`"
+)]
 pub trait Beside: Clone + Send + Sync + 'static {
     /// The scope they stand in.
     const SCOPE: &'static str;

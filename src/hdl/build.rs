@@ -53,6 +53,8 @@ pub(super) struct Builder {
     pub scope: String,
     /// Registers that come into being are those of a part.
     pub of_part: bool,
+    /// A port in, register or memory of its own cannot be made.
+    pub unmade: bool,
     pub parts: Vec<Declared>,
     pub instances: Vec<Instance>,
     pub assertions: Vec<Assertion>,
@@ -108,11 +110,6 @@ pub(super) fn mistake(site: Site, what: String) {
     });
 }
 
-/// How many mistakes there are so far.
-pub(super) fn mistakes() -> usize {
-    elaboration(|elaboration| elaboration.mistakes.len())
-}
-
 /// All that is wrong, in the order in which it was found, each once.
 pub(super) fn wrong(mut mistakes: Vec<Mistake>) -> Result<(), Wrong> {
     let mut seen = FxHashSet::default();
@@ -153,6 +150,41 @@ pub(super) fn node(node: Node, shape: Shape) -> Id {
 pub(super) fn constant(value: u64, shape: Shape) -> Id {
     let shape = word(shape, "a constant");
     node(Node::Constant(masked(value, shape)), shape)
+}
+
+/// A number as a word of its own; one that does not fit is a mistake.
+#[inline(never)]
+#[track_caller]
+pub(super) fn number(value: i128, shape: Shape) -> Id {
+    let shape = word(shape, "a constant");
+    if let Err(wrong) = fits(value, shape) {
+        mistake(here(), format!("the constant {wrong}"));
+    }
+    constant(value as u64, shape)
+}
+
+/// A number beside a word, as wide as that; one that does not fit is a mistake.
+#[inline(never)]
+#[track_caller]
+pub(super) fn number_beside(value: i128, beside: Id) -> Id {
+    let shape = shape(beside);
+    if let Err(wrong) = fits(value, shape) {
+        let name = builder(|builder| builder.describe(beside));
+        mistake(here(), format!("beside {name}, the constant {wrong}"));
+    }
+    constant(value as u64, shape)
+}
+
+/// Whether a word can hold a number, or what is wrong with it.
+pub(super) fn fits(value: i128, shape: Shape) -> Result<(), String> {
+    let (least, greatest) = shape.range();
+    match (least..=greatest).contains(&value) {
+        true => Ok(()),
+        false => Err(format!(
+            "{value} does not fit {}; allowed are {least} to {greatest}",
+            bits(shape.width)
+        )),
+    }
 }
 
 /// A shape that a word can have; one that it cannot have is a mistake.
@@ -244,6 +276,9 @@ pub(super) fn resize(of: Id, to: Shape) -> Id {
 #[track_caller]
 pub(super) fn parameter(name: &'static str, value: u64, shape: Shape) -> Id {
     let shape = word(shape, name);
+    if let Err(wrong) = fits(value.into(), shape) {
+        mistake(here(), format!("parameter `{name}`: {wrong}"));
+    }
     let width = shape.width;
     let index = builder(|builder| {
         let same = |(known, _): &(Parameter, u64)| known.name == name && known.width == shape.width;
@@ -340,6 +375,11 @@ impl Builder {
             },
             _ => "an operand".to_owned(),
         }
+    }
+
+    /// The name of a memory.
+    pub fn memory_name(&self, memory: usize) -> &str {
+        self.memories.get(memory).map_or("", |memory| &memory.name)
     }
 
     fn bits(&self, id: Id) -> Option<u64> {

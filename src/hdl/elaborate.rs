@@ -128,13 +128,12 @@ fn end(name: &str, about: &'static str, nets: Nets) -> (usize, Vec<Setting>) {
 
 /// Makes the signals of a circuit, what drives them, and the circuits inside.
 fn signals_of<C: Circuit>(circuit: &C, site: Site, more: More<'_>) -> Nets {
-    let mistakes = build::mistakes();
     let i: C::In<Wire> = C::In::make(circuit, view::role(Role::Input), &mut Leaves::default());
     more(&mut Leaves::default());
     let q: C::Reg<Wire> = C::Reg::make(circuit, view::role(Role::Register), &mut Leaves::default());
     own_registers();
     // What a tick makes of words that are none is no use.
-    if build::mistakes() > mistakes {
+    if builder(|builder| builder.unmade) {
         return low(&counted_nets(circuit));
     }
     let p: C::Parts<Wire> =
@@ -153,7 +152,7 @@ fn signals_of<C: Circuit>(circuit: &C, site: Site, more: More<'_>) -> Nets {
     let mut given = Counted::default();
     next.visit(view::role(Role::Register), &mut given);
     drive(&wanted, given, <C::Reg<Edge> as Walk<Edge>>::SITE);
-    names::check(site);
+    names::check(site, circuit.name());
     elaboration(|elaboration| mutation::visit(circuit.name(), elaboration, &mut nets));
     property::note(circuit, &nets);
     nets

@@ -33,6 +33,12 @@ fn object(what: String) {
     }
 }
 
+/// A leaf cannot be made, so that what a tick makes of it is of no use.
+fn unmade(what: String) {
+    object(what);
+    builder(|builder| builder.unmade |= !builder.of_part);
+}
+
 impl Source for Leaves {
     fn enter(&mut self, field: &'static Field) {
         self.path.enter(field);
@@ -46,20 +52,24 @@ impl Source for Leaves {
         self.path.element(index);
     }
 
-    fn word(&mut self, field: &'static Field, shape: Shape, power_on: u64) -> u64 {
+    fn word(&mut self, field: &'static Field, shape: Shape, power_on: i128) -> u64 {
         let name = self.name(field);
         let role = self.path.role();
         let shape = match build::is_word(shape) {
             Ok(()) => shape,
             Err(wrong) => {
-                object(format!("`{name}` {wrong}"));
+                unmade(format!("`{name}` {wrong}"));
                 build::nearest(shape)
             }
         };
+        let made = !builder(|builder| builder.unmade);
+        if let (Role::Register, true, Err(wrong)) = (role, made, build::fits(power_on, shape)) {
+            object(format!("`{name}` at power-on: {wrong}"));
+        }
         builder(|builder| {
             let mut made = signal(name, field, role, shape);
             if role == Role::Register {
-                made.power_on = masked(power_on, shape);
+                made.power_on = masked(power_on as u64, shape);
                 let register = Register::Signal(builder.signals.len());
                 builder.registers.push(register);
             }
@@ -80,7 +90,7 @@ impl Source for Leaves {
         let contents = contents();
         let most = 1 << 24;
         if !(1..=64).contains(&shape.width) || !(1..=most).contains(&shape.words) {
-            object(format!(
+            unmade(format!(
                 "memory `{name}` has {} words of {}; there are 1 to {most} words of 1 to 64 bits",
                 shape.words,
                 build::bits(shape.width)
@@ -93,12 +103,17 @@ impl Source for Leaves {
                 Some(address) => format!("addresses of {}", build::bits(address)),
                 None => format!("{} stages", shape.words),
             };
-            object(format!(
+            unmade(format!(
                 "memory `{name}` has {words} and words of {}, what it holds at power-on has {} and {}",
                 build::bits(shape.width),
                 build::bits(address),
                 build::bits(width)
             ));
+        }
+        if let Some((site, wrong)) = contents.wrong()
+            && !builder(|builder| builder.of_part)
+        {
+            mistake(site, format!("memory `{name}` at power-on: {wrong}"));
         }
         let shape = MemoryShape {
             words: shape.words.clamp(1, most),
@@ -130,7 +145,7 @@ impl Source for Leaves {
 pub(crate) struct Nodes<'a>(pub std::slice::Iter<'a, Id>);
 
 impl Source for Nodes<'_> {
-    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
+    fn word(&mut self, _: &'static Field, shape: Shape, _: i128) -> u64 {
         match self.0.next() {
             Some(id) => *id as u64,
             // There are as many as the same walk found.

@@ -364,7 +364,7 @@ macro_rules! hdl_power_on {
         0
     };
     ($power_on:expr) => {
-        ($power_on) as i128 as u64
+        ($power_on) as i128
     };
 }
 

@@ -1,7 +1,7 @@
 //! Memories: handles to them, and what they hold at power-on.
 
 use super::build::{self, Id};
-use super::record::{Cells, MemoryShape, Source, unsigned};
+use super::record::{Cells, MemoryShape, Site, Source, unsigned};
 use super::words::{Bit, U};
 use crate::hdl::Field;
 use crate::hdl::netlist::Node;
@@ -24,11 +24,11 @@ pub struct Shift {
 }
 
 /// What an edge does to a memory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Written(pub(super) Option<(usize, State)>);
 
 /// How a memory is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) enum State {
     Kept,
     Written { enable: Id, address: Id, data: Id },
@@ -102,12 +102,20 @@ impl Shift {
         self.stages
     }
 
-    /// Stage `index` counted from the input; one that is not there reads zero.
+    /// Stage `index` counted from the input, 0 the newest.
     #[track_caller]
     pub fn stage(&self, index: usize) -> U {
         match index < self.stages {
             true => self.read(build::constant(index as u64, unsigned(64))),
-            false => self.zero(),
+            false => {
+                let name = build::builder(|builder| builder.memory_name(self.memory).to_owned());
+                let last = self.stages.saturating_sub(1);
+                build::mistake(
+                    build::here(),
+                    format!("stage {index} of `{name}`, which has 0 to {last}"),
+                );
+                self.zero()
+            }
         }
     }
 
@@ -204,15 +212,36 @@ impl Contents {
     pub(super) fn shape(&self) -> Option<(usize, usize)> {
         self.0.as_ref().map(|image| (image.address, image.width))
     }
+
+    /// What does not fit the image, and where it was given.
+    pub(super) fn wrong(&self) -> Option<(Site, String)> {
+        self.0.as_ref().and_then(Image::wrong)
+    }
 }
 
 /// The contents of a memory, known at elaboration: a ROM, or what a RAM holds at power-on.
+///
+/// Words and addresses that do not fit are a mistake of the circuit that has the image: see
+/// [`elaborate`](super::elaborate()).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Image {
     address: usize,
     width: usize,
+    /// The first word that does not fit.
+    unfit: Option<Unfit>,
     /// Circuits are cloned wherever they are looked at.
     bits: Arc<BitVec<u64, Lsb0>>,
+}
+
+/// A word that an image does not take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Unfit {
+    /// Where it was given.
+    site: Site,
+    address: usize,
+    word: u64,
+    /// Number of further ones.
+    others: usize,
 }
 
 impl Image {
@@ -226,25 +255,75 @@ impl Image {
         Image {
             address,
             width,
+            unfit: None,
             bits: Arc::new(bitvec![u64, Lsb0; 0; words * width]),
         }
     }
 
-    /// The words that `word` gives, each cut to the width.
-    pub fn from_fn(address: usize, width: usize, mut word: impl FnMut(usize) -> u64) -> Self {
-        let mut image = Image::new(address, width);
-        let bits = Arc::make_mut(&mut image.bits);
-        for (address, place) in bits.chunks_exact_mut(width.max(1)).enumerate() {
-            place.store_le(word(address) & u64::MAX >> (64 - width));
+    /// The words that `word` gives by address.
+    #[track_caller]
+    pub fn from_fn(address: usize, width: usize, word: impl FnMut(usize) -> u64) -> Self {
+        Image::made(address, width, build::here(), word)
+    }
+
+    /// The given words from address 0 up, zeros behind them.
+    #[track_caller]
+    pub fn of(address: usize, width: usize, words: impl IntoIterator<Item = u64>) -> Self {
+        let site = build::here();
+        let mut words = words.into_iter();
+        let mut image = Image::made(address, width, site, |_| words.next().unwrap_or(0));
+        if let Some(word) = words.next() {
+            image.refuse(site, image.words(), word);
         }
         image
     }
 
-    /// The given words from address 0 up, each cut to the width, zeros behind them; words past the
-    /// last address are left out.
-    pub fn of(address: usize, width: usize, words: impl IntoIterator<Item = u64>) -> Self {
-        let mut words = words.into_iter();
-        Image::from_fn(address, width, |_| words.next().unwrap_or(0))
+    fn made(address: usize, width: usize, site: Site, mut word: impl FnMut(usize) -> u64) -> Self {
+        let mut image = Image::new(address, width);
+        for address in 0..image.words() {
+            image.put(site, address, word(address));
+        }
+        image
+    }
+
+    /// Notes a word that does not fit.
+    #[cold]
+    fn refuse(&mut self, site: Site, address: usize, word: u64) {
+        match &mut self.unfit {
+            Some(first) => first.others += 1,
+            None => {
+                self.unfit = Some(Unfit {
+                    site,
+                    address,
+                    word,
+                    others: 0,
+                })
+            }
+        }
+    }
+
+    /// What does not fit, and where it was given.
+    fn wrong(&self) -> Option<(Site, String)> {
+        let Unfit {
+            site,
+            address,
+            word,
+            others,
+        } = self.unfit?;
+        let mut wrong = match address < self.words() {
+            true => match build::fits(word.into(), unsigned(self.width)) {
+                Err(wrong) => format!("word {address}: {wrong}"),
+                Ok(()) => return None,
+            },
+            false => format!(
+                "word {address}: there are {} words, counted from 0",
+                self.words()
+            ),
+        };
+        if others > 0 {
+            wrong += &format!("; so with {others} more");
+        }
+        Some((site, wrong))
     }
 
     /// The number of words.
@@ -262,11 +341,6 @@ impl Image {
         self.width
     }
 
-    fn place(&self, address: usize) -> std::ops::Range<usize> {
-        let first = address % self.words().max(1) * self.width;
-        first..first + self.width
-    }
-
     /// Its words, from address 0 up.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = u64> {
         self.bits
@@ -274,24 +348,40 @@ impl Image {
             .map(|word| word.load_le())
     }
 
-    /// The word at `address`, which wraps at the number of words.
-    pub fn get(&self, address: usize) -> u64 {
-        let place = self.place(address);
-        self.bits.get(place).map_or(0, |word| word.load_le())
+    /// The word at `address`; `None` if there is no such address.
+    pub fn get(&self, address: usize) -> Option<u64> {
+        let bits = self.place(address).and_then(|place| self.bits.get(place));
+        bits.map(|word| word.load_le())
     }
 
-    /// Replaces the word at `address`, which wraps at the number of words, by the low bits of
-    /// `word`.
+    /// Replaces the word at `address`.
+    #[track_caller]
     pub fn set(&mut self, address: usize, word: u64) {
-        let place = self.place(address);
-        if let Some(bits) = Arc::make_mut(&mut self.bits).get_mut(place) {
-            bits.store_le(word & u64::MAX >> (64 - bits.len()));
+        self.put(build::here(), address, word);
+    }
+
+    fn put(&mut self, site: Site, address: usize, word: u64) {
+        let mask = u64::MAX >> (64 - self.width.clamp(1, 64));
+        if address >= self.words() || word & !mask != 0 {
+            self.refuse(site, address, word);
         }
+        let place = self.place(address);
+        if let Some(bits) = place.and_then(|place| Arc::make_mut(&mut self.bits).get_mut(place)) {
+            bits.store_le(word & mask);
+        }
+    }
+
+    fn place(&self, address: usize) -> Option<std::ops::Range<usize>> {
+        let first = address * self.width;
+        (address < self.words()).then(|| first..first + self.width)
     }
 
     /// Combinational read as a ROM.
     #[track_caller]
     pub fn rom(&self, address: U) -> U {
+        if let Some((site, wrong)) = self.wrong() {
+            build::mistake(site, format!("contents of a ROM: {wrong}"));
+        }
         let memory = build::rom(self.width, self.iter().collect());
         let address = build::fit(address.0, unsigned(self.address), "the address");
         U(build::node(

@@ -4,7 +4,7 @@ use super::record::Site;
 use std::fmt;
 
 /// All that is wrong with a circuit: what [`elaborate`](super::elaborate) found, in its order.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Wrong(pub Vec<Mistake>);
 
 /// One thing that is wrong.
@@ -43,3 +43,20 @@ impl fmt::Display for Wrong {
 }
 
 impl std::error::Error for Wrong {}
+
+/// Prints errors by `Debug` as they are displayed: `unwrap`, and a `main` that returns one, print
+/// `Debug`, and all mistakes are to be read there, a line each.
+macro_rules! debug_as_display {
+    ($($error:ty),+) => {
+        $(
+            impl ::std::fmt::Debug for $error {
+                fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
+                    ::std::fmt::Display::fmt(self, f)
+                }
+            }
+        )+
+    };
+}
+pub(crate) use debug_as_display;
+
+debug_as_display!(Wrong);

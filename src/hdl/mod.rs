@@ -15,6 +15,7 @@ mod build;
 mod cost;
 mod declare;
 mod elaborate;
+mod keywords;
 pub(crate) mod leaves;
 mod macros;
 #[doc(hidden)]
@@ -30,6 +31,7 @@ pub(crate) mod outline;
 pub(crate) mod pack;
 pub(crate) mod part;
 mod place;
+mod ports;
 mod property;
 mod record;
 pub(crate) mod sample;
@@ -48,6 +50,7 @@ pub use declare::{Declaration, Declarations, MemoryDeclaration, Path};
 pub use elaborate::elaborate;
 pub use memory::{Contents, Image, Ram, Shift, Written, ram, shift};
 pub(crate) use memory::{STAGE, WORD};
+pub(crate) use mistake::debug_as_display;
 pub use mistake::{Mistake, Wrong};
 pub use model::{Described, Model};
 pub use mutation::Mutation;
@@ -65,14 +68,14 @@ pub use sample::{Lazy, Registers, Sample, State, Values};
 pub use signal::{Field, Format, Kind, Role, Shape};
 pub use simulator::{Simulator, Watcher};
 pub use view::{Edge, Kept, Place, Seen, Shapes, Value, View, Wire};
-pub use words::{Bit, Choice, I, Operand, U, Word, log2};
+pub use words::{Bit, Choice, Cut, I, Operand, U, Word, log2};
 
 /// What a circuit and its tests are written with.
 pub mod prelude {
     pub use super::{
-        Bit, Circuit, Edge, I, Image, Moment, Nothing, Part, Property, Ram, Seen, Settled, Shift,
-        Simulator, U, Value, View, Wire, Written, choice, log2, records, settle_each, signals,
-        zero,
+        Bit, Circuit, Cut, Edge, I, Image, Moment, Nothing, Part, Property, Ram, Seen, Settled,
+        Shift, Simulator, U, Value, View, Wire, Written, choice, log2, records, settle_each,
+        signals, zero,
     };
     pub use crate::check::{Fault, Invariants, Outcome, Specified, reach, require};
 }
@@ -83,6 +86,11 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 /// A clocked circuit; its fields are its widths, its variants, the contents of its memories.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no circuit",
+    note = "a circuit is a struct with `#[derive(Debug, Clone)]`, records from `signals!`, and \
+            `impl Circuit` with `NAME`, `ABOUT`, `records!(In, Reg, Net)` and `fn tick`"
+)]
 pub trait Circuit: Clone + Debug + Send + Sync + 'static {
     /// The circuit's name: the outermost scope of its waves, the module of its HDL.
     const NAME: &'static str;

@@ -1,11 +1,16 @@
 //! Elaborated circuits.
 
+use super::ports::Ports;
 use super::{Circuit, Declarations, Role, netlist::Design};
 use crate::engine::{Engine, EngineError, Flat, Program, Watch, ports_out};
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 /// What a [`Model`] can be made of: a circuit, or a model.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no circuit",
+    note = "a `Circuit` or an elaborated `Model` is wanted, by reference: `&circuit`"
+)]
 pub trait Described {
     /// The circuit elaborated.
     ///
@@ -101,7 +106,7 @@ impl Model {
     }
 
     /// It as one netlist.
-    pub fn flat(&self) -> &Flat {
+    pub(crate) fn flat(&self) -> &Flat {
         &self.flat
     }
 
@@ -113,7 +118,7 @@ impl Model {
             let mut engine = self.engine(Watch::All);
             engine.settle();
             for (leaf, declaration) in declarations.leaves.iter_mut().enumerate() {
-                declaration.power_on = engine.leaf(leaf);
+                declaration.power_on = engine.word(leaf);
             }
             Arc::new(declarations)
         })
@@ -125,7 +130,7 @@ impl Model {
     }
 
     /// It planned.
-    pub fn program(&self, watch: Watch<'_>) -> Arc<Program> {
+    pub(crate) fn program(&self, watch: Watch<'_>) -> Arc<Program> {
         self.program_with(watch, &[])
     }
 
@@ -141,10 +146,9 @@ impl Model {
         ports_out(&self.design)
     }
 
-    /// All bits of each port in.
-    pub(crate) fn masks(&self) -> Vec<u64> {
-        let widths = self.flat.inputs.iter();
-        widths.map(|width| u64::MAX >> (64 - width)).collect()
+    /// Its ports in.
+    pub(crate) fn ports(&self) -> Ports {
+        Ports::of(&self.design, &self.declare)
     }
 
     /// How many of its nets are its own, and not of a circuit inside it.

@@ -1,19 +1,21 @@
-//! Names that a module has twice, in its waves or in Verilog.
+//! Names that a module cannot have: those that it has twice, in its waves or in Verilog, and those
+//! that Verilog keeps for itself.
 
 use super::build::{self, Builder, Elaboration, elaboration, mistake};
+use super::keywords::is_reserved;
 use super::netlist::{Id, Module, Node};
 use super::record::Site;
 use super::signal::Role;
 use std::collections::BTreeMap;
 
-/// Tells of names that the module which is being made has twice, and of parts that are called as
-/// what is inside them.
-pub(super) fn check(site: Site) {
+/// Checks the names of the module that is being made, a circuit of this name.
+pub(super) fn check(site: Site, circuit: &str) {
     let wrong = elaboration(|Elaboration { open, modules, .. }| match open.last() {
         Some(builder) => {
-            let twice = builder.twice(modules).into_iter();
-            let twice = twice.map(|what| (site, what));
-            twice.chain(builder.hidden(modules)).collect()
+            let reserved = builder.reserved(circuit).into_iter();
+            let names = reserved.chain(builder.twice(modules, circuit));
+            let names = names.map(|what| (site, what));
+            names.chain(builder.hidden(modules)).collect()
         }
         None => Vec::new(),
     });
@@ -23,8 +25,24 @@ pub(super) fn check(site: Site) {
 }
 
 impl Builder {
-    /// Names that are used twice, by signals, memories and parts or by what Verilog makes of them.
-    fn twice(&self, modules: &[Module]) -> Vec<String> {
+    /// Names of the circuit, of its signals, memories and parts that are words of Verilog.
+    fn reserved(&self, circuit: &str) -> Vec<String> {
+        let own = self.signals.iter().filter(|own| own.owner.is_none());
+        let memories = self.memories.iter().filter(|memory| !memory.inner);
+        let names = own.map(|signal| &signal.name);
+        let names = names.chain(memories.map(|memory| &memory.name));
+        let names = names.chain(self.parts.iter().map(|part| &part.name));
+        let names = std::iter::once(circuit).chain(names.map(String::as_str));
+        let reserved = names.filter(|name| is_reserved(name));
+        let reserved = reserved.map(|name| {
+            format!("`{name}` is a word of Verilog or SystemVerilog, or kept for clock and reset")
+        });
+        reserved.collect()
+    }
+
+    /// Names that are used twice, by the circuit, its signals, memories and parts or by what
+    /// Verilog makes of them.
+    fn twice(&self, modules: &[Module], circuit: &str) -> Vec<String> {
         let mut names: BTreeMap<String, Vec<String>> = BTreeMap::new();
         let mut add = |name: String, of: String| {
             let all = names.entry(name).or_default();
@@ -37,6 +55,7 @@ impl Builder {
         for name in own.map(|signal| &signal.name).chain(parts) {
             add(name.clone(), String::new());
         }
+        add(circuit.to_owned(), String::new());
         for (index, memory) in self.memories.iter().enumerate() {
             if !memory.inner {
                 let rom = self.roms.contains(&index);

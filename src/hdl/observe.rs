@@ -1,12 +1,12 @@
 //! What looks at every tick of a run.
 
 use super::{Circuit, Sample};
-use crate::engine::EngineError;
+use crate::engine::{EngineError, InputError};
 use std::io;
 use std::ops::ControlFlow;
 
 /// Why a run ended before its time.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 pub enum RunError {
     /// The circuit cannot be run.
     #[error(transparent)]
@@ -14,6 +14,15 @@ pub enum RunError {
     /// The waves could not be written.
     #[error("the waves could not be written: {0}")]
     Waves(#[from] io::Error),
+    /// An input does not fit its port.
+    #[error("tick {tick}: {error}")]
+    Input {
+        /// The tick that it was for.
+        tick: u64,
+        /// What does not fit.
+        #[source]
+        error: InputError,
+    },
     /// A monitor saw what must not be.
     #[error("tick {tick}: {message} (signals: {})", signals.join(", "))]
     Violation {
@@ -26,9 +35,23 @@ pub enum RunError {
     },
 }
 
+crate::hdl::debug_as_display!(RunError);
+
+impl RunError {
+    /// An input of this tick does not fit.
+    pub(crate) fn at(tick: u64) -> impl FnOnce(InputError) -> RunError {
+        move |error| RunError::Input { tick, error }
+    }
+}
+
 /// Looks at every tick of a run: writes waves, records, monitors, stops.
 ///
 /// `()` observes nothing and costs nothing; a tuple observes with each of its parts in turn.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not observe runs of `{C}`",
+    note = "observers are `()`, `Vcd`, `Fst`, `Recorder`, `Monitor`, `StopWhen`, references to them, \
+            and tuples of two to four of them"
+)]
 pub trait Observer<C: Circuit> {
     /// The first tick from this one on at which it looks: of others [`sample`](Self::sample) takes
     /// nothing. Where ticks are [looked](super::Simulator::look) at one by one, those at which

@@ -45,7 +45,7 @@ impl Source for Shown<'_> {
     fn passing(&self) -> Pass {
         self.pass
     }
-    fn word(&mut self, field: &'static Field, shape: Shape, _: u64) -> u64 {
+    fn word(&mut self, field: &'static Field, shape: Shape, _: i128) -> u64 {
         self.outline.leaf(field, shape);
         0
     }

@@ -21,7 +21,7 @@ impl Source for Widths {
     fn passing(&self) -> Pass {
         self.pass.unwrap_or(Pass::Registers)
     }
-    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
+    fn word(&mut self, _: &'static Field, shape: Shape, _: i128) -> u64 {
         self.widths.push(shape.width);
         0
     }
@@ -86,7 +86,7 @@ pub fn inputs<C: Circuit>(circuit: &C, word: impl FnMut(Shape) -> u64) -> C::In<
 struct Given<F>(F);
 
 impl<F: FnMut(Shape) -> u64> Source for Given<F> {
-    fn word(&mut self, _: &'static Field, shape: Shape, _: u64) -> u64 {
+    fn word(&mut self, _: &'static Field, shape: Shape, _: i128) -> u64 {
         (self.0)(shape) & u64::MAX >> (64 - shape.width)
     }
     fn memory(

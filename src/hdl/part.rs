@@ -260,7 +260,7 @@ impl Source for Counted {
     fn element(&mut self, index: usize) {
         self.path.element(index);
     }
-    fn word(&mut self, field: &'static Field, shape: Shape, _: u64) -> u64 {
+    fn word(&mut self, field: &'static Field, shape: Shape, _: i128) -> u64 {
         self.push(field, shape, 0);
         0
     }

@@ -41,7 +41,7 @@ impl<T> At<T> {
 impl<T: Number> At<T> {
     #[inline]
     pub(crate) fn of(self, engine: &Engine) -> T {
-        T::of(engine.leaf(self.leaf as usize), self.spare)
+        T::of(engine.word(self.leaf as usize), self.spare)
     }
 }
 
@@ -67,6 +67,10 @@ impl<T> fmt::Debug for At<T> {
 }
 
 /// What is seen at a place.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no number that a signal has",
+    note = "a `Bit` is seen as `bool`, a `U` as `u64`, an `I` as `i64`"
+)]
 pub trait Number: Copy {
     /// From the word that stands there, and the number of bits above it.
     fn of(word: u64, spare: u32) -> Self;
@@ -176,7 +180,7 @@ impl Source for Leaves {
     fn passing(&self) -> Pass {
         self.0.passing()
     }
-    fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
+    fn word(&mut self, _: &'static Field, _: Shape, _: i128) -> u64 {
         self.0.take(1) as u64
     }
     fn memory(

@@ -197,7 +197,7 @@ impl Source for Again<'_> {
     fn passing(&self) -> Pass {
         self.pass
     }
-    fn word(&mut self, field: &'static Field, shape: Shape, power_on: u64) -> u64 {
+    fn word(&mut self, field: &'static Field, shape: Shape, power_on: i128) -> u64 {
         match self.pass {
             Pass::Registers => self.registers.word(field, shape, power_on),
             Pass::Nets => self.nets.word(field, shape, power_on),

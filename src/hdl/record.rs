@@ -10,12 +10,21 @@ use std::sync::Arc;
 ///
 /// A walk goes through the leaves in the order of declaration and never branches on a value, so the
 /// place of a leaf in the walk is its identity. Widths are those that the `C` says.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no record of signals of `{C}`",
+    note = "records are declared by `signals! {{ for {C} as c; pub struct In {{ … }} }}`; where there \
+            are no signals stands `Nothing`"
+)]
 pub trait Record<C: ?Sized, V: View>: Walk<V> {
     /// Makes one with each leaf given by `source`.
     fn make(of: &C, field: &'static Field, source: &mut dyn Source) -> Self;
 }
 
 /// A record that can be walked over, whatever it belongs to.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no record of signals",
+    note = "records are declared by `signals!`; where there are no signals stands `Nothing`"
+)]
 pub trait Walk<V: View>: Sized + 'static {
     /// Where it is declared.
     const SITE: Site;
@@ -122,8 +131,8 @@ pub trait Source {
     fn passing(&self) -> Pass {
         Pass::Registers
     }
-    /// A word; `power_on` is what a register holds then.
-    fn word(&mut self, field: &'static Field, shape: Shape, power_on: u64) -> u64;
+    /// A word; `power_on` is what a register holds then, before it is cut to the word.
+    fn word(&mut self, field: &'static Field, shape: Shape, power_on: i128) -> u64;
     /// A memory of so many words, each of which is called `label`; unless overridden, nobody looks at
     /// its words.
     fn memory(

@@ -3,6 +3,7 @@
 use super::Circuit;
 use super::memory::Contents;
 use super::place::{At, Number, Signals};
+use super::ports::Ports;
 use super::record::{Cells, MemoryShape, Pass, Places, Source};
 use super::view::{Kept, Value};
 use crate::engine::{Engine, Spot};
@@ -76,8 +77,8 @@ pub(crate) struct Known<C: Circuit> {
     pub circuit: C,
     /// How many ports in stand beside it.
     pub beside: usize,
-    /// All bits of each port in.
-    pub masks: Vec<u64>,
+    /// The values of ports in, those beside it last.
+    pub ports: Ports,
     /// How many nets are its own.
     nets: usize,
     signals: OnceLock<Signals<C>>,
@@ -88,7 +89,7 @@ impl<C: Circuit> Known<C> {
         Known {
             circuit: circuit.clone(),
             beside,
-            masks: model.masks(),
+            ports: model.ports(),
             nets: model.own_nets(),
             signals: OnceLock::new(),
         }
@@ -101,8 +102,8 @@ impl<C: Circuit> Known<C> {
     }
 
     /// How many ports in are the circuit's own.
-    pub fn ports(&self) -> usize {
-        self.masks.len() - self.beside
+    pub fn own_ports(&self) -> usize {
+        self.ports.count() - self.beside
     }
 }
 
@@ -137,8 +138,8 @@ impl<'a> View<'a> {
     #[inline]
     pub fn leaf(self, leaf: usize) -> u64 {
         match leaf < self.first {
-            true => self.engine.leaf(leaf),
-            false => self.engine.leaf(leaf + self.count),
+            true => self.engine.word(leaf),
+            false => self.engine.word(leaf + self.count),
         }
     }
 
@@ -241,7 +242,7 @@ impl<C: Circuit> Sample<'_, C> {
     pub(crate) fn view(&self) -> View<'_> {
         match self.alone {
             false => View::of(self.engine),
-            true => View::without(self.engine, self.known.ports()),
+            true => View::without(self.engine, self.known.own_ports()),
         }
     }
 
@@ -340,11 +341,11 @@ impl Source for Leaves<'_> {
     fn passing(&self) -> Pass {
         self.places.passing()
     }
-    fn word(&mut self, _: &'static Field, _: Shape, _: u64) -> u64 {
+    fn word(&mut self, _: &'static Field, _: Shape, _: i128) -> u64 {
         let leaf = self.places.take(1);
         match self.spots.get(leaf) {
             Some(Spot::Slot(slot)) => self.slab[*slot as usize],
-            _ => self.engine.leaf(leaf),
+            _ => self.engine.word(leaf),
         }
     }
     fn memory(

@@ -115,6 +115,25 @@ pub struct Shape {
     pub width: usize,
 }
 
+impl Shape {
+    /// Least and greatest number of a word.
+    pub fn range(self) -> (i128, i128) {
+        let width = self.width.clamp(1, 64);
+        match self.kind {
+            Kind::Signed => (-1 << (width - 1), (1 << (width - 1)) - 1),
+            Kind::Bit | Kind::Unsigned => (0, (1 << width) - 1),
+        }
+    }
+
+    /// Number that 64 bits mean before they are cut to the word.
+    pub(crate) fn number(self, bits: u64) -> i128 {
+        match self.kind {
+            Kind::Signed => (bits as i64).into(),
+            Kind::Bit | Kind::Unsigned => bits.into(),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

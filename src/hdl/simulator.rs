@@ -7,7 +7,7 @@ use super::place::{At, Number, Signals};
 use super::record::Walk;
 use super::sample::Known;
 use super::view::{Place, Shapes, Value};
-use super::{Beside, Circuit, Sample, State};
+use super::{Beside, Circuit, RunError, Sample, State};
 use crate::engine::{Engine, EngineError, Watch};
 use crate::hdl::Model;
 use std::cell::RefCell;
@@ -25,12 +25,12 @@ use std::sync::Arc;
 /// use motion_rtl::hdl::Simulator;
 ///
 /// let mut counter = Simulator::new(&EnableCounter { width: 8 })?;
-/// counter.set(|i| i.period, 4);
+/// counter.set(|i| i.period, 4)?;
 /// for tick in 0..12 {
 ///     assert_eq!(counter.see(|s| s.w.enable), tick % 4 == 3);
 ///     counter.step();
 /// }
-/// # Ok::<(), motion_rtl::engine::EngineError>(())
+/// # Ok::<(), motion_rtl::hdl::RunError>(())
 /// ```
 pub struct Simulator<C: Circuit> {
     engine: Engine,
@@ -208,40 +208,70 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Sets a port in, from this tick on.
+    ///
+    /// # Errors
+    /// The value does not fit the port, or the place is not a port in.
     #[inline]
-    pub fn set<T: Number>(&mut self, port: impl FnOnce(&C::In<Place>) -> At<T>, value: T) {
+    pub fn set<T: Number>(
+        &mut self,
+        port: impl FnOnce(&C::In<Place>) -> At<T>,
+        value: T,
+    ) -> Result<(), RunError> {
         let port = port(&self.known.signals().i);
-        self.set_port(port.leaf(), value.word());
+        self.put(port.leaf(), value.word())
     }
 
-    /// Sets a port in by its number, from 0 in the order of declaration, from this tick on: for who
-    /// plays what was recorded. Bits above its width are cut off; where there is no such port,
-    /// nothing is set.
-    pub fn set_port(&mut self, port: usize, word: u64) {
-        if let Some(mask) = self.known.masks.get(port) {
-            self.engine.input(port, word & mask);
-            self.settled = false;
-        }
+    /// Sets a port in by its number, counted from 0 in the order of declaration, to the bits of
+    /// `word`, from this tick on: for recorded inputs.
+    ///
+    /// # Errors
+    /// The word is wider than the port, or there is no such port.
+    pub fn set_port(&mut self, port: usize, word: u64) -> Result<(), RunError> {
+        let checked = self.known.ports.check_word(port, word);
+        checked.map_err(RunError::at(self.tick))?;
+        self.drive(port, word);
+        Ok(())
     }
 
-    /// Sets all ports in, from this tick on.
+    /// Sets a port in to a number of 64 bits.
     #[inline]
-    pub fn apply(&mut self, i: &C::In<Value>) {
-        self.words.clear();
-        i.words(&mut self.words);
-        for (word, mask) in self.words.iter_mut().zip(&self.known.masks) {
-            *word &= mask;
-        }
-        self.engine.inputs(&self.words);
+    fn put(&mut self, port: usize, number: u64) -> Result<(), RunError> {
+        let bits = self.known.ports.bits(port, number);
+        let bits = bits.map_err(RunError::at(self.tick))?;
+        self.drive(port, bits);
+        Ok(())
+    }
+
+    #[inline]
+    fn drive(&mut self, port: usize, bits: u64) {
+        self.engine.drive(port, bits);
         self.settled = false;
     }
 
+    /// Sets all ports in, from this tick on.
+    ///
+    /// # Errors
+    /// A value does not fit its port, or an array has another length; nothing is set then.
+    #[inline]
+    pub fn apply(&mut self, i: &C::In<Value>) -> Result<(), RunError> {
+        self.words.clear();
+        i.words(&mut self.words);
+        let own = self.known.own_ports();
+        let bits = self.known.ports.all_bits(own, &mut self.words);
+        bits.map_err(RunError::at(self.tick))?;
+        self.engine.drive_all(&self.words);
+        self.settled = false;
+        Ok(())
+    }
+
     /// Says what stands beside it, from this tick on.
-    pub fn show<B: Beside>(&mut self, beside: &B::Signals<Value>) {
-        let ports = self.known.ports();
-        for (port, token) in (ports..).zip(pack::tokens(beside)) {
-            self.set_port(port, token);
-        }
+    ///
+    /// # Errors
+    /// A value does not fit its signal.
+    pub fn show<B: Beside>(&mut self, beside: &B::Signals<Value>) -> Result<(), RunError> {
+        let ports = self.known.own_ports();
+        let mut numbers = (ports..).zip(pack::tokens(beside));
+        numbers.try_for_each(|(port, number)| self.put(port, number))
     }
 
     #[inline]
@@ -317,11 +347,11 @@ impl<C: Circuit> Simulator<C> {
     /// use motion_rtl::hdl::Simulator;
     ///
     /// let mut counter = Simulator::new(&EnableCounter { width: 8 })?;
-    /// counter.set(|i| i.period, 10);
+    /// counter.set(|i| i.period, 10)?;
     /// let enable = counter.signals().w.enable;
     /// let pulses = counter.samples(|now| now.get(enable)).take(1000).filter(|seen| *seen);
     /// assert_eq!(pulses.count(), 100);
-    /// # Ok::<(), motion_rtl::engine::EngineError>(())
+    /// # Ok::<(), motion_rtl::hdl::RunError>(())
     /// ```
     pub fn samples<T>(
         &mut self,
@@ -335,25 +365,35 @@ impl<C: Circuit> Simulator<C> {
     }
 
     /// Runs one tick with these inputs and shows its sample.
+    ///
+    /// # Errors
+    /// As [`apply`](Self::apply); the tick does not happen then.
     #[inline]
-    pub fn step_with<T>(&mut self, i: &C::In<Value>, show: impl FnOnce(&Sample<'_, C>) -> T) -> T {
+    pub fn step_with<T>(
+        &mut self,
+        i: &C::In<Value>,
+        show: impl FnOnce(&Sample<'_, C>) -> T,
+    ) -> Result<T, RunError> {
         self.step_with_reset(false, i, show)
     }
 
     /// The same; with `rst` high its edge is that of a [reset](Self::reset).
+    ///
+    /// # Errors
+    /// As [`apply`](Self::apply); the tick does not happen then.
     #[inline]
     pub fn step_with_reset<T>(
         &mut self,
         rst: bool,
         i: &C::In<Value>,
         show: impl FnOnce(&Sample<'_, C>) -> T,
-    ) -> T {
-        self.apply(i);
+    ) -> Result<T, RunError> {
+        self.apply(i)?;
         let shown = self.now(show);
         match rst {
             true => self.reset(),
             false => self.step(),
         }
-        shown
+        Ok(shown)
     }
 }

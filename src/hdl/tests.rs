@@ -9,8 +9,8 @@ fn mistakes<C: Circuit>(circuit: &C, from: u32, expected: &Expect) {
     let wrong = elaborate(circuit).expect_err("something is wrong");
     let mut text = String::new();
     for mut mistake in wrong.0 {
-        assert_eq!(mistake.site.file, file!());
-        mistake.site.file = "tests.rs";
+        let (_, file) = mistake.site.file.rsplit_once('/').expect("a path");
+        mistake.site.file = file;
         mistake.site.line = mistake.site.line.wrapping_sub(from);
         text += &format!("{mistake}\n");
     }
@@ -418,7 +418,7 @@ fn what_verilog_makes_stands_once() {
 #[test]
 fn a_module_has_a_name_of_its_own() {
     let mut modules = Vec::new();
-    for (name, width) in [("it_2", 1), ("it", 2), ("it", 3), ("it", 2)] {
+    for (name, width) in [("it_2", 2), ("it", 3), ("it", 4), ("it", 3)] {
         let other = width;
         let mut made = elaborate(&Counter { width, other }).unwrap().modules;
         made[0].name = name.to_owned();
@@ -453,4 +453,6 @@ fn a_panic_of_the_circuits_own_code_is_told() {
     elaborate(&Counter { width: 4, other: 4 }).unwrap();
 }
 
+mod constants;
+mod inputs;
 mod running;

@@ -7,18 +7,93 @@ use crate::hdl::netlist::{Node, Operator};
 use std::ops::{Add, BitAnd, BitOr, BitXor, Neg, Not, Sub};
 
 /// One wire.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+///
+/// Wires have no value while a circuit is elaborated, so Rust cannot ask for one. `==`, `<` and `if`
+/// do not compile; [`equals`](U::equals), [`below`](U::below) and [`mux`](Bit::mux) are the gates.
+///
+/// ```
+/// # use motion_rtl::hdl::prelude::*;
+/// # #[derive(Debug, Clone)] struct C;
+/// # signals! { for C as _c; pub struct In { limit: U(6), go: Bit } pub struct Reg { pub count: U(6) } }
+/// # impl Circuit for C {
+/// # const NAME: &'static str = "c"; const ABOUT: &'static str = "c"; records!(In, Reg, Nothing);
+/// fn tick(&self, i: In, q: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+///     let full = q.count.equals(i.limit) | i.limit.below(q.count);
+///     let count = i.go.mux((!full).mux(q.count + 1, 0), q.count);
+///     (Nothing, Reg { count })
+/// }
+/// # }
+/// ```
+///
+/// ```compile_fail,E0369
+/// # use motion_rtl::hdl::prelude::*;
+/// # #[derive(Debug, Clone)] struct C;
+/// # signals! { for C as _c; pub struct In { limit: U(6), go: Bit } pub struct Reg { pub count: U(6) } }
+/// # impl Circuit for C {
+/// # const NAME: &'static str = "c"; const ABOUT: &'static str = "c"; records!(In, Reg, Nothing);
+/// fn tick(&self, i: In, q: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+///     let count = if q.count == i.limit { q.count } else { q.count + 1 };
+///     (Nothing, Reg { count })
+/// }
+/// # }
+/// ```
+///
+/// ```compile_fail,E0369
+/// # use motion_rtl::hdl::prelude::*;
+/// # #[derive(Debug, Clone)] struct C;
+/// # signals! { for C as _c; pub struct In { limit: U(6), go: Bit } pub struct Reg { pub count: U(6) } }
+/// # impl Circuit for C {
+/// # const NAME: &'static str = "c"; const ABOUT: &'static str = "c"; records!(In, Reg, Nothing);
+/// fn tick(&self, i: In, q: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+///     let count = if q.count < i.limit { q.count + 1 } else { q.count };
+///     (Nothing, Reg { count })
+/// }
+/// # }
+/// ```
+///
+/// ```compile_fail,E0308
+/// # use motion_rtl::hdl::prelude::*;
+/// # #[derive(Debug, Clone)] struct C;
+/// # signals! { for C as _c; pub struct In { limit: U(6), go: Bit } pub struct Reg { pub count: U(6) } }
+/// # impl Circuit for C {
+/// # const NAME: &'static str = "c"; const ABOUT: &'static str = "c"; records!(In, Reg, Nothing);
+/// fn tick(&self, i: In, q: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+///     let count = if i.go { q.count + 1 } else { q.count };
+///     (Nothing, Reg { count })
+/// }
+/// # }
+/// ```
+///
+/// Two constants have no width:
+///
+/// ```compile_fail,E0277
+/// # use motion_rtl::hdl::prelude::*;
+/// # #[derive(Debug, Clone)] struct C;
+/// # signals! { for C as _c; pub struct In { limit: U(6), go: Bit } pub struct Reg { pub count: U(6) } }
+/// # impl Circuit for C {
+/// # const NAME: &'static str = "c"; const ABOUT: &'static str = "c"; records!(In, Reg, Nothing);
+/// fn tick(&self, i: In, q: Reg, _: Nothing) -> (Nothing, Reg<Edge>) {
+///     let count = q.count + i.go.mux(0, 1);
+///     (Nothing, Reg { count })
+/// }
+/// # }
+/// ```
+#[derive(Debug, Clone, Copy)]
 pub struct Bit(pub(super) Id);
 
 /// An unsigned word; arithmetic is modulo 2^width.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub struct U(pub(super) Id);
 
 /// A two's complement word; arithmetic is modulo 2^width.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub struct I(pub(super) Id);
 
 /// A wire or word.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no wire",
+    note = "wires are `Bit`, `U` and `I`; a constant is one with a width, `U::new(5, width)`"
+)]
 pub trait Word: Copy {
     #[doc(hidden)]
     fn id(self) -> Id;
@@ -27,6 +102,14 @@ pub trait Word: Copy {
 }
 
 /// What stands beside a word: another, or a constant, which takes the width of the word.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot stand beside a word `{W}`",
+    label = "neither a `{W}` nor a constant for one",
+    note = "beside a `Bit` stands a `Bit` or a `bool`, beside a `U` a `U` or a `u64`, beside an `I` \
+            an `I` or an `i64`",
+    note = "the same bits read otherwise: `word.signed()`, `word.unsigned()`, `bit.word()`; another \
+            width: `word.resize(width)`"
+)]
 pub trait Operand<W: Word> {
     #[doc(hidden)]
     fn beside(self, word: W) -> Id;
@@ -48,19 +131,26 @@ impl Operand<Bit> for bool {
 impl Operand<U> for u64 {
     #[track_caller]
     fn beside(self, word: U) -> Id {
-        constant(self, build::shape(word.0))
+        build::number_beside(self.into(), word.0)
     }
 }
 
 impl Operand<I> for i64 {
     #[track_caller]
     fn beside(self, word: I) -> Id {
-        constant(self as u64, build::shape(word.0))
+        build::number_beside(self.into(), word.0)
     }
 }
 
 /// What a [multiplexer](Bit::mux) can choose between: words of one kind, or such a word and a
 /// constant.
+#[diagnostic::on_unimplemented(
+    message = "`mux` cannot choose between `{Self}` and `{Other}`",
+    label = "a word and a constant, or two words of one kind, are wanted",
+    note = "two constants have no width: write `U::new(0, width)`, `I::new(-1, width)` or \
+            `Bit::low()` for one of them",
+    note = "two words are of the same kind: `Bit`, `U` or `I`"
+)]
 pub trait Choice<Other> {
     /// What comes out.
     type Word;
@@ -97,6 +187,17 @@ fn same(a: Id, b: Id, what: &str) -> Id {
         format!("{what} of {first} ({left_bits}) and {second} ({right_bits})"),
     );
     resize(b, left)
+}
+
+/// Bits that a word has not.
+#[cold]
+#[track_caller]
+fn not_there(what: String, word: Id) {
+    let (name, width) = builder(|builder| (builder.describe(word), builder.shape(word).width));
+    mistake(
+        here(),
+        format!("{what} of {name}, which has {}", bits(width)),
+    );
 }
 
 macro_rules! word {
@@ -319,10 +420,10 @@ arithmetic!(U, unsigned);
 arithmetic!(I, signed);
 
 impl U {
-    /// A constant, taken modulo 2^`width`.
+    /// A constant, 0 to 2^`width` − 1.
     #[track_caller]
     pub fn new(value: u64, width: usize) -> Self {
-        U(constant(value, unsigned(width)))
+        U(build::number(value.into(), unsigned(width)))
     }
 
     /// A value that is fixed at elaboration and may differ between circuits of one kind: a
@@ -332,13 +433,14 @@ impl U {
         U(build::parameter(name, value, unsigned(width)))
     }
 
-    /// Bit `index`, 0 the least significant; one that is not there reads low.
+    /// Bit `index`, 0 the least significant.
     #[track_caller]
     pub fn bit(self, index: usize) -> Bit {
-        match index < self.width() {
-            true => Bit(node(Node::Slice(self.0, index), BIT)),
-            false => Bit::low(),
+        if index >= self.width() {
+            not_there(format!("bit {index}"), self.0);
+            return Bit::low();
         }
+        Bit(node(Node::Slice(self.0, index), BIT))
     }
 
     /// Zero-extended or cut to `width` bits.
@@ -351,15 +453,9 @@ impl U {
     #[track_caller]
     pub fn slice(self, low: usize, width: usize) -> Self {
         let shape = build::word(unsigned(width), "a slice");
-        let there = self.width();
-        if low + shape.width > there {
-            let name = builder(|builder| builder.describe(self.0));
-            let last = low + shape.width - 1;
-            let there = bits(there);
-            mistake(
-                here(),
-                format!("bits {last} down to {low} of {name}, which has {there}"),
-            );
+        let last = low.saturating_add(shape.width - 1);
+        if last >= self.width() {
+            not_there(format!("bits {last} down to {low}"), self.0);
             return U(constant(0, shape));
         }
         U(node(Node::Slice(self.0, low), shape))
@@ -392,10 +488,10 @@ impl U {
 }
 
 impl I {
-    /// A constant, taken modulo 2^`width`.
+    /// A constant, −2^(`width` − 1) to 2^(`width` − 1) − 1.
     #[track_caller]
     pub fn new(value: i64, width: usize) -> Self {
-        I(constant(value as u64, signed(width)))
+        I(build::number(value.into(), signed(width)))
     }
 
     /// The sign bit.
@@ -444,6 +540,32 @@ impl I {
     #[track_caller]
     pub fn unsigned(self) -> U {
         U(node(Node::Cast(self.0), unsigned(self.width())))
+    }
+}
+
+/// Numbers that are cut to a width on purpose: `(x + 1).cut(8)` fits a word of 8 bits whatever `x`.
+pub trait Cut {
+    /// Number that the low `width` bits mean.
+    fn cut(self, width: usize) -> Self;
+}
+
+impl Cut for u64 {
+    fn cut(self, width: usize) -> u64 {
+        match width {
+            0 => 0,
+            1..64 => self & u64::MAX >> (64 - width),
+            _ => self,
+        }
+    }
+}
+
+impl Cut for i64 {
+    fn cut(self, width: usize) -> i64 {
+        match width {
+            0 => 0,
+            1..64 => self << (64 - width) >> (64 - width),
+            _ => self,
+        }
     }
 }
 

@@ -347,7 +347,7 @@ mod tests {
         // A name of 15 characters takes 118 pixels of the 852 from 147 on.
         let rows = |curves| panel(curves).legend_rows(1000.0, 80.0);
         assert_eq!(rows(0), []);
-        assert_eq!(rows(7), [0..7]);
+        assert_eq!(rows(7), std::slice::from_ref(&(0..7)));
         assert_eq!(rows(8), [0..7, 7..8]);
         assert_eq!(rows(15), [0..7, 7..14, 14..15]);
         assert_eq!(height(0), height(7));

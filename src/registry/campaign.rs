@@ -91,7 +91,7 @@ pub enum Found {
 }
 
 /// Why faults cannot be looked for.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CampaignError {
     /// The circuit, or one around it, cannot be elaborated.
     #[error(transparent)]
@@ -105,6 +105,8 @@ pub enum CampaignError {
         failure: Box<ChartFailure>,
     },
 }
+
+crate::hdl::debug_as_display!(CampaignError);
 
 /// A circuit made with numbers, and the charts of it.
 struct Made<'c> {
@@ -257,7 +259,7 @@ impl Campaign {
             random.apply(&mut engine);
             engine.settle();
             for leaf in &ports {
-                if !see(tick, *leaf, engine.leaf(*leaf)) {
+                if !see(tick, *leaf, engine.word(*leaf)) {
                     return;
                 }
             }

@@ -6,7 +6,7 @@ use crate::files::Directory;
 use crate::hdl::{self, Circuit, Declarations, Model, RunError};
 use crate::trace::chart::{Chart, ChartFailure};
 use crate::trace::{Clock, Layout, LayoutError};
-use crate::verilog::{Connections, Verilog, VerilogError};
+use crate::verilog::{Connections, Verilog};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -71,9 +71,9 @@ impl dyn AnyModel + '_ {
     /// It as Verilog.
     ///
     /// # Errors
-    /// It cannot be printed.
-    pub fn verilog(&self) -> Result<Verilog, VerilogError> {
-        Verilog::of_model(self.model())
+    /// It is no netlist.
+    pub fn verilog(&self) -> Result<Verilog, EngineError> {
+        Verilog::of(&self.model()?)
     }
 
     /// What it is made of, and how that is connected.

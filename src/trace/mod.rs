@@ -47,7 +47,8 @@ const FOCUS: u64 = 40;
 /// Both files appear whole; where something fails, no new file is there.
 ///
 /// # Errors
-/// The files cannot be written; two signals of the circuit have the same name.
+/// The files cannot be written; two signals of the circuit have the same name; a tick has not one
+/// word for each port in, or a word is wider than its port.
 pub fn replay(
     circuit: &impl Described,
     inputs: impl IntoIterator<Item = Vec<u64>>,
@@ -80,11 +81,10 @@ pub(crate) fn play(
     let mut waves = Dump::new(&layout, clock, &Options::default(), file);
     let mut engine = model.engine(Watch::All);
     let mut ticks = 0;
-    let masks = model.masks();
+    let ports = model.ports();
     for i in inputs {
-        for (port, (word, mask)) in i.iter().zip(&masks).enumerate() {
-            engine.input(port, word & mask);
-        }
+        ports.check_words(&i).map_err(RunError::at(ticks))?;
+        engine.drive_all(&i);
         engine.settle();
         waves.tick(ticks, View::of(&engine))?;
         engine.edge();

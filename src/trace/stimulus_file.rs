@@ -1,4 +1,4 @@
-use crate::engine::Engine;
+use crate::engine::{Engine, InputError};
 use crate::hdl;
 use crate::hdl::{Described, Role, RunError};
 use std::io::{self, Write};
@@ -46,8 +46,10 @@ impl<W: Write> StimulusFile<W> {
     /// Writes the tick that comes next: the words of its ports in.
     ///
     /// # Errors
-    /// The writer failed.
+    /// The writer failed; there is not one word for each port in, or a word is wider than its port.
     pub fn line(&mut self, i: &[u64], rst: bool) -> io::Result<()> {
+        let refused = |error| io::Error::new(io::ErrorKind::InvalidInput, error);
+        self.lines.check(i).map_err(refused)?;
         self.lines.word.clear();
         for (word, &width) in i.iter().zip(&self.lines.widths) {
             self.lines.word.push(*word, width);
@@ -110,6 +112,20 @@ impl Lines {
         }
     }
 
+    /// Checks the words of a tick.
+    fn check(&self, words: &[u64]) -> Result<(), InputError> {
+        let (words_given, ports) = (words.len(), self.widths.len());
+        if words_given != ports {
+            let words = words_given;
+            return Err(InputError::Count { words, ports });
+        }
+        let mut words = words.iter().zip(&self.widths).enumerate();
+        words.try_for_each(|(port, (&word, &width))| match word >> (width - 1) >> 1 {
+            0 => Ok(()),
+            _ => Err(InputError::bits(port.to_string(), word, width)),
+        })
+    }
+
     /// Ends it.
     fn end(&mut self, rst: bool, out: &mut dyn Write) -> io::Result<()> {
         self.word.push(rst.into(), 1);
@@ -132,7 +148,7 @@ impl Lines {
     ) -> io::Result<()> {
         self.word.clear();
         for (port, &width) in self.widths.iter().enumerate() {
-            self.word.push(engine.port(port), width);
+            self.word.push(engine.port(port).unwrap_or(0), width);
         }
         self.end(rst, out)
     }

@@ -11,7 +11,7 @@
 //! let sources = Verilog::of(&EnableCounter { width: 24 })?.sources();
 //! assert_eq!(sources[0].name, "enable_counter.v");
 //! assert!(sources[0].text.contains("wire [23:0] next = count + 24'd1;"));
-//! # Ok::<(), motion_rtl::verilog::VerilogError>(())
+//! # Ok::<(), motion_rtl::engine::EngineError>(())
 //! ```
 
 mod connections;
@@ -21,7 +21,6 @@ mod expression;
 mod formal;
 mod header;
 mod instances;
-mod keywords;
 mod memories;
 mod module;
 mod names;
@@ -31,11 +30,10 @@ mod text;
 mod unused;
 
 use crate::engine::EngineError;
+use crate::hdl::Described;
 use crate::hdl::netlist::{Design, Value};
-use crate::hdl::{Described, Model};
 pub use connections::{Connection, Connections, Part};
 use design::Modules;
-use std::collections::HashSet;
 use std::fmt::Write as _;
 
 /// A circuit as Verilog-2001.
@@ -53,43 +51,13 @@ pub struct SourceFile {
     pub text: String,
 }
 
-/// Why a circuit cannot be had as Verilog.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum VerilogError {
-    /// It is no netlist.
-    #[error(transparent)]
-    Engine(EngineError),
-    /// A name that has another meaning.
-    #[error("{module}: {name} is a word of Verilog or kept for the clock and the reset")]
-    Reserved {
-        /// The circuit.
-        module: String,
-        /// The name.
-        name: String,
-    },
-    /// A name that is used twice.
-    #[error("{module}: {name} is declared twice")]
-    Twice {
-        /// The circuit.
-        module: String,
-        /// The name.
-        name: String,
-    },
-}
-
 impl Verilog {
     /// The modules of a circuit and of those inside it.
     ///
     /// # Errors
-    /// The circuit is no netlist, or has names that Verilog does not take.
-    pub fn of(circuit: &impl Described) -> Result<Self, VerilogError> {
-        Self::of_model(circuit.described())
-    }
-
-    /// Those of a circuit that was elaborated, if it could be.
-    pub(crate) fn of_model(model: Result<Model, EngineError>) -> Result<Self, VerilogError> {
-        let design = model.map_err(VerilogError::Engine)?.design().clone();
-        check_names(&design)?;
+    /// All that is wrong with the circuit.
+    pub fn of(circuit: &impl Described) -> Result<Self, EngineError> {
+        let design = circuit.described()?.design().clone();
         Ok(Verilog { design })
     }
 
@@ -147,31 +115,4 @@ impl Verilog {
         let top = self.design.modules.last()?;
         Some(testbench::testbench(&self.modules(), top))
     }
-}
-
-/// Finds names that Verilog does not take.
-fn check_names(design: &Design) -> Result<(), VerilogError> {
-    for module in &design.modules {
-        let own = module
-            .signals
-            .iter()
-            .filter(|signal| signal.owner.is_none());
-        let memories = module.memories.iter().filter(|memory| !memory.inner);
-        let names = own
-            .map(|signal| &signal.name)
-            .chain(memories.map(|memory| &memory.name))
-            .chain(module.instances.iter().map(|child| &child.name));
-        let mut seen = HashSet::new();
-        for name in names.chain([&module.name]) {
-            let module = module.name.clone();
-            let name = name.clone();
-            if keywords::is_reserved(&name) {
-                return Err(VerilogError::Reserved { module, name });
-            }
-            if !seen.insert(name.clone()) {
-                return Err(VerilogError::Twice { module, name });
-            }
-        }
-    }
-    Ok(())
 }

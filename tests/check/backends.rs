@@ -58,8 +58,9 @@ fn same(name: &str, model: &Model) {
                 None if tick == 0 => other.engine.interpret(),
                 _ => {}
             }
-            for port in 0..model.flat().inputs.len() {
-                other.engine.input(port, reference.port(port));
+            for port in 0..reference.ports() {
+                let word = reference.port(port).unwrap();
+                other.engine.input(port, word).unwrap();
             }
             other.engine.settle();
             for &leaf in other.leaves {

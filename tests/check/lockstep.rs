@@ -190,6 +190,10 @@ fn a_pair_stands_in_two_scopes() {
         right: Up { n: 3 },
     };
     let mut simulator = Simulator::new(&pair).unwrap();
-    assert!(!simulator.step_with(&zero(&pair), |now| now.p.left.w.parity));
+    assert!(
+        !simulator
+            .step_with(&zero(&pair), |now| now.p.left.w.parity)
+            .unwrap()
+    );
     assert_eq!(paths(&pair)[1], "pair.toggle.last");
 }

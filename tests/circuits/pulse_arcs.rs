@@ -78,7 +78,7 @@ fn play(axes: usize, period: u64, arcs: &[Arc]) -> (Vec<Vec<i64>>, u64) {
                 ends.push(at.clone());
             }
         }
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
     }
     (ends, late)
 }

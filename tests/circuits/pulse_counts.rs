@@ -110,7 +110,7 @@ fn the_literal_generator_takes_no_notice_of_rst() {
                     half_period,
                     unit_rst: tick % rst_every == rst_every - 1,
                 };
-                let pulse = simulator.step_with(&i, |now| now.w.pulse);
+                let pulse = simulator.step_with(&i, |now| now.w.pulse).unwrap();
                 let expected = (tick + 1) / half_period % 2 == 1;
                 assert_eq!(pulse, expected, "n = {half_period}, tick {tick}");
             }

@@ -62,13 +62,16 @@ impl Axis {
             gain: self.gain,
             window: 0,
         };
-        let seen = self.simulator.step_with(&i, |now| Seen {
-            deviation: now.w.deviation,
-            in_position: now.w.in_position,
-            speed_ref: now.w.speed_ref,
-            saturated: now.w.saturated,
-            lost: now.w.lost,
-        });
+        let seen = self
+            .simulator
+            .step_with(&i, |now| Seen {
+                deviation: now.w.deviation,
+                in_position: now.w.in_position,
+                speed_ref: now.w.speed_ref,
+                saturated: now.w.saturated,
+                lost: now.w.lost,
+            })
+            .unwrap();
         self.levels = self.servo.step(seen.speed_ref, FULL);
         seen
     }

@@ -171,7 +171,9 @@ mod tests {
     const FULL: RatioLogic = RatioLogic { stages: 199 };
 
     fn of(simulator: &mut Simulator<RatioLogic>, lead_time: u64) -> Net<Value> {
-        simulator.step_with(&In { lead_time }, |now| (*now.w).clone())
+        simulator
+            .step_with(&In { lead_time }, |now| (*now.w).clone())
+            .unwrap()
     }
 
     /// The table of the text, row by row.

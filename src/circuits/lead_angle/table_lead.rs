@@ -48,10 +48,14 @@ impl LeadTable {
                 word - (1 << address)
             }) << fraction
         };
+        // In two's complement, modulo 2^position as a position is.
+        let words = |value: &dyn Fn(usize) -> i64| {
+            Image::from_fn(address, position, |word| (value(word) as u64).cut(position))
+        };
         let grows = |speed: i64| lead(speed + (1 << fraction)) - lead(speed);
         LeadTable {
-            leads: Image::from_fn(address, position, |word| lead(speed(word)) as u64),
-            increments: Image::from_fn(address, position, |word| grows(speed(word)) as u64),
+            leads: words(&|word| lead(speed(word))),
+            increments: words(&|word| grows(speed(word))),
             fraction,
         }
     }
@@ -74,19 +78,19 @@ pub struct TableLead {
 }
 
 impl TableLead {
-    /// A memory with words as wide as a position.
-    fn rom(&self, words: &Image) -> Image {
-        Image::of(self.table.leads.address(), self.position, words.iter())
-    }
-
     /// The first word, as a lead.
-    fn at_rest(&self) -> u64 {
-        self.rom(&self.table.leads).iter().next().unwrap_or(0)
+    fn at_rest(&self) -> i64 {
+        self.first(&self.table.leads)
     }
 
     /// The same of the increments.
-    fn increment_at_rest(&self) -> u64 {
-        self.rom(&self.table.increments).iter().next().unwrap_or(0)
+    fn increment_at_rest(&self) -> i64 {
+        self.first(&self.table.increments)
+    }
+
+    fn first(&self, words: &Image) -> i64 {
+        let word = words.get(0).unwrap_or(0) as i64;
+        word.cut(self.position)
     }
 }
 
@@ -173,7 +177,7 @@ impl Circuit for TableLead {
         let held = covered.mux(cut, end);
         let word = held.unsigned();
         let address = word.slice(fraction, leads.address());
-        let read = |words: &Image| self.rom(words).rom(address).signed();
+        let read = |words: &Image| words.rom(address).signed();
         let share = q.part.resize(fraction + 1).signed();
         let product = q.increment.times(share, self.position + fraction + 1);
         let edge = Reg {

@@ -16,7 +16,7 @@ use crate::circuits::arc_generator::generator::{self, ArcGenerator, Segments};
 use crate::circuits::lead_angle::{Compensator, LeadForm, LeadFrom, Memory, compensator};
 use crate::circuits::linear_interpolator::LinearInterpolator;
 use crate::circuits::linear_interpolator::command_source::{self, Orders};
-use crate::circuits::pulse_interpolator::{Group, group};
+use crate::circuits::pulse_interpolator::{self, Group, group};
 use crate::circuits::trajectory_controller::error_feedback::FeedbackGains;
 use crate::circuits::trajectory_controller::vector_correction::Correction;
 use crate::circuits::trajectory_controller::{self, TrajectoryController, controller};
@@ -46,8 +46,11 @@ impl Machine {
             segment: 8,
             ..trajectory_controller::Widths::FULL
         };
+        let pulse = pulse_interpolator::Widths::default();
+        // The machine's own enable ends the unit time.
+        let period = u64::MAX.cut(pulse.period);
         Machine {
-            pulse_interpolator: Group::new(2, Default::default(), Default::default(), u64::MAX),
+            pulse_interpolator: Group::new(2, pulse, Default::default(), period),
             linear_interpolator: LinearInterpolator::default(),
             arc_generator: ArcGenerator::default(),
             trajectory_controller: TrajectoryController::new(
@@ -176,6 +179,7 @@ impl Circuit for Machine {
     fn tick(&self, i: In, _: Nothing, p: Parts) -> (Net, Nothing) {
         let (low, halt) = (Bit::low(), i.halt);
         let enables = p.enables.settle(i.rates);
+        let period = self.pulse_interpolator.widths.period;
         let of = i.pulse;
         let pulse = p.pulse_interpolator.settle(group::In {
             command: of.command,
@@ -185,7 +189,7 @@ impl Circuit for Machine {
             run: of.run,
             now: of.now,
             // Its own counter never ends a unit time: the enable does.
-            period: U::new(u64::MAX, self.pulse_interpolator.widths.period),
+            period: U::new(u64::MAX.cut(period), period),
             write_period: low,
             unit_end: enables.w.unit,
             port: of.port,

@@ -84,7 +84,7 @@ impl Circuit for Enables {
         let enable = |counter: Part<EnableCounter>, period| {
             counter.settle(enable_counter::In { period }).w.enable
         };
-        let led = |enable: Bit| enable.mux(U::new(0, self.width), u64::MAX);
+        let led = |enable: Bit| enable.mux(U::new(0, self.width), u64::MAX.cut(self.width));
         let ck = enable(p.ck_counter, i.ck_period);
         let sample = enable(p.sample_counter, i.sample_period);
         let net = Net {

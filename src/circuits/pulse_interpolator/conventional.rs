@@ -198,13 +198,13 @@ mod tests {
         for tick in 0u64.. {
             let ready = simulator.see(|s| s.w.ready);
             let now = moves.get(given).filter(|_| ready);
-            simulator.set(|i| i.order.command, now.is_some());
+            simulator.set(|i| i.order.command, now.is_some()).unwrap();
             if let Some((delta, units, period)) = now {
                 for (axis, steps) in delta.iter().enumerate() {
-                    simulator.set(|i| i.order.delta[axis], *steps);
+                    simulator.set(|i| i.order.delta[axis], *steps).unwrap();
                 }
-                simulator.set(|i| i.order.units, *units);
-                simulator.set(|i| i.order.period, *period);
+                simulator.set(|i| i.order.units, *units).unwrap();
+                simulator.set(|i| i.order.period, *period).unwrap();
                 given += 1;
             }
             let step: Vec<_> = (0..axes)

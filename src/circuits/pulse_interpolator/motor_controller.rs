@@ -236,7 +236,7 @@ impl Circuit for MotorController {
             begins,
             divided,
             result: (0..self.axes).map(|axis| divided & is(axis)).collect(),
-            rounded: above.mux(u64::MAX, i.quotient.resize(half_period)),
+            rounded: above.mux(u64::MAX.cut(half_period), i.quotient.resize(half_period)),
             prepared,
             late: i.unit_rst & !prepared & (q.pending | !none_left),
             dividend: lengths.mux(q.unit_period.resize(word), chosen(&|words| words.distance)),

@@ -44,8 +44,9 @@ fn fitted(image: &Image, address: usize, width: usize) -> Image {
     if (image.address(), image.width()) == (address, width) {
         return image.clone();
     }
-    let fitted = Image::of(address, width, image.iter());
-    let lost = |(place, word)| word != 0 && (place >= fitted.words() || fitted.get(place) != word);
+    let mut words = image.iter();
+    let fitted = Image::from_fn(address, width, |_| words.next().unwrap_or(0).cut(width));
+    let lost = |(place, word)| word != 0 && fitted.get(place) != Some(word);
     match image.iter().enumerate().any(lost) {
         true => image.clone(),
         false => fitted,

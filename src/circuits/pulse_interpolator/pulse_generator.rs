@@ -110,7 +110,7 @@ impl Circuit for PulseGenerator {
             Property::always(
                 "the count never reaches its greatest value",
                 &["count"],
-                q.count.below(u64::MAX),
+                q.count.below(u64::MAX.cut(self.width)),
             ),
         ]
     }

@@ -12,7 +12,6 @@ impl Planning<'_> {
         let (level, instance) = self.order[place];
         let mut block = Block {
             instance,
-            level,
             ..Block::default()
         };
         let mut making = Making {

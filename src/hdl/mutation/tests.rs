@@ -36,7 +36,7 @@ signals! { for Sum as c;
 }
 
 impl Circuit for Sum {
-    const NAME: &'static str = "sum";
+    const NAME: &'static str = "adder";
     const ABOUT: &'static str = "adds up to a limit";
     records!(In, Reg, Net);
 
@@ -60,7 +60,7 @@ impl Circuit for Sum {
 }
 
 fn all(circuit: &Sum) -> Vec<Mutation> {
-    mutations("sum", || model(circuit)).1
+    mutations("adder", || model(circuit)).1
 }
 
 /// The registers after each tick, and the net in it.
@@ -69,11 +69,11 @@ fn run(model: &Model, inputs: &[[i64; 4]]) -> Vec<(i64, u64)> {
     let mut seen = Vec::new();
     for ports in inputs {
         let ports = ports.map(|port| port as u64 & 0xf);
-        engine.inputs(&[ports[0] & 1, ports[1] & 1, ports[2], ports[3]]);
+        engine.drive_all(&[ports[0] & 1, ports[1] & 1, ports[2], ports[3]]);
         engine.settle();
-        let over = engine.leaf(5);
+        let over = engine.word(5);
         engine.edge();
-        seen.push((((engine.leaf(4) << 60) as i64) >> 60, over));
+        seen.push((((engine.word(4) << 60) as i64) >> 60, over));
     }
     seen
 }
@@ -233,7 +233,7 @@ fn without_a_fault_a_circuit_is_as_before() {
         assert_eq!(model(&sum).unwrap().design(), before.design());
     }
     let other = Mutation {
-        circuit: "sum".to_owned(),
+        circuit: "adder".to_owned(),
         place: Place::Signal("over".to_owned()),
         change: Change::PowerOn,
     };

@@ -10,7 +10,8 @@ impl<C: Circuit> Simulator<C> {
     /// `stimulus` gives the inputs of a tick from its number and its registers.
     ///
     /// # Errors
-    /// The first error of an observer; the run is over then.
+    /// An input that does not fit its port, or the first error of an observer; the run is over
+    /// then.
     pub fn run(
         &mut self,
         ticks: u64,
@@ -20,7 +21,7 @@ impl<C: Circuit> Simulator<C> {
         let end = self.tick.saturating_add(ticks);
         while self.tick < end {
             let i = self.state(|q| stimulus(self.tick, q));
-            self.apply(&i);
+            self.apply(&i)?;
             let flow = self.now(|now| observer.sample(now));
             self.edge();
             if flow?.is_break() {
@@ -37,11 +38,11 @@ impl<C: Circuit> Simulator<C> {
     /// that change, and says for how many ticks, this one included, they are held.
     ///
     /// # Errors
-    /// The first error of an observer; the run is over then.
+    /// The first error of `drive` or of an observer; the run is over then.
     pub fn run_changes(
         &mut self,
         ticks: u64,
-        drive: impl FnMut(&mut Self) -> u64,
+        drive: impl FnMut(&mut Self) -> Result<u64, RunError>,
         observer: impl Observer<C>,
     ) -> Result<(), RunError> {
         self.run_held(ticks, drive, observer, false)
@@ -56,11 +57,11 @@ impl<C: Circuit> Simulator<C> {
     /// no decision comes out otherwise than before. No circuit needs to know of it.
     ///
     /// # Errors
-    /// The first error of an observer; the run is over then.
+    /// The first error of `drive` or of an observer; the run is over then.
     pub fn fast_forward(
         &mut self,
         ticks: u64,
-        drive: impl FnMut(&mut Self) -> u64,
+        drive: impl FnMut(&mut Self) -> Result<u64, RunError>,
         observer: impl Observer<C>,
     ) -> Result<(), RunError> {
         self.run_held(ticks, drive, observer, true)
@@ -69,13 +70,13 @@ impl<C: Circuit> Simulator<C> {
     fn run_held(
         &mut self,
         ticks: u64,
-        mut drive: impl FnMut(&mut Self) -> u64,
+        mut drive: impl FnMut(&mut Self) -> Result<u64, RunError>,
         mut observer: impl Observer<C>,
         jumps: bool,
     ) -> Result<(), RunError> {
         let end = self.tick.saturating_add(ticks);
         while self.tick < end {
-            let held = drive(self);
+            let held = drive(self)?;
             // Until then ports in are as they are.
             let until = self.tick.saturating_add(held.max(1)).min(end);
             loop {
@@ -127,7 +128,7 @@ impl<C: Circuit> Simulator<C> {
     /// the observer goes on.
     ///
     /// # Errors
-    /// What `observer` objects to.
+    /// As [`apply`](Self::apply), and what `observer` objects to.
     #[inline]
     pub fn look<T>(
         &mut self,
@@ -135,7 +136,7 @@ impl<C: Circuit> Simulator<C> {
         observer: impl Observer<C>,
         show: impl FnOnce(&Sample<'_, C>) -> T,
     ) -> Result<(T, ControlFlow<()>), RunError> {
-        self.apply(i);
+        self.apply(i)?;
         self.look_as_set(observer, show)
     }
 
@@ -163,7 +164,7 @@ impl<C: Circuit> Simulator<C> {
     /// [Looks](Self::look) at the tick to come and goes on by it.
     ///
     /// # Errors
-    /// What `observer` objects to.
+    /// As [`look`](Self::look).
     pub fn step_watched<T>(
         &mut self,
         i: &C::In<Value>,

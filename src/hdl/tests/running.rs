@@ -7,7 +7,7 @@ use crate::hdl::{self, At, Beside};
 #[test]
 fn a_simulator_is_set_stepped_and_asked() {
     let mut simulator = Simulator::new(&around(Fault::None)).unwrap();
-    simulator.set(|i| i.by, 0x15);
+    simulator.set(|i| i.by, 5).unwrap();
     for tick in 0..9 {
         let before = (3 + 5 * tick) % 16;
         assert_eq!(simulator.see(|s| s.p.counter.q.sum), before, "{tick}");
@@ -61,10 +61,15 @@ fn what_stands_beside_a_circuit_stands_in_its_waves() {
         paths[..3],
         ["counter.by", "counter.load.position", "counter.sum"]
     );
-    simulator.set(|i| i.by, 1);
-    simulator.show::<Load>(&LoadSignals { position: -3 });
+    simulator.set(|i| i.by, 1).unwrap();
+    simulator
+        .show::<Load>(&LoadSignals { position: -3 })
+        .unwrap();
     simulator.step();
-    assert_eq!((simulator.get(sum), simulator.engine().port(1)), (4, 0xfd));
+    assert_eq!(
+        (simulator.get(sum), simulator.engine().port(1)),
+        (4, Some(0xfd))
+    );
 }
 
 #[test]

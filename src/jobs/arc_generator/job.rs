@@ -233,7 +233,7 @@ impl Bench<'_> {
             if shown != made
                 && let Some(joints) = joints.get(made - 1)
             {
-                simulator.show::<Joints>(&JointSignals::of(*joints));
+                simulator.show::<Joints>(&JointSignals::of(*joints))?;
                 shown = made;
             }
             let ((), flow) = simulator.look(&i, &mut *observer, |now| self.take(now, &see))?;

@@ -320,11 +320,11 @@ pub fn play(
         let before = (i.a, i.b, i.effect, i.halt);
         (i.a, i.b, i.effect, i.halt) = (a, b, effect, halt);
         if !stands || before != (a, b, effect, halt) {
-            simulator.apply(&i);
+            simulator.apply(&i)?;
             stands = true;
         }
         if observer.looks(bench.played.ticks) {
-            simulator.show::<Body>(&BodySignals::of(&body));
+            simulator.show::<Body>(&BodySignals::of(&body))?;
         }
         let take = |now: &Sample<'_, _>| bench.take(now, &see, &body);
         let (goes_on, flow) = simulator.look_as_set(&mut *observer, take)?;

@@ -215,7 +215,7 @@ pub fn replay(
         let speed = (position - before) / tick_s;
         before = position;
         if observer.looks(tick) {
-            simulator.show::<Body>(&BodySignals::at(position, speed));
+            simulator.show::<Body>(&BodySignals::at(position, speed))?;
         }
         let take = |now: &Sample<'_, _>| {
             let fire = now.get(see.fire);

@@ -284,7 +284,7 @@ pub fn play_each<const N: usize>(
         give(&mut i.orders, bench.push());
         let servos = &motors.plants;
         if observer.looks(simulator.tick()) {
-            simulator.show::<waves::Axes>(&waves::Signals::of(servos));
+            simulator.show::<waves::Axes>(&waves::Signals::of(servos))?;
         }
         let motor = [0, 1].map(|axis: usize| servos[axis].position_counts());
         let take = |now: &Sample<'_, _>| bench.take(now, &see, motor);

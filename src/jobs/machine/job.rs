@@ -332,7 +332,7 @@ pub fn play(
         });
         around.step(&by, &mut i);
         if observer.looks(simulator.tick()) {
-            simulator.show::<Plants>(&around.signals());
+            simulator.show::<Plants>(&around.signals())?;
         }
         let mut quiet = true;
         let (pulsing, flow) = simulator.look(&i, &mut *observer, |now| {

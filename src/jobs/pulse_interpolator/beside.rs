@@ -258,7 +258,7 @@ pub fn play(
         if let Some(motors) = &motors
             && observer.looks(simulator.tick())
         {
-            simulator.show::<StepMotors>(&motors.signals());
+            simulator.show::<StepMotors>(&motors.signals())?;
         }
         let take = |now: &Sample<'_, _>| bench.take(now, &see, given);
         let ((), flow) = simulator.look(&i, &mut *observer, take)?;

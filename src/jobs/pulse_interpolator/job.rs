@@ -197,7 +197,7 @@ pub fn play_motors(
             while !bench.over {
                 let given = computer(simulator.state(|q| q.get(pending)));
                 if bench.observer.looks(simulator.tick()) {
-                    simulator.show::<StepMotors>(&motors.signals());
+                    simulator.show::<StepMotors>(&motors.signals())?;
                 }
                 let i = given.as_ref().unwrap_or(&quiet);
                 // What the bench says of going on is in it.
@@ -250,8 +250,8 @@ pub fn fast_forward_by(
             // All that the computer looks at is whether a command waits: no counter.
             let drive = |simulator: &mut Simulator<Group>| {
                 let given = computer(simulator.state(|q| q.get(pending)));
-                simulator.apply(given.as_ref().unwrap_or(&quiet));
-                if given.is_some() { 1 } else { u64::MAX }
+                simulator.apply(given.as_ref().unwrap_or(&quiet))?;
+                Ok(if given.is_some() { 1 } else { u64::MAX })
             };
             simulator.fast_forward(u64::MAX, drive, &mut *bench)?;
         }

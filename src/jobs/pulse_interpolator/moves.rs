@@ -268,8 +268,8 @@ impl Planner<'_> {
             offset: 0,
             angle,
         };
-        simulator.step_with(&i, |_| ());
-        simulator.set(|i| i.start, false);
+        simulator.step_with(&i, |_| ())?;
+        simulator.set(|i| i.start, false)?;
         while !simulator.see(|now| now.w.done) {
             simulator.step();
         }

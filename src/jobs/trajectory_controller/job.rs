@@ -314,7 +314,7 @@ pub fn play_each(
         }
         let plants = &motors.plants.axes;
         if observer.looks(simulator.tick()) {
-            simulator.show::<Machine>(&MachineSignals::of(plants));
+            simulator.show::<Machine>(&MachineSignals::of(plants))?;
         }
         let (mut quiet, mut ended) = (true, false);
         let take = |now: &Sample<'_, _>| {

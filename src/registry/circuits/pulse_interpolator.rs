@@ -5,6 +5,7 @@ use crate::circuits::pulse_interpolator::{
     Group, MotorController, Pattern, PatternMemory, PulseGenerator, PulseTrain, SyncStage, UnitLaw,
     UnitTimeRegister, Variant, Widths,
 };
+use crate::hdl::Cut;
 use crate::registry::Entry;
 use crate::registry::entry::{entry, nothing};
 
@@ -17,10 +18,10 @@ fn full_memory() -> PatternMemory {
 /// Fills a memory from address 0 up; a word is a half-period, 2^its width more for the direction
 /// down.
 fn fill(contents: &mut Contents, words: impl Iterator<Item = u64>) {
-    let width = contents.half_periods.width() as u32;
+    let width = contents.half_periods.width();
     for (address, word) in words.enumerate() {
-        contents.half_periods.set(address, word);
-        let down = word.checked_shr(width).unwrap_or(0);
+        contents.half_periods.set(address, word.cut(width));
+        let down = word.checked_shr(width as u32).unwrap_or(0);
         contents.directions.set(address, down);
     }
 }

@@ -3,11 +3,11 @@ use crate::engine::{EngineError, Watch};
 use crate::hdl::{Declaration, Described, Format, LeafView as View, Model, RunError};
 use crate::trace::Options;
 use crate::trace::record::{Record, near};
-use crate::trace::value::{mask, read, show};
+use crate::trace::value::{read, show};
 use std::fmt::{self, Write};
 
 /// Why a chart does not hold.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ChartFailure {
     /// The chart does not fit the circuit.
     #[error(transparent)]
@@ -19,6 +19,8 @@ pub enum ChartFailure {
     #[error(transparent)]
     Engine(#[from] EngineError),
 }
+
+crate::hdl::debug_as_display!(ChartFailure);
 
 /// The first cell, by tick, in which a circuit does not do what its chart says.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -134,7 +136,7 @@ impl Chart {
         for tick in 0..self.ticks {
             for (port, line) in lines.iter().enumerate() {
                 let value = line.and_then(|line| line.values.get(tick).copied());
-                engine.input(port, value.flatten().unwrap_or(0));
+                engine.drive(port, value.flatten().unwrap_or(0));
             }
             engine.settle();
             let kept = record.tick(tick as u64, View::of(&engine));
@@ -264,11 +266,10 @@ fn no_value(row: &Row, leaf: &Declaration, cell: &str) -> ChartError {
     let bits = if width == 1 { "bit" } else { "bits" };
     let allowed = match leaf.field.format {
         Format::States(names) => format!("{width} {bits}: {}", names.join(", ")),
-        _ if leaf.shape.kind == crate::hdl::Kind::Signed => {
-            let half = 1i128 << (width - 1);
-            format!("{width} {bits}: {} to {}", -half, half - 1)
+        _ => {
+            let (least, greatest) = leaf.shape.range();
+            format!("{width} {bits}: {least} to {greatest}")
         }
-        _ => format!("{width} {bits}: 0 to {}", mask(leaf.shape)),
     };
     let problem = Problem::Value {
         signal: row.name.clone(),

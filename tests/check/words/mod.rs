@@ -182,15 +182,17 @@ impl Operations {
         for case in cases {
             let of = Numbers::new((self.n, case.a), (self.m, case.b), case.choose);
             for simulator in [&mut interpreted, &mut compiled] {
-                simulator.step_with(&case, |now| {
-                    for (found, one) in now.w.unsigned.iter().zip(&self.unsigned) {
-                        assert_eq!(*found, one.expected(&of), "{one:?} of {of:?}");
-                    }
-                    for (found, one) in now.w.signed.iter().zip(&self.signed) {
-                        let expected = wrap_signed((one.number)(&of), one.width);
-                        assert_eq!(*found, expected, "{one:?} of {of:?}");
-                    }
-                });
+                simulator
+                    .step_with(&case, |now| {
+                        for (found, one) in now.w.unsigned.iter().zip(&self.unsigned) {
+                            assert_eq!(*found, one.expected(&of), "{one:?} of {of:?}");
+                        }
+                        for (found, one) in now.w.signed.iter().zip(&self.signed) {
+                            let expected = wrap_signed((one.number)(&of), one.width);
+                            assert_eq!(*found, expected, "{one:?} of {of:?}");
+                        }
+                    })
+                    .unwrap();
             }
         }
     }
@@ -223,9 +225,9 @@ fn small_words() {
     }
 }
 
-/// Numbers that are set are cut to the width of the port, signed ones too.
+/// Numbers that are cut on purpose are set as words of that width, signed ones too.
 #[test]
-fn numbers_beyond_the_width_are_cut() {
+fn numbers_beyond_the_width_are_cut_on_purpose() {
     #[derive(Debug, Clone)]
     struct Ports;
 
@@ -252,15 +254,18 @@ fn numbers_beyond_the_width_are_cut() {
     let mut simulator = Simulator::new(&Ports).unwrap();
     for number in -40..40i64 {
         let i = PortsIn {
-            word: number as u64,
-            number,
+            word: (number as u64).cut(3),
+            number: number.cut(4),
         };
         let (word, four) = (wrap_signed(number.into(), 3), wrap_signed(number.into(), 4));
         let expected = (wrap(number.into(), 3), four, four + word);
-        let seen = simulator.step_with(&i, |now| (now.w.word_out, now.w.number_out, now.w.sum));
+        let seen = simulator
+            .step_with(&i, |now| (now.w.word_out, now.w.number_out, now.w.sum))
+            .unwrap();
         assert_eq!(seen, expected, "all at once");
-        simulator.set(|i| i.word, (number + 1) as u64);
-        simulator.set(|i| i.number, number + 1);
+        let word = (number + 1) as u64;
+        simulator.set(|i| i.word, word.cut(3)).unwrap();
+        simulator.set(|i| i.number, (number + 1).cut(4)).unwrap();
         let number = wrap_signed(i128::from(number) + 1, 4);
         assert_eq!(simulator.see(|s| s.w.number_out), number, "one by one");
     }

@@ -1,7 +1,7 @@
 //! What is done with signed words.
 
 use super::{List, Words, unsigned::distances, wrap_signed};
-use motion_rtl::hdl::I;
+use motion_rtl::hdl::{Cut, I};
 
 /// Every operation on a word of `n` bits and one of `m` bits.
 pub fn of_two(n: usize, m: usize) -> List<I> {
@@ -13,7 +13,7 @@ pub fn of_two(n: usize, m: usize) -> List<I> {
     list
 }
 
-/// Small constants, those around the ends of the range, and far ones.
+/// Small constants, those around the ends of the range, and far ones, cut to the word.
 fn constants(n: usize) -> Vec<i64> {
     let (most, least) = (i64::MAX >> (64 - n), i64::MIN >> (64 - n));
     let ends = [
@@ -25,7 +25,8 @@ fn constants(n: usize) -> Vec<i64> {
         least + 1,
     ];
     let far = [i64::MIN, i64::MAX, i64::MIN / 2, i64::MAX / 2];
-    let mut constants: Vec<i64> = (-4..5).chain(ends).chain(far).collect();
+    let all = (-4..5).chain(ends).chain(far);
+    let mut constants: Vec<i64> = all.map(|constant: i64| constant.cut(n)).collect();
     constants.sort_unstable();
     constants.dedup();
     constants
@@ -137,5 +138,7 @@ fn of_one_width(list: &mut List<I>, n: usize) {
         |i| i.choose.mux(i.s, i.t),
         |v| if v.choose { v.s } else { v.t },
     );
-    list.add("a chain", n, |i| -(i.s + i.t) - -i.t - 1, |v| -v.s - 1);
+    let one = 1i64.cut(n);
+    let chain = move |i: &Words| -(i.s + i.t) - -i.t - one;
+    list.add("a chain", n, chain, |v| -v.s - 1);
 }

@@ -1,7 +1,7 @@
 //! What is done with unsigned words and bits.
 
 use super::{List, Numbers, Words, wrap};
-use motion_rtl::hdl::{Bit, I, U};
+use motion_rtl::hdl::{Bit, Cut, I, U};
 
 /// Every operation on a word of `n` bits and one of `m` bits.
 pub fn of_two(n: usize, m: usize) -> List<U> {
@@ -18,7 +18,7 @@ pub fn distances(n: usize) -> impl Iterator<Item = usize> {
     (0..=n + 2).chain([2 * n - 1, 63, 64, 65, 127])
 }
 
-/// Small constants, those around the ends of the range, and far ones.
+/// Small constants, those around the ends of the range, and far ones, cut to the word.
 fn constants(n: usize) -> Vec<u64> {
     let (half, end) = (1 << (n - 1), u64::MAX >> (64 - n));
     let ends = [
@@ -30,7 +30,8 @@ fn constants(n: usize) -> Vec<u64> {
         end.wrapping_add(2),
     ];
     let far = [u64::MAX, 1 << 63, (1 << 62) + 1];
-    let mut constants: Vec<u64> = (0..9).chain(ends).chain(far).collect();
+    let all = (0..9).chain(ends).chain(far);
+    let mut constants: Vec<u64> = all.map(|constant| constant.cut(n)).collect();
     constants.sort_unstable();
     constants.dedup();
     constants
@@ -59,11 +60,13 @@ pub fn of_one(n: usize) -> List<U> {
         }
     }
     for by in distances(n) {
-        list.bit(
-            format!("bit {by}"),
-            move |i| i.a.bit(by),
-            move |v| v.a >> by & 1 == 1,
-        );
+        if by < n {
+            list.bit(
+                format!("bit {by}"),
+                move |i| i.a.bit(by),
+                move |v| v.a >> by & 1 == 1,
+            );
+        }
         list.add(
             format!("a << {by}"),
             n,
@@ -77,7 +80,6 @@ pub fn of_one(n: usize) -> List<U> {
             move |v| v.a >> by,
         );
     }
-    list.bit("a bit far away", |i| i.a.bit(usize::MAX), |_| false);
     list.add("a << far", n, |i| i.a.shift_left(usize::MAX), |_| 0);
     list.add("a >> far", n, |i| i.a.shift_right(usize::MAX), |_| 0);
     for low in 0..n {
@@ -156,7 +158,7 @@ pub fn of_one(n: usize) -> List<U> {
             move |_| number,
         );
         let parameter = move |_: &Words| U::parameter("parameter", constant, n);
-        if constant == u64::MAX {
+        if constant == u64::MAX.cut(n) {
             list.add("a parameter", n, parameter, move |_| number);
         }
     }

@@ -39,25 +39,27 @@ fn every_share_has_its_weight_bit_by_bit() {
             share,
             ..zero(&circuit)
         };
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
         let mut words = [0i128; 2];
         for pass in 0..3 {
             i.step = false;
             assert!(simulator.see(|s| s.q.begins) && !simulator.see(|s| s.q.done));
             i.copy = true;
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
             i.copy = false;
             for bit in 0..=coefficient {
                 i.fraction = bit < fraction;
                 i.commit = bit == coefficient;
-                simulator.step_with(&i, |now| {
-                    let bits = [now.w.share_bit, now.w.weight_bit];
-                    assert!(pass == 2 || bits == [false; 2]);
-                    assert_eq!(now.w.point_commit, i.commit && pass == 2);
-                    for (word, high) in words.iter_mut().zip(bits) {
-                        *word |= i128::from(high) << bit;
-                    }
-                });
+                simulator
+                    .step_with(&i, |now| {
+                        let bits = [now.w.share_bit, now.w.weight_bit];
+                        assert!(pass == 2 || bits == [false; 2]);
+                        assert_eq!(now.w.point_commit, i.commit && pass == 2);
+                        for (word, high) in words.iter_mut().zip(bits) {
+                            *word |= i128::from(high) << bit;
+                        }
+                    })
+                    .unwrap();
             }
             i.commit = false;
         }
@@ -95,7 +97,7 @@ fn load(
     i.record.load = true;
     for (word, data) in words {
         (i.record.word, i.record.data) = (*word, *data);
-        simulator.step_with(i, |_| ());
+        simulator.step_with(i, |_| ()).unwrap();
     }
     i.record.load = false;
 }
@@ -120,15 +122,19 @@ fn blend(
     for n in 1..=i128::from(steps) {
         i.step = true;
         for _ in 0..circuit.latency() {
-            simulator.step_with(&i, |now| {
-                assert_eq!(([now.w.x, now.w.y, now.w.z], now.w.done), (last, false));
-            });
+            simulator
+                .step_with(&i, |now| {
+                    assert_eq!(([now.w.x, now.w.y, now.w.z], now.w.done), (last, false));
+                })
+                .unwrap();
             i.step = false;
         }
-        simulator.step_with(&i, |now| {
-            assert!(now.w.done);
-            last = [now.w.x, now.w.y, now.w.z];
-        });
+        simulator
+            .step_with(&i, |now| {
+                assert!(now.w.done);
+                last = [now.w.x, now.w.y, now.w.z];
+            })
+            .unwrap();
         let h = (2 * n * one + m).div_euclid(2 * m);
         let weight = weight(h, fraction);
         for k in 0..3 {
@@ -209,15 +215,17 @@ fn a_halt_leaves_nothing_behind() {
         load(&mut simulator, &mut i, &record(points, 9, &FULL));
         i.step = true;
         for _ in 0..ticks {
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
             i.step = false;
         }
         // A step that comes with the halt is not taken.
         (i.step, i.halt) = (true, true);
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
         (i.step, i.halt) = (false, false);
         for _ in 0..140 {
-            simulator.step_with(&i, |now| assert!(!now.w.done, "after {ticks}"));
+            simulator
+                .step_with(&i, |now| assert!(!now.w.done, "after {ticks}"))
+                .unwrap();
         }
         blend(&mut simulator, &circuit, points, [9, 2]);
     }

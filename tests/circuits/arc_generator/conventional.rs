@@ -44,14 +44,14 @@ fn every_element_of_four_bits_is_the_sum_of_its_products() {
                 turn: turn as i64,
                 ..zero(&circuit)
             };
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
             i.copy = false;
             for bit in 0..4 {
                 i.fraction = bit < 2;
                 i.top = bit == 3;
                 i.versine_bit = versine >> bit & 1 == 1;
                 i.turn_bit = other >> bit & 1 == 1;
-                simulator.step_with(&i, |_| ());
+                simulator.step_with(&i, |_| ()).unwrap();
             }
             let exact = product * versine + factor * turn * other;
             let entry = wrap(simulator.see(|s| s.w.entry).into(), 4);
@@ -88,14 +88,14 @@ proptest! {
             z: from[2] as i64,
             ..zero(&circuit)
         };
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
         i.copy = false;
         for bit in 0..=COEFFICIENT {
             i.fraction = bit < FRACTION;
             i.top = bit == COEFFICIENT - 1;
             i.commit = bit == COEFFICIENT;
             prop_assert_eq!(simulator.see(|s| s.q.offset), 0);
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         let [expected, _, _] = rotated(&[by, [0; 3], [0; 3]], from, FRACTION, nearest);
         prop_assert_eq!(i128::from(simulator.see(|s| s.q.offset)), wrap(expected, POINT));
@@ -108,7 +108,7 @@ proptest! {
     ) {
         let circuit = SineWords { coefficient: COEFFICIENT };
         let mut simulator = Simulator::new(&circuit).unwrap();
-        simulator.step_with(&sine_words::In { copy: true, along, across }, |_| ());
+        simulator.step_with(&sine_words::In { copy: true, along, across }, |_| ()).unwrap();
         let i = zero(&circuit);
         let mut words = [0i128; 3];
         for bit in 0..COEFFICIENT {
@@ -117,7 +117,7 @@ proptest! {
                 for (word, high) in words.iter_mut().zip(bits) {
                     *word |= i128::from(high) << bit;
                 }
-            });
+            }).unwrap();
         }
         let nearest = |word: i64| (i128::from(word) + (1 << (FINE - 1))) >> FINE;
         let (cosine, sine) = (nearest(along), nearest(across));
@@ -304,20 +304,22 @@ fn a_halt_leaves_nothing_behind() {
                 write_data: *data,
                 push: word == 31,
             };
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         i.segments = zero(&circuit).segments;
         i.segments.start = true;
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
         i.segments.start = false;
         let mut commands = Vec::new();
         for _ in 0..most {
-            let busy = simulator.step_with(&i, |now| {
-                if now.w.sampled {
-                    commands.push([now.w.x, now.w.y, now.w.z]);
-                }
-                now.w.busy
-            });
+            let busy = simulator
+                .step_with(&i, |now| {
+                    if now.w.sampled {
+                        commands.push([now.w.x, now.w.y, now.w.z]);
+                    }
+                    now.w.busy
+                })
+                .unwrap();
             if !busy {
                 break;
             }
@@ -331,13 +333,15 @@ fn a_halt_leaves_nothing_behind() {
         let mut simulator = simulator.clone();
         let before = commands(&mut simulator, ticks);
         assert_eq!(before, expected[..before.len()]);
-        simulator.step_with(
-            &In {
-                halt: true,
-                ..zero(&circuit)
-            },
-            |_| (),
-        );
+        simulator
+            .step_with(
+                &In {
+                    halt: true,
+                    ..zero(&circuit)
+                },
+                |_| (),
+            )
+            .unwrap();
         assert!(!simulator.see(|s| s.w.busy));
         assert_eq!(
             commands(&mut simulator, 1_000_000),

@@ -4,7 +4,7 @@ use super::program::differences;
 use motion_rtl::circuits::blocks::difference_column::Widths;
 use motion_rtl::circuits::blocks::difference_engine::In;
 use motion_rtl::circuits::blocks::{DifferenceEngine, RecordWord};
-use motion_rtl::hdl::{Simulator, zero};
+use motion_rtl::hdl::{Cut, Simulator, zero};
 use proptest::prelude::*;
 
 const SMALL: Widths = Widths {
@@ -42,6 +42,7 @@ fn run(
         loads.push((first, difference.div_euclid(modulus)));
         loads.push((first + 1, difference.rem_euclid(modulus)));
     }
+    let width = simulator.signals().i.record.data.width();
     let idle = In {
         modulus: modulus as u64,
         ..zero(&circuit)
@@ -51,28 +52,33 @@ fn run(
             record: RecordWord {
                 load: true,
                 word,
-                data: data as u64,
+                data: (data as u64).cut(width),
             },
             ..idle.clone()
         };
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
     }
     let mut seen = Vec::new();
     for sample in 0..=steps {
         // Without a step it stays.
-        simulator.step_with(&idle, |_| ());
+        simulator.step_with(&idle, |_| ()).unwrap();
         let i = In {
             step: sample < steps,
             ..idle.clone()
         };
-        seen.push(simulator.step_with(&i, |now| {
-            let [whole, nearest] = [now.see(|s| s.p.value.q.whole), now.see(|s| s.w.nearest)];
-            (
-                whole.into(),
-                now.see(|s| s.p.value.q.part).into(),
-                nearest.into(),
-            )
-        }));
+        seen.push(
+            simulator
+                .step_with(&i, |now| {
+                    let [whole, nearest] =
+                        [now.see(|s| s.p.value.q.whole), now.see(|s| s.w.nearest)];
+                    (
+                        whole.into(),
+                        now.see(|s| s.p.value.q.part).into(),
+                        nearest.into(),
+                    )
+                })
+                .unwrap(),
+        );
     }
     seen
 }

@@ -3,7 +3,7 @@
 use motion_rtl::circuits::arc_generator::ArcGenerator;
 use motion_rtl::circuits::arc_generator::generator::{In, Segments};
 use motion_rtl::circuits::blocks::RecordWrite;
-use motion_rtl::hdl::Simulator;
+use motion_rtl::hdl::{Cut, Simulator};
 
 /// Words that are not 0: from rest to 64 counts, on to 128, to rest at 192.
 const RECORDS: [&[(usize, i64)]; 3] = [
@@ -31,6 +31,7 @@ const COMMANDS: [i64; 11] = [0, 2, 12, 34, 64, 96, 128, 158, 180, 190, 192];
 #[test]
 fn the_path_of_the_note() {
     let mut simulator = Simulator::new(&ArcGenerator::default()).unwrap();
+    let width = simulator.signals().i.segments.record.write_data.width();
     let mut seen = Vec::new();
     for tick in 0..1300 {
         let (record, word) = (tick / 32, tick % 32);
@@ -43,7 +44,7 @@ fn the_path_of_the_note() {
                 record: RecordWrite {
                     write: words.is_some(),
                     write_word: word as u64,
-                    write_data: data as u64,
+                    write_data: (data as u64).cut(width),
                     push: words.is_some() && word == 31,
                 },
                 start: tick == 96,
@@ -51,10 +52,14 @@ fn the_path_of_the_note() {
             halt: false,
             sample_period: 100,
         };
-        seen.extend(simulator.step_with(&i, |now| {
-            let w = now.w;
-            w.sampled.then(|| (tick, w.x, w.y))
-        }));
+        seen.extend(
+            simulator
+                .step_with(&i, |now| {
+                    let w = now.w;
+                    w.sampled.then(|| (tick, w.x, w.y))
+                })
+                .unwrap(),
+        );
     }
     let ticks = (200..).step_by(100);
     let expected: Vec<_> = ticks.zip(COMMANDS).map(|(tick, x)| (tick, x, 0)).collect();

@@ -4,7 +4,7 @@ use super::below;
 use motion_rtl::check::Random;
 use motion_rtl::circuits::blocks::record_memory::{In, RECORD};
 use motion_rtl::circuits::blocks::{RecordMemory, RecordWrite};
-use motion_rtl::hdl::{Simulator, Value};
+use motion_rtl::hdl::{Cut, Simulator, Value};
 use std::collections::VecDeque;
 
 /// A memory as a queue of records; what goes out is told by the tick of each word.
@@ -92,13 +92,15 @@ fn it_is_a_queue_of_records() {
             written = 0;
         }
         let arc = i.kind == 2;
-        simulator.step_with(&i, |now| {
-            let w = now.w;
-            assert_eq!(w.ready, program.waiting.len() < RECORDS);
-            assert_eq!(w.available, !program.waiting.is_empty());
-            assert_eq!(w.load_engines, program.bus.is_some() && !arc);
-            assert_eq!(w.load_rotation, program.bus.is_some() && arc);
-        });
+        simulator
+            .step_with(&i, |now| {
+                let w = now.w;
+                assert_eq!(w.ready, program.waiting.len() < RECORDS);
+                assert_eq!(w.available, !program.waiting.is_empty());
+                assert_eq!(w.load_engines, program.bus.is_some() && !arc);
+                assert_eq!(w.load_rotation, program.bus.is_some() && arc);
+            })
+            .unwrap();
         program.clock(&i);
         let load = simulator.see(|s| s.q.load);
         let bus = load.then(|| (simulator.see(|s| s.q.word), simulator.see(|s| s.q.data)));
@@ -119,8 +121,8 @@ fn a_record_takes_its_latency() {
     for tick in 0..200 {
         let record = RecordWrite {
             write: tick < 32,
-            write_word: tick,
-            write_data: tick * 7,
+            write_word: tick % 32,
+            write_data: (tick * 7).cut(8),
             push: tick == 31,
         };
         let i = In {
@@ -129,7 +131,7 @@ fn a_record_takes_its_latency() {
             kind: 0,
             flush: false,
         };
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
         let q = simulator.registers().q;
         let shown = tick + 1;
         assert_eq!(q.load, (52..84).contains(&shown), "tick {shown}");

@@ -4,15 +4,15 @@ use super::program::{rotated, wrap};
 use motion_rtl::circuits::arc_generator::rotation::In;
 use motion_rtl::circuits::arc_generator::{Rotation, Rounding, Widths};
 use motion_rtl::circuits::blocks::RecordWord;
-use motion_rtl::hdl::{Simulator, Value};
+use motion_rtl::hdl::{Cut, Simulator, Value};
 use proptest::prelude::*;
 
 /// Ports in with a word that is loaded.
-fn word((word, data): (u64, i128)) -> In<Value> {
+fn word((word, data): (u64, u64)) -> In<Value> {
     let record = RecordWord {
         load: true,
         word,
-        data: data as u64,
+        data,
     };
     In { record, ..idle() }
 }
@@ -45,8 +45,10 @@ fn simulator(
 }
 
 fn load(simulator: &mut Simulator<Rotation>, words: impl IntoIterator<Item = (u64, i128)>) {
-    for loaded in words {
-        simulator.step_with(&word(loaded), |_| ());
+    let width = simulator.signals().i.record.data.width();
+    for (number, data) in words {
+        let loaded = (number, (data as u64).cut(width));
+        simulator.step_with(&word(loaded), |_| ()).unwrap();
     }
 }
 
@@ -62,7 +64,7 @@ fn step(simulator: &mut Simulator<Rotation>) -> [i128; 3] {
     let latency = simulator.circuit().latency();
     for ticks in 1..=latency {
         let step = ticks == 1;
-        simulator.step_with(&In { step, ..idle() }, |_| ());
+        simulator.step_with(&In { step, ..idle() }, |_| ()).unwrap();
         let done = simulator.see(|s| s.w.done);
         assert_eq!(done, ticks == latency, "after {ticks} ticks");
         if ticks < latency {
@@ -116,7 +118,7 @@ fn words_of_other_blocks_and_steps_under_way_change_nothing() {
     // A second start in the middle of a step is not taken.
     for ticks in 1..=simulator.circuit().latency() {
         let step = ticks == 1 || ticks == 5;
-        simulator.step_with(&In { step, ..idle() }, |_| ());
+        simulator.step_with(&In { step, ..idle() }, |_| ()).unwrap();
     }
     assert_eq!(vector(&mut simulator), expected);
     // After a halt nothing comes, and the next step is right.
@@ -127,7 +129,7 @@ fn words_of_other_blocks_and_steps_under_way_change_nothing() {
             halt,
             ..idle()
         };
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
         assert_eq!(vector(&mut simulator), expected, "after {ticks} ticks");
         assert!(!simulator.see(|s| s.w.done));
     }

@@ -6,7 +6,7 @@ use super::program::{differences, rotated, wrap};
 use motion_rtl::check::Random;
 use motion_rtl::circuits::arc_generator::generator::In;
 use motion_rtl::circuits::arc_generator::{ArcGenerator, Blend, Rounding};
-use motion_rtl::hdl::{Simulator, Value, zero};
+use motion_rtl::hdl::{Cut, Simulator, Value, zero};
 
 const FULL: ArcGenerator = ArcGenerator::new(Rounding::Nearest, Blend::Differences);
 const GUARD: u32 = 16;
@@ -138,7 +138,8 @@ struct Host<'a> {
 
 impl Host<'_> {
     fn ports(&mut self, ready: bool, period: u64) -> In<Value> {
-        let mut segments = zero(&ArcGenerator::default()).segments;
+        let circuit = ArcGenerator::default();
+        let mut segments = zero(&circuit).segments;
         if self.segment == self.segments.len().min(self.start_with) && !self.started {
             self.started = true;
             segments.start = true;
@@ -146,7 +147,8 @@ impl Host<'_> {
         if let Some(segment) = self.segments.get(self.segment).filter(|_| ready) {
             segments.record.write = true;
             segments.record.write_word = self.word as u64;
-            segments.record.write_data = segment.record[self.word] as u64;
+            let data = segment.record[self.word] as u64;
+            segments.record.write_data = data.cut(circuit.widths.data);
             self.word += 1;
             if self.word == 32 {
                 segments.record.push = true;
@@ -186,11 +188,13 @@ fn run(segments: &[Segment], rounding: Rounding, period: u64, start_with: usize)
         assert!(tick < 1_000_000, "no end");
         let i = host.ports(ready, period);
         let pushed = i.segments.record.push;
-        let (now, sampled, busy, free) = simulator.step_with(&i, |now| {
-            let w = now.w;
-            let command = [w.x, w.y, w.z].map(i128::from);
-            (command, w.sampled, w.busy, w.ready)
-        });
+        let (now, sampled, busy, free) = simulator
+            .step_with(&i, |now| {
+                let w = now.w;
+                let command = [w.x, w.y, w.z].map(i128::from);
+                (command, w.sampled, w.busy, w.ready)
+            })
+            .unwrap();
         // A push may make it not ready: it is looked at again a tick later.
         ready = free && !pushed;
         match sampled {
@@ -318,10 +322,12 @@ fn halt_leaves_the_commands_where_they_are() {
             let mut i = host.ports(ready, 100);
             i.halt = tick == halted;
             let pushed = i.segments.record.push;
-            let (free, command, sampled, busy) = simulator.step_with(&i, |now| {
-                let w = now.w;
-                (w.ready, [w.x, w.y, w.z], w.sampled, w.busy)
-            });
+            let (free, command, sampled, busy) = simulator
+                .step_with(&i, |now| {
+                    let w = now.w;
+                    (w.ready, [w.x, w.y, w.z], w.sampled, w.busy)
+                })
+                .unwrap();
             ready = free && !pushed;
             if tick > halted {
                 assert!(
@@ -346,10 +352,12 @@ fn halt_leaves_the_commands_where_they_are() {
         for _ in 0..1_500 {
             let i = host.ports(ready, 100);
             let pushed = i.segments.record.push;
-            let (free, command, sampled) = simulator.step_with(&i, |now| {
-                let command = [now.w.x, now.w.y, now.w.z].map(i128::from);
-                (now.w.ready, command, now.w.sampled)
-            });
+            let (free, command, sampled) = simulator
+                .step_with(&i, |now| {
+                    let command = [now.w.x, now.w.y, now.w.z].map(i128::from);
+                    (now.w.ready, command, now.w.sampled)
+                })
+                .unwrap();
             ready = free && !pushed;
             seen.extend(sampled.then_some(command));
         }
@@ -379,16 +387,19 @@ fn a_path_that_begins_right_after_a_halt_is_that_of_its_record() {
             if (200..232).contains(&tick) {
                 i.segments.record.write = true;
                 i.segments.record.write_word = tick - 200;
-                i.segments.record.write_data = behind.record[tick as usize - 200] as u64;
+                let data = behind.record[tick as usize - 200] as u64;
+                i.segments.record.write_data = data.cut(simulator.circuit().widths.data);
             }
             i.halt = tick == halted;
             i.segments.record.push |= tick == halted + 1;
             i.segments.start |= tick == halted + 2;
             was_rotating |= tick == halted && simulator.see(|s| s.p.rotation.p.control.q.busy);
-            let (command, sampled) = simulator.step_with(&i, |now| {
-                let command = [now.w.x, now.w.y, now.w.z].map(i128::from);
-                (command, now.w.sampled)
-            });
+            let (command, sampled) = simulator
+                .step_with(&i, |now| {
+                    let command = [now.w.x, now.w.y, now.w.z].map(i128::from);
+                    (command, now.w.sampled)
+                })
+                .unwrap();
             seen.extend((sampled && tick > halted + 1).then_some(command));
         }
         let expected = commands(std::slice::from_ref(behind));

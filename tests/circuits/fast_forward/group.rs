@@ -130,8 +130,8 @@ fn same(group: &Group, acts: &[(u64, Port)], ticks: u64, most: usize) -> Result<
         .map_err(failed)?;
     let held = |forward: &mut Simulator<Group>| {
         let (i, held) = drive(group, acts, forward.tick());
-        forward.apply(&i);
-        held
+        forward.apply(&i)?;
+        Ok(held)
     };
     forward
         .fast_forward(ticks, held, &mut jumped)
@@ -183,7 +183,7 @@ fn a_run_cut_into_pieces_is_the_same_run() {
         while simulator.tick() < 300 {
             let ticks = piece.min(300 - simulator.tick());
             simulator
-                .fast_forward(ticks, |_| u64::MAX, &mut events)
+                .fast_forward(ticks, |_| Ok(u64::MAX), &mut events)
                 .expect("no objection");
         }
         let mut whole = Events::new(usize::MAX);

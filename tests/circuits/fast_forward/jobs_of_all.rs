@@ -52,7 +52,7 @@ fn same<C: Circuit>(job: Job<C>) {
     let mut step = interpreted(&whole);
     let mut words = Vec::new();
     for _ in 0..ticks {
-        replay.tick(&mut step);
+        replay.tick(&mut step).unwrap();
         words.push(step.now(|now| word(&outputs, now)));
         step.step();
     }

@@ -24,6 +24,6 @@ fn registers<C: Circuit>(simulator: &Simulator<C>) -> Vec<u64> {
     let leaves = leaves.iter().enumerate();
     let registers = leaves.filter(|(_, leaf)| leaf.role == Role::Register);
     registers
-        .map(|(leaf, _)| simulator.engine().leaf(leaf))
+        .map(|(leaf, _)| simulator.engine().leaf(leaf).unwrap())
         .collect()
 }

@@ -28,7 +28,7 @@ impl Bench {
             position: 24,
         };
         let mut detector = Simulator::new(&circuit).unwrap();
-        detector.set(|i| i.turn, TURN as u64);
+        detector.set(|i| i.turn, TURN as u64).unwrap();
         let random = Random::new(11);
         let word = 0;
         Bench {
@@ -46,9 +46,11 @@ impl Bench {
         let mut seen = None;
         for tick in 0..ticks {
             self.detector
-                .set(|i| i.strobe, tick < 2 && !(tick == 0 && strobe_late));
+                .set(|i| i.strobe, tick < 2 && !(tick == 0 && strobe_late))
+                .unwrap();
             self.detector
-                .set(|i| i.code, if tick == 0 { torn } else { word });
+                .set(|i| i.code, if tick == 0 { torn } else { word })
+                .unwrap();
             if self.detector.see(|s| s.w.sample) {
                 assert!(seen.is_none(), "two samples");
                 let position = self.detector.see(|s| s.w.position);
@@ -96,9 +98,9 @@ fn beyond_a_quarter_of_a_turn_it_is_lost() {
         assert_eq!(bench.sample(gray(way), 6), (position, lost), "{way}");
         assert_eq!(bench.sample(gray(way), 6), (position, lost), "{way}");
         // The word after clear is the place.
-        bench.detector.set(|i| i.clear, true);
+        bench.detector.set(|i| i.clear, true).unwrap();
         bench.detector.step();
-        bench.detector.set(|i| i.clear, false);
+        bench.detector.set(|i| i.clear, false).unwrap();
         assert!(!bench.detector.see(|s| s.w.lost));
         let place = way.rem_euclid(TURN);
         assert_eq!(bench.sample(gray(way), 6), (place, false), "{way}");
@@ -113,9 +115,9 @@ fn words_that_the_turn_has_not_are_not_counted() {
     let below = (((1 << CODE) - TURN) / 2 - 1) as u64;
     let above = below + TURN as u64 + 1;
     for number in [below, above, 0, (1 << CODE) - 1] {
-        bench.detector.set(|i| i.clear, true);
+        bench.detector.set(|i| i.clear, true).unwrap();
         bench.detector.step();
-        bench.detector.set(|i| i.clear, false);
+        bench.detector.set(|i| i.clear, false).unwrap();
         assert_eq!(bench.sample(gray(10), 6), (10, false));
         assert_eq!(
             bench.sample(number ^ (number >> 1), 6),

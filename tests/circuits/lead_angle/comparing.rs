@@ -2,7 +2,7 @@
 
 use motion_rtl::circuits::lead_angle::comparator::In;
 use motion_rtl::circuits::lead_angle::{Comparator, Comparing};
-use motion_rtl::hdl::{Sample, Simulator, Value};
+use motion_rtl::hdl::{Cut, Sample, Simulator, Value};
 
 const RANGE: i64 = 16;
 
@@ -10,7 +10,7 @@ fn look(position: i64, target: i64, arm: bool) -> In<Value> {
     In {
         evaluate: !arm,
         valid: true,
-        position,
+        position: position.cut(4),
         target,
         arm,
         halt: false,
@@ -46,15 +46,19 @@ fn a_crossing_is_counted_once_in_either_direction() {
             let mut simulator = ready.clone();
             let mut position = start;
             let target = walk % 5;
-            simulator.step_with(&look(position, target, true), |_| ());
+            simulator
+                .step_with(&look(position, target, true), |_| ())
+                .unwrap();
             // The first look finds a side, or the target itself.
-            let at_once = simulator.step_with(&look(position, target, false), |now| now.w.fire);
+            let at_once = simulator
+                .step_with(&look(position, target, false), |now| now.w.fire)
+                .unwrap();
             assert_eq!(at_once, (position - target) % RANGE == 0);
             let mut fired = at_once;
             for step in steps {
                 let to = position + step;
                 let show = |now: &Sample<'_, Comparator>| (now.w.crossing, now.w.fire);
-                let (crossing, fire) = simulator.step_with(&look(to, target, false), show);
+                let (crossing, fire) = simulator.step_with(&look(to, target, false), show).unwrap();
                 let reached = reaches(position, to, target);
                 assert_eq!(crossing, reached, "{position} to {to} for {target}");
                 assert_eq!(fire, reached && !fired);
@@ -89,7 +93,7 @@ fn hits(comparing: Comparing, speed: i64) -> usize {
                 arm: ck == 0,
                 halt: false,
             };
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         simulator.registers().q.control
     };

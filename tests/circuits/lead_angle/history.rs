@@ -32,7 +32,7 @@ fn is_the_sample_k_old<H: Circuit<In<Value> = In<Value>>>(
                 tap,
                 ratio: 1,
             };
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
             assert_eq!(simulator.see(|s| pair(s).fresh), ck && !restart);
             if restart {
                 restarted = taken.len() + 1;
@@ -100,7 +100,7 @@ fn pair_and_ratio_belong_together_when_the_tap_changes() {
             ratio: tap ^ 5,
         };
         let before = simulator.registers().q.pair;
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
         let pair = simulator.registers().q.pair;
         if !ck {
             assert_eq!(pair.old, before.old);

@@ -33,13 +33,17 @@ fn correct(
         seed,
     };
     let mut simulator = ready.clone();
-    simulator.step_with(&input(true, false, -overrun), |_| ());
-    simulator.step_with(&input(false, true, 0), |_| ());
+    simulator
+        .step_with(&input(true, false, -overrun), |_| ())
+        .unwrap();
+    simulator.step_with(&input(false, true, 0), |_| ()).unwrap();
     for ticks in 1..=2 * ready.circuit().latency(2) {
-        let (corrected, learned, time, raw) = simulator.step_with(&input(false, false, 0), |now| {
-            let (w, raw) = (now.w, now.p.arithmetic.q.raw);
-            (w.corrected, w.learned, w.learned_time, raw)
-        });
+        let (corrected, learned, time, raw) = simulator
+            .step_with(&input(false, false, 0), |now| {
+                let (w, raw) = (now.w, now.p.arithmetic.q.raw);
+                (w.corrected, w.learned, w.learned_time, raw)
+            })
+            .unwrap();
         assert!(corrected || !learned);
         if corrected {
             let learned = learned.then_some(time);

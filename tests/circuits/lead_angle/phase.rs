@@ -31,7 +31,9 @@ fn samples(
         position: width,
     };
     let mut detector = Simulator::new(&circuit).unwrap();
-    detector.set(|i| i.modulus, u64::from(pitch) % (1 << phase));
+    detector
+        .set(|i| i.modulus, u64::from(pitch) % (1 << phase))
+        .unwrap();
     let transducer = PhaseShiftTransducer::new(pitch);
     let (mut seen, mut crossings) = (Vec::new(), Vec::new());
     let mut before = true;
@@ -39,7 +41,7 @@ fn samples(
         let phase = detector.see(|s| s.w.phase);
         assert_eq!(phase, tick % u64::from(pitch));
         let now = level(tick, transducer.secondary(phase, position(tick)));
-        detector.set(|i| i.secondary, now);
+        detector.set(|i| i.secondary, now).unwrap();
         if phase == 0 {
             crossings.push(0);
         }
@@ -207,14 +209,16 @@ fn clear_takes_the_next_place() {
         position: 12,
     };
     let mut detector = Simulator::new(&circuit).unwrap();
-    detector.set(|i| i.modulus, 40);
+    detector.set(|i| i.modulus, 40).unwrap();
     let transducer = PhaseShiftTransducer::new(40);
     for tick in 0..8_000u64 {
         let phase = detector.see(|s| s.w.phase);
         assert_eq!(phase, tick % 40);
         let at = (tick as f64 / 20.0).min(131.0);
-        detector.set(|i| i.secondary, transducer.secondary(phase, at));
-        detector.set(|i| i.clear, tick == 4_000);
+        detector
+            .set(|i| i.secondary, transducer.secondary(phase, at))
+            .unwrap();
+        detector.set(|i| i.clear, tick == 4_000).unwrap();
         let position = detector.see(|s| s.w.position);
         match tick {
             3_000..=4_000 => assert_eq!(position, 131),

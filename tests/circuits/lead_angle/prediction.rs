@@ -4,7 +4,7 @@ use motion_rtl::circuits::lead_angle::codes;
 use motion_rtl::circuits::lead_angle::{
     Division, Lead, LeadPlacement, Memory, Placement, TimeLead, lead, placement, time_lead,
 };
-use motion_rtl::hdl::{Simulator, Value};
+use motion_rtl::hdl::{Cut, Simulator, Value};
 use proptest::prelude::*;
 use std::collections::HashSet;
 
@@ -43,7 +43,7 @@ fn the_prediction_is_exact_on_the_ring_and_the_placements_agree() {
                     old: wrap(position - way, 8),
                     ratio: ratio as u64,
                 };
-                let lead = lead.step_with(&i, |now| now.w.lead);
+                let lead = lead.step_with(&i, |now| now.w.lead).unwrap();
                 let predicted = position + ratio * way;
                 assert_eq!(lead, wrap(ratio * way, 8));
                 // The same lead comes of several ways.
@@ -58,13 +58,13 @@ fn the_prediction_is_exact_on_the_ring_and_the_placements_agree() {
                     };
                     let away = wrap(predicted - target, 8);
                     for simulator in &mut placed {
-                        simulator.apply(&i);
+                        simulator.apply(&i).unwrap();
                         let [to, from] = compared.map(|at| simulator.get(at));
                         let placement = simulator.circuit().placement;
                         assert_eq!(wrap(to - from, 8), away, "{placement:?}");
                     }
                 }
-                placed[0].set(|i| i.target, 0);
+                placed[0].set(|i| i.target, 0).unwrap();
                 assert_eq!(placed[0].get(compared[0]), wrap(predicted, 8));
             }
         }
@@ -97,19 +97,22 @@ fn predictions(
         position: 0,
         lead_time: time,
     };
+    let width = simulator.signals().i.position.width();
     let mut seen = Vec::new();
     for ck in 1 - count..=0 {
-        i.position = position(ck);
+        i.position = position(ck).cut(width);
         i.ck = true;
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
         if ck <= -last {
             continue;
         }
         i.ck = false;
-        let [present, lead] = simulator.step_with(&i, |now| {
-            assert!(now.w.enough && now.w.fresh);
-            [now.w.present, now.w.lead]
-        });
+        let [present, lead] = simulator
+            .step_with(&i, |now| {
+                assert!(now.w.enough && now.w.fresh);
+                [now.w.present, now.w.lead]
+            })
+            .unwrap();
         seen.push(wrap(present + lead, 24));
     }
     seen

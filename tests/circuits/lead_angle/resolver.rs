@@ -38,14 +38,14 @@ fn samples(
     words: impl Fn(u64, [i64; 2]) -> [i64; 2],
 ) -> Vec<Seen> {
     let mut detector = Simulator::new(&detector()).unwrap();
-    detector.set(|i| i.modulus, pitch % (1 << 17));
+    detector.set(|i| i.modulus, pitch % (1 << 17)).unwrap();
     let (mut seen, mut strobes) = (Vec::new(), Vec::new());
     for tick in 0..ticks {
         let (strobe, [sine, cosine]) = resolver.step(position(tick));
         let [sine, cosine] = words(tick, [sine, cosine]);
-        detector.set(|i| i.strobe, strobe);
-        detector.set(|i| i.sine, sine);
-        detector.set(|i| i.cosine, cosine);
+        detector.set(|i| i.strobe, strobe).unwrap();
+        detector.set(|i| i.sine, sine).unwrap();
+        detector.set(|i| i.cosine, cosine).unwrap();
         if strobe {
             strobes.push(tick);
         }
@@ -96,7 +96,7 @@ fn convert(
             sine,
             cosine,
         };
-        converter.step_with(&i, |_| ());
+        converter.step_with(&i, |_| ()).unwrap();
     }
     let angle = converter.see(|s| s.w.angle);
     (angle as i64, converter.see(|s| s.w.speed))
@@ -328,16 +328,16 @@ fn a_body_that_is_too_fast_is_lost() {
 #[test]
 fn clear_takes_the_next_place() {
     let mut detector = Simulator::new(&detector()).unwrap();
-    detector.set(|i| i.modulus, 1000);
+    detector.set(|i| i.modulus, 1000).unwrap();
     let mut resolver = good(1000);
     let mut place = None;
     for tick in 0..SETTLED + 40_000 {
         let at = (tick as f64 - 6_000.0).max(0.0) / 10.0;
         let (strobe, [sine, cosine]) = resolver.step(at.min(3_456.4));
-        detector.set(|i| i.strobe, strobe);
-        detector.set(|i| i.sine, sine);
-        detector.set(|i| i.cosine, cosine);
-        detector.set(|i| i.clear, tick == 42_005);
+        detector.set(|i| i.strobe, strobe).unwrap();
+        detector.set(|i| i.sine, sine).unwrap();
+        detector.set(|i| i.cosine, cosine).unwrap();
+        detector.set(|i| i.clear, tick == 42_005).unwrap();
         let position = detector.see(|s| s.w.position);
         match tick {
             41_800..=42_005 => assert_eq!(place.get_or_insert(position), &position),

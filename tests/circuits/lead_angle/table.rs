@@ -16,12 +16,12 @@ fn filled(lead: impl Fn(i64) -> i64) -> TableLead {
 /// The lead of each of these ways of a gate of one CK, one after the other.
 fn leads(circuit: &TableLead, ways: &[i64]) -> Vec<i64> {
     let mut simulator = Simulator::new(circuit).unwrap();
-    simulator.set(|i| i.ck, true);
+    simulator.set(|i| i.ck, true).unwrap();
     simulator.step();
     let mut position = 0;
     let lead = |way: &i64| {
         position = (position + way + (1 << 23)).rem_euclid(1 << 24) - (1 << 23);
-        simulator.set(|i| i.position, position);
+        simulator.set(|i| i.position, position).unwrap();
         simulator.step();
         assert_eq!(simulator.see(|s| s.w.speed), *way);
         simulator.see(|s| s.w.lead)
@@ -52,9 +52,11 @@ fn a_memory_of_a_product_gives_what_the_product_gives() {
             position,
             gate,
         };
-        let one = table.step_with(&i, |now| {
-            (now.w.present, now.w.lead, now.w.fresh, now.w.enough)
-        });
+        let one = table
+            .step_with(&i, |now| {
+                (now.w.present, now.w.lead, now.w.fresh, now.w.enough)
+            })
+            .unwrap();
         let i = speed_lead::In {
             ck,
             restart,
@@ -62,9 +64,11 @@ fn a_memory_of_a_product_gives_what_the_product_gives() {
             lead_parameter: 3 * 256,
             gate,
         };
-        let other = product.step_with(&i, |now| {
-            (now.w.present, now.w.lead, now.w.fresh, now.w.enough)
-        });
+        let other = product
+            .step_with(&i, |now| {
+                (now.w.present, now.w.lead, now.w.fresh, now.w.enough)
+            })
+            .unwrap();
         assert_eq!(one, other, "tick {tick}");
         enough += usize::from(one.3);
         led += usize::from(one.1 != 0);

@@ -36,9 +36,11 @@ fn times_are_divided_as_the_ratio_logic_divides_them() {
     for stages in [3, 15, 199] {
         let mut logic = Simulator::new(&RatioLogic { stages }).unwrap();
         for lead_time in 0..1 << codes::time_width(stages) {
-            let seen = logic.step_with(&ratio_logic::In { lead_time }, |now| {
-                [now.w.code, now.w.ratio, now.w.tap]
-            });
+            let seen = logic
+                .step_with(&ratio_logic::In { lead_time }, |now| {
+                    [now.w.code, now.w.ratio, now.w.tap]
+                })
+                .unwrap();
             let code = codes::rounded(stages as u64, lead_time);
             assert_eq!([code.time, code.ratio, code.tap], seen, "{lead_time}");
         }
@@ -187,11 +189,13 @@ fn at_full_width_too() {
             if below(&mut random, 5) == 0 {
                 i.lead_time = below(&mut random, longest(&beside) + 1);
             }
-            let (same, predicted, form) = simulator.step_with(&i, |now| {
-                let leads = now.w.predicted != now.see(|s| s.p.embodiment.w.present);
-                led += usize::from(leads);
-                (now.w.same, now.w.predicted, now.w.form_predicted)
-            });
+            let (same, predicted, form) = simulator
+                .step_with(&i, |now| {
+                    let leads = now.w.predicted != now.see(|s| s.p.embodiment.w.present);
+                    led += usize::from(leads);
+                    (now.w.same, now.w.predicted, now.w.form_predicted)
+                })
+                .unwrap();
             assert!(same && predicted == form, "{beside:?}, tick {tick}");
         }
         assert!(led > 2_000, "{beside:?}: {led}");

@@ -138,9 +138,11 @@ fn the_three_placements_fire_in_the_same_tick() {
         let mut fired = 0;
         let mut simulator = Simulator::new(&pair).unwrap();
         for _ in 0..100_000 {
-            let seen = simulator.step_with(&PairIn(bench.tick(None)), |now| {
-                lockstep.sample(now).map(|_| now.see(|s| s.p.left.w.fire))
-            });
+            let seen = simulator
+                .step_with(&PairIn(bench.tick(None)), |now| {
+                    lockstep.sample(now).map(|_| now.see(|s| s.p.left.w.fire))
+                })
+                .unwrap();
             fired += u64::from(seen.unwrap());
         }
         assert!(fired > 300, "{fired}");
@@ -177,13 +179,15 @@ fn every_form_is_the_embodiment_in_every_tick() {
                     i.learn = false;
                     i.step_time %= 16;
                 }
-                let seen = simulator.step_with(&PairIn(i), |now| {
-                    let seen = [
-                        now.see(|s| s.p.left.w.fire),
-                        now.see(|s| s.p.left.w.learned),
-                    ];
-                    lockstep.sample(now).map(|_| seen)
-                });
+                let seen = simulator
+                    .step_with(&PairIn(i), |now| {
+                        let seen = [
+                            now.see(|s| s.p.left.w.fire),
+                            now.see(|s| s.p.left.w.learned),
+                        ];
+                        lockstep.sample(now).map(|_| seen)
+                    })
+                    .unwrap();
                 let seen =
                     seen.unwrap_or_else(|error| panic!("{form:?}, {memory:?}, {tick}: {error}"));
                 fired += u64::from(seen[0]);
@@ -227,11 +231,13 @@ fn never_fires_too_early(circuit: &Compensator, wanted: impl Fn(u64) -> Option<u
     for tick in 0..400_000 {
         let i = bench.tick(None);
         let restart = i.clear;
-        let (ck, fire, halting, time) = simulator.step_with(&i, |now| {
-            let [ck, fire] = [now.see(|s| s.w.ck), now.see(|s| s.w.fire)];
-            let halting = now.see(|s| s.p.sequencer.q.halting);
-            (ck, fire, halting, now.see(|s| s.w.lead_time))
-        });
+        let (ck, fire, halting, time) = simulator
+            .step_with(&i, |now| {
+                let [ck, fire] = [now.see(|s| s.w.ck), now.see(|s| s.w.fire)];
+                let halting = now.see(|s| s.p.sequencer.q.halting);
+                (ck, fire, halting, now.see(|s| s.w.lead_time))
+            })
+            .unwrap();
         let covered = pair.is_some_and(|(time, samples)| {
             wanted(time).is_some_and(|samples_wanted| samples > samples_wanted)
         });

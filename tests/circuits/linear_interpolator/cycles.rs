@@ -107,13 +107,16 @@ impl Run {
         let before = self.command();
         let i = ports(scan, push, abort);
         // By places, as whole records take longer than the tick itself.
-        let seen = self.simulator.step_with(&i, |now| Seen {
-            start: now.see(|s| s.w.start),
-            load: now.see(|s| s.w.load),
-            busy: now.see(|s| s.w.busy),
-            late: now.see(|s| s.w.late),
-            refused: now.see(|s| s.w.refused),
-        });
+        let seen = self
+            .simulator
+            .step_with(&i, |now| Seen {
+                start: now.see(|s| s.w.start),
+                load: now.see(|s| s.w.load),
+                busy: now.see(|s| s.w.busy),
+                late: now.see(|s| s.w.late),
+                refused: now.see(|s| s.w.refused),
+            })
+            .unwrap();
         self.late |= seen.late;
         self.refused |= seen.refused;
         assert!(seen.load || self.command() == before, "moved by itself");
@@ -417,14 +420,18 @@ fn the_next_cycle_takes_a_scan_after_the_turnaround_and_not_before() {
     };
     let mut simulator = at_power_on(Rule::Floor);
     for x in [9, -5] {
-        simulator.step_with(&ports(false, Some(target(x)), false), |_| ());
+        simulator
+            .step_with(&ports(false, Some(target(x)), false), |_| ())
+            .unwrap();
     }
     // The run after the last load before the second cycle begins.
     let (mut loaded, mut starts) = (simulator.clone(), 0);
     while starts < 2 {
         let scan = simulator.tick().is_multiple_of(SCAN);
         let i = ports(scan, None, false);
-        let (load, start) = simulator.step_with(&i, |now| (now.w.load, now.w.start));
+        let (load, start) = simulator
+            .step_with(&i, |now| (now.w.load, now.w.start))
+            .unwrap();
         starts += u32::from(start);
         if load {
             loaded = simulator.clone();
@@ -434,7 +441,8 @@ fn the_next_cycle_takes_a_scan_after_the_turnaround_and_not_before() {
     let is_taken = |ticks: u64| {
         let mut run = loaded.clone();
         for tick in 1..=ticks {
-            run.step_with(&ports(tick == ticks, None, false), |_| ());
+            run.step_with(&ports(tick == ticks, None, false), |_| ())
+                .unwrap();
         }
         run.see(|s| s.p.sequencer.q.advance)
     };
@@ -490,7 +498,9 @@ fn a_long_line_at_full_width() {
     for tick in 0..2100 * circuit.latency() {
         let mut i = ports(tick % circuit.latency() == 0, Some(target), false);
         i.orders.push = tick == 0;
-        let (loaded, late) = simulator.step_with(&i, |now| (now.w.load, now.w.late));
+        let (loaded, late) = simulator
+            .step_with(&i, |now| (now.w.load, now.w.late))
+            .unwrap();
         assert!(!late);
         if loaded {
             points.push(command(&simulator));

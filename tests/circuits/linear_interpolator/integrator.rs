@@ -49,7 +49,9 @@ impl Cycle {
             start: increment.is_some(),
             increment: increment.unwrap_or(0),
         };
-        self.simulator.step_with(&i, |now| now.see(|s| s.w.valid))
+        self.simulator
+            .step_with(&i, |now| now.see(|s| s.w.valid))
+            .unwrap()
     }
 
     /// Takes an increment; `valid` stands in the tick that it should, and in no other.
@@ -287,6 +289,10 @@ fn a_master_that_does_not_move_divides_nothing() {
             start: true,
             increment: 3,
         };
-        assert!(!simulator.step_with(&i, |now| now.w.valid || now.w.busy));
+        assert!(
+            !simulator
+                .step_with(&i, |now| now.w.valid || now.w.busy)
+                .unwrap()
+        );
     }
 }

@@ -53,12 +53,15 @@ impl Bench {
             advance: ports.advance,
             halt: ports.halt,
         };
-        let shown = self.simulator.step_with(&i, |now| Outputs {
-            position: now.w.position,
-            valid: now.w.valid,
-            ready: now.w.ready,
-            active: now.w.active,
-        });
+        let shown = self
+            .simulator
+            .step_with(&i, |now| Outputs {
+                position: now.w.position,
+                valid: now.w.valid,
+                ready: now.w.ready,
+                active: now.w.active,
+            })
+            .unwrap();
         let expected = self.program.outputs();
         let plan = self.program.plan();
         assert_eq!(shown, expected, "tick {} of {plan:?}", self.ticks);

@@ -220,28 +220,30 @@ impl AtPowerOn {
         let mut seen = Vec::new();
         while seen.len() < periods {
             let write = writes.next();
-            let ended = simulator.step_with(write.as_ref().unwrap_or(&idle), |now| {
-                let ended = now.get(driven) && !now.get(waiting);
-                ended.then(|| {
-                    let (p, axes) = (now.p, &now.p.axes);
-                    let [placed, referred] = [&p.distribution, &p.reference_point];
-                    let response = axes.iter().map(|axis| &axis.p.response.p.integrators);
-                    let model = axes.iter().map(|axis| &axis.p.servo.p.model.p.integrators);
-                    let corrector = axes.iter().map(|axis| &axis.p.corrector.q);
-                    Period {
-                        command: placed.p.axes.iter().map(|axis| axis.q.point).collect(),
-                        response: response.map(|model| model.q.position).collect(),
-                        reference: referred.p.axes.iter().map(|axis| axis.q.point).collect(),
-                        correction: corrector.clone().map(|of| of.correction).collect(),
-                        corrected: corrector.map(|of| of.corrected).collect(),
-                        model: model.map(|model| model.q.position).collect(),
-                        length: p.progress.q.length,
-                        answered: p.tangential.p.integrators.q.position,
-                        looked_up: [p.clamp_command.w.clamped, p.clamp_response.w.clamped],
-                        segments: [placed, referred].map(|point| point.w.segment as usize),
-                    }
+            let ended = simulator
+                .step_with(write.as_ref().unwrap_or(&idle), |now| {
+                    let ended = now.get(driven) && !now.get(waiting);
+                    ended.then(|| {
+                        let (p, axes) = (now.p, &now.p.axes);
+                        let [placed, referred] = [&p.distribution, &p.reference_point];
+                        let response = axes.iter().map(|axis| &axis.p.response.p.integrators);
+                        let model = axes.iter().map(|axis| &axis.p.servo.p.model.p.integrators);
+                        let corrector = axes.iter().map(|axis| &axis.p.corrector.q);
+                        Period {
+                            command: placed.p.axes.iter().map(|axis| axis.q.point).collect(),
+                            response: response.map(|model| model.q.position).collect(),
+                            reference: referred.p.axes.iter().map(|axis| axis.q.point).collect(),
+                            correction: corrector.clone().map(|of| of.correction).collect(),
+                            corrected: corrector.map(|of| of.corrected).collect(),
+                            model: model.map(|model| model.q.position).collect(),
+                            length: p.progress.q.length,
+                            answered: p.tangential.p.integrators.q.position,
+                            looked_up: [p.clamp_command.w.clamped, p.clamp_response.w.clamped],
+                            segments: [placed, referred].map(|point| point.w.segment as usize),
+                        }
+                    })
                 })
-            });
+                .unwrap();
             seen.extend(ended);
             assert!(!simulator.get(late));
         }

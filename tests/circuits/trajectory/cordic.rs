@@ -24,7 +24,7 @@ fn turned(cordic: &Simulator<Cordic>, [radius, offset]: [i64; 2], angle: u64) ->
             offset: if ticks == 1 { offset } else { 2 },
             angle: if ticks == 1 { angle } else { 0 },
         };
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
         let done = simulator.see(|s| s.p.turning.q.done);
         assert_eq!(done, ticks == latency, "after {ticks} ticks");
     }

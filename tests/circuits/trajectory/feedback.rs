@@ -46,18 +46,19 @@ fn hold(simulator: &mut Simulator<ErrorFeedback>, circuit: &ErrorFeedback, i: &I
         gains: i.gains.clone(),
         ..zero(circuit)
     };
-    simulator.step_with(i, |_| ());
+    simulator.step_with(i, |_| ()).unwrap();
     for tick in 1..circuit.latency() {
         let start = tick == circuit.latency() / 2;
         let given = In {
             start,
             ..idle.clone()
         };
-        let done = simulator.step_with(&given, |now| now.q.done);
+        let done = simulator.step_with(&given, |now| now.q.done).unwrap();
         assert!(!done, "tick {tick}");
     }
-    let (done, busy, sum) =
-        simulator.step_with(&idle, |now| (now.q.done, now.w.busy, now.q.sum.clone()));
+    let (done, busy, sum) = simulator
+        .step_with(&idle, |now| (now.q.done, now.w.busy, now.q.sum.clone()))
+        .unwrap();
     assert!(done && !busy);
     let sum: Vec<i128> = sum.into_iter().map(i128::from).collect();
     assert_eq!(sum, expected(circuit, i), "{i:?}");

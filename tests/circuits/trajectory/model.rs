@@ -42,7 +42,7 @@ fn step(simulator: &mut Bench, target: i128, gains: [u64; 2]) -> State {
     let latency = simulator.circuit().latency();
     for ticks in 1..=latency {
         let i = ports(target, gains, [ticks == 1, false]);
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
         let (last, fresh) = (ticks == latency, simulator.see(|s| s.w.fresh));
         assert_eq!(fresh, last, "after {ticks} ticks");
         assert!(last || state(simulator) == before, "after {ticks} ticks");
@@ -180,7 +180,7 @@ fn no_product_overflows_in_any_state() {
         let mut simulator = before.clone();
         for tick in 0..simulator.circuit().latency() {
             let i = ports(target, gains, [tick == 0, false]);
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         simulator
     };
@@ -274,7 +274,7 @@ fn preset_gives_up_a_step_in_every_tick_of_it() {
         let mut simulator = bench.clone();
         for tick in 0..=given_up {
             let i = ports(500, [33, 50], [tick == 0, tick == given_up]);
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         assert_eq!(state(&mut simulator), [500, 0, 0]);
         // And the next step is right, at once.

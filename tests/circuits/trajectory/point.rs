@@ -190,7 +190,7 @@ proptest! {
                     path_data: data,
                 };
                 let i = In { path, ..idle(last) };
-                simulator.step_with(&i, |_| ());
+                simulator.step_with(&i, |_| ()).unwrap();
             }
         }
         // The ends of each segment too, the path's own among them.
@@ -206,7 +206,7 @@ proptest! {
             let latency = segment.latency();
             for ticks in 1..=latency {
                 let i = In { start: ticks == 1, length, ..idle(last) };
-                simulator.step_with(&i, |_| ());
+                simulator.step_with(&i, |_| ()).unwrap();
                 let done = simulator.see(|s| s.p.sequencer.q.done);
                 prop_assert_eq!(done, ticks == latency, "after {} ticks", ticks);
             }

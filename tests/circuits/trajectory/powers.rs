@@ -25,7 +25,7 @@ fn every_length_is_raised_and_rounded_down_once_a_power() {
                     offset,
                     shift,
                 };
-                powers.step_with(&i, |_| ());
+                powers.step_with(&i, |_| ()).unwrap();
                 let done = powers.see(|s| s.q.done);
                 assert_eq!(
                     done,

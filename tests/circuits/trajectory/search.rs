@@ -46,7 +46,7 @@ fn every_length_is_found() {
                 write_begin: begin.unwrap_or_else(|| random.word() % 256),
                 ..idle(last)
             };
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         // In an order that jumps about.
         for length in (0..256u64).map(|step| step * 97 % 256) {
@@ -57,7 +57,7 @@ fn every_length_is_found() {
                     length: if ticks == 1 { length } else { 255 - length },
                     ..idle(last)
                 };
-                simulator.step_with(&i, |_| ());
+                simulator.step_with(&i, |_| ()).unwrap();
                 let done = simulator.see(|s| s.q.done);
                 assert_eq!(done, ticks == latency, "after {ticks} ticks");
             }

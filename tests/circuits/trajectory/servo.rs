@@ -138,19 +138,19 @@ fn against_equations(widths: ServoWidths, settings: &Settings, periods: &[Period
     // The counter's synchronizers fill.
     for _ in 0..4 {
         let i = ports(0, settings, [false; 2], channels(0));
-        simulator.step_with(&i, |_| ());
+        simulator.step_with(&i, |_| ()).unwrap();
     }
     for &(moves, target) in periods {
         for _ in 0..moves.abs() {
             count += moves.signum();
             for _ in 0..2 {
                 let i = ports(target, settings, [false; 2], channels(count));
-                simulator.step_with(&i, |_| ());
+                simulator.step_with(&i, |_| ()).unwrap();
             }
         }
         for _ in 0..6 {
             let i = ports(target, settings, [false; 2], channels(count));
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         let feedback = position(&mut simulator);
         assert_eq!(feedback.abs(), count.abs());
@@ -159,7 +159,7 @@ fn against_equations(widths: ServoWidths, settings: &Settings, periods: &[Period
         let latency = circuit.latency();
         for tick in 1..=latency {
             let i = ports(target, settings, [tick == 1, false], channels(count));
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
             let fresh = simulator.see(|s| s.w.fresh);
             assert_eq!(fresh, tick == latency, "tick {tick}");
             if tick < latency {
@@ -256,13 +256,13 @@ fn preset_begins_anew_in_every_tick() {
         // A first step whole, so that there is something to forget.
         for tick in 0..=latency {
             let i = ports(900_000, &settings, [tick == 0, false], [false; 2]);
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         // The motor has moved since.
         for count in 1..=3 {
             for _ in 0..4 {
                 let i = ports(900_000, &settings, [false; 2], channels(count));
-                simulator.step_with(&i, |_| ());
+                simulator.step_with(&i, |_| ()).unwrap();
             }
         }
         let feedback = position(&mut simulator);
@@ -274,7 +274,7 @@ fn preset_begins_anew_in_every_tick() {
                 [tick == 0, tick == given_up],
                 channels(3),
             );
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         assert_eq!(simulator.see(|s| s.p.model.w.position), 70_000);
         assert_eq!(output(&mut simulator), (0, false));
@@ -286,7 +286,7 @@ fn preset_begins_anew_in_every_tick() {
         };
         for _ in 0..2 * latency {
             let i = ports(70_000, &settings, [false; 2], channels(3));
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         let expected = start.step(70_000, feedback, &settings, &FULL);
         assert!(!expected.saturated);

@@ -349,7 +349,7 @@ fn the_least_period_is_enough_and_one_tick_less_is_not() {
         let idle = PLANE.idle(&path, GAINS, period);
         let idle = (0..8 * period).map(|_| idle.clone());
         for i in writes.into_iter().chain(idle) {
-            simulator.step_with(&i, |_| ());
+            simulator.step_with(&i, |_| ()).unwrap();
         }
         let late = simulator.see(|s| s.w.late);
         assert_eq!(late, period < least, "{period} ticks");
@@ -380,13 +380,15 @@ fn a_second_path_begins_where_the_first_has_ended() {
         let after = (0..400 * PERIOD).map(|_| idle.clone());
         let mut corrected = None;
         for i in before.chain(writes).chain(after) {
-            let seen = simulator.step_with(&i, |now| {
-                let driven = now.see(|s| s.p.axes[0].w.driven);
-                let waiting = now.see(|s| s.p.progress.q.waiting);
-                let corrected = [0, 1].map(|k| now.see(|s| s.p.axes[k].w.corrected));
-                let correction = [0, 1].map(|k| now.see(|s| s.p.axes[k].w.deviation));
-                (driven, waiting, corrected, correction)
-            });
+            let seen = simulator
+                .step_with(&i, |now| {
+                    let driven = now.see(|s| s.p.axes[0].w.driven);
+                    let waiting = now.see(|s| s.p.progress.q.waiting);
+                    let corrected = [0, 1].map(|k| now.see(|s| s.p.axes[k].w.corrected));
+                    let correction = [0, 1].map(|k| now.see(|s| s.p.axes[k].w.deviation));
+                    (driven, waiting, corrected, correction)
+                })
+                .unwrap();
             driven += u64::from(seen.0);
             ticks += 1;
             if number == 1 && seen.1 {

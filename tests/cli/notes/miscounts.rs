@@ -49,14 +49,14 @@ impl Circuit for Line {
 /// The pulses of each of [`UNITS`] unit times, beginning with a counter of 0 and a low line.
 fn play(mut line: Simulator<Line>, half_period: u32, period: u32) -> Vec<u32> {
     let step = line.signals().w.step;
-    line.set(|i| i.half_period, half_period.into());
+    line.set(|i| i.half_period, half_period.into()).unwrap();
     let mut units = Vec::new();
     for _ in 0..UNITS {
         let mut pulses = 0;
         // The line is forced low at RST, so each unit time's rises are its own.
         let mut before = false;
         for tick in 1..=period {
-            line.set(|i| i.unit_rst, tick == period);
+            line.set(|i| i.unit_rst, tick == period).unwrap();
             let level = line.get(step);
             pulses += u32::from(level && !before);
             before = level;

@@ -13,19 +13,20 @@ pub struct Memories {
 
 impl Memories {
     pub fn new(seed: u64) -> Self {
-        let words = |step: u64| (0..8).map(move |word| seed * 37 + word * step);
+        let words =
+            |step: u64, width: usize| (0..8).map(move |word| (seed * 37 + word * step).cut(width));
         Memories {
-            power_on: Image::of(3, 7, words(11)),
-            table: Image::of(3, 9, words(53)),
-            other: Image::of(3, 9, words(91)),
-            wide: Image::of(3, 12, words(53).map(|word| word & 511)),
+            power_on: Image::of(3, 7, words(11, 7)),
+            table: Image::of(3, 9, words(53, 9)),
+            other: Image::of(3, 9, words(91, 9)),
+            wide: Image::of(3, 12, words(53, 9)),
         }
     }
 }
 
 /// What the memory of flags holds.
 fn flags() -> Image {
-    Image::of(5, 1, (0..32).map(|word| word % 3))
+    Image::of(5, 1, (0..32).map(|word: u64| (word % 3).cut(1)))
 }
 
 /// What the memory holds that is never written.
@@ -76,7 +77,6 @@ signals! { for Memories as c;
         pub stage_one: U(3),
         pub stage_first: U(33),
         pub stage_last: U(33),
-        pub stage_over: U(33),
         pub stage_bit: Bit,
         pub tap_one: U(3),
         pub tap_two: U(1),
@@ -116,7 +116,6 @@ impl Circuit for Memories {
             stage_one: q.one.stage(0),
             stage_first: q.five.stage(0),
             stage_last: q.five.stage(4),
-            stage_over: q.five.stage(5),
             stage_bit: q.two.stage(1).bit(0),
             tap_one: q.one.tap(exact),
             tap_two: q.two.tap(i.read.word()),

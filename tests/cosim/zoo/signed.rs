@@ -92,6 +92,7 @@ impl Circuit for SignedWords {
         } = i;
         let least = I::new(i64::MIN >> (64 - n), n);
         let greatest = I::new(i64::MAX >> (64 - n), n);
+        let one = 1i64.cut(n);
         let minus_one = I::new(-1, n);
         let sum = a + b;
         let inner = right.mux(a - b, right.mux(b, least));
@@ -106,7 +107,7 @@ impl Circuit for SignedWords {
             b_zero: b.is_zero(),
             c_resized: c.resize(n),
             a_resized: a.resize(k),
-            sum_resized: (a + b + 1).resize(k),
+            sum_resized: (a + b + one).resize(k),
             minus_a_resized: (-b).resize(k),
             choice_resized: left.mux(a + b, -b).resize(k),
             shift_resized: (a - b).shift_right(n / 2).resize(k),
@@ -115,7 +116,7 @@ impl Circuit for SignedWords {
             product: a.times(c, p),
             swapped: c.times(a + b, p),
             square: a.times(a, n),
-            times_constant: a.times(I::new(-3, k), p),
+            times_constant: a.times(I::new((-3i64).cut(k), k), p),
             up_one: a.shift_left(1),
             up_last: a.shift_left(n - 1),
             up_over: a.shift_left(n),
@@ -126,10 +127,10 @@ impl Circuit for SignedWords {
             sum_down: (a + b).shift_right(1),
             down_sum: a.shift_right(1) + b.shift_right(1),
             size: a.magnitude(),
-            size_of_sum: (b - a + 1).magnitude(),
+            size_of_sum: (b - a + one).magnitude(),
             size_of_least: least.magnitude(),
             raw: a.unsigned(),
-            raw_sum: (a - 1).unsigned() + b.unsigned(),
+            raw_sum: (a - one).unsigned() + b.unsigned(),
             again: b.unsigned().signed(),
             least,
             greatest,
@@ -140,14 +141,17 @@ impl Circuit for SignedWords {
             below_minus_one: a.below(minus_one),
             least_or: left.mux(least, greatest),
             nested: left.mux(right.mux(a, b), -a),
-            both_nested: left.mux(inner, (left & !right).mux(inner + 1, right.mux(-b, inner))),
-            chain_left: (a - b) - (b - a) - 1,
-            chain_right: a - (b - (a - (b + 1))),
+            both_nested: left.mux(
+                inner,
+                (left & !right).mux(inner + one, right.mux(-b, inner)),
+            ),
+            chain_left: (a - b) - (b - a) - one,
+            chain_right: a - (b - (a - (b + one))),
             minus_of_sum: -(a + b) - -b,
             twice_negated: -(-a),
-            sums_equal: (a + 1).equals(b - 1),
-            sums_below: (a + 1).below(b - 1),
-            raw_below: (a + 1).unsigned().below((b - 1).unsigned()),
+            sums_equal: (a + one).equals(b - one),
+            sums_below: (a + one).below(b - one),
+            raw_below: (a + one).unsigned().below((b - one).unsigned()),
         };
         (net, Nothing)
     }

@@ -188,7 +188,7 @@ impl Tree {
             starts: 9,
             limit,
             // One of them is empty.
-            store: Image::of(2, 6, (0..4).map(|word| word * (limit - 3))),
+            store: Image::of(2, 6, (0..4).map(|word: u64| (word * (limit - 3)).cut(6))),
         };
         Tree {
             branches: [

@@ -43,10 +43,12 @@ fn they_are_those_of_the_circuit_alone() {
         let simulator = Simulator::watching_beside(&COUNTER, &Motor, true, |_| ());
         let (mut simulator, ()) = simulator.unwrap();
         for tick in 0..TICKS {
-            simulator.show::<Motor>(&Side {
-                speed: tick * 7,
-                stopped: tick.is_multiple_of(3),
-            });
+            simulator
+                .show::<Motor>(&Side {
+                    speed: (tick * 7).cut(5),
+                    stopped: tick.is_multiple_of(3),
+                })
+                .unwrap();
             let observers = (Without(&mut vcd), &mut both);
             let stepped = simulator.step_watched(&i(tick), observers, |_| ());
             assert!(stepped.unwrap().1.is_continue());

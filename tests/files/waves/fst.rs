@@ -62,7 +62,7 @@ fn every_signal_is_as_in_the_vcd_at_every_time() {
     assert!(fst.len() * 4 < vcd.len(), "{} of {}", fst.len(), vcd.len());
     let (vcd, fst) = (reader::read(&vcd), reader::read(&fst));
     assert!(vcd.variables["zoo.left.phase_name"].changes.len() > 100);
-    assert!(vcd.variables["zoo.table.word3"].changes.len() > 100);
+    assert!(vcd.variables["zoo.store.word3"].changes.len() > 100);
     equal(&vcd, &fst);
 }
 

@@ -46,7 +46,7 @@ fn a_save_file_names_only_signals_of_its_dump() {
     assert!(
         left_out
             .iter()
-            .all(|name| name.starts_with("zoo.large.word"))
+            .all(|name| name.starts_with("zoo.great.word"))
     );
 }
 

@@ -33,7 +33,7 @@ fn flip_flops_show_power_on_and_memories_take_the_edge() {
     let registers = |simulator: &Simulator<Zoo>| -> Vec<u64> {
         let leaves = layout.iter();
         leaves
-            .map(|(leaf, _)| simulator.engine().leaf(*leaf))
+            .map(|(leaf, _)| simulator.engine().leaf(*leaf).unwrap())
             .collect()
     };
     let mut inputs = inputs(SEED);
@@ -44,9 +44,9 @@ fn flip_flops_show_power_on_and_memories_take_the_edge() {
         let i = inputs.next().unwrap();
         let before = registers(&simulator);
         let mut without = simulator.clone();
-        without.step_with(&i, |_| ());
+        without.step_with(&i, |_| ()).unwrap();
         let edge = registers(&without);
-        simulator.step_with_reset(rst(tick), &i, |_| ());
+        simulator.step_with_reset(rst(tick), &i, |_| ()).unwrap();
         let after = registers(&simulator);
         assert_eq!(simulator.tick(), tick + 1);
         for (place, (leaf, is_word)) in layout.iter().enumerate() {
@@ -71,9 +71,11 @@ fn the_waves_show_what_a_tick_of_reset_wrote() {
     let mut simulator = Simulator::new(&Zoo).unwrap();
     for tick in 0..TICKS {
         let i = inputs.next().unwrap();
-        let seen = simulator.step_with_reset(rst(tick), &i, |now| {
-            (&mut vcd, &mut recorder).sample(now).map(|_| ())
-        });
+        let seen = simulator
+            .step_with_reset(rst(tick), &i, |now| {
+                (&mut vcd, &mut recorder).sample(now).map(|_| ())
+            })
+            .unwrap();
         seen.unwrap();
     }
     let dump = reader::read(&vcd.finish().unwrap());

@@ -1,13 +1,13 @@
 use super::zoo::{Part, PartIn};
 use super::{SEED, options, run_zoo};
 use expect_test::expect;
-use motion_rtl::hdl::{Simulator, State};
+use motion_rtl::hdl::{Cut, Simulator, State};
 use motion_rtl::trace::{Options, RecordError, Recorder, text};
 
 fn part(ticks: u64) -> Recorder {
     let mut recorder = Recorder::new(&Part, &Options::default()).unwrap();
     let stimulus = |tick: u64, _: &State<'_, Part>| PartIn {
-        step: tick / 3 + 1,
+        step: (tick / 3 + 1).cut(3),
         up: tick % 4 == 3,
     };
     Simulator::new(&Part)
@@ -50,7 +50,7 @@ fn words_of_memories_that_hold_still_are_left_out() {
     let text = text::waves(&recorder, 0..40);
     let rows: Vec<_> = text
         .lines()
-        .filter(|line| line.starts_with("table."))
+        .filter(|line| line.starts_with("store."))
         .collect();
     assert!(!rows.is_empty() && rows.len() < 16, "{SEED}: {text}");
     assert_eq!(

@@ -30,7 +30,7 @@ impl Observer<Zoo> for Seventh {
 fn registers(simulator: &Simulator<Zoo>) -> Vec<u64> {
     let leaves = Declarations::of(&Zoo).leaves.into_iter().enumerate();
     let registers = leaves.filter(|(_, leaf)| leaf.role == Role::Register);
-    let words = registers.map(|(leaf, _)| simulator.engine().leaf(leaf));
+    let words = registers.map(|(leaf, _)| simulator.engine().leaf(leaf).unwrap());
     words.collect()
 }
 

@@ -65,8 +65,8 @@ signals! { for Zoo as _c;
         flags: [Bit; 3],
         pair: [U(5); 2] as Elements(&["first", "second"]),
         single: U(1),
-        table: Ram(4, 7),
-        large: Ram(7, 33),
+        store: Ram(4, 7),
+        great: Ram(7, 33),
         delay: Shift(5, 6),
     }
     /// Parts.
@@ -91,7 +91,7 @@ impl Circuit for Zoo {
             up: i.write ^ (axis == 1),
         });
         let net = Net {
-            read: q.table.read(i.address),
+            read: q.store.read(i.address),
             tap: q.delay.stage(4),
             busy: axes[0].w.wrapped | axes[1].w.wrapped,
         };
@@ -102,8 +102,8 @@ impl Circuit for Zoo {
             flags: vec![i.reset, q.flags[0], net.busy],
             pair: vec![q.pair[1], i.wide.resize(5)],
             single: i.write.word(),
-            table: q.table.write(i.write, i.address, i.wide.resize(7)),
-            large: q.large.write(i.reset, i.wide.resize(7), i.wide.resize(33)),
+            store: q.store.write(i.write, i.address, i.wide.resize(7)),
+            great: q.great.write(i.reset, i.wide.resize(7), i.wide.resize(33)),
             delay: q.delay.shift(i.write, i.wide.slice(7, 6)),
         };
         (net, next)
@@ -112,14 +112,8 @@ impl Circuit for Zoo {
 
 /// The words of inputs, each as wide as its port.
 pub fn words(i: &In<Value>) -> Vec<u64> {
-    let amount = i.amount as u64 & 0xfff;
-    vec![
-        i.reset.into(),
-        i.wide,
-        amount,
-        i.address & 15,
-        i.write.into(),
-    ]
+    let amount = (i.amount as u64).cut(12);
+    vec![i.reset.into(), i.wide, amount, i.address, i.write.into()]
 }
 
 /// Pseudo-random inputs, one a tick (splitmix64).
@@ -137,8 +131,8 @@ pub fn inputs(seed: u64) -> impl Iterator<Item = In<Value>> {
         In {
             reset: kind & 15 == 0,
             wide: random() >> (kind >> 58),
-            amount: random() as i64,
-            address: random(),
+            amount: (random() as i64).cut(12),
+            address: random().cut(4),
             write: kind >> 8 & 3 == 0,
         }
     })

@@ -29,11 +29,13 @@ struct Out {
 fn run(width: usize, inputs: impl IntoIterator<Item = In<Value>>) -> Vec<Out> {
     let mut simulator = Simulator::new(&QuadratureCounter { width }).unwrap();
     let mut step = |i| {
-        simulator.step_with(&i, |now| Out {
-            position: now.q.position,
-            lost: now.q.lost,
-            illegal: now.w.illegal,
-        })
+        simulator
+            .step_with(&i, |now| Out {
+                position: now.q.position,
+                lost: now.q.lost,
+                illegal: now.w.illegal,
+            })
+            .unwrap()
     };
     inputs.into_iter().map(&mut step).collect()
 }
@@ -108,8 +110,9 @@ fn a_reset_begins_anew_whatever_the_level() {
         for tick in 0..20 {
             let i = levels(channels(start + tick.min(7)), false);
             let rst = (10..13).contains(&tick);
-            let (position, lost) =
-                simulator.step_with_reset(rst, &i, |now| (now.q.position, now.q.lost));
+            let (position, lost) = simulator
+                .step_with_reset(rst, &i, |now| (now.q.position, now.q.lost))
+                .unwrap();
             assert!(!lost);
             if tick > 10 {
                 assert_eq!(position, 0, "start {start}, tick {tick}");

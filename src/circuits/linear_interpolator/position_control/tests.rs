@@ -33,8 +33,9 @@ fn scanned(
         gain,
         window,
     };
-    let (deviation, in_position) =
-        control.step_with(&i, |now| (now.w.deviation, now.w.in_position));
+    let (deviation, in_position) = control
+        .step_with(&i, |now| (now.w.deviation, now.w.in_position))
+        .unwrap();
     let q = control.registers().q;
     Out {
         deviation,

@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn words_stay_what_they_are_however_many_differ() {
-        let word = |k: u32| Word::new(k.wrapping_mul(2_654_435_761) >> 1, k % 3 == 0);
+        let word = |k: u32| Word::new(k.wrapping_mul(2_654_435_761) >> 1, k.is_multiple_of(3));
         for many in [1, 256, 257, 65_536, 65_537, 70_000] {
             let mut packed = PackedWords::default();
             // A word that is there makes no other number.

@@ -1,3 +1,5 @@
+//! Names that Verilog does not take.
+
 /// Words that are no names in Verilog-2001 or SystemVerilog, or that the export needs itself.
 const KEYWORDS: &str = "\
     accept_on alias always always_comb always_ff always_latch and assert assign assume automatic \
@@ -24,7 +26,7 @@ const KEYWORDS: &str = "\
     use uwire var vectored virtual void wait wait_order wand weak weak0 weak1 while wildcard wire \
     with within wor xnor xor _unused";
 
-/// Whether nothing in a module can be called this.
+/// True if nothing in a module can have this name.
 pub(super) fn is_reserved(name: &str) -> bool {
     KEYWORDS.split_ascii_whitespace().any(|word| word == name)
 }

@@ -1,0 +1,137 @@
+//! Ports in of a circuit: the values that each takes.
+
+use super::model::Declare;
+use super::netlist::Design;
+use super::{Kind, Shape};
+use crate::engine::InputError;
+use std::fmt;
+
+/// Ports in of an elaborated circuit, those beside it last.
+#[derive(Clone)]
+pub(crate) struct Ports {
+    ranges: Vec<Range>,
+    /// Makes the names, for an error.
+    declare: Declare,
+}
+
+/// Values of one port in.
+#[derive(Debug, Clone, Copy)]
+struct Range {
+    shape: Shape,
+    /// Bits of the word.
+    mask: u64,
+    /// Distance of the least value from 0.
+    below: u64,
+}
+
+impl Range {
+    fn of(shape: Shape) -> Self {
+        Range {
+            shape,
+            mask: u64::MAX >> (64 - shape.width),
+            below: match shape.kind {
+                Kind::Signed => 1 << (shape.width - 1),
+                Kind::Bit | Kind::Unsigned => 0,
+            },
+        }
+    }
+
+    /// True if a number of 64 bits, in two's complement where the port is signed, is in the range.
+    #[inline]
+    fn has(self, number: u64) -> bool {
+        number.wrapping_add(self.below) & !self.mask == 0
+    }
+}
+
+impl fmt::Debug for Ports {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(&self.ranges).finish()
+    }
+}
+
+impl Ports {
+    pub fn of(design: &Design, declare: &Declare) -> Self {
+        let whole = design.modules.last();
+        let ports = whole.into_iter().flat_map(|module| module.inputs());
+        Ports {
+            ranges: ports.map(|port| Range::of(port.shape)).collect(),
+            declare: declare.clone(),
+        }
+    }
+
+    /// Number of ports in.
+    pub fn count(&self) -> usize {
+        self.ranges.len()
+    }
+
+    /// Bits of a number for a port.
+    #[inline]
+    pub fn bits(&self, port: usize, number: u64) -> Result<u64, InputError> {
+        match self.ranges.get(port) {
+            Some(range) if range.has(number) => Ok(number & range.mask),
+            _ => Err(self.refused(port, number)),
+        }
+    }
+
+    /// Turns one number for each of the first `count` ports into bits.
+    #[inline]
+    pub fn all_bits(&self, count: usize, numbers: &mut [u64]) -> Result<(), InputError> {
+        if numbers.len() != count {
+            return Err(Ports::other_count(numbers.len(), count));
+        }
+        for (port, (number, range)) in numbers.iter_mut().zip(&self.ranges).enumerate() {
+            if !range.has(*number) {
+                return Err(self.refused(port, *number));
+            }
+            *number &= range.mask;
+        }
+        Ok(())
+    }
+
+    /// Checks that a word has no bits that its port has not.
+    pub fn check_word(&self, port: usize, word: u64) -> Result<(), InputError> {
+        match self.ranges.get(port) {
+            Some(range) if word & !range.mask == 0 => Ok(()),
+            Some(range) => Err(InputError::bits(self.name(port), word, range.shape.width)),
+            None => Err(self.refused(port, word)),
+        }
+    }
+
+    /// Checks one word for each port.
+    pub fn check_words(&self, words: &[u64]) -> Result<(), InputError> {
+        if words.len() != self.count() {
+            return Err(Ports::other_count(words.len(), self.count()));
+        }
+        let mut words = words.iter().enumerate();
+        words.try_for_each(|(port, word)| self.check_word(port, *word))
+    }
+
+    #[cold]
+    fn other_count(words: usize, ports: usize) -> InputError {
+        InputError::Count { words, ports }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn refused(&self, port: usize, number: u64) -> InputError {
+        let Some(range) = self.ranges.get(port) else {
+            let ports = self.count();
+            return InputError::Port { port, ports };
+        };
+        let (least, greatest) = range.shape.range();
+        InputError::Range {
+            port: self.name(port),
+            value: range.shape.number(number),
+            least,
+            greatest,
+        }
+    }
+
+    /// Name of a port below its circuit.
+    fn name(&self, port: usize) -> String {
+        let declared = (self.declare)();
+        let names = declared.leaves.get(port).map(|leaf| leaf.names().skip(1));
+        let names = names.map(|names| names.collect::<Vec<_>>().join("."));
+        names.unwrap_or_else(|| port.to_string())
+    }
+}
