@@ -51,3 +51,27 @@ fn notes() -> Vec<Note> {
 fn expect_none(wrong: &[String]) {
     assert!(wrong.is_empty(), "\n{}\n", wrong.join("\n"));
 }
+
+/// The doc tests of the library compile what stands in a note as Rust.
+#[test]
+fn every_example_in_rust_is_compiled() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let library = fs::read_to_string(root.join("src/lib.rs")).expect("the library is text");
+    let is_rust =
+        |line: &str| line.trim_start_matches('`').starts_with("rust") && line.starts_with("```");
+    let with_rust = notes()
+        .into_iter()
+        .filter(|note| note.text.lines().any(is_rust));
+    let names: Vec<_> = with_rust.map(|note| note.name).collect();
+    assert!(
+        names.contains(&"rtl_notes/conventions.md".to_owned()),
+        "{names:?}"
+    );
+    for name in names.iter().map(String::as_str).chain(["README.md"]) {
+        let included = library.contains(&format!("include_str!(\"../{name}\")"));
+        assert!(
+            included,
+            "{name} has Rust in it; src/lib.rs does not include it as a doc test"
+        );
+    }
+}
