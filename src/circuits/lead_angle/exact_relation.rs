@@ -37,6 +37,10 @@ signals! { for ExactRelation as c;
         distance: I(c.position + 1),
         /// The target was ahead, in the direction of the overrun.
         ahead: Bit,
+        /// d1 − d2 of a target ahead, d1 otherwise.
+        way: I(c.position + 1),
+        /// Its amount.
+        amount: U(c.position + 1),
         /// Divisor: |d1 − d2| of a target ahead, |d1| otherwise.
         pub divide_by: U(c.position),
         /// Half of it: the quotient is rounded to the nearest.
@@ -54,12 +58,15 @@ impl Circuit for ExactRelation {
         let opposed = distance.is_negative() ^ i.overrun.is_negative();
         let ahead = !opposed & !distance.is_zero();
         let overrun = i.overrun.resize(self.position + 1);
+        let way = ahead.mux(distance, overrun);
+        let amount = way.magnitude();
         // No two positions are 2^W apart.
-        let divide_by = ahead.mux(distance, overrun).magnitude();
-        let divide_by = divide_by.resize(self.position);
+        let divide_by = amount.resize(self.position);
         let net = Net {
             distance,
             ahead,
+            way,
+            amount,
             divide_by,
             addend: divide_by.shift_right(1),
         };

@@ -40,7 +40,6 @@ fn splines_of_a_program_are_run_as_curves() {
     close(model("none", "max"), none, 0.15);
     assert!(model("vector", "max") < none / 2.0);
     assert!(model("vector", "rms") < model("none", "rms") / 5.0);
-    // The prior art knows arcs only.
     // The prior art knows the radius of a spline too, and not of the speed at its ends.
     assert!(model("steady", "rms") < model("none", "rms") / 2.0);
     assert!(bench.read("o/s.svg").contains("ideal"));
