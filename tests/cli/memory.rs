@@ -69,7 +69,7 @@ fn the_slowest_feed_keeps_to_little() {
 #[test]
 #[ignore = "takes long"]
 fn an_hour_of_machine_time_takes_little_more() {
-    let circuits: [(&[&str], [u32; 2]); 3] = [
+    let circuits: [(&[&str], [u32; 2]); 4] = [
         (&["clock_hz=20000", "line_unit_ticks=20"], [600, 4200]),
         (
             &[
@@ -83,6 +83,7 @@ fn an_hour_of_machine_time_takes_little_more() {
             &["circuit=trajectory_controller", "clock_hz=400000"],
             [120, 420],
         ),
+        (&["circuit=machine", "clock_hz=400000"], [120, 420]),
     ];
     for (settings, seconds) in circuits {
         let settings: Vec<_> = settings.iter().flat_map(|set| ["--set", set]).collect();

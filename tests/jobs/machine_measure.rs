@@ -226,6 +226,57 @@ fn a_corner_within_a_unit_time_is_cut() {
     assert!(cut.mm > 0.005 && cut.mm <= 0.25 * 25.0 * 0.02, "{cut:?}");
 }
 
+/// Frames of a long move are not all kept: those around the farthest load are.
+#[test]
+fn a_long_move_is_measured_around_its_farthest_load() {
+    const FRAMES: i64 = 100_000;
+    let mut case = Case::new("G1 X8 F1200\n", settings());
+    let frame = |number: i64, load: f64| {
+        let x = 8000 * number / FRAMES;
+        let aside = if load > 0.0 { 3 } else { 0 };
+        Frame {
+            tick: 10_000 + number as u64,
+            index: 0,
+            moving: number < 99_000,
+            command: [x, 0],
+            corrected: [0; 2],
+            model: [x * COUNT, aside * COUNT],
+            motor: [x, aside],
+            load: [x as f64, load],
+            lift: 0,
+        }
+    };
+    let mut far = |farthest: i64, load: f64| {
+        let of = |number: i64| match number.abs_diff(farthest) {
+            0 => load,
+            1..30 => 3.5,
+            _ if number == 30_000 => 4.0,
+            _ => 0.0,
+        };
+        case.played.frames = (0..FRAMES).map(|k| frame(k, of(k))).collect();
+        case.played.moves = vec![Timed {
+            begun: 10_000,
+            ended: 120_000,
+        }];
+        let measured = case.measured();
+        assert_eq!(
+            (measured.times.moving, measured.times.settling),
+            (98_999, 11_001)
+        );
+        measured.pieces[0].servos.clone().unwrap().load
+    };
+    for (farthest, load) in [(10, 9.0), (20_000, 6.0), (30_500, 5.0), (99_990, 8.0)] {
+        let found = far(farthest, load);
+        assert_eq!(found.tick, 10_000 + farthest as u64);
+        let reason = if load > 6.0 {
+            Reason::Shaft
+        } else {
+            Reason::Lag
+        };
+        is(found, load, reason, (load - 3.0).max(3.0));
+    }
+}
+
 #[test]
 fn times_are_split() {
     let mut case = Case::new("G1 X8 F1200\nG1 Y8\n", settings());

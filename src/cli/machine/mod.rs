@@ -3,6 +3,7 @@
 mod job;
 mod picture;
 mod rows;
+mod runs;
 mod summary;
 mod text;
 mod verdict;
@@ -19,10 +20,11 @@ use super::waves_of::{Ending, System};
 use motion_rtl::circuits::machine::Machine;
 use motion_rtl::hdl::{Circuit, Observer, RunError, model_beside};
 use motion_rtl::jobs::machine::Settings;
-use motion_rtl::jobs::machine::job::{Played, machine, play};
-use motion_rtl::jobs::machine::measure::Measured;
+use motion_rtl::jobs::machine::job::{Played, machine, play_each};
 use motion_rtl::jobs::machine::waves::Plants;
+use motion_rtl::plan::Plan;
 use motion_rtl::trace::Options;
+use runs::{Run, UnderWay};
 use summary::Summary;
 
 /// About how long a tick takes, with all motors.
@@ -68,21 +70,17 @@ const OVERVIEW: [&str; 28] = [
 /// Runs a job.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
-    let (played, mut files) = simulate(arguments, job, &options)?;
-    let measured = Measured::of(&job.drawing, &job.program, &job.settings, &played)
-        .map_err(|error| Failure::Check(error.to_string()))?;
+    let (run, mut files) = simulate(arguments, job, &options)?;
     progress::stage("summary and picture");
-    files.write("svg", &picture::draw(job, &played, &measured))?;
-    let summary = Summary::new(job, &played, &measured);
+    files.write("svg", &picture::draw(job, &run))?;
+    let summary = Summary::new(job, &run.played, &run.measured);
     conclude(arguments, &options, files, summary)
 }
 
 /// Plays the job with its waves.
-fn simulate(
-    arguments: &Arguments,
-    job: &Job,
-    options: &Options,
-) -> Result<(Played, Files), Failure> {
+fn simulate(arguments: &Arguments, job: &Job, options: &Options) -> Result<(Run, Files), Failure> {
+    let plan = Plan::new(&job.drawing, &job.settings.motion);
+    let plan = plan.map_err(|error| Failure::Check(error.to_string()))?;
     let (program, settings) = (&job.program, &job.settings);
     let circuit = machine(settings);
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
@@ -99,8 +97,13 @@ fn simulate(
     );
     traces.play(
         &model,
-        |observer| Ok(play(&circuit, program, settings, observer)?),
-        |played: &Played| (focus(settings, played), played.ticks),
+        |observer| {
+            let mut run = UnderWay::new(job, &plan);
+            let each = &mut |event| run.take(event);
+            let played = play_each(&circuit, program, settings, observer, each)?;
+            Ok(run.finish(played))
+        },
+        |run: &Run| (focus(settings, &run.played), run.played.ticks),
     )
 }
 
@@ -124,7 +127,7 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
         let circuit = machine(settings);
         let model = model_beside(&circuit, &Plants).map_err(RunError::from)?;
         let run = move |circuit: &Machine, observer: &mut dyn Observer<Machine>| {
-            let played = play(circuit, program, settings, observer)?;
+            let played = play_each(circuit, program, settings, observer, &mut |_| {})?;
             Ok(Ending {
                 ticks: played.ticks,
                 focus: focus(settings, &played),

@@ -2,10 +2,10 @@
 //! time, and the pen lift.
 
 use super::Job;
+use super::runs::{self, Run};
 use crate::cli::magnification::magnification;
 use motion_rtl::input::Point;
-use motion_rtl::jobs::machine::job::Played;
-use motion_rtl::jobs::machine::measure::{Beside, Measured};
+use motion_rtl::jobs::machine::measure::Beside;
 use motion_rtl::path::pieces::Course;
 use motion_rtl::path::vector::{distance, sub};
 use motion_rtl::picture::{Curve, Panel, Picture};
@@ -24,25 +24,25 @@ const CHORDS: f64 = 180.0;
 type Points = Vec<(f64, f64)>;
 
 /// The picture as SVG.
-pub fn draw(job: &Job, played: &Played, measured: &Measured) -> String {
+pub fn draw(job: &Job, run: &Run) -> String {
     Picture::new(format!("{}: machine", job.stem))
-        .panel(path(job, measured))
-        .panel(errors(job, measured))
-        .panel(lift(job, played))
+        .panel(path(job, run))
+        .panel(errors(job, run))
+        .panel(lift(job, run))
         .render()
 }
 
-fn path(job: &Job, measured: &Measured) -> Panel {
+fn path(job: &Job, run: &Run) -> Panel {
     let [drawn, rapid] = ideal(job);
-    let both = [&measured.steppers, &measured.loads];
-    let all = both.into_iter().flatten().filter(|one| !is_rapid(job, one));
+    let all = run.steppers.iter().chain(run.loads.iter());
+    let all = all.filter(|one| !is_rapid(job, one));
     let largest = all.map(Beside::mm).fold(0.0, f64::max);
     let factor = magnification(largest, size(drawn.iter().chain(&rapid)));
     let title = match factor {
         1.0 => "path".to_owned(),
         _ => format!("path, errors times {factor}"),
     };
-    let curve = |points: &[Beside]| -> Points {
+    let curve = |points: &runs::Points| -> Points {
         let points = points.iter().map(|one| match is_rapid(job, one) {
             true => GAP,
             false => {
@@ -62,8 +62,8 @@ fn path(job: &Job, measured: &Measured) -> Panel {
                 .width(0.8)
                 .dashed(),
         )
-        .curve(Curve::new("steppers", curve(&measured.steppers)).colour(STEPPERS))
-        .curve(Curve::new("loads of the servos", curve(&measured.loads)).colour(SERVOS))
+        .curve(Curve::new("steppers", curve(&run.steppers)).colour(STEPPERS))
+        .curve(Curve::new("loads of the servos", curve(&run.loads)).colour(SERVOS))
 }
 
 /// The diagonal of some points.
@@ -102,8 +102,8 @@ fn ideal(job: &Job) -> [Points; 2] {
 }
 
 /// The distances from the path over time.
-fn errors(job: &Job, measured: &Measured) -> Panel {
-    let curve = |points: &[Beside]| -> Points {
+fn errors(job: &Job, run: &Run) -> Panel {
+    let curve = |points: &runs::Points| -> Points {
         let hz = job.settings.clock_hz as f64;
         let points = points.iter().map(|one| {
             let um = 1e3 * distance(one.actual, one.nearest);
@@ -113,28 +113,26 @@ fn errors(job: &Job, measured: &Measured) -> Panel {
     };
     Panel::new("distance from the path", "time in s", "µm")
         .curve(
-            Curve::new("steppers", curve(&measured.steppers))
+            Curve::new("steppers", curve(&run.steppers))
                 .colour(STEPPERS)
                 .width(0.6),
         )
-        .curve(Curve::new("loads of the servos", curve(&measured.loads)).colour(SERVOS))
+        .curve(Curve::new("loads of the servos", curve(&run.loads)).colour(SERVOS))
 }
 
 /// The pen lift over time, and where it was told to stop and stood.
-fn lift(job: &Job, played: &Played) -> Panel {
+fn lift(job: &Job, run: &Run) -> Panel {
     let seconds = |tick: u64| tick as f64 / job.settings.clock_hz as f64;
-    let frames = &played.frames;
-    let points = frames
-        .iter()
-        .map(|frame| (seconds(frame.tick), frame.lift as f64));
+    let lift = &run.lift;
+    let points = lift.positions.iter();
+    let points = points.map(|(tick, position)| (seconds(*tick), *position as f64));
     let panel = Panel::new("pen lift", "time in s", "counts")
         .curve(Curve::new("position", points.collect()).colour(LIFT));
     let at = |tick: u64| {
-        let frame = frames.partition_point(|frame| frame.tick < tick);
-        let frame = frames.get(frame).or(frames.last());
-        (seconds(tick), frame.map_or(0.0, |frame| frame.lift as f64))
+        let position = lift.marks.get(&tick).unwrap_or(&lift.last);
+        (seconds(tick), *position as f64)
     };
-    let steps = played.liftings.iter().enumerate();
+    let steps = run.played.liftings.iter().enumerate();
     steps.fold(panel, |panel, (number, lifting)| {
         // Words at the first; there is no room for more.
         let words = |words: &'static str| if number == 0 { words } else { "" };

@@ -2,12 +2,13 @@
 
 use super::host::{Host, Stage};
 use super::program::Program;
+use super::seen::See;
 use super::settings::Settings;
 use super::surroundings::{Bodies, Drives, Surroundings};
 use super::waves::Plants;
 use crate::circuits::lead_angle;
 use crate::circuits::machine::Machine;
-use crate::hdl::{At, Image, Observer, Sample, Simulator, Watcher};
+use crate::hdl::{At, Image, Observer, Sample, Simulator};
 use crate::jobs::trajectory_controller::job::patience;
 use crate::settings::JobError;
 use std::array::from_fn;
@@ -84,9 +85,10 @@ pub struct Timed {
 pub struct Played {
     /// Ticks of the run.
     pub ticks: u64,
-    /// The servos, sampling time by sampling time.
+    /// The servos, sampling time by sampling time; none of [`play_each`].
     pub frames: Vec<Frame>,
-    /// The steppers at the end of each unit time, in steps from where the job begins.
+    /// The steppers at the end of each unit time, in steps from where the job begins; none of
+    /// [`play_each`].
     pub steps: Vec<[i64; 2]>,
     /// The ticks of these.
     pub step_ticks: Vec<u64>,
@@ -123,99 +125,30 @@ pub struct Causes {
     pub lift: bool,
 }
 
-/// What is looked at.
-struct See {
-    /// Step and direction of X and Y.
-    lines: [(At<bool>, At<bool>); 2],
-    pulse_busy: At<bool>,
-    unit: At<bool>,
-    fault: At<bool>,
-    scan: [At<bool>; 2],
-    sample: [At<bool>; 5],
-    servo: [At<bool>; 2],
-    lift_lost: At<bool>,
-    lift: SeeLift,
-    lift_busy: At<bool>,
-    driven: At<bool>,
-    command: [At<i64>; 2],
-    corrected: [At<i64>; 2],
-    model: [At<i64>; 2],
-    counts: [At<i64>; 2],
-    motor: [At<i64>; 2],
-}
-
-impl See {
-    /// Whether a tick that shows the same again is written down no other than this one.
-    fn is_quiet(&self, now: &Sample<'_, Machine>) -> bool {
-        let lift = &self.lift;
-        let strobes = [
-            self.unit,
-            self.driven,
-            lift.fire,
-            lift.complete,
-            lift.learned,
-        ];
-        strobes.iter().all(|&strobe| !now.get(strobe))
-    }
-}
-
-/// What is looked at of the pen lift.
-struct SeeLift {
-    fire: At<bool>,
-    complete: At<bool>,
-    learned: At<bool>,
-    learned_time: At<u64>,
-    lead_time: At<u64>,
-    position: At<i64>,
-    target: At<i64>,
-}
-
-impl See {
-    fn of(watch: &Watcher<'_, Machine>) -> Self {
-        let (p, w) = (&watch.p, &watch.w);
-        let lift = &p.lead_angle.w;
-        let (lines, arcs) = (&p.linear_interpolator.w, &p.arc_generator.w);
-        let (trajectory, axes) = (&p.trajectory_controller.w, &p.trajectory_controller.p.axes);
-        See {
-            lines: [(w.step_x, w.dir_x), (w.step_y, w.dir_y)]
-                .map(|(step, dir)| (watch.at(step), watch.at(dir))),
-            pulse_busy: watch.at(w.pulse_busy),
-            unit: watch.at(p.enables.w.unit),
-            fault: watch.at(w.fault),
-            scan: [lines.late, lines.refused].map(|bit| watch.at(bit)),
-            sample: [
-                arcs.late,
-                arcs.starved,
-                trajectory.late,
-                trajectory.profile_late,
-                trajectory.starved,
-            ]
-            .map(|bit| watch.at(bit)),
-            servo: from_fn(|axis| watch.at(trajectory.lost[axis])),
-            lift_lost: watch.at(lift.lost),
-            lift: SeeLift {
-                fire: watch.at(lift.fire),
-                complete: watch.at(lift.complete),
-                learned: watch.at(lift.learned),
-                learned_time: watch.at(lift.learned_time),
-                lead_time: watch.at(lift.lead_time),
-                position: watch.at(lift.position),
-                target: watch.at(lift.target),
-            },
-            lift_busy: watch.at(w.lift_busy),
-            driven: watch.at(axes[0].w.driven),
-            command: [p.command_join.q.x, p.command_join.q.y].map(|axis| watch.at(axis)),
-            corrected: from_fn(|k| watch.at(axes[k].p.corrector.q.corrected)),
-            model: from_fn(|k| watch.at(axes[k].p.servo.p.model.p.integrators.q.position)),
-            counts: [w.counts_x, w.counts_y].map(|axis| watch.at(axis)),
-            motor: [w.position_x, w.position_y].map(|axis| watch.at(axis)),
-        }
-    }
+/// An event of a run, given in order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Event {
+    /// A sampling time of the servos.
+    Frame(Frame),
+    /// End of a unit time of the steppers.
+    Unit {
+        /// Its last tick.
+        tick: u64,
+        /// Positions in steps from where the job begins.
+        steps: [i64; 2],
+    },
+    /// A move of the servos begins in this tick, behind the frame of the tick.
+    Begun(u64),
+    /// The motors are in position in this tick, behind the frame of the tick.
+    Ended(u64),
+    /// The pen lift is stopped or at rest in this tick, before the frame of the tick.
+    Lift(u64),
 }
 
 /// Writes down what a tick shows.
-struct Bench {
+struct Bench<'a> {
     see: See,
+    each: &'a mut dyn FnMut(Event),
     played: Played,
     lifting: Option<Lifting>,
     /// Sampling times in which the motors have not come to rest.
@@ -224,7 +157,7 @@ struct Bench {
     begun: bool,
 }
 
-impl Bench {
+impl Bench<'_> {
     fn take(&mut self, now: &Sample<'_, Machine>, around: &mut Surroundings, host: &Host<'_>) {
         let (see, played) = (&self.see, &mut self.played);
         for (driver, (step, dir)) in around.drivers.iter_mut().zip(see.lines) {
@@ -234,10 +167,10 @@ impl Bench {
         let pulsing = now.get(see.pulse_busy);
         self.begun |= pulsing;
         if pulsing && now.get(see.unit) {
-            played
-                .steps
-                .push(from_fn(|axis| around.drivers[axis].position()));
-            played.step_ticks.push(now.tick);
+            (self.each)(Event::Unit {
+                tick: now.tick,
+                steps: from_fn(|axis| around.drivers[axis].position()),
+            });
         }
         if now.get(see.fault) {
             let any = |bits: &[At<bool>]| bits.iter().any(|&bit| now.get(bit));
@@ -250,6 +183,7 @@ impl Bench {
         }
         let lift = &see.lift;
         if now.get(lift.fire) {
+            (self.each)(Event::Lift(now.tick));
             self.lifting = Some(Lifting {
                 index: host.index,
                 down: host.lowers(),
@@ -263,6 +197,7 @@ impl Bench {
         if let Some(lifting) = &mut self.lifting
             && now.get(lift.complete)
         {
+            (self.each)(Event::Lift(now.tick));
             let past = now.get(lift.position) - now.get(lift.target);
             let upward = lifting.down == (host.pen_down_counts() > 0);
             lifting.completed = now.tick;
@@ -279,7 +214,7 @@ impl Bench {
             played.liftings.push(lifting);
         }
         if now.get(see.driven) {
-            played.frames.push(Frame {
+            (self.each)(Event::Frame(Frame {
                 tick: now.tick,
                 index: host.index,
                 moving: matches!(host.stage, Stage::Move(_)),
@@ -289,7 +224,7 @@ impl Bench {
                 motor: see.motor.map(|axis| now.get(axis)),
                 load: from_fn(|k| around.plants.plants.servos[k].load_position_counts()),
                 lift: now.get(lift.position),
-            });
+            }));
             self.waiting = match host.stage {
                 Stage::Settle => self.waiting + 1,
                 _ => 0,
@@ -309,6 +244,36 @@ pub fn play(
     settings: &Settings,
     observer: &mut dyn Observer<Machine>,
 ) -> Result<Played, JobError> {
+    let (mut frames, mut steps, mut step_ticks) = (Vec::new(), Vec::new(), Vec::new());
+    let each = &mut |event| match event {
+        Event::Frame(frame) => frames.push(frame),
+        Event::Unit { tick, steps: at } => {
+            steps.push(at);
+            step_ticks.push(tick);
+        }
+        Event::Begun(_) | Event::Ended(_) | Event::Lift(_) => {}
+    };
+    let played = play_each(circuit, program, settings, observer, each)?;
+    Ok(Played {
+        frames,
+        steps,
+        step_ticks,
+        ..played
+    })
+}
+
+/// Plays a program as [`play`] does and gives the events one by one, so that a run of any length
+/// takes no memory for them.
+///
+/// # Errors
+/// Those of [`play`].
+pub fn play_each(
+    circuit: &Machine,
+    program: &Program,
+    settings: &Settings,
+    observer: &mut dyn Observer<Machine>,
+    each: &mut dyn FnMut(Event),
+) -> Result<Played, JobError> {
     let (mut simulator, (drives, mut host, see)) =
         Simulator::watching_beside(circuit, &Plants, observer.needs_all(), |watch| {
             let host = Host::new(circuit, program, settings, watch);
@@ -318,6 +283,7 @@ pub fn play(
     let mut i = host.standing(circuit);
     let mut bench = Bench {
         see,
+        each,
         played: Played::default(),
         lifting: None,
         waiting: 0,
@@ -346,11 +312,15 @@ pub fn play(
         let tick = simulator.tick();
         bench.played.ticks = tick + 1;
         match (before, host.stage) {
-            (Stage::Ready, Stage::Move(_)) => bench.played.moves.push(Timed {
-                begun: tick,
-                ended: tick,
-            }),
+            (Stage::Ready, Stage::Move(_)) => {
+                (bench.each)(Event::Begun(tick));
+                bench.played.moves.push(Timed {
+                    begun: tick,
+                    ended: tick,
+                });
+            }
             (Stage::Settle, Stage::Ready | Stage::Done) => {
+                (bench.each)(Event::Ended(tick));
                 if let Some(timed) = bench.played.moves.last_mut() {
                     timed.ended = tick;
                 }

@@ -1,22 +1,21 @@
 //! What came out: how far both machines left the job's path on the way, why, and where they ended.
 
 mod ends;
+mod measuring;
 mod servos;
 mod steppers;
 
 pub use ends::Ends;
-use ends::left_counts;
+pub use measuring::{Measuring, Shown};
 
-use super::job::Played;
+use super::job::{Event, Played};
 use super::program::Program;
 use super::settings::Settings;
 use crate::input::{Drawing, Point};
 use crate::path::pieces::Piece;
 use crate::path::vector::{distance, dot, sub, unit};
-use crate::plan::PlanError;
-use servos::Servo;
+use crate::plan::{Plan, PlanError};
 use std::ops::RangeInclusive;
-use steppers::units;
 
 /// Why a machine is beside the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -145,10 +144,6 @@ pub struct Times {
 pub struct Measured {
     /// Every piece.
     pub pieces: Vec<PieceMeasured>,
-    /// The steppers at the end of every unit time.
-    pub steppers: Vec<Beside>,
-    /// The loads at every sampling time of a move.
-    pub loads: Vec<Beside>,
     /// Times.
     pub times: Times,
     /// Ends.
@@ -156,7 +151,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Measures the run of a drawing's program.
+    /// Measures the whole record of a run of a drawing's program.
     ///
     /// # Errors
     /// The path cannot be planned, which a program that is there rules out.
@@ -166,72 +161,33 @@ impl Measured {
         settings: &Settings,
         played: &Played,
     ) -> Result<Self, PlanError> {
-        let path = Path {
-            start: drawing.start,
-            pieces: &program.pieces,
-        };
-        let units = units(drawing, program, settings, played)?;
-        let servo = Servo::new(drawing, settings);
-        let mut pieces: Vec<PieceMeasured> = (0..program.pieces.len())
-            .map(|piece| PieceMeasured {
-                piece,
-                steppers: path.steppers(&units, piece),
-                servos: None,
-            })
-            .collect();
-        let mut loads = Vec::with_capacity(played.frames.len());
-        let mut times = Times {
-            steppers: match (units.first(), units.last()) {
-                (Some(first), Some(last)) => last.tick - first.tick,
-                _ => 0,
-            },
-            servos: played.moves.last().map_or(0, |timed| timed.ended),
-            ..Times::default()
-        };
-        for (step, timed) in program.moves.iter().zip(&played.moves) {
-            let within = |tick: u64| played.frames.partition_point(|frame| frame.tick < tick);
-            let frames = &played.frames[within(timed.begun)..within(timed.ended + 1)];
-            let moving = frames.iter().rfind(|frame| frame.moving);
-            let stood = moving.map_or(timed.begun, |frame| frame.tick);
-            times.moving += stood - timed.begun;
-            times.settling += timed.ended.saturating_sub(stood);
-            loads.extend(frames.iter().map(|frame| {
-                let actual = servo.load(frame);
-                Beside {
-                    tick: frame.tick,
-                    piece: step.piece,
-                    actual,
-                    nearest: path.nearest(step.piece, actual),
-                }
-            }));
-            pieces[step.piece].servos =
-                servo
-                    .farthest(&path, step.piece, frames)
-                    .map(|servos| Servos {
-                        ticks: timed.begun..=timed.ended,
-                        left_counts: frames
-                            .last()
-                            .map_or([0; 2], |frame| left_counts(settings, frame, step.to)),
-                        ..servos
-                    });
+        let plan = Plan::new(drawing, &settings.motion)?;
+        let mut measuring = Measuring::new(drawing, program, settings, &plan);
+        let mut take = |event| measuring.take(event, &mut |_| {});
+        for (steps, tick) in played.steps.iter().zip(&played.step_ticks) {
+            let (steps, tick) = (*steps, *tick);
+            take(Event::Unit { tick, steps });
         }
-        let steppers = units.iter().map(|unit| Beside {
-            tick: unit.tick,
-            piece: unit.piece,
-            actual: unit.actual,
-            nearest: path.nearest(unit.piece, unit.actual),
-        });
-        Ok(Measured {
-            steppers: steppers.collect(),
-            ends: Ends::of(drawing, program, settings, played),
-            pieces,
-            loads,
-            times,
-        })
+        let mut frames = played.frames.iter().peekable();
+        for timed in &played.moves {
+            let ends = [
+                (timed.begun, Event::Begun(timed.begun)),
+                (timed.ended, Event::Ended(timed.ended)),
+            ];
+            for (tick, event) in ends {
+                while let Some(frame) = frames.next_if(|frame| frame.tick <= tick) {
+                    take(Event::Frame(*frame));
+                }
+                take(event);
+            }
+        }
+        frames.for_each(|frame| take(Event::Frame(*frame)));
+        Ok(measuring.finish(played))
     }
 }
 
 /// The pieces of the job, as they should be.
+#[derive(Clone, Copy)]
 struct Path<'a> {
     start: Point,
     pieces: &'a [Piece],

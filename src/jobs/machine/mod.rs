@@ -4,6 +4,7 @@ mod host;
 pub mod job;
 pub mod measure;
 pub mod program;
+mod seen;
 pub mod settings;
 mod surroundings;
 pub mod waves;

@@ -38,6 +38,7 @@ impl Ends {
         program: &Program,
         settings: &Settings,
         played: &Played,
+        last: Option<&Frame>,
     ) -> Self {
         let end = program
             .pieces
@@ -53,7 +54,7 @@ impl Ends {
         let wanted_steps = axes.map(|axis| steps(end[axis], axis));
         let wanted_counts = axes.map(|axis| counts(end[axis]));
         let mm = |at: [i64; 2]| at.map(|counts| counts as f64 / settings.counts_per_mm);
-        let left_counts = match (played.frames.last(), program.moves.last()) {
+        let left_counts = match (last, program.moves.last()) {
             (Some(frame), Some(step)) => left_counts(settings, frame, step.to),
             _ => [0; 2],
         };

@@ -1,6 +1,6 @@
 //! The servos beside the path.
 
-use super::{Path, Reason, Servos, farthest};
+use super::{Beside, Farthest, Path, Reason, Servos, farthest};
 use crate::circuits::trajectory_controller::Widths;
 use crate::input::{Drawing, Point};
 use crate::jobs::machine::job::Frame;
@@ -8,12 +8,17 @@ use crate::jobs::machine::settings::Settings;
 use crate::path::pieces::Course;
 use crate::path::vector::{distance, sub};
 use std::array::from_fn;
+use std::collections::VecDeque;
+use std::ops::RangeInclusive;
 
 /// Guard units of a count.
 const COUNT: f64 = (1u64 << Widths::FULL.guard()) as f64;
 /// By how many counts rounding alone puts a command beside the path: half a one of each axis,
 /// and another half for the remainder that the linear interpolator carries.
 const ROUNDING_COUNTS: f64 = 1.5;
+/// Sampling times before and behind the farthest load in which model and command of its place are
+/// looked for.
+const AROUND: u64 = 16_384;
 
 /// Positions of the servos in mm.
 pub(super) struct Servo {
@@ -53,26 +58,20 @@ impl Servo {
         self.point(frame.load)
     }
 
-    /// How far the servos were from a piece in these frames, without their ticks.
-    pub(super) fn farthest(
+    /// Why the loads were farthest from a piece at `worst`, by the frames around.
+    fn farthest(
         &self,
         path: &Path<'_>,
         piece: usize,
-        frames: &[Frame],
-    ) -> Option<Servos> {
+        worst: &Frame,
+        frames: &VecDeque<(u64, Frame)>,
+    ) -> Option<Farthest> {
         let off = |point: Point| path.off(piece, point);
-        let mm = |point: Point| distance(off(point), [0.0; 3]);
-        let largest = |of: fn(&Self, &Frame) -> Point| {
-            let all = frames.iter().map(|frame| mm(of(self, frame)));
-            all.fold(0.0, f64::max)
-        };
-        let worst = frames
-            .iter()
-            .max_by(|a, b| mm(self.load(a)).total_cmp(&mm(self.load(b))))?;
         // What a motor owes its place to are model and command of the same place, not time.
         let near = |place: Point, of: fn(&Self, &Frame) -> Point| {
             let from = |frame: &Frame| distance(of(self, frame), place);
-            let nearest = frames.iter().min_by(|a, b| from(a).total_cmp(&from(b)));
+            let all = frames.iter().map(|(_, frame)| frame);
+            let nearest = all.min_by(|a, b| from(a).total_cmp(&from(b)));
             nearest.map(|frame| of(self, frame))
         };
         let motor = self.motor(worst);
@@ -91,13 +90,136 @@ impl Servo {
             (Reason::Motor, sub(motor, model)),
             (Reason::Shaft, sub(load, motor)),
         ];
+        Some(farthest(worst.tick, load, shares))
+    }
+}
+
+/// The servos on a piece while they are at it.
+pub(super) struct OnPiece {
+    servo: Servo,
+    piece: usize,
+    pub(super) begun: u64,
+    /// The last tick in which the commands were on the way.
+    pub(super) stood: u64,
+    first: Option<Frame>,
+    pub(super) last: Option<Frame>,
+    /// Largest distances of command, model and motor, in mm.
+    largest: [f64; 3],
+    count: u64,
+    /// Number and frame of the farthest load, and its distance in mm.
+    worst: Option<(u64, Frame, f64)>,
+    /// What the farthest load comes from, once all frames around it are there.
+    found: Option<Farthest>,
+    /// Frames around the farthest load, or the latest, each with its number.
+    frames: VecDeque<(u64, Frame)>,
+}
+
+impl OnPiece {
+    pub(super) fn new(drawing: &Drawing, settings: &Settings, piece: usize, begun: u64) -> Self {
+        OnPiece {
+            servo: Servo::new(drawing, settings),
+            piece,
+            begun,
+            stood: begun,
+            first: None,
+            last: None,
+            largest: [0.0; 3],
+            count: 0,
+            worst: None,
+            found: None,
+            frames: VecDeque::new(),
+        }
+    }
+
+    /// Takes the next frame; returns the loads beside the piece.
+    pub(super) fn take(&mut self, path: &Path<'_>, frame: Frame) -> Beside {
+        let (servo, number) = (&self.servo, self.count);
+        let mm = |point: Point| distance(path.off(self.piece, point), [0.0; 3]);
+        let now = [
+            servo.command(&frame),
+            servo.model(&frame),
+            servo.motor(&frame),
+        ];
+        for (largest, point) in self.largest.iter_mut().zip(now) {
+            *largest = largest.max(mm(point));
+        }
+        let actual = servo.load(&frame);
+        let nearest = path.nearest(self.piece, actual);
+        let off = distance(sub(actual, nearest), [0.0; 3]);
+        self.frames.push_back((number, frame));
+        if self
+            .worst
+            .is_none_or(|(_, _, most)| off.total_cmp(&most).is_ge())
+        {
+            (self.worst, self.found) = (Some((number, frame, off)), None);
+        }
+        if let Some((worst, of, _)) = &self.worst
+            && self.found.is_none()
+            && number >= worst + AROUND
+        {
+            self.found = servo.farthest(path, self.piece, of, &self.frames);
+        }
+        let centre = match (&self.worst, &self.found) {
+            (Some((worst, ..)), None) => *worst,
+            _ => number,
+        };
+        while self
+            .frames
+            .front()
+            .is_some_and(|(first, _)| first + AROUND < centre)
+        {
+            self.frames.pop_front();
+        }
+        if frame.moving {
+            self.stood = frame.tick;
+        }
+        self.first.get_or_insert(frame);
+        self.last = Some(frame);
+        self.count += 1;
+        Beside {
+            tick: frame.tick,
+            piece: self.piece,
+            actual,
+            nearest,
+        }
+    }
+
+    /// The same of the tick in which it began, as a piece is measured whose end is not reached.
+    pub(super) fn at_begin(self, path: &Path<'_>) -> Self {
+        let mut only = OnPiece {
+            stood: self.begun,
+            first: None,
+            last: None,
+            largest: [0.0; 3],
+            count: 0,
+            worst: None,
+            found: None,
+            frames: VecDeque::new(),
+            ..self
+        };
+        if let Some(frame) = self.first.filter(|frame| frame.tick == self.begun) {
+            only.take(path, frame);
+        }
+        only
+    }
+
+    /// The measures; none without a frame.
+    pub(super) fn finish(
+        &self,
+        path: &Path<'_>,
+        ticks: RangeInclusive<u64>,
+        left_counts: [i64; 2],
+    ) -> Option<Servos> {
+        let (_, worst, _) = self.worst.as_ref()?;
+        let at_end = || self.servo.farthest(path, self.piece, worst, &self.frames);
+        let [command_mm, model_mm, motor_mm] = self.largest;
         Some(Servos {
-            ticks: 0..=0,
-            command_mm: largest(Self::command),
-            model_mm: largest(Self::model),
-            motor_mm: largest(Self::motor),
-            load: farthest(worst.tick, load, shares),
-            left_counts: [0; 2],
+            ticks,
+            command_mm,
+            model_mm,
+            motor_mm,
+            load: self.found.or_else(at_end)?,
+            left_counts,
         })
     }
 }

@@ -1,12 +1,11 @@
 //! The steppers beside the path.
 
-use super::{Farthest, Path, Reason, Steppers, farthest};
+use super::{Beside, Farthest, Path, PieceMeasured, Reason, Steppers, farthest};
 use crate::input::{Drawing, Point};
-use crate::jobs::machine::job::Played;
 use crate::jobs::machine::program::Program;
 use crate::jobs::machine::settings::Settings;
 use crate::path::vector::{add, distance, scale, sub};
-use crate::plan::{Plan, PlanError};
+use crate::plan::{Plan, Sampler};
 use std::array::from_fn;
 
 /// The steppers at the end of a unit time.
@@ -22,43 +21,150 @@ pub(super) struct Unit {
     nearest: Point,
 }
 
-/// The ends of all unit times, from where the steppers begin on.
-pub(super) fn units(
-    drawing: &Drawing,
-    program: &Program,
-    settings: &Settings,
-    played: &Played,
-) -> Result<Vec<Unit>, PlanError> {
-    let plan = Plan::new(drawing, &settings.motion)?;
-    let mut sampler = plan.sampler();
-    let unit_ticks = u64::from(settings.unit_ticks);
-    let unit_s = unit_ticks as f64 / settings.clock_hz as f64;
-    let height = drawing.start[2];
-    let start: [i64; 2] = from_fn(|axis| i64::from(program.report.axes[axis].start_position));
-    let mm = |steps: [f64; 2]| -> Point {
-        let [x, y] = from_fn(|axis| steps[axis] / settings.steps_per_mm[axis]);
-        [x, y, height]
-    };
-    let begin = played
-        .step_ticks
-        .first()
-        .map_or(0, |tick| tick.saturating_sub(unit_ticks));
-    let seen =
-        std::iter::once((&[0; 2], &begin)).chain(played.steps.iter().zip(&played.step_ticks));
-    let units = seen.enumerate().map(|(number, (steps, tick))| {
-        let sample = sampler.at(number as f64 * unit_s);
+/// The ends of unit times, from where the steppers begin on.
+pub(super) struct Units<'a> {
+    sampler: Sampler<'a, 'a>,
+    settings: &'a Settings,
+    start: [i64; 2],
+    height: f64,
+    /// Unit times that are taken, with the steppers' beginning.
+    count: u64,
+    first_tick: u64,
+    latest: Option<Unit>,
+    /// Half-way to the latest from another piece, where it is nearer to that of the latest.
+    before: Option<Farthest>,
+}
+
+impl<'a> Units<'a> {
+    pub(super) fn new(
+        drawing: &Drawing,
+        program: &Program,
+        settings: &'a Settings,
+        plan: &'a Plan<'a>,
+    ) -> Self {
+        Units {
+            sampler: plan.sampler(),
+            settings,
+            start: from_fn(|axis| i64::from(program.report.axes[axis].start_position)),
+            height: drawing.start[2],
+            count: 0,
+            first_tick: 0,
+            latest: None,
+            before: None,
+        }
+    }
+
+    fn unit(&mut self, tick: u64, steps: [i64; 2]) -> Unit {
+        let settings = self.settings;
+        let unit_s = f64::from(settings.unit_ticks) / settings.clock_hz as f64;
+        let mm = |steps: [f64; 2]| -> Point {
+            let [x, y] = from_fn(|axis| steps[axis] / settings.steps_per_mm[axis]);
+            [x, y, self.height]
+        };
+        let sample = self.sampler.at(self.count as f64 * unit_s);
         let [x, y, _] = sample.position;
         Unit {
-            tick: *tick,
+            tick,
             piece: sample.index,
-            actual: mm(from_fn(|axis| (start[axis] + steps[axis]) as f64)),
-            planned: [x, y, height],
+            actual: mm(from_fn(|axis| (self.start[axis] + steps[axis]) as f64)),
+            planned: [x, y, self.height],
             nearest: mm(from_fn(|axis| {
                 ([x, y][axis] * settings.steps_per_mm[axis]).round()
             })),
         }
-    });
-    Ok(units.collect())
+    }
+
+    /// Takes the end of a unit time; the first brings where the steppers begin.
+    pub(super) fn take(
+        &mut self,
+        path: &Path<'_>,
+        pieces: &mut [PieceMeasured],
+        (tick, steps): (u64, [i64; 2]),
+        show: &mut dyn FnMut(Beside),
+    ) {
+        if self.count == 0 {
+            let begin = tick.saturating_sub(u64::from(self.settings.unit_ticks));
+            self.one(path, pieces, (begin, [0; 2]), show);
+        }
+        self.one(path, pieces, (tick, steps), show);
+    }
+
+    fn one(
+        &mut self,
+        path: &Path<'_>,
+        pieces: &mut [PieceMeasured],
+        (tick, steps): (u64, [i64; 2]),
+        show: &mut dyn FnMut(Beside),
+    ) {
+        let unit = self.unit(tick, steps);
+        self.count += 1;
+        if self.latest.is_none() {
+            self.first_tick = tick;
+        }
+        // On the way from one end of a unit time to the next; to another piece the way is that of
+        // the nearer.
+        let (mut reached, mut before) = (0, None);
+        if let Some(latest) = self.latest {
+            let (middle, own) = (latest.middle(&unit), latest.piece == unit.piece);
+            let on = [latest.piece, unit.piece].map(|piece| middle.mm(path, piece));
+            let old = &mut pieces[latest.piece].steppers;
+            if own || on[0] < on[1] {
+                old.farther(middle.farthest(path, latest.piece));
+            }
+            if let Some(found) = self.before.take() {
+                old.farther(found);
+            }
+            before = (!own && on[1] <= on[0]).then(|| middle.farthest(path, unit.piece));
+            reached = latest.piece + 1;
+        }
+        let begin = self.latest.map_or(tick, |latest| latest.tick);
+        for piece in pieces.iter_mut().take(unit.piece + 1).skip(reached) {
+            piece.steppers.ticks = begin..=begin;
+        }
+        let new = &mut pieces[unit.piece].steppers;
+        new.ticks = *new.ticks.start()..=tick;
+        new.farther(unit.farthest(path, unit.piece));
+        show(Beside {
+            tick,
+            piece: unit.piece,
+            actual: unit.actual,
+            nearest: path.nearest(unit.piece, unit.actual),
+        });
+        (self.latest, self.before) = (Some(unit), before);
+    }
+
+    /// Ends the last piece; returns the ticks from the first unit time to the last.
+    pub(super) fn finish(&mut self, path: &Path<'_>, pieces: &mut [PieceMeasured]) -> u64 {
+        if self.count == 0 && !pieces.is_empty() {
+            self.one(path, pieces, (0, [0; 2]), &mut |_| {});
+        }
+        let Some(latest) = self.latest else {
+            return 0;
+        };
+        if let Some(found) = self.before.take() {
+            pieces[latest.piece].steppers.farther(found);
+        }
+        for piece in pieces.iter_mut().skip(latest.piece + 1) {
+            piece.steppers.ticks = latest.tick..=latest.tick;
+        }
+        latest.tick - self.first_tick
+    }
+}
+
+impl Steppers {
+    pub(super) fn none() -> Self {
+        Steppers {
+            ticks: 0..=0,
+            farthest: None,
+        }
+    }
+
+    /// Takes a place if it is farther than all before.
+    fn farther(&mut self, found: Farthest) {
+        if self.farthest.is_none_or(|other| found.mm > other.mm) {
+            self.farthest = Some(found);
+        }
+    }
 }
 
 impl Unit {
@@ -86,45 +192,5 @@ impl Unit {
             (Reason::Table, sub(self.actual, self.nearest)),
         ];
         farthest(self.tick, off, shares)
-    }
-}
-
-impl Path<'_> {
-    /// The steppers on a piece.
-    pub(super) fn steppers(&self, units: &[Unit], piece: usize) -> Steppers {
-        let first = units.partition_point(|unit| unit.piece < piece);
-        let last = units.partition_point(|unit| unit.piece <= piece);
-        let mut farthest: Option<Farthest> = None;
-        let mut take = |unit: &Unit| {
-            let found = unit.farthest(self, piece);
-            if farthest.is_none_or(|other| found.mm > other.mm) {
-                farthest = Some(found);
-            }
-        };
-        for at in first..last {
-            take(&units[at]);
-            // On the way from one end of a unit time to the next; to another piece the way is that
-            // of the nearer.
-            if let Some(next) = units.get(at + 1) {
-                let middle = units[at].middle(next);
-                if next.piece == piece || middle.mm(self, piece) < middle.mm(self, next.piece) {
-                    take(&middle);
-                }
-            }
-            if let Some(before) = at.checked_sub(1).map(|before| &units[before])
-                && before.piece != piece
-            {
-                let middle = before.middle(&units[at]);
-                if middle.mm(self, piece) <= middle.mm(self, before.piece) {
-                    take(&middle);
-                }
-            }
-        }
-        let tick = |at: usize| units.get(at).map_or(0, |unit| unit.tick);
-        let (begin, end) = (first.saturating_sub(1), last.saturating_sub(1));
-        Steppers {
-            ticks: tick(begin)..=tick(end.max(begin)),
-            farthest: farthest.filter(|_| last > first),
-        }
     }
 }
