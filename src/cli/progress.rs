@@ -20,7 +20,7 @@ const PROGRESS: u64 = 1 << 18;
 /// Nanoseconds that a tick takes longer in the waves.
 const WAVES_NS: f64 = 300.0;
 
-/// What is done.
+/// Work under way.
 struct Stage {
     name: &'static str,
     /// Ticks of all runs together; 0 where there are none.
@@ -99,7 +99,7 @@ pub fn stage(name: &'static str) {
     set(Stage { name, ticks: 0 });
 }
 
-/// What runs take.
+/// Expected ticks and seconds of runs.
 #[derive(Debug, Clone, Copy)]
 pub struct Work {
     /// Ticks of one run.

@@ -1,4 +1,4 @@
-//! What a picture shows of a run, thinned while the run goes on.
+//! Curves of a picture, thinned while the run goes on.
 
 use std::collections::BTreeSet;
 

@@ -175,7 +175,7 @@ pub(super) fn number_beside(value: i128, beside: Id) -> Id {
     constant(value as u64, shape)
 }
 
-/// Whether a word can hold a number, or what is wrong with it.
+/// Checks that a word can hold a number.
 pub(super) fn fits(value: i128, shape: Shape) -> Result<(), String> {
     let (least, greatest) = shape.range();
     match (least..=greatest).contains(&value) {

@@ -213,7 +213,7 @@ impl Contents {
         self.0.as_ref().map(|image| (image.address, image.width))
     }
 
-    /// What does not fit the image, and where it was given.
+    /// Values that do not fit the image, and where they were given.
     pub(super) fn wrong(&self) -> Option<(Site, String)> {
         self.0.as_ref().and_then(Image::wrong)
     }
@@ -302,7 +302,7 @@ impl Image {
         }
     }
 
-    /// What does not fit, and where it was given.
+    /// Values that do not fit, and where they were given.
     fn wrong(&self) -> Option<(Site, String)> {
         let Unfit {
             site,

@@ -19,7 +19,7 @@ pub enum RunError {
     Input {
         /// The tick that it was for.
         tick: u64,
-        /// What does not fit.
+        /// Port and value that do not fit.
         #[source]
         error: InputError,
     },

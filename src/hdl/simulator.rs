@@ -367,7 +367,7 @@ impl<C: Circuit> Simulator<C> {
     /// Runs one tick with these inputs and shows its sample.
     ///
     /// # Errors
-    /// As [`apply`](Self::apply); the tick does not happen then.
+    /// A value does not fit its port, as in [`apply`](Self::apply); the tick does not happen then.
     #[inline]
     pub fn step_with<T>(
         &mut self,
@@ -380,7 +380,7 @@ impl<C: Circuit> Simulator<C> {
     /// The same; with `rst` high its edge is that of a [reset](Self::reset).
     ///
     /// # Errors
-    /// As [`apply`](Self::apply); the tick does not happen then.
+    /// A value does not fit its port, as in [`apply`](Self::apply); the tick does not happen then.
     #[inline]
     pub fn step_with_reset<T>(
         &mut self,

@@ -47,7 +47,7 @@ impl dyn AnyModel + '_ {
     /// Its signals, in the order of its waves, with what they are at power-on.
     ///
     /// # Errors
-    /// It is no netlist.
+    /// No netlist can be made of it.
     pub fn declarations(&self) -> Result<Declarations, EngineError> {
         Ok(self.model()?.declarations().clone())
     }
@@ -71,7 +71,7 @@ impl dyn AnyModel + '_ {
     /// It as Verilog.
     ///
     /// # Errors
-    /// It is no netlist.
+    /// No netlist can be made of it.
     pub fn verilog(&self) -> Result<Verilog, EngineError> {
         Verilog::of(&self.model()?)
     }
@@ -79,7 +79,7 @@ impl dyn AnyModel + '_ {
     /// What it is made of, and how that is connected.
     ///
     /// # Errors
-    /// It is no netlist.
+    /// No netlist can be made of it.
     pub fn connections(&self) -> Result<Connections, EngineError> {
         Ok(Connections::of(self.model()?.design(), &self.outline()))
     }

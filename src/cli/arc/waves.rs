@@ -15,7 +15,7 @@ use motion_rtl::jobs::arc_generator::joints::{Joints, follow};
 use motion_rtl::path::arm::JOINTS;
 use motion_rtl::path::record::Record;
 
-/// What the save file of the conventional generator shows on top.
+/// Rows on top of the save file of the conventional generator.
 const CONVENTIONAL_OVERVIEW: [&str; 12] = [
     "sampled",
     "kind",

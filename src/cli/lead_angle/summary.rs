@@ -111,7 +111,7 @@ pub struct StepSummary {
     pub lead: Option<StepLead>,
 }
 
-/// What became of a step in a phase by a lead that is a time.
+/// Result of a step in a phase, by a lead that is a time.
 #[derive(Debug, Serialize)]
 pub struct StepLead {
     /// That of the last positioning.
@@ -120,7 +120,7 @@ pub struct StepLead {
     /// After how many positionings of the phase the stops stay within a code's travel; `null` where
     /// they never do.
     pub settled_after: Option<usize>,
-    /// The same for learning by each function of error and overrun, where these are compared.
+    /// Settling by each function of error and overrun, where these are compared.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settled_by_function: Option<ByFunction>,
 }
@@ -341,7 +341,7 @@ impl Shown<'_> {
         bounds.into_iter().map(phase).collect()
     }
 
-    /// What became of a step in a phase; none where the phase is over before it.
+    /// Result of a step in a phase; none if the phase ends before it.
     fn step(&self, step: usize, phase: Range<usize>) -> Option<StepSummary> {
         let (settings, played) = (self.settings, self.played);
         let all = &self.run.positionings;

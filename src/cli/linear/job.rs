@@ -22,7 +22,7 @@ pub struct Job {
     pub settings: Settings,
     /// The cycles.
     pub compiled: Targets,
-    /// The same with another axis as the master, or why they cannot be had; none where nothing is
+    /// Cycles with another axis as the master, or why they cannot be had; none where nothing is
     /// compared.
     pub other: Option<Other>,
     /// The scenario it came from.

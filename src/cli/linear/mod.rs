@@ -52,7 +52,7 @@ const OVERVIEW: [&str; 11] = [
     "reference_y",
 ];
 
-/// The same of the conventional system.
+/// Rows on top of the save file of the conventional system.
 const CONVENTIONAL_OVERVIEW: [&str; 11] = [
     "scan",
     "interpolator.pattern_x.trapezoid.phase",

@@ -1,4 +1,4 @@
-//! What a drawing came to by each system.
+//! Results of a drawing by each system.
 
 use super::Job;
 use crate::cli::thinned::Thinned;
@@ -11,7 +11,7 @@ use motion_rtl::jobs::linear_interpolator::measure::{
 pub struct Runs {
     /// The linear interpolator.
     pub interpolator: Run,
-    /// The same with another master axis, if the job can be had so.
+    /// Run with another master axis, if the job allows one.
     pub other: Option<Run>,
     /// The conventional system of Fig. 3, in each of its ways, where the scenario asks for it.
     pub conventional: Option<[Run; 2]>,
@@ -20,7 +20,7 @@ pub struct Runs {
 /// The run of one system.
 #[derive(Debug)]
 pub struct Run {
-    /// What was seen, without its scans.
+    /// Observations, without the scans.
     pub played: Played,
     /// The measures of every cycle.
     pub segments: Vec<Segment>,
@@ -37,7 +37,7 @@ pub struct Run {
 /// A scan as the picture shows it.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown {
-    /// What it was.
+    /// The scan.
     pub record: ScanRecord,
     /// Its cycle.
     pub cycle: Option<usize>,
@@ -110,7 +110,7 @@ impl<'j> UnderWay<'j> {
         self.last = Some(record);
     }
 
-    /// What it came to.
+    /// Result of the run.
     pub fn finish(self, played: Played) -> Run {
         Run {
             segments: self.measuring.finish(&played.cycles),

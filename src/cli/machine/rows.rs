@@ -7,7 +7,7 @@ use motion_rtl::path::pieces::Course;
 use serde::Serialize;
 use std::ops::RangeInclusive;
 
-/// What the ends call the motors of the servos.
+/// Name of the servo motors in the table of ends.
 pub const ENCODERS: &str = "encoders";
 /// What the ends call the first machine.
 pub const STEPPERS: &str = "steppers";

@@ -1,4 +1,4 @@
-//! What a run came to, folded while it goes on.
+//! Measures of a run, folded while it goes on.
 
 use super::Job;
 use crate::cli::thinned::Thinned;
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// A run with its measures and what its picture shows.
 #[derive(Debug)]
 pub struct Run {
-    /// What came of it, without its records.
+    /// Outcome of the run, without its records.
     pub played: Played,
     /// Its measures.
     pub measured: Measured,
@@ -83,7 +83,7 @@ impl<'a> UnderWay<'a> {
         self.measuring.take(event, show);
     }
 
-    /// What it came to.
+    /// Result of the run.
     pub fn finish(self, played: Played) -> Run {
         Run {
             measured: self.measuring.finish(&played),

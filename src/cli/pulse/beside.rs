@@ -1,4 +1,4 @@
-//! What the device comes to, and the same program on the conventional device of Fig. 5.
+//! Results of the device, and of the same program on the conventional device of Fig. 5.
 
 use super::Job;
 use super::summary::Minima;

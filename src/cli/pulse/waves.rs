@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 /// Unit times of the conventional device that the save file's window shows.
 const UNITS_SHOWN: u64 = 6;
 
-/// What the save file of the conventional device shows on top; an axis that the job has not is left
+/// Rows on top of the save file of the conventional device; an axis that the job has not is left
 /// out.
 const OVERVIEW: [&str; 22] = [
     "unit_rst",

@@ -27,7 +27,7 @@ pub struct Job {
     pub settings: Settings,
     /// The path and the words.
     pub program: Program,
-    /// The same path at full feed, where a contour tolerance limits it and it is compared.
+    /// Path at full feed, where a contour tolerance limits it and it is compared.
     pub full_feed: Option<Program>,
     /// Motor and load of each axis.
     pub machines: Vec<TwoMassParameters>,

@@ -83,7 +83,7 @@ pub struct Run {
 pub struct Shown {
     /// Where they were.
     pub load: Deviation,
-    /// It is on a rapid move.
+    /// True on a rapid move.
     pub rapid: bool,
     /// Their speed since the period before, in mm/s, and the time in the middle of both, in s.
     pub speed: Option<(f64, f64)>,
@@ -168,7 +168,7 @@ impl<'j> UnderWay<'j> {
         apart(at, program.path.looked_up(length, self.correction)) / program.motion.units_per_mm
     }
 
-    /// What it came to; none where there was no period.
+    /// Result of the run; none if it had no period.
     pub fn finish(self, played: &Played) -> Option<Run> {
         let (last, _) = self.last?;
         let end_mm = self.off(last.command, self.program.path.length as f64);

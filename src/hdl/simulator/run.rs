@@ -128,7 +128,7 @@ impl<C: Circuit> Simulator<C> {
     /// the observer goes on.
     ///
     /// # Errors
-    /// As [`apply`](Self::apply), and what `observer` objects to.
+    /// A value does not fit its port, or `observer` objects.
     #[inline]
     pub fn look<T>(
         &mut self,
@@ -164,7 +164,7 @@ impl<C: Circuit> Simulator<C> {
     /// [Looks](Self::look) at the tick to come and goes on by it.
     ///
     /// # Errors
-    /// As [`look`](Self::look).
+    /// Errors of [`look`](Self::look).
     pub fn step_watched<T>(
         &mut self,
         i: &C::In<Value>,

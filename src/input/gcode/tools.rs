@@ -7,7 +7,7 @@ use super::machine::Machine;
 use super::problem::Problem;
 use crate::input::Point;
 
-/// What a G word does with the length of a tool.
+/// Effect of a G word on the length of a tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Length {
     /// G49.

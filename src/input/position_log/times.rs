@@ -53,7 +53,7 @@ impl Time {
     }
 }
 
-/// What says which unit the times of a log are in.
+/// Source of the unit that the times of a log are in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnitFrom {
     /// [`Columns::time_unit_s`](super::Columns::time_unit_s).
@@ -69,7 +69,7 @@ pub enum UnitFrom {
 pub struct Unit {
     /// Seconds in it.
     pub seconds: f64,
-    /// What says so.
+    /// Source of the unit.
     pub from: UnitFrom,
 }
 

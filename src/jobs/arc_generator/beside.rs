@@ -95,7 +95,7 @@ fn record(
 /// [`play_arm`](super::job::play_arm) has them.
 ///
 /// # Errors
-/// What `observer` objects to.
+/// `observer` objects.
 pub fn play(
     circuit: &Conventional,
     records: &[Record],

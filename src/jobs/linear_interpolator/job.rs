@@ -228,7 +228,7 @@ pub fn play<const N: usize>(
 /// Does what [`play`] does, but tells every scan to `each` as it comes and keeps no records.
 ///
 /// # Errors
-/// As [`play`].
+/// Errors of [`play`].
 pub fn play_each<const N: usize>(
     circuit: &Controller,
     targets: &[Target<N>],

@@ -17,7 +17,7 @@ pub struct ScanRecord {
 /// A scan as it comes.
 #[derive(Debug)]
 pub struct Seen<'a> {
-    /// What it is.
+    /// The scan as it is measured.
     pub record: ScanRecord,
     /// The cycle whose new command stands in it.
     pub fresh: Option<usize>,

@@ -4,7 +4,7 @@ use crate::circuits::machine::Machine;
 use crate::hdl::{At, Sample, Watcher};
 use std::array::from_fn;
 
-/// What is looked at.
+/// Signals of the machine that a job looks at.
 pub(super) struct See {
     /// Step and direction of X and Y.
     pub(super) lines: [(At<bool>, At<bool>); 2],
@@ -40,7 +40,7 @@ impl See {
     }
 }
 
-/// What is looked at of the pen lift.
+/// Signals of the pen lift that a job looks at.
 pub(super) struct SeeLift {
     pub(super) fire: At<bool>,
     pub(super) complete: At<bool>,

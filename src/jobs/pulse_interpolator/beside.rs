@@ -229,7 +229,7 @@ impl Bench<'_> {
 /// the waves beside it ([`StepMotors`]).
 ///
 /// # Errors
-/// What `observer` objects to.
+/// `observer` objects.
 pub fn play(
     circuit: &Conventional,
     orders: &[Order],

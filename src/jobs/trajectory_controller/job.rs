@@ -270,7 +270,7 @@ pub fn play(
 /// Does what [`play`] does, but gives every period to `each` as it comes and keeps none.
 ///
 /// # Errors
-/// As [`play`].
+/// Errors of [`play`].
 pub fn play_each(
     circuit: &TrajectoryController,
     program: &Program,

@@ -108,7 +108,7 @@ pub(super) struct OnPiece {
     count: u64,
     /// Number and frame of the farthest load, and its distance in mm.
     worst: Option<(u64, Frame, f64)>,
-    /// What the farthest load comes from, once all frames around it are there.
+    /// Reason of the farthest load, once all frames around it are there.
     found: Option<Farthest>,
     /// Frames around the farthest load, or the latest, each with its number.
     frames: VecDeque<(u64, Frame)>,
@@ -184,7 +184,7 @@ impl OnPiece {
         }
     }
 
-    /// The same of the tick in which it began, as a piece is measured whose end is not reached.
+    /// State at the tick in which it began, for a piece whose end is not reached.
     pub(super) fn at_begin(self, path: &Path<'_>) -> Self {
         let mut only = OnPiece {
             stood: self.begun,

@@ -41,7 +41,7 @@ pub fn compile(drawing: &Drawing, settings: &Settings) -> Result<(Table, Report)
 /// whose run is [followed](super::follow).
 ///
 /// # Errors
-/// As [`compile`].
+/// Errors of [`compile`].
 pub fn compile_unfollowed(
     drawing: &Drawing,
     settings: &Settings,

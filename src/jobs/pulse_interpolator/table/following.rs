@@ -23,7 +23,7 @@ pub struct UnitErrors {
     /// Demand less position of each axis in steps, where in the unit it is farthest from 0; 0 for
     /// the axes not driven.
     pub errors: [f64; COORDINATES],
-    /// The same at its end.
+    /// Demand less position of each axis in steps at its end.
     pub end_errors: [f64; COORDINATES],
     /// Positions at its end in steps from where the axes began; 0 for the axes not driven.
     pub positions: [i32; COORDINATES],

@@ -108,7 +108,7 @@ impl Table {
         }
     }
 
-    /// The same words, each unit with the T of its place.
+    /// Words with the T of each place.
     pub(in crate::jobs::pulse_interpolator) fn with_periods(
         &self,
         periods: &[u32],
