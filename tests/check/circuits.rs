@@ -160,7 +160,7 @@ signals! { for Table as _c;
 }
 
 impl Circuit for Table {
-    head!("table", Choice, TableReg, TableNet);
+    head!("automaton", Choice, TableReg, TableNet);
     fn tick(&self, i: Choice, q: TableReg, _: Nothing) -> (TableNet, TableReg<Edge>) {
         let next = self.0.rom(q.state.join(i.way.word()));
         (TableNet { next }, TableReg { state: next })
@@ -199,15 +199,15 @@ pub struct Noise;
 
 signals! { for Noise as _c;
     pub struct Lfsr { pub state: U(20) = 1 }
-    pub struct Feedback { bit: Bit }
+    pub struct Feedback { shift_in: Bit }
 }
 
 impl Circuit for Noise {
     head!("noise", Enable, Lfsr, Feedback);
     fn tick(&self, i: Enable, q: Lfsr, _: Nothing) -> (Feedback, Lfsr<Edge>) {
-        let bit = q.state.bit(19) ^ q.state.bit(16);
-        let shifted = q.state.slice(0, 19).join(bit.word());
+        let shift_in = q.state.bit(19) ^ q.state.bit(16);
+        let shifted = q.state.slice(0, 19).join(shift_in.word());
         let state = i.enable.mux(shifted, q.state);
-        (Feedback { bit }, Lfsr { state })
+        (Feedback { shift_in }, Lfsr { state })
     }
 }

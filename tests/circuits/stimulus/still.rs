@@ -94,6 +94,7 @@ pub const FAR: &[(&str, u32)] = &[
     ("correction_arithmetic.addend", 23),
     ("refinement.addend", 23),
     ("exact_relation.addend", 23),
+    ("exact_relation.amount", 24),
     ("lead_arithmetic.factor", 4),
     ("speed_lead.factor", 14),
     // Times in CKs.
@@ -258,6 +259,7 @@ pub const NEVER: &[(&str, u32)] = &[
     ("correction_arithmetic.addend", 7),
     ("refinement.addend", 7),
     ("exact_relation.addend", 7),
+    ("exact_relation.amount", 8),
     ("lead_arithmetic.factor", 4),
     ("speed_lead.factor", 14),
     // As above.

@@ -7,7 +7,7 @@ use motion_rtl::circuits::trajectory_controller::model_state::ModelGains;
 use motion_rtl::circuits::trajectory_controller::path_point::PathWrite;
 use motion_rtl::circuits::trajectory_controller::vector_correction::Correction;
 use motion_rtl::circuits::trajectory_controller::{Rounding, TrajectoryController, Widths};
-use motion_rtl::hdl::{At, Simulator, Value, zero};
+use motion_rtl::hdl::{At, Cut, Simulator, Value, zero};
 
 /// What stands when all points of a period do, in guard units.
 #[derive(Debug, Clone)]
@@ -95,7 +95,10 @@ impl Bench {
                 gain_1: gains[0],
                 gain_2: gains[1],
             },
-            feedback_gains: FED,
+            feedback_gains: FeedbackGains {
+                tangential_gain: FED.tangential_gain.cut(self.widths.gain),
+                normal_gain: FED.normal_gain.cut(self.widths.gain),
+            },
             axis_gain_1: vec![gains[0]; self.axes],
             axis_gain_2: vec![gains[1]; self.axes],
             ..zero(&self.controller(Correction::Vector))
