@@ -136,7 +136,8 @@ pub struct PlannedMemory {
     pub written: Slot,
     /// The blocks that read it.
     pub readers: Vec<u32>,
-    /// Width of a word.
+    /// Width of a word, which compiled code asks for.
+    #[cfg_attr(not(feature = "jit"), expect(dead_code))]
     pub width: u8,
 }
 
