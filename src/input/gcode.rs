@@ -61,7 +61,7 @@
 //!
 //! # What is refused
 //!
-//! What would change the path otherwise: M words and `$` commands that move or stop a machine, read
+//! All that would change the path otherwise: M words and `$` commands that move or stop a machine, read
 //! or write other files or bring back positions on some controls; axis words and parameters that
 //! may belong to either of two words of their line; other rotary positions, cutter compensation
 //! (G41, G42), scaling, mirroring, rotation, polar coordinates, diameters (G7), feeds per turn

@@ -28,14 +28,14 @@ signals! { for Constants as c;
         count: U(6) = c.u,
         /// Signed.
         shift: I(6) = c.i,
-        /// What came last.
+        /// Latest word.
         line: Shift(6, 4),
         /// A memory.
         store: Ram(2, 4) = &c.image,
     }
     /// The circuit inside.
     pub struct ConstantsParts {
-        /// It has words of 4 bits.
+        /// Memory with words of 4 bits.
         part: Part<Inside>(Inside { starts: c.u }),
     }
 }
@@ -314,7 +314,7 @@ signals! { for Reserved as c;
     }
     /// Nets.
     pub struct ReservedNet {
-        /// As its circuit is called.
+        /// Signal with the name of its circuit.
         module: Bit,
         /// Nothing is wrong with it.
         fine: Bit,

@@ -30,7 +30,7 @@ signals! { for Ports as _c;
     }
     /// Registers.
     pub struct PortsReg {
-        /// What came last.
+        /// Latest word.
         shift: I(6),
     }
 }
@@ -51,7 +51,7 @@ impl Circuit for Ports {
 struct Load;
 
 signals! { for Load as _c;
-    /// It.
+    /// Its signals.
     pub struct LoadSignals {
         /// Where it is.
         position: I(8),

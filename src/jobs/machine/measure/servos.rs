@@ -116,8 +116,13 @@ pub(super) struct OnPiece {
 
 impl OnPiece {
     pub(super) fn new(drawing: &Drawing, settings: &Settings, piece: usize, begun: u64) -> Self {
+        Self::unseen(Servo::new(drawing, settings), piece, begun)
+    }
+
+    /// Measures of a piece of which no frame has come.
+    fn unseen(servo: Servo, piece: usize, begun: u64) -> Self {
         OnPiece {
-            servo: Servo::new(drawing, settings),
+            servo,
             piece,
             begun,
             stood: begun,
@@ -186,18 +191,9 @@ impl OnPiece {
 
     /// State at the tick in which it began, for a piece whose end is not reached.
     pub(super) fn at_begin(self, path: &Path<'_>) -> Self {
-        let mut only = OnPiece {
-            stood: self.begun,
-            first: None,
-            last: None,
-            largest: [0.0; 3],
-            count: 0,
-            worst: None,
-            found: None,
-            frames: VecDeque::new(),
-            ..self
-        };
-        if let Some(frame) = self.first.filter(|frame| frame.tick == self.begun) {
+        let first = self.first;
+        let mut only = Self::unseen(self.servo, self.piece, self.begun);
+        if let Some(frame) = first.filter(|frame| frame.tick == only.begun) {
             only.take(path, frame);
         }
         only
