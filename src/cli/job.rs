@@ -12,6 +12,8 @@ pub enum Job {
     Pulse(Box<pulse::Job>),
     /// Patterns on the pulse interpolator.
     Patterns(Box<pulse::patterns::Job>),
+    /// Patterns on two groups of the pulse interpolator.
+    Groups(Box<pulse::patterns::groups::Job>),
     /// On the linear interpolator.
     Linear(Box<linear::Job>),
     /// On the lead-angle compensator.
@@ -28,6 +30,11 @@ impl Job {
     /// Reads and compiles the input of a scenario.
     pub fn prepare(source: Source) -> Result<Self, Failure> {
         Ok(match source.loaded.scenario.clone() {
+            Scenario::PulseInterpolator(scenario)
+                if !scenario.pattern.is_empty() && !scenario.group.is_empty() =>
+            {
+                Job::Groups(pulse::patterns::groups::Job::prepare(source, &scenario)?.into())
+            }
             Scenario::PulseInterpolator(scenario) if !scenario.pattern.is_empty() => {
                 Job::Patterns(pulse::patterns::Job::prepare(source, &scenario)?.into())
             }
@@ -59,6 +66,7 @@ impl Job {
         match self {
             Job::Pulse(job) => pulse::run(arguments, job),
             Job::Patterns(job) => pulse::patterns::run(arguments, job),
+            Job::Groups(job) => pulse::patterns::groups::run(arguments, job),
             Job::Linear(job) => linear::run(arguments, job),
             Job::LeadAngle(job) => lead_angle::run(arguments, job),
             Job::Arc(job) => arc::run(arguments, job),
@@ -72,6 +80,7 @@ impl Job {
         match self {
             Job::Pulse(job) => pulse::systems(job),
             Job::Patterns(job) => pulse::patterns::systems(job),
+            Job::Groups(job) => pulse::patterns::groups::systems(job),
             Job::Linear(job) => linear::systems(job),
             Job::LeadAngle(job) => lead_angle::waves::systems(job),
             Job::Arc(job) => arc::systems(job),
@@ -84,6 +93,7 @@ impl Job {
         match self {
             Job::Pulse(job) => (&job.loaded, &job.stem),
             Job::Patterns(job) => (&job.loaded, &job.stem),
+            Job::Groups(job) => (&job.loaded, &job.stem),
             Job::Linear(job) => (&job.loaded, &job.stem),
             Job::LeadAngle(job) => (&job.loaded, &job.stem),
             Job::Arc(job) => (&job.loaded, &job.stem),

@@ -58,7 +58,7 @@ macro_rules! embedded {
 }
 
 /// All of them.
-pub const SHIPPED: [Shipped; 19] = [
+pub const SHIPPED: [Shipped; 20] = [
     shipped!(
         "waves/machine.toml",
         "a bracket in G-code on steppers, servos and a pen lift, by all five circuits; runs by default",
@@ -78,6 +78,11 @@ pub const SHIPPED: [Shipped; 19] = [
         "waves/rewrite.toml",
         "a pattern whose T is rewritten while it is played, on the pulse interpolator",
         tables: ["waves/stroke.csv"]
+    ),
+    shipped!(
+        "waves/groups.toml",
+        "two groups with unit times of their own, started one after the other, on the pulse interpolator",
+        tables: ["waves/ring.csv", "waves/stroke.csv"]
     ),
     shipped!(
         "waves/arc.toml",

@@ -24,6 +24,9 @@ pub struct Scenario {
     pub pattern: Vec<PatternKeys>,
     /// The names of patterns in the order in which they are played; without it each once.
     pub play: Option<Vec<String>>,
+    /// Two groups with unit times of their own, in place of one that plays all patterns.
+    #[serde(default)]
+    pub group: Vec<GroupKeys>,
     /// T written by the control computer while patterns are played.
     #[serde(default)]
     pub rewrite: Vec<RewriteKeys>,
@@ -184,6 +187,17 @@ pub struct PatternKeys {
     pub table: PathBuf,
     /// What its half-periods are multiplied by, as 3/2.
     pub scale: Option<String>,
+}
+
+/// A table `[[group]]`.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GroupKeys {
+    /// The names of its patterns in the order in which they are played.
+    pub play: Vec<String>,
+    /// Tick of its first command, from 0; its pattern begins two ticks later.
+    #[serde(default)]
+    pub command_tick: u64,
 }
 
 /// A table `[[rewrite]]`.

@@ -445,3 +445,91 @@ fn a_rewritten_t_without_effect_is_refused() {
     let text = "--set: rewrite: without [[pattern]]; allowed: the command run, with [[pattern]] and no input";
     bench.refuse(&run, text);
 }
+
+#[test]
+fn two_groups_play_at_unit_times_of_their_own() {
+    let bench = Bench::new();
+    let summary = bench.json(&["run", "waves/groups.toml"]);
+    assert_eq!(summary["exact"], json!(true), "{summary}");
+    let [first, second] = list(&summary, "groups") else {
+        panic!("{summary}");
+    };
+    let ends = |group: &serde_json::Value| {
+        ["x", "y"].map(|axis| whole(group, &format!("/axes/{axis}/end_position")))
+    };
+    assert_eq!((ends(first), ends(second)), ([0, 0], [960, 400]));
+    assert_eq!(
+        (whole(first, "/units"), whole(second, "/units")),
+        (258, 138)
+    );
+    for group in [first, second] {
+        assert_eq!(whole(group, "/idle_units"), 0);
+    }
+    let paths = ["of_first", "of_second"].map(|group| {
+        ["busy", "unit_rst"].map(|line| format!("pulse_interpolator_groups.{group}.{line}"))
+    });
+    let paths: Vec<_> = paths.iter().flatten().map(String::as_str).collect();
+    let ticks = words(&bench.read("waves/groups.vcd"), &paths);
+    for (group, summary, begun, period, units) in
+        [(0, first, 2, 500, 258), (1, second, 1236, 800, 138)]
+    {
+        let high = |line: usize| {
+            let ticks = ticks.iter().enumerate();
+            ticks.filter(move |(_, row)| row[2 * group + line] == 1)
+        };
+        let busy: Vec<_> = high(0).map(|(tick, _)| tick).collect();
+        assert!(
+            busy.iter().copied().eq(begun..begun + units * period),
+            "{group}"
+        );
+        assert_eq!(whole(summary, "/begun_tick"), begun as i64);
+        let ends = high(1)
+            .map(|(tick, _)| tick + 1)
+            .filter(|end| busy.contains(&(end - 1)));
+        assert!(
+            ends.eq((1..=units).map(|unit| begun + unit * period)),
+            "{group}"
+        );
+    }
+    // Commands in the same tick start them together.
+    let set = "group=[{play=[\"ring\"]},{play=[\"stroke\"]}]";
+    let together = bench.json(&["run", "waves/groups.toml", "--no-vcd", "--set", set]);
+    let begun = list(&together, "groups")
+        .iter()
+        .map(|group| whole(group, "/begun_tick"));
+    assert_eq!(begun.collect::<Vec<_>>(), [2, 2]);
+}
+
+#[test]
+fn bad_groups_are_refused() {
+    let group = "[[group]]\nplay = [\"a\"]\n";
+    for (keys, text) in [
+        (
+            group.to_owned(),
+            "s.toml:6: group 0: play: of group 1 of 1; allowed: two groups",
+        ),
+        (
+            format!("{group}{}", group.replace("\"a\"", "")),
+            "s.toml:8: group 1: play: is empty; allowed: the name of a pattern",
+        ),
+        (
+            format!("{group}{}", group.replace("\"a\"", "\"b\"")),
+            "s.toml:8: group 1: play: b is no pattern; allowed: a",
+        ),
+    ] {
+        let bench = Bench::with("t.csv", rows(2));
+        bench.write("s.toml", format!("{ONE}{keys}"));
+        bench.refuse(&["run", "s.toml"], text);
+    }
+    let bench = Bench::with("t.csv", rows(2));
+    bench.write("s.toml", format!("{ONE}{group}{group}"));
+    bench.refuse(
+        &["run", "s.toml", "--set", "standalone=true"],
+        "--set: standalone: given beside [[group]]; allowed: one of both",
+    );
+    let bench = Bench::with("l.hpgl", LINE);
+    bench.refuse(
+        &["run", "l.hpgl", "--set", "group=[{play=[\"a\"]}]"],
+        "--set: group: without [[pattern]]; allowed: the command run, with [[pattern]] and no input",
+    );
+}

@@ -119,7 +119,7 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
             "waves/corner.toml" => shown,
             _ => 150_000,
         };
-    } else if summary["patterns"].is_array() {
+    } else if summary["patterns"].is_array() || summary["groups"].is_array() {
         assert_eq!(summary["exact"], true, "{scenario}");
     } else {
         assert_eq!(summary["exact"], true, "{scenario}");
@@ -269,8 +269,8 @@ microsteps = 16
 #[test]
 fn bad_scenarios_are_refused_with_their_line() {
     const NO_TOML: &str = "lines of key = value, in TOML";
-    const KEYS: &str = "one of `circuit`, `input`, `pattern`, `play`, `rewrite`, \
-         `standalone`, `conventional_moves`, `program`, `variant`, `clock_hz`, `steps_per_mm`, \
+    const KEYS: &str = "one of `circuit`, `input`, `pattern`, `play`, `group`, `rewrite`, \
+        `standalone`, `conventional_moves`, `program`, `variant`, `clock_hz`, `steps_per_mm`, \
          `feed_mm_per_min`, `rapid_mm_per_min`, `corner_mm_per_min`, `acceleration_mm_per_s2`, \
          `line_unit_ticks`, `arc_unit_ticks`, `step_high_ticks`, `step_low_ticks`, \
          `dir_setup_ticks`, `dir_hold_ticks`, `motor`, `beside`, `vcd_ticks`";

@@ -61,6 +61,7 @@ impl Job {
         for (key, given) in [
             ("pattern", !scenario.pattern.is_empty()),
             ("play", scenario.play.is_some()),
+            ("group", !scenario.group.is_empty()),
             ("rewrite", !scenario.rewrite.is_empty()),
             ("standalone", scenario.standalone),
         ] {

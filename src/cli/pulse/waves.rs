@@ -64,11 +64,16 @@ fn shown<C: Circuit>(circuit: &C, axes: usize, motors: Option<&Motors>) -> Resul
     }?)
 }
 
-fn ending(ticks: u64, focus: Focus, ends: impl Iterator<Item = i64>) -> Ending {
+/// The end of a run with the positions of its axes by name.
+pub(super) fn ending(
+    ticks: u64,
+    focus: Focus,
+    ends: impl Iterator<Item = (&'static str, i64)>,
+) -> Ending {
     Ending {
         ticks,
         focus,
-        position: AXIS_NAMES.into_iter().zip(ends).collect::<BTreeMap<_, _>>(),
+        position: ends.collect::<BTreeMap<_, _>>(),
         unit: "steps",
     }
 }
@@ -86,6 +91,7 @@ pub fn own<'a, F: FnMut(bool) -> Option<In<Value>> + 'a>(
             let mut computer = computer(group);
             let played = play_on(group, table, (&mut computer, motors), observer)?;
             let ends = played.axes.iter().map(|axis| axis.position());
+            let ends = AXIS_NAMES.into_iter().zip(ends);
             Ok(ending(played.ticks, focus(table, &played), ends))
         };
         Ok((group, model, run))
@@ -109,7 +115,8 @@ fn conventional(job: &Job) -> System<'_> {
                 overview: &OVERVIEW,
             };
             let ends = seen.positions.iter().rev().take(axes).rev();
-            Ok(ending(seen.ticks, focus, ends.map(|end| i64::from(*end))))
+            let ends = AXIS_NAMES.into_iter().zip(ends.map(|end| i64::from(*end)));
+            Ok(ending(seen.ticks, focus, ends))
         };
         Ok((circuit, model, run))
     })

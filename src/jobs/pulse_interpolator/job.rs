@@ -60,15 +60,9 @@ struct See {
     busy: At<bool>,
 }
 
-/// Drivers on all axes, and where they are when a unit time ends.
-struct Bench<'o> {
+/// Drivers on all axes of a group, and where they are when a unit time ends.
+pub(super) struct Drivers<'o> {
     counted: Counted<'o>,
-    see: See,
-    observer: &'o mut dyn Observer<Group>,
-    /// The run ends in pieces: with every tick in which a command can be taken.
-    pieces: bool,
-    /// The table is played, or the observer has stopped.
-    over: bool,
     axes: Vec<Paced>,
     /// The first tick of the unit time under way.
     unit_begun: u64,
@@ -77,6 +71,17 @@ struct Bench<'o> {
     first_step: Option<u64>,
     idle_units: u64,
     last_tick: u64,
+}
+
+/// A group that plays a table.
+struct Bench<'o> {
+    drivers: Drivers<'o>,
+    see: See,
+    observer: &'o mut dyn Observer<Group>,
+    /// The run ends in pieces: with every tick in which a command can be taken.
+    pieces: bool,
+    /// The table is played, or the observer has stopped.
+    over: bool,
 }
 
 impl Observer<Group> for Bench<'_> {
@@ -88,20 +93,8 @@ impl Observer<Group> for Bench<'_> {
         let see = &self.see;
         let (rst, busy) = (now.get(see.unit_rst), now.get(see.busy));
         let taken = rst && self.pieces && now.get(see.pending);
-        for (axis, paced) in self.axes.iter_mut().enumerate() {
-            paced.sample(now.tick, now.get(see.step[axis]), now.get(see.dir[axis]));
-        }
-        if self.first_step.is_none() && see.step.iter().any(|step| now.get(*step)) {
-            self.first_step = Some(now.tick);
-        }
-        if rst {
-            self.unit_ends(busy, now.tick + 1);
-        }
-        if self.begun.is_none() && busy {
-            self.begun = Some(now.tick);
-        }
-        self.last_tick = now.tick;
-        self.over = self.counted.positions.units == self.units && !busy;
+        let lines = |axis: usize| (now.get(see.step[axis]), now.get(see.dir[axis]));
+        self.over = self.drivers.sample(now.tick, (rst, busy), lines);
         self.over |= self.observer.sample(now)?.is_break();
         Ok(if self.over || taken {
             ControlFlow::Break(())
@@ -111,7 +104,67 @@ impl Observer<Group> for Bench<'_> {
     }
 }
 
-impl Bench<'_> {
+impl<'o> Drivers<'o> {
+    /// Drivers that see `table` played.
+    pub(super) fn new(table: &'o Table) -> Self {
+        Drivers {
+            axes: vec![Paced::default(); table.axes()],
+            unit_begun: 0,
+            counted: Counted::new(table),
+            units: table.units(),
+            begun: None,
+            first_step: None,
+            idle_units: 0,
+            last_tick: 0,
+        }
+    }
+
+    /// Sees a tick; true once the table is played.
+    pub(super) fn sample(
+        &mut self,
+        tick: u64,
+        (rst, busy): (bool, bool),
+        lines: impl Fn(usize) -> (bool, bool),
+    ) -> bool {
+        for (axis, paced) in self.axes.iter_mut().enumerate() {
+            let (step, dir) = lines(axis);
+            paced.sample(tick, step, dir);
+            if step && self.first_step.is_none() {
+                self.first_step = Some(tick);
+            }
+        }
+        if rst {
+            self.unit_ends(busy, tick + 1);
+        }
+        if self.begun.is_none() && busy {
+            self.begun = Some(tick);
+        }
+        self.last_tick = tick;
+        self.counted.positions.units == self.units && !busy
+    }
+
+    /// What they saw in a run of so many ticks.
+    pub(super) fn played(self, ticks: u64, motors: Vec<MotorReport>) -> Played {
+        let axes = self.axes.iter().map(|Paced { driver, spread }| {
+            let (pulses, position) = (driver.pulses() as i64, driver.position());
+            PlayedAxis {
+                pulses_up: ((pulses + position) / 2) as u64,
+                pulses_down: ((pulses - position) / 2) as u64,
+                minima: driver.minima(),
+                jitter: spread.jitter(),
+            }
+        });
+        Played {
+            ticks,
+            begun: self.begun.unwrap_or(self.last_tick),
+            first_step: self.first_step,
+            idle_units: self.idle_units,
+            axes: axes.collect(),
+            positions: self.counted.positions,
+            motors,
+        }
+    }
+
     /// The unit time of the table that is under way.
     fn unit(&self) -> usize {
         let ended = self.counted.positions.units;
@@ -202,8 +255,8 @@ pub fn play_motors(
                 let i = given.as_ref().unwrap_or(&quiet);
                 // What the bench says of going on is in it.
                 let ((), _) = simulator.step_watched(i, &mut *bench, |_| ())?;
-                let positions = bench.axes.iter().map(|axis| axis.driver.position());
-                motors.step(bench.unit(), positions);
+                let positions = bench.drivers.axes.iter().map(|axis| axis.driver.position());
+                motors.step(bench.drivers.unit(), positions);
             }
             Ok(motors.report())
         },
@@ -299,38 +352,14 @@ fn played(
         Some(motors) => Simulator::watching_beside(group, &motors, all, See::of),
     }?;
     let mut bench = Bench {
+        drivers: Drivers::new(table),
         see,
         observer,
         pieces: false,
         over: false,
-        axes: vec![Paced::default(); group.axes],
-        unit_begun: 0,
-        counted: Counted::new(table),
-        units: table.units(),
-        begun: None,
-        first_step: None,
-        idle_units: 0,
-        last_tick: 0,
     };
     let motors = run(&mut simulator, &mut bench)?;
-    let axes = bench.axes.iter().map(|Paced { driver, spread }| {
-        let (pulses, position) = (driver.pulses() as i64, driver.position());
-        PlayedAxis {
-            pulses_up: ((pulses + position) / 2) as u64,
-            pulses_down: ((pulses - position) / 2) as u64,
-            minima: driver.minima(),
-            jitter: spread.jitter(),
-        }
-    });
-    Ok(Played {
-        ticks: simulator.tick(),
-        begun: bench.begun.unwrap_or(bench.last_tick),
-        first_step: bench.first_step,
-        idle_units: bench.idle_units,
-        axes: axes.collect(),
-        positions: bench.counted.positions,
-        motors,
-    })
+    Ok(bench.drivers.played(simulator.tick(), motors))
 }
 
 /// The group for a table: its axes, the default word lengths, the unit time of the first pattern at

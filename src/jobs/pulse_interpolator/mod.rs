@@ -3,6 +3,7 @@
 
 pub mod beside;
 pub mod control_computer;
+pub mod groups;
 pub mod job;
 pub mod motors;
 pub mod moves;

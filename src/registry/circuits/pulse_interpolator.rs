@@ -2,8 +2,8 @@ use super::make::{FLAGS, VARIANTS, address_bits, at_most, choice, second, width,
 use crate::circuits::pulse_interpolator::pattern_memory::Contents;
 use crate::circuits::pulse_interpolator::{
     AddressSequencer, Axis, CircularInterpolator, CommandPort, Conventional, ConventionalWidths,
-    Group, MotorController, Pattern, PatternMemory, PulseGenerator, PulseTrain, SyncStage, UnitLaw,
-    UnitTimeRegister, Variant, Widths,
+    Group, Groups, MotorController, Pattern, PatternMemory, PulseGenerator, PulseTrain, SyncStage,
+    UnitLaw, UnitTimeRegister, Variant, Widths,
 };
 use crate::hdl::Cut;
 use crate::registry::Entry;
@@ -205,6 +205,40 @@ pub(super) const CIRCUITS: &[Entry] = &[
         },
         with: playing,
         proved: 2,
+    ),
+    entry!(
+        Groups, "JP3640909B2 1, several groups: ¶0032",
+        full: || Groups {
+            first_axes: 2,
+            second_axes: 2,
+            widths: Widths::default(),
+            variant: Variant::Safe,
+            periods: [1000; 2],
+            memories: [Vec::new(), Vec::new()],
+        },
+        widths: [first_axes, second_axes; half_period, period, address in widths],
+        from: "width of half-period and T, T of the first and of the second at power-on: an axis \
+               each, with two words of memory (1 up, 2 down)",
+        |given| {
+            at_most(given, 3)?;
+            let width = width(given)?;
+            let second = given.get(2).or(given.get(1)).copied();
+            let small = |period: Option<u64>| match period {
+                Some(period) => small_group(width, &[width as u64, period]),
+                None => small_group(width, &[width as u64]),
+            };
+            let (first, second) = (small(given.get(1).copied())?, small(second)?);
+            Some(Groups {
+                first_axes: 1,
+                second_axes: 1,
+                widths: first.widths,
+                variant: Variant::Safe,
+                periods: [first.period, second.period],
+                memories: [first.memories, second.memories],
+            })
+        },
+        with: nothing,
+        proved: none,
     ),
     entry!(
         PulseTrain, "JP3640909B2 6x, 6y, Fig. 5",

@@ -324,6 +324,7 @@ pub const JOBS: &[&str] = &[
     "conventional_interpolator",
     "motor_controller",
     "conventional_pulse_interpolator",
+    "pulse_interpolator_groups",
     "controller",
     "conventional_controller",
     "time_lead",

@@ -1,5 +1,6 @@
 //! `run` of patterns that stand in the memory: played by command, or without a control computer.
 
+pub mod groups;
 mod summary;
 
 use super::{has_no_segments, own, simulate};
@@ -48,54 +49,7 @@ impl Job {
     /// Reads the tables of the patterns and puts them into the memory.
     pub fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
         let loaded = &source.loaded;
-        if scenario.input.is_some() {
-            let problem = "given beside [[pattern]]".to_owned();
-            return Err(loaded.fault("input", problem, "one of both".into()).into());
-        }
-        if scenario.beside {
-            let problem = "given beside [[pattern]]".to_owned();
-            let allowed = "a drawing, which the conventional device plays too".to_owned();
-            return Err(loaded.fault("beside", problem, allowed).into());
-        }
-        let mut patterns = Vec::new();
-        for (index, keys) in scenario.pattern.iter().enumerate() {
-            let refuse = |key, problem: String, allowed: &str| {
-                loaded.table_fault(("pattern", index), key, problem, allowed.to_owned())
-            };
-            if keys.name.is_empty() {
-                return Err(refuse("name", "is empty".into(), "a name").into());
-            }
-            if scenario.pattern[..index]
-                .iter()
-                .any(|other| other.name == keys.name)
-            {
-                let problem = format!("is {} once more", keys.name);
-                return Err(refuse("name", problem, "a name for each").into());
-            }
-            let given = source.table(&keys.table, scenario.clock_hz)?;
-            let scaled =
-                match &keys.scale {
-                    None => None,
-                    Some(text) => {
-                        let ratio = ratio(text)
-                            .map_err(|allowed| refuse("scale", format!("is {text}"), allowed))?;
-                        let scaled = given.scaled(ratio);
-                        Some(scaled.map_err(|error| {
-                            refuse("scale", error.to_string(), "a smaller ratio")
-                        })?)
-                    }
-                };
-            let (table, scaling) = match scaled {
-                None => (given.clone(), None),
-                Some(scaled) => (scaled.table, Some(scaled.axes)),
-            };
-            patterns.push(Pattern {
-                keys: keys.clone(),
-                given,
-                table,
-                scaling,
-            });
-        }
+        let patterns = patterns(&source, scenario)?;
         let order = order(loaded, scenario)?;
         let tables: Vec<_> = patterns.iter().map(|pattern| &pattern.table).collect();
         let stored = Stored::new(
@@ -121,16 +75,81 @@ impl Job {
     }
 }
 
+/// Reads the tables of the patterns.
+fn patterns(source: &Source, scenario: &Scenario) -> Result<Vec<Pattern>, Failure> {
+    let loaded = &source.loaded;
+    if scenario.input.is_some() {
+        let problem = "given beside [[pattern]]".to_owned();
+        return Err(loaded.fault("input", problem, "one of both".into()).into());
+    }
+    if scenario.beside {
+        let problem = "given beside [[pattern]]".to_owned();
+        let allowed = "a drawing, which the conventional device plays too".to_owned();
+        return Err(loaded.fault("beside", problem, allowed).into());
+    }
+    let mut patterns = Vec::new();
+    for (index, keys) in scenario.pattern.iter().enumerate() {
+        let refuse = |key, problem: String, allowed: &str| {
+            loaded.table_fault(("pattern", index), key, problem, allowed.to_owned())
+        };
+        if keys.name.is_empty() {
+            return Err(refuse("name", "is empty".into(), "a name").into());
+        }
+        if scenario.pattern[..index]
+            .iter()
+            .any(|other| other.name == keys.name)
+        {
+            let problem = format!("is {} once more", keys.name);
+            return Err(refuse("name", problem, "a name for each").into());
+        }
+        let given = source.table(&keys.table, scenario.clock_hz)?;
+        let scaled = match &keys.scale {
+            None => None,
+            Some(text) => {
+                let ratio = ratio(text)
+                    .map_err(|allowed| refuse("scale", format!("is {text}"), allowed))?;
+                let scaled = given.scaled(ratio);
+                Some(
+                    scaled
+                        .map_err(|error| refuse("scale", error.to_string(), "a smaller ratio"))?,
+                )
+            }
+        };
+        let (table, scaling) = match scaled {
+            None => (given.clone(), None),
+            Some(scaled) => (scaled.table, Some(scaled.axes)),
+        };
+        patterns.push(Pattern {
+            keys: keys.clone(),
+            given,
+            table,
+            scaling,
+        });
+    }
+    Ok(patterns)
+}
+
 /// The patterns that are played, by their numbers.
 fn order(loaded: &Loaded, scenario: &Scenario) -> Result<Vec<usize>, Fault> {
+    match &scenario.play {
+        None => Ok((0..scenario.pattern.len()).collect()),
+        Some(play) => found(scenario, play, |problem, allowed| {
+            loaded.fault("play", problem, allowed)
+        }),
+    }
+}
+
+/// The patterns of these names, by their numbers.
+fn found(
+    scenario: &Scenario,
+    play: &[String],
+    refuse: impl Fn(String, String) -> Fault,
+) -> Result<Vec<usize>, Fault> {
     let names = || scenario.pattern.iter().map(|pattern| pattern.name.as_str());
-    let Some(play) = &scenario.play else {
-        return Ok((0..scenario.pattern.len()).collect());
-    };
     let find = |name: &String| {
         names().position(|other| other == name).ok_or_else(|| {
             let allowed = names().collect::<Vec<_>>().join(", ");
-            loaded.fault("play", format!("{name} is no pattern"), allowed)
+            refuse(format!("{name} is no pattern"), allowed)
         })
     };
     play.iter().map(find).collect()

@@ -9,9 +9,9 @@ use crate::cli::pulse::verdict::miscount;
 use crate::cli::report::{Outcome, Report};
 use crate::cli::table::AxisDeviation;
 use motion_rtl::circuits::pulse_interpolator::AXIS_NAMES;
-use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::job::Played;
 use motion_rtl::jobs::pulse_interpolator::positions::steps_of;
+use motion_rtl::jobs::pulse_interpolator::{StepTiming, Table};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -64,7 +64,7 @@ struct PatternSummary {
 
 /// An axis, as its motor driver saw it.
 #[derive(Debug, Serialize)]
-struct AxisSummary {
+pub(super) struct AxisSummary {
     pulses_up: u64,
     pulses_down: u64,
     end_position: i64,
@@ -82,25 +82,53 @@ fn steps(table: &Table) -> Vec<i64> {
     steps
 }
 
+/// The axes that played a table, and what is wrong with them.
+pub(super) fn axes(
+    table: &Table,
+    played: &Played,
+    timing: &StepTiming,
+) -> (ByAxis<AxisSummary>, Vec<String>) {
+    let mut complaints = Vec::new();
+    let mut axes = Vec::new();
+    for (axis, (name, seen)) in AXIS_NAMES.into_iter().zip(&played.axes).enumerate() {
+        let minima = Minima::from(seen.minima);
+        let miscounted = miscount(table, played, axis);
+        let short = minima.too_short(timing);
+        let all = miscounted.into_iter().chain(short);
+        complaints.extend(all.map(|text| format!("{name}: {text}")));
+        axes.push(AxisSummary {
+            pulses_up: seen.pulses_up,
+            pulses_down: seen.pulses_down,
+            end_position: seen.position(),
+            timing_min_ticks: minima,
+        });
+    }
+    (axes.into_iter().collect(), complaints)
+}
+
+/// Writes a row for each axis.
+pub(super) fn write_axes(axes: &ByAxis<AxisSummary>, text: &mut String) -> std::fmt::Result {
+    writeln!(
+        text,
+        "axis      up    down  end position   high   low setup  hold (min ticks)"
+    )?;
+    for (name, axis) in axes.iter() {
+        writeln!(
+            text,
+            "{name:<4}  {:>6}  {:>6}  {:>12}  {}",
+            axis.pulses_up,
+            axis.pulses_down,
+            axis.end_position,
+            timing(&axis.timing_min_ticks),
+        )?;
+    }
+    Ok(())
+}
+
 impl Summary {
     pub fn new(job: &Job, played: &Played) -> Self {
         let stored = &job.stored;
-        let mut complaints = Vec::new();
-        let mut axes = Vec::new();
-        for (axis, (name, seen)) in AXIS_NAMES.into_iter().zip(&played.axes).enumerate() {
-            let minima = Minima::from(seen.minima);
-            let miscounted = miscount(&stored.played, played, axis);
-            let short = minima.too_short(&job.timing);
-            let all = miscounted.into_iter().chain(short);
-            complaints.extend(all.map(|text| format!("{name}: {text}")));
-            let summary = AxisSummary {
-                pulses_up: seen.pulses_up,
-                pulses_down: seen.pulses_down,
-                end_position: seen.position(),
-                timing_min_ticks: minima,
-            };
-            axes.push(summary);
-        }
+        let (axes, mut complaints) = axes(&stored.played, played, &job.timing);
         let patterns = job.patterns.iter().zip(&stored.places);
         let patterns = patterns.map(|(pattern, place)| PatternSummary {
             name: pattern.keys.name.clone(),
@@ -134,7 +162,7 @@ impl Summary {
                 1 << stored.group.widths.address,
             ],
             patterns: patterns.collect(),
-            axes: axes.into_iter().collect(),
+            axes,
             step_rates,
             units: stored.played.units(),
             idle_units: played.idle_units,
@@ -206,20 +234,8 @@ impl Report for Summary {
                 }
             }
         }
-        writeln!(
-            text,
-            "\naxis      up    down  end position   high   low setup  hold (min ticks)"
-        )?;
-        for (name, axis) in self.axes.iter() {
-            writeln!(
-                text,
-                "{name:<4}  {:>6}  {:>6}  {:>12}  {}",
-                axis.pulses_up,
-                axis.pulses_down,
-                axis.end_position,
-                timing(&axis.timing_min_ticks),
-            )?;
-        }
+        text.push('\n');
+        write_axes(&self.axes, text)?;
         text.push('\n');
         rates::write(&self.step_rates, text)?;
         writeln!(text, "\n{} unit times", self.units)?;

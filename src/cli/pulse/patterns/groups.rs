@@ -1,0 +1,351 @@
+//! `run` of two groups, each with patterns and unit times of its own.
+
+use super::summary::{AxisSummary, axes, write_axes};
+use super::{Pattern, found, patterns, stored_fault};
+use crate::cli::Failure;
+use crate::cli::progress::{self, Work};
+use crate::cli::pulse::by_axis::ByAxis;
+use crate::cli::pulse::has_no_segments;
+use crate::cli::pulse::waves::ending;
+use crate::cli::report::{Outcome, Report, conclude};
+use crate::cli::run::{Arguments, in_waves, options};
+use crate::cli::source::Source;
+use crate::cli::traces::{Focus, Traces};
+use crate::cli::waves_of::System;
+use motion_rtl::circuits::pulse_interpolator::{AXIS_NAMES, Groups};
+use motion_rtl::hdl::{Circuit, Observer, RunError, model};
+use motion_rtl::input::Fault;
+use motion_rtl::jobs::pulse_interpolator::groups::{Member, circuit, play};
+use motion_rtl::jobs::pulse_interpolator::job::Played;
+use motion_rtl::jobs::pulse_interpolator::{StepTiming, Stored, StoredError};
+use motion_rtl::picture::{Curve, Panel, Picture, Points};
+use motion_rtl::scenario::Loaded;
+use motion_rtl::scenario::pulse_interpolator::{GroupKeys, Scenario};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// About how long a tick takes.
+const TICK_S: f64 = 40e-9;
+
+/// Unit times of the first group that the save file's window shows.
+const UNITS_SHOWN: u64 = 6;
+
+/// Names of the groups.
+const NAMES: [&str; 2] = ["first", "second"];
+
+/// Names of their axes among those of both.
+const AXES: [[&str; 8]; 2] = [
+    [
+        "first_x", "first_y", "first_z", "first_a", "first_b", "first_c", "first_u", "first_v",
+    ],
+    [
+        "second_x", "second_y", "second_z", "second_a", "second_b", "second_c", "second_u",
+        "second_v",
+    ],
+];
+
+/// What the save file shows on top; an axis that the job has not is left out.
+const OVERVIEW: [&str; 14] = [
+    "of_first.unit_rst",
+    "of_first.busy",
+    "of_first.step_x",
+    "of_first.dir_x",
+    "of_first.step_y",
+    "of_first.dir_y",
+    "second_starting",
+    "second.unit_time.active",
+    "of_second.unit_rst",
+    "of_second.busy",
+    "of_second.step_x",
+    "of_second.dir_x",
+    "of_second.step_y",
+    "of_second.dir_y",
+];
+
+/// Groups ready to play.
+pub struct Job {
+    /// The scenario they came from.
+    pub loaded: Loaded,
+    /// Stem of the names of its files.
+    pub stem: String,
+    scenario: Scenario,
+    timing: StepTiming,
+    members: [Member; 2],
+}
+
+impl Job {
+    /// Reads the tables of the patterns and puts them into the memories of both groups.
+    pub fn prepare(source: Source, scenario: &Scenario) -> Result<Self, Failure> {
+        let loaded = &source.loaded;
+        for (key, given) in [
+            ("play", scenario.play.is_some()),
+            ("rewrite", !scenario.rewrite.is_empty()),
+            ("standalone", scenario.standalone),
+            ("motor", scenario.motor.is_some()),
+        ] {
+            if given {
+                let allowed = "one of both".to_owned();
+                return Err(loaded
+                    .fault(key, "given beside [[group]]".into(), allowed)
+                    .into());
+            }
+        }
+        let patterns = patterns(&source, scenario)?;
+        let [first, second] = &scenario.group[..] else {
+            let count = scenario.group.len();
+            let problem = format!("of group {count} of {count}");
+            let last = ("group", count - 1);
+            return Err(loaded
+                .table_fault(last, "play", problem, "two groups".into())
+                .into());
+        };
+        let member = |group, keys| member(loaded, scenario, &patterns, (group, keys));
+        let members = [member(0, first)?, member(1, second)?];
+        let Source { loaded, stem, .. } = source;
+        Ok(Job {
+            loaded,
+            stem,
+            timing: scenario.timing(),
+            scenario: scenario.clone(),
+            members,
+        })
+    }
+}
+
+/// A group with the patterns that it plays in its memory.
+fn member(
+    loaded: &Loaded,
+    scenario: &Scenario,
+    patterns: &[Pattern],
+    (group, keys): (usize, &GroupKeys),
+) -> Result<Member, Fault> {
+    let refuse = |problem, allowed| loaded.table_fault(("group", group), "play", problem, allowed);
+    let order = found(scenario, &keys.play, refuse)?;
+    let mut held = order.clone();
+    held.sort_unstable();
+    held.dedup();
+    let tables: Vec<_> = held
+        .iter()
+        .map(|pattern| &patterns[*pattern].table)
+        .collect();
+    let places = order
+        .iter()
+        .map(|pattern| held.partition_point(|other| other < pattern));
+    let places: Vec<_> = places.collect();
+    let stored = Stored::new(&tables, &places, scenario.variant.into(), false);
+    let stored = stored.map_err(|error| match error {
+        StoredError::Nothing => refuse("is empty".into(), "the name of a pattern".into()),
+        StoredError::Axes {
+            pattern,
+            axes,
+            first,
+        } => {
+            let pattern = held[pattern];
+            stored_fault(
+                loaded,
+                StoredError::Axes {
+                    pattern,
+                    axes,
+                    first,
+                },
+            )
+        }
+        StoredError::Full {
+            pattern,
+            units,
+            room,
+        } => {
+            let pattern = held[pattern];
+            stored_fault(
+                loaded,
+                StoredError::Full {
+                    pattern,
+                    units,
+                    room,
+                },
+            )
+        }
+        other => stored_fault(loaded, other),
+    })?;
+    Ok(Member {
+        stored,
+        command_tick: keys.command_tick,
+    })
+}
+
+/// Where the second group begins.
+fn focus(job: &Job, played: &[Played; 2]) -> Focus {
+    let unit = job.members[0].stored.group.period;
+    Focus {
+        action: played[1].begun,
+        before: unit,
+        shown: UNITS_SHOWN * unit,
+        overview: &OVERVIEW,
+    }
+}
+
+fn ticks(job: &Job) -> u64 {
+    job.members.iter().map(Member::ticks).max().unwrap_or(0)
+}
+
+/// The one system of the summary.
+pub fn systems(job: &Job) -> Vec<System<'_>> {
+    let make = move || {
+        let circuit = circuit(&job.members);
+        let model = model(&circuit).map_err(RunError::from)?;
+        let run = move |circuit: &Groups, observer: &mut dyn Observer<Groups>| {
+            let played = play(circuit, &job.members, observer)?;
+            let ends = played.iter().zip(AXES).flat_map(|(played, names)| {
+                let ends = played.axes.iter().map(|axis| axis.position());
+                names.into_iter().zip(ends)
+            });
+            Ok(ending(played[0].ticks, focus(job, &played), ends))
+        };
+        Ok((circuit, model, run))
+    };
+    vec![System::new(Groups::NAME, ticks(job), make)]
+}
+
+/// Has both groups play.
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    has_no_segments(arguments)?;
+    let options = options(arguments, job.scenario.vcd_ticks)?;
+    let circuit = circuit(&job.members);
+    let model = model(&circuit).map_err(RunError::from)?;
+    let ticks = ticks(job);
+    let scenario = (&job.loaded, job.stem.as_str());
+    let traces = Traces::begin((&model, &circuit), arguments, scenario, &options, ticks)?;
+    let work = Work {
+        ticks,
+        runs: 1,
+        seconds: ticks as f64 * TICK_S,
+        in_waves: in_waves(arguments, &options, ticks),
+    };
+    progress::run(&job.stem, work);
+    let (played, mut files) = traces.play(
+        &model,
+        |observer| Ok(play(&circuit, &job.members, observer)?),
+        |played| (focus(job, played), played[0].ticks),
+    )?;
+    files.write("svg", &draw(job, &played))?;
+    conclude(arguments, &options, files, Summary::new(job, &played))
+}
+
+/// The positions of each group's axes over time.
+fn draw(job: &Job, played: &[Played; 2]) -> String {
+    let mut picture = Picture::new(format!("{}: pulse interpolator, two groups", job.stem));
+    for ((member, played), name) in job.members.iter().zip(played).zip(NAMES) {
+        let table = &member.stored.played;
+        let mut curves = vec![Points::expecting(played.positions.units); table.axes()];
+        let mut tick = played.begun;
+        for ((period, _), at) in table.iter().zip(played.positions.of(table)) {
+            tick += u64::from(period);
+            let seconds = tick as f64 / job.scenario.clock_hz as f64;
+            for (curve, position) in curves.iter_mut().zip(at.iter()) {
+                curve.push((seconds, f64::from(*position)));
+            }
+        }
+        let mut panel = Panel::new(name, "time in s", "steps");
+        for (name, curve) in AXIS_NAMES.iter().zip(curves) {
+            panel = panel.curve(Curve::thinned(*name, curve));
+        }
+        picture = picture.panel(panel);
+    }
+    picture.render()
+}
+
+/// What came of two groups that played.
+#[derive(Debug, Serialize)]
+struct Summary {
+    #[serde(flatten)]
+    outcome: Outcome,
+    /// What RST cleared.
+    variant: &'static str,
+    /// Whether every unit time has the pulses that its word makes, and every axis kept the driver's
+    /// timing.
+    exact: bool,
+    groups: [GroupSummary; 2],
+}
+
+/// A group.
+#[derive(Debug, Serialize)]
+struct GroupSummary {
+    /// Its patterns in the order in which they were played.
+    play: Vec<String>,
+    /// Its unit times T, in the order in which they came.
+    unit_ticks: Vec<u64>,
+    /// Tick of its first command.
+    command_tick: u64,
+    /// First tick of its first unit time.
+    begun_tick: u64,
+    /// Commands that it got.
+    commands: usize,
+    /// Unit times played.
+    units: usize,
+    /// Unit times without pulses between two patterns.
+    idle_units: u64,
+    axes: ByAxis<AxisSummary>,
+}
+
+impl Summary {
+    fn new(job: &Job, played: &[Played; 2]) -> Self {
+        let mut complaints = Vec::new();
+        let group = |group: usize| {
+            let (member, played) = (&job.members[group], &played[group]);
+            let (axes, found) = axes(&member.stored.played, played, &job.timing);
+            let name = NAMES[group];
+            complaints.extend(found.iter().map(|text| format!("{name}: {text}")));
+            let commands = &member.stored.commands;
+            GroupSummary {
+                play: job.scenario.group[group].play.clone(),
+                unit_ticks: commands.iter().map(|command| command.period).collect(),
+                command_tick: member.command_tick,
+                begun_tick: played.begun,
+                commands: commands.len(),
+                units: played.positions.units,
+                idle_units: played.idle_units,
+                axes,
+            }
+        };
+        let groups = [0, 1].map(group);
+        let (clock, ticks) = (job.scenario.clock_hz, played[0].ticks);
+        Summary {
+            exact: complaints.is_empty(),
+            variant: job.scenario.variant.name(),
+            groups,
+            outcome: Outcome {
+                complaints,
+                ..Outcome::new(Groups::NAME, &job.stem, clock, ticks)
+            },
+        }
+    }
+}
+
+impl Report for Summary {
+    fn outcome(&mut self) -> &mut Outcome {
+        &mut self.outcome
+    }
+
+    fn write(&self, text: &mut String, _: bool) -> std::fmt::Result {
+        let (subject, length) = (self.outcome.subject(), self.outcome.length());
+        writeln!(text, "{subject} ({}): {length}", self.variant)?;
+        for (group, name) in self.groups.iter().zip(NAMES) {
+            let periods: Vec<_> = group.unit_ticks.iter().map(u64::to_string).collect();
+            writeln!(
+                text,
+                "\n{name}: {}; T = {}; command in tick {}, begins in tick {}",
+                group.play.join(", "),
+                periods.join(", "),
+                group.command_tick,
+                group.begun_tick
+            )?;
+            write_axes(&group.axes, text)?;
+            let (units, idle) = (group.units, group.idle_units);
+            writeln!(
+                text,
+                "{units} unit times, {idle} without pulses between two patterns"
+            )?;
+        }
+        Ok(())
+    }
+}
