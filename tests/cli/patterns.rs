@@ -503,18 +503,40 @@ fn two_groups_play_at_unit_times_of_their_own() {
 #[test]
 fn bad_groups_are_refused() {
     let group = "[[group]]\nplay = [\"a\"]\n";
+    let second = |keys: &str| format!("{group}{}", group.replace("play = [\"a\"]", keys));
     for (keys, text) in [
         (
             group.to_owned(),
-            "s.toml:6: group 0: play: of group 1 of 1; allowed: two groups",
+            "s.toml: group: is given once; allowed: twice",
         ),
         (
-            format!("{group}{}", group.replace("\"a\"", "")),
+            group.repeat(3),
+            "s.toml: group: is given 3 times; allowed: twice",
+        ),
+        (
+            second("play = []"),
             "s.toml:8: group 1: play: is empty; allowed: the name of a pattern",
         ),
         (
-            format!("{group}{}", group.replace("\"a\"", "\"b\"")),
+            second("play = [\"b\"]"),
             "s.toml:8: group 1: play: b is no pattern; allowed: a",
+        ),
+        (
+            second("play = [\"a\"]\ncommand_tick = 1000000000001"),
+            "s.toml:9: group 1: command_tick: is 1000000000001; allowed: 0 to 1000000000000",
+        ),
+        (
+            second("play = [\"a\"]\ncommand_tick = -1"),
+            "s.toml:9: command_tick: invalid value: integer `-1`; \
+             allowed: a whole number from 0",
+        ),
+        (
+            second("play = [\"a\"]\ntick = 1"),
+            "s.toml:9: tick: unknown field `tick`; allowed: `play` or `command_tick`",
+        ),
+        (
+            second("command_tick = 1"),
+            "s.toml:7: play: missing; allowed: a value for it: it has no default",
         ),
     ] {
         let bench = Bench::with("t.csv", rows(2));
@@ -523,13 +545,48 @@ fn bad_groups_are_refused() {
     }
     let bench = Bench::with("t.csv", rows(2));
     bench.write("s.toml", format!("{ONE}{group}{group}"));
-    bench.refuse(
-        &["run", "s.toml", "--set", "standalone=true"],
-        "--set: standalone: given beside [[group]]; allowed: one of both",
-    );
+    for (key, value) in [
+        ("play", "[\"a\"]"),
+        ("rewrite", "[{unit=0,unit_ticks=90}]"),
+        ("standalone", "true"),
+        ("motor", "{holding_torque_nm=1,inertia_kg_m2=5e-5}"),
+    ] {
+        let text = format!("--set: {key}: given beside [[group]]; allowed: one of both");
+        bench.refuse(
+            &["run", "s.toml", "--set", &format!("{key}={value}")],
+            &text,
+        );
+    }
     let bench = Bench::with("l.hpgl", LINE);
     bench.refuse(
         &["run", "l.hpgl", "--set", "group=[{play=[\"a\"]}]"],
         "--set: group: without [[pattern]]; allowed: the command run, with [[pattern]] and no input",
+    );
+}
+
+/// Each group has a memory of its own, with the patterns that it plays: what does not fit there is
+/// told by the number that the pattern has in the scenario.
+#[test]
+fn a_pattern_that_a_group_cannot_hold_is_refused_by_its_own_number() {
+    let bench = Bench::with("t.csv", rows(2));
+    bench.write("l.csv", rows(4096));
+    let of_y = HEADER.trim_end().to_owned() + ",y_half_period_ticks,y_down\n0,100,10,0,10,0\n";
+    bench.write("xy.csv", of_y);
+    let pattern = |name: &str| format!("[[pattern]]\nname = \"{name}\"\ntable = \"{name}.csv\"\n");
+    let scenario = |first: &str, second: &str| {
+        let circuit = "circuit = \"pulse_interpolator\"\n";
+        let patterns = ["t", "l", "xy"].map(pattern).concat();
+        format!("{circuit}{patterns}[[group]]\nplay = [{first}]\n[[group]]\nplay = [{second}]\n")
+    };
+    // Both fit, where each has the memory to itself.
+    bench.write("s.toml", scenario("\"l\"", "\"xy\""));
+    assert_eq!(bench.json(&["run", "s.toml", "--no-vcd"])["exact"], true);
+    bench.write("s.toml", scenario("\"t\"", "\"t\", \"l\""));
+    let full = "s.toml:7: pattern 1: table: has 4096 unit times; allowed: 4094 of the 4096 words of the memory";
+    bench.refuse(&["run", "s.toml"], full);
+    bench.write("s.toml", scenario("\"l\"", "\"l\", \"xy\""));
+    bench.refuse(
+        &["run", "s.toml"],
+        "s.toml:10: pattern 2: table: has 2 axes; allowed: 1, as the first",
     );
 }

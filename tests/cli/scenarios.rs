@@ -134,7 +134,7 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
     let save = scenario.replace(".toml", ".gtkw");
     let text = bench.read(&save);
     let overview = text.split("-overview\n").nth(1).expect("an overview");
-    let overview = overview.split("-ports in\n").next().unwrap();
+    let overview = overview.split("\n@200\n-\n").next().unwrap();
     let shown = |line: &&str| line.contains('.') && !line.ends_with("_name");
     let rows = overview.lines().filter(shown).count();
     let expected = match summary["circuit"].as_str().unwrap() {
@@ -143,6 +143,7 @@ pub fn runs_exactly(scenario: &str) -> (Bench, Value) {
             let motors = summary["step_rates"]["x"]["motor"].is_object();
             1 + axes * if motors { 6 } else { 4 }
         }
+        "pulse_interpolator_groups" => 14,
         "linear_interpolator" => 11,
         "arc_generator" if summary["arm"].is_object() => 17,
         "lead_angle" | "arc_generator" => 14,

@@ -60,8 +60,8 @@ fn the_last_of_two_overrides_counts() {
 #[test]
 fn bad_overrides_are_refused() {
     const WHOLE: &str = "allowed: a whole number from 0";
-    const KEYS: &str = "allowed: one of `circuit`, `input`, `pattern`, `play`, `rewrite`, \
-         `standalone`, `conventional_moves`, `program`, `variant`, `clock_hz`, \
+    const KEYS: &str = "allowed: one of `circuit`, `input`, `pattern`, `play`, `group`, \
+         `rewrite`, `standalone`, `conventional_moves`, `program`, `variant`, `clock_hz`, \
          `steps_per_mm`, `feed_mm_per_min`, `rapid_mm_per_min`, `corner_mm_per_min`, \
          `acceleration_mm_per_s2`, `line_unit_ticks`, `arc_unit_ticks`, `step_high_ticks`, \
          `step_low_ticks`, `dir_setup_ticks`, `dir_hold_ticks`, `motor`, `beside`, `vcd_ticks`";

@@ -2,14 +2,20 @@
 
 use super::tools::{Simulator, complete};
 use assert_cmd::Command;
-use motion_rtl::circuits::pulse_interpolator::{Group, Variant, Widths};
-use motion_rtl::hdl::Declarations;
+use motion_rtl::circuits::pulse_interpolator::{Group, Groups, Variant, Widths};
+use motion_rtl::hdl::{Circuit, Declarations};
 use std::fs;
 use std::path::Path;
 
 /// Runs a shipped scenario, and its Verilog with the same inputs, in Icarus: Verilator compiles a
 /// wave of each of the memory's thousands of words, and looks at them all in every tick.
 fn hold(scenario: &str, sets: &[&str]) {
+    let group = Group::new(2, Widths::default(), Variant::Safe, 1);
+    of(&group, scenario, sets, 9);
+}
+
+/// The same of a circuit that takes so many modules.
+fn of<C: Circuit>(circuit: &C, scenario: &str, sets: &[&str], count: usize) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path();
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -21,7 +27,7 @@ fn hold(scenario: &str, sets: &[&str]) {
         .args(sets.iter().flat_map(|set| ["--set", set]))
         .assert()
         .success();
-    let name = "pulse_interpolator";
+    let name = C::NAME;
     let golden = path.join(format!("{name}.vcd"));
     fs::rename(path.join(format!("{scenario}.vcd")), golden).unwrap();
     let modules: Vec<String> = fs::read_dir(path)
@@ -29,12 +35,11 @@ fn hold(scenario: &str, sets: &[&str]) {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .filter(|file| file.ends_with(".v") && !file.ends_with("_tb.v"))
         .collect();
-    assert_eq!(modules.len(), 9, "{modules:?}");
+    assert_eq!(modules.len(), count, "{modules:?}");
     let stimulus = fs::read_to_string(path.join(format!("{name}.stimulus"))).unwrap();
     let ticks = stimulus.lines().count() as u64;
     let report = Simulator::Icarus.hold(path, name, &modules);
-    let group = Group::new(2, Widths::default(), Variant::Safe, 1);
-    complete(&report, ticks, Declarations::of(&group).leaves.len());
+    complete(&report, ticks, Declarations::of(circuit).leaves.len());
 }
 
 #[test]
@@ -58,4 +63,20 @@ fn the_rosette_at_a_slower_clock_is_the_same_in_icarus() {
             "dir_hold_ticks=1",
         ],
     );
+}
+
+#[test]
+#[ignore = "needs Icarus Verilog"]
+fn two_groups_are_the_same_in_icarus() {
+    let groups = Groups {
+        first_axes: 2,
+        second_axes: 2,
+        widths: Widths::default(),
+        variant: Variant::Safe,
+        periods: [1; 2],
+        memories: [Vec::new(), Vec::new()],
+    };
+    // The ring takes three times as long.
+    let short = r#"group=[{play=["stroke"]},{play=["stroke"],command_tick=1234}]"#;
+    of(&groups, "groups", &[short], 10);
 }

@@ -30,6 +30,9 @@ const TICK_S: f64 = 40e-9;
 /// Unit times of the first group that the save file's window shows.
 const UNITS_SHOWN: u64 = 6;
 
+/// Latest tick of a first command.
+const LATEST_COMMAND: u64 = 1_000_000_000_000;
+
 /// Names of the groups.
 const NAMES: [&str; 2] = ["first", "second"];
 
@@ -92,12 +95,11 @@ impl Job {
         }
         let patterns = patterns(&source, scenario)?;
         let [first, second] = &scenario.group[..] else {
-            let count = scenario.group.len();
-            let problem = format!("of group {count} of {count}");
-            let last = ("group", count - 1);
-            return Err(loaded
-                .table_fault(last, "play", problem, "two groups".into())
-                .into());
+            let problem = match scenario.group.len() {
+                1 => "is given once".to_owned(),
+                count => format!("is given {count} times"),
+            };
+            return Err(loaded.fault("group", problem, "twice".into()).into());
         };
         let member = |group, keys| member(loaded, scenario, &patterns, (group, keys));
         let members = [member(0, first)?, member(1, second)?];
@@ -119,6 +121,11 @@ fn member(
     patterns: &[Pattern],
     (group, keys): (usize, &GroupKeys),
 ) -> Result<Member, Fault> {
+    if keys.command_tick > LATEST_COMMAND {
+        let problem = format!("is {}", keys.command_tick);
+        let allowed = format!("0 to {LATEST_COMMAND}");
+        return Err(loaded.table_fault(("group", group), "command_tick", problem, allowed));
+    }
     let refuse = |problem, allowed| loaded.table_fault(("group", group), "play", problem, allowed);
     let order = found(scenario, &keys.play, refuse)?;
     let mut held = order.clone();
