@@ -24,22 +24,22 @@ const GROUPS: [&str; 2] = ["first", "second"];
 /// Two groups with words of the same widths.
 #[derive(Debug, Clone)]
 pub struct Groups {
-    /// How many axes the first has.
+    /// Axes of the first group.
     pub first_axes: usize,
-    /// How many the second has.
+    /// Axes of the second group.
     pub second_axes: usize,
-    /// Widths of both.
+    /// Word widths of both groups.
     pub widths: Widths,
-    /// What RST clears.
+    /// Variant of RST.
     pub variant: Variant,
     /// Unit time of each at power-on, in ticks.
     pub periods: [u64; 2],
-    /// What the pattern memories of each hold at power-on, axis by axis.
+    /// Contents of the pattern memories of each at power-on, axis by axis.
     pub memories: [Vec<Contents>; 2],
 }
 
 impl Groups {
-    /// The first or the second.
+    /// Returns the first group (0) or the second (1).
     #[must_use]
     pub fn group(&self, number: usize) -> Group {
         let axes = [self.first_axes, self.second_axes][number];
@@ -119,8 +119,9 @@ mod tests {
         let mut found = [(None, Vec::new()), (None, Vec::new())];
         for tick in 0..80 {
             for (k, found) in found.iter_mut().enumerate() {
-                // A second one while the first plays must not end a unit time.
-                let given = tick == commands[k] || tick == commands[k] + 15;
+                // One that is refused, and one while the first plays, must not end a unit time.
+                let given = [0, 1, 15].map(|later| commands[k] + later);
+                let given = given.contains(&tick);
                 simulator.set(|i| i.control[k].command, given).unwrap();
                 simulator.set(|i| i.control[k].run, given).unwrap();
                 simulator.set(|i| i.control[k].cyclic, given).unwrap();

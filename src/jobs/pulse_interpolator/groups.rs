@@ -7,10 +7,10 @@ use crate::circuits::pulse_interpolator::groups::In;
 use crate::hdl::{At, Observer, RunError, Sample, Simulator, State, Watcher, zero};
 use std::ops::ControlFlow;
 
-/// What a group plays.
+/// Patterns and commands of a group.
 #[derive(Debug, Clone)]
 pub struct Member {
-    /// Its memory, and the commands of its control computer.
+    /// Memory, and the commands of its control computer.
     pub stored: Stored,
     /// Tick of its first command, from 0; its pattern begins two ticks later.
     pub command_tick: u64,
@@ -26,7 +26,7 @@ impl Member {
     }
 }
 
-/// The circuit with the patterns of both in its memories.
+/// Returns the circuit with the patterns of both groups in its memories.
 #[must_use]
 pub fn circuit(members: &[Member; 2]) -> Groups {
     let [first, second] = members.each_ref().map(|member| &member.stored.group);
@@ -40,7 +40,7 @@ pub fn circuit(members: &[Member; 2]) -> Groups {
     }
 }
 
-/// What is looked at of a group.
+/// Watched signals of a group.
 struct See {
     pending: At<bool>,
     step: Vec<At<bool>>,
@@ -89,10 +89,10 @@ impl Observer<Groups> for Bench<'_> {
     }
 }
 
-/// Has both groups play until the last is done, seen by `observer` too.
+/// Plays both groups until the last is done; `observer` sees every tick.
 ///
 /// # Errors
-/// What `observer` objects to.
+/// An error of `observer`.
 pub fn play(
     circuit: &Groups,
     members: &[Member; 2],

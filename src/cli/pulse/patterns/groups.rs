@@ -24,7 +24,7 @@ use motion_rtl::scenario::pulse_interpolator::{GroupKeys, Scenario};
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// About how long a tick takes.
+/// Approximate time that a simulated tick takes, in seconds.
 const TICK_S: f64 = 40e-9;
 
 /// Unit times of the first group that the save file's window shows.
@@ -47,7 +47,7 @@ const AXES: [[&str; 8]; 2] = [
     ],
 ];
 
-/// What the save file shows on top; an axis that the job has not is left out.
+/// Top rows of the save file; an axis that the job has not is left out.
 const OVERVIEW: [&str; 14] = [
     "of_first.unit_rst",
     "of_first.busy",
@@ -67,7 +67,7 @@ const OVERVIEW: [&str; 14] = [
 
 /// Groups ready to play.
 pub struct Job {
-    /// The scenario they came from.
+    /// Scenario that they came from.
     pub loaded: Loaded,
     /// Stem of the names of its files.
     pub stem: String,
@@ -180,7 +180,7 @@ fn member(
     })
 }
 
-/// Where the second group begins.
+/// Window of the save file: the second group begins in it.
 fn focus(job: &Job, played: &[Played; 2]) -> Focus {
     let unit = job.members[0].stored.group.period;
     Focus {
@@ -191,11 +191,12 @@ fn focus(job: &Job, played: &[Played; 2]) -> Focus {
     }
 }
 
+/// Ticks until both groups are done.
 fn ticks(job: &Job) -> u64 {
     job.members.iter().map(Member::ticks).max().unwrap_or(0)
 }
 
-/// The one system of the summary.
+/// Systems that `--waves-of` knows: the circuit alone.
 pub fn systems(job: &Job) -> Vec<System<'_>> {
     let make = move || {
         let circuit = circuit(&job.members);
@@ -261,31 +262,30 @@ fn draw(job: &Job, played: &[Played; 2]) -> String {
     picture.render()
 }
 
-/// What came of two groups that played.
+/// Summary of a run of two groups.
 #[derive(Debug, Serialize)]
 struct Summary {
     #[serde(flatten)]
     outcome: Outcome,
-    /// What RST cleared.
+    /// Variant of RST.
     variant: &'static str,
-    /// Whether every unit time has the pulses that its word makes, and every axis kept the driver's
-    /// timing.
+    /// True if every unit time has the pulses of its word and every axis kept the driver's timing.
     exact: bool,
     groups: [GroupSummary; 2],
 }
 
-/// A group.
+/// Results of a group.
 #[derive(Debug, Serialize)]
 struct GroupSummary {
-    /// Its patterns in the order in which they were played.
+    /// Names of its patterns, in the order in which they were played.
     play: Vec<String>,
-    /// Its unit times T, in the order in which they came.
+    /// T of each command.
     unit_ticks: Vec<u64>,
     /// Tick of its first command.
     command_tick: u64,
     /// First tick of its first unit time.
     begun_tick: u64,
-    /// Commands that it got.
+    /// Number of its commands.
     commands: usize,
     /// Unit times played.
     units: usize,
