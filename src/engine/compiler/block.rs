@@ -6,56 +6,84 @@ use crate::engine::layout::Slot;
 use crate::engine::plan::{Block, Code, Plan, PlannedMemory, Step, Write};
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{self, InstBuilder, Type, Value, types};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A block that settles nets.
 pub(super) fn settle(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
     steps(emitter, plan, block);
-    let mut changes = Changes::new();
-    for &(from, to) in &block.outputs {
-        let word = clean(emitter, from, 64);
-        emitter.put(to, word, &mut changes);
-    }
-    emitter.tell(changes);
+    parts(
+        emitter,
+        block,
+        &block.outputs,
+        |emitter, &(from, to), changes| {
+            let word = clean(emitter, from, 64);
+            emitter.put(to, word, changes);
+        },
+    );
 }
 
-/// A block that makes the edge. Gives the registers whose shadows are to be taken over.
+/// A block that makes the edge: registers are put behind all that reads them.
 pub(super) fn edge(emitter: &mut Emitter<'_>, plan: &Plan, place: usize) {
     let block = &plan.blocks[place];
     steps(emitter, plan, block);
-    let mut words = Vec::with_capacity(block.registers.len());
-    for &(register, from) in &block.registers {
-        let register = &plan.registers[register as usize];
-        words.push((register, clean(emitter, from, register.width)));
-    }
-    let ports: Vec<Port> = block
-        .writes
-        .iter()
-        .map(|write| Port::of(emitter, plan, write))
-        .collect();
-    let mut changes = Changes::new();
-    for (register, word) in words {
-        match register.shadow {
-            Some(shadow) => emitter.store(shadow, word.value),
-            None => emitter.put(register.slot, word, &mut changes),
-        }
-    }
-    emitter.tell(changes);
-    for port in ports {
-        port.emit(emitter, plan, place);
-    }
+    parts(emitter, block, &block.writes, |emitter, write, _| {
+        Port::of(emitter, plan, write).emit(emitter, plan, place);
+    });
+    parts(
+        emitter,
+        block,
+        &block.registers,
+        |emitter, &(register, from), changes| {
+            let register = &plan.registers[register as usize];
+            let word = clean(emitter, from, register.width);
+            match register.shadow {
+                Some(shadow) => emitter.store(shadow, word.value),
+                None => emitter.put(register.slot, word, changes),
+            }
+        },
+    );
 }
 
 /// Takes over the shadows of a block.
 pub(super) fn commit(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
-    let mut changes = Changes::new();
-    for &(register, _) in &block.registers {
-        let register = &plan.registers[register as usize];
-        if let Some(shadow) = register.shadow {
-            let word = clean(emitter, shadow, register.width);
-            emitter.put(register.slot, word, &mut changes);
+    parts(
+        emitter,
+        block,
+        &block.registers,
+        |emitter, &(register, _), changes| {
+            let register = &plan.registers[register as usize];
+            if let Some(shadow) = register.shadow {
+                let word = clean(emitter, shadow, register.width);
+                emitter.put(register.slot, word, changes);
+            }
+        },
+    );
+}
+
+/// Whether a block is in more than one part.
+fn long(block: &Block, part: usize) -> bool {
+    let ends = block.outputs.len() + block.registers.len() + block.writes.len();
+    block.steps.len() + ends > part
+}
+
+/// Does something to all of these, and tells whom that changes.
+fn parts<T>(
+    emitter: &mut Emitter<'_>,
+    block: &Block,
+    all: &[T],
+    mut each: impl FnMut(&mut Emitter<'_>, &T, &mut Changes),
+) {
+    let size = emitter.part_size;
+    for part in all.chunks(size) {
+        if long(block, size) {
+            emitter.part();
         }
+        let mut changes = Changes::new();
+        for one in part {
+            each(emitter, one, &mut changes);
+        }
+        emitter.tell(changes);
     }
-    emitter.tell(changes);
 }
 
 fn clean(emitter: &mut Emitter<'_>, slot: Slot, width: u8) -> Word {
@@ -154,11 +182,49 @@ fn one(emitter: &mut Emitter<'_>) -> Word {
 }
 
 fn steps(emitter: &mut Emitter<'_>, plan: &Plan, block: &Block) {
-    for step in &block.steps {
+    let size = emitter.part_size;
+    let kept = kept(block, size);
+    for (number, step) in block.steps.iter().enumerate() {
+        if number > 0 && number.is_multiple_of(size) {
+            emitter.part();
+        }
         let (value, bits) = value(emitter, plan, step);
         let width = step.width;
         emitter.know(step.to, Word { value, bits, width });
+        if kept.contains(&step.to) {
+            emitter.keep(step.to, width);
+        }
     }
+}
+
+/// The words of steps that other parts of the block read.
+fn kept(block: &Block, size: usize) -> FxHashSet<Slot> {
+    let mut kept = FxHashSet::default();
+    if !long(block, size) {
+        return kept;
+    }
+    let mut made = FxHashMap::default();
+    for (number, step) in block.steps.iter().enumerate() {
+        let third = (step.code == Code::Mux).then_some(step.c);
+        for slot in [step.a, step.b].into_iter().chain(third) {
+            if made.get(&slot).is_some_and(|&part| part != number / size) {
+                kept.insert(slot);
+            }
+        }
+        made.insert(step.to, number / size);
+    }
+    let outputs = block.outputs.iter().map(|&(from, _)| from);
+    let registers = block.registers.iter().map(|&(_, from)| from);
+    let writes = block.writes.iter();
+    let writes =
+        writes.flat_map(|write| [write.enable, write.data].into_iter().chain(write.address));
+    kept.extend(
+        outputs
+            .chain(registers)
+            .chain(writes)
+            .filter(|slot| made.contains_key(slot)),
+    );
+    kept
 }
 
 /// What a step makes of its operands, and how many of its bits may be high.

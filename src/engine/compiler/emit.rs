@@ -27,6 +27,14 @@ type Marks = Vec<(Slot, u64)>;
 /// What has changed, by whom it tells.
 pub(super) type Changes = BTreeMap<Marks, Word>;
 
+/// What is known of a slot.
+#[derive(Clone, Copy, Default)]
+struct Known {
+    /// Since which block, and which part of it.
+    since: (u32, u32),
+    word: Option<Word>,
+}
+
 pub(super) struct Emitter<'f> {
     cursor: FuncCursor<'f>,
     layout: &'f Layout,
@@ -34,16 +42,25 @@ pub(super) struct Emitter<'f> {
     cold: Vec<u64>,
     base: Value,
     constants: FxHashMap<Slot, u64>,
-    /// What a slot holds for the block under way, where its number is `epoch`.
-    known: Vec<(u32, Option<Word>)>,
+    /// What a slot holds for the block under way, where its number is that of the block.
+    known: Vec<Known>,
     epoch: u32,
+    /// The part of the block.
+    part: u32,
+    /// How many words a part makes at most.
+    pub part_size: usize,
     /// Whether an offset was asked for that no slab has.
     pub outside: bool,
 }
 
 impl<'f> Emitter<'f> {
     /// One at the beginning of a function, of which it gives the parameters.
-    pub fn new(func: &'f mut Function, layout: &'f Layout, cold: Vec<u64>) -> (Self, Vec<Value>) {
+    pub fn new(
+        func: &'f mut Function,
+        layout: &'f Layout,
+        cold: Vec<u64>,
+        part_size: usize,
+    ) -> (Self, Vec<Value>) {
         let entry = func.dfg.make_block();
         let types: Vec<_> = func.signature.params.iter().map(|p| p.value_type).collect();
         let parameters: Vec<_> = types
@@ -56,8 +73,10 @@ impl<'f> Emitter<'f> {
             cold,
             base: parameters[0],
             constants: layout.constants.iter().copied().collect(),
-            known: vec![(0, None); layout.words as usize],
+            known: vec![Known::default(); layout.words as usize],
             epoch: 0,
+            part: 0,
+            part_size,
             outside: false,
         };
         emitter.begin(entry);
@@ -196,31 +215,49 @@ impl<'f> Emitter<'f> {
         self.epoch += 1;
     }
 
+    /// Another part of the block begins: words are loaded again, so that no more of them are alive
+    /// at once than a part has. Those of steps are to be [stored](Self::keep) before.
+    pub fn part(&mut self) {
+        self.part += 1;
+    }
+
     /// A slot holds this from here on.
     pub fn know(&mut self, slot: Slot, word: Word) {
+        let since = (self.epoch, self.part);
         if let Some(known) = self.known.get_mut(slot as usize) {
-            *known = (self.epoch, Some(word));
+            *known = Known {
+                since,
+                word: Some(word),
+            };
         }
+    }
+
+    /// Stores what a step has made, for other parts of the block.
+    pub fn keep(&mut self, slot: Slot, width: u8) {
+        let value = self.clean(slot, width);
+        self.store(slot, value);
     }
 
     /// What a slot of so many bits holds, with anything above them.
     pub fn word(&mut self, slot: Slot, width: u8) -> Word {
-        if let Some((epoch, Some(word))) = self.known.get(slot as usize)
-            && *epoch == self.epoch
-        {
+        let known = self.known.get(slot as usize).copied().unwrap_or_default();
+        let known = known.word.map(|word| (known.since, word));
+        let word = match (self.constants.get(&slot).copied(), known) {
             // One slot has a constant for all widths.
-            return match self.constants.contains_key(&slot) {
-                true => Word { width, ..*word },
-                false => *word,
-            };
-        }
-        let word = match self.constants.get(&slot) {
-            Some(&number) => Word {
+            (Some(_), Some((since, word))) if since == (self.epoch, self.part) => {
+                return Word { width, ..word };
+            }
+            (None, Some((since, word))) if since == (self.epoch, self.part) => return word,
+            (None, Some(((epoch, _), word))) if epoch == self.epoch => Word {
+                value: self.load(slot),
+                ..word
+            },
+            (Some(number), _) => Word {
                 value: self.number(number),
                 bits: 64 - number.leading_zeros() as u8,
                 width,
             },
-            None => Word {
+            (None, _) => Word {
                 value: self.load(slot),
                 bits: width,
                 width,

@@ -9,7 +9,12 @@ use cranelift_codegen::ir::{Block, Function, InstBuilder, Value};
 use std::collections::BTreeMap;
 
 /// Writes the function of a plan; see [`super::Code`] for what it takes and gives.
-pub(super) fn emit(plan: &Plan, hot: &[bool], func: &mut Function) -> Result<(), CompileError> {
+pub(super) fn emit(
+    plan: &Plan,
+    hot: &[bool],
+    part_size: usize,
+    func: &mut Function,
+) -> Result<(), CompileError> {
     whole(plan)?;
     let mut cold = vec![0u64; plan.layout.block_words as usize];
     for place in 0..plan.blocks.len() {
@@ -18,7 +23,7 @@ pub(super) fn emit(plan: &Plan, hot: &[bool], func: &mut Function) -> Result<(),
             cold[bit / 64] |= 1 << (bit % 64);
         }
     }
-    let (emitter, parameters) = Emitter::new(func, &plan.layout, cold);
+    let (emitter, parameters) = Emitter::new(func, &plan.layout, cold, part_size);
     let mut flow = Flow { emitter, plan, hot };
     flow.function(parameters[1], parameters[2]);
     match flow.emitter.outside {

@@ -41,6 +41,9 @@ pub enum CompileError {
     /// Cranelift did not get through it.
     #[error("compiler: {0}")]
     Cranelift(String),
+    /// The code would ask for so many bytes of the stack.
+    #[error("the circuit is so large that its code takes {0} bytes of the stack, allowed: {FRAME}")]
+    Frame(u32),
     /// It is not what [`Plan::of`] makes.
     #[error("a plan of which something stands outside of its slab")]
     Plan,
@@ -48,6 +51,15 @@ pub enum CompileError {
 
 /// What is to be done: `slab`, phase, ticks; gives how many ticks are left.
 type Entry = unsafe extern "C" fn(*mut u64, u64, u64) -> u64;
+
+/// How many words a part of a block makes: as many may be alive at once, and the compiler's time goes
+/// by their square.
+const PART: usize = 128;
+/// With more steps the registers of the machine are allocated in a single pass: the time of the other
+/// way grows faster than their number.
+const MANY: usize = 8_000;
+/// Bytes of the stack that code may take: a quarter of what a thread has.
+const FRAME: u32 = 512 * 1024;
 
 /// Settles once.
 const SETTLE: u64 = 0;
@@ -63,9 +75,22 @@ impl Code {
     /// only the steps of a block use.
     ///
     /// # Errors
-    /// There is no compiler for this machine, or no memory, or the plan is not whole.
+    /// There is no compiler for this machine, or no memory, or the code takes too much of the stack, or
+    /// the plan is not whole.
     pub fn compile(plan: &Plan, hot: &[bool]) -> Result<Code, CompileError> {
-        let isa = machine()?;
+        let steps: usize = plan.blocks.iter().map(|block| block.steps.len()).sum();
+        Self::in_parts(plan, hot, PART, steps > MANY)
+    }
+
+    /// Blocks are compiled in parts of so many words, the registers of the machine allocated in a
+    /// single pass or with more care.
+    fn in_parts(
+        plan: &Plan,
+        hot: &[bool],
+        part: usize,
+        single_pass: bool,
+    ) -> Result<Code, CompileError> {
+        let isa = machine(single_pass)?;
         let mut context = Context::new();
         let call = isa.default_call_conv();
         let word = || AbiParam::new(types::I64);
@@ -74,12 +99,17 @@ impl Code {
             returns: vec![word()],
             call_conv: call,
         };
-        flow::emit(plan, hot, &mut context.func)?;
+        flow::emit(plan, hot, part, &mut context.func)?;
         let compiled = context
             .compile(&*isa, &mut ControlPlane::default())
             .map_err(|error| CompileError::Cranelift(error.inner.to_string()))?;
         if !compiled.buffer.relocs().is_empty() {
             return Err(CompileError::Cranelift("code that calls out".to_owned()));
+        }
+        let frame = compiled.buffer.frame_layout();
+        let frame = frame.map_or(0, |layout| layout.frame_to_fp_offset);
+        if frame > FRAME {
+            return Err(CompileError::Frame(frame));
         }
         let bytes = compiled.code_buffer();
         Ok(Code {
@@ -122,7 +152,9 @@ impl Code {
         // SAFETY: the code reads and writes nothing but the slab, which is borrowed for it alone:
         // `Emitter` takes offsets below `layout.words` only, which the slab has as checked above,
         // and bounds every address of a memory, whatever stands in the slab. It keeps no state
-        // elsewhere, so threads can run it at the same time. It calls nothing and cannot unwind.
+        // elsewhere, so threads can run it at the same time. It calls nothing and cannot unwind. Its
+        // frame is of `FRAME` bytes at most, and it touches each page of it in turn: a stack that is
+        // too small ends at its guard page, as under any other function.
         unsafe { entry(slab.as_mut_ptr(), phase, ticks) }
     }
 }
@@ -134,13 +166,23 @@ impl fmt::Debug for Code {
 }
 
 /// What Cranelift knows of this machine.
-fn machine() -> Result<OwnedTargetIsa, CompileError> {
+fn machine(single_pass: bool) -> Result<OwnedTargetIsa, CompileError> {
     let unknown = |error: &dyn fmt::Display| CompileError::Machine(error.to_string());
     let mut flags = settings::builder();
     for (name, value) in [
         ("opt_level", "speed"),
         ("enable_verifier", "false"),
         ("unwind_info", "false"),
+        (
+            "regalloc_algorithm",
+            match single_pass {
+                true => "single_pass",
+                false => "backtracking",
+            },
+        ),
+        // Without the calls of the other strategy.
+        ("enable_probestack", "true"),
+        ("probestack_strategy", "inline"),
     ] {
         flags.set(name, value).map_err(|error| unknown(&error))?;
     }

@@ -1,10 +1,10 @@
-use super::super::flat::Flat;
+use super::super::flat::{Flat, Instance, Node, Op, Place, Register};
 use super::super::interpreter::{self, Counts};
 use super::super::layout::Spot;
 use super::super::passes;
 use super::super::plan::Plan;
 use super::super::random::{Case, Plain, cases};
-use super::Code;
+use super::{Code, CompileError, FRAME, PART};
 use proptest::prelude::*;
 
 /// A leaf, or behind them a property, where the slab shows it.
@@ -105,9 +105,10 @@ fn interpreted(case: &Case) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-fn compiled(case: &Case) -> Result<(), TestCaseError> {
+/// In parts of `part` words.
+fn compiled(case: &Case, part: usize, single_pass: bool) -> Result<(), TestCaseError> {
     let plan = Plan::of(&case.flat, &case.wanted);
-    let code = Code::compile(&plan, &case.hot).expect("it compiles");
+    let code = Code::in_parts(&plan, &case.hot, part, single_pass).expect("it compiles");
     let masks = common(&plan, &case.hot);
     let mut counts = Counts::from(vec![0; plan.blocks.len()]);
     let mut reference = plan.layout.power_on();
@@ -175,12 +176,21 @@ proptest! {
 
     #[test]
     fn the_code_does_what_the_interpreter_does(case in cases(true)) {
-        compiled(&case)?;
+        compiled(&case, PART, false)?;
     }
 
     #[test]
     fn the_code_does_what_the_interpreter_does_where_little_is_wanted(case in cases(false)) {
-        compiled(&case)?;
+        compiled(&case, PART, false)?;
+    }
+
+    #[test]
+    fn code_in_parts_does_what_the_interpreter_does(
+        case in cases(true),
+        part in 1..8usize,
+        single_pass: bool,
+    ) {
+        compiled(&case, part, single_pass)?;
     }
 
     #[test]
@@ -205,4 +215,109 @@ fn a_slab_of_another_length_is_left_alone() {
     assert_eq!(code.advance(&mut slab, 7), 0);
     assert!(slab.iter().all(|&word| word == 3));
     assert!(code.size > 0);
+}
+
+/// So many registers of one circuit, each of which takes a mixture of others; all of them are seen.
+fn registers(count: u32) -> Flat {
+    let node = |op, width| Node {
+        op,
+        width,
+        instance: 0,
+    };
+    let mut flat = Flat {
+        inputs: vec![16],
+        instances: vec![Instance {
+            path: Vec::new(),
+            circuit: "wide".to_owned(),
+        }],
+        ..Flat::default()
+    };
+    flat.nodes.push(node(Op::Input(0), 16));
+    flat.nodes
+        .extend((0..count).map(|number| node(Op::Register(number), 16)));
+    let held = |number: u32| 1 + number % count;
+    for number in 0..count {
+        let sum = flat.nodes.len() as u32;
+        let mixed = [
+            node(Op::Add(held(number), held(number * 7 + 1)), 16),
+            node(Op::Xor(sum, held(number + count / 2)), 16),
+            node(Op::Below(sum, 0), 1),
+            node(Op::Mux(sum + 2, sum + 1, held(number + 1)), 16),
+        ];
+        flat.nodes.extend(mixed);
+        flat.registers.push(Register {
+            width: 16,
+            power_on: u64::from(number),
+            next: sum + 3,
+            instance: 0,
+        });
+    }
+    flat.leaves = (0..count).map(Place::Register).collect();
+    flat
+}
+
+fn wide(count: u32) -> Plan {
+    Plan::of(&registers(count), &vec![true; count as usize])
+}
+
+/// Nanoseconds in which this thread has run, whatever runs beside it.
+#[cfg(target_os = "linux")]
+fn run_for() -> u64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").expect("Linux has it");
+    let first = text.split(' ').next().expect("there are three numbers");
+    first.parse().expect("a number")
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+#[ignore = "takes long, and other programs beside it count"]
+fn a_register_takes_as_long_to_compile_in_a_wide_circuit() {
+    let time = |count: u32| {
+        let plan = wide(count);
+        let start = run_for();
+        Code::compile(&plan, &[true, true]).expect("it compiles");
+        (run_for() - start) / u64::from(count)
+    };
+    let few = time(250).min(time(250)).min(time(250));
+    for count in [500, 1000, 2000, 4000, 8000] {
+        let each = time(count);
+        println!("{count} registers: {each} ns each, {few} of 250");
+        assert!(each <= 2 * few, "{count}: {each} ns, {few} of 250");
+    }
+    assert!(time(8000) * 8000 <= 2_000_000_000);
+}
+
+#[test]
+fn code_that_takes_too_much_of_the_stack_is_refused() {
+    let plan = wide(17_000);
+    let refused = Code::compile(&plan, &[true, true]).expect_err("its frame is larger");
+    let CompileError::Frame(bytes) = refused else {
+        panic!("{refused}");
+    };
+    assert!(bytes > FRAME);
+}
+
+#[test]
+fn a_wide_circuit_runs_on_a_small_stack() {
+    // With one pass its frame is of 32 bytes a register.
+    for (count, single_pass) in [(2000, false), (200, true)] {
+        let plan = wide(count);
+        let hot = [true, true];
+        let code = Code::in_parts(&plan, &hot, PART, single_pass).expect("it compiles");
+        let masks = common(&plan, &hot);
+        let mut slab = plan.layout.power_on();
+        let mut reference = slab.clone();
+        std::thread::scope(|scope| {
+            let small = std::thread::Builder::new().stack_size(16 * 1024);
+            let run = || {
+                code.settle(&mut slab);
+                code.edge(&mut slab);
+            };
+            small.spawn_scoped(scope, run).expect("a thread");
+        });
+        let mut counts = Counts::from(vec![0; plan.blocks.len()]);
+        interpreter::settle(&plan, &mut reference, &mut counts);
+        interpreter::edge(&plan, &mut reference, &mut counts);
+        same(&masks, &reference, &slab).expect("the same");
+    }
 }
