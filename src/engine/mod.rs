@@ -21,6 +21,8 @@ mod random;
 mod report;
 mod run;
 pub(crate) mod sliced;
+#[cfg(test)]
+mod tests;
 mod tier;
 mod unroll;
 mod value;

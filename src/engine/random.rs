@@ -369,6 +369,12 @@ impl<'f> Plain<'f> {
         }
     }
 
+    pub fn reset(&mut self) {
+        self.edge();
+        let registers = self.flat.registers.iter();
+        self.registers = registers.map(|register| register.power_on).collect();
+    }
+
     /// A leaf, or behind them a property.
     pub fn leaf(&self, index: usize) -> u64 {
         let leaves = &self.flat.leaves;

@@ -8,6 +8,7 @@ mod phase;
 mod prediction;
 mod resolver;
 mod table;
+mod unwrapper;
 mod variants;
 mod whole;
 
