@@ -120,14 +120,18 @@ impl Curve {
     }
 
     /// Fewest equal pieces whose chords are within `tolerance` of the curve: a chord over the angle
-    /// φ of a circle is 2·R·sin²(φ/4) from it at most.
+    /// φ of a circle is 2·R·sin²(φ/4) from it at most, and where the radius changes by Δ over that
+    /// angle another Δ·φ/4.
     pub(super) fn chords(&self, tolerance: f64) -> u64 {
         self.arc.as_ref().map_or(1, |arc| {
             let radius = arc.start_radius.max(arc.end_radius);
             let angle = 4.0 * (tolerance / (2.0 * radius)).sqrt().min(1.0).asin();
             // No coarser than thirds of a circle, whose chords still enclose the centre.
             let angle = angle.min(std::f64::consts::TAU / 3.0);
-            ((arc.sweep.abs() / angle).ceil() as u64).max(1)
+            let sweep = arc.sweep.abs();
+            let change = (arc.end_radius - arc.start_radius).abs();
+            let spiral = (sweep * change / (4.0 * tolerance)).sqrt();
+            ((sweep / angle).hypot(spiral).ceil() as u64).max(1)
         })
     }
 

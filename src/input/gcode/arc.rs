@@ -2,14 +2,26 @@
 
 use crate::input::ZERO_MM;
 
-/// How far the radius at the end may be off that at the start, in millimetres.
-const OFF_MM: f64 = 0.005;
+/// How far a radius by R may be short of half the chord, in millimetres.
+const SHORT_MM: f64 = 0.005;
 
 /// The same as a part of the radius; the larger of the two counts.
+const SHORT_RATIO: f64 = 0.001;
+
+/// How far the radii at both ends may differ as a part of the larger one.
 const OFF_RATIO: f64 = 0.001;
 
-fn tolerance(radius: f64) -> f64 {
-    OFF_MM.max(OFF_RATIO * radius)
+/// How many times the absolute tolerance the ratio allows at most.
+const MOST_OFFS: f64 = 100.0;
+
+/// The smallest radius at either end, in millimetres.
+const SMALLEST_MM: f64 = 0.000_05 * 25.4;
+
+/// How far the radii of an arc may differ where 0.1 % of them is less, in millimetres: what ends and
+/// centre are off when both are rounded to 0.01 mm, or under G20 to 0.001 inch.
+pub(super) fn off_mm(mm_per_unit: f64) -> f64 {
+    let digit = if mm_per_unit == 1.0 { 0.01 } else { 0.001 };
+    2.0 * digit * std::f64::consts::SQRT_2 * mm_per_unit
 }
 
 /// The centre of an arc of the given radius: the minor arc for a positive one, the major arc for
@@ -31,7 +43,7 @@ pub(super) fn centre_by_radius(
         return Err("an arc by its radius that ends where it starts".to_owned());
     }
     let size = radius.abs();
-    if size + tolerance(size) < half {
+    if size + SHORT_MM.max(SHORT_RATIO * size) < half {
         let chord = 2.0 * half;
         return Err(format!(
             "a radius of {size:.4} mm does not span {chord:.4} mm"
@@ -48,25 +60,34 @@ pub(super) fn centre_by_radius(
     Ok([x + dx / 2.0 + dy * scale, y + dy / 2.0 - dx * scale])
 }
 
-/// Checks the centre of an arc against both its ends.
+/// Checks the centre of an arc against both its ends, as LinuxCNC does: the radii may differ by
+/// `off_mm`, or by 0.1 % and 100 times `off_mm`.
 ///
 /// # Errors
 ///
-/// The two radii, where they differ by more than the tolerance or are zero.
-pub(super) fn check(start: [f64; 2], end: [f64; 2], centre: [f64; 2]) -> Result<(), String> {
+/// What is wrong with the radii, and what is allowed.
+pub(super) fn check(
+    start: [f64; 2],
+    end: [f64; 2],
+    centre: [f64; 2],
+    off_mm: f64,
+) -> Result<(), (String, String)> {
     let radius = |point| {
         let [(_, dx), (_, dy)] = chord(centre, point);
         dx.hypot(dy)
     };
     let (first, last) = (radius(start), radius(end));
+    let most = MOST_OFFS * off_mm;
+    let allowed = || format!("radii that agree to {off_mm:.4} mm, or to 0.1 % and {most:.2} mm");
     // Without a radius at an end there is no angle to start or stop at.
-    if first.min(last) < ZERO_MM {
-        return Err("a radius of zero".to_owned());
+    if first.min(last) < SMALLEST_MM {
+        return Err(("a radius of zero".to_owned(), allowed()));
     }
-    if (first - last).abs() > tolerance(first) {
-        return Err(format!(
-            "the radius is {first:.4} mm at the start and {last:.4} mm at the end"
-        ));
+    let off = (first - last).abs();
+    if off > most || (off > off_mm && off > OFF_RATIO * first.max(last)) {
+        let problem =
+            format!("the radius is {first:.4} mm at the start and {last:.4} mm at the end");
+        return Err((problem, allowed()));
     }
     Ok(())
 }
@@ -104,11 +125,21 @@ mod tests {
     }
 
     #[test]
-    fn the_tolerance_grows_with_the_radius() {
-        let check = |r: f64, off: f64| check([r, 0.0], [0.0, r + off], [0.0, 0.0]).is_ok();
-        assert!(check(1.0, 0.0049) && !check(1.0, 0.0051));
-        assert!(check(1.0, -0.0049) && !check(1.0, -0.0051));
-        assert!(check(100.0, 0.099) && !check(100.0, 0.101));
-        assert!(!check(0.0, 0.004) && !check(0.004, -0.004));
+    fn the_tolerance_is_that_of_the_digits_written_or_a_part_of_the_radius() {
+        let check = |r: f64, off: f64, unit: f64| {
+            check([r, 0.0], [0.0, r + off], [0.0, 0.0], off_mm(unit)).is_ok()
+        };
+        // 2 · 0.01 · √2 mm and 2 · 0.001 · √2 inches.
+        for (off, unit) in [(0.02828, 1.0), (-0.02828, 1.0), (0.0718, 25.4)] {
+            assert!(check(1.0, off, unit) && !check(1.0, off * 1.002, unit));
+        }
+        // 0.1 % of the larger radius.
+        assert!(check(100.0, 0.1, 1.0) && !check(100.0, 0.1002, 1.0));
+        assert!(check(100.0, -0.1, 1.0) && !check(100.0, -0.1001, 1.0));
+        // 100 times as much at most.
+        assert!(check(9000.0, 2.828, 1.0) && !check(9000.0, 2.829, 1.0));
+        assert!(check(9000.0, 7.18, 25.4) && !check(9000.0, 7.19, 25.4));
+        assert!(check(0.0013, 0.0, 1.0) && !check(0.0012, 0.01, 1.0));
+        assert!(!check(0.02, -0.0188, 1.0) && !check(0.0, 0.02, 1.0));
     }
 }

@@ -1,6 +1,7 @@
 //! One line of G-code to its words.
 
 use super::expression::{Name, Scanner, Values};
+use super::polar::Polar;
 use super::problem::Problem;
 use crate::input::brief;
 
@@ -20,6 +21,8 @@ pub(super) struct Block {
     /// M words.
     pub(super) m: Vec<Code>,
     letters: [Option<f64>; 26],
+    /// `@` and `^`.
+    polar: Polar,
     /// Parameters to be set after the line was read.
     pub(super) sets: Vec<(Name, f64)>,
     /// The line begins with `/`.
@@ -62,7 +65,7 @@ impl Block {
         self.g.clear();
         self.m.clear();
         self.sets.clear();
-        self.letters = [None; 26];
+        (self.letters, self.polar) = ([None; 26], Polar::default());
         (self.extruder, self.any) = (false, false);
         (self.bare, self.unclear, self.extruders) = (0, None, 0);
         let mut scanner = Scanner::new(line);
@@ -78,6 +81,8 @@ impl Block {
             let read = match letter {
                 b'#' => self.set(&mut scanner, values),
                 b'A'..=b'Z' => self.word(letter, &mut scanner, values, exponents),
+                b'@' => self.polar_word(0, '@', &mut scanner, values),
+                b'^' => self.polar_word(1, '^', &mut scanner, values),
                 _ => {
                     let field = format!("{}{}", char::from(letter), scanner.rest_text());
                     Err(Problem::new(brief(&field), "not a word", WORDS))
@@ -98,6 +103,22 @@ impl Block {
         let value = scanner.value_with_exponent(values)?;
         self.sets.push((name, value));
         Ok(())
+    }
+
+    /// A radius or an angle.
+    fn polar_word(
+        &mut self,
+        index: usize,
+        field: char,
+        scanner: &mut Scanner<'_>,
+        values: &dyn Values,
+    ) -> Result<(), Problem> {
+        let value = in_range(field, scanner.value(values)?)?;
+        let place = self.polar.get_mut(index);
+        match place.and_then(|place| place.replace(value)) {
+            Some(_) => Err(twice(field)),
+            None => Ok(()),
+        }
     }
 
     fn word(
@@ -136,10 +157,7 @@ impl Block {
             },
             ..problem
         })?;
-        if value.abs() > LARGEST {
-            let problem = format!("{} is out of range", brief(&value.to_string()));
-            return Err(Problem::new(field, problem, "-1000000000 to 1000000000"));
-        }
+        let value = in_range(field, value)?;
         self.look_for_exponent(letter, begin, value, scanner);
         match letter {
             b'G' => self.g.push(code(field, value)?),
@@ -186,15 +204,18 @@ impl Block {
         let Some(place) = self.letters.get_mut(index) else {
             return Ok(());
         };
-        if place.replace(value).is_some() {
-            let allowed = "each of these letters once in a line";
-            return Err(Problem::new(
-                char::from(letter),
-                "twice in one line",
-                allowed,
-            ));
+        match place.replace(value) {
+            Some(_) => Err(twice(char::from(letter))),
+            None => Ok(()),
         }
-        Ok(())
+    }
+
+    /// Sets a letter, whatever it was.
+    pub(super) fn place(&mut self, letter: u8, value: f64) {
+        let index = usize::from(letter.wrapping_sub(b'A'));
+        if let Some(place) = self.letters.get_mut(index) {
+            *place = Some(value);
+        }
     }
 
     /// Whether a letter may stand without a number: in G28 and with M words of printers.
@@ -223,7 +244,17 @@ impl Block {
 
     /// Whether a word of an axis is there; W is taken out before where it is none.
     pub(super) fn moves(&self) -> bool {
-        self.axes().iter().any(Option::is_some) || self.letter(b'W').is_some()
+        self.axes().iter().any(Option::is_some) || self.letter(b'W').is_some() || self.is_polar()
+    }
+
+    /// True if a radius or an angle is there.
+    pub(super) fn is_polar(&self) -> bool {
+        self.polar.iter().any(Option::is_some)
+    }
+
+    /// Takes out radius and angle.
+    pub(super) fn take_polar(&mut self) -> Polar {
+        std::mem::take(&mut self.polar)
     }
 
     /// The letters that are there.
@@ -233,7 +264,7 @@ impl Block {
 
     /// Forgets all letters.
     pub(super) fn clear_letters(&mut self) {
-        self.letters = [None; 26];
+        (self.letters, self.polar) = ([None; 26], Polar::default());
         self.unclear = None;
     }
 
@@ -250,6 +281,19 @@ impl Block {
             }
         }
     }
+}
+
+fn in_range(field: char, value: f64) -> Result<f64, Problem> {
+    if value.abs() <= LARGEST {
+        return Ok(value);
+    }
+    let problem = format!("{} is out of range", brief(&value.to_string()));
+    Err(Problem::new(field, problem, "-1000000000 to 1000000000"))
+}
+
+fn twice(field: char) -> Problem {
+    let allowed = "each of these letters once in a line";
+    Problem::new(field, "twice in one line", allowed)
 }
 
 fn bit(letter: u8) -> u32 {

@@ -77,9 +77,19 @@ impl Runner<'_> {
         let Some(program) = program else {
             return Err(Problem::new("M98", "without P", "M98 P1000"));
         };
-        let times = times.unwrap_or(1.0).round().max(0.0) as u32;
-        let number = format!("{program}");
-        let Some(place) = self.index().program(&number) else {
+        let mut number = format!("{program}");
+        let mut repeats = times.unwrap_or(1.0);
+        let mut found = self.index().program(&number);
+        // P30002 is program 2 three times, where there is no program 30002.
+        if found.is_none() && times.is_none() && program > 9999.0 && program.fract() == 0.0 {
+            let last = format!("{}", program % 10_000.0);
+            found = self.index().program(&last);
+            if found.is_some() {
+                (number, repeats) = (last, (program / 10_000.0).floor());
+            }
+        }
+        let times = repeats.round().max(0.0) as u32;
+        let Some(place) = found else {
             let problem = format!("calls program O{number}, which is not in this file");
             return Err(Problem::new("M98", problem, "programs of the file itself"));
         };

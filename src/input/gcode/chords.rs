@@ -15,10 +15,12 @@ fn steps(wanted: f64) -> u32 {
     wanted.ceil().clamp(1.0, MOST) as u32
 }
 
-/// How many chords an arc needs.
-fn arc_steps(radius: f64, angle: f64) -> u32 {
-    let widest = 2.0 * (1.0 - (OFF_MM / radius).min(1.0)).acos();
-    steps(angle.abs() / widest)
+/// How many chords an arc needs whose radius runs from one to another. A chord over an angle of it
+/// is off by a quarter of the angle times what the radius changes, beyond that of a circle.
+fn arc_steps(first: f64, last: f64, angle: f64) -> u32 {
+    let angle = angle.abs();
+    let widest = 2.0 * (1.0 - (OFF_MM / first.max(last)).min(1.0)).acos();
+    steps((angle / widest).hypot((angle * (last - first).abs() / (4.0 * OFF_MM)).sqrt()))
 }
 
 /// An arc about a centre, in the plane of two axes, as the ends of its chords. The third axis and
@@ -37,7 +39,7 @@ pub(super) fn arc(
     let [end_u, end_v] = [pick(&to, a) - centre[0], pick(&to, b) - centre[1]];
     let (first, last) = (u.hypot(v), end_u.hypot(end_v));
     let start = v.atan2(u);
-    let count = arc_steps(first.max(last), angle);
+    let count = arc_steps(first, last, angle);
     for step in 1..count {
         let part = f64::from(step) / f64::from(count);
         let (sin, cos) = (start + angle * part).sin_cos();
@@ -198,6 +200,30 @@ mod tests {
             assert!(worst <= OFF_MM * 1.000_001, "{radius}: {worst}");
             assert!(worst > OFF_MM / 2.0 || count < 4, "{radius}: {worst}");
             assert_eq!(last, [-radius, 0.0, 4.0]);
+        }
+    }
+
+    #[test]
+    fn chords_stay_within_the_tolerance_where_the_radius_changes() {
+        for (first, last, angle) in [(0.02, 0.09, 0.5), (0.1, 0.17, 0.3), (5.0, 5.07, TAU)] {
+            let on = |part: f64| {
+                let (sin, cos) = (angle * part).sin_cos();
+                let radius = first + (last - first) * part;
+                [radius * cos, radius * sin, 0.0]
+            };
+            let mut ends = vec![on(0.0)];
+            arc(on(0.0), on(1.0), [0.0; 2], angle, [0, 1, 2], |to| {
+                ends.push(to)
+            });
+            let count = (ends.len() - 1) as f64;
+            let mut worst = 0.0_f64;
+            for (step, pair) in ends.windows(2).enumerate() {
+                let [x, y, _] = on((step as f64 + 0.5) / count);
+                let ([a, b, _], [c, d, _]) = (pair[0], pair[1]);
+                let area = (c - a) * (y - b) - (d - b) * (x - a);
+                worst = worst.max(area.abs() / (c - a).hypot(d - b));
+            }
+            assert!(worst <= OFF_MM && worst > OFF_MM / 4.0, "{first}: {worst}");
         }
     }
 

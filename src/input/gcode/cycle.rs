@@ -2,7 +2,6 @@
 
 use super::block::Block;
 use super::machine::{Machine, Piece};
-use super::modal::Plane;
 use super::problem::Problem;
 use crate::input::{Course, Point};
 use crate::settings::tidy;
@@ -13,13 +12,14 @@ const LIFT_MM: f64 = 0.254;
 /// The most pecks of one hole.
 const PECKS: f64 = 1.0e4;
 
-/// What a cycle keeps from line to line, from the machine's zero, in millimetres.
+/// What a cycle keeps from line to line along the axis it drills in, from the machine's zero, in
+/// millimetres.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Cycle {
-    /// Z before the first hole, where G98 ends.
+    /// The place before the first hole, where G98 ends.
     initial: f64,
     r: Option<f64>,
-    z: Option<f64>,
+    bottom: Option<f64>,
     q: Option<f64>,
 }
 
@@ -41,37 +41,40 @@ impl Machine<'_> {
         code: u32,
     ) -> Result<u64, Problem> {
         let field = format!("G{code}");
-        if self.modal.plane != Plane::Xy {
-            return Err(Problem::new(
-                field,
-                "outside of G17",
-                "cycles in the X-Y plane",
-            ));
-        }
+        let axes @ [_, _, along] = self.modal.plane.axes();
         let units = self.modal.mm_per_unit;
-        let [x, y, z] = block.axes().map(|word| word.map(|word| word * units));
+        let words = block.axes().map(|word| word.map(|word| word * units));
         let zero = self.zero();
+        let pick = |point: &Point, axis: usize| point.get(axis).copied().unwrap_or(0.0);
+        let polar = block.take_polar();
         let relative = self.modal.relative;
         if let Some(r) = block.take(b'R') {
             let from = if relative {
                 self.cycle.initial
             } else {
-                zero[2]
+                pick(&zero, along)
             };
             self.cycle.r = Some(from + r * units);
         }
         let Some(r) = self.cycle.r else {
             return Err(Problem::new(field, "without R", "R with the first hole"));
         };
-        if let Some(z) = z {
-            self.cycle.z = Some(if relative { r + z } else { zero[2] + z });
+        let letter = ["X", "Y", "Z"].get(along).copied().unwrap_or_default();
+        if let Some(depth) = words.get(along).copied().flatten() {
+            let from = if relative { r } else { pick(&zero, along) };
+            self.cycle.bottom = Some(from + depth);
         }
-        let Some(bottom) = self.cycle.z else {
-            return Err(Problem::new(field, "without Z", "Z with the first hole"));
+        let Some(bottom) = self.cycle.bottom else {
+            let allowed = format!("{letter} with the first hole");
+            return Err(Problem::new(field, format!("without {letter}"), allowed));
         };
         if bottom > r {
-            let problem = format!("R is below Z by {} mm", tidy(bottom - r));
-            return Err(Problem::new(field, problem, "R at Z or above"));
+            let problem = format!("R is below {letter} by {} mm", tidy(bottom - r));
+            return Err(Problem::new(
+                field,
+                problem,
+                format!("R at {letter} or above"),
+            ));
         }
         if let (73 | 83, Some(q)) = (code, block.letter(b'Q')) {
             block.take(b'Q');
@@ -102,19 +105,31 @@ impl Machine<'_> {
         self.made_by(field);
         let mut count = 0;
         for _ in 0..times as u64 {
-            let [mut hole_x, mut hole_y, top] = self.at;
-            for (place, word, zero) in [(&mut hole_x, x, zero[0]), (&mut hole_y, y, zero[1])] {
-                if let Some(word) = word {
-                    *place = if relative { *place + word } else { zero + word };
+            let mut hole = self.at;
+            for axis in [axes[0], axes[1]] {
+                let word = words.get(axis).copied().flatten();
+                if let (Some(place), Some(word)) = (hole.get_mut(axis), word) {
+                    *place = if relative { *place } else { pick(&zero, axis) } + word;
                 }
             }
-            if top < r {
-                self.straight([self.at[0], self.at[1], r], true);
+            if polar.iter().any(Option::is_some) {
+                let [x, y, _] = self.here();
+                let [x, y] = self.polar_to([x, y], polar)?;
+                [hole[0], hole[1]] = [zero[0] + x, zero[1] + y];
             }
-            let level = self.at[2];
-            self.straight([hole_x, hole_y, level], true);
-            self.straight([hole_x, hole_y, r], true);
-            let down = |z: f64| [hole_x, hole_y, z];
+            let at_depth = |mut point: Point, depth: f64| {
+                if let Some(place) = point.get_mut(along) {
+                    *place = depth;
+                }
+                point
+            };
+            if pick(&self.at, along) < r {
+                self.straight(at_depth(self.at, r), true);
+            }
+            let level = pick(&self.at, along);
+            self.straight(at_depth(hole, level), true);
+            let down = |depth: f64| at_depth(hole, depth);
+            self.straight(down(r), true);
             let mut depth = r;
             while depth - step > bottom {
                 depth -= step;

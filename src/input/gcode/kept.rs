@@ -17,6 +17,9 @@ impl Machine<'_> {
             5220 => Some((self.modal.system + 1) as f64),
             5221..=5389 => {
                 let (system, axis) = ((number - 5221) / 20, (number - 5221) % 20);
+                if axis == 9 {
+                    return Some(self.offsets.rotation(system as usize));
+                }
                 let offset = self.offsets.system(system as usize);
                 Some(offset.get(axis as usize).map_or(0.0, |mm| mm / units))
             }
@@ -34,15 +37,16 @@ impl Machine<'_> {
         let flag = |holds: bool| Some(f64::from(u8::from(holds)));
         let metric = self.modal.mm_per_unit == 1.0;
         let [x, y, z] = self.here().map(|mm| mm / units);
+        let [machine_x, machine_y, machine_z] = self.turned(self.at).map(|mm| mm / units);
         match name {
             "_X" => Some(x),
             "_Y" => Some(y),
             "_Z" => Some(z),
             "_A" | "_B" | "_C" | "_U" | "_V" | "_TASK" => Some(0.0),
             "_W" => Some(self.w() / units),
-            "_ABS_X" => Some(self.at[0] / units),
-            "_ABS_Y" => Some(self.at[1] / units),
-            "_ABS_Z" => Some(self.at[2] / units),
+            "_ABS_X" => Some(machine_x),
+            "_ABS_Y" => Some(machine_y),
+            "_ABS_Z" => Some(machine_z),
             "_METRIC" => flag(metric),
             "_IMPERIAL" => flag(!metric),
             "_ABSOLUTE" => flag(!self.modal.relative),

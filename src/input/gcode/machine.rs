@@ -3,9 +3,11 @@
 use super::block::{Block, Code, name};
 use super::codes;
 use super::cycle::Cycle;
+use super::frame::Rotation;
 use super::modal::{Modal, Motion, Plane};
 use super::nurbs::Nurbs;
 use super::offsets::{Offsets, Own};
+use super::polar::Polar;
 use super::problem::Problem;
 use super::tools::{Length, Tools};
 use crate::input::track::Track;
@@ -13,8 +15,8 @@ use crate::input::{Course, Drawing, Fault, Move, Options, Point};
 
 const MM_PER_INCH: f64 = 25.4;
 
-pub(super) const G_CODES: &str = "G0 to G5 G5.1 to G5.3 G6.2 G8 G10 G11 G15 G17 to G21 G28 G30 G38.2 to G38.5 \
-                                  G40 G43 G49 G52 to G59.3 G61 G64 G69 G73 G80 to G86 G89 to G94 \
+pub(super) const G_CODES: &str = "G0 to G5 G5.1 to G5.3 G6.2 G8 G10 G11 G15 to G21 G28 G30 G38.2 to G38.5 \
+                                  G40 G43 G49 G52 to G59.3 G61 G64 G68 G69 G73 G80 to G86 G89 to G94 \
                                   G97 to G99";
 
 /// A piece of the move of a line.
@@ -30,7 +32,7 @@ pub(super) struct Piece {
 /// The machine: its modal state, its offsets, and the moves it has made.
 pub(super) struct Machine<'a> {
     pub(super) track: Track<'a>,
-    /// The programmed position from the machine's zero, in millimetres.
+    /// The programmed position from the machine's zero, in millimetres, not rotated.
     pub(super) at: Point,
     /// W likewise, where it is an axis: before the line that is run, and behind it.
     w: [f64; 2],
@@ -40,6 +42,9 @@ pub(super) struct Machine<'a> {
     pub(super) offsets: Offsets,
     pub(super) tools: Tools,
     pub(super) cycle: Cycle,
+    pub(super) rotation: Rotation,
+    /// The last radius and angle under G16.
+    pub(super) polar: Option<Polar>,
     /// The end control point of a G5 from its end, for the one that follows.
     pub(super) last_control: Option<[f64; 2]>,
     /// The NURBS that is being read.
@@ -51,6 +56,8 @@ pub(super) struct Machine<'a> {
     pub(super) feed_word: Option<f64>,
     pub(super) spindle: f64,
     pub(super) tool: f64,
+    /// The tool that M6 or M61 has put into the spindle, if known.
+    pub(super) loaded: Option<f64>,
     pub(super) strict: bool,
     /// G5 and G5.1 are no chords.
     pub(super) splines: bool,
@@ -68,6 +75,8 @@ impl<'a> Machine<'a> {
             offsets: Offsets::new(options.zeros),
             tools: Tools::default(),
             cycle: Cycle::default(),
+            rotation: Rotation::default(),
+            polar: None,
             last_control: None,
             nurbs: None,
             pieces: Vec::new(),
@@ -75,6 +84,7 @@ impl<'a> Machine<'a> {
             feed_word: None,
             spindle: 0.0,
             tool: 0.0,
+            loaded: None,
             strict: options.strict,
             splines: options.splines,
         }
@@ -107,6 +117,7 @@ impl<'a> Machine<'a> {
 
     pub(super) fn restore(&mut self, modal: Modal) {
         self.modal = modal;
+        self.reframe();
     }
 
     pub(super) fn skip(&mut self, word: &str, line: usize) {
@@ -126,31 +137,32 @@ impl<'a> Machine<'a> {
     /// Records the moves of the line that was run.
     pub(super) fn push(&mut self, line: usize) -> Result<(), Problem> {
         let total: f64 = self.pieces.iter().map(|piece| piece.length).sum();
-        let [from, to] = self.w;
-        let length = total.hypot(to - from);
+        let [from, end] = self.w;
+        let length = total.hypot(end - from);
         let feed_mm_per_min = match (self.modal.inverse_time, self.feed_word) {
             (true, Some(per_min)) if length > 0.0 => Some(per_min * length),
             (true, _) => None,
             (false, _) => self.modal.feed_mm_per_min,
         };
         let (mut length, last) = (0.0, self.pieces.len().saturating_sub(1));
-        for (index, piece) in self.pieces.drain(..).enumerate() {
+        for (index, piece) in std::mem::take(&mut self.pieces).into_iter().enumerate() {
             if !piece.rapid && feed_mm_per_min.is_none() {
                 let text = || "no feed set; the feed of the settings applies".to_owned();
                 self.track.note("feed", line, text);
             }
+            let (to, course) = self.turned_piece(piece.to, piece.course);
             let next = Move {
-                to: piece.to,
-                course: piece.course,
+                to,
+                course,
                 rapid: piece.rapid,
                 feed_mm_per_min: feed_mm_per_min.filter(|_| !piece.rapid),
                 line,
             };
             length += piece.length;
             // The chords and turns of an arc have their parts of W.
-            let w = match index == last || to == from {
-                true => to,
-                false => from + (to - from) * (length / total),
+            let w = match index == last || end == from {
+                true => end,
+                false => from + (end - from) * (length / total),
             };
             let pushed = match self.fourth {
                 true => self.track.push_with(&self.made_by, next, w),
@@ -170,6 +182,7 @@ impl<'a> Machine<'a> {
         if block.optional {
             self.say_nothing("/", line)?;
         }
+        self.change_tool(block);
         self.m_words(line, block)?;
         let words = self.g_words(line, block)?;
         if let Some(problem) = block.take_unclear() {
@@ -184,6 +197,7 @@ impl<'a> Machine<'a> {
             self.tool = tool;
             self.skip("T", line);
         }
+        self.reframe();
         if let Some((code, length)) = words.length {
             self.tool_length(line, block, code, length)?;
         }
@@ -201,7 +215,18 @@ impl<'a> Machine<'a> {
         if let Some(own) = words.own {
             self.own(line, block, own, words.motion.is_some())?;
         }
+        self.reframe();
         self.motion(line, block, &words)
+    }
+
+    /// Puts the tool into the spindle that T has chosen, in this line or before.
+    fn change_tool(&mut self, block: &Block) {
+        if block.m.contains(&(6, 0)) {
+            let chosen = block.letter(b'T').unwrap_or(self.tool);
+            self.loaded = Some(chosen).filter(|tool| *tool != 0.0);
+        } else if block.m.contains(&(61, 0)) {
+            self.loaded = block.letter(b'Q');
+        }
     }
 
     /// Where W is, from the machine's zero, in millimetres.
@@ -268,6 +293,7 @@ impl<'a> Machine<'a> {
         let mut words = Words::default();
         let (mut plane, mut units, mut distance) = (None, None, None);
         let (mut centres, mut feeds, mut system, mut ends) = (None, None, None, None);
+        let (mut polar, mut turn) = (None, None);
         for index in 0..block.g.len() {
             let Some(&code) = block.g.get(index) else {
                 break;
@@ -301,8 +327,15 @@ impl<'a> Machine<'a> {
                 (54..=58, 0) => choose(&mut system, code, code.0 as usize - 54)?,
                 (59, 0..=3) => choose(&mut system, code, 5 + code.1 as usize)?,
                 (53, 0) => words.machine = true,
-                // What is so anyway: no compensation, diameter, scaling, rotation or polar axes.
-                (8 | 15 | 40 | 50 | 69 | 97, 0) | (50, 1) | (69, 1) => {
+                (15, 0) => choose(&mut polar, code, false)?,
+                (16, 0) => choose(&mut polar, code, true)?,
+                (68, 0) => {
+                    choose(&mut turn, code, true)?;
+                    choose(&mut words.own, code, Own::Turn)?;
+                }
+                (69, 0) => choose(&mut turn, code, false)?,
+                // What is so anyway: no compensation, diameter or scaling.
+                (8 | 40 | 50 | 97, 0) | (50, 1) | (69, 1) => {
                     if code.0 == 50 && block.axes().iter().any(Option::is_some) {
                         let problem = "sets coordinates, as controls of lathes do";
                         return Err(Problem::new("G50", problem, "G50 alone; G92"));
@@ -351,7 +384,14 @@ impl<'a> Machine<'a> {
                 }
             }
         }
+        if let Some((_, false)) = turn {
+            self.end_rotation();
+        }
+        if let Some((_, polar)) = polar {
+            self.polar = polar.then(Polar::default);
+        }
         let modal = &mut self.modal;
+        let before = modal.plane;
         set(&mut modal.plane, plane);
         set(&mut modal.mm_per_unit, units);
         set(&mut modal.relative, distance);
@@ -363,18 +403,19 @@ impl<'a> Machine<'a> {
             modal.inverse_time = inverse;
             self.feed_word = None;
         }
+        let drilled = matches!(modal.motion, Some(Motion::Cycle(_))) && modal.plane == before;
         match words.motion {
             Some((_, motion)) => {
-                if let (Motion::Cycle(_), false) =
-                    (motion, matches!(modal.motion, Some(Motion::Cycle(_))))
-                {
-                    self.cycle = Cycle::from(self.at[2]);
-                }
                 modal.motion = Some(motion);
             }
             None if words.cancels => modal.motion = None,
             None => {}
         }
+        if let (Some(Motion::Cycle(_)), false) = (modal.motion, drilled) {
+            let [_, _, along] = modal.plane.axes();
+            self.cycle = Cycle::from(self.at.get(along).copied().unwrap_or(0.0));
+        }
+        self.fits_rotation(&words, system.is_some())?;
         Ok(words)
     }
 }

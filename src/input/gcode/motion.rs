@@ -41,6 +41,8 @@ impl Machine<'_> {
         if let Some(motion @ (Motion::Nurbs | Motion::NurbsEnd | Motion::KnottedNurbs)) = motion
             && (moves || explicit || block.given().next().is_some())
         {
+            self.cartesian(block, words, motion)?;
+            self.settle(block, motion)?;
             self.made_by(motion.name());
             let to = self.target(block, false);
             self.nurbs(line, block, to, motion)?;
@@ -66,6 +68,8 @@ impl Machine<'_> {
                 "G53 with G0 and G1",
             ));
         }
+        self.cartesian(block, words, motion)?;
+        self.settle(block, motion)?;
         self.made_by(motion.name());
         if !matches!(motion, Motion::Cubic) {
             self.last_control = None;
@@ -113,14 +117,18 @@ impl Machine<'_> {
     /// The end of a line from its axis words.
     fn target(&self, block: &Block, machine: bool) -> Point {
         let zero = if machine { [0.0; 3] } else { self.zero() };
-        let mut to = self.at;
+        let mut to = if machine {
+            self.turned(self.at)
+        } else {
+            self.at
+        };
         for ((to, word), zero) in to.iter_mut().zip(block.axes()).zip(zero) {
             if let Some(word) = word.map(|word| word * self.modal.mm_per_unit) {
                 let relative = self.modal.relative && !machine;
                 *to = if relative { *to + word } else { zero + word };
             }
         }
-        to
+        if machine { self.unturned(to) } else { to }
     }
 
     /// Refuses what no instruction of the line has used.
@@ -193,13 +201,15 @@ impl Machine<'_> {
             }
             _ => return Err(Problem::new("I, J, R", "a centre and a radius", FORMS)),
         };
-        arc::check(start, end, centre).map_err(|problem| {
-            Problem::new("I, J", problem, "radii that agree to 0.005 mm or 0.1 %").following()
-        })?;
+        arc::check(start, end, centre, arc::off_mm(units))
+            .map_err(|(problem, allowed)| Problem::new("I, J", problem, allowed).following())?;
         // Rounding must not turn a full circle into next to nothing.
         let mut end_point = to;
         if (end[0] - start[0]).abs() < ZERO_MM && (end[1] - start[1]).abs() < ZERO_MM {
-            let here = self.pieces.last().map_or(self.track.here(), |last| last.to);
+            let here = match self.is_turned() {
+                true => self.at,
+                false => self.track.here(),
+            };
             for axis in [a, b] {
                 if let Some(place) = end_point.get_mut(axis) {
                     *place = pick(&here, axis);

@@ -1,6 +1,7 @@
 //! Coordinate systems, offsets and reference points.
 
 use super::block::{Block, Code, name};
+use super::frame::sin_cos;
 use super::machine::{Machine, Piece};
 use super::problem::Problem;
 use crate::input::{Course, Point, Zeros};
@@ -18,6 +19,8 @@ pub(super) enum Own {
     Shift,
     /// G43.1.
     Length,
+    /// G68.
+    Turn,
     /// G52.
     Local,
     /// G92.1.
@@ -32,6 +35,8 @@ pub(super) enum Own {
 #[derive(Debug)]
 pub(super) struct Offsets {
     zeros: Zeros,
+    /// Angles of the systems, in degrees.
+    rotations: [f64; 9],
     shift: Point,
     /// What G92.2 put aside.
     suspended: Point,
@@ -41,6 +46,7 @@ impl Offsets {
     pub(super) fn new(zeros: Zeros) -> Self {
         Self {
             zeros,
+            rotations: [0.0; 9],
             shift: Point::default(),
             suspended: Point::default(),
         }
@@ -48,6 +54,11 @@ impl Offsets {
 
     pub(super) fn system(&self, number: usize) -> Point {
         self.zeros.systems.get(number).copied().unwrap_or_default()
+    }
+
+    /// The angle of a system by G10 L2 R, in degrees.
+    pub(super) fn rotation(&self, number: usize) -> f64 {
+        self.rotations.get(number).copied().unwrap_or_default()
     }
 
     pub(super) fn shift(&self) -> Point {
@@ -105,11 +116,20 @@ impl Machine<'_> {
                 return Err(Problem::new(name('G', code), problem, "a line of its own"));
             }
         }
+        if takes && block.is_polar() {
+            let problem = format!("with {}", name('G', code));
+            return Err(Problem::new(
+                "@, ^",
+                problem,
+                "polar coordinates with motions",
+            ));
+        }
         let words = axes.map(|word| word.map(|word| word * self.modal.mm_per_unit));
         let given = words.iter().any(Option::is_some);
         match own {
             Own::Set => self.set_offsets(line, block, words)?,
-            Own::Go(number) => self.go_home(block, number, words, name('G', code)),
+            Own::Go(number) => self.go_home(block, number, words, name('G', code))?,
+            Own::Turn => self.rotate(block, words)?,
             Own::Length => {
                 if let Some(h) = block.letter(b'H') {
                     let problem = format!("{h} with G43.1");
@@ -120,7 +140,7 @@ impl Machine<'_> {
                 }
             }
             Own::Keep(number) => {
-                let at = self.at;
+                let at = self.turned(self.at);
                 if let Some(place) = self.offsets.zeros.references.get_mut(number) {
                     *place = at;
                 }
@@ -188,9 +208,8 @@ impl Machine<'_> {
             let allowed = "L2 and L20; L1, L10 and L11 are skipped";
             return Err(Problem::new("G10", format!("with L{what}"), allowed));
         }
-        if turn.is_some_and(|turn| turn != 0.0) {
-            let problem = "a rotation changes the path";
-            return Err(Problem::new("G10 R", problem, "R0"));
+        if turn.is_some() && what == 20.0 {
+            return Err(Problem::new("G10 R", "with L20", "R with L2"));
         }
         let system = match number {
             0.0 => Some(self.modal.system),
@@ -198,28 +217,64 @@ impl Machine<'_> {
                 .find(|&n| n as f64 == number)
                 .map(|n| n - 1),
         };
-        let mut shift = self.offsets.shift;
-        for (shift, tool) in shift.iter_mut().zip(self.modal.tool) {
-            *shift += tool;
-        }
-        let place = system.and_then(|system| self.offsets.zeros.systems.get_mut(system));
-        let Some(place) = place else {
+        let Some(system) = system else {
             let problem = format!("the coordinate system P{number}");
             return Err(Problem::new("G10 P", problem, "0 to 9"));
         };
-        for (((place, at), shift), word) in place.iter_mut().zip(self.at).zip(shift).zip(words) {
-            if let Some(word) = word {
-                *place = if what == 2.0 { word } else { at - shift - word };
+        if let (Some(degrees), Some(place)) = (turn, self.offsets.rotations.get_mut(system)) {
+            *place = degrees;
+        }
+        let mut to = self.offsets.system(system);
+        if what == 2.0 {
+            for (to, word) in to.iter_mut().zip(words) {
+                *to = word.unwrap_or(*to);
             }
+        } else {
+            to = self.zero_by_place(system, to, words);
+        }
+        if let Some(place) = self.offsets.zeros.systems.get_mut(system) {
+            *place = to;
         }
         Ok(())
     }
 
+    /// Where the zero of a system has to be for the tool to be at the given words.
+    fn zero_by_place(&self, system: usize, zero: Point, words: [Option<f64>; 3]) -> Point {
+        let mut to = zero;
+        let places = to.iter_mut().zip(self.turned(self.at)).zip(words);
+        let (shift, tool) = (self.offsets.shift, self.modal.tool);
+        for (((to, at), word), (shift, tool)) in places.zip(shift.into_iter().zip(tool)) {
+            *to = word.map_or(*to, |word| at - (shift + tool) - word);
+        }
+        let degrees = self.offsets.rotation(system);
+        let [x, y, _] = words;
+        if degrees != 0.0 && (x.is_some() || y.is_some()) {
+            // From where the system has it to where it shall be, as the machine goes.
+            let (sin, cos) = sin_cos(degrees);
+            let [here_x, here_y] = self.shown_by(system);
+            let (dx, dy) = (here_x - x.unwrap_or(here_x), here_y - y.unwrap_or(here_y));
+            to[0] = zero[0] + dx * cos - dy * sin;
+            to[1] = zero[1] + dx * sin + dy * cos;
+        }
+        to
+    }
+
     /// To a reference point by way of the axis words; without any, all axes go there. A letter
     /// without a number is an axis that goes there straight.
-    fn go_home(&mut self, block: &mut Block, number: usize, words: [Option<f64>; 3], by: String) {
+    fn go_home(
+        &mut self,
+        block: &mut Block,
+        number: usize,
+        words: [Option<f64>; 3],
+        by: String,
+    ) -> Result<(), Problem> {
+        let [x, y, _] = words.map(|word| word.is_some());
+        if self.is_turned() && (x != y || block.is_bare(b'X') || block.is_bare(b'Y')) {
+            let problem = "with one of X and Y where the coordinates are rotated";
+            return Err(Problem::new(by, problem, "both or none"));
+        }
         let zero = self.zero();
-        let reference = self.offsets.reference(number);
+        let reference = self.unturned(self.offsets.reference(number));
         let all = words.iter().all(Option::is_none);
         let (mut by_way, mut home) = (self.at, self.at);
         let letters = [b'X', b'Y', b'Z'];
@@ -252,5 +307,6 @@ impl Machine<'_> {
         self.at = home;
         self.made_by(by);
         block.clear_bare();
+        Ok(())
     }
 }

@@ -38,13 +38,14 @@ impl Machine<'_> {
                 self.modal.tool = [0.0; 3];
                 return Ok(());
             }
-            _ => block.take(b'H'),
+            _ => block.take(b'H').or(self.loaded),
         };
         let of = match number {
             Some(0.0) => [0.0; 3],
             None if !self.tools.0.is_empty() => {
                 let problem = "without the tool, where the program sets lengths";
-                return Err(Problem::new(word, problem, "H with the number of the tool"));
+                let allowed = "H with the number of the tool, or the tool loaded by T and M6";
+                return Err(Problem::new(word, problem, allowed));
             }
             number => match self.tools.0.get(&number.map_or(0, |number| number as i64)) {
                 Some(Some(of)) => *of,
@@ -72,7 +73,8 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// G10 for a tool: L1 sets lengths by X, Y and Z; what the others set is not known.
+    /// G10 for a tool: L1 sets lengths by X, Y and Z, L10 those with which the tool is at X, Y and Z;
+    /// what the others set is not known.
     pub(super) fn set_tool(
         &mut self,
         line: usize,
@@ -86,6 +88,17 @@ impl Machine<'_> {
             let mut of = entry.flatten().unwrap_or_default();
             for (place, word) in of.iter_mut().zip(words) {
                 *place = word.unwrap_or(*place);
+            }
+            self.tools.0.insert(number as i64, Some(of));
+            return Ok(());
+        }
+        if kind == 10.0 && given && !other && !self.is_turned() {
+            let [zero, shift] = [self.offsets.system(self.modal.system), self.offsets.shift()];
+            let mut of = entry.flatten().unwrap_or_default();
+            for (axis, place) in of.iter_mut().enumerate() {
+                if let Some(word) = words.get(axis).copied().flatten() {
+                    *place = self.at[axis] - zero[axis] - shift[axis] - word;
+                }
             }
             self.tools.0.insert(number as i64, Some(of));
             return Ok(());

@@ -5,6 +5,7 @@ mod cycles;
 mod flow;
 mod fourth;
 mod offsets;
+mod rotations;
 mod words;
 
 use motion_rtl::input::gcode::read;
@@ -84,6 +85,11 @@ fn arcs_and_their_centres() {
         ("G20 G2 X10 R5 F10", "cw about 127 0 to 254 0 0 F254"),
         // A little off the circle: the centre stays as written.
         ("G2 X10.004 I5 F60", "cw about 5 0 to 10.004 0 0 F60"),
+        ("G2 X10.025 I5 F60", "cw about 5 0 to 10.025 0 0 F60"),
+        (
+            "G20 G2 X0.4 I0.201 F60",
+            "cw about 5.1054 0 to 10.16 0 0 F1524",
+        ),
         ("G2 X1000 I499.8 F60", "cw about 499.8 0 to 1000 0 0 F60"),
         (
             "G1 X-10 F60\nG2 X10 I10\nX-10 I-10",
@@ -186,7 +192,7 @@ fn malformed_texts_and_their_faults() {
     const ONE: &str = "in one line; allowed: one of them in a line";
     const FORMS: &str = "allowed: either I and J (the centre from the start) or R (the radius)";
     const WORDS: &str = "allowed: words of a letter and a number, such as X10.5";
-    const RADII: &str = "allowed: radii that agree to 0.005 mm or 0.1 %";
+    const RADII: &str = "allowed: radii that agree to 0.0283 mm, or to 0.1 % and 2.83 mm";
     const SPAN: &str = "allowed: half the distance to the end, or more";
     const PLACE: &str = "a letter without its number, or out of place";
     const REACH: &str = "allowed: -1000000 to 1000000 mm";
@@ -235,9 +241,9 @@ fn malformed_texts_and_their_faults() {
             ),
         ),
         (
-            "G2 X10.006 I5",
+            "G2 X10.03 I5",
             &format!(
-                "t:1: I, J: the radius is 5.0000 mm at the start and 5.0060 mm at the end; {RADII}"
+                "t:1: I, J: the radius is 5.0000 mm at the start and 5.0300 mm at the end; {RADII}"
             ),
         ),
         (

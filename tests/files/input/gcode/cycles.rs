@@ -121,7 +121,6 @@ fn what_a_cycle_lacks() {
             "G83 X1 R1 Z-1 Q0",
             "t:1: G83: without a Q that fits the depth",
         ),
-        ("G18 G81 X1 R1 Z-1", "t:1: G81: outside of G17"),
         ("G81 X1 R1 Z-1 L1.5", "t:1: L: is 1.5"),
         (
             "G81 X1 R1 Z-1\nG80\nX2",
@@ -131,4 +130,44 @@ fn what_a_cycle_lacks() {
         let refused = refuse(read, text);
         assert!(refused.starts_with(fault), "{refused}");
     }
+}
+
+#[test]
+fn holes_along_the_other_axes() {
+    for (text, expected) in [
+        (
+            "F60 G18 G99 G0 Y5\nG81 X1 Z2 R3 Y-1\nG91 X2",
+            &[
+                "rapid to 0 5 0",
+                "rapid to 1 5 2",
+                "rapid to 1 3 2",
+                "line to 1 -1 2 F60",
+                "rapid to 1 3 2",
+                "rapid to 3 3 2",
+                "line to 3 -1 2 F60",
+                "rapid to 3 3 2",
+            ][..],
+        ),
+        (
+            "F60 G19 G98 G91 G0 X5\nG84 Y1 Z2 R-2 X-3",
+            &[
+                "rapid to 5 0 0",
+                "rapid to 5 1 2",
+                "rapid to 3 1 2",
+                "line to 0 1 2 F60",
+                "line to 3 1 2 F60",
+                "rapid to 5 1 2",
+            ],
+        ),
+        (
+            "F60 G18 G10 L2 P1 Y1\nG82 R0 Y-1",
+            &["rapid to 0 1 0", "line to 0 0 0 F60", "rapid to 0 1 0"],
+        ),
+    ] {
+        assert_eq!(moves(&accept(read, text)), expected, "{text}");
+    }
+    // Another plane begins another cycle.
+    assert!(refuse(read, "G81 R2 Z1\nG18 Y1").starts_with("t:2: G81: without R"));
+    assert!(refuse(read, "G18 G81 R2 Z1").starts_with("t:1: G81: without Y; allowed: Y with"));
+    assert!(refuse(read, "G19 G81 R2 X3").contains("R is below X by 1 mm; allowed: R at X or"));
 }

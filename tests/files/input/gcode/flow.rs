@@ -108,6 +108,17 @@ fn programs_by_their_numbers() {
         [1.0, 2.0, 7.0]
     );
     assert_eq!(ends("G0 X1\nM99\nX2"), [1.0]);
+    // The digits before the last four say how often, unless there is a program of that number.
+    let twice = "G91\nM98 P20100\nG0 X5\nM30\nO100\nG0 X1\nM99";
+    assert_eq!(ends(twice), [1.0, 2.0, 7.0]);
+    assert_eq!(ends(&format!("{twice}\nO20100\nG0 X3\nM99")), [3.0, 8.0]);
+    for text in ["M98 P20100 L2", "M98 P20101", "M98 P20100.5"] {
+        let refused = refuse(read, &format!("{text}\nM30\nO100\nM99"));
+        assert!(
+            refused.starts_with("t:1: M98: calls program O2"),
+            "{refused}"
+        );
+    }
 }
 
 #[test]

@@ -112,6 +112,15 @@ fn tool_lengths_shift_the_path() {
             "G10 L1 P1 Z5\nG10 L1 P1 X3\nG43 H1\nG0 X1 Z1\nG43.2 H1\nX1 Z1\nG44 H1\nX1 Z1",
             &["rapid to 4 0 6", "rapid to 7 0 11", "rapid to -2 0 -4"],
         ),
+        // Without H the tool is that in the spindle.
+        ("G10 L1 P2 Z5\nT2 M6\nT1\nG43 G0 Z1", &["rapid to 0 0 6"]),
+        ("T1\nM6 G10 L1 P1 Z5\nG43 G0 Z1", &["rapid to 0 0 6"]),
+        ("G10 L1 P2 Z5\nM61 Q2\nG43 G0 Z1", &["rapid to 0 0 6"]),
+        // The length with which the tool is where it is said to be.
+        (
+            "G0 Z10\nG92 Z9\nG10 L10 P1 Z2\nG43 H1 G0 Z3",
+            &["rapid to 0 0 10", "rapid to 0 0 11"],
+        ),
         ("G43.1 Z4\nG0 X#5403 Z[#5422]", &["rapid to 4 0 0"]),
     ];
     for (text, expected) in cases {
