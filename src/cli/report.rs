@@ -119,12 +119,36 @@ pub fn conclude(
 }
 
 /// The first of some complaints of a kind, and how many more there are.
-pub fn first(mut all: impl Iterator<Item = String>) -> Option<String> {
-    let text = all.next()?;
-    Some(match all.count() {
-        0 => text,
-        more => format!("{text} (and {more} more like it)"),
-    })
+pub fn first(all: impl Iterator<Item = String>) -> Option<String> {
+    let mut first = First::default();
+    all.for_each(|text| first.add(|| text));
+    first.text()
+}
+
+/// Complaints of a kind as they come, of which the first stands for all.
+#[derive(Debug, Default)]
+pub struct First {
+    text: Option<String>,
+    more: usize,
+}
+
+impl First {
+    /// Adds a complaint.
+    pub fn add(&mut self, text: impl FnOnce() -> String) {
+        match self.text {
+            None => self.text = Some(text()),
+            Some(_) => self.more += 1,
+        }
+    }
+
+    /// The first, and how many more there are.
+    pub fn text(self) -> Option<String> {
+        let text = self.text?;
+        Some(match self.more {
+            0 => text,
+            more => format!("{text} (and {more} more like it)"),
+        })
+    }
 }
 
 #[cfg(test)]

@@ -178,23 +178,24 @@ impl Arm {
         add(self.shoulder_mm, hand)
     }
 
-    /// The angles of its joints along a path, in radians: the base goes on where it has turned half
-    /// a turn.
+    /// The angles of its joints where the hand goes on to `point`, in radians: the base goes on from
+    /// `last` where it has turned half a turn.
     ///
     /// # Errors
-    /// The first point in whose pose it cannot be, with its number.
-    pub fn follow(&self, path: &[Point]) -> Result<Vec<[f64; JOINTS]>, (usize, Pose)> {
-        let mut last = 0.0;
-        let points = path.iter().enumerate().map(|(number, point)| {
-            let [base, shoulder, elbow] = self.joints(*point).map_err(|pose| (number, pose))?;
-            let base = match number {
-                0 => base,
-                _ => last + (base - last + PI).rem_euclid(TAU) - PI,
-            };
-            last = base;
-            Ok([base, shoulder, elbow])
-        });
-        points.collect()
+    /// Those of [`Arm::joints`].
+    pub fn next(&self, last: Option<[f64; JOINTS]>, point: Point) -> Result<[f64; JOINTS], Pose> {
+        let [base, shoulder, elbow] = self.joints(point)?;
+        let base = match last {
+            None => base,
+            Some([last, ..]) => last + (base - last + PI).rem_euclid(TAU) - PI,
+        };
+        Ok([base, shoulder, elbow])
+    }
+
+    /// Counts of a radian of a joint.
+    #[must_use]
+    pub fn counts_per_radian(&self) -> f64 {
+        f64::from(self.counts_per_rev) / TAU
     }
 }
 
@@ -270,8 +271,10 @@ mod tests {
         };
         for sign in [1, -1] {
             let path: Vec<_> = (0..=800).map(|k| circle(170 + sign * k)).collect();
-            let joints = ARM.follow(&path).unwrap();
-            for (k, joint) in (0..).zip(&joints) {
+            let mut last = None;
+            for (k, point) in (0..).zip(path) {
+                let joint = ARM.next(last, point).unwrap();
+                last = Some(joint);
                 let expected = f64::from(170 + sign * k).to_radians();
                 assert!((joint[0] - expected).abs() < 1e-9, "{k}: {joint:?}");
             }

@@ -64,13 +64,14 @@ fn the_slowest_feed_keeps_to_little() {
     assert!((1024..MOST).contains(&most), "{most} kB");
 }
 
-/// An hour on the pulse interpolator, and five minutes on circuits whose motors are stepped in every
+/// An hour on the pulse interpolator and the arc generator, and five minutes on circuits whose motors are stepped in every
 /// tick: 300,000 scans or periods, of which a record each would be more.
 #[test]
 #[ignore = "takes long"]
 fn an_hour_of_machine_time_takes_little_more() {
-    let circuits: [(&[&str], [u32; 2]); 4] = [
+    let circuits: [(&[&str], [u32; 2]); 5] = [
         (&["clock_hz=20000", "line_unit_ticks=20"], [600, 4200]),
+        (&["circuit=arc_generator"], [600, 4200]),
         (
             &[
                 "circuit=linear_interpolator",
@@ -88,7 +89,10 @@ fn an_hour_of_machine_time_takes_little_more() {
     for (settings, seconds) in circuits {
         let settings: Vec<_> = settings.iter().flat_map(|set| ["--set", set]).collect();
         let [short, long] = seconds.map(|seconds| {
-            let bench = Bench::with("l.ngc", format!("G1 X{seconds} F60\n"));
+            // Lines of ten minutes, as many as a segment of the arc generator has samples for.
+            let ends = (1..=seconds.div_ceil(600)).map(|k| seconds.min(600 * k));
+            let lines = ends.map(|end| format!("G1 X{end} F60\n"));
+            let bench = Bench::with("l.ngc", lines.collect::<String>());
             most_of(
                 &bench,
                 &[&["run", "l.ngc", "--no-vcd"], &settings[..]].concat(),

@@ -143,7 +143,7 @@ proptest! {
         let prepared = path(&wanted, speed, 2 * half_blend);
         let records = records(&prepared, 1.0, &FULL, rounding).expect("it fits");
         let seen = played(&records, rounding);
-        prop_assert_eq!(&seen, &commands(&records, &FULL, rounding));
+        prop_assert_eq!(&seen, &commands(&records, &FULL, rounding).collect::<Vec<_>>());
 
         // It begins and ends on its points.
         let [from, _, to] = wanted.points;
@@ -164,7 +164,7 @@ proptest! {
         // Before the last rounding: where it ends, and the way of each sample.
         let units = f64::from(1 << FULL.guard());
         let points = Decoded::of(record, &FULL).points(&FULL, rounding);
-        let points: Vec<Point> = points.iter().map(|p| p.map(|x| x as f64 / units)).collect();
+        let points: Vec<Point> = points.map(|p| p.map(|x| x as f64 / units)).collect();
         let bound = rotation_error(radius, steps, &FULL, rounding);
         let end = segment.point(steps);
         let last = *points.last().expect("points");
@@ -189,9 +189,7 @@ fn drift(rounding: Rounding) -> [f64; 2] {
     let (_, record) = rotation(&prepared, &records);
     let units = f64::from(1 << FULL.guard());
     let points = Decoded::of(record, &FULL).points(&FULL, rounding);
-    let off = points
-        .iter()
-        .map(|p| wanted.off(p.map(|x| x as f64 / units)));
+    let off = points.map(|p| wanted.off(p.map(|x| x as f64 / units)));
     off.fold([0.0, 0.0], |[worst, _], [outside, height]| {
         [f64::max(worst, outside.hypot(height)), height]
     })

@@ -1,16 +1,17 @@
 //! The arcs of a path on the conventional circuit, and what both circuits come to.
 
 use super::Job;
-use super::figures::Figures;
+use super::figures::{Blended, Figures};
+use super::mechanism::{Jolt, Jolting};
 use super::verdict::bounds;
 use crate::cli::Failure;
 use motion_rtl::circuits::arc_generator::{Conventional, Widths};
 use motion_rtl::hdl::{self, RunError};
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::beside::{play, records};
+use motion_rtl::jobs::arc_generator::beside::{play_each, records};
 use motion_rtl::jobs::arc_generator::bounds::conventional_error;
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
-use motion_rtl::jobs::arc_generator::job::{Played, arc_generator};
+use motion_rtl::jobs::arc_generator::job::{Command, Played, arc_generator};
 use motion_rtl::jobs::arc_generator::prepare::Timing;
 use motion_rtl::jobs::arc_generator::prepared::Shape;
 use motion_rtl::path::circle::Circle;
@@ -29,6 +30,8 @@ pub struct Beside {
     pub played: Played,
     /// The first piece whose arc is not run, since it does not fit.
     pub left: Option<usize>,
+    /// Radius error in um over the way in mm, at the start of the arc that the picture shows.
+    pub start: Vec<(f64, f64)>,
 }
 
 /// An arc from rest to rest at a speed.
@@ -38,7 +41,7 @@ pub type Run = fn(&Circle, f64, &Timing) -> Method;
 pub struct Planned {
     segment: usize,
     piece: usize,
-    radius: f64,
+    circle: Circle,
     method: Method,
 }
 
@@ -57,11 +60,22 @@ pub fn runs(job: &Job, run: Run) -> Result<(Vec<Planned>, Vec<Record>), usize> {
         arcs.push(Planned {
             segment: index,
             piece: segment.piece,
-            radius: circle.radius,
+            circle,
             method,
         });
     }
     Ok((arcs, all))
+}
+
+/// Samples of arcs from rest to rest, each with its start.
+pub fn samples(arcs: &[Planned]) -> u64 {
+    arcs.iter().map(|arc| 1 + arc.steps()).sum()
+}
+
+impl Planned {
+    fn steps(&self) -> u64 {
+        2 * self.method.ramp + self.method.samples
+    }
 }
 
 /// An arc from rest to rest.
@@ -71,17 +85,55 @@ pub struct Arc {
     pub segment: usize,
     /// Its piece.
     pub piece: usize,
-    /// The commands, in mm.
-    pub points: Vec<Point>,
     /// Largest distance of a command from its exact point, in mm.
     pub error: f64,
     /// What it may not exceed.
     pub bound: f64,
+    /// Largest radius error of a command, in mm.
+    pub radius_error: f64,
+    /// Changes of speed, and what they make of the mechanism.
+    pub jolt: Jolt,
+}
+
+/// The same while its commands come.
+struct UnderWay {
+    error: f64,
+    radius_error: f64,
+    jolting: Jolting,
+}
+
+impl UnderWay {
+    fn take(&mut self, point: Point, exact: Point, off: f64) {
+        self.error = self.error.max(distance(point, exact));
+        self.radius_error = self.radius_error.max(off.abs());
+        self.jolting.take(point);
+    }
+}
+
+/// The start of an arc as the picture shows it: radius error in um over the way in mm.
+struct Start {
+    segment: usize,
+    most_mm: f64,
+    way_mm: f64,
+    last: Option<Point>,
+    curve: Vec<(f64, f64)>,
+}
+
+impl Start {
+    fn take(&mut self, point: Point, off: f64) {
+        if let Some(last) = self.last.replace(point) {
+            self.way_mm += distance(last, point);
+            if self.way_mm <= self.most_mm {
+                self.curve.push((self.way_mm, off * 1e3));
+            }
+        }
+    }
 }
 
 impl Beside {
-    /// Runs every arc of a path, as `method` has an arc of this speed.
-    pub fn run(job: &Job, method: Run) -> Result<Self, Failure> {
+    /// Runs every arc of a path, as `method` has an arc of this speed, and takes the start of one for
+    /// the picture, as long as the blend into it is shown.
+    pub fn run(job: &Job, method: Run, blended: Option<&Blended>) -> Result<Self, Failure> {
         let per_mm = job.settings.counts_per_mm;
         let (planned, all) = match runs(job, method) {
             Ok(all) => all,
@@ -93,46 +145,62 @@ impl Beside {
             }
         };
         let circuit = Conventional::new(job.settings.rounding);
-        let played = play(&circuit, &all, job.sample_ticks, &[], &mut ())?;
-        let samples = |arc: &Planned| 1 + 2 * arc.method.ramp + arc.method.samples;
-        let samples = planned.iter().map(samples).sum();
-        let mut commands = played.commands.iter();
-        let arcs = planned.into_iter().map(|arc| {
-            let Planned {
-                segment,
-                piece,
-                radius,
-                method,
-            } = arc;
-            let pairs = method.samples().zip(commands.by_ref());
-            let (mut points, mut error) = (Vec::new(), 0f64);
-            for ((exact, _), command) in pairs {
-                let point = job.mm(command.counts);
-                error = error.max(distance(point, exact));
-                points.push(point);
-            }
-            let steps = 2 * method.ramp + method.samples;
-            let rounding = job.settings.rounding;
-            let bound = conventional_error(radius * per_mm, steps, &Widths::FULL, rounding);
-            Arc {
-                segment,
-                piece,
-                points,
-                error,
-                bound: bound / per_mm,
-            }
+        let mut start = blended.map(|blended| Start {
+            segment: blended.arc.segment,
+            most_mm: blended.ways().last().copied().unwrap_or(0.0),
+            way_mm: 0.0,
+            last: None,
+            curve: Vec::new(),
         });
+        let under_way = |_: &Planned| UnderWay {
+            error: 0.0,
+            radius_error: 0.0,
+            jolting: Jolting::new(job),
+        };
+        let mut arcs: Vec<_> = planned.iter().map(under_way).collect();
+        let mut exact = planned.iter().enumerate().flat_map(|(arc, planned)| {
+            let samples = planned.method.samples();
+            samples.map(move |(exact, _)| (arc, planned, exact))
+        });
+        let each = &mut |command: Command| {
+            let Some((arc, planned, exact)) = exact.next() else {
+                return;
+            };
+            let point = job.mm(command.counts);
+            let [off, _] = planned.circle.off(point);
+            arcs[arc].take(point, exact, off);
+            if let Some(start) = start
+                .as_mut()
+                .filter(|start| start.segment == planned.segment)
+            {
+                start.take(point, off);
+            }
+        };
+        let played = play_each(&circuit, &all, job.sample_ticks, None, &mut (), each)?;
+        let finish = |(planned, under_way): (&Planned, UnderWay)| {
+            let (radius, rounding) = (planned.circle.radius * per_mm, job.settings.rounding);
+            let bound = conventional_error(radius, planned.steps(), &Widths::FULL, rounding);
+            Arc {
+                segment: planned.segment,
+                piece: planned.piece,
+                error: under_way.error,
+                bound: bound / per_mm,
+                radius_error: under_way.radius_error,
+                jolt: under_way.jolting.finish(),
+            }
+        };
         Ok(Beside {
-            arcs: arcs.collect(),
-            samples,
+            arcs: planned.iter().zip(arcs).map(finish).collect(),
+            samples: samples(&planned),
             played,
             left: None,
+            start: start.map_or(Vec::new(), |start| start.curve),
         })
     }
 
     /// What is wrong with it; empty where nothing is.
     pub fn complaints(&self, how: &str) -> impl Iterator<Item = String> {
-        let (sampled, wanted) = (self.played.commands.len() as u64, self.samples);
+        let (sampled, wanted) = (self.played.samples, self.samples);
         let short = (sampled != wanted)
             .then(|| format!("{sampled} samples {how} where the arcs have {wanted}"));
         let astray = self.arcs.iter().filter(|arc| {
@@ -151,10 +219,10 @@ impl Beside {
         short.into_iter().chain(astray)
     }
 
-    /// Of an arc: its points.
-    pub fn points(&self, segment: usize) -> &[Point] {
+    /// Largest radius error in mm of the arc that is this segment.
+    pub fn radius_error(&self, segment: usize) -> f64 {
         let arc = self.arcs.iter().find(|arc| arc.segment == segment);
-        arc.map_or(&[], |arc| &arc.points)
+        arc.map_or(0.0, |arc| arc.radius_error)
     }
 }
 
@@ -217,7 +285,7 @@ pub fn rows(job: &Job, played: &Played, figures: &Figures) -> Result<Vec<Row>, R
     let rounding = job.settings.rounding;
     let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let own = figures.measured.as_ref().map_or(0.0, |m| m.largest_error);
-    let own = [own, most(&mut bounds(job, figures).into_iter())];
+    let own = [own, most(&mut bounds(job, &figures.arcs).into_iter())];
     let own = Row::of(&hdl::model(&arc_generator(&job.settings))?, played, own);
     if !compared {
         return Ok(vec![own]);

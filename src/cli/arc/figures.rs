@@ -1,30 +1,51 @@
-//! What is measured on the commands of a run, sample by sample.
+//! Figures of a run, made while its commands come.
 
 use super::Job;
 use super::beside::Beside;
+use super::mechanism::{Jolt, Jolting};
+use super::products::{Differing, Row as ProductsRow};
+use super::verdict::bounds;
+use super::view::projected;
+use crate::cli::report::First;
+use crate::cli::thinned::Thinned;
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::job::Played;
-use motion_rtl::jobs::arc_generator::measure::Measured;
-use motion_rtl::jobs::arc_generator::prepared::{ArcReport, PieceReport, Segment, Shape};
-use motion_rtl::path::circle::Circle;
+use motion_rtl::jobs::arc_generator::job::Command;
+use motion_rtl::jobs::arc_generator::measure::{Measured, Measuring, SampleMeasured};
+use motion_rtl::jobs::arc_generator::prepared::{ArcReport, Shape};
+use motion_rtl::path::vector::distance;
+use std::ops::RangeInclusive;
 
 /// The figures of a run.
 #[derive(Debug)]
 pub struct Figures {
-    /// The commands, in mm.
-    pub points: Vec<Point>,
-    /// Measured on them; none where their number is not that of the path's samples.
+    /// Measured on the commands; none where their number is not that of the path's samples.
     pub measured: Option<Measured>,
-    /// The arcs, in order.
+    /// The arcs that are measured, in order.
     pub arcs: Vec<ArcFigures>,
+    /// The first sample that is farther from its exact point than arithmetic and rounding allow.
+    pub astray: Option<String>,
+    /// Beside blends by differences, where they are made by products.
+    pub differing: Option<ProductsRow>,
+    /// Changes of speed, and what they make of the mechanism.
+    pub jolt: Jolt,
+    /// Tick of the first sample of the second segment.
+    pub change: Option<u64>,
+    /// The samples, thinned for the picture.
+    pub shown: Thinned<Shown, 8>,
+    /// Least and largest of each coordinate in mm.
+    pub extremes: [[f64; 2]; 3],
+    /// First and last point in mm.
+    pub ends: Option<[Point; 2]>,
+    /// The blend into an arc that leaves it farthest, and as much of the arc.
+    pub blended: Option<Blended>,
     /// The arcs by the conventional method.
     pub beside: Beside,
     /// The same without ramps.
     pub even: Beside,
 }
 
-/// The figures of an arc.
-#[derive(Debug)]
+/// An arc of a path.
+#[derive(Debug, Clone, Copy)]
 pub struct ArcFigures {
     /// Its segment.
     pub segment: usize,
@@ -32,72 +53,194 @@ pub struct ArcFigures {
     pub piece: usize,
     /// What became of it.
     pub report: ArcReport,
-    /// Radius error of each of its samples from A⁺ on, outwards positive, in mm.
-    pub radius_errors: Vec<f64>,
-    /// Largest deviation of its speed from what it should be, from sample to sample, in mm/s.
-    pub speed_deviation: f64,
-    /// The same arc from rest to rest on the conventional circuit: its points and their radius
-    /// errors in mm.
-    pub conventional: Vec<(Point, f64)>,
 }
 
-impl Figures {
-    /// Of what was played.
-    pub fn of(job: &Job, played: &Played, [beside, even]: [Beside; 2]) -> Self {
-        let counts: Vec<_> = played
-            .commands
-            .iter()
-            .map(|command| command.counts)
-            .collect();
-        let measured = Measured::of(&job.prepared, job.settings.counts_per_mm, &counts);
-        let points: Vec<Point> = counts.into_iter().map(|counts| job.mm(counts)).collect();
-        let arcs = match &measured {
+/// A sample as the picture shows it.
+#[derive(Debug, Clone, Copy)]
+pub struct Shown {
+    /// Measures.
+    pub measured: SampleMeasured,
+    /// Radius error in mm, outwards positive; NaN where the segment is no arc.
+    radius_error: f64,
+}
+
+impl Shown {
+    /// The numbers whose extremes a picture shows.
+    fn numbers(&self) -> [f64; 8] {
+        let SampleMeasured {
+            point,
+            speed,
+            acceleration,
+            ..
+        } = self.measured;
+        let ([x, y, z], (across, up)) = (point, projected(point));
+        let [speed, acceleration] = [speed, acceleration].map(|value| value.unwrap_or(f64::NAN));
+        [x, y, z, across, up, speed, acceleration, self.radius_error]
+    }
+}
+
+/// A blend into an arc with as much of the arc.
+#[derive(Debug)]
+pub struct Blended {
+    /// The arc.
+    pub arc: ArcFigures,
+    samples: RangeInclusive<u64>,
+    /// Points in mm.
+    pub points: Vec<Point>,
+}
+
+impl Blended {
+    /// Of the arc from which a blend leaves farthest.
+    fn of(job: &Job, arcs: &[ArcFigures]) -> Option<Self> {
+        let far = |arc: &&ArcFigures| arc.report.blend_distance;
+        let arc = *arcs.iter().max_by(|a, b| far(a).total_cmp(&far(b)))?;
+        let segments = &job.prepared.segments;
+        let (blend, rotation) = (
+            segments.get(arc.segment.checked_sub(1)?)?,
+            segments[arc.segment],
+        );
+        let last = (blend.end() + blend.samples).min(rotation.end());
+        Some(Blended {
+            arc,
+            samples: blend.first_sample..=last,
+            points: Vec::new(),
+        })
+    }
+
+    /// Way to each of its points in mm.
+    pub fn ways(&self) -> Vec<f64> {
+        let ways = self.points.windows(2).scan(0.0, |way, pair| {
+            *way += distance(pair[0], pair[1]);
+            Some(*way)
+        });
+        std::iter::once(0.0).chain(ways).collect()
+    }
+}
+
+/// Figures of a run that goes on.
+pub struct UnderWay<'j> {
+    job: &'j Job,
+    measuring: Measuring<'j>,
+    bounds: Vec<f64>,
+    astray: First,
+    differing: Option<Differing<'j>>,
+    jolting: Jolting,
+    /// Sample at which the second segment begins.
+    second: u64,
+    figures: Figures,
+}
+
+impl<'j> UnderWay<'j> {
+    /// One that begins.
+    pub fn new(job: &'j Job) -> Self {
+        let arcs = arcs(job);
+        UnderWay {
+            job,
+            measuring: Measuring::new(&job.prepared, job.settings.counts_per_mm),
+            bounds: bounds(job, &arcs),
+            astray: First::default(),
+            differing: Differing::of(job),
+            jolting: Jolting::new(job),
+            second: job.change(),
+            figures: Figures {
+                measured: None,
+                astray: None,
+                differing: None,
+                jolt: Jolt::default(),
+                change: None,
+                shown: Thinned::by(Shown::numbers),
+                extremes: [[f64::INFINITY, f64::NEG_INFINITY]; 3],
+                ends: None,
+                blended: Blended::of(job, &arcs),
+                beside: Beside::default(),
+                even: Beside::default(),
+                arcs,
+            },
+        }
+    }
+
+    /// Takes the next command.
+    pub fn take(&mut self, command: Command) {
+        let Some(measured) = self.measuring.take(command.counts) else {
+            return;
+        };
+        let SampleMeasured {
+            sample,
+            segment,
+            point,
+            error,
+            ..
+        } = measured;
+        let most = self.bounds[segment];
+        // Written so that NaN fails.
+        let within = error <= most;
+        if !within {
+            self.astray.add(|| {
+                let (off, most) = (error * 1e3, most * 1e3);
+                format!(
+                    "sample {sample} is {off:.3} um off its exact point, its bound is {most:.3} um"
+                )
+            });
+        }
+        if let Some(differing) = &mut self.differing {
+            differing.take(command.counts);
+        }
+        self.jolting.take(point);
+        let figures = &mut self.figures;
+        if sample == self.second {
+            figures.change = Some(command.tick);
+        }
+        for ([least, most], mm) in figures.extremes.iter_mut().zip(point) {
+            (*least, *most) = (least.min(mm), most.max(mm));
+        }
+        let first = figures.ends.map_or(point, |[first, _]| first);
+        figures.ends = Some([first, point]);
+        if let Some(blended) = &mut figures.blended
+            && blended.samples.contains(&sample)
+        {
+            blended.points.push(point);
+        }
+        let radius_error = match self.job.prepared.segments[segment].shape {
+            Shape::Arc { circle, .. } => circle.off(point)[0],
+            Shape::Line { .. } | Shape::Blend { .. } => f64::NAN,
+        };
+        figures.shown.push(Shown {
+            measured,
+            radius_error,
+        });
+    }
+
+    /// Figures of the run, without those of the conventional method.
+    pub fn finish(self) -> Figures {
+        let measured = self.measuring.finish();
+        let arcs = match measured {
+            Some(_) => self.figures.arcs,
             None => Vec::new(),
-            Some(measured) => arcs(job, &points, measured, &beside),
         };
         Figures {
-            points,
             measured,
             arcs,
-            beside,
-            even,
+            astray: self.astray.text(),
+            differing: self.differing.map(Differing::finish),
+            jolt: self.jolting.finish(),
+            ..self.figures
         }
     }
 }
 
-fn arcs(job: &Job, points: &[Point], measured: &Measured, beside: &Beside) -> Vec<ArcFigures> {
+/// The segments that are arcs.
+fn arcs(job: &Job) -> Vec<ArcFigures> {
     let segments = job.prepared.segments.iter().enumerate();
     segments
         .filter_map(|(index, segment)| {
-            let (piece, report, circle) = arc(job, segment)?;
-            let samples = segment.first_sample as usize..=segment.end() as usize;
-            let speeds = &measured.speeds[*samples.start()..*samples.end()];
-            let own = &points[samples];
+            let Shape::Arc { .. } = segment.shape else {
+                return None;
+            };
             Some(ArcFigures {
                 segment: index,
                 piece: segment.piece,
-                report,
-                radius_errors: own.iter().map(|point| circle.off(*point)[0]).collect(),
-                speed_deviation: speeds
-                    .iter()
-                    .map(|speed| (speed - piece.speed).abs())
-                    .fold(0.0, f64::max),
-                conventional: conventional(beside.points(index), &circle),
+                report: job.prepared.pieces.get(segment.piece)?.arc?,
             })
         })
         .collect()
-}
-
-/// A segment that is an arc, with its piece.
-fn arc<'a>(job: &'a Job, segment: &Segment) -> Option<(&'a PieceReport, ArcReport, Circle)> {
-    let Shape::Arc { circle, .. } = segment.shape else {
-        return None;
-    };
-    let piece = job.prepared.pieces.get(segment.piece)?;
-    Some((piece, piece.arc?, circle))
-}
-
-fn conventional(points: &[Point], circle: &Circle) -> Vec<(Point, f64)> {
-    let off = |point: &Point| (*point, circle.off(*point)[0]);
-    points.iter().map(off).collect()
 }

@@ -5,7 +5,7 @@ use crate::cli::source::Source;
 use crate::cli::{Failure, progress};
 use motion_rtl::circuits::arc_generator::{Blend, Widths};
 use motion_rtl::input::{Drawing, Point};
-use motion_rtl::jobs::arc_generator::joints::{Followed, follow};
+use motion_rtl::jobs::arc_generator::joints::{Followed, Following, Hand};
 use motion_rtl::jobs::arc_generator::mechanism::Mechanism;
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::prepared::Prepared;
@@ -33,6 +33,9 @@ pub struct Job {
     pub prepared: Prepared,
     /// The same as words.
     pub records: Vec<Record>,
+    /// The records by differences that those by products are compared with, where their words hold
+    /// the path.
+    pub differences: Option<Vec<Record>>,
     /// The arm whose hand the commands are of, and what its joints do.
     pub arm: Option<(Arm, Followed)>,
     /// An elastic mechanism under the commands.
@@ -71,17 +74,31 @@ impl Job {
             Blend::Products => products::records(&prepared, scale, &widths, rounding),
         };
         let records = records.map_err(refuse)?;
+        let compared = match settings.blend {
+            Blend::Differences => false,
+            Blend::Products => {
+                timing.blend_samples <= Blend::Differences.most_samples(&Widths::FULL)
+            }
+        };
+        let differences =
+            compared.then(|| record::records(&prepared, scale, &Widths::FULL, rounding).ok());
         if arm.is_some() {
             progress::stage("the arm's joints");
         }
         let followed = arm.map(|arm| {
-            let commands = match settings.blend {
-                Blend::Differences => reference::commands(&records, &widths, rounding),
-                Blend::Products => products::commands(&records, &widths, rounding),
+            let mut following = Following::new(&arm, timing.sample_s);
+            let each = |counts: [i64; 3]| {
+                following.take(counts.map(|counts| counts as f64 / settings.counts_per_mm))
             };
-            let mm = |counts: [i64; 3]| counts.map(|c| c as f64 / settings.counts_per_mm);
-            let points: Vec<Point> = commands.into_iter().map(mm).collect();
-            let followed = follow(&arm, &points, timing.sample_s);
+            let followed = match settings.blend {
+                Blend::Differences => {
+                    reference::commands(&records, &widths, rounding).try_for_each(each)
+                }
+                Blend::Products => {
+                    products::commands(&records, &widths, rounding).try_for_each(each)
+                }
+            };
+            let followed = followed.map(|()| following.finish());
             let pose = |(sample, pose)| {
                 let time_s = sample as f64 * timing.sample_s;
                 let place = prepared.place(sample as u64);
@@ -105,6 +122,7 @@ impl Job {
             sample_ticks,
             prepared,
             records,
+            differences: differences.flatten(),
             arm,
             mechanism,
             loaded,
@@ -115,6 +133,18 @@ impl Job {
     pub fn ticks_at_least(&self) -> u64 {
         let ticks = u64::from(self.sample_ticks);
         self.prepared.samples().saturating_mul(ticks)
+    }
+
+    /// Sample at which the second segment begins.
+    pub fn change(&self) -> u64 {
+        let first = self.prepared.segments.first();
+        first.map_or(0, |first| first.samples)
+    }
+
+    /// The arm, if there is one, at the start of the path, to stand beside the circuit.
+    pub fn hand(&self) -> Option<Hand> {
+        let (arm, followed) = self.arm.as_ref()?;
+        Some(Hand::new(arm, followed.start, self.settings.counts_per_mm))
     }
 
     /// A command in millimetres.

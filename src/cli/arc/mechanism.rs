@@ -5,7 +5,7 @@ use super::beside::Beside;
 use super::figures::Figures;
 use crate::cli::rows::{fixed, or_dash, table};
 use motion_rtl::input::Point;
-use motion_rtl::jobs::arc_generator::mechanism::{Vibration, largest_speed_change};
+use motion_rtl::jobs::arc_generator::mechanism::{SpeedChange, Vibrating, Vibration};
 use serde::Serialize;
 use std::fmt;
 
@@ -31,38 +31,85 @@ pub fn rows(job: &Job, figures: &Figures) -> Vec<Row> {
     if figures.arcs.is_empty() || compared && figures.beside.arcs.is_empty() {
         return Vec::new();
     }
-    fn arcs(beside: &Beside) -> Vec<&[Point]> {
-        let points = beside.arcs.iter().map(|arc| &arc.points[..]);
-        points.collect()
-    }
+    let arcs = |beside: &Beside| beside.arcs.iter().map(|arc| arc.jolt).reduce(Jolt::max);
     let methods = [
-        ("patent", vec![&figures.points[..]]),
+        ("patent", Some(figures.jolt)),
         ("conventional", arcs(&figures.beside)),
         ("conventional, without ramps", arcs(&figures.even)),
     ];
-    let methods = methods.into_iter().filter(|(_, paths)| !paths.is_empty());
-    methods
-        .map(|(method, paths)| row(job, method, &paths))
-        .collect()
+    let methods = methods.into_iter();
+    let methods = methods.filter_map(|(method, jolt)| Some(row(job, method, jolt?)));
+    methods.collect()
 }
 
-fn row(job: &Job, method: &'static str, paths: &[&[Point]]) -> Row {
-    let sample_s = job.prepared.timing.sample_s;
-    let most = |of: &dyn Fn(&[Point]) -> f64| paths.iter().map(|path| of(path)).fold(0.0, f64::max);
-    let change = most(&|path| largest_speed_change(path, sample_s));
-    let vibration = job.mechanism.map(|mechanism| {
-        let each = paths.iter().map(|path| mechanism.vibration(path, sample_s));
-        each.fold(Vibration::default(), |most, of| Vibration {
-            moving_mm: most.moving_mm.max(of.moving_mm),
-            rest_mm: most.rest_mm.max(of.rest_mm),
-        })
-    });
+fn row(job: &Job, method: &'static str, jolt: Jolt) -> Row {
+    let vibration = job.mechanism.map(|_| jolt.vibration);
     Row {
         method,
-        speed_change_mm_per_s: change,
-        acceleration_mm_per_s2: change / sample_s,
+        speed_change_mm_per_s: jolt.speed_change,
+        acceleration_mm_per_s2: jolt.speed_change / job.prepared.timing.sample_s,
         moving_um: vibration.map(|of| of.moving_mm * 1e3),
         rest_um: vibration.map(|of| of.rest_mm * 1e3),
+    }
+}
+
+/// What the commands of a path do to the machine.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Jolt {
+    /// Largest change of speed from one sample to the next in mm/s.
+    speed_change: f64,
+    /// Of the mechanism, if there is one.
+    vibration: Vibration,
+}
+
+impl Jolt {
+    /// The worst of two paths.
+    fn max(self, other: Self) -> Self {
+        let (own, others) = (self.vibration, other.vibration);
+        Jolt {
+            speed_change: self.speed_change.max(other.speed_change),
+            vibration: Vibration {
+                moving_mm: own.moving_mm.max(others.moving_mm),
+                rest_mm: own.rest_mm.max(others.rest_mm),
+            },
+        }
+    }
+}
+
+/// The same of commands that come.
+#[derive(Debug)]
+pub struct Jolting {
+    sample_s: f64,
+    change: SpeedChange,
+    vibrating: Option<Vibrating>,
+}
+
+impl Jolting {
+    /// One before the first command of a path of the job.
+    pub fn new(job: &Job) -> Self {
+        let sample_s = job.prepared.timing.sample_s;
+        let mechanism = job.mechanism.as_ref();
+        Jolting {
+            sample_s,
+            change: SpeedChange::default(),
+            vibrating: mechanism.map(|mechanism| Vibrating::new(mechanism, sample_s)),
+        }
+    }
+
+    /// Takes the next command in mm.
+    pub fn take(&mut self, point: Point) {
+        self.change.take(point);
+        if let Some(vibrating) = &mut self.vibrating {
+            vibrating.take(point);
+        }
+    }
+
+    /// Result of the whole path.
+    pub fn finish(self) -> Jolt {
+        Jolt {
+            speed_change: self.change.finish(self.sample_s),
+            vibration: self.vibrating.map(Vibrating::finish).unwrap_or_default(),
+        }
     }
 }
 

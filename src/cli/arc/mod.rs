@@ -25,11 +25,11 @@ use super::report::conclude;
 use super::run::{Arguments, in_waves, options};
 use super::traces::{Focus, Traces};
 use beside::Beside;
-use figures::Figures;
-use motion_rtl::hdl::{RunError, model, model_beside};
+use figures::{Figures, UnderWay};
+use motion_rtl::circuits::arc_generator::ArcGenerator;
+use motion_rtl::hdl::{Observer, RunError};
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
-use motion_rtl::jobs::arc_generator::job::{Played, arc_generator, play_arm};
-use motion_rtl::jobs::arc_generator::joints::Joints;
+use motion_rtl::jobs::arc_generator::job::{Command, Played, arc_generator, play_each};
 use motion_rtl::trace::Options;
 use picture::draw;
 use summary::Summary;
@@ -70,16 +70,12 @@ const OVERVIEW: [&str; 23] = [
 /// Runs a path.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let options = options(arguments, job.loaded.scenario.vcd_ticks())?;
-    let (played, mut files) = simulate(arguments, job, &options)?;
+    let ((played, mut figures), mut files) = simulate(arguments, job, &options)?;
     progress::stage("the arcs by the conventional method");
-    let beside = match job.loaded.scenario.beside() {
-        true => [
-            Beside::run(job, Method::new)?,
-            Beside::run(job, Method::even)?,
-        ],
-        false => Default::default(),
-    };
-    let figures = Figures::of(job, &played, beside);
+    if job.loaded.scenario.beside() {
+        figures.beside = Beside::run(job, Method::new, figures.blended.as_ref())?;
+        figures.even = Beside::run(job, Method::even, None)?;
+    }
     progress::stage("summary and picture");
     files.write("svg", &draw(job, &figures))?;
     let summary = Summary::new(job, &played, &figures)?;
@@ -91,15 +87,10 @@ fn simulate(
     arguments: &Arguments,
     job: &Job,
     options: &Options,
-) -> Result<(Played, Files), Failure> {
+) -> Result<((Played, Figures), Files), Failure> {
     let circuit = arc_generator(&job.settings);
     let (ticks, scenario) = (job.ticks_at_least(), (&job.loaded, job.stem.as_str()));
-    let joints = job.arm.as_ref().map_or(&[][..], |(_, arm)| &arm.counts);
-    let shown = match joints.is_empty() {
-        true => model(&circuit),
-        false => model_beside(&circuit, &Joints),
-    };
-    let shown = shown.map_err(RunError::from)?;
+    let shown = waves::shown(&circuit, job.arm.is_some())?;
     let traces = Traces::begin((&shown, &circuit), arguments, scenario, options, ticks)?;
     let in_waves = in_waves(arguments, options, ticks);
     let subject = job
@@ -118,26 +109,34 @@ fn simulate(
     traces.play(
         &shown,
         |observer| {
-            let (records, sample_ticks) = (&job.records, job.sample_ticks);
-            Ok(play_arm(&circuit, records, sample_ticks, joints, observer)?)
+            let mut under_way = UnderWay::new(job);
+            let each = &mut |command| under_way.take(command);
+            let played = play(job, &circuit, observer, each)?;
+            Ok((played, under_way.finish()))
         },
-        |played: &Played| (focus(job, played), played.ticks),
+        |(played, figures)| {
+            let change = figures.change.unwrap_or(0);
+            (window(job, change, &OVERVIEW), played.ticks)
+        },
     )
 }
 
-/// A window around the change from the first segment to the second.
-fn focus(job: &Job, played: &Played) -> Focus {
-    let first = job.prepared.segments.first();
-    let change = first.map_or(0, |first| first.samples as usize);
-    window(job, played, change, &OVERVIEW)
+/// Plays the path.
+fn play(
+    job: &Job,
+    circuit: &ArcGenerator,
+    observer: &mut dyn Observer<ArcGenerator>,
+    each: &mut dyn FnMut(Command),
+) -> Result<Played, RunError> {
+    let (records, sample_ticks) = (&job.records, job.sample_ticks);
+    play_each(circuit, records, sample_ticks, job.hand(), observer, each)
 }
 
-/// A window around a sample.
-fn window(job: &Job, played: &Played, sample: usize, overview: &'static [&'static str]) -> Focus {
+/// A window around a tick, of as many samples as are shown.
+fn window(job: &Job, action: u64, overview: &'static [&'static str]) -> Focus {
     let shown = SAMPLES_SHOWN * u64::from(job.sample_ticks);
-    let command = played.commands.get(sample);
     Focus {
-        action: command.map_or(0, |command| command.tick),
+        action,
         before: shown / 2,
         shown,
         overview,

@@ -2,12 +2,11 @@
 //! rotation begins and ends, the radius error within its bound, a blend's distance from its arc.
 
 use super::Job;
-use super::figures::{ArcFigures, Figures};
+use super::figures::{ArcFigures, Blended, Figures};
 use super::rows::bound;
 use super::view::path;
-use motion_rtl::jobs::arc_generator::measure::Measured;
+use motion_rtl::jobs::arc_generator::measure::SampleMeasured;
 use motion_rtl::jobs::arc_generator::prepared::Segment;
-use motion_rtl::path::vector::distance;
 use motion_rtl::picture::{Curve, Panel, Picture};
 
 pub const LINE: &str = "#0072b2";
@@ -28,19 +27,17 @@ pub type Points = Vec<(f64, f64)>;
 pub fn draw(job: &Job, figures: &Figures) -> String {
     let title = format!("{}: arc generator", job.stem);
     let mut picture = Picture::new(title).panel(path(job, figures));
-    let Some(measured) = &figures.measured else {
+    if figures.measured.is_none() {
         return picture.render();
-    };
+    }
     picture = picture
-        .panel(speed(job, figures, measured))
-        .panel(acceleration(job, figures, measured));
+        .panel(speed(job, figures))
+        .panel(acceleration(job, figures));
     if !figures.arcs.is_empty() {
         picture = picture.panel(radius_error(job, figures));
     }
-    // The blend that leaves its arc farthest.
-    let far = |arc: &&ArcFigures| arc.report.blend_distance;
-    let farthest = figures.arcs.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
-    if let Some(panel) = farthest.and_then(|arc| off_arc(job, figures, arc)) {
+    let blended = figures.blended.as_ref();
+    if let Some(panel) = blended.and_then(|blended| off_arc(job, figures, blended)) {
         picture = picture.panel(panel);
     }
     picture.render()
@@ -69,7 +66,26 @@ fn arcs<'a>(
     figures.arcs.iter().map(|arc| (&segments[arc.segment], arc))
 }
 
-fn speed(job: &Job, figures: &Figures, measured: &Measured) -> Panel {
+/// The samples that are shown.
+fn samples(figures: &Figures) -> impl Iterator<Item = &SampleMeasured> {
+    figures.shown.iter().map(|shown| &shown.measured)
+}
+
+/// The samples that are shown by segments, each from the last of the one before on.
+pub fn by_segment(figures: &Figures) -> Vec<(usize, Vec<&SampleMeasured>)> {
+    let samples: Vec<_> = samples(figures).collect();
+    let (mut all, mut last) = (Vec::new(), None);
+    for own in samples.chunk_by(|a, b| a.segment == b.segment) {
+        all.push((
+            own[0].segment,
+            last.into_iter().chain(own.iter().copied()).collect(),
+        ));
+        last = own.last().copied();
+    }
+    all
+}
+
+fn speed(job: &Job, figures: &Figures) -> Panel {
     let pieces = &job.prepared.pieces;
     let between = job.prepared.segments.iter().filter(|segment| {
         // Blends have no speed of their own.
@@ -79,10 +95,11 @@ fn speed(job: &Job, figures: &Figures, measured: &Measured) -> Panel {
         job,
         between.map(|segment| (segment, pieces[segment.piece].wanted)),
     );
-    let speeds = measured.speeds.iter().enumerate();
-    let speeds: Points = speeds
-        .map(|(sample, speed)| (seconds(job, sample as f64 + 0.5), *speed))
-        .collect();
+    let speeds = samples(figures).filter_map(|at| {
+        let middle = at.sample as f64 - 0.5;
+        Some((seconds(job, middle), at.speed?))
+    });
+    let speeds: Points = speeds.collect();
     let mut panel = Panel::new("speed", TIME, "mm/s")
         .curve(Curve::new("wanted", wanted).colour(EXPECTED).dashed())
         .curve(Curve::new("of the commands", speeds).colour(LINE));
@@ -98,11 +115,12 @@ fn speed(job: &Job, figures: &Figures, measured: &Measured) -> Panel {
     panel
 }
 
-fn acceleration(job: &Job, figures: &Figures, measured: &Measured) -> Panel {
-    let accelerations = measured.accelerations.iter().enumerate();
-    let curve: Points = accelerations
-        .map(|(sample, value)| (seconds(job, sample as f64 + 1.0), *value))
-        .collect();
+fn acceleration(job: &Job, figures: &Figures) -> Panel {
+    let curve = samples(figures).filter_map(|at| {
+        let before = at.sample as f64 - 1.0;
+        Some((seconds(job, before), at.acceleration?))
+    });
+    let curve: Points = curve.collect();
     let towards_centre =
         arcs(job, figures).map(|(segment, arc)| (segment, arc.report.acceleration_jump));
     let towards_centre = steps(job, towards_centre);
@@ -131,9 +149,19 @@ fn radius_error(job: &Job, figures: &Figures) -> Panel {
     // The whole time, though there are not arcs all the time.
     let last = job.prepared.samples() as f64 - 1.0;
     let mut errors = vec![(0.0, f64::NAN), (seconds(job, last), f64::NAN)];
-    for (segment, arc) in arcs(job, figures) {
-        let samples = (segment.first_sample..).zip(&arc.radius_errors);
-        errors.extend(samples.map(|(sample, error)| (seconds(job, sample as f64), error * 1e3)));
+    let arcs_shown = by_segment(figures)
+        .into_iter()
+        .filter_map(|(segment, samples)| {
+            let place = figures
+                .arcs
+                .binary_search_by_key(&segment, |arc| arc.segment);
+            Some((&figures.arcs[place.ok()?], samples))
+        });
+    for (arc, samples) in arcs_shown {
+        errors.extend(samples.into_iter().map(|at| {
+            let [error, _] = arc.report.circle.off(at.point);
+            (seconds(job, at.sample as f64), error * 1e3)
+        }));
         errors.push(GAP);
     }
     let limit = |sign: f64| {
@@ -148,33 +176,22 @@ fn radius_error(job: &Job, figures: &Figures) -> Panel {
 }
 
 /// How far the blend into an arc leaves it, along the way.
-fn off_arc(job: &Job, figures: &Figures, arc: &ArcFigures) -> Option<Panel> {
-    let segments = &job.prepared.segments;
-    let blend = segments.get(arc.segment.checked_sub(1)?)?;
-    let rotation = segments.get(arc.segment)?;
+fn off_arc(job: &Job, figures: &Figures, blended: &Blended) -> Option<Panel> {
+    let (arc, points) = (&blended.arc, &blended.points);
+    let blend = job.prepared.segments.get(arc.segment.checked_sub(1)?)?;
     let rest = blend.next_piece.is_none();
     let off = |point| match rest {
         true => arc.report.circle.off(point)[0] * 1e3,
         false => job.prepared.distance(blend, point) * 1e3,
     };
-    let (first, change) = (blend.first_sample as usize, blend.end() as usize);
-    // As much of the arc as of the blend.
-    let last = (change + blend.samples as usize).min(rotation.end() as usize);
-    let points = &figures.points[first..=last];
-    let ways = points.windows(2).scan(0.0, |way, pair| {
-        *way += distance(pair[0], pair[1]);
-        Some(*way)
-    });
-    let ways: Vec<f64> = std::iter::once(0.0).chain(ways).collect();
+    let change = blend.samples as usize;
+    let ways = blended.ways();
     let curve: Points = ways
         .iter()
         .zip(points)
         .map(|(way, point)| (*way, off(*point)))
         .collect();
-    let (blended, rotated) = (
-        curve[..=change - first].to_vec(),
-        curve[change - first..].to_vec(),
-    );
+    let (blended, rotated) = (curve[..=change].to_vec(), curve[change..].to_vec());
     let ([_, .., end], at) = (&blended[..], blended.last().copied()?) else {
         return None;
     };
@@ -190,18 +207,9 @@ fn off_arc(job: &Job, figures: &Figures, arc: &ArcFigures) -> Option<Panel> {
         let depth = -arc.report.blend_distance * 1e3;
         let curve = Curve::new("R(1 - cos(φ/2))", vec![(0.0, depth), (end.0, depth)]);
         panel = panel.curve(curve.colour(EXPECTED).dashed());
-        let most = ways.last().copied()?;
-        let conventional: Points = arc
-            .conventional
-            .windows(2)
-            .scan(0.0, |way, pair| {
-                *way += distance(pair[0].0, pair[1].0);
-                Some((*way, pair[1].1 * 1e3))
-            })
-            .take_while(|(way, _)| *way <= most)
-            .collect();
+        let conventional = &figures.beside.start;
         if !conventional.is_empty() {
-            let curve = Curve::new("conventional", conventional);
+            let curve = Curve::new("conventional", conventional.clone());
             panel = panel.curve(curve.colour("#cc79a7").width(0.9));
         }
     }

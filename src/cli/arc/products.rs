@@ -1,18 +1,18 @@
 //! Blends by products beside those by differences.
 
 use super::Job;
+use super::figures::Figures;
 use motion_rtl::circuits::arc_generator::{Blend, Widths};
-use motion_rtl::jobs::arc_generator::job::Played;
-use motion_rtl::jobs::arc_generator::record::records;
+use motion_rtl::input::COORDINATES;
 use motion_rtl::jobs::arc_generator::reference::commands;
 use serde::Serialize;
 use std::fmt::{self, Write};
 
 /// How far the commands are from those of difference engines.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct Row {
     /// Samples whose commands differ.
-    pub samples_differing: usize,
+    pub samples_differing: u64,
     /// By how many counts a coordinate differs at most.
     pub counts_most: u64,
 }
@@ -26,38 +26,52 @@ pub struct Products {
     pub differences: Option<Row>,
 }
 
-/// The commands that were played, beside those of difference engines, which are what the circuit
-/// makes; nothing where the run is one by differences itself.
-pub fn products(job: &Job, played: &Played) -> Option<Products> {
-    let (settings, widths) = (&job.settings, Widths::FULL);
-    if settings.blend == Blend::Differences {
-        return None;
+/// Commands as they come, beside those of difference engines, which are what the circuit makes.
+pub struct Differing<'j> {
+    others: Box<dyn Iterator<Item = [i64; COORDINATES]> + 'j>,
+    row: Row,
+}
+
+impl<'j> Differing<'j> {
+    /// Before the first command; nothing where there is nothing to compare with.
+    pub fn of(job: &'j Job) -> Option<Self> {
+        let records = job.differences.as_ref()?;
+        Some(Differing {
+            others: Box::new(commands(records, &Widths::FULL, job.settings.rounding)),
+            row: Row {
+                samples_differing: 0,
+                counts_most: 0,
+            },
+        })
     }
-    let difference_samples_most = Blend::Differences.most_samples(&widths);
-    let holds = job.prepared.timing.blend_samples <= difference_samples_most;
-    let (scale, rounding) = (settings.counts_per_mm, settings.rounding);
-    let made = holds.then(|| records(&job.prepared, scale, &widths, rounding).ok());
-    let differences = made.flatten().map(|records| {
-        let others = commands(&records, &widths, rounding);
-        let pairs = played.commands.iter().zip(others);
-        let off = pairs.map(|(own, other)| {
-            let coordinates = own.counts.into_iter().zip(other);
-            coordinates.map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
-        });
-        Row {
-            samples_differing: off.clone().filter(|&counts| counts > 0).count(),
-            counts_most: off.max().unwrap_or(0),
-        }
-    });
-    Some(Products {
-        difference_samples_most,
-        differences,
+
+    /// Takes the next command in counts.
+    pub fn take(&mut self, counts: [i64; COORDINATES]) {
+        let others = self.others.next().unwrap_or(counts);
+        let pairs = counts.into_iter().zip(others);
+        let off = pairs.map(|(own, other)| own.abs_diff(other)).max();
+        let off = off.unwrap_or(0);
+        self.row.samples_differing += u64::from(off > 0);
+        self.row.counts_most = self.row.counts_most.max(off);
+    }
+
+    /// How far all were from the others.
+    pub fn finish(self) -> Row {
+        self.row
+    }
+}
+
+/// Blends by products beside those by differences; nothing where the run is one by differences.
+pub fn products(job: &Job, figures: &Figures) -> Option<Products> {
+    (job.settings.blend == Blend::Products).then(|| Products {
+        difference_samples_most: Blend::Differences.most_samples(&Widths::FULL),
+        differences: figures.differing,
     })
 }
 
 impl Products {
     /// A line of the summary.
-    pub fn write(&self, text: &mut String, samples: usize) -> fmt::Result {
+    pub fn write(&self, text: &mut String, samples: u64) -> fmt::Result {
         match &self.differences {
             Some(row) => writeln!(
                 text,

@@ -120,11 +120,15 @@ pub fn arcs(job: &Job, figures: &Figures) -> Vec<ArcRow> {
     let Some(measured) = &figures.measured else {
         return Vec::new();
     };
+    let compared = job.loaded.scenario.beside();
     let pairs = figures.arcs.iter().zip(&measured.arcs);
     pairs
-        .filter_map(|(figures, arc)| {
-            let piece = job.prepared.pieces.get(figures.piece)?;
-            Some(arc_row(job, measured, piece, figures, arc))
+        .filter_map(|(arc_figures, arc)| {
+            let piece = job.prepared.pieces.get(arc_figures.piece)?;
+            let mut row = arc_row(job, measured, piece, arc_figures, arc);
+            row.conventional_radius_error_um =
+                compared.then(|| figures.beside.radius_error(arc_figures.segment) * 1e3);
+            Some(row)
         })
         .collect()
 }
@@ -145,10 +149,6 @@ fn arc_row(
     arc: &ArcMeasured,
 ) -> ArcRow {
     let report = &figures.report;
-    let errors = &figures.radius_errors;
-    let squares: f64 = errors.iter().map(|error| error * error).sum();
-    let conventional = figures.conventional.iter().map(|(_, error)| error.abs());
-    let compared = job.loaded.scenario.beside();
     ArcRow {
         piece: figures.piece,
         line: piece.line,
@@ -164,12 +164,12 @@ fn arc_row(
             measured: arc.speed,
             expected: piece.speed,
         },
-        speed_deviation_mm_per_s: figures.speed_deviation,
+        speed_deviation_mm_per_s: arc.speed_deviation,
         radius_error_um: arc.radius_errors.map(|mm| mm * 1e3),
-        radius_error_rms_um: (squares / errors.len().max(1) as f64).sqrt() * 1e3,
+        radius_error_rms_um: arc.radius_rms * 1e3,
         end_error_um: arc.end_error * 1e3,
         bound_um: bound(job, figures) * 1e3,
-        conventional_radius_error_um: compared.then(|| conventional.fold(0.0, f64::max) * 1e3),
+        conventional_radius_error_um: None,
         ends: ends(job, measured, figures),
     }
 }

@@ -36,7 +36,7 @@ pub struct Summary {
     /// Counts of a millimetre.
     pub counts_per_mm: f64,
     /// Samples, the start of the path with them.
-    pub samples: usize,
+    pub samples: u64,
     /// Whether every sample is where it should be, within its bound, and the last is the path's end.
     pub exact: bool,
     /// The last command, in counts.
@@ -78,11 +78,11 @@ impl Summary {
         let settings = &job.settings;
         let arcs = rows::arcs(job, figures);
         let complaints = complaints(job, played, figures, &arcs);
-        let last = played.commands.last();
+        let last = played.last;
         let end = job.prepared.pieces.last();
         let mm = |mm: f64| mm * 1e3;
         let widths = Widths::FULL;
-        let bits = |rows: usize, words: usize, width: usize| (rows * words * width) as u64;
+        let bits = |rows: u64, words: usize, width: usize| rows * (words * width) as u64;
         let input = match &job.drawing {
             Some(drawing) => &drawing.file,
             None => &job.stem,
@@ -100,7 +100,7 @@ impl Summary {
             sample_ticks_needed: least_sample_ticks(settings.blend),
             blend_samples: job.prepared.timing.blend_samples,
             counts_per_mm: settings.counts_per_mm,
-            samples: played.commands.len(),
+            samples: played.samples,
             end_position: last.map_or([0; 3], |command| command.counts),
             end_demanded: end.map_or([0.0; 3], |piece| {
                 piece.to.map(|mm| mm * settings.counts_per_mm)
@@ -109,13 +109,13 @@ impl Summary {
                 .measured
                 .as_ref()
                 .map_or(0.0, |m| mm(m.largest_error)),
-            error_bound_um: mm(bounds(job, figures).into_iter().fold(0.0, f64::max)),
+            error_bound_um: mm(bounds(job, &figures.arcs).into_iter().fold(0.0, f64::max)),
             arcs,
             lines: rows::lines(job),
             blends: rows::blends(job, figures),
-            record_bits: bits(job.records.len(), WORDS, widths.data),
-            point_bits: bits(played.commands.len(), 3, widths.position),
-            products: products::products(job, played),
+            record_bits: bits(job.records.len() as u64, WORDS, widths.data),
+            point_bits: bits(played.samples, 3, widths.position),
+            products: products::products(job, figures),
             operations: operations::rows(job),
             circuits: beside::rows(job, played, figures)?,
             speed_changes: mechanism::rows(job, figures),

@@ -1,13 +1,11 @@
 //! Whether a run did what its path says.
 
 use super::Job;
-use super::figures::Figures;
+use super::figures::{ArcFigures, Figures};
 use super::rows::{ArcRow, bound};
-use crate::cli::report::first;
 use motion_rtl::circuits::arc_generator::{Blend, Widths};
 use motion_rtl::jobs::arc_generator::bounds::product_error;
 use motion_rtl::jobs::arc_generator::job::Played;
-use motion_rtl::path::vector::distance;
 
 /// What is wrong with a run; empty where nothing is.
 pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]) -> Vec<String> {
@@ -18,7 +16,7 @@ pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]
     if played.starved {
         all.push("the path ended in motion".to_owned());
     }
-    let (sampled, wanted) = (played.commands.len() as u64, job.prepared.samples());
+    let (sampled, wanted) = (played.samples, job.prepared.samples());
     if sampled != wanted {
         all.push(format!("{sampled} samples where the path has {wanted}"));
         return all;
@@ -34,7 +32,7 @@ pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]
             ));
         }
     }
-    all.extend(astray(job, figures));
+    all.extend(figures.astray.clone());
     let both = [
         (&figures.beside, "by the conventional method"),
         (&figures.even, "by the conventional method without ramps"),
@@ -45,7 +43,7 @@ pub fn complaints(job: &Job, played: &Played, figures: &Figures, arcs: &[ArcRow]
 
 /// Whether the last command is the end of the path, rounded: twice, to guard units and to counts.
 fn end(job: &Job, played: &Played) -> Option<String> {
-    let (last, piece) = (played.commands.last()?, job.prepared.pieces.last()?);
+    let (last, piece) = (played.last?, job.prepared.pieces.last()?);
     let wanted = piece.to.map(|mm| mm * job.settings.counts_per_mm);
     let tolerance = 0.5 + (-(Widths::FULL.guard() as f64)).exp2();
     let mut pairs = last.counts.iter().zip(wanted);
@@ -55,27 +53,10 @@ fn end(job: &Job, played: &Played) -> Option<String> {
     (!exact).then(|| format!("ends at {counts:?} counts, the path at {wanted:.3?}"))
 }
 
-/// The first command that is farther from its exact point than arithmetic and rounding allow.
-fn astray(job: &Job, figures: &Figures) -> Option<String> {
-    let bounds = bounds(job, figures);
-    let samples = (0..).zip(&figures.points);
-    let astray = samples.filter_map(|(sample, point)| {
-        let off = distance(job.prepared.point(sample)?, *point);
-        let most = bounds.get(job.prepared.place(sample)?.segment)?;
-        // Written so that NaN fails.
-        let within = off <= *most;
-        (!within).then(|| {
-            let (off, most) = (off * 1e3, most * 1e3);
-            format!("sample {sample} is {off:.3} um off its exact point, its bound is {most:.3} um")
-        })
-    });
-    first(astray)
-}
-
 /// How far the samples of each segment may be off, in mm.
-pub fn bounds(job: &Job, figures: &Figures) -> Vec<f64> {
+pub fn bounds(job: &Job, arcs: &[ArcFigures]) -> Vec<f64> {
     let mut bounds = vec![straight(job); job.prepared.segments.len()];
-    for arc in &figures.arcs {
+    for arc in arcs {
         bounds[arc.segment] = bound(job, arc);
     }
     bounds
@@ -97,6 +78,7 @@ fn straight(job: &Job) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::arc::figures::UnderWay;
     use crate::cli::arc::rows::arcs;
     use crate::cli::source::{Input, Source};
     use motion_rtl::jobs::arc_generator::job::Command;
@@ -125,8 +107,16 @@ mod tests {
     }
 
     fn judged(job: &Job, played: &Played) -> Vec<String> {
-        let figures = Figures::of(job, played, Default::default());
-        complaints(job, played, &figures, &arcs(job, &figures))
+        let mut under_way = UnderWay::new(job);
+        let commands = &played.commands;
+        commands.iter().for_each(|command| under_way.take(*command));
+        let played = Played {
+            samples: commands.len() as u64,
+            last: commands.last().copied(),
+            ..played.clone()
+        };
+        let figures = under_way.finish();
+        complaints(job, &played, &figures, &arcs(job, &figures))
     }
 
     #[test]

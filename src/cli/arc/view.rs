@@ -2,7 +2,7 @@
 
 use super::Job;
 use super::figures::Figures;
-use super::picture::{ARC, ARCS_MARKED, BLEND, EXPECTED, GAP, LINE, Points};
+use super::picture::{ARC, ARCS_MARKED, BLEND, EXPECTED, GAP, LINE, Points, by_segment};
 use motion_rtl::input::Point;
 use motion_rtl::jobs::arc_generator::prepared::Kind;
 use motion_rtl::path::vector::distance;
@@ -12,21 +12,11 @@ const FLOOR: &str = "#dcdcdc";
 
 /// The path of the commands.
 pub fn path(job: &Job, figures: &Figures) -> Panel {
-    let [_, _, [low, high]] = extremes(&figures.points);
+    let [_, _, [low, high]] = figures.extremes;
     match high - low < 1.0 / job.settings.counts_per_mm {
         true => plan(job, figures),
         false => isometric(job, figures),
     }
-}
-
-/// Least and largest of each coordinate.
-fn extremes(points: &[Point]) -> [[f64; 2]; 3] {
-    std::array::from_fn(|k| {
-        points.iter().fold(
-            [f64::INFINITY, f64::NEG_INFINITY],
-            |[least, most], point| [least.min(point[k]), most.max(point[k])],
-        )
-    })
 }
 
 fn plan(job: &Job, figures: &Figures) -> Panel {
@@ -35,13 +25,13 @@ fn plan(job: &Job, figures: &Figures) -> Panel {
 }
 
 /// x to the lower right, y to the upper right, z up, all at one scale.
-fn projected([x, y, z]: Point) -> (f64, f64) {
+pub fn projected([x, y, z]: Point) -> (f64, f64) {
     let (sin, cos) = (0.5, 0.75f64.sqrt());
     ((x + y) * cos, z + (y - x) * sin)
 }
 
 fn isometric(job: &Job, figures: &Figures) -> Panel {
-    let [[west, east], [south, north], [low, high]] = extremes(&figures.points);
+    let [[west, east], [south, north], [low, high]] = figures.extremes;
     let floor = [
         [west, south, low],
         [east, south, low],
@@ -54,10 +44,8 @@ fn isometric(job: &Job, figures: &Figures) -> Panel {
         .equal_scales()
         .without_scales()
         .curve(Curve::new("box", floor.map(projected).to_vec()).colour(FLOOR));
-    let shadow = figures
-        .points
-        .iter()
-        .map(|[x, y, _]| projected([*x, *y, low]));
+    let points = figures.shown.iter().map(|shown| shown.measured.point);
+    let shadow = points.map(|[x, y, _]| projected([x, y, low]));
     panel = panel.curve(
         Curve::new("from above", shadow.collect())
             .colour(FLOOR)
@@ -110,9 +98,8 @@ fn isometric(job: &Job, figures: &Figures) -> Panel {
 
 /// First and last point.
 fn ends(figures: &Figures) -> impl Iterator<Item = (Point, &'static str)> {
-    let ends = [figures.points.first(), figures.points.last()];
-    let named = ends.into_iter().zip(["start", "end"]);
-    named.filter_map(|(at, name)| at.map(|at| (*at, name)))
+    let ends = figures.ends.into_iter().flatten();
+    ends.zip(["start", "end"])
 }
 
 /// Rapids, lines, arcs and blends, each in its colour.
@@ -128,16 +115,15 @@ fn curves(
         step.is_some_and(|step| step.rapid)
     };
     let mut parts = [const { Points::new() }; 4];
-    for segment in &job.prepared.segments {
-        let samples = segment.first_sample as usize..=segment.end() as usize;
+    for (segment, samples) in by_segment(figures) {
+        let segment = &job.prepared.segments[segment];
         let part = match (rapid(segment.piece), segment.kind()) {
             (true, _) => 0,
             (false, Kind::Line) => 1,
             (false, Kind::Arc) => 2,
             (false, Kind::Blend) => 3,
         };
-        let points = figures.points.get(samples).unwrap_or_default();
-        parts[part].extend(points.iter().map(|point| view(*point)));
+        parts[part].extend(samples.into_iter().map(|at| view(at.point)));
         parts[part].push(GAP);
     }
     let [rapids, lines, arcs, blends] = parts;

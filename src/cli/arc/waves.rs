@@ -1,18 +1,17 @@
 //! The systems of a job with their waves.
 
-use super::beside::{Run, runs};
-use super::{Job, focus, window};
+use super::beside::{Planned, Run, runs, samples};
+use super::{Job, OVERVIEW, window};
 use crate::cli::Failure;
 use crate::cli::traces::Focus;
 use crate::cli::waves_of::{Ending, System};
 use motion_rtl::circuits::arc_generator::{ArcGenerator, Conventional};
 use motion_rtl::hdl::{Circuit, Model, Observer, RunError, model, model_beside};
-use motion_rtl::input::{COORDINATES, Point};
-use motion_rtl::jobs::arc_generator::beside::play;
+use motion_rtl::input::COORDINATES;
+use motion_rtl::jobs::arc_generator::beside::play_each;
 use motion_rtl::jobs::arc_generator::conventional::Conventional as Method;
-use motion_rtl::jobs::arc_generator::job::{Played, arc_generator, play_arm};
-use motion_rtl::jobs::arc_generator::joints::{Joints, follow};
-use motion_rtl::path::arm::JOINTS;
+use motion_rtl::jobs::arc_generator::job::{Command, Played, arc_generator};
+use motion_rtl::jobs::arc_generator::joints::{Following, Hand, Joints};
 use motion_rtl::path::record::Record;
 
 /// Rows on top of the save file of the conventional generator.
@@ -48,22 +47,22 @@ pub fn systems(job: &Job) -> Vec<System<'_>> {
         if let Ok((arcs, records)) = runs(job, run)
             && !arcs.is_empty()
         {
-            systems.push(conventional(job, name, records));
+            systems.push(conventional(job, name, &arcs, records));
         }
     }
     systems
 }
 
-/// A circuit with the arm whose joints are given, if there are some.
-fn shown<C: Circuit>(circuit: &C, joints: &[[i64; JOINTS]]) -> Result<Model, RunError> {
-    Ok(match joints.is_empty() {
-        true => model(circuit),
-        false => model_beside(circuit, &Joints),
+/// A circuit, with an arm beside it if there is one.
+pub fn shown<C: Circuit>(circuit: &C, arm: bool) -> Result<Model, RunError> {
+    Ok(match arm {
+        false => model(circuit),
+        true => model_beside(circuit, &Joints),
     }?)
 }
 
 fn ending(played: &Played, focus: Focus) -> Ending {
-    let last = played.commands.last().map(|command| command.counts);
+    let last = played.last.map(|command| command.counts);
     Ending {
         ticks: played.ticks,
         focus,
@@ -72,53 +71,88 @@ fn ending(played: &Played, focus: Focus) -> Ending {
     }
 }
 
+/// The tick of one sample of those that come.
+struct TickOf {
+    sample: u64,
+    next: u64,
+    tick: u64,
+}
+
+impl TickOf {
+    fn new(sample: u64) -> Self {
+        TickOf {
+            sample,
+            next: 0,
+            tick: 0,
+        }
+    }
+
+    fn take(&mut self, command: Command) {
+        if self.next == self.sample {
+            self.tick = command.tick;
+        }
+        self.next += 1;
+    }
+}
+
 /// The whole path on the arc generator.
 fn own<'a>(job: &'a Job, name: &str) -> System<'a> {
     System::new(name, job.ticks_at_least(), move || {
         let circuit = arc_generator(&job.settings);
-        let joints = job.arm.as_ref().map_or(&[][..], |(_, arm)| &arm.counts);
-        let model = shown(&circuit, joints)?;
+        let model = shown(&circuit, job.arm.is_some())?;
         let run = move |circuit: &ArcGenerator, observer: &mut dyn Observer<ArcGenerator>| {
-            let played = play_arm(circuit, &job.records, job.sample_ticks, joints, observer)?;
-            Ok(ending(&played, focus(job, &played)))
-        };
-        Ok((circuit, model, run))
-    })
-}
-
-/// The arcs of the path on the conventional generator, each from rest to rest.
-fn conventional<'a>(job: &'a Job, name: &str, records: Vec<Record>) -> System<'a> {
-    System::new(name, job.ticks_at_least(), move || {
-        let circuit = Conventional::new(job.settings.rounding);
-        let joints = joints(job, &circuit, &records)?;
-        let model = shown(&circuit, &joints)?;
-        let run = move |circuit: &Conventional, observer: &mut dyn Observer<Conventional>| {
-            let played = play(circuit, &records, job.sample_ticks, &joints, observer)?;
-            let middle = played.commands.len() / 2;
-            let focus = window(job, &played, middle, &CONVENTIONAL_OVERVIEW);
+            let mut change = TickOf::new(job.change());
+            let each = &mut |command| change.take(command);
+            let played = super::play(job, circuit, observer, each)?;
+            let focus = window(job, change.tick, &OVERVIEW);
             Ok(ending(&played, focus))
         };
         Ok((circuit, model, run))
     })
 }
 
-/// The joints of the arm, if there is one, at the commands of the conventional generator.
-fn joints(
-    job: &Job,
-    circuit: &Conventional,
-    records: &[Record],
-) -> Result<Vec<[i64; JOINTS]>, Failure> {
+/// Arcs of the path on the conventional generator, each from rest to rest.
+fn conventional<'a>(
+    job: &'a Job,
+    name: &str,
+    arcs: &[Planned],
+    records: Vec<Record>,
+) -> System<'a> {
+    let middle = samples(arcs) / 2;
+    System::new(name, job.ticks_at_least(), move || {
+        let circuit = Conventional::new(job.settings.rounding);
+        let hand = hand(job, &circuit, &records)?;
+        let model = shown(&circuit, hand.is_some())?;
+        let run = move |circuit: &Conventional, observer: &mut dyn Observer<Conventional>| {
+            let mut middle = TickOf::new(middle);
+            let each = &mut |command| middle.take(command);
+            let played = play_each(circuit, &records, job.sample_ticks, hand, observer, each)?;
+            let focus = window(job, middle.tick, &CONVENTIONAL_OVERVIEW);
+            Ok(ending(&played, focus))
+        };
+        Ok((circuit, model, run))
+    })
+}
+
+/// The arm, if there is one, at the start of what the conventional generator commands; refused if it
+/// cannot follow.
+fn hand(job: &Job, circuit: &Conventional, records: &[Record]) -> Result<Option<Hand>, Failure> {
     let Some((arm, _)) = &job.arm else {
-        return Ok(Vec::new());
+        return Ok(None);
     };
-    let played = play(circuit, records, job.sample_ticks, &[], &mut ())?;
-    let commands = played.commands.iter();
-    let points: Vec<Point> = commands.map(|command| job.mm(command.counts)).collect();
-    let followed = follow(arm, &points, job.prepared.timing.sample_s);
-    let followed = followed.map_err(|(sample, pose)| {
-        Failure::Check(format!(
+    let mut following = Following::new(arm, job.prepared.timing.sample_s);
+    let mut refused = None;
+    let each = &mut |command: Command| {
+        if refused.is_none() {
+            refused = following.take(job.mm(command.counts)).err();
+        }
+    };
+    play_each(circuit, records, job.sample_ticks, None, &mut (), each)?;
+    if let Some((sample, pose)) = refused {
+        return Err(Failure::Check(format!(
             "command {sample} of the conventional generator: {pose}"
-        ))
-    })?;
-    Ok(followed.counts)
+        )));
+    }
+    let start = following.finish().start;
+    Ok(Some(Hand::new(arm, start, job.settings.counts_per_mm)))
 }

@@ -1,14 +1,14 @@
 //! The arcs of a path on the conventional circuit, each from rest to rest, beside the arc generator.
 
 use super::conventional::Conventional as Method;
-use super::job::{Bench, Played, See};
+use super::job::{Bench, Command, Played, See};
+use super::joints::Hand;
 use super::record::{blend_differences, put_differences, quantise, signed};
 use crate::circuits::arc_generator::axis_terms::AXIS_WORD;
 use crate::circuits::arc_generator::vector_row::VECTOR_WORD;
 use crate::circuits::arc_generator::{Conventional, Widths};
 use crate::circuits::blocks::record_memory::ARC;
 use crate::hdl::{Observer, RunError};
-use crate::path::arm::JOINTS;
 use crate::path::record::{Record, WORDS, coordinate_word};
 use crate::path::vector::scale;
 use std::f64::consts::TAU;
@@ -91,8 +91,7 @@ fn record(
 }
 
 /// Plays the records of arcs on `circuit`, a sample every `sample_ticks` ticks or as soon as there is
-/// one, seen by `observer` too, with the joints of an arm beside it as
-/// [`play_arm`](super::job::play_arm) has them.
+/// one, seen by `observer` too.
 ///
 /// # Errors
 /// `observer` objects.
@@ -100,11 +99,29 @@ pub fn play(
     circuit: &Conventional,
     records: &[Record],
     sample_ticks: u32,
-    joints: &[[i64; JOINTS]],
     observer: &mut dyn Observer<Conventional>,
 ) -> Result<Played, RunError> {
+    let mut commands = Vec::new();
+    let each = &mut |command| commands.push(command);
+    let played = play_each(circuit, records, sample_ticks, None, observer, each)?;
+    Ok(Played { commands, ..played })
+}
+
+/// Does what [`play`] does, but tells every command to `each` as it comes and keeps none, with the
+/// joints of `hand` beside it as [`job::play_each`](super::job::play_each) has them.
+///
+/// # Errors
+/// `observer` objects.
+pub fn play_each(
+    circuit: &Conventional,
+    records: &[Record],
+    sample_ticks: u32,
+    hand: Option<Hand>,
+    observer: &mut dyn Observer<Conventional>,
+    each: &mut dyn FnMut(Command),
+) -> Result<Played, RunError> {
     let bench = Bench::new(records, sample_ticks);
-    bench.play(circuit, joints, observer, |watch| {
+    bench.play(circuit, hand, observer, each, |watch| {
         See::of(watch, &watch.p.sequencer.q, &watch.w)
     })
 }

@@ -1,13 +1,12 @@
 //! A path on the arc generator: the control computer that feeds it, and the commands that come out.
 
-use super::joints::{JointSignals, Joints};
+use super::joints::{Hand, JointSignals, Joints};
 use super::settings::Settings;
 use crate::circuits::arc_generator::{ArcGenerator, generator};
 use crate::circuits::blocks::record_memory::ARC;
 use crate::circuits::blocks::record_sequencer::{self, FETCH, READY};
 use crate::hdl::{At, Circuit, Observer, Place, RunError, Sample, Simulator, Value, Watcher};
 use crate::input::COORDINATES;
-use crate::path::arm::JOINTS;
 use crate::path::record::Record;
 use crate::path::record_writer::RecordWriter;
 
@@ -34,8 +33,13 @@ pub struct Command {
 pub struct Played {
     /// The ticks of the run.
     pub ticks: u64,
-    /// A command for every sample, the start of the path first.
+    /// A command for every sample, the start of the path first; none where they are told to a
+    /// caller as they come.
     pub commands: Vec<Command>,
+    /// Commands that came.
+    pub samples: u64,
+    /// The last of them.
+    pub last: Option<Command>,
     /// A sampling time began before its point was ready.
     pub late: bool,
     /// The path ended in motion.
@@ -115,17 +119,20 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Takes down a tick.
-    fn take<C: Circuit>(&mut self, now: &Sample<'_, C>, see: &See) {
+    /// Takes down a tick; returns its command.
+    fn take<C: Circuit>(&mut self, now: &Sample<'_, C>, see: &See) -> Option<Command> {
         let [started, pushed] = self.given;
         let (state, sampled) = (now.get(see.state), now.get(see.sampled));
         self.records.free = now.get(see.ready) && !pushed;
         self.quiet &= !sampled;
         let played = &mut self.played;
-        if sampled {
-            let counts = see.command.map(|word| now.get(word));
-            let tick = now.tick;
-            played.commands.push(Command { tick, counts });
+        let command = sampled.then(|| Command {
+            tick: now.tick,
+            counts: see.command.map(|word| now.get(word)),
+        });
+        if let Some(Command { tick, .. }) = command {
+            played.samples += 1;
+            played.last = command;
             self.making = Some((tick - 1, false));
         }
         if let Some((since, fetched)) = &mut self.making {
@@ -144,6 +151,7 @@ impl<'a> Bench<'a> {
         played.late = now.get(see.late);
         played.starved = now.get(see.starved);
         self.over = self.started && !started && !now.get(see.busy);
+        command
     }
 }
 
@@ -189,23 +197,28 @@ pub fn play(
     sample_ticks: u32,
     observer: &mut dyn Observer<ArcGenerator>,
 ) -> Result<Played, RunError> {
-    play_arm(circuit, records, sample_ticks, &[], observer)
+    let mut commands = Vec::new();
+    let each = &mut |command| commands.push(command);
+    let played = play_each(circuit, records, sample_ticks, None, observer, each)?;
+    Ok(Played { commands, ..played })
 }
 
-/// The same with the joints of an arm beside the circuit, in counts: those of each command, from the
-/// tick after it on, with which the run ends. Without any nothing stands beside it.
+/// Does what [`play`] does, but tells every command to `each` as it comes and keeps none. The joints
+/// of `hand`, if there is one, stand beside the circuit: those of each command from the tick after
+/// it on, with which the run ends.
 ///
 /// # Errors
-/// What `observer` objects to.
-pub fn play_arm(
+/// Errors of [`play`].
+pub fn play_each(
     circuit: &ArcGenerator,
     records: &[Record],
     sample_ticks: u32,
-    joints: &[[i64; JOINTS]],
+    hand: Option<Hand>,
     observer: &mut dyn Observer<ArcGenerator>,
+    each: &mut dyn FnMut(Command),
 ) -> Result<Played, RunError> {
     let bench = Bench::new(records, sample_ticks);
-    bench.play(circuit, joints, observer, |watch| {
+    bench.play(circuit, hand, observer, each, |watch| {
         See::of(watch, &watch.p.sequencer.q, &watch.w)
     })
 }
@@ -215,29 +228,33 @@ impl Bench<'_> {
     pub(super) fn play<C: Circuit<In<Value> = generator::In<Value>>>(
         mut self,
         circuit: &C,
-        joints: &[[i64; JOINTS]],
+        mut hand: Option<Hand>,
         observer: &mut dyn Observer<C>,
+        each: &mut dyn FnMut(Command),
         look: impl FnOnce(&Watcher<'_, C>) -> See,
     ) -> Result<Played, RunError> {
         let all = observer.needs_all();
-        let (mut simulator, see) = match joints.is_empty() {
-            true => Simulator::watching(circuit, all, look)?,
-            false => Simulator::watching_beside(circuit, &Joints, all, look)?,
+        let (mut simulator, see) = match hand {
+            None => Simulator::watching(circuit, all, look)?,
+            Some(_) => Simulator::watching_beside(circuit, &Joints, all, look)?,
         };
-        // Joints that have been shown, with those from before the first command.
-        let mut shown = 0;
-        let mut stopped = false;
-        while !stopped && (!self.over || shown < joints.len().min(self.played.commands.len())) {
+        // Joints that no tick has shown.
+        let mut joints = hand.as_ref().map(|hand| hand.joints);
+        let mut stopped = self.over;
+        while !stopped {
             let i = self.ports();
-            let made = self.played.commands.len().max(1);
-            if shown != made
-                && let Some(joints) = joints.get(made - 1)
-            {
-                simulator.show::<Joints>(&JointSignals::of(*joints))?;
-                shown = made;
+            if let Some(joints) = joints.take() {
+                simulator.show::<Joints>(&JointSignals::of(joints))?;
             }
-            let ((), flow) = simulator.look(&i, &mut *observer, |now| self.take(now, &see))?;
-            stopped = flow.is_break();
+            let (command, flow) = simulator.look(&i, &mut *observer, |now| self.take(now, &see))?;
+            if let Some(command) = command {
+                each(command);
+                if let Some(hand) = &mut hand {
+                    hand.follow(command.counts);
+                    joints = Some(hand.joints);
+                }
+            }
+            stopped = flow.is_break() || self.over && joints.is_none();
             let most = match self.stands() && !stopped {
                 true => simulator.unseen(&observer),
                 false => 1,

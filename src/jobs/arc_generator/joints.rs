@@ -2,10 +2,9 @@
 //! generator on the control computer.
 
 use crate::hdl::{Beside, Value, View, signals};
-use crate::input::Point;
+use crate::input::{COORDINATES, Point};
 use crate::path::arm::{Arm, JOINTS, Pose};
 use crate::path::vector::distance;
-use std::f64::consts::TAU;
 
 signals! { for Joints as _c;
     /// The joints of an arm as they are commanded.
@@ -54,51 +53,162 @@ pub struct JointReport {
 /// What an arm's joints do along a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Followed {
-    /// Of every command, in counts.
-    pub counts: Vec<[i64; JOINTS]>,
+    /// Joints in counts at the first command.
+    pub start: [i64; JOINTS],
     /// Of every joint.
     pub joints: [JointReport; JOINTS],
     /// How far whole counts put the hand off its command, at most, in mm.
     pub rounding_mm: f64,
 }
 
-/// The joints of `arm` along the commands of a path, `sample_s` apart.
-///
-/// # Errors
-/// The number of the first command in whose pose the arm cannot be.
-pub fn follow(arm: &Arm, commands: &[Point], sample_s: f64) -> Result<Followed, (usize, Pose)> {
-    let angles = arm.follow(commands)?;
-    let turn = f64::from(arm.counts_per_rev) / TAU;
-    let counts: Vec<_> = angles
-        .iter()
-        .map(|joints| joints.map(|joint| (joint * turn).round() as i64))
-        .collect();
-    let off = counts.iter().zip(commands).map(|(counts, command)| {
-        distance(arm.hand(counts.map(|count| count as f64 / turn)), *command)
-    });
-    Ok(Followed {
-        rounding_mm: off.fold(0.0, f64::max),
-        joints: std::array::from_fn(|joint| {
-            let angles: Vec<f64> = angles.iter().map(|all| all[joint].to_degrees()).collect();
-            report(&angles, sample_s)
-        }),
-        counts,
-    })
+/// The joints of an arm whose hand follows commands, one by one.
+#[derive(Debug, Clone)]
+pub struct Follower {
+    arm: Arm,
+    angles: Option<[f64; JOINTS]>,
 }
 
-fn report(angles: &[f64], sample_s: f64) -> JointReport {
-    let largest = |values: &[f64]| values.iter().fold(0.0, |most, value| value.abs().max(most));
-    let slopes = |values: &[f64]| -> Vec<f64> {
-        let pairs = values.windows(2);
-        pairs.map(|pair| (pair[1] - pair[0]) / sample_s).collect()
-    };
-    let speeds = slopes(angles);
-    JointReport {
-        range_deg: [
-            angles.iter().copied().fold(f64::INFINITY, f64::min),
-            angles.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        ],
-        speed_deg_per_s: largest(&speeds),
-        acceleration_deg_per_s2: largest(&slopes(&speeds)),
+impl Follower {
+    /// One before its first command.
+    #[must_use]
+    pub fn new(arm: &Arm) -> Self {
+        Follower {
+            arm: *arm,
+            angles: None,
+        }
+    }
+
+    /// Moves the hand to a command in mm; returns the joints in counts.
+    ///
+    /// # Errors
+    /// The arm cannot be in the pose; it stays where it was.
+    pub fn follow(&mut self, command: Point) -> Result<[i64; JOINTS], Pose> {
+        let angles = self.arm.next(self.angles, command)?;
+        self.angles = Some(angles);
+        let turn = self.arm.counts_per_radian();
+        Ok(angles.map(|joint| (joint * turn).round() as i64))
+    }
+}
+
+/// An arm whose hand a circuit commands, beside it in the waves.
+#[derive(Debug, Clone)]
+pub struct Hand {
+    follower: Follower,
+    counts_per_mm: f64,
+    /// Joints in counts.
+    pub(super) joints: [i64; JOINTS],
+}
+
+impl Hand {
+    /// An arm with its joints in counts before the first command, and the counts of a millimetre in
+    /// commands.
+    #[must_use]
+    pub fn new(arm: &Arm, start: [i64; JOINTS], counts_per_mm: f64) -> Self {
+        Hand {
+            follower: Follower::new(arm),
+            counts_per_mm,
+            joints: start,
+        }
+    }
+
+    /// Follows a command in counts; where the arm cannot be in the pose, it stays where it was.
+    pub(super) fn follow(&mut self, command: [i64; COORDINATES]) {
+        let point = command.map(|counts| counts as f64 / self.counts_per_mm);
+        self.joints = self.follower.follow(point).unwrap_or(self.joints);
+    }
+}
+
+/// What an arm's joints do, while commands come.
+#[derive(Debug)]
+pub struct Following {
+    follower: Follower,
+    sample_s: f64,
+    commands: usize,
+    start: [i64; JOINTS],
+    motions: [Motion; JOINTS],
+    rounding_mm: f64,
+}
+
+impl Following {
+    /// An arm before its first command; commands come `sample_s` apart.
+    #[must_use]
+    pub fn new(arm: &Arm, sample_s: f64) -> Self {
+        Following {
+            follower: Follower::new(arm),
+            sample_s,
+            commands: 0,
+            start: [0; JOINTS],
+            motions: [const { Motion::new() }; JOINTS],
+            rounding_mm: 0.0,
+        }
+    }
+
+    /// Takes the next command in mm.
+    ///
+    /// # Errors
+    /// The number of the command, if the arm cannot be in its pose.
+    pub fn take(&mut self, command: Point) -> Result<(), (usize, Pose)> {
+        let number = self.commands;
+        let counts = self.follower.follow(command);
+        let counts = counts.map_err(|pose| (number, pose))?;
+        if number == 0 {
+            self.start = counts;
+        }
+        self.commands += 1;
+        let Follower { arm, angles } = &self.follower;
+        for (motion, angle) in self.motions.iter_mut().zip(angles.iter().flatten()) {
+            motion.take(angle.to_degrees(), self.sample_s);
+        }
+        let turn = arm.counts_per_radian();
+        let off = distance(arm.hand(counts.map(|count| count as f64 / turn)), command);
+        self.rounding_mm = self.rounding_mm.max(off);
+        Ok(())
+    }
+
+    /// Result of all commands.
+    #[must_use]
+    pub fn finish(self) -> Followed {
+        Followed {
+            start: self.start,
+            joints: self.motions.map(|motion| motion.report),
+            rounding_mm: self.rounding_mm,
+        }
+    }
+}
+
+/// A joint while commands come.
+#[derive(Debug)]
+struct Motion {
+    report: JointReport,
+    angle: Option<f64>,
+    speed: Option<f64>,
+}
+
+impl Motion {
+    const fn new() -> Self {
+        Motion {
+            report: JointReport {
+                range_deg: [f64::INFINITY, f64::NEG_INFINITY],
+                speed_deg_per_s: 0.0,
+                acceleration_deg_per_s2: 0.0,
+            },
+            angle: None,
+            speed: None,
+        }
+    }
+
+    fn take(&mut self, angle: f64, sample_s: f64) {
+        let report = &mut self.report;
+        let [least, most] = report.range_deg;
+        report.range_deg = [least.min(angle), most.max(angle)];
+        let Some(last) = self.angle.replace(angle) else {
+            return;
+        };
+        let speed = (angle - last) / sample_s;
+        report.speed_deg_per_s = report.speed_deg_per_s.max(speed.abs());
+        if let Some(last) = self.speed.replace(speed) {
+            let acceleration = ((speed - last) / sample_s).abs();
+            report.acceleration_deg_per_s2 = report.acceleration_deg_per_s2.max(acceleration);
+        }
     }
 }

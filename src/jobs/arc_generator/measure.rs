@@ -1,19 +1,15 @@
 //! What came out: measured from position commands, sample by sample.
 
-use super::prepared::{Kind, Prepared, Shape};
+use super::course::Course;
+use super::leaving::Leaving;
+use super::prepared::Prepared;
 use crate::input::{COORDINATES, Point};
-use crate::path::vector::{add, angle_between, distance, norm, scale, sub};
-
-/// Degree of the polynomial that is laid through the samples at a joint: that of a blend.
-const DEGREE: usize = 4;
+use crate::path::vector::{distance, norm, sub};
+use std::collections::VecDeque;
 
 /// Measured from the samples of a run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
-    /// Speed in mm/s from each sample to the next.
-    pub speeds: Vec<f64>,
-    /// Acceleration in mm/s² at each sample but the first and the last.
-    pub accelerations: Vec<f64>,
     /// Largest distance of a sample from its exact point, in mm.
     pub largest_error: f64,
     /// The arcs, in order.
@@ -22,6 +18,23 @@ pub struct Measured {
     pub blends: Vec<BlendMeasured>,
     /// The joints of segments, in order.
     pub joints: Vec<Joint>,
+}
+
+/// A sample as it comes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SampleMeasured {
+    /// Its number.
+    pub sample: u64,
+    /// Its segment. A sample between two belongs to the former.
+    pub segment: usize,
+    /// Its point, in mm.
+    pub point: Point,
+    /// Its distance from its exact point, in mm.
+    pub error: f64,
+    /// Speed in mm/s from the sample before to it.
+    pub speed: Option<f64>,
+    /// Acceleration in mm/s² at the sample before.
+    pub acceleration: Option<f64>,
 }
 
 /// Measured on the samples of a rotation.
@@ -37,6 +50,10 @@ pub struct ArcMeasured {
     pub end_error: f64,
     /// Mean speed along the arc, in mm/s.
     pub speed: f64,
+    /// Root of the mean square of the radius error, in mm.
+    pub radius_rms: f64,
+    /// Largest deviation from the piece's speed from sample to sample, in mm/s.
+    pub speed_deviation: f64,
 }
 
 /// Measured on the samples of a blend.
@@ -79,167 +96,113 @@ impl Measured {
         counts_per_mm: f64,
         commands: &[[i64; COORDINATES]],
     ) -> Option<Self> {
-        if commands.len() as u64 != prepared.samples() {
-            return None;
+        let mut measuring = Measuring::new(prepared, counts_per_mm);
+        for counts in commands {
+            measuring.take(*counts);
         }
-        let points: Vec<Point> = commands
-            .iter()
-            .map(|command| command.map(|counts| counts as f64 / counts_per_mm))
-            .collect();
+        measuring.finish()
+    }
+}
+
+/// Measures position commands while they come.
+#[derive(Debug)]
+pub struct Measuring<'a> {
+    prepared: &'a Prepared,
+    counts_per_mm: f64,
+    measured: Measured,
+    samples: u64,
+    /// The segment under way.
+    segment: usize,
+    course: Course<'a>,
+    /// The latest points, as many as a joint is measured with on one side.
+    recent: VecDeque<Point>,
+    /// The joint whose second side is under way.
+    leaving: Option<Leaving>,
+}
+
+impl<'a> Measuring<'a> {
+    /// One before the first command.
+    #[must_use]
+    pub fn new(prepared: &'a Prepared, counts_per_mm: f64) -> Self {
+        Measuring {
+            prepared,
+            counts_per_mm,
+            measured: Measured::default(),
+            samples: 0,
+            segment: 0,
+            course: Course::Line,
+            recent: VecDeque::new(),
+            leaving: None,
+        }
+    }
+
+    /// Takes the next command in counts; `None` behind the last sample of the path.
+    pub fn take(&mut self, counts: [i64; COORDINATES]) -> Option<SampleMeasured> {
+        let (prepared, sample) = (self.prepared, self.samples);
+        self.samples += 1;
+        let mut segment = prepared.segments.get(self.segment)?;
+        if sample > segment.end() {
+            self.segment += 1;
+            segment = prepared.segments.get(self.segment)?;
+        }
+        let point = counts.map(|counts| counts as f64 / self.counts_per_mm);
+        // A joint is measured with a sample more than a blend has.
+        if self.recent.len() as u64 > prepared.timing.blend_samples.max(2) {
+            self.recent.pop_front();
+        }
+        self.recent.push_back(point);
+        let error = distance(segment.point(sample - segment.first_sample), point);
+        self.measured.largest_error = self.measured.largest_error.max(error);
         let ts = prepared.timing.sample_s;
-        let speeds = points.windows(2).map(|p| distance(p[1], p[0]) / ts);
-        let accelerations: Vec<f64> = points
-            .windows(3)
-            .map(|p| norm(sub(sub(p[2], p[1]), sub(p[1], p[0]))) / (ts * ts))
-            .collect();
-        let errors = (0..)
-            .zip(&points)
-            .filter_map(|(sample, point)| Some(distance(prepared.point(sample)?, *point)));
-        let mut measured = Measured {
-            speeds: speeds.collect(),
-            largest_error: errors.fold(0.0, f64::max),
-            arcs: Vec::new(),
-            blends: Vec::new(),
-            joints: joints(prepared, &points),
-            accelerations: Vec::new(),
-        };
-        for (index, segment) in prepared.segments.iter().enumerate() {
-            let own = &points[segment.first_sample as usize..=segment.end() as usize];
-            match segment.shape {
-                Shape::Line { .. } => {}
-                Shape::Blend { corner, .. } => {
-                    let off = own.iter().map(|&p| prepared.distance(segment, p));
-                    let from = own.iter().map(|&p| distance(p, corner));
-                    measured.blends.push(BlendMeasured {
-                        segment: index,
-                        off_path: off.fold(0.0, f64::max),
-                        from_corner: from.fold(f64::INFINITY, f64::min),
-                        peak_acceleration: peak_acceleration(own) / (ts * ts),
-                    });
-                }
-                Shape::Arc { circle, .. } => {
-                    let off: Vec<_> = own.iter().map(|&p| circle.off(p)).collect();
-                    let outside = off.iter().map(|off| off[0]);
-                    let way: f64 = own.windows(2).map(|p| distance(p[1], p[0])).sum();
-                    let last = own.last().copied().unwrap_or(circle.start);
-                    measured.arcs.push(ArcMeasured {
-                        segment: index,
-                        radius_errors: [
-                            outside.clone().fold(f64::INFINITY, f64::min),
-                            outside.fold(f64::NEG_INFINITY, f64::max),
-                        ],
-                        off_plane: off.iter().map(|off| off[1].abs()).fold(0.0, f64::max),
-                        end_error: distance(last, segment.point(segment.samples)),
-                        speed: way / (ts * segment.samples as f64),
-                    });
-                }
-            }
+        let before = |k: usize| Some(self.recent[self.recent.len().checked_sub(k + 1)?]);
+        let way = before(1).map(|last| distance(point, last));
+        let second = before(2).zip(before(1));
+        let second = second.map(|(first, last)| sub(sub(point, last), sub(last, first)));
+        self.follow(sample, point, way.unwrap_or(0.0), second);
+        Some(SampleMeasured {
+            sample,
+            segment: self.segment,
+            point,
+            error,
+            speed: way.map(|way| way / ts),
+            acceleration: second.map(|second| norm(second) / (ts * ts)),
+        })
+    }
+
+    /// Measures of the path, all commands being taken; `None` unless there were as many as it has.
+    #[must_use]
+    pub fn finish(self) -> Option<Measured> {
+        (self.samples == self.prepared.samples()).then_some(self.measured)
+    }
+
+    /// Measures the segment that a sample belongs to, and at its end begins the next.
+    fn follow(&mut self, sample: u64, point: Point, way: f64, second: Option<Point>) {
+        let (prepared, index) = (self.prepared, self.segment);
+        let segment = &prepared.segments[index];
+        let (step, most) = (sample - segment.first_sample, prepared.timing.blend_samples);
+        match &mut self.course {
+            _ if sample == 0 => self.course = Course::begin(prepared, index, point),
+            Course::Line => {}
+            Course::Blend(blend) => blend.take(step, point, second),
+            Course::Arc(arc) => arc.take(point, way),
         }
-        measured.accelerations = accelerations;
-        Some(measured)
-    }
-}
-
-/// The largest second difference of a blend, by what of the second differences of its samples is
-/// in the shape that a blend has: those of x'' = 12S·h(1 − h), which a step of 1/n makes less by
-/// 2S/n².
-fn peak_acceleration(samples: &[Point]) -> f64 {
-    let n = samples.len().saturating_sub(1) as f64;
-    let (mut along, mut square) = ([0.0; COORDINATES], 0.0);
-    for (sample, p) in (1..).zip(samples.windows(3)) {
-        let h = f64::from(sample) / n;
-        let shape = 4.0 * h * (1.0 - h) - 2.0 / (3.0 * n * n);
-        let second = sub(sub(p[2], p[1]), sub(p[1], p[0]));
-        along = add(along, scale(second, shape));
-        square += shape * shape;
-    }
-    match square > 0.0 {
-        true => norm(along) / square,
-        false => 0.0,
-    }
-}
-
-fn joints(prepared: &Prepared, points: &[Point]) -> Vec<Joint> {
-    let ts = prepared.timing.sample_s;
-    let most = prepared.timing.blend_samples as usize;
-    let pairs = prepared
-        .segments
-        .iter()
-        .zip(prepared.segments.iter().skip(1));
-    let joints = pairs.enumerate().map(|(segment, (ends, begins))| {
-        let at = ends.end() as usize;
-        let before = at - most.min(ends.samples as usize);
-        let behind = at + most.min(begins.samples as usize);
-        let mut back: Vec<Point> = points[before..=at].to_vec();
-        back.reverse();
-        // Backwards the velocity has the other sign.
-        let [leaves, curves_before] = derivatives(&back, ends.kind());
-        let [enters, curves_behind] = derivatives(&points[at..=behind], begins.kind());
-        let (leaves, enters) = (scale(leaves, -1.0 / ts), scale(enters, 1.0 / ts));
-        let direction_jump = match ends.ends_at_rest {
-            true => 0.0,
-            false => angle_between(leaves, enters),
-        };
-        Joint {
-            segment,
-            sample: ends.end(),
-            direction_jump,
-            velocity_jump: distance(leaves, enters),
-            acceleration_jump: distance(curves_before, curves_behind) / (ts * ts),
+        if step == most.min(segment.samples)
+            && let Some(leaving) = self.leaving.take()
+        {
+            let joint = leaving.joint(segment, &self.recent, &prepared.timing);
+            self.measured.joints.push(joint);
         }
-    });
-    joints.collect()
-}
-
-/// First and second derivative by the sample number at the first of the points, of the polynomial
-/// of least squares: of degree 1 on a line, else 4, or as high as there are points.
-fn derivatives(points: &[Point], kind: Kind) -> [Point; 2] {
-    let degree = match kind {
-        Kind::Line => 1,
-        Kind::Blend | Kind::Arc => DEGREE,
-    };
-    let degree = degree.min(points.len() - 1);
-    let span = (points.len() - 1) as f64;
-    let coordinates: [[f64; 2]; COORDINATES] = std::array::from_fn(|k| {
-        // From its first value, for large coordinates not to cost digits.
-        let values = points.iter().map(|p| p[k] - points[0][k]);
-        let c = fit(values, span, degree);
-        // x = Σ c·u^j with u = sample/span.
-        [c[1] / span, 2.0 * c[2] / (span * span)]
-    });
-    std::array::from_fn(|order| coordinates.map(|c| c[order]))
-}
-
-/// Coefficients of the polynomial of least squares in sample/span: the normal equations, which are
-/// well enough conditioned at such a degree.
-fn fit(values: impl Iterator<Item = f64>, span: f64, degree: usize) -> [f64; DEGREE + 1] {
-    let mut rows = [[0.0; DEGREE + 2]; DEGREE + 1];
-    for (sample, value) in values.enumerate() {
-        let u = sample as f64 / span;
-        let powers: [f64; DEGREE + 1] = std::array::from_fn(|j| u.powi(j as i32));
-        for (row, power) in rows.iter_mut().zip(powers).take(degree + 1) {
-            for (cell, other) in row.iter_mut().zip(powers) {
-                *cell += power * other;
-            }
-            row[DEGREE + 1] += power * value;
+        if sample < segment.end() {
+            return;
+        }
+        match &self.course {
+            Course::Line => {}
+            Course::Blend(blend) => self.measured.blends.push(blend.finish(&prepared.timing)),
+            Course::Arc(arc) => self.measured.arcs.push(arc.finish(&prepared.timing, point)),
+        }
+        if index + 1 < prepared.segments.len() {
+            self.course = Course::begin(prepared, index + 1, point);
+            self.leaving = Some(Leaving::new(index, segment, &self.recent, most));
         }
     }
-    // Symmetric and positive: the diagonal is always a pivot.
-    let size = degree + 1;
-    for pivot in 0..size {
-        for row in 0..size {
-            if row == pivot {
-                continue;
-            }
-            let eliminated = rows[pivot];
-            let factor = rows[row][pivot] / eliminated[pivot];
-            for (cell, other) in rows[row].iter_mut().zip(eliminated) {
-                *cell -= factor * other;
-            }
-        }
-    }
-    std::array::from_fn(|j| match j < size {
-        true => rows[j][DEGREE + 1] / rows[j][j],
-        false => 0.0,
-    })
 }

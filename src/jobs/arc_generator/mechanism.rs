@@ -44,52 +44,99 @@ impl Mechanism {
             .and_then(|()| within("damping", self.damping, &DAMPING_RANGE))
             .map_err(|error| error.at(Place::Table("mechanism")))
     }
+}
 
-    /// How it vibrates under commands in mm, `sample_s` seconds from one to the next, on a line
-    /// between two; before the first it is at rest, after the last its command is.
-    ///
-    /// What it is off its command by swings freely but for the commands' changes of speed, by which
-    /// its own speed changes: no integration, and no error but that it is looked at 16 times between
-    /// two commands.
+/// Vibration of a mechanism under commands that come one by one, on a line between two; before the
+/// first it is at rest, after the last its command is.
+///
+/// What it is off its command by swings freely but for the commands' changes of speed, by which
+/// its own speed changes: no integration, and no error but that it is looked at 16 times between
+/// two commands.
+#[derive(Debug)]
+pub struct Vibrating {
+    sample_s: f64,
+    /// From one look to the next: between two commands, and after the last.
+    moving: Free,
+    resting: Free,
+    last: Option<Point>,
+    speed: Point,
+    swing: Swing,
+    moving_mm: f64,
+}
+
+impl Vibrating {
+    /// One whose commands in mm come `sample_s` seconds apart.
     #[must_use]
-    pub fn vibration(&self, points: &[Point], sample_s: f64) -> Vibration {
-        let free = |seconds| Free::new(self, seconds);
-        let (step, turn) = (
-            free(sample_s / f64::from(LOOKS)),
-            free(1.0 / self.frequency_hz / f64::from(LOOKS)),
-        );
-        let mut swing = Swing::default();
-        let (mut speed, mut vibration) = ([0.0; 3], Vibration::default());
-        for pair in points.windows(2) {
-            let next = sub(pair[1], pair[0]).map(|mm| mm / sample_s);
-            swing.push(sub(speed, next));
-            speed = next;
+    pub fn new(mechanism: &Mechanism, sample_s: f64) -> Self {
+        let looks = f64::from(LOOKS);
+        Vibrating {
+            sample_s,
+            moving: Free::new(mechanism, sample_s / looks),
+            resting: Free::new(mechanism, 1.0 / mechanism.frequency_hz / looks),
+            last: None,
+            speed: [0.0; 3],
+            swing: Swing::default(),
+            moving_mm: 0.0,
+        }
+    }
+
+    /// Takes the next command.
+    pub fn take(&mut self, point: Point) {
+        if let Some(last) = self.last.replace(point) {
+            let next = sub(point, last).map(|mm| mm / self.sample_s);
+            self.swing.push(sub(self.speed, next));
+            self.speed = next;
             for _ in 0..LOOKS {
-                swing.go_on(&step);
-                vibration.moving_mm = vibration.moving_mm.max(swing.far());
+                self.swing.go_on(&self.moving);
+                self.moving_mm = self.moving_mm.max(self.swing.far());
             }
         }
-        swing.push(speed);
-        vibration.rest_mm = swing.far();
+    }
+
+    /// Vibration, the last command being taken.
+    #[must_use]
+    pub fn finish(mut self) -> Vibration {
+        self.swing.push(self.speed);
+        let mut rest_mm = self.swing.far();
         for _ in 0..LOOKS {
-            swing.go_on(&turn);
-            vibration.rest_mm = vibration.rest_mm.max(swing.far());
+            self.swing.go_on(&self.resting);
+            rest_mm = rest_mm.max(self.swing.far());
         }
-        vibration
+        Vibration {
+            moving_mm: self.moving_mm,
+            rest_mm,
+        }
     }
 }
 
-/// The largest change of speed from one sample to the next, in mm/s: at rest before the first command
-/// and after the last.
-#[must_use]
-pub fn largest_speed_change(points: &[Point], sample_s: f64) -> f64 {
-    let (mut last, mut most) = ([0.0; 3], 0f64);
-    let steps = points.windows(2).map(|pair| sub(pair[1], pair[0]));
-    for step in steps.chain([[0.0; 3]]) {
-        most = most.max(length(sub(step, last)));
-        last = step;
+/// Largest change of speed from one command to the next: at rest before the first and after the
+/// last.
+#[derive(Debug, Default)]
+pub struct SpeedChange {
+    last: Option<Point>,
+    step: Point,
+    most: f64,
+}
+
+impl SpeedChange {
+    /// Takes the next command, in mm.
+    pub fn take(&mut self, point: Point) {
+        if let Some(last) = self.last.replace(point) {
+            self.changes_to(sub(point, last));
+        }
     }
-    most / sample_s
+
+    /// Change in mm/s of commands that came `sample_s` seconds apart.
+    #[must_use]
+    pub fn finish(mut self, sample_s: f64) -> f64 {
+        self.changes_to([0.0; 3]);
+        self.most / sample_s
+    }
+
+    fn changes_to(&mut self, step: Point) {
+        self.most = self.most.max(length(sub(step, self.step)));
+        self.step = step;
+    }
 }
 
 fn length(vector: Point) -> f64 {
@@ -156,6 +203,18 @@ mod tests {
         }
     }
 
+    fn vibration(mechanism: &Mechanism, points: &[Point]) -> Vibration {
+        let mut vibrating = Vibrating::new(mechanism, SAMPLE_S);
+        points.iter().for_each(|point| vibrating.take(*point));
+        vibrating.finish()
+    }
+
+    fn largest_speed_change(points: &[Point]) -> f64 {
+        let mut change = SpeedChange::default();
+        points.iter().for_each(|point| change.take(*point));
+        change.finish(SAMPLE_S)
+    }
+
     #[track_caller]
     fn near(is: f64, wanted: f64, share: f64) {
         assert!((is - wanted).abs() <= share * wanted, "{is} for {wanted}");
@@ -176,16 +235,16 @@ mod tests {
             // and it doubles it.
             let period = (1.0 / (frequency * SAMPLE_S)).round() as u32;
             let whole = mechanism(1.0 / (f64::from(period) * SAMPLE_S), 0.0);
-            let out = whole.vibration(&line(3 * period), SAMPLE_S);
+            let out = vibration(&whole, &line(3 * period));
             near(out.moving_mm, 20.0 / (TAU * whole.frequency_hz), 5e-3);
             assert!(out.rest_mm < 1e-9, "{out:?}");
             if period.is_multiple_of(2) {
-                let double = whole.vibration(&line(3 * period + period / 2), SAMPLE_S);
+                let double = vibration(&whole, &line(3 * period + period / 2));
                 near(double.rest_mm, 40.0 / (TAU * whole.frequency_hz), 2e-2);
             }
             // In a damped one the first swing is a quarter of a period late.
             let damping = 0.2f64;
-            let damped = mechanism(frequency, damping).vibration(&line(1000), SAMPLE_S);
+            let damped = vibration(&mechanism(frequency, damping), &line(1000));
             let angle = damping.acos();
             let share = (-damping / (1.0 - damping * damping).sqrt() * angle).exp();
             near(damped.moving_mm, 20.0 / natural * share, 5e-3);
@@ -199,19 +258,19 @@ mod tests {
         let parabola = |k: u32| [0.0, 0.5 * 100.0 * (f64::from(k) * SAMPLE_S).powi(2), 0.0];
         let points: Vec<Point> = (0..=400).map(parabola).collect();
         // Damped so far that it does not swing over; the speed changes in steps of 1 mm/s.
-        let vibration = mechanism(2.0, 0.9).vibration(&points, SAMPLE_S);
+        let vibration = vibration(&mechanism(2.0, 0.9), &points);
         near(vibration.moving_mm, 100.0 / (TAU * 2.0).powi(2), 2e-2);
-        near(largest_speed_change(&points[..2], SAMPLE_S), 0.5, 1e-12);
+        near(largest_speed_change(&points[..2]), 0.5, 1e-12);
         // It stops from 399.5 mm/s.
-        near(largest_speed_change(&points, SAMPLE_S), 399.5, 1e-9);
+        near(largest_speed_change(&points), 399.5, 1e-9);
     }
 
     #[test]
     fn what_does_not_move_does_not_vibrate() {
         for points in [&[][..], &[[1.0, 2.0, 3.0]], &[[1.0, 2.0, 3.0]; 5]] {
-            let vibration = mechanism(5.0, 0.1).vibration(points, SAMPLE_S);
-            assert_eq!(vibration, Vibration::default());
-            assert_eq!(largest_speed_change(points, SAMPLE_S).to_bits(), 0);
+            let still = vibration(&mechanism(5.0, 0.1), points);
+            assert_eq!(still, Vibration::default());
+            assert_eq!(largest_speed_change(points).to_bits(), 0);
         }
     }
 

@@ -10,8 +10,10 @@
 pub mod beside;
 pub mod bounds;
 pub mod conventional;
+mod course;
 pub mod job;
 pub mod joints;
+mod leaving;
 pub mod measure;
 pub mod mechanism;
 pub mod prepare;

@@ -12,7 +12,7 @@
 
 use super::prepared::{Prepared, Segment, Shape};
 use super::record::{self, quantise, signed};
-use super::reference::{Decoded, commands_of, signed as wrap};
+use super::reference::{Decoded, Points, commands_of, signed as wrap};
 use crate::circuits::arc_generator::blend_point::SHARE_WORD;
 use crate::circuits::arc_generator::{Rounding, Widths};
 use crate::circuits::blocks::record_memory::ARC;
@@ -79,44 +79,47 @@ fn rewrite(record: &mut Record, segment: &Segment, counts_per_mm: f64, widths: &
 }
 
 /// The position commands of such records, in counts: the start of the first and every sample of all.
-#[must_use]
-pub fn commands(
-    records: &[Record],
+pub fn commands<'a>(
+    records: &'a [Record],
     widths: &Widths,
     rounding: Rounding,
-) -> Vec<[i64; COORDINATES]> {
-    commands_of(records, widths, |record| points(record, widths, rounding))
+) -> impl Iterator<Item = [i64; COORDINATES]> + use<'a> {
+    let all = *widths;
+    commands_of(records, widths, move |record| {
+        points(record, &all, rounding)
+    })
 }
 
 /// The points of a record's samples in guard units, from the one where it begins.
 #[must_use]
-pub fn points(record: &Record, widths: &Widths, rounding: Rounding) -> Vec<[i64; COORDINATES]> {
+pub fn points(record: &Record, widths: &Widths, rounding: Rounding) -> Points {
     let decoded = Decoded::of(record, widths);
     if decoded.kind == ARC {
         return decoded.points(widths, rounding);
     }
     let fraction = widths.coefficient_fraction();
-    let nearest = |product: i128| (product + (1 << (fraction - 1))) >> fraction;
+    let nearest = move |product: i128| (product + (1 << (fraction - 1))) >> fraction;
     let modulus = i128::from(decoded.modulus);
-    let word = |k: usize| i128::from(record.words[k]);
+    let (words, bits) = (record.words, widths.point);
+    let word = |k: usize| i128::from(words[k]);
     let first = SHARE_WORD as usize;
-    let step = word(first + 1) * modulus + word(first + 2);
-    let point = |n: u64| {
-        let share = word(first) * modulus + i128::from(n) * step;
+    let (start, step) = (
+        word(first) * modulus,
+        word(first + 1) * modulus + word(first + 2),
+    );
+    let point = move |n: u64| {
+        let share = start + i128::from(n) * step;
         let h = (2 * share + modulus).div_euclid(2 * modulus);
         let square = nearest(h * h);
         let weight = nearest(square * (2 * h - square));
         std::array::from_fn(|k| {
-            let term = |place: usize| {
-                let word = record.words[coordinate_word(k) + place];
-                i128::from(wrap(word, widths.point + 2))
-            };
+            let term = |place: usize| i128::from(wrap(words[coordinate_word(k) + place], bits + 2));
             let way = match n {
                 0 => i128::from(decoded.start[k]),
                 _ => nearest(term(0) * h + term(1) * weight),
             };
-            wrap((i128::from(decoded.origin[k]) + way) as u64, widths.point)
+            wrap((i128::from(decoded.origin[k]) + way) as u64, bits)
         })
     };
-    (0..=decoded.samples).map(point).collect()
+    Box::new((0..=decoded.samples).map(point))
 }

@@ -5,6 +5,9 @@ use crate::circuits::arc_generator::{Rounding, Widths};
 use crate::input::COORDINATES;
 use crate::path::record::{Record, coordinate_word};
 
+/// Points of a record, one by one.
+pub type Points = Box<dyn Iterator<Item = [i64; COORDINATES]>>;
+
 /// What a record says, in guard units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Decoded {
@@ -55,12 +58,11 @@ impl Decoded {
 
     /// The points of its samples in guard units, from the one where it begins.
     #[must_use]
-    pub fn points(&self, widths: &Widths, rounding: Rounding) -> Vec<[i64; COORDINATES]> {
+    pub fn points(self, widths: &Widths, rounding: Rounding) -> Points {
+        let widths = *widths;
         match self.kind {
-            2 => self.rotated(widths, rounding),
-            _ => (0..=self.samples)
-                .map(|n| self.interpolated(n, widths))
-                .collect(),
+            2 => self.rotated(&widths, rounding),
+            _ => Box::new((0..=self.samples).map(move |n| self.interpolated(n, &widths))),
         }
     }
 
@@ -79,51 +81,50 @@ impl Decoded {
         })
     }
 
-    fn rotated(&self, widths: &Widths, rounding: Rounding) -> Vec<[i64; COORDINATES]> {
-        let fraction = widths.coefficient_fraction();
+    fn rotated(self, widths: &Widths, rounding: Rounding) -> Points {
+        let (fraction, point) = (widths.coefficient_fraction(), widths.point);
         let half = match rounding {
             Rounding::Nearest => 1i128 << (fraction - 1),
             Rounding::Floor => 0,
         };
-        let vectors = std::iter::successors(Some(self.start), |vector| {
+        let vectors = std::iter::successors(Some(self.start), move |vector| {
             Some(std::array::from_fn(|row| {
                 let products = self.coordinates[row].iter().zip(vector);
                 let sum: i128 = products.map(|(&r, &v)| i128::from(r) * i128::from(v)).sum();
-                signed(((sum + half) >> fraction) as u64, widths.point)
+                signed(((sum + half) >> fraction) as u64, point)
             }))
         });
-        let points = vectors.map(|v| std::array::from_fn(|k| self.origin[k] + v[k]));
-        points.take(self.samples as usize + 1).collect()
+        let points = vectors.map(move |v| std::array::from_fn(|k| self.origin[k] + v[k]));
+        Box::new(points.take(self.samples as usize + 1))
     }
 }
 
 /// The position commands of a path, in counts: the start of the first record and every sample of
 /// all.
-#[must_use]
-pub fn commands(
-    records: &[Record],
+pub fn commands<'a>(
+    records: &'a [Record],
     widths: &Widths,
     rounding: Rounding,
-) -> Vec<[i64; COORDINATES]> {
-    commands_of(records, widths, |record| {
-        Decoded::of(record, widths).points(widths, rounding)
+) -> impl Iterator<Item = [i64; COORDINATES]> + use<'a> {
+    let all = *widths;
+    commands_of(records, widths, move |record| {
+        Decoded::of(record, &all).points(&all, rounding)
     })
 }
 
 /// The same of records whose points `points` makes.
-pub(super) fn commands_of(
-    records: &[Record],
+pub(super) fn commands_of<'a, F: Fn(&Record) -> Points + 'a>(
+    records: &'a [Record],
     widths: &Widths,
-    points: impl Fn(&Record) -> Vec<[i64; COORDINATES]>,
-) -> Vec<[i64; COORDINATES]> {
-    let half = (1i64 << widths.guard()) >> 1;
+    points: F,
+) -> impl Iterator<Item = [i64; COORDINATES]> + use<'a, F> {
+    let guard = widths.guard();
+    let half = (1i64 << guard) >> 1;
     let segments = records
         .iter()
         .enumerate()
-        .flat_map(|(index, record)| points(record).into_iter().skip(usize::from(index > 0)));
-    segments
-        .map(|point| point.map(|units| (units + half) >> widths.guard()))
-        .collect()
+        .flat_map(move |(index, record)| points(record).skip(usize::from(index > 0)));
+    segments.map(move |point| point.map(|units| (units + half) >> guard))
 }
 
 /// A word of so many bits in two's complement.

@@ -262,7 +262,7 @@ fn whole_paths_are_those_of_the_program_in_their_ticks() {
         let least = circuit.least_period();
         assert_eq!(least, 171);
         let all = records(&path(8), 1000.0, &FULL, rounding).unwrap();
-        let expected = commands(&all, &FULL, rounding);
+        let expected: Vec<_> = commands(&all, &FULL, rounding).collect();
         for period in [least, least - 1] {
             let played = play(&circuit, &all, period as u32, &mut ()).unwrap();
             let counts: Vec<_> = played.commands.iter().map(|c| c.counts).collect();

@@ -272,7 +272,7 @@ fn whole_arcs_are_those_of_the_program_in_their_ticks() {
         let samples: u64 = arcs.iter().map(|arc| 1 + 2 * arc.ramp + arc.samples).sum();
         assert_eq!(expected.len() as u64, samples);
         for period in [LEAST, LEAST - 1] {
-            let played = play(&circuit, &all, period, &[], &mut ()).unwrap();
+            let played = play(&circuit, &all, period, &mut ()).unwrap();
             let commands: Vec<_> = played
                 .commands
                 .iter()

@@ -6,7 +6,7 @@ use motion_rtl::jobs::arc_generator::prepare::Timing;
 use motion_rtl::jobs::arc_generator::prepared::{Prepared, Segment, Shape};
 use motion_rtl::jobs::arc_generator::products;
 use motion_rtl::jobs::arc_generator::record::records;
-use motion_rtl::jobs::arc_generator::reference::Decoded;
+use motion_rtl::jobs::arc_generator::reference::{Decoded, Points};
 use motion_rtl::jobs::arc_generator::settings::ShortPieces;
 use std::fmt::Write as _;
 
@@ -58,7 +58,8 @@ fn observed(points: [[i64; 3]; 3], samples: u64, widths: &Widths) -> (f64, Optio
     };
     let m = i128::from(samples);
     let power = m.pow(4);
-    let off = |made: Vec<[i64; 3]>| {
+    let off = |made: Points| {
+        let made: Vec<_> = made.collect();
         assert_eq!(made.len() as u64, samples + 1);
         let errors = (0..).zip(made).flat_map(|(n, point)| {
             let n: i128 = n;

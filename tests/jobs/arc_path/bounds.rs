@@ -62,12 +62,12 @@ fn part_of_bound(
     assert!(
         points
             .iter()
-            .zip(&reference)
+            .zip(reference)
             .all(|(a, b)| *a == b.map(i128::from))
     );
     let (unit, commands) = (
         (-(widths.guard() as f64)).exp2(),
-        commands(&[record], widths, rounding),
+        commands(&[record], widths, rounding).collect::<Vec<_>>(),
     );
     let (mut worst, mut last) = (0.0f64, 0.0);
     for (n, (point, command)) in (0..).zip(points.iter().zip(commands)) {

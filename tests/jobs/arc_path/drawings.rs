@@ -31,7 +31,7 @@ fn a_part_program_becomes_commands() {
     let stops = path.segments.iter().filter(|s| s.ends_at_rest).count();
     assert_eq!(stops, 1);
     let records = records(&path, 1000.0, &WIDTHS, Rounding::Nearest).unwrap();
-    let commands = commands(&records, &WIDTHS, Rounding::Nearest);
+    let commands = commands(&records, &WIDTHS, Rounding::Nearest).collect::<Vec<_>>();
     assert_eq!(commands.len() as u64, path.samples());
     assert_eq!(commands.last(), Some(&[20_000, 0, 0]));
     for piece in &path.pieces {

@@ -3,7 +3,7 @@
 use super::*;
 use motion_rtl::circuits::arc_generator::{Rounding, Widths};
 use motion_rtl::jobs::arc_generator::bounds::command_error;
-use motion_rtl::jobs::arc_generator::measure::Measured;
+use motion_rtl::jobs::arc_generator::measure::{Measured, Measuring, SampleMeasured};
 use motion_rtl::jobs::arc_generator::prepare::prepare;
 use motion_rtl::jobs::arc_generator::prepared::Kind;
 use motion_rtl::jobs::arc_generator::record::records;
@@ -25,7 +25,14 @@ fn path() -> Prepared {
 
 fn played(path: &Prepared) -> Vec<[i64; 3]> {
     let records = records(path, COUNTS, &Widths::FULL, Rounding::Nearest).unwrap();
-    commands(&records, &Widths::FULL, Rounding::Nearest)
+    commands(&records, &Widths::FULL, Rounding::Nearest).collect()
+}
+
+/// Measures of every sample.
+fn samples(path: &Prepared, commands: &[[i64; 3]]) -> Vec<SampleMeasured> {
+    let mut measuring = Measuring::new(path, COUNTS);
+    let each = commands.iter().map(|counts| measuring.take(*counts));
+    each.map(Option::unwrap).collect()
 }
 
 #[test]
@@ -72,14 +79,15 @@ fn speeds_and_distances_are_measured() {
     let path = path();
     let commands = played(&path);
     let measured = Measured::of(&path, COUNTS, &commands).unwrap();
-    assert_eq!(measured.speeds.len(), commands.len() - 1);
-    assert_eq!(measured.accelerations.len(), commands.len() - 2);
+    let seen = samples(&path, &commands);
+    let speeds: Vec<_> = seen.iter().filter_map(|sample| sample.speed).collect();
+    assert_eq!(speeds.len(), commands.len() - 1);
     let [before, arc] = [path.segments[0], path.segments[1]];
     // A count a millisecond is 1 mm/s; each end of a step is off by √3/2 at most.
-    for (sample, speed) in measured.speeds.iter().enumerate() {
+    for (sample, speed) in speeds.iter().enumerate() {
         assert!(*speed < 40.0 + 3f64.sqrt(), "{sample}: {speed}");
     }
-    let own = &measured.speeds[arc.first_sample as usize..arc.end() as usize];
+    let own = &speeds[arc.first_sample as usize..arc.end() as usize];
     assert!(
         own.iter()
             .all(|speed| (speed - 30.0).abs() < 0.1 + 3f64.sqrt())
@@ -131,7 +139,145 @@ fn a_wrong_sample_is_found() {
     commands[sample][0] += 50;
     let measured = Measured::of(&path, COUNTS, &commands).unwrap();
     assert!(measured.largest_error > 0.049);
-    assert!(measured.accelerations[sample - 1] > 90_000.0);
+    let seen = samples(&path, &commands);
+    let accelerations = seen.iter().filter_map(|sample| sample.acceleration);
+    assert!(accelerations.max_by(f64::total_cmp) > Some(90_000.0));
+    assert!(seen[sample + 1].acceleration > Some(90_000.0));
     commands.pop();
     assert_eq!(Measured::of(&path, COUNTS, &commands), None);
+}
+
+/// Every measure as it is defined, from all samples at once.
+#[test]
+fn measures_are_those_of_all_samples_at_once() {
+    let path = path();
+    let mut commands = played(&path);
+    // Something to measure in each kind of segment, at its first and last sample too.
+    for segment in &path.segments {
+        for (place, sample) in [
+            segment.first_sample,
+            segment.first_sample + 5,
+            segment.end(),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            commands[sample as usize][place] += 3 * (place as i64 - 2) + 1;
+        }
+    }
+    let points: Vec<_> = commands
+        .iter()
+        .map(|c| c.map(|counts| counts as f64 / COUNTS))
+        .collect();
+    let (ts, largest) = (path.timing.sample_s, |all: &[f64]| {
+        all.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    });
+    let seen = samples(&path, &commands);
+    for (k, sample) in seen.iter().enumerate() {
+        let segment = path
+            .segments
+            .iter()
+            .position(|segment| k as u64 <= segment.end());
+        assert_eq!((sample.sample, Some(sample.segment)), (k as u64, segment));
+        assert_eq!(sample.point, points[k]);
+        assert_eq!(
+            sample.error,
+            length(minus(path.point(k as u64).unwrap(), points[k]))
+        );
+        let speed = k
+            .checked_sub(1)
+            .map(|before| length(minus(points[k], points[before])) / ts);
+        assert_eq!(sample.speed, speed);
+        let second = |k: usize| {
+            minus(
+                minus(points[k], points[k - 1]),
+                minus(points[k - 1], points[k - 2]),
+            )
+        };
+        assert_eq!(
+            sample.acceleration,
+            (k > 1).then(|| length(second(k)) / (ts * ts))
+        );
+    }
+    let measured = Measured::of(&path, COUNTS, &commands).unwrap();
+    assert_eq!(
+        measured.largest_error,
+        largest(&seen.iter().map(|sample| sample.error).collect::<Vec<_>>())
+    );
+    let own = |segment: usize| {
+        &points
+            [path.segments[segment].first_sample as usize..=path.segments[segment].end() as usize]
+    };
+    for blend in &measured.blends {
+        let (segment, own) = (&path.segments[blend.segment], own(blend.segment));
+        let Shape::Blend { corner, .. } = segment.shape else {
+            panic!("another kind")
+        };
+        assert_eq!(
+            blend.off_path,
+            largest(
+                &own.iter()
+                    .map(|p| path.distance(segment, *p))
+                    .collect::<Vec<_>>()
+            )
+        );
+        assert_eq!(
+            -blend.from_corner,
+            largest(
+                &own.iter()
+                    .map(|p| -length(minus(*p, corner)))
+                    .collect::<Vec<_>>()
+            )
+        );
+        // The factor of least squares of the blend's shape in the second differences.
+        let n = segment.samples as f64;
+        let shape = |k: usize| 4.0 * (k as f64 / n) * (1.0 - k as f64 / n) - 2.0 / (3.0 * n * n);
+        let seconds: Vec<_> = own
+            .windows(3)
+            .map(|p| minus(minus(p[2], p[1]), minus(p[1], p[0])))
+            .collect();
+        let square: f64 = (1..=seconds.len()).map(|k| shape(k).powi(2)).sum();
+        let along = [0, 1, 2].map(|c| {
+            seconds
+                .iter()
+                .zip(1..)
+                .map(|(second, k)| second[c] * shape(k))
+                .sum::<f64>()
+        });
+        let peak = length(along) / square / (ts * ts);
+        assert!(
+            (blend.peak_acceleration / peak - 1.0).abs() < 1e-12,
+            "{blend:?} {peak}"
+        );
+    }
+    let [arc] = measured.arcs[..] else {
+        panic!("one arc")
+    };
+    let (segment, own) = (&path.segments[arc.segment], own(arc.segment));
+    let Shape::Arc { circle, .. } = segment.shape else {
+        panic!("another kind")
+    };
+    let off: Vec<_> = own.iter().map(|p| circle.off(*p)).collect();
+    let outside: Vec<_> = off.iter().map(|off| off[0]).collect();
+    let inwards: Vec<_> = outside.iter().map(|off| -off).collect();
+    assert_eq!(arc.radius_errors, [-largest(&inwards), largest(&outside)]);
+    assert_eq!(
+        arc.off_plane,
+        largest(&off.iter().map(|off| off[1].abs()).collect::<Vec<_>>())
+    );
+    assert_eq!(
+        arc.end_error,
+        length(minus(own[own.len() - 1], segment.point(segment.samples)))
+    );
+    let rms = (outside.iter().map(|off| off * off).sum::<f64>() / own.len() as f64).sqrt();
+    assert!((arc.radius_rms / rms - 1.0).abs() < 1e-12);
+    let steps: Vec<_> = own.windows(2).map(|p| length(minus(p[1], p[0]))).collect();
+    let mean = steps.iter().sum::<f64>() / (ts * segment.samples as f64);
+    assert!((arc.speed / mean - 1.0).abs() < 1e-12);
+    let wanted = path.pieces[segment.piece].speed;
+    let deviations: Vec<_> = steps
+        .iter()
+        .map(|step| (step / ts - wanted).abs())
+        .collect();
+    assert_eq!(arc.speed_deviation, largest(&deviations));
 }

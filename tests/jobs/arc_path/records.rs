@@ -78,6 +78,7 @@ fn blend_is_its_polynomial(points: [[i64; 3]; 3], m: u64, widths: &Widths) {
     let record = record_of(shape, m, widths);
     assert!(record.words.iter().all(|word| word >> widths.data == 0));
     let reference = Decoded::of(&record, widths).points(widths, Rounding::Nearest);
+    let reference: Vec<_> = reference.collect();
     let m = i128::from(m);
     let modulus = m * m * m * m;
     for k in 0..3 {
@@ -144,6 +145,7 @@ proptest! {
         let shape = Shape::Line { from: point(from), to: point(to) };
         let record = record_of(shape, samples, &FULL);
         let reference = Decoded::of(&record, &FULL).points(&FULL, Rounding::Nearest);
+        let reference: Vec<_> = reference.collect();
         for k in 0..3 {
             let (begin, way) = (i128::from(from[k]), i128::from(to[k]) - i128::from(from[k]));
             let mut engine = Engine::new(&record, k, &FULL);
@@ -197,8 +199,8 @@ fn segments_end_where_the_next_begins() {
         .collect();
     for (pair, segments) in decoded.windows(2).zip(path.segments.windows(2)) {
         let ends = pair[0].points(&FULL, Rounding::Nearest);
-        let begins = pair[1].points(&FULL, Rounding::Nearest);
-        let (last, first) = (ends[ends.len() - 1], begins[0]);
+        let mut begins = pair[1].points(&FULL, Rounding::Nearest);
+        let (last, first) = (ends.last().unwrap(), begins.next().unwrap());
         let gap = (0..3).map(|k| (last[k] - first[k]).abs()).max().unwrap();
         match segments[0].shape {
             // 2^-16 count each.
@@ -207,7 +209,7 @@ fn segments_end_where_the_next_begins() {
         }
     }
     // And the commands are the exact points to the nearest count.
-    let commands = commands(&all, &FULL, Rounding::Nearest);
+    let commands = commands(&all, &FULL, Rounding::Nearest).collect::<Vec<_>>();
     assert_eq!(commands.len() as u64, path.samples());
     for (sample, command) in (0..).zip(&commands) {
         let exact = path.point(sample).unwrap();
