@@ -88,14 +88,25 @@ impl Scenario {
     }
 
     /// Where the zeros of a part program are.
-    pub fn program(&self) -> Program {
+    pub fn program(&self) -> Option<&Program> {
         match self {
-            Scenario::PulseInterpolator(scenario) => scenario.program,
-            Scenario::LinearInterpolator(scenario) => scenario.program,
-            Scenario::LeadAngle(_) => Program::default(),
-            Scenario::ArcGenerator(scenario) => scenario.program,
-            Scenario::TrajectoryController(scenario) => scenario.program,
-            Scenario::Machine(scenario) => scenario.program,
+            Scenario::PulseInterpolator(scenario) => Some(&scenario.program),
+            Scenario::LinearInterpolator(scenario) => Some(&scenario.program),
+            Scenario::LeadAngle(_) => None,
+            Scenario::ArcGenerator(scenario) => Some(&scenario.program),
+            Scenario::TrajectoryController(scenario) => Some(&scenario.program),
+            Scenario::Machine(scenario) => Some(&scenario.program),
+        }
+    }
+
+    fn program_mut(&mut self) -> Option<&mut Program> {
+        match self {
+            Scenario::PulseInterpolator(scenario) => Some(&mut scenario.program),
+            Scenario::LinearInterpolator(scenario) => Some(&mut scenario.program),
+            Scenario::LeadAngle(_) => None,
+            Scenario::ArcGenerator(scenario) => Some(&mut scenario.program),
+            Scenario::TrajectoryController(scenario) => Some(&mut scenario.program),
+            Scenario::Machine(scenario) => Some(&mut scenario.program),
         }
     }
 

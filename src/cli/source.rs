@@ -7,8 +7,8 @@ use motion_rtl::input::{Drawing, Fault, Kind, Options, read_path_with};
 use motion_rtl::jobs::pulse_interpolator::Table;
 use motion_rtl::jobs::pulse_interpolator::table::read;
 use motion_rtl::plan::{FEED_RANGE, PlanError};
-use motion_rtl::scenario::{Loaded, Runnable, Scenario};
-use motion_rtl::settings::tidy;
+use motion_rtl::scenario::{Loaded, Program, Runnable, Scenario};
+use motion_rtl::settings::{Place, SettingError, tidy};
 use std::path::{Path, PathBuf};
 
 /// What to run.
@@ -31,12 +31,17 @@ pub struct Input {
     /// without it.
     #[arg(long, value_name = "LINES")]
     pub most_lines: Option<u64>,
+    /// Looks in a directory for the files of subroutines that a G-code program calls: NAME.ngc for
+    /// O<NAME> CALL, 2.ngc or O0002.nc for M98 P2. Once for each directory, before those of
+    /// program.subroutine_path.
+    #[arg(long, value_name = "DIR")]
+    pub subroutines: Vec<PathBuf>,
 }
 
 impl Input {
     /// How a drawing or a part program is read.
     fn options(&self, loaded: &Loaded) -> Result<Options, Fault> {
-        let zeros = loaded.scenario.program().zeros();
+        let zeros = loaded.scenario.program().map(Program::zeros).transpose();
         let fourth = match &loaded.scenario {
             Scenario::TrajectoryController(scenario) => scenario.has_fourth(),
             _ => false,
@@ -45,10 +50,37 @@ impl Input {
             lenient: self.lenient,
             strict: self.strict,
             most_lines: self.most_lines.unwrap_or(Options::MOST_LINES),
-            zeros: zeros.map_err(|error| loaded.refuse(error))?,
+            zeros: zeros
+                .map_err(|error| loaded.refuse(error))?
+                .unwrap_or_default(),
+            subroutines: self.directories(loaded)?,
             splines: loaded.scenario.circuit() == Runnable::TrajectoryController,
             fourth,
         })
+    }
+}
+
+impl Input {
+    /// Where the subroutines are: as the command line says, then as the scenario does.
+    fn directories(&self, loaded: &Loaded) -> Result<Vec<PathBuf>, Fault> {
+        let allowed = || "directories with subroutines".to_owned();
+        let problem = |path: &Path| format!("{} is not a directory", path.display());
+        if let Some(path) = self.subroutines.iter().find(|path| !path.is_dir()) {
+            return Err(Fault::new(
+                "--subroutines",
+                0,
+                "DIR",
+                problem(path),
+                allowed(),
+            ));
+        }
+        let keys = loaded.scenario.program();
+        let keys = keys.map_or(&[][..], |program| &program.subroutine_path);
+        if let Some(path) = keys.iter().find(|path| !path.is_dir()) {
+            let error = SettingError::new("subroutine_path", problem(path), allowed());
+            return Err(loaded.refuse(error.at(Place::Table("program"))));
+        }
+        Ok([&self.subroutines[..], keys].concat())
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::fs::{File, Metadata};
 use std::io::{self, Read as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::{Drawing, Fault, Point, gcode, hpgl};
 
@@ -74,7 +74,7 @@ pub struct Zeros {
 }
 
 /// How the readers of moves read: how strictly, and from where.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// HPGL: skips with a warning what else is refused since it is not understood or incomplete and
     /// may move the pen.
@@ -87,6 +87,9 @@ pub struct Options {
     pub zeros: Zeros,
     /// G-code: G5 and G5.1 are moves on splines; else, and as NURBS always, chords.
     pub splines: bool,
+    /// G-code: directories with the files of subroutines that a program calls, in the order in which
+    /// they are looked through.
+    pub subroutines: Vec<PathBuf>,
     /// G-code: W is an axis, which goes linearly with the length of each move.
     pub fourth: bool,
 }
@@ -113,6 +116,7 @@ impl Default for Options {
             most_lines: Self::MOST_LINES,
             zeros: Zeros::default(),
             splines: false,
+            subroutines: Vec::new(),
             fourth: false,
         }
     }

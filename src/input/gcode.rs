@@ -55,7 +55,14 @@
 //! `O<name>` with `sub`, `endsub`, `call`, `return`, `if`, `elseif`, `else`, `endif`, `while`,
 //! `endwhile`, `do`, `repeat`, `endrepeat`, `break` and `continue`; M98 P and M99 with programs of
 //! the file itself, L times; without L, P30002 is program 2 three times where there is no program
-//! 30002. Calls nest 10 deep. [`Options::most_lines`] bounds a run.
+//! 30002. The label of a call may be computed, as in `O#1 call`. Calls nest 10 deep. [`Options::most_lines`] bounds a run.
+//!
+//! What is not in the program is looked for in [`Options::subroutines`], directory by directory:
+//! `O<name> call` in `name.ngc`, which has `O<name> sub`; `O2 call` and M98 P2 in `2.ngc`, or in a file
+//! called `o2` or `o0002`. Other endings of part programs and letters of either case do as well where
+//! one file fits. A name has letters, digits, `_`, `-` and inside it `.`, so that none leads out of the
+//! directories. A file may call those of the program that called it. Moves of a file have the line of
+//! the call, warnings and faults that of the file.
 //!
 //! # Exponents
 //!
@@ -68,7 +75,7 @@
 //! With one warning a kind: M0, M1, M3 to M9, S, T, O numbers, G4, G61 and G64. So are, unless
 //! [`Options::strict`] refuses them: other M words whose meaning is known and that neither move nor
 //! change offsets or scales (heaters, fans, displays, switches, settings of printers), with the
-//! letters that belong to them; E, D, and H at 0; A, B, C, U, V and, where it is no axis, W at 0;
+//! letters that belong to them; I without a number beside S or M3 to M5 (lasers); E, D, and H at 0; A, B, C, U, V and, where it is no axis, W at 0;
 //! `$` lines that show or set; the `/` of optional lines, which are run; G61.1, P, Q and R of G64,
 //! G96, G97, G43 and G44 of tools whose length the program has not set, G10 for tools but its L1 and
 //! L10, G10 and G11 of printers, G29, G34.
@@ -78,7 +85,7 @@
 //! All that would change the path otherwise: M words and `$` commands that move or stop a machine, read
 //! or write other files or bring back positions on some controls; axis words and parameters that
 //! may belong to either of two words of their line; other rotary positions, cutter compensation
-//! (G41, G42), scaling, mirroring, rotation in space, diameters (G7), feeds per turn (G95), turning and threading cycles, macro calls, calls into other files, unknown words.
+//! (G41, G42), scaling, mirroring, rotation in space, diameters (G7), feeds per turn (G95), turning and threading cycles, macro calls, unknown words.
 //!
 //! # Text
 //!
@@ -96,7 +103,9 @@ mod cycle;
 mod expression;
 mod flow;
 mod frame;
+mod g_words;
 mod kept;
+mod library;
 mod m_words;
 mod machine;
 mod mark;

@@ -71,7 +71,7 @@ pub fn read(file: &str, text: &[u8]) -> Result<Drawing, Fault> {
 ///
 /// # Errors
 ///
-/// As [`read`], and with [`Options::zeros`] that are not zero.
+/// As [`read`], and with [`Options::zeros`] that are not zero or [`Options::subroutines`].
 pub fn read_with(file: &str, text: &[u8], options: &Options) -> Result<Drawing, Fault> {
     if options.zeros != Zeros::default() {
         let problem = "a drawing in HPGL has no zeros and reference points of its own";
@@ -82,6 +82,10 @@ pub fn read_with(file: &str, text: &[u8], options: &Options) -> Result<Drawing, 
             problem,
             "them with G-code only",
         ));
+    }
+    if !options.subroutines.is_empty() {
+        let (problem, allowed) = ("a drawing in HPGL calls none", "them with G-code only");
+        return Err(Fault::new(file, 0, "subroutines", problem, allowed));
     }
     let fault = match draw_all(Plotter::new(file, text, options.lenient)) {
         Err(fault) if fault.all().any(|fault| fault.field == "PE") => fault,

@@ -8,6 +8,8 @@ use crate::settings::tidy;
 /// The moves read so far and where the last one ended.
 pub(super) struct Track<'a> {
     file: &'a str,
+    /// The file that is read for it.
+    within: Option<String>,
     here: Point,
     moves: Vec<Move>,
     /// W at the end of each move, where there is one.
@@ -20,6 +22,8 @@ pub(super) struct Track<'a> {
 struct Note {
     /// Its place among the notes.
     order: usize,
+    /// Where it is not the drawing's own.
+    file: Option<String>,
     line: usize,
     text: String,
     times: usize,
@@ -29,11 +33,19 @@ impl<'a> Track<'a> {
     pub(super) fn new(file: &'a str) -> Self {
         Self {
             file,
+            within: None,
             here: [0.0; 3],
             moves: Vec::new(),
             fourth: Vec::new(),
             zero_length: 0,
             notes: HashMap::new(),
+        }
+    }
+
+    /// Says that what follows is read from another file, or none from the drawing's own.
+    pub(super) fn within(&mut self, file: Option<&str>) {
+        if self.within.as_deref() != file {
+            self.within = file.map(str::to_owned);
         }
     }
 
@@ -128,6 +140,7 @@ impl<'a> Track<'a> {
         }
         let note = Note {
             order: self.notes.len(),
+            file: self.within.clone(),
             line,
             text: text(),
             times: 1,
@@ -142,7 +155,8 @@ impl<'a> Track<'a> {
         problem: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Fault {
-        Fault::new(self.file, line, field, problem, allowed)
+        let file = self.within.as_deref().unwrap_or(self.file);
+        Fault::new(file, line, field, problem, allowed)
     }
 
     /// The drawing.
@@ -150,7 +164,8 @@ impl<'a> Track<'a> {
     /// # Errors
     ///
     /// Where there is no move; `allowed` says what kind of file was wanted.
-    pub(super) fn finish(self, allowed: &str) -> Result<Drawing, Fault> {
+    pub(super) fn finish(mut self, allowed: &str) -> Result<Drawing, Fault> {
+        self.within = None;
         if self.moves.is_empty() {
             return Err(self.fault(0, "file", "no move in it", allowed));
         }
@@ -159,7 +174,7 @@ impl<'a> Track<'a> {
         let warnings = notes
             .into_iter()
             .map(|note| Warning {
-                file: self.file.to_owned(),
+                file: note.file.unwrap_or_else(|| self.file.to_owned()),
                 line: note.line,
                 text: match note.times {
                     1 => note.text,

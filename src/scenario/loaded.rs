@@ -29,8 +29,8 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Reads a scenario file, with `key=value` overrides. The input is relative to the file; one
-    /// that an override gives is not.
+    /// Reads a scenario file, with `key=value` overrides. The input and the directories of
+    /// subroutines are relative to the file; those that an override gives are not.
     ///
     /// # Errors
     /// The file cannot be read, is not TOML, has an unknown key, a value of the wrong type, or
@@ -44,6 +44,14 @@ impl Loaded {
             && !given
         {
             *input = directory.join(&*input);
+        }
+        let given = loaded.overrides("program") || loaded.overrides("program.subroutine_path");
+        if let (Some(program), Some(directory)) = (loaded.scenario.program_mut(), path.parent())
+            && !given
+        {
+            for path in &mut program.subroutine_path {
+                *path = directory.join(&*path);
+            }
         }
         Ok(loaded.with_tables_beside(path))
     }

@@ -4,9 +4,11 @@ use super::exactly::exactly;
 use crate::input::{Point, REACH_MM, Zeros};
 use crate::settings::{Place, SettingError};
 use serde::Deserialize;
+use std::path::PathBuf;
 
-/// Where the zeros and the reference points of a part program are, from the machine's zero.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+/// Where the zeros and the reference points of a part program are, from the machine's zero, and its
+/// subroutines.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Program {
     /// Reference point of G28.
@@ -42,6 +44,9 @@ pub struct Program {
     /// Zero of G59.3.
     #[serde(deserialize_with = "exactly")]
     pub g59_3_mm: Point,
+    /// Directories with the files of subroutines that the program calls; in a file relative to that
+    /// file.
+    pub subroutine_path: Vec<PathBuf>,
 }
 
 impl Program {

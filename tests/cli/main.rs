@@ -45,6 +45,7 @@ mod settings;
 mod signals;
 mod step_motors;
 mod streams;
+mod subroutines;
 mod support;
 mod tables;
 mod trajectory;

@@ -229,7 +229,7 @@ fn bad_machines_are_refused_with_their_line() {
 fn bad_moves_are_refused_with_their_line() {
     let cases = [(
         "G1 X20 F600\nG2 X40 Y1 I3\n",
-        "p.ngc:2: I, J: the radius is 3.0000 mm at the start and 17.0294 mm at the end; allowed: radii that agree to 0.005 mm or 0.1 %",
+        "p.ngc:2: I, J: the radius is 3.0000 mm at the start and 17.0294 mm at the end; allowed: radii that agree to 0.0283 mm, or to 0.1 % and 2.83 mm",
     )];
     for (text, refusal) in cases {
         let bench = with("input = \"p.ngc\"\n");

@@ -33,6 +33,8 @@ pub(super) struct Block {
     pub(super) any: bool,
     /// Letters that stand without a number, a bit each.
     bare: u32,
+    /// An I without a number beside S, or M3 to M5: inline power of lasers.
+    pub(super) inline: bool,
     /// An E behind a number that may be its exponent or a word of its own.
     unclear: Option<Problem>,
     extruders: usize,
@@ -68,6 +70,7 @@ impl Block {
         (self.letters, self.polar) = ([None; 26], Polar::default());
         (self.extruder, self.any) = (false, false);
         (self.bare, self.unclear, self.extruders) = (0, None, 0);
+        self.inline = false;
         let mut scanner = Scanner::new(line);
         self.optional = line_start(&mut scanner)?;
         while let Some(letter) = scanner.next_word() {
@@ -137,6 +140,10 @@ impl Block {
             _ if self.flags(letter) => {
                 self.bare |= bit(letter);
                 return self.put(letter, 0.0);
+            }
+            next if letter == b'I' && self.is_power(next) => {
+                self.inline = true;
+                return Ok(());
             }
             _ => {
                 let problem = "a letter without its number, or out of place";
@@ -223,6 +230,12 @@ impl Block {
         let homes = self.g.iter().any(|code| matches!(code.0, 28 | 29));
         let printer = self.m.iter().any(|code| code.0 >= 17);
         !matches!(letter, b'G' | b'M' | b'N') && (homes || printer)
+    }
+
+    /// True if an I without a number is inline power, before another letter or the end.
+    fn is_power(&self, next: Option<u8>) -> bool {
+        let spindle = self.m.iter().any(|code| matches!(code, (3..=5, 0)));
+        spindle || next == Some(b'S') || self.letter(b'S').is_some()
     }
 
     /// The value of a letter, where it is there.

@@ -18,7 +18,7 @@ impl Runner<'_> {
     ) -> Result<(), Problem> {
         use Keyword as K;
         let field = format!("O{label} {}", keyword.name());
-        let here = self.index().at(start);
+        let here = self.source.index().at(start);
         let lone = || {
             Problem::new(
                 &field,
@@ -26,10 +26,11 @@ impl Runner<'_> {
                 "blocks with both ends",
             )
         };
-        let (head, onward, end) = self
-            .place(here)
-            .map(|place| (place.head, place.onward, place.end))
-            .ok_or_else(lone)?;
+        let (head, onward, end) = match self.place(here) {
+            Some(place) => (place.head, place.onward, place.end),
+            None if keyword == K::Call => (None, None, None),
+            None => return Err(lone()),
+        };
         let closes = head != here;
         let mut value = None;
         let needs = matches!(keyword, K::If | K::ElseIf | K::While | K::Repeat);
@@ -63,7 +64,7 @@ impl Runner<'_> {
                     self.go_after(end);
                 }
             }
-            K::Call => self.call(label, &arguments)?,
+            K::Call => self.call(line, label, &arguments)?,
             K::Return | K::EndSub => {
                 if !self.leave(value)? {
                     return Err(Problem::new(
@@ -108,10 +109,10 @@ impl Runner<'_> {
                 (place.keyword, place.start, place.line, place.onward);
             let mut taken = true;
             if keyword == Keyword::ElseIf {
-                let (mut cleaned, text) = (Vec::new(), self.text);
-                let bytes = line_at(text, start).map_or(&[][..], |(bytes, _)| bytes);
+                let mut cleaned = Vec::new();
+                let bytes = line_at(&self.source.text, start).map_or(&[][..], |(bytes, _)| bytes);
                 clean(bytes, &mut cleaned)?;
-                if let Some((_, _, mut rest)) = o_word(&cleaned)? {
+                if let Some((_, _, mut rest)) = o_word(&cleaned, None)? {
                     rest.next_word();
                     taken = rest.value(&self.known(line))? != 0.0;
                 }

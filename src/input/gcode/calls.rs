@@ -1,6 +1,9 @@
 //! Calls of subroutines and programs, and the ways back.
 
+use std::rc::Rc;
+
 use super::expression::Name;
+use super::library::{Source, not_there};
 use super::modal::Modal;
 use super::parameters::LOCALS;
 use super::problem::Problem;
@@ -11,26 +14,35 @@ const DEEPEST: usize = 10;
 
 /// A call that is being run.
 #[derive(Debug)]
-pub(super) struct Frame {
+pub(super) struct Frame<'a> {
     /// Where it goes on after, and that line.
-    pub(super) back: (usize, usize),
+    back: (usize, usize),
+    /// The text that this is in.
+    pub(super) source: Rc<Source<'a>>,
+    /// The line of the call.
+    pub(super) line: usize,
     /// Loops that were open before.
     pub(super) loops: usize,
     /// A program by its number has no parameters of its own.
-    pub(super) program: Option<Again>,
+    program: Option<Again>,
     /// What M73 put aside.
     pub(super) modal: Option<Modal>,
 }
 
 /// A program that M98 calls.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Again {
-    pub(super) place: usize,
-    pub(super) left: u32,
+struct Again {
+    place: usize,
+    left: u32,
 }
 
-impl Runner<'_> {
-    fn enter(&mut self, program: Option<Again>) -> Result<(), Problem> {
+impl<'a> Runner<'a> {
+    fn enter(
+        &mut self,
+        line: usize,
+        source: Rc<Source<'a>>,
+        program: Option<Again>,
+    ) -> Result<(), Problem> {
         if self.frames.len() >= DEEPEST {
             let problem = format!("calls nest deeper than {DEEPEST}");
             return Err(Problem::new(
@@ -39,8 +51,11 @@ impl Runner<'_> {
                 "fewer calls inside each other",
             ));
         }
+        let source = std::mem::replace(&mut self.source, source);
         self.frames.push(Frame {
             back: self.at,
+            source,
+            line,
             loops: self.loops.len(),
             program,
             modal: None,
@@ -48,24 +63,67 @@ impl Runner<'_> {
         Ok(())
     }
 
-    pub(super) fn call(&mut self, label: &str, arguments: &[f64]) -> Result<(), Problem> {
+    pub(super) fn call(
+        &mut self,
+        line: usize,
+        label: &str,
+        arguments: &[f64],
+    ) -> Result<(), Problem> {
         let field = format!("O{label} CALL");
         if arguments.len() > LOCALS {
             let problem = format!("{} arguments", arguments.len());
             return Err(Problem::new(field, problem, format!("at most {LOCALS}")));
         }
-        let Some(sub) = self.index().sub(label) else {
-            let problem = "calls a subroutine that is not in this file";
-            return Err(Problem::new(
-                field,
-                problem,
-                "subroutines of the file itself",
-            ));
-        };
-        self.enter(None)?;
+        let (source, sub) = self.subroutine(&field, line, label)?;
+        self.enter(line, source, None)?;
         self.parameters.enter(arguments);
         self.go_after(Some(sub));
         Ok(())
+    }
+
+    /// The subroutine of a label: of this file, of the program, or of a file of its own.
+    fn subroutine(
+        &mut self,
+        field: &str,
+        line: usize,
+        label: &str,
+    ) -> Result<(Rc<Source<'a>>, usize), Problem> {
+        let own = self.source.index().sub(label);
+        let own_line = self.place(own).map(|place| place.line);
+        let own = own.map(|sub| (Rc::clone(&self.source), sub));
+        if own_line.is_some_and(|begin| begin < line) {
+            return own.ok_or_else(|| not_there(field, "a subroutine"));
+        }
+        // A file goes before a subroutine that stands behind the call, so LinuxCNC; others have it
+        // the other way round.
+        if let Some(found) = self.library.find(field, label)? {
+            let file = found.file.clone().unwrap_or_default();
+            if own.is_some() && !Rc::ptr_eq(&found, &self.source) {
+                let problem = format!("may be the one behind it, or that of {file}");
+                return Err(Problem::new(
+                    field,
+                    problem,
+                    "subroutines before their calls",
+                ));
+            }
+            let sub = found.index().sub(label).ok_or_else(|| {
+                let problem = format!("calls {file}, which has no O{label} SUB");
+                Problem::new(field, problem, "a file with the subroutine of its name")
+            })?;
+            let end = found.index().places.get(sub).and_then(|place| place.end);
+            if end.is_none() {
+                let problem = format!("calls {file}, whose O{label} SUB has no ENDSUB");
+                return Err(Problem::new(field, problem, "subroutines with both ends"));
+            }
+            return Ok((found, sub));
+        }
+        let program = self.program_source();
+        let seen = program
+            .index()
+            .sub(label)
+            .filter(|_| !self.source.is_program());
+        let seen = seen.map(|sub| (program, sub));
+        own.or(seen).ok_or_else(|| not_there(field, "a subroutine"))
     }
 
     pub(super) fn call_program(
@@ -77,30 +135,63 @@ impl Runner<'_> {
         let Some(program) = program else {
             return Err(Problem::new("M98", "without P", "M98 P1000"));
         };
-        let mut number = format!("{program}");
         let mut repeats = times.unwrap_or(1.0);
-        let mut found = self.index().program(&number);
+        let mut found = self.numbered(&format!("{program}"))?;
         // P30002 is program 2 three times, where there is no program 30002.
         if found.is_none() && times.is_none() && program > 9999.0 && program.fract() == 0.0 {
-            let last = format!("{}", program % 10_000.0);
-            found = self.index().program(&last);
-            if found.is_some() {
-                (number, repeats) = (last, (program / 10_000.0).floor());
-            }
+            found = self.numbered(&format!("{}", program % 10_000.0))?;
+            repeats = (program / 10_000.0).floor();
         }
         let times = repeats.round().max(0.0) as u32;
-        let Some(place) = found else {
-            let problem = format!("calls program O{number}, which is not in this file");
-            return Err(Problem::new("M98", problem, "programs of the file itself"));
+        let Some((source, place)) = found else {
+            return Err(not_there("M98", &format!("program O{program}")));
         };
         if times == 0 {
             self.machine.skip("M98 L0", line);
             return Ok(());
         }
         let left = times - 1;
-        self.enter(Some(Again { place, left }))?;
+        self.enter(line, source, Some(Again { place, left }))?;
         self.go_after(Some(place));
         Ok(())
+    }
+
+    /// The program of a number: of this file, of the program, or of a file of its own.
+    fn numbered(&mut self, number: &str) -> Result<Option<(Rc<Source<'a>>, usize)>, Problem> {
+        for source in [Rc::clone(&self.source), self.program_source()] {
+            if let Some(place) = source.index().program(number) {
+                return Ok(Some((source, place)));
+            }
+        }
+        if !number.bytes().all(|byte| byte.is_ascii_digit()) {
+            return Ok(None);
+        }
+        let Some(source) = self.library.find("M98", number)? else {
+            return Ok(None);
+        };
+        let place = source.index().program(number).ok_or_else(|| {
+            let file = source.file.as_deref().unwrap_or_default();
+            let problem = format!("calls {file}, which has no line O{number}");
+            Problem::new("M98", problem, "a file with the program of its name")
+        })?;
+        Ok(Some((source, place)))
+    }
+
+    /// The text that was given, whatever is being run of others.
+    fn program_source(&self) -> Rc<Source<'a>> {
+        let frame = self.frames.first();
+        Rc::clone(frame.map_or(&self.source, |frame| &frame.source))
+    }
+
+    /// The line of the program that a line of the text being run belongs to: the call in it that
+    /// led to a file of subroutines.
+    pub(super) fn line_of_program(&self, line: usize) -> usize {
+        if self.source.is_program() {
+            return line;
+        }
+        let mut frames = self.frames.iter().rev();
+        let call = frames.find(|frame| frame.source.is_program());
+        call.map_or(line, |frame| frame.line)
     }
 
     /// Returns from a call; false where there is none.
@@ -120,6 +211,7 @@ impl Runner<'_> {
         let Some(frame) = self.frames.pop() else {
             return Ok(false);
         };
+        self.source = frame.source;
         if frame.program.is_none() {
             self.parameters.leave();
             let returned = Name::Text("_VALUE_RETURNED".to_owned());

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::block::line_start;
-use super::expression::Scanner;
+use super::expression::{Scanner, Values};
 use super::problem::Problem;
 use super::text::{clean, line_at};
 
@@ -80,10 +80,15 @@ impl Keyword {
 /// The O-word at the beginning of a cleaned line, where there is one: its label, what it does, and
 /// the rest of the line.
 ///
+/// A number may be computed where the values are given.
+///
 /// # Errors
 ///
 /// An O without a number or a name.
-pub(super) fn o_word(line: &[u8]) -> Result<Option<(String, Keyword, Scanner<'_>)>, Problem> {
+pub(super) fn o_word<'a>(
+    line: &'a [u8],
+    values: Option<&dyn Values>,
+) -> Result<Option<(String, Keyword, Scanner<'a>)>, Problem> {
     if !line.iter().any(|byte| matches!(byte, b'O' | b':')) {
         return Ok(None);
     }
@@ -99,6 +104,7 @@ pub(super) fn o_word(line: &[u8]) -> Result<Option<(String, Keyword, Scanner<'_>
             let digits = scanner.digits().trim_start_matches('0');
             if digits.is_empty() { "0" } else { digits }.to_owned()
         }
+        Some(b'#' | b'[') if values.is_some() => computed(&mut scanner, values)?,
         _ => {
             let problem = "an O-word without a number or name as written";
             return Err(Problem::new("O", problem, "O100 or O<name>"));
@@ -119,6 +125,23 @@ pub(super) fn o_word(line: &[u8]) -> Result<Option<(String, Keyword, Scanner<'_>
         None => K::Program,
     };
     Ok(Some((label, keyword, scanner)))
+}
+
+/// A label that is the value of a parameter or of an expression: that of a call, as the others are
+/// found before there are values.
+fn computed(scanner: &mut Scanner<'_>, values: Option<&dyn Values>) -> Result<String, Problem> {
+    let value = values.map_or(Ok(0.0), |values| scanner.value(values))?;
+    scanner.next_word();
+    if !scanner.rest().starts_with(b"CALL") {
+        let problem = "an O-word without a number or name as written";
+        return Err(Problem::new("O", problem, "O100 or O<name>; O#1 CALL"));
+    }
+    let whole = value.round();
+    if (value - whole).abs() > 1.0e-4 || !(0.0..=1.0e9).contains(&whole) {
+        let problem = format!("{value} is no number of a subroutine");
+        return Err(Problem::new("O", problem, "a whole number"));
+    }
+    Ok(format!("{whole}"))
 }
 
 /// A line with an O-word.
@@ -159,7 +182,7 @@ impl Index {
             let first = bytes.trim_ascii_start().first();
             if matches!(first, Some(b'o' | b'O' | b':' | b'n' | b'N' | b'/'))
                 && clean(bytes, &mut cleaned).is_ok()
-                && let Ok(Some((label, keyword, _))) = o_word(&cleaned)
+                && let Ok(Some((label, keyword, _))) = o_word(&cleaned, None)
             {
                 index.add(&mut open, label, keyword, (line, start, next));
             }

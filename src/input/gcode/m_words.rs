@@ -73,7 +73,9 @@ impl Machine<'_> {
             return Ok(());
         }
         for &letter in own.unwrap_or(b"PQLESR") {
-            if block.letter(letter).is_some() && self.wanted(letter, block) {
+            // One turn of an arc is what it makes anyway.
+            let one_turn = letter == b'P' && block.letter(letter) == Some(1.0);
+            if block.letter(letter).is_some() && self.wanted(letter, block, one_turn) {
                 let problem = format!("with {word} and a G word that has it too");
                 return Err(Problem::new(char::from(letter), problem, "a line for each"));
             }
@@ -83,10 +85,11 @@ impl Machine<'_> {
     }
 
     /// True if a letter has a meaning for the path by a G word of the line, or the one in force.
-    fn wanted(&self, letter: u8, block: &Block) -> bool {
+    fn wanted(&self, letter: u8, block: &Block, one_turn: bool) -> bool {
         let in_force = self.modal.motion.filter(|_| block.moves());
         let in_force = in_force.map(|motion| motion.code());
-        let mut codes = block.g.iter().copied().chain(in_force);
+        let codes = block.g.iter().copied().chain(in_force);
+        let mut codes = codes.filter(|code| !(one_turn && matches!(code, (2 | 3, 0))));
         codes.any(|code| codes::g_letters(code).contains(&letter))
     }
 }

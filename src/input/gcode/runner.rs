@@ -1,10 +1,13 @@
 //! A program line by line, with its calls, branches and loops.
 
+use std::rc::Rc;
+
 use super::Options;
 use super::block::{Block, Code};
 use super::calls::Frame;
 use super::expression::{Name, Values};
 use super::flow::{Index, Keyword, Place, o_word};
+use super::library::{Library, Source};
 use super::machine::Machine;
 use super::mark;
 use super::parameters::Parameters;
@@ -15,14 +18,15 @@ use crate::input::{Drawing, Fault, Faults};
 
 /// A program in its text.
 pub(super) struct Runner<'a> {
-    pub(super) text: &'a [u8],
+    /// What is being run: the program, or a file that it calls.
+    pub(super) source: Rc<Source<'a>>,
+    pub(super) library: Library<'a>,
     options: &'a Options,
     pub(super) machine: Machine<'a>,
     pub(super) parameters: Parameters,
     /// Where the next line begins, and its number.
     pub(super) at: (usize, usize),
-    pub(super) index: Option<Index>,
-    pub(super) frames: Vec<Frame>,
+    pub(super) frames: Vec<Frame<'a>>,
     /// REPEATs that are being run, and how often yet.
     pub(super) loops: Vec<(usize, u64)>,
     executed: u64,
@@ -59,12 +63,12 @@ impl Values for Known<'_, '_> {
 impl<'a> Runner<'a> {
     pub(super) fn new(file: &'a str, text: &'a [u8], options: &'a Options) -> Self {
         Self {
-            text,
+            source: Rc::new(Source::program(text)),
+            library: Library::new(&options.subroutines),
             options,
             machine: Machine::new(file, options),
             parameters: Parameters::new(),
             at: (0, 1),
-            index: None,
             frames: Vec::new(),
             loops: Vec::new(),
             executed: 0,
@@ -79,11 +83,18 @@ impl<'a> Runner<'a> {
         let (mut cleaned, mut block) = (Vec::new(), Block::default());
         while !self.ended {
             let (start, line) = self.at;
-            let Some((bytes, next)) = line_at(self.text, start) else {
+            let source = Rc::clone(&self.source);
+            self.machine.track.within(source.file.as_deref());
+            let Some((bytes, next)) = line_at(&source.text, start) else {
+                if !source.is_program() {
+                    let fault = self.machine.fault(line - 1, unended());
+                    self.faults.add(fault);
+                }
                 break;
             };
             self.at = (next, line + 1);
             let done = self.step(bytes, start, line, &mut cleaned, &mut block);
+            self.machine.track.within(source.file.as_deref());
             if let Err(problem) = done
                 && (!problem.follows || self.faults.is_empty())
             {
@@ -92,10 +103,12 @@ impl<'a> Runner<'a> {
                 self.ended |= !self.faults.add(fault);
             }
         }
-        if self.ended && self.index.is_none() {
+        let source = Rc::clone(&self.source);
+        let known = source.known_index();
+        if self.ended && known.is_none() && source.is_program() {
             self.look_at_rest();
         }
-        let unused = self.index.as_ref().is_some_and(Index::has_subs);
+        let unused = known.is_some_and(Index::has_subs);
         self.faults.or(|| self.machine.finish(unused))
     }
 
@@ -116,7 +129,8 @@ impl<'a> Runner<'a> {
             return Ok(());
         }
         self.started = true;
-        match o_word(cleaned)? {
+        let word = o_word(cleaned, Some(&self.known(line)))?;
+        match word {
             Some((_, Keyword::Program, rest)) => {
                 self.machine.skip("O", line);
                 self.words(rest.rest(), line, block)?;
@@ -129,7 +143,7 @@ impl<'a> Runner<'a> {
             }
             None => self.words(cleaned, line, block)?,
         }
-        self.machine.push(line)
+        self.machine.push(line, self.line_of_program(line))
     }
 
     /// Counts lines that are run.
@@ -212,6 +226,10 @@ impl<'a> Runner<'a> {
             let allowed = "% on a line of its own";
             return Err(Problem::new("%", "not alone in its line", allowed));
         }
+        if !self.source.is_program() {
+            self.ended = true;
+            return Err(unended());
+        }
         self.ended = self.started;
         self.started = true;
         Ok(true)
@@ -261,12 +279,8 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    pub(super) fn index(&mut self) -> &Index {
-        self.index.get_or_insert_with(|| Index::of(self.text))
-    }
-
-    pub(super) fn place(&mut self, at: Option<usize>) -> Option<&Place> {
-        at.and_then(|at| self.index().places.get(at))
+    pub(super) fn place(&self, at: Option<usize>) -> Option<&Place> {
+        at.and_then(|at| self.source.index().places.get(at))
     }
 
     /// Goes on after the line of an O-word.
@@ -279,7 +293,8 @@ impl<'a> Runner<'a> {
     /// Warns where there is text after the end.
     fn look_at_rest(&mut self) {
         let (mut at, mut line) = self.at;
-        while let Some((bytes, next)) = line_at(self.text, at) {
+        let source = Rc::clone(&self.source);
+        while let Some((bytes, next)) = line_at(&source.text, at) {
             let first = bytes.trim_ascii().first();
             if !matches!(first, None | Some(b'%' | b';' | b'(')) {
                 let text = || "text after the end of the program is not read".to_owned();
@@ -289,6 +304,16 @@ impl<'a> Runner<'a> {
             (at, line) = (next, line + 1);
         }
     }
+}
+
+/// A file that ends, or would end the program, inside a call.
+fn unended() -> Problem {
+    let problem = "ends inside a call";
+    Problem::new(
+        "file",
+        problem,
+        "ENDSUB, RETURN or M99 before the end of the file",
+    )
 }
 
 /// True if a line with `$` shows or sets what a control has; `$H`, `$J` and others move.

@@ -6,6 +6,7 @@ mod flow;
 mod fourth;
 mod offsets;
 mod rotations;
+mod subroutines;
 mod words;
 
 use motion_rtl::input::gcode::read;
@@ -272,7 +273,7 @@ fn malformed_texts_and_their_faults() {
         ),
         (
             "G0 X1\nM98 P1",
-            "t:2: M98: calls program O1, which is not in this file; allowed: programs of the file itself",
+            "t:2: M98: calls program O1, which is not in this file; allowed: subroutines of the file itself, and of files in the directories of --subroutines",
         ),
         (
             "G0 X1 P1",

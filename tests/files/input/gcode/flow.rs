@@ -87,6 +87,10 @@ fn calls_have_parameters_of_their_own() {
     assert!(
         refuse(read, &format!("{sub}o<go> call [1]\nX#<far>")).contains("#<far>: has no value")
     );
+    // A number that is computed.
+    let two = "o2 sub\nG0 X2\no2 endsub\n#<n>=1\n";
+    let computed = format!("{two}o[#<n>+1] call\nX3\n#5=2\no#5 call");
+    assert_eq!(ends(&computed), [2.0, 3.0, 2.0]);
     // A sub that stands behind; one that calls itself.
     assert_eq!(ends("o5 call\nM2\no5 sub\nG0 X1\no5 endsub"), [1.0]);
     let down = "o1 sub\nG0 X#1\no2 if [#1 LE 1]\no1 return [7]\no2 endif\no1 call [#1-1]\n\
@@ -126,7 +130,8 @@ fn what_is_wrong_is_named() {
     for (text, fault) in [
         (
             "o1 call",
-            "t:1: O1 CALL: calls a subroutine that is not in this file",
+            "t:1: O1 CALL: calls a subroutine, which is not in this file; allowed: subroutines of the \
+             file itself, and of files in the directories of --subroutines",
         ),
         (
             "G0 X1\no1 if [1]\nX2",
@@ -144,8 +149,14 @@ fn what_is_wrong_is_named() {
         ("o1 if\no1 endif", "t:1: O1 IF: without a value"),
         ("o1 if [1] x\no1 endif", "t:1: O1 IF: 'X' behind it"),
         (
-            "o#1 call",
+            "o#1 if [1]",
             "t:1: O: an O-word without a number or name as written",
+        ),
+        ("o[1.5] call", "t:1: O: 1.5 is no number of a subroutine"),
+        ("o[-1] call", "t:1: O: -1 is no number of a subroutine"),
+        (
+            "o#1 call",
+            "t:1: O0 CALL: calls a subroutine, which is not in this file",
         ),
         (
             "o1 sub\no1 call\no1 endsub\no1 call",

@@ -145,6 +145,48 @@ fn what_may_change_the_path_is_refused() {
 }
 
 #[test]
+fn inline_power_says_nothing_about_the_path() {
+    let text = "M3 I\nG1 X5 F60 I S20\nS20 I X6\nX7 I(a)S3\nM5 I\nG0 X8 M4 I";
+    let drawing = accept(read, text);
+    assert_eq!(
+        moves(&drawing),
+        [
+            "line to 5 0 0 F60",
+            "line to 6 0 0 F60",
+            "line to 7 0 0 F60",
+            "rapid to 8 0 0"
+        ]
+    );
+    let said = warnings(&drawing);
+    assert!(
+        said.contains(&"t:1: I: skipped (6 times)".to_owned()),
+        "{said:?}"
+    );
+    assert!(read_with("t", text.as_bytes(), &strict()).is_err());
+    for (line, fault) in [
+        ("G1 X5 I", "I: a letter without its number"),
+        ("G2 X2 I J0 S5", "I: a letter without its number"),
+        (
+            "G2 X2 J1 I S5",
+            "I: without its number, in the line of an arc",
+        ),
+        (
+            "G2 X2 J1 S5 I",
+            "I: without its number, in the line of an arc",
+        ),
+        (
+            "G2 X2 I1 F60\nX4 M3 I",
+            "I: without its number, in the line of an arc",
+        ),
+        ("M3 J", "J: a letter without its number"),
+        ("G1 X5 F60 M3 I I1", "I, J, R: with G1"),
+    ] {
+        let refused = refuse(read, line);
+        assert!(refused.contains(fault), "{line}: {refused}");
+    }
+}
+
+#[test]
 fn axis_words_beside_m_words_move() {
     // As rs274 of LinuxCNC does; printers' words keep theirs.
     for (text, expected) in [
@@ -155,6 +197,8 @@ fn axis_words_beside_m_words_move() {
         ("G0 X1\nM19 R90 X5", &["rapid to 1 0 0", "rapid to 5 0 0"]),
         ("G0 X1\nX5 M50 P1", &["rapid to 1 0 0", "rapid to 5 0 0"]),
         ("G0 X1\nM92 X80 Y80", &["rapid to 1 0 0"]),
+        // P1 is the one turn that an arc makes.
+        ("F60 G2 X2 I1 M62 P1", &["cw about 1 0 to 2 0 0 F60"]),
         (
             "F60 G0 Z5\nG81 X1 Z-1 R2\nG80\nG81 X2 Z-1 R4 M62 P0",
             &[
