@@ -1,13 +1,15 @@
 //! Files that appear whole or not at all, whatever ends the program. What a loss of power leaves is
 //! up to the file system: they are not synchronised.
 
+mod hidden;
 mod left;
 mod naming;
 
 pub use left::{Claim, clear};
 pub use naming::commit_all;
 
-use std::fs::{self, File};
+use hidden::{NOT_REGULAR, temporary};
+use std::fs;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -72,33 +74,6 @@ impl AtomicFile {
     pub fn commit(self) -> io::Result<PathBuf> {
         let path = self.path.clone();
         commit_all([self]).map(|_| path)
-    }
-}
-
-/// A file in this directory that is locked while it is open, so that others see that somebody
-/// writes it.
-fn temporary(directory: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX).suffix(SUFFIX);
-    loop {
-        // The builder's own error would name the temporary file.
-        let mut failed = None;
-        let made = builder.make_in(directory, |path| {
-            // Not private, as such files are otherwise: it is to become an ordinary one.
-            let opened = File::options()
-                .read(true)
-                .write(true)
-                .create_new(true)
-                .open(path);
-            opened.inspect_err(|error| failed = error.raw_os_error())
-        });
-        let file = made.map_err(|error| failed.map_or(error, io::Error::from_raw_os_error))?;
-        // Where files cannot be locked, what is left is never removed.
-        let _ = file.as_file().lock();
-        // Before it was locked it may have been taken for one that was left.
-        if left::is_there(file.as_file(), file.path()) {
-            return Ok(file);
-        }
     }
 }
 
@@ -225,7 +200,7 @@ fn target(path: &Path) -> io::Result<PathBuf> {
         }
         // The rename would put a file in the place of the pipe or the device.
         if !there.is_file() {
-            let problem = "is not a regular file, and only such a file is replaced";
+            let problem = format!("{NOT_REGULAR}, and only such a file is replaced");
             return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         }
     }

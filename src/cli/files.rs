@@ -47,7 +47,11 @@ impl Files {
         let claim = Claim::new(directory, stem).map_err(|error| Failure::Argument {
             field: "--out",
             problem: error.to_string(),
-            allowed: "another directory, or to wait until that run is over".into(),
+            allowed: match error.kind() {
+                io::ErrorKind::InvalidInput => "another directory, or to remove it",
+                _ => "another directory, or to wait until that run is over",
+            }
+            .into(),
         })?;
         clear(directory);
         Ok(Files {

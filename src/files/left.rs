@@ -1,16 +1,25 @@
 //! Who writes: a temporary file is locked while somebody does, and one that is not was left by a
 //! program that something ended at once.
 
+use super::hidden::{FRESH, NOT_REGULAR, STALE, is_there, open};
 use super::{PREFIX, SUFFIX, Unfinished, named, unfinished};
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
 
 /// Bytes of a stem that the name of a claim has at most.
 const STEM: usize = 200;
 
 /// What the names of claims end with.
 const CLAIM: &str = ".lock";
+
+/// Stem of the claim by which one run at a time clears a directory: no file is called so.
+const CLEARING: &str = "";
+
+/// Wait before a claim is tried again.
+const WAIT: Duration = Duration::from_millis(1);
 
 /// The files of a stem in a directory, for one writer at a time.
 ///
@@ -29,29 +38,40 @@ impl Claim {
     /// no claim, and no error.
     ///
     /// # Errors
-    /// Somebody else has claimed them; the files were [abandoned](super::abandon). The error names
-    /// the path.
+    /// Somebody else has claimed them; something that is no regular file has the name of the hidden
+    /// file; the files were [abandoned](super::abandon). The error names the path.
     pub fn new(directory: &Path, stem: &str) -> io::Result<Option<Self>> {
         let end = (0..=STEM.min(stem.len()))
             .rev()
             .find(|&end| stem.is_char_boundary(end));
-        let stem = &stem[..end.unwrap_or(0)];
-        let path = directory.join(format!("{PREFIX}{stem}{CLAIM}"));
-        let made = unfinished(|all| {
-            let all = all.as_mut().ok_or(io::ErrorKind::Interrupted)?;
-            let file = lock(&path)?;
-            if file.is_some() {
-                all.push(path.clone());
-            }
-            Ok(file)
-        });
-        match made {
-            Ok(file) => Ok(file.map(|file| Claim {
-                _unfinished: Unfinished(vec![path.clone()]),
-                path,
-                file: Some(file),
-            })),
-            Err(error) => Err(named(&directory.join(stem), &error)),
+        let hidden = &stem[..end.unwrap_or(0)];
+        let path = directory.join(format!("{PREFIX}{hidden}{CLAIM}"));
+        loop {
+            let tried: io::Result<Attempt> = unfinished(|all| {
+                let all = all.as_mut().ok_or(io::ErrorKind::Interrupted)?;
+                let tried = attempt(&path)?;
+                if let Attempt::Locked(_) = tried {
+                    all.push(path.clone());
+                }
+                Ok(tried)
+            });
+            return match tried {
+                // Outside of the list, for which a signal waits.
+                Ok(Attempt::Again) => {
+                    thread::sleep(WAIT);
+                    continue;
+                }
+                Ok(Attempt::Locked(file)) => Ok(Some(Claim {
+                    _unfinished: Unfinished(vec![path.clone()]),
+                    path,
+                    file: Some(file),
+                })),
+                Ok(Attempt::Impossible) => Ok(None),
+                Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
+                    Err(named(&path, &error))
+                }
+                Err(error) => Err(named(&directory.join(stem), &error)),
+            };
         }
     }
 }
@@ -64,73 +84,85 @@ impl Drop for Claim {
     }
 }
 
-/// Makes a file and locks it.
-fn lock(path: &Path) -> io::Result<Option<File>> {
-    loop {
-        let opened = OpenOptions::new()
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(path);
-        let Ok(file) = opened else {
-            return Ok(None);
-        };
-        match file.try_lock() {
-            Ok(()) if is_there(&file, path) => return Ok(Some(file)),
-            // The one before has removed it in between.
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                let problem = "is being written by another run";
-                return Err(io::Error::new(io::ErrorKind::ResourceBusy, problem));
-            }
-            Err(TryLockError::Error(_)) => {
-                let _ = fs::remove_file(path);
-                return Ok(None);
-            }
+/// Result of one attempt to claim.
+enum Attempt {
+    Locked(File),
+    /// The file is going, or somebody looks whether it was left.
+    Again,
+    /// Files cannot be made or locked here.
+    Impossible,
+}
+
+/// Makes a file and locks it. A writer's lock is exclusive, that of who clears away is shared.
+fn attempt(path: &Path) -> io::Result<Attempt> {
+    let mut options = File::options();
+    let opened = open(options.write(true).create(true).truncate(false), path);
+    let file = match opened {
+        Ok(file) => file,
+        Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
+            let problem = format!("{NOT_REGULAR}, and locks need one of this name");
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+        }
+        Err(_) => return Ok(Attempt::Impossible),
+    };
+    match file.try_lock() {
+        Ok(()) if is_there(&file, path) => Ok(Attempt::Locked(file)),
+        Ok(()) => Ok(Attempt::Again),
+        // In this order: once a writer has its lock, only the writer removes the file.
+        Err(TryLockError::WouldBlock)
+            if file.try_lock_shared().is_ok() || !is_there(&file, path) =>
+        {
+            Ok(Attempt::Again)
+        }
+        Err(TryLockError::WouldBlock) => {
+            let problem = "is being written by another run";
+            Err(io::Error::new(io::ErrorKind::ResourceBusy, problem))
+        }
+        Err(TryLockError::Error(_)) => {
+            let _ = fs::remove_file(path);
+            Ok(Attempt::Impossible)
         }
     }
 }
 
-/// Whether an open file still has this name.
-#[cfg(unix)]
-pub(super) fn is_there(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let number = |metadata: io::Result<fs::Metadata>| metadata.map(|one| (one.dev(), one.ino()));
-    match (number(file.metadata()), number(path.symlink_metadata())) {
-        (Ok(open), Ok(named)) => open == named,
-        (_, Err(error)) => error.kind() != io::ErrorKind::NotFound,
-        _ => true,
-    }
-}
-
-/// Whether an open file still has this name: elsewhere what is open cannot be removed.
-#[cfg(not(unix))]
-pub(super) fn is_there(_: &File, _: &Path) -> bool {
-    true
-}
-
-/// Removes what runs have left in a directory that something ended at once: temporary files that
-/// nobody has locked. Returns their paths, in order.
+/// Removes what runs have left in a directory that something ended at once: hidden files that nobody
+/// has locked. Returns the paths of temporary files, in order; claims hold nothing. Does nothing
+/// where somebody else does it at the same time.
 pub fn clear(directory: &Path) -> Vec<PathBuf> {
     let mut removed = Vec::new();
+    // One at a time: a claim that was removed may be there again for the next one.
+    let Ok(Some(_claim)) = Claim::new(directory, CLEARING) else {
+        return removed;
+    };
     for entry in fs::read_dir(directory).into_iter().flatten().flatten() {
         let name = entry.file_name();
-        let Some(name) = name.to_str() else {
+        let Some(name) = name.to_str().filter(|name| name.starts_with(PREFIX)) else {
             continue;
         };
-        let ours = name.starts_with(PREFIX) && (name.ends_with(SUFFIX) || name.ends_with(CLAIM));
-        if !ours || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
-            continue;
-        }
         let path = directory.join(name);
-        // Held until it is removed: its writer may only just have made it.
-        let file = File::open(&path)
-            .ok()
-            .filter(|file| file.try_lock().is_ok());
-        if file.is_some_and(|file| is_there(&file, &path)) && fs::remove_file(&path).is_ok() {
+        let left = name.ends_with(SUFFIX) || name.ends_with(FRESH) && is_stale(&path);
+        if name.ends_with(CLAIM) {
+            remove(&path, File::try_lock_shared);
+        } else if left && remove(&path, File::try_lock) {
             removed.push(path);
         }
     }
     removed.sort();
     removed
+}
+
+/// True if a file is older than one that somebody has only just made.
+fn is_stale(path: &Path) -> bool {
+    let made = path.symlink_metadata().and_then(|found| found.modified());
+    let age = made.ok().and_then(|made| made.elapsed().ok());
+    age.is_some_and(|age| age >= STALE)
+}
+
+/// Removes a regular file that nobody has locked; true if it did.
+fn remove(path: &Path, lock: fn(&File) -> Result<(), TryLockError>) -> bool {
+    let Ok(file) = open(File::options().read(true), path) else {
+        return false;
+    };
+    // The lock is held until the file is gone.
+    lock(&file).is_ok() && is_there(&file, path) && fs::remove_file(path).is_ok()
 }

@@ -1,9 +1,16 @@
 //! Several files take their names together.
 
+use super::hidden::{self, FRESH, is_there, open};
 use super::{AtomicFile, named, unfinished};
-use std::fs::{self, File};
-use std::io;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
+
+/// Attempts to keep an older file that other runs replace at the same time, and the wait between.
+const TRIES: usize = 100;
+const WAIT: Duration = Duration::from_millis(1);
 
 /// Gives all of them their names, or none: where one cannot be named, those before it go again, and
 /// what they have replaced is there again.
@@ -27,7 +34,7 @@ pub fn commit_all(files: impl IntoIterator<Item = AtomicFile>) -> io::Result<Vec
     }
     unfinished(|all| {
         if all.is_none() {
-            let error = io::ErrorKind::Interrupted.into();
+            let error = ErrorKind::Interrupted.into();
             let path = paths.first().map_or(Path::new(""), PathBuf::as_path);
             return Err(named(path, &error));
         }
@@ -61,10 +68,10 @@ pub fn commit_all(files: impl IntoIterator<Item = AtomicFile>) -> io::Result<Vec
     Ok(paths)
 }
 
-/// What a file has replaced, by another name.
+/// File that another one has replaced, by another name.
 struct Older {
     path: PathBuf,
-    /// Locked, so that it is not taken for one that was left.
+    /// Locked, so that it is not taken for one that was left. Shared: several runs may replace it.
     _held: Option<File>,
 }
 
@@ -72,23 +79,26 @@ impl Older {
     /// Gives an older file a second name, or where that is not to be had another one; nothing where
     /// there is none.
     fn keep(target: &Path) -> Option<Self> {
-        let there = target.symlink_metadata().ok()?;
-        if !there.is_file() {
-            return None;
+        for _ in 0..TRIES {
+            let held = open(File::options().read(true), target);
+            if let Err(error) = &held
+                && matches!(error.kind(), ErrorKind::NotFound | ErrorKind::InvalidInput)
+            {
+                return None;
+            }
+            // Without a lock where it may not be read.
+            let held = held.ok();
+            let locked = held.as_ref().map(File::try_lock_shared);
+            if let Some(Err(TryLockError::WouldBlock)) = locked {
+                // Another run has only just named it.
+                thread::sleep(WAIT);
+                continue;
+            }
+            if let Some(path) = second(target, held.as_ref())? {
+                return Some(Older { path, _held: held });
+            }
         }
-        let directory = target.parent().filter(|path| !path.as_os_str().is_empty());
-        let held = File::open(target).ok();
-        let held = held.filter(|file| file.try_lock().is_ok());
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(super::PREFIX).suffix(super::SUFFIX);
-        let made = builder.make_in(directory.unwrap_or(Path::new(".")), |path| {
-            fs::hard_link(target, path).or_else(|error| match error.kind() {
-                io::ErrorKind::AlreadyExists => Err(error),
-                _ => fs::rename(target, path),
-            })
-        });
-        let path = made.ok()?.into_temp_path().keep().ok()?;
-        Some(Older { path, _held: held })
+        None
     }
 
     fn put_back(self, target: &Path) {
@@ -99,5 +109,32 @@ impl Older {
 
     fn remove(self) {
         let _ = fs::remove_file(self.path);
+    }
+}
+
+/// The second name of a file; none where `held` is no longer the file of this name. An error where
+/// there is no room for one.
+pub(super) fn second(target: &Path, held: Option<&File>) -> Option<Option<PathBuf>> {
+    let directory = target.parent().filter(|path| !path.as_os_str().is_empty());
+    let mut changed = false;
+    let made = hidden::builder().make_in(directory.unwrap_or(Path::new(".")), |path| {
+        let fresh = path.with_extension(&FRESH[1..]);
+        match fs::hard_link(target, &fresh) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => return Err(error),
+            // No second names here.
+            Err(_) => return hidden::rename(target, path),
+            Ok(()) => {}
+        }
+        changed = held.is_some_and(|held| !is_there(held, &fresh));
+        let named = match changed {
+            true => Err(ErrorKind::NotFound.into()),
+            false => hidden::rename(&fresh, path),
+        };
+        named.inspect_err(|_| drop(fs::remove_file(&fresh)))
+    });
+    match made {
+        Ok(path) => path.into_temp_path().keep().ok().map(Some),
+        Err(_) if changed => Some(None),
+        Err(_) => None,
     }
 }

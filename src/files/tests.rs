@@ -186,10 +186,7 @@ fn what_nobody_writes_any_more_is_removed() {
         fs::write(path(name), "").unwrap();
     }
     let removed = clear(directory.path());
-    assert_eq!(
-        removed,
-        [".motion-rtl-x.lock", ".motion-rtl-x.part"].map(path)
-    );
+    assert_eq!(removed, [path(".motion-rtl-x.part")]);
     assert_eq!(names(directory.path()).len(), others.len() + 3);
     file.commit().unwrap();
     drop(claim);
@@ -230,10 +227,14 @@ fn files_that_are_only_just_begun_are_no_leftovers() {
     let directory = tempfile::tempdir().unwrap();
     let over = AtomicBool::new(false);
     std::thread::scope(|scope| {
-        scope.spawn(|| {
-            while !over.load(Ordering::Relaxed) {
-                clear(directory.path());
-            }
+        let clearing = [(); 2].map(|()| {
+            scope.spawn(|| {
+                let mut removed = Vec::new();
+                while !over.load(Ordering::Relaxed) {
+                    removed.extend(clear(directory.path()));
+                }
+                removed
+            })
         });
         let write = |name: &String| {
             begin(directory.path(), name, name).commit()?;
@@ -245,7 +246,180 @@ fn files_that_are_only_just_begun_are_no_leftovers() {
             .find(|name| write(name).ok().as_ref() != Some(name));
         over.store(true, Ordering::Relaxed);
         assert_eq!(wrong, None);
+        for removed in clearing {
+            assert_eq!(removed.join().unwrap(), [] as [PathBuf; 0]);
+        }
     });
+}
+
+/// Runs with stems of their own replace the same files, and each clears before it begins.
+#[test]
+fn runs_side_by_side_see_no_leftovers_and_no_other_writer() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |stem: &str| -> io::Result<()> {
+        for _ in 0..100 {
+            let claim = Claim::new(directory.path(), stem)?;
+            assert!(claim.is_some());
+            assert_eq!(clear(directory.path()), [] as [PathBuf; 0]);
+            let files = ["a", "b"].map(|name| begin(directory.path(), name, name));
+            commit_all(files)?;
+        }
+        Ok(())
+    };
+    std::thread::scope(|scope| {
+        let runs = ["k", "l", "m"].map(|stem| scope.spawn(move || run(stem)));
+        for run in runs {
+            run.join().unwrap().unwrap();
+        }
+    });
+    assert_eq!(names(directory.path()), ["a", "b"]);
+    assert_eq!(fs::read(directory.path().join("b")).unwrap(), b"b");
+}
+
+/// A claim that was left is taken over by the next run, or goes, without a word.
+#[test]
+fn claims_that_were_left_are_in_nobodys_way() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join(".motion-rtl-a.lock");
+    fs::write(&path, "").unwrap();
+    drop(Claim::new(directory.path(), "a").unwrap().unwrap());
+    assert!(names(directory.path()).is_empty());
+    // Somebody who only looks at it is no writer.
+    let look = || {
+        fs::write(&path, "").unwrap();
+        let looks = fs::File::open(&path).unwrap();
+        looks.lock_shared().unwrap();
+        looks
+    };
+    let looks = look();
+    assert_eq!(clear(directory.path()), [] as [PathBuf; 0]);
+    assert!(names(directory.path()).is_empty());
+    drop(looks);
+    let looks = look();
+    let wait = std::time::Duration::from_millis(50);
+    std::thread::scope(|scope| {
+        let claimed = scope.spawn(|| Claim::new(directory.path(), "a").map(drop));
+        std::thread::sleep(wait);
+        drop(looks);
+        claimed.join().unwrap().unwrap();
+    });
+    assert!(names(directory.path()).is_empty());
+    // One at a time clears.
+    let other = Claim::new(directory.path(), "").unwrap().unwrap();
+    let left = directory.path().join(".motion-rtl-x.part");
+    fs::write(&left, "").unwrap();
+    assert_eq!(clear(directory.path()), [] as [PathBuf; 0]);
+    drop(other);
+    assert_eq!(clear(directory.path()), [left]);
+}
+
+/// Leaves a claim as a run does that is killed; one that somebody has stays as it is.
+fn leave_claim(directory: &Path) {
+    let path = directory.join(".motion-rtl-a.lock");
+    let mut options = fs::File::options();
+    let _ = options.write(true).create(true).truncate(false).open(path);
+}
+
+/// Whoever clears a directory never stands in for a writer.
+#[test]
+fn who_clears_away_is_no_writer() {
+    let directory = tempfile::tempdir().unwrap();
+    let over = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                while !over.load(Ordering::Relaxed) {
+                    clear(directory.path());
+                }
+            });
+        }
+        let refused = (0..1000).find_map(|_| {
+            leave_claim(directory.path());
+            let claim = Claim::new(directory.path(), "a");
+            claim.err().map(|error| error.to_string())
+        });
+        over.store(true, Ordering::Relaxed);
+        assert_eq!(refused, None);
+    });
+}
+
+/// However many claim a stem and clear the directory, one of them has it.
+#[test]
+fn a_claim_is_never_held_twice() {
+    let directory = tempfile::tempdir().unwrap();
+    let held = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        for _ in 0..3 {
+            scope.spawn(|| {
+                for _ in 0..1000 {
+                    leave_claim(directory.path());
+                    clear(directory.path());
+                    let Ok(claim) = Claim::new(directory.path(), "a") else {
+                        continue;
+                    };
+                    assert!(!held.swap(true, Ordering::SeqCst), "held twice");
+                    std::thread::yield_now();
+                    held.store(false, Ordering::SeqCst);
+                    drop(claim);
+                }
+            });
+        }
+    });
+    clear(directory.path());
+    assert!(names(directory.path()).is_empty());
+}
+
+/// Two files of one name in turn: only the one that is held gets a second name.
+#[test]
+fn a_file_that_is_replaced_meanwhile_gets_no_second_name() {
+    let directory = tempfile::tempdir().unwrap();
+    let target = directory.path().join("a");
+    fs::write(&target, "old").unwrap();
+    let held = fs::File::open(&target).unwrap();
+    write(&target, "new").unwrap();
+    assert_eq!(naming::second(&target, Some(&held)), Some(None));
+    assert_eq!(names(directory.path()), ["a"]);
+    let held = fs::File::open(&target).unwrap();
+    let second = naming::second(&target, Some(&held)).unwrap().unwrap();
+    assert_eq!(fs::read_to_string(second).unwrap(), "new");
+}
+
+/// What a run makes before it has locked it is left only when it is old.
+#[test]
+fn what_is_too_young_to_be_locked_stays() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join(".motion-rtl-x.new");
+    let file = fs::File::create(&path).unwrap();
+    assert_eq!(clear(directory.path()), [] as [PathBuf; 0]);
+    let age = |age: std::time::Duration| {
+        let made = std::time::SystemTime::now() - age;
+        file.set_modified(made).unwrap();
+    };
+    age(hidden::STALE / 2);
+    assert_eq!(clear(directory.path()), [] as [PathBuf; 0]);
+    age(hidden::STALE);
+    file.lock().unwrap();
+    assert_eq!(clear(directory.path()), [] as [PathBuf; 0]);
+    file.unlock().unwrap();
+    assert_eq!(clear(directory.path()), [path]);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_no_claims_and_are_not_followed() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name);
+    for target in ["nowhere", "there"] {
+        fs::write(at("there"), "text").unwrap();
+        std::os::unix::fs::symlink(target, at(".motion-rtl-a.lock")).unwrap();
+        let error = Claim::new(directory.path(), "a").unwrap_err();
+        let text = "is not a regular file, and locks need one of this name";
+        let path = at(".motion-rtl-a.lock");
+        assert_eq!(error.to_string(), format!("{}: {text}", path.display()));
+        assert!(clear(directory.path()).is_empty());
+        assert_eq!(names(directory.path()), [".motion-rtl-a.lock", "there"]);
+        fs::remove_file(path).unwrap();
+    }
 }
 
 #[cfg(unix)]

@@ -108,6 +108,69 @@ fn what_is_no_regular_file_is_not_replaced() {
     bench.refuse(&run(&["--out", "o"]), &text);
 }
 
+/// A pipe that nobody reads, or a link, in the place of the lock: no run waits for it.
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_no_lock() {
+    let bench = Bench::with("l.hpgl", LINE);
+    let name = "o/.motion-rtl-l.lock";
+    let text = format!(
+        "--out: {name}: is not a regular file, and locks need one of this name; allowed: another \
+         directory, or to remove it"
+    );
+    let lock = bench.path(name);
+    let pipe = |path: &std::path::Path| {
+        let made = std::process::Command::new("mkfifo").arg(path).status();
+        assert!(made.unwrap().success());
+    };
+    bench.write("o/left", "");
+    pipe(&lock);
+    bench.refuse(&run(&["--out", "o"]), &text);
+    // Nor does it follow a link, to a pipe or to nothing.
+    for target in ["pipe", "nowhere"] {
+        std::fs::remove_file(&lock).unwrap();
+        std::os::unix::fs::symlink(target, &lock).unwrap();
+        if target == "pipe" {
+            pipe(&bench.path("o/pipe"));
+        }
+        bench.refuse(&run(&["--out", "o"]), &text);
+    }
+    assert!(!bench.path("o/nowhere").exists());
+    // What only has such a name is not touched, and not waited for.
+    for name in [
+        "o/.motion-rtl-x.part",
+        "o/.motion-rtl-x.new",
+        "o/.motion-rtl-.lock",
+    ] {
+        pipe(&bench.path(name));
+    }
+    std::fs::remove_file(&lock).unwrap();
+    bench.succeed(&run(&["--out", "o"]));
+    assert!(bench.path("o/.motion-rtl-x.part").exists());
+}
+
+/// Runs side by side into one directory, each of another circuit.
+#[test]
+#[ignore = "takes long"]
+fn runs_into_one_directory_do_not_disturb_each_other() {
+    let bench = Bench::new();
+    let circuits = ["axis", "servo", "cordic", "correction"];
+    std::thread::scope(|scope| {
+        for circuit in circuits {
+            let bench = &bench;
+            scope.spawn(move || {
+                for k in 0..125 {
+                    let done = bench.run(&["verilog", circuit, "--out", "o"]);
+                    let said = (done.code, done.stderr.as_str());
+                    assert_eq!(said, (0, ""), "{circuit}, run {k}");
+                }
+            });
+        }
+    });
+    let hidden = |name: &&String| name.contains(".motion-rtl-");
+    assert_eq!(bench.names().iter().find(hidden), None);
+}
+
 #[cfg(unix)]
 #[test]
 fn a_link_is_followed() {

@@ -147,7 +147,9 @@ fn what_a_killed_run_has_left_goes_with_the_next() {
     ]
     .concat();
     let done = bench.run(&next);
-    let said: Vec<_> = left.iter().map(|name| name.as_str()).collect();
+    // A lock holds nothing.
+    let files = left.iter().filter(|name| name.ends_with(".part"));
+    let said: Vec<_> = files.map(|name| name.as_str()).collect();
     assert_eq!(
         done.stderr,
         format!(
