@@ -223,8 +223,28 @@ fn dangling(path: &Path) -> Option<PathBuf> {
     path.ancestors().find(dangles).map(Path::to_owned)
 }
 
+/// An error with the path that it is about.
+#[derive(Debug, thiserror::Error)]
+#[error("{text}")]
+struct Named {
+    text: String,
+    /// Number by which the system knows it.
+    code: Option<i32>,
+}
+
 fn named(path: &Path, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+    let text = format!("{}: {error}", path.display());
+    let code = error.raw_os_error();
+    io::Error::new(error.kind(), Named { text, code })
+}
+
+/// True if an error of this module, or of the system, is that too many files are open.
+pub fn too_many_open(error: &io::Error) -> bool {
+    let named = error
+        .get_ref()
+        .and_then(|inner| inner.downcast_ref::<Named>());
+    let code = error.raw_os_error().or(named.and_then(|named| named.code));
+    code.is_some_and(|code| code == libc::EMFILE || code == libc::ENFILE)
 }
 
 #[cfg(test)]

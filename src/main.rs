@@ -37,12 +37,18 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    if let Err(failure) = cli::limits::check() {
+        return failed(&failure);
+    }
     cli::signals::watch();
     let done = match Arguments::try_parse() {
         Ok(arguments) => run(arguments.command),
         Err(error) if error.use_stderr() => {
             // Where standard error is gone, the exit code is all there is to say.
-            let _ = error.print();
+            let _ = match std::env::args().any(|word| word.contains(char::is_control)) {
+                true => write!(std::io::stderr(), "{}", cli::plain(&error.to_string())),
+                false => error.print(),
+            };
             return ExitCode::from(2);
         }
         // Help or the version.
@@ -50,12 +56,14 @@ fn main() -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            // Where standard error is gone, the exit code is all there is to say.
-            let _ = writeln!(std::io::stderr(), "{}", failure.report());
-            failure.code()
-        }
+        Err(failure) => failed(&failure),
     }
+}
+
+fn failed(failure: &cli::Failure) -> ExitCode {
+    // Where standard error is gone, the exit code is all there is to say.
+    let _ = writeln!(std::io::stderr(), "{}", failure.report());
+    failure.code()
 }
 
 fn run(command: Option<Command>) -> Result<(), cli::Failure> {

@@ -3,6 +3,7 @@
 use super::{Failure, check::entry};
 use clap::Args;
 use motion_rtl::registry::{AnyModel, Entry, Refused, Request};
+use std::fmt;
 use std::str::FromStr;
 
 /// Which circuit, and how it is made.
@@ -90,6 +91,24 @@ pub fn refused(entry: &Entry, request: &Request, refused: &Refused) -> Failure {
         field,
         problem,
         allowed,
+    }
+}
+
+/// The arguments again.
+impl fmt::Display for Chosen {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.circuit)?;
+        for Width { name, bits } in &self.width {
+            match name {
+                Some(name) => write!(f, " --width {name}={bits}")?,
+                None => write!(f, " --width {bits}")?,
+            }
+        }
+        let with: Vec<String> = self.with.iter().map(u64::to_string).collect();
+        match with.is_empty() {
+            true => Ok(()),
+            false => write!(f, " --with {}", with.join(",")),
+        }
     }
 }
 

@@ -1,16 +1,22 @@
 //! The files of a run: they get their names together, when all of them are complete.
 
-use super::Failure;
+use super::export::Export;
+use super::{Failure, warn};
 use motion_rtl::files::{self, AtomicFile, Claim, Directory, commit_all};
+use motion_rtl::input::MORE_FILES;
 use std::ffi::OsString;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
+
+/// Stem of the claim on all exports of a directory: no circuit is called so.
+const ALL: &str = ".v";
 
 /// Files that are complete but not yet named; dropped, they leave nothing.
 #[derive(Debug)]
 pub struct Files {
     stem: PathBuf,
     complete: Vec<AtomicFile>,
+    exports: Vec<Export>,
     /// Another run into these files is refused.
     _claim: Option<Claim>,
     // Last, as it can go only when the files are gone.
@@ -18,10 +24,19 @@ pub struct Files {
 }
 
 fn refuse(error: &io::Error) -> Failure {
+    refused(error, "a directory that can be written")
+}
+
+/// Refusal of `--out`, which is to be what is `allowed`.
+pub fn refused(error: &io::Error, allowed: &str) -> Failure {
+    let allowed = match files::too_many_open(error) {
+        true => MORE_FILES,
+        false => allowed,
+    };
     Failure::Argument {
         field: "--out",
         problem: error.to_string(),
-        allowed: "a directory that can be written".into(),
+        allowed: allowed.into(),
     }
 }
 
@@ -32,11 +47,9 @@ pub fn clear(directory: &Path) {
     let names: Vec<_> = names.collect();
     if !names.is_empty() {
         let names = names.join(", ");
-        // Where standard error is gone there is nobody to tell.
-        let _ = writeln!(
-            io::stderr(),
-            "warning: removed what a run that did not end by itself has left: {names}"
-        );
+        warn(&format!(
+            "removed what a run that did not end by itself has left: {names}"
+        ));
     }
 }
 
@@ -57,6 +70,7 @@ impl Files {
         Ok(Files {
             stem: directory.join(stem),
             complete: Vec::new(),
+            exports: Vec::new(),
             _claim: claim,
             _directory: created,
         })
@@ -98,8 +112,32 @@ impl Files {
         Ok(())
     }
 
+    /// Writes a circuit's Verilog, unless files of others are in its way.
+    pub fn export(&mut self, export: Export) -> Result<(), Failure> {
+        export.check(self.directory())?;
+        for source in export.files() {
+            self.write_as(&source.name, &source.text)?;
+        }
+        self.exports.push(export);
+        Ok(())
+    }
+
+    fn directory(&self) -> &Path {
+        let parent = self.stem.parent();
+        let parent = parent.filter(|parent| !parent.as_os_str().is_empty());
+        parent.unwrap_or(Path::new("."))
+    }
+
     /// Names them all; returns the names. Where one cannot be named, none is there.
-    pub fn commit(self) -> io::Result<Vec<String>> {
+    pub fn commit(self) -> Result<Vec<String>, Failure> {
+        // One run at a time, so that what is checked is what is replaced.
+        let _turn = match self.exports.is_empty() {
+            true => None,
+            false => Claim::wait(self.directory(), ALL)?,
+        };
+        for export in &self.exports {
+            export.check(self.directory())?;
+        }
         let named = commit_all(self.complete)?;
         let names = named.iter().map(|path| path.display().to_string());
         Ok(names.collect())

@@ -5,15 +5,18 @@ pub mod check;
 mod chosen;
 pub mod compare;
 mod connections;
+mod export;
 mod faults;
 mod files;
 mod job;
 mod lead_angle;
+pub mod limits;
 mod linear;
 pub mod list;
 mod machine;
 mod magnification;
 pub mod mutate;
+mod notes;
 mod pieces;
 pub mod plan;
 mod progress;
@@ -36,6 +39,7 @@ mod waves_of;
 use motion_rtl::hdl::RunError;
 use motion_rtl::input::{Fault, LISTED, SHOWN, shown};
 use motion_rtl::settings::JobError;
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -89,7 +93,7 @@ impl Failure {
     pub fn report(&self) -> String {
         match self {
             Failure::Input(fault) => faults::report(fault),
-            failure => format!("error: {failure}"),
+            failure => plain(&format!("error: {failure}")).into_owned(),
         }
     }
 
@@ -104,11 +108,39 @@ impl Failure {
 
 /// Prints to standard output; a reader that has gone away (`| head`) is no failure.
 fn print(text: &str) -> Result<(), Failure> {
-    printed(io::stdout().lock().write_all(text.as_bytes()))
+    printed(io::stdout().lock().write_all(plain(text).as_bytes()))
+}
+
+/// Lines without control characters, which a terminal would obey: names of files may have them.
+pub fn plain(text: &str) -> Cow<'_, str> {
+    let obeyed = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if !text.contains(obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let mut plain = String::new();
+    for character in text.chars() {
+        match obeyed(character) {
+            true => plain.extend(character.escape_default()),
+            false => plain.push(character),
+        }
+    }
+    Cow::Owned(plain)
+}
+
+/// Prints a warning on standard error.
+fn warn(text: &str) {
+    // Where standard error is gone there is nobody to tell.
+    let _ = writeln!(io::stderr(), "warning: {}", plain(text));
 }
 
 /// What came of printing to standard output.
 pub fn printed(done: io::Result<()>) -> Result<(), Failure> {
+    if limits::is_closed() {
+        warn(
+            "standard output is closed, or a null device that is open for reading too: what is \
+             printed is lost; allowed: > FILE, > /dev/null",
+        );
+    }
     match done.and_then(|()| io::stdout().flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         done => Ok(done

@@ -1,11 +1,12 @@
 //! `mutate`: single faults in circuits, and what finds them.
 
 use super::check::entries;
+use super::notes::NOTES;
 use super::{Failure, print, print_json, threads};
 use clap::Args;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::hdl::RunError;
-use motion_rtl::input::{Fault, read_string};
+use motion_rtl::input::{Fault, or_more_files, read_string};
 use motion_rtl::registry::{Campaign, CampaignError, Entry, Fate, Found, Suspect};
 use motion_rtl::trace::chart::{Chart, parse};
 use rayon::prelude::*;
@@ -14,15 +15,19 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+/// Notes as `--charts` takes them.
+const CHARTS: &str = "Markdown with timing charts, or a folder of it";
+
 /// What to put faults into, and what is to find them.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Circuits; without them all.
     #[arg(value_name = "CIRCUIT")]
     circuits: Vec<String>,
-    /// The notes whose timing charts are run: a folder of Markdown, or one file.
-    #[arg(long, value_name = "PATH", default_value = "rtl_notes")]
-    charts: PathBuf,
+    /// The notes whose timing charts are run: a folder of Markdown, or one file; without it those
+    /// of the circuits that ship.
+    #[arg(long, value_name = "PATH")]
+    charts: Option<PathBuf>,
     /// Ticks of each random run that shows whether a fault reaches a port out.
     #[arg(long, value_name = "TICKS", allow_negative_numbers = true, default_value_t = 2_000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
     ticks: u64,
@@ -85,7 +90,11 @@ struct Report {
 /// Puts faults into circuits.
 pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
     let entries = entries(&arguments.circuits)?;
-    let (notes, charts): (Vec<_>, Vec<_>) = charts(&arguments.charts)?.into_iter().unzip();
+    let charts = match &arguments.charts {
+        Some(path) => charts(path)?,
+        None => shipped()?,
+    };
+    let (notes, charts): (Vec<_>, Vec<_>) = charts.into_iter().unzip();
     let campaign = Campaign {
         charts,
         ticks: arguments.ticks,
@@ -110,13 +119,33 @@ pub fn mutate(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
+/// The charts of the notes that ship, each with the note's name.
+fn shipped() -> Result<Vec<(String, Chart)>, Failure> {
+    let mut charts = Vec::new();
+    for (name, text) in NOTES {
+        charts.extend(of_note(name, text)?);
+    }
+    Ok(charts)
+}
+
+fn of_note(name: &str, text: &str) -> Result<Vec<(String, Chart)>, Fault> {
+    let parsed = parse(text).map_err(|error| {
+        let problem = error.problem.to_string();
+        Fault::new(name, error.line, "chart", problem, CHARTS)
+    })?;
+    Ok(parsed
+        .into_iter()
+        .map(|chart| (name.to_owned(), chart))
+        .collect())
+}
+
 /// The charts of a note, or of all notes of a folder, each with the note's name.
 fn charts(path: &Path) -> Result<Vec<(String, Chart)>, Failure> {
-    let allowed = "Markdown with timing charts, or a folder of it";
     let mut notes = vec![path.to_owned()];
     if path.is_dir() {
         let failed = |error: std::io::Error| {
             let problem = format!("cannot be read: {error}");
+            let allowed = or_more_files(&error, CHARTS);
             Fault::new(&path.display().to_string(), 0, "--charts", problem, allowed)
         };
         let files = path.read_dir().map_err(failed)?;
@@ -127,19 +156,14 @@ fn charts(path: &Path) -> Result<Vec<(String, Chart)>, Failure> {
     }
     let mut charts = Vec::new();
     for note in notes {
-        let text = read_string(&note, allowed)?;
-        let name = note.display().to_string();
-        let parsed = parse(&text).map_err(|error| {
-            let problem = error.problem.to_string();
-            Fault::new(&name, error.line, "chart", problem, allowed)
-        })?;
-        charts.extend(parsed.into_iter().map(|chart| (name.clone(), chart)));
+        let text = read_string(&note, CHARTS)?;
+        charts.extend(of_note(&note.display().to_string(), &text)?);
     }
     match charts.is_empty() {
         true => Err(Failure::Argument {
             field: "--charts",
             problem: format!("{} has no timing chart", path.display()),
-            allowed: allowed.to_owned(),
+            allowed: CHARTS.to_owned(),
         }),
         false => Ok(charts),
     }

@@ -129,6 +129,7 @@ pub fn run(subject: &str, work: Work) {
         };
         let about = about(seconds);
         // Where standard error is gone, there is nobody to tell.
+        let subject = super::plain(subject);
         let _ = writeln!(stderr(), "{subject}: {ticks} ticks{all}, about {about}");
     }
     set(Stage {

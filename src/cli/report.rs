@@ -2,7 +2,7 @@
 
 use super::files::Files;
 use super::run::Arguments;
-use super::{Failure, print, print_json, progress};
+use super::{Failure, print, print_json, progress, warn};
 use motion_rtl::trace::Options;
 use serde::Serialize;
 use std::fmt::{self, Write as _};
@@ -62,9 +62,6 @@ impl Outcome {
 
     /// What the text of every summary ends with.
     fn tail(&self, text: &mut String) -> fmt::Result {
-        for warning in &self.warnings {
-            writeln!(text, "warning: {warning}")?;
-        }
         if let Some([from, to]) = self.vcd_window
             && (from > 0 || to < self.ticks)
         {
@@ -108,7 +105,11 @@ pub fn conclude(
             let mut text = String::new();
             // Writing to a string does not fail.
             let _ = summary.write(&mut text, arguments.segments);
-            let _ = summary.outcome().tail(&mut text);
+            let outcome = summary.outcome();
+            let _ = outcome.tail(&mut text);
+            for warning in &outcome.warnings {
+                warn(warning);
+            }
             print(&text)?;
         }
     }

@@ -115,10 +115,12 @@ impl Source {
     }
 
     fn of((loaded, origin, name): (Loaded, Origin, PathBuf), input: &Input) -> Result<Self, Fault> {
-        let stem = name.file_stem().map_or_else(
-            || "run".to_owned(),
-            |stem| stem.to_string_lossy().into_owned(),
-        );
+        let stem = name.file_stem().unwrap_or("run".as_ref());
+        // Two names that differ in such bytes alone would be one.
+        let Some(stem) = stem.to_str().map(str::to_owned) else {
+            let (name, problem) = (name.display().to_string(), "has a name that is not UTF-8");
+            return Err(Fault::new(&name, 0, "file", problem, "a name in UTF-8"));
+        };
         Ok(Source {
             options: input.options(&loaded)?,
             compares: loaded.scenario.beside(),

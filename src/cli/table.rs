@@ -78,11 +78,9 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         });
-        let written = files::write(path, csv(table)).map_err(|error| Failure::Argument {
-            field: "--out",
-            problem: error.to_string(),
-            allowed: "a file that can be written".into(),
-        })?;
+        let written = files::write(path, csv(table));
+        let written =
+            written.map_err(|error| super::files::refused(&error, "a file that can be written"))?;
         files.push(written.display().to_string());
     }
     let scaling = scaled
@@ -99,7 +97,13 @@ pub fn table(arguments: &Arguments) -> Result<(), Failure> {
     };
     match arguments.json {
         true => print_json(&output),
-        false => print(&text(&job, &output)),
+        false => {
+            output
+                .warnings
+                .iter()
+                .for_each(|warning| super::warn(warning));
+            print(&text(&job, &output))
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 //! stimulus.
 
 use super::Failure;
+use super::export::Export;
 use super::files::Files;
 use super::plan::{Noted, of_job};
 use super::progress::Part;
@@ -99,7 +100,7 @@ impl<'a> Traces<'a> {
             }
         };
         let stimulus = match arguments.verilog {
-            true => Some(verilog(printed, &mut files)?),
+            true => Some(verilog(printed, stem, &mut files)?),
             false => None,
         };
         Ok(Traces {
@@ -179,13 +180,12 @@ impl<'a> Traces<'a> {
 /// The circuit's Verilog and its testbench; returns what writes the stimulus.
 fn verilog(
     circuit: &impl Described,
+    stem: &str,
     files: &mut Files,
 ) -> Result<StimulusFile<AtomicFile>, Failure> {
     // Every circuit of the crate is printed by a test, so only a new one can fail here.
     let verilog = Verilog::of(circuit).map_err(|error| Failure::Check(error.to_string()))?;
-    for source in verilog.sources().iter().chain(&verilog.testbench()) {
-        files.write_as(&source.name, &source.text)?;
-    }
+    files.export(Export::new(&verilog, true, format!("run {stem}")))?;
     let stimulus = files.create_as(&format!("{}.stimulus", circuit.outlined().0))?;
     Ok(StimulusFile::new(stimulus, circuit))
 }

@@ -1,6 +1,7 @@
 //! `verilog`: a circuit as Verilog, with a testbench if one is asked for.
 
 use super::chosen::Chosen;
+use super::export::Export;
 use super::files::Files;
 use super::{Failure, print};
 use clap::Args;
@@ -51,13 +52,9 @@ pub fn verilog(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     let mut files = Files::begin(&arguments.out, circuit.name())?;
     let mut text = String::new();
-    for source in verilog.sources() {
-        files.write_as(&source.name, &source.text)?;
-    }
+    let name = format!("verilog {}", arguments.chosen);
+    files.export(Export::new(&verilog, arguments.testbench.is_some(), name))?;
     if let Some(ticks) = arguments.testbench {
-        if let Some(source) = verilog.testbench() {
-            files.write_as(&source.name, &source.text)?;
-        }
         let drive = Drive {
             seed: arguments.seed,
             ticks,

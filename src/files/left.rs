@@ -7,7 +7,7 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Bytes of a stem that the name of a claim has at most.
 const STEM: usize = 200;
@@ -20,6 +20,9 @@ const CLEARING: &str = "";
 
 /// Wait before a claim is tried again.
 const WAIT: Duration = Duration::from_millis(1);
+
+/// Longest wait for others that name their files.
+const PATIENCE: Duration = Duration::from_secs(10);
 
 /// The files of a stem in a directory, for one writer at a time.
 ///
@@ -72,6 +75,27 @@ impl Claim {
                 }
                 Err(error) => Err(named(&directory.join(stem), &error)),
             };
+        }
+    }
+}
+
+impl Claim {
+    /// Claims files as [`new`](Claim::new) does, and waits while somebody else names theirs.
+    ///
+    /// # Errors
+    /// As [`new`](Claim::new), the claim of somebody else only after ten seconds.
+    pub fn wait(directory: &Path, stem: &str) -> io::Result<Option<Self>> {
+        let begun = Instant::now();
+        loop {
+            match Claim::new(directory, stem) {
+                Err(error)
+                    if error.kind() == io::ErrorKind::ResourceBusy
+                        && begun.elapsed() < PATIENCE =>
+                {
+                    thread::sleep(WAIT);
+                }
+                claim => return claim,
+            }
         }
     }
 }

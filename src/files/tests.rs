@@ -44,6 +44,17 @@ fn a_failed_rename_leaves_nothing_and_names_the_path() {
 }
 
 #[test]
+fn too_many_open_files_are_known_behind_a_path() {
+    let error = io::Error::from_raw_os_error(libc::EMFILE);
+    let path = Path::new("a");
+    assert!(too_many_open(&error) && too_many_open(&named(path, &error)));
+    for code in [libc::EACCES, libc::ENOENT] {
+        let error = io::Error::from_raw_os_error(code);
+        assert!(!too_many_open(&error) && !too_many_open(&named(path, &error)));
+    }
+}
+
+#[test]
 fn whole_files_may_bring_their_directory() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("new/a.txt");

@@ -5,6 +5,8 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
+use crate::files;
+
 use super::{Drawing, Fault, Point, gcode, hpgl};
 
 /// The largest file read, in bytes. Beyond it a wrong file is likelier than a drawing, and the
@@ -233,7 +235,21 @@ fn unreadable(path: &Path, error: &io::Error) -> Fault {
             let problem = format!("is a link to {}, which is not there", target.display());
             fault(path, problem, "a readable file")
         }
-        _ => fault(path, format!("cannot be read: {error}"), "a readable file"),
+        _ => {
+            let allowed = or_more_files(error, "a readable file");
+            fault(path, format!("cannot be read: {error}"), allowed)
+        }
+    }
+}
+
+/// Remedy where a process has as many open files as it may.
+pub const MORE_FILES: &str = "a higher limit on open files (ulimit -n)";
+
+/// The remedy for an error of a file: `allowed`, unless it is that there are too many open files.
+pub fn or_more_files<'a>(error: &io::Error, allowed: &'a str) -> &'a str {
+    match files::too_many_open(error) {
+        true => MORE_FILES,
+        false => allowed,
     }
 }
 
@@ -253,7 +269,16 @@ fn is_pipe(_: &Metadata) -> bool {
 ///
 /// As [`read_bytes`], and bytes that are not UTF-8, with their line.
 pub fn read_string(path: &Path, allowed: &str) -> Result<String, Fault> {
-    String::from_utf8(read_bytes(path, LARGEST_FILE)?).map_err(|error| {
+    read_string_of(path, LARGEST_FILE, allowed)
+}
+
+/// Reads the text of a file of at most `most` bytes, as [`read_string`] does.
+///
+/// # Errors
+///
+/// As [`read_bytes`], and bytes that are not UTF-8, with their line.
+pub fn read_string_of(path: &Path, most: u64, allowed: &str) -> Result<String, Fault> {
+    String::from_utf8(read_bytes(path, most)?).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();
         let name = path.display().to_string();

@@ -21,6 +21,8 @@ pub use times::{Unit, UnitFrom};
 use super::{Fault, Faults, LARGEST_FILE, read_bytes};
 use columns::Survey;
 use csv::{ByteRecord, Reader, ReaderBuilder, Trim};
+use std::cell::Cell;
+use std::io;
 use std::iter;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -31,6 +33,9 @@ pub const COUNTS_RANGE: RangeInclusive<i64> = -(1 << 31)..=1 << 31;
 
 /// The most samples of a log.
 pub const MOST_SAMPLES: usize = 4_000_000;
+
+/// The most bytes of a record: of a file that is no log it may be the whole file.
+const LONGEST_RECORD: usize = 1 << 20;
 
 /// A sample of a log.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -189,6 +194,29 @@ pub fn read(name: &str, text: &[u8], columns: &Columns) -> Result<PositionLog, F
     })
 }
 
+/// A text that is handed over by lines, as long as there is room for the record under way. Comments
+/// and blank lines take none.
+struct Lines<'a>(&'a [u8], &'a Cell<usize>);
+
+impl io::Read for Lines<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let Lines(text, room) = self;
+        let end = text
+            .iter()
+            .take(buffer.len())
+            .position(|&byte| byte == b'\n');
+        let length = end.map_or(text.len().min(buffer.len()), |end| end + 1);
+        let (line, rest) = text.split_at(length);
+        if !matches!(line, [] | [b'#' | b'\n' | b'\r', ..]) {
+            let left = room.get().checked_sub(length);
+            room.set(left.ok_or_else(|| io::Error::other("a record without an end"))?);
+        }
+        buffer[..length].copy_from_slice(line);
+        *text = rest;
+        Ok(length)
+    }
+}
+
 /// A log being read.
 struct Log<'a> {
     file: &'a str,
@@ -244,16 +272,18 @@ impl Log<'_> {
 
     /// Hands over the records with their lines, the header among them, as long as they are wanted.
     fn each(&self, mut take: impl FnMut(usize, &[&str]) -> bool) -> Result<(), Fault> {
-        let mut reader: Reader<&[u8]> = ReaderBuilder::new()
+        let room = Cell::new(0);
+        let mut reader = ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
             .trim(Trim::All)
             .comment(Some(b'#'))
-            .from_reader(self.text);
+            .from_reader(Lines(self.text, &room));
         let mut record = ByteRecord::new();
         loop {
+            room.set(LONGEST_RECORD);
             let more = reader.read_byte_record(&mut record);
-            let more = more.map_err(|error| self.fault(0, "file", error.to_string(), "CSV"))?;
+            let more = more.map_err(|error| self.unreadable(&reader, &error))?;
             if !more {
                 return Ok(());
             }
@@ -265,6 +295,13 @@ impl Log<'_> {
                 return Ok(());
             }
         }
+    }
+
+    /// The only error there is: what is read stands in memory, and the number of fields is free.
+    fn unreadable(&self, reader: &Reader<Lines<'_>>, error: &csv::Error) -> Fault {
+        let line = reader.position().line() as usize;
+        let allowed = format!("records of at most {LONGEST_RECORD} bytes");
+        self.fault(line, "file", error.to_string(), &allowed)
     }
 
     fn field<'a>(&self, line: usize, place: &Place, fields: &[&'a str]) -> Result<&'a str, Fault> {

@@ -2,7 +2,6 @@
 
 use crate::check::{CheckError, Drive, Driven, Outcome, Progress, Proof, Specified, reach};
 use crate::engine::EngineError;
-use crate::files::Directory;
 use crate::hdl::{self, Circuit, Declarations, Model, RunError};
 use crate::trace::chart::{Chart, ChartFailure};
 use crate::trace::{Clock, Layout, LayoutError};
@@ -183,7 +182,6 @@ impl<C: Specified> AnyCircuit for C {
             Outcome::Counterexample(found) => Verdict::Broken {
                 report: found.to_string(),
                 waves: search.waves.map_or(Ok(Vec::new()), |directory| {
-                    let _directory = Directory::create(directory)?;
                     found.save(self, Clock::default(), directory)
                 }),
             },

@@ -6,7 +6,6 @@ use crate::check::{CheckError, Law, Swept, cases, sweep};
 use crate::circuits::linear_interpolator::{Integrator, LineSweep};
 use crate::circuits::trajectory_controller::error_feedback::FeedbackWidths;
 use crate::circuits::trajectory_controller::{ErrorFeedback, FeedbackSweep};
-use crate::files::Directory;
 use crate::hdl::Model;
 use crate::trace::Clock;
 use std::ops::{Range, RangeInclusive};
@@ -113,7 +112,6 @@ impl<W: Law> AnySweep for W {
             Swept::Counterexample(found) => Verdict::Broken {
                 report: found.to_string(),
                 waves: waves.map_or(Ok(Vec::new()), |directory| {
-                    let _directory = Directory::create(directory)?;
                     found.save(self, Clock::default(), directory)
                 }),
             },

@@ -1,7 +1,7 @@
 mod errors;
 
 use super::{BARE, BARE_LOG, Runnable, Scenario};
-use crate::input::{DRAWINGS, Fault, Kind, POSITION_LOGS, read_string};
+use crate::input::{DRAWINGS, Fault, Kind, POSITION_LOGS, read_string_of};
 use crate::settings::{Place, SettingError};
 use errors::{key_of, of_lists, split};
 use serde::Deserialize;
@@ -28,6 +28,9 @@ pub struct Loaded {
     overridden: Vec<String>,
 }
 
+/// The largest scenario in bytes: its tables take several times the memory of their text.
+const LARGEST: u64 = 16 << 20;
+
 impl Loaded {
     /// Reads a scenario file, with `key=value` overrides. The input and the directories of
     /// subroutines are relative to the file; those that an override gives are not.
@@ -37,7 +40,7 @@ impl Loaded {
     /// lacks a key; or an override is none of `key=value`.
     pub fn read(path: &Path, sets: &[String]) -> Result<Self, Fault> {
         let name = path.display().to_string();
-        let text = read_string(path, "a scenario in TOML")?;
+        let text = read_string_of(path, LARGEST, "a scenario in TOML")?;
         let mut loaded = Self::parse(&name, &text, sets)?;
         let given = loaded.overrides("input");
         if let (Some(input), Some(directory)) = (loaded.scenario.input_mut(), path.parent())

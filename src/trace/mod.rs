@@ -33,7 +33,7 @@ pub use vcd::{Vcd, VcdBehind};
 pub use wave_file::{WaveFile, WaveFormat};
 
 use crate::engine::Watch;
-use crate::files::{AtomicFile, commit_all};
+use crate::files::{AtomicFile, Directory, commit_all};
 use crate::hdl::{Described, LeafView as View, Model, RunError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -42,9 +42,10 @@ use std::path::{Path, PathBuf};
 const FOCUS: u64 = 40;
 
 /// Runs a circuit from power-on on these words of its ports in, a tick each, and writes
-/// `<stem>.vcd` and the save file `<stem>.gtkw` into `dir`. Returns both paths.
+/// `<stem>.vcd` and the save file `<stem>.gtkw` into `dir`, which is made where it is missing.
+/// Returns both paths.
 ///
-/// Both files appear whole; where something fails, no new file is there.
+/// Both files appear whole; where something fails, no new file or directory is there.
 ///
 /// # Errors
 /// The files cannot be written; two signals of the circuit have the same name; a tick has not one
@@ -74,6 +75,7 @@ pub(crate) fn play(
     stem: &str,
 ) -> Result<Vec<PathBuf>, RunError> {
     let name = format!("{stem}.vcd");
+    let _directory = Directory::create(dir)?;
     let mut dump = AtomicFile::create(dir.join(&name))?;
     let leaves = model.declarations().leaves.clone();
     let layout = Layout::new(model.name(), leaves, None).map_err(io::Error::from)?;

@@ -99,6 +99,38 @@ fn one_circuit_that_is_too_wide_does_not_hide_the_others() {
         .stderr(predicate::str::starts_with(text));
 }
 
+/// A circuit without a proof among others, and a law that is not swept at this width.
+#[test]
+fn what_is_too_wide_does_not_stop_the_others() {
+    let bench = Bench::new();
+    let done = bench.run(&["check", "machine", "sync_stage", "compensator"]);
+    let rows: Vec<_> = done
+        .stdout
+        .lines()
+        .filter(|line| line.ends_with("proved"))
+        .collect();
+    assert!(
+        matches!(rows[..], [row] if row.starts_with("sync_stage ")),
+        "{}",
+        done.stdout
+    );
+    assert!(
+        done.stdout
+            .ends_with("too wide for exhaustion: machine, compensator\n")
+    );
+    let told = |name: &str| {
+        format!(
+            "{name} is too wide for a proof by exhaustion; allowed: its blocks; what is tested of \
+             it stands in its note\n"
+        )
+    };
+    assert_eq!(
+        done.stderr,
+        format!("error: {}{}", told("machine"), told("compensator"))
+    );
+    assert_eq!(done.code, 2);
+}
+
 #[test]
 fn what_cannot_be_proved_is_refused() {
     let bench = Bench::new();

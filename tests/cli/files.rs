@@ -250,7 +250,9 @@ fn too_many_open_files_are_called_so() {
     );
     for text in &said {
         assert!(
-            text.contains("Too many open files") && !text.contains("motion-rtl-"),
+            text.contains("Too many open files")
+                && text.ends_with("; allowed: a higher limit on open files (ulimit -n)\n")
+                && !text.contains("motion-rtl-"),
             "{text}"
         );
     }
@@ -261,7 +263,7 @@ fn too_many_open_files_are_called_so() {
 fn messages_are_cut_and_plain() {
     let long = "k".repeat(3_000_000);
     let bench = Bench::with("long.toml", format!("circuit = \"machine\"\n{long} = 1\n"));
-    bench.write("long.csv", format!("0,0\n1,{long}\n2,2\n"));
+    bench.write("long.csv", format!("0,0\n1,{}\n2,2\n", &long[..1_000_000]));
     bench.write("odd.csv", "0,0\n1,\u{1b}[31m\u{7}\n2,2\n");
     bench.write("odd.toml", "circuit = \"machine\"\n\"\\u001b[31m\" = 1\n");
     for (name, shown) in [
@@ -285,4 +287,96 @@ fn messages_are_cut_and_plain() {
             "{name}: {text}"
         );
     }
+}
+
+/// Two names that differ in bytes that are no text would give one name of results.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_are_no_text_are_refused() {
+    use std::os::unix::ffi::OsStrExt;
+    let bench = Bench::new();
+    for name in [&b"\xff.hpgl"[..], b"\xfe.toml"] {
+        let name = std::ffi::OsStr::from_bytes(name);
+        let text = match name.as_bytes().ends_with(b"toml") {
+            true => "circuit = \"pulse_interpolator\"\ninput = \"l.hpgl\"\n",
+            false => LINE,
+        };
+        std::fs::write(bench.path("").join(name), text).unwrap();
+        let output = bench.command(&["run"]).arg(name).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            said.ends_with(": file: has a name that is not UTF-8; allowed: a name in UTF-8\n"),
+            "{said}"
+        );
+        assert_eq!(output.status.code(), Some(2));
+        std::fs::remove_file(bench.path("").join(name)).unwrap();
+    }
+    assert!(bench.names().is_empty());
+}
+
+/// A name of a file may have what a terminal obeys.
+#[cfg(unix)]
+#[test]
+fn names_reach_the_terminal_as_plain_text() {
+    let odd = "\u{1b}[31m";
+    let bench = Bench::with(&format!("{odd}.hpgl"), LINE);
+    let [file, missing, directory] = [".hpgl", ".ngc", "d"].map(|end| format!("{odd}{end}"));
+    bench.write(&format!("{directory}/.motion-rtl-x.part"), "");
+    bench.write("a/.motion-rtl-a.lock/x", "");
+    let plain = |text: &str| !text.contains(|c: char| c.is_control() && c != '\n');
+    for (code, arguments) in [
+        (0, &["run", &file, "--no-vcd", "--out", &directory][..]),
+        (0, &["table", &file]),
+        (2, &["run", &missing]),
+        (2, &["run", &file, "--out", &file]),
+        (2, &["check", odd]),
+        (2, &["check", "--width", odd]),
+        (2, &["verilog", "axis", "--out", &file]),
+        (2, &["compare", &file, &missing]),
+        (2, &["mutate", "sync_stage", "--charts", &directory]),
+    ] {
+        let done = bench.run(arguments);
+        assert_eq!(done.code, code, "{arguments:?}: {}", done.stderr);
+        for text in [&done.stdout, &done.stderr] {
+            assert!(plain(text), "{arguments:?}: {text:?}");
+        }
+        let shown = "\\u{1b}[31m";
+        // Words that are no arguments at all are cut.
+        let said = done.stdout + &done.stderr;
+        let cut = arguments.contains(&"--width");
+        assert!(cut || said.contains(shown), "{arguments:?}: {said:?}");
+    }
+}
+
+/// A limit on the address space with which threads and allocations fail anywhere.
+#[cfg(target_os = "linux")]
+#[test]
+fn too_little_memory_is_called_so() {
+    let bench = Bench::with("l.hpgl", LINE);
+    for arguments in [&run(&["--out", "o"])[..], &["list"]] {
+        let script = "ulimit -v 49152; exec \"$0\" \"$@\"";
+        let mut command = assert_cmd::Command::new("sh");
+        command.args(["-c", script, super::support::PROGRAM]);
+        let done = command.args(arguments).current_dir(bench.path(""));
+        done.assert().code(2).stdout("").stderr(
+            "error: ulimit -v: the address space is limited to 49152 KiB; allowed: 65536 KiB or more\n",
+        );
+    }
+    assert_eq!(bench.names(), ["l.hpgl"]);
+}
+
+/// A file without an end of line, as large as is read at all, takes little more than its bytes.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_log_of_zeros_takes_little_memory() {
+    let bench = Bench::new();
+    let file = std::fs::File::create(bench.path("z.csv")).unwrap();
+    file.set_len(250_000_000).unwrap();
+    let script = "ulimit -v 400000; exec \"$0\" \"$@\"";
+    let mut command = assert_cmd::Command::new("sh");
+    command.args(["-c", script, super::support::PROGRAM, "run", "z.csv"]);
+    let done = command.current_dir(bench.path("")).assert();
+    done.code(2).stdout("").stderr(
+        "error: z.csv:1: file: a record without an end; allowed: records of at most 1048576 bytes\n",
+    );
 }

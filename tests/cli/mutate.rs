@@ -32,7 +32,21 @@ fn faults_are_found_by_charts_then_by_the_proof() {
         enable_counter 13 10 3 0 0 0 100.0 %
         13 faults, 0 of them not seen at a port out; of the others 100.00 % found, 0 missed
     "#]]
-    .assert_eq(&timeless(&bench.succeed(&["mutate", "enable_counter"])));
+    .assert_eq(&timeless(&bench.succeed(&[
+        "mutate",
+        "enable_counter",
+        "--charts",
+        "rtl_notes",
+    ])));
+}
+
+/// The notes that ship are in the program.
+#[test]
+fn it_runs_where_there_are_no_notes() {
+    let report = Bench::new().json(&["mutate", "sync_stage"]);
+    let row = &report["circuits"][0];
+    assert!(row["chart"].as_u64().unwrap() > 0, "{row}");
+    assert_eq!(row["missed"], 0, "{row}");
 }
 
 #[test]

@@ -86,3 +86,21 @@ fn help_and_version_go_to_standard_output() {
     let version = concat!("motion-rtl ", env!("CARGO_PKG_VERSION"), "\n");
     assert_eq!(bench.succeed(&["--version"]), version);
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_closed_standard_output_is_told() {
+    let bench = Bench::with("l.hpgl", LINE);
+    for arguments in COMMANDS {
+        for (to, told) in [(">&-", true), (">/dev/null", false)] {
+            let script = format!("exec \"$0\" \"$@\" {to}");
+            let mut command = Command::new("sh");
+            command.args(["-c", &script, PROGRAM]).args(arguments);
+            let output = command.current_dir(bench.path("")).output().unwrap();
+            let stderr = String::from_utf8(output.stderr).unwrap();
+            let text = "warning: standard output is closed, ";
+            assert_eq!(stderr.starts_with(text), told, "{arguments:?}: {stderr}");
+            assert_eq!(stderr.lines().count(), usize::from(told), "{stderr}");
+        }
+    }
+}

@@ -76,10 +76,12 @@ impl Bench {
         }
     }
 
-    /// Runs what must succeed quietly, but for how far a long run is; gives its standard output.
+    /// Runs what must succeed quietly, but for warnings and how far a long run is; gives its
+    /// standard output.
     pub fn succeed(&self, arguments: &[&str]) -> String {
         let done = self.run(arguments);
-        let said = done.stderr.lines().filter(|line| !is_progress(line));
+        let told = |line: &&str| !is_progress(line) && !line.starts_with("warning: ");
+        let said = done.stderr.lines().filter(told);
         let said: String = said.collect();
         assert_eq!((done.code, said.as_str()), (0, ""), "{arguments:?}");
         done.stdout

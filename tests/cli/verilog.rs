@@ -12,8 +12,11 @@ fn verilog<'a>(circuit: &'a str, arguments: &[&'a str]) -> Vec<&'a str> {
 fn a_module_each_is_written_and_named() {
     let bench = Bench::new();
     let said = bench.succeed(&verilog("enable_counter", &["--out", "a/b"]));
-    assert_eq!(said, "a/b/enable_counter.v\n");
-    assert_eq!(bench.names(), ["a/", "a/b/", "a/b/enable_counter.v"]);
+    let files = ["a/b/enable_counter.f", "a/b/enable_counter.v"];
+    assert_eq!(said, format!("{}\n{}\n", files[1], files[0]));
+    assert_eq!(bench.names(), [&["a/", "a/b/"], &files[..]].concat());
+    let list = "// Made by motion-rtl: verilog enable_counter\nenable_counter.v\n";
+    assert_eq!(bench.read(files[0]), list);
     let text = bench.read("a/b/enable_counter.v");
     assert!(text.contains("\nmodule enable_counter (\n"), "{text}");
 }
@@ -22,7 +25,7 @@ fn a_module_each_is_written_and_named() {
 fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
     let bench = Bench::new();
     let said = bench.succeed(&verilog("enable_counter", &TESTBENCH));
-    let files = [".v", "_tb.v", ".vcd", ".stimulus"];
+    let files = [".v", "_tb.v", ".f", ".vcd", ".stimulus"];
     let files = files.map(|end| format!("v/enable_counter{end}"));
     let (stimulus, names) = said.split_at(said.find("v/").unwrap());
     assert_eq!(
@@ -31,10 +34,10 @@ fn a_testbench_comes_with_its_stimulus_and_golden_waves() {
          a word of the stimulus, from bit 0: period [3:0], rst [4]\n"
     );
     assert_eq!(names, files.join("\n") + "\n");
-    let waves = bench.read(&files[2]);
+    let waves = bench.read(&files[3]);
     assert!(waves.contains("period 10 x 100 ns"), "{}", &waves[..300]);
-    assert_eq!(bench.read(&files[3]).lines().count(), 200);
-    assert_eq!(bench.names().len(), 5);
+    assert_eq!(bench.read(&files[4]).lines().count(), 200);
+    assert_eq!(bench.names().len(), 6);
 }
 
 /// Ports that stand in bundles too.
@@ -231,4 +234,53 @@ fn a_directory_that_cannot_be_written_stays_as_it_is() {
             &format!("--out: v/{taken}: is a directory; {WRITABLE}"),
         );
     }
+}
+
+/// Circuits whose parts are alike share a directory; a part is never replaced by another one.
+#[test]
+fn parts_of_another_export_stay() {
+    let bench = Bench::new();
+    let export =
+        |circuit, more: &[&'static str]| verilog(circuit, &[more, &["--out", "v"]].concat());
+    const APART: &str = "allowed: a directory for each, or to remove the file";
+    bench.succeed(&export("cordic", &[]));
+    bench.succeed(&export("correction", &[]));
+    bench.refuse(
+        &export("tracking_converter", &[]),
+        &format!(
+            "--out: v/shifter.v is of `verilog cordic`; that of `verilog tracking_converter` \
+             is another; {APART}"
+        ),
+    );
+    // An export replaces an earlier one of the same circuit that shares nothing.
+    let before = bench.read("v/correction.v");
+    bench.succeed(&export("correction", &["--width", "position=20"]));
+    assert_ne!(bench.read("v/correction.v"), before);
+    // A file of somebody's own.
+    bench.write("v/axis.v", "module axis;\nendmodule\n");
+    bench.refuse(
+        &export("axis", &[]),
+        &format!(
+            "--out: v/axis.v is there, of no export of this directory; that of `verilog axis` is \
+             another; {APART}"
+        ),
+    );
+    // What a memory begins with is a file of its own.
+    bench.succeed(&verilog("cordic_state", &["--out", "w"]));
+    bench.refuse(
+        &verilog("table_lead", &["--out", "w"]),
+        &format!(
+            "--out: w/rom.hex is of `verilog cordic_state`; that of `verilog table_lead` is another; \
+             {APART}"
+        ),
+    );
+    std::fs::remove_file(bench.path("v/axis.v")).unwrap();
+    bench.succeed(&export("axis", &["--testbench", "10"]));
+    bench.succeed(&export("axis", &["--width", "9", "--testbench", "10"]));
+    let list = bench.read("v/axis.f");
+    assert!(
+        list.starts_with("// Made by motion-rtl: verilog axis --width 9\n"),
+        "{list}"
+    );
+    assert!(list.ends_with("\naxis.v\n// axis_tb.v\n"), "{list}");
 }

@@ -5,6 +5,10 @@ use crate::cli::Failure;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 
+/// Problem of a circuit that is neither proved nor swept, and what is done instead.
+pub const TOO_WIDE: &str = "is too wide for a proof by exhaustion";
+pub const ITS_BLOCKS: &str = "its blocks; what is tested of it stands in its note";
+
 /// What was asked for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -136,11 +140,15 @@ impl Report {
     /// A failure where something does not hold, and another where it is left undecided: that is a
     /// matter of the arguments.
     pub fn faults(&self) -> Result<(), Failure> {
-        let faults: Vec<_> = self
+        let mut faults: Vec<_> = self
             .rows
             .iter()
             .filter_map(|row| row.fault.clone())
             .collect();
+        if !self.asked.circuits.is_empty() {
+            let others = self.too_wide.iter();
+            faults.extend(others.map(|name| format!("{name} {TOO_WIDE}; allowed: {ITS_BLOCKS}")));
+        }
         let any = |ended: Ended| self.rows.iter().any(|row| row.ended == ended);
         match faults.is_empty() {
             true => Ok(()),

@@ -1,6 +1,6 @@
 //! What there is to do, in the order of the table.
 
-use super::report::{Asked, Kind};
+use super::report::{Asked, ITS_BLOCKS, Kind, TOO_WIDE};
 use super::{entries, entry};
 use crate::cli::{Failure, chosen};
 use motion_rtl::registry::{Entry, Request, SweepEntry, WIDTHS, sweeps};
@@ -53,13 +53,13 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
             others.push(entry.name.to_owned());
         }
     }
-    if !asked.circuits.is_empty()
+    if tasks.is_empty()
         && let Some(name) = others.first()
     {
         return Err(Failure::Argument {
             field: "CIRCUIT",
-            problem: format!("{name} is too wide for a proof by exhaustion"),
-            allowed: "its blocks; what is tested of it stands in its note".into(),
+            problem: format!("{name} {TOO_WIDE}"),
+            allowed: ITS_BLOCKS.into(),
         });
     }
     if let Some(width) = asked.width
@@ -73,9 +73,22 @@ pub fn of(asked: &Asked) -> Result<(Vec<Task>, Vec<String>), Failure> {
         });
     }
     for task in &tasks {
-        made(task)?;
+        // Of several the others are swept all the same.
+        if asked.circuits.len() < 2 || !too_wide(task) {
+            made(task)?;
+        }
     }
     Ok((tasks, others))
+}
+
+/// True if a sweep at this width has no end.
+pub fn too_wide(task: &Task) -> bool {
+    match task {
+        Task::Proof(..) => false,
+        Task::Sweep(sweep, given) => given
+            .first()
+            .is_some_and(|width| width > sweep.widths.end()),
+    }
 }
 
 /// Whether it can be made.

@@ -2,7 +2,7 @@
 
 use super::parts::Shard;
 use super::report::{Ended, Kind, Row};
-use super::tasks::Task;
+use super::tasks::{self, Task};
 use crate::cli::{Failure, threads};
 use indicatif::{HumanCount, MultiProgress, ProgressBar, ProgressStyle};
 use motion_rtl::check::Proof;
@@ -70,7 +70,7 @@ fn row(
     out: &Path,
     line: &ProgressBar,
 ) -> Result<Row, Failure> {
-    let begun = Instant::now();
+    let start = Instant::now();
     let mut row = match task {
         Task::Proof(entry, request) => match entry.proved(request) {
             Ok(circuit) => {
@@ -79,12 +79,23 @@ fn row(
             }
             Err(_) => return Err(unmade(task)),
         },
+        Task::Sweep(entry, given) if tasks::too_wide(task) => Row {
+            ended: Ended::TooWide,
+            fault: Some(format!(
+                "{}: no sweep at width {}; allowed: {} to {}",
+                entry.circuit,
+                given[0],
+                entry.widths.start(),
+                entry.widths.end()
+            )),
+            ..begun(entry.circuit, Kind::Sweep, given[0], Vec::new())
+        },
         Task::Sweep(entry, given) => match (entry.make)(given) {
             Some(law) => sweep(entry.circuit, given[0], &*law, shard, out, line)?,
             None => return Err(unmade(task)),
         },
     };
-    row.seconds = begun.elapsed().as_secs_f64();
+    row.seconds = start.elapsed().as_secs_f64();
     Ok(row)
 }
 

@@ -181,3 +181,31 @@ fn there_is_a_most_of_samples() {
         "l.csv:4000001: file: more than 4000000 samples; allowed: at most 4000000"
     );
 }
+
+/// Of a file that is no log the first record may be all there is.
+#[test]
+fn a_record_has_an_end() {
+    let allowed = format!("records of at most {LONGEST_RECORD} bytes");
+    for (line, text) in [
+        (1, "1".repeat(LONGEST_RECORD + 1)),
+        (1, "1,".repeat(LONGEST_RECORD)),
+        (3, format!("0,0\n1,0\n{}", "7".repeat(LONGEST_RECORD + 1))),
+    ] {
+        let fault = read("z.csv", text.as_bytes(), &Columns::default()).unwrap_err();
+        assert_eq!(
+            (fault.line, fault.problem.as_str()),
+            (line, "a record without an end")
+        );
+        assert_eq!(fault.allowed, allowed);
+    }
+    // Quotes may hold lines.
+    let text = format!("0,0\n\"{}", "7\n".repeat(LONGEST_RECORD));
+    let fault = read("z.csv", text.as_bytes(), &Columns::default()).unwrap_err();
+    assert_eq!(fault.problem, "a record without an end");
+    // Comments and records of the whole log may be longer together.
+    let comments = "# a comment\n\n".repeat(LONGEST_RECORD / 8);
+    let samples: String = (0..300_000).map(|k| format!("{k},7\n")).collect();
+    let text = format!("{comments}time_ms,counts\n{samples}");
+    let log = read("a.csv", text.as_bytes(), &Columns::default()).unwrap();
+    assert_eq!(log.samples.len(), 300_000);
+}

@@ -93,8 +93,9 @@ fn a_torque_that_is_not_enough_is_said() {
     let text = format!("{LINE}[machine]\n{weak}");
     let done = with(&text).run(&["run", "--beside", "s.toml", "--no-vcd"]);
     let warning = "warning: vector: in ";
-    let line = done.stdout.lines().find(|line| line.starts_with(warning));
-    let line = line.unwrap_or_else(|| panic!("{}", done.stdout));
+    let line = done.stderr.lines().find(|line| line.starts_with(warning));
+    let line = line.unwrap_or_else(|| panic!("{}", done.stderr));
+    assert!(!done.stdout.contains("warning"), "{}", done.stdout);
     assert!(
         line.ends_with(" periods x asks for more than 1 Nm"),
         "{line}"

@@ -21,6 +21,18 @@ fn a_replay_writes_the_dump_and_its_save_file() {
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 2);
 }
 
+#[test]
+fn a_replay_makes_its_directory() {
+    let outer = tempfile::tempdir().unwrap();
+    let directory = outer.path().join("a/b");
+    let inputs = |count| inputs(SEED).take(count).map(|i| words(&i));
+    let wrong = inputs(1).chain([Vec::new()]);
+    replay(&Zoo, wrong, clock(), &directory, "zoo").unwrap_err();
+    assert_eq!(fs::read_dir(outer.path()).unwrap().count(), 0);
+    replay(&Zoo, inputs(1), clock(), &directory, "zoo").unwrap();
+    assert_eq!(fs::read_dir(&directory).unwrap().count(), 2);
+}
+
 /// The names of signals in a save file, without their ranges.
 fn listed(save: &str) -> Vec<&str> {
     let names = save.lines().filter(|line| line.starts_with("zoo."));

@@ -49,7 +49,8 @@ pub fn read(file: &str, text: &str, clock_hz: u64) -> Result<Table, Fault> {
     let Some((header, number)) = lines.next() else {
         return Err(Fault::new(file, 0, "header", "missing", header_allowed()));
     };
-    let names: Vec<_> = header.split(',').map(str::trim).collect();
+    let names = header.split(',').map(str::trim);
+    let names: Vec<_> = names.take(3 + 2 * AXES_MAX).collect();
     let axes = names.len().saturating_sub(2) / 2;
     if !(1..=AXES_MAX).contains(&axes) || names != columns(axes) {
         let problem = format!("is {header}");

@@ -1,0 +1,117 @@
+//! A circuit's modules among those of others in one directory.
+
+use super::Failure;
+use motion_rtl::verilog::{SourceFile, Verilog};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Extension of the list of an export's files, which simulators take as a command file.
+const LIST: &str = ".f";
+
+/// Beginning of its first line; the export's name follows.
+const MADE: &str = "// Made by motion-rtl: ";
+
+/// Files of a circuit in Verilog, and the list of them.
+#[derive(Debug)]
+pub struct Export {
+    /// How the user asked for it.
+    name: String,
+    sources: Vec<SourceFile>,
+    list: SourceFile,
+}
+
+impl Export {
+    /// The files of a circuit; with a testbench, if one is wanted.
+    pub fn new(verilog: &Verilog, testbench: bool, name: String) -> Self {
+        let mut sources = verilog.sources();
+        let top = verilog.design().modules.last();
+        let top = top.map_or("", |module| module.name.as_str());
+        let mut list = format!("{MADE}{name}\n");
+        let bench = verilog.testbench().filter(|_| testbench);
+        for source in sources.iter().chain(&bench) {
+            let module = source.name.ends_with(".v") && Some(source) != bench.as_ref();
+            list += if module { "" } else { "// " };
+            list += &source.name;
+            list += "\n";
+        }
+        sources.extend(bench);
+        Export {
+            name,
+            sources,
+            list: SourceFile {
+                name: format!("{top}{LIST}"),
+                text: list,
+            },
+        }
+    }
+
+    /// All files.
+    pub fn files(&self) -> impl Iterator<Item = &SourceFile> {
+        self.sources.iter().chain([&self.list])
+    }
+
+    /// Refuses to change a file that is not of an earlier export of this circuit alone.
+    ///
+    /// # Errors
+    /// The file, with the export that it is of.
+    pub fn check(&self, directory: &Path) -> Result<(), Failure> {
+        let lists = lists(directory);
+        for SourceFile { name, text } in &self.sources {
+            let path = directory.join(name);
+            // What is not there, or is no file, is for the writer to say.
+            let Ok(there) = fs::read(&path) else {
+                continue;
+            };
+            if there == text.as_bytes() {
+                continue;
+            }
+            let mut owners = lists.iter().filter(|list| list.files.contains(name));
+            let other = owners.clone().find(|list| list.file != self.list.name);
+            let problem = match (other, owners.next()) {
+                (None, Some(_)) => continue,
+                (Some(other), _) => format!(
+                    "{} is of `{}`; that of `{}` is another",
+                    path.display(),
+                    other.name,
+                    self.name
+                ),
+                (None, None) => format!(
+                    "{} is there, of no export of this directory; that of `{}` is another",
+                    path.display(),
+                    self.name
+                ),
+            };
+            return Err(Failure::Argument {
+                field: "--out",
+                problem,
+                allowed: "a directory for each, or to remove the file".into(),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// List of an export's files that is in a directory.
+struct List {
+    file: String,
+    name: String,
+    files: Vec<String>,
+}
+
+/// Lists of a directory, in order; other files of their extension are none.
+fn lists(directory: &Path) -> Vec<List> {
+    let entries = fs::read_dir(directory).into_iter().flatten().flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let mut names: Vec<String> = names.filter(|name| name.ends_with(LIST)).collect();
+    names.sort();
+    let list = |file: String| {
+        let path: PathBuf = directory.join(&file);
+        let text = fs::read_to_string(path).ok()?;
+        let mut lines = text.lines();
+        let name = lines.next()?.strip_prefix(MADE)?.to_owned();
+        let files = lines.map(|line| line.trim_start_matches("// ").to_owned());
+        let files = files.collect();
+        Some(List { file, name, files })
+    };
+    names.into_iter().filter_map(list).collect()
+}
